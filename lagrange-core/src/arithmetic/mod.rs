@@ -1,0 +1,110 @@
+//! Three ways to run one tape: values, first derivatives, Taylor coefficients.
+//!
+//! A tape is a function generic over [`Arithmetic`]. Each operation names the slot `to` that it writes:
+//! * **value**: a node is the number itself, slots are ignored, the tape compiles to plain arithmetic;
+//! * **derivative**: a node is a dual number;
+//! * **jet**: a node is a slot of a coefficient table. The tape is run for k = 0, 1, … and each run appends
+//!   the k-th Taylor coefficient of every node (Jorba & Zou 2005, section 2; Griewank & Walther 2008, chapter 13).
+//!
+//! Operations that need auxiliary series (`tan`, `asin`, …) own the slots `to` and `to + 1`; so does a pair.
+
+use core::fmt::Debug;
+
+/// A number that parameters, states and coefficients are made of.
+pub trait Scalar:
+    nalgebra::Scalar
+    + Copy
+    + Debug
+    + Default
+    + PartialEq
+    + num_traits::NumAssign
+    + core::ops::Neg<Output = Self>
+    + 'static
+{
+    /// The nearest number of this type.
+    fn from_f64(x: f64) -> Self;
+    /// The value, for decisions (step size, order of events). A dual number gives its real part.
+    fn value(self) -> f64;
+    /// √x
+    fn sqrt(self) -> Self;
+    /// eˣ
+    fn exp(self) -> Self;
+    /// ln x
+    fn ln(self) -> Self;
+    /// (sin x, cos x)
+    fn sin_cos(self) -> (Self, Self);
+    /// tan x
+    fn tan(self) -> Self;
+    /// asin x
+    fn asin(self) -> Self;
+    /// acos x
+    fn acos(self) -> Self;
+    /// atan x
+    fn atan(self) -> Self;
+    /// Angle of the point (x, y), y = self.
+    fn atan2(self, x: Self) -> Self;
+    /// (sinh x, cosh x)
+    fn sinh_cosh(self) -> (Self, Self);
+    /// tanh x
+    fn tanh(self) -> Self;
+    /// xᶜ for a real exponent.
+    fn powf(self, c: f64) -> Self;
+}
+
+/// A way to run a tape.
+pub trait Arithmetic {
+    /// The number type.
+    type Scalar: Scalar;
+    /// A value of the tape.
+    type Node: Copy;
+
+    /// Slots named from here on are relative to `base` (tapes and the core's own work share one table).
+    #[inline(always)]
+    fn origin(&mut self, base: usize) {
+        let _ = base;
+    }
+    /// c
+    fn constant(&mut self, to: usize, c: Self::Scalar) -> Self::Node;
+    /// x + y
+    fn add(&mut self, to: usize, x: Self::Node, y: Self::Node) -> Self::Node;
+    /// x − y
+    fn sub(&mut self, to: usize, x: Self::Node, y: Self::Node) -> Self::Node;
+    /// −x
+    fn neg(&mut self, to: usize, x: Self::Node) -> Self::Node;
+    /// c + x
+    fn offset(&mut self, to: usize, c: Self::Scalar, x: Self::Node) -> Self::Node;
+    /// c x
+    fn scale(&mut self, to: usize, c: Self::Scalar, x: Self::Node) -> Self::Node;
+    /// x y
+    fn mul(&mut self, to: usize, x: Self::Node, y: Self::Node) -> Self::Node;
+    /// x²
+    fn square(&mut self, to: usize, x: Self::Node) -> Self::Node;
+    /// x / y
+    fn div(&mut self, to: usize, x: Self::Node, y: Self::Node) -> Self::Node;
+    /// c / x
+    fn ratio(&mut self, to: usize, c: Self::Scalar, x: Self::Node) -> Self::Node;
+    /// √x
+    fn sqrt(&mut self, to: usize, x: Self::Node) -> Self::Node;
+    /// xᶜ for a constant real exponent that is not a small integer (those are products).
+    fn powf(&mut self, to: usize, x: Self::Node, c: f64) -> Self::Node;
+    /// eˣ
+    fn exp(&mut self, to: usize, x: Self::Node) -> Self::Node;
+    /// ln x
+    fn ln(&mut self, to: usize, x: Self::Node) -> Self::Node;
+    /// (sin x, cos x) in slots to, to + 1.
+    fn sin_cos(&mut self, to: usize, x: Self::Node) -> (Self::Node, Self::Node);
+    /// (sinh x, cosh x) in slots to, to + 1.
+    fn sinh_cosh(&mut self, to: usize, x: Self::Node) -> (Self::Node, Self::Node);
+    /// tan x; owns to, to + 1.
+    fn tan(&mut self, to: usize, x: Self::Node) -> Self::Node;
+    /// tanh x; owns to, to + 1.
+    fn tanh(&mut self, to: usize, x: Self::Node) -> Self::Node;
+    /// asin x; owns to, to + 1.
+    fn asin(&mut self, to: usize, x: Self::Node) -> Self::Node;
+    /// acos x; owns to, to + 1.
+    fn acos(&mut self, to: usize, x: Self::Node) -> Self::Node;
+    /// atan x; owns to, to + 1.
+    fn atan(&mut self, to: usize, x: Self::Node) -> Self::Node;
+    /// Angle of the point (x, y); owns to, to + 1.
+    fn atan2(&mut self, to: usize, y: Self::Node, x: Self::Node) -> Self::Node;
+}

@@ -1,0 +1,7 @@
+//! Integrates constrained mechanical systems with contacts and friction.
+
+// The derive macro names this crate by its path, also inside it.
+extern crate self as lagrange_core;
+
+pub mod arithmetic;
+pub mod system;

@@ -1,0 +1,390 @@
+//! What the derive macro implements: one tape of equations, and a table that says what its numbers mean.
+//!
+//! The equations of motion in a mode are, with the rows `i` that act in it,
+//!
+//! ```text
+//! M(q,t) v̇ = f(q,v,t) + Σᵢ (aᵢᵀ + couplings) λᵢ        aᵢ v̇ + γᵢ = 0
+//! ```
+//!
+//! Every number is an *output* of a tape or a parameter-only *constant*; a [`Place`] says which.
+
+use crate::arithmetic::{Arithmetic, Scalar};
+
+/// Where a number of the description is found after a tape has run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// Structurally zero: never computed, never multiplied.
+    Zero,
+    /// Depends on parameters only: index into the constants.
+    Constant(usize),
+    /// Index into the outputs of the tape.
+    Node(usize),
+}
+
+/// A set of needs: which parts of a tape must run. Bit `i` is need `i` of the description.
+pub type Needs = [u64];
+
+/// What a tape is told beside its inputs.
+#[derive(Clone, Copy, Debug)]
+pub struct Held<'a> {
+    /// The needs to be met; a block of the tape runs only if one of its needs is here.
+    pub needs: &'a Needs,
+    /// Bit `i`: piecewise branch `i` is on its `then` side (its guard is ≥ 0).
+    pub branches: &'a [u64],
+}
+
+impl Held<'_> {
+    /// Whether branch `index` is on its `then` side.
+    #[inline(always)]
+    pub fn branch(&self, index: usize) -> bool {
+        self.branches[index / 64] >> (index % 64) & 1 == 1
+    }
+}
+
+/// A mechanical system: what `#[derive(Lagrangian)]` implements.
+///
+/// Tapes are straight-line programs over an [`Arithmetic`]; see [`crate::arithmetic`] for the three readings.
+pub trait System: Clone {
+    /// The number type of parameters and state.
+    type Scalar: Scalar;
+
+    /// The table of names, places and needs.
+    const DESCRIPTION: &'static Description;
+
+    /// Parameter `index` of the description.
+    fn parameter(&self, index: usize) -> Self::Scalar;
+
+    /// Sets parameter `index` of the description.
+    fn set_parameter(&mut self, index: usize, value: Self::Scalar);
+
+    /// Positions `q` and velocities `v` of start `index`, at time `t`.
+    fn start(&self, index: usize, t: Self::Scalar, q: &mut [Self::Scalar], v: &mut [Self::Scalar]);
+
+    /// Everything that depends on parameters only; `c` has `DESCRIPTION.constants` elements.
+    fn constants(&self, held: &Held, c: &mut [Self::Scalar]);
+
+    /// The tape before the solve. `x` = (t, q…, v…); outputs go to `y` (`DESCRIPTION.motion.outputs` elements).
+    /// Outputs whose need is not held are left as they are.
+    fn motion<A: Arithmetic<Scalar = Self::Scalar>>(
+        &self,
+        a: &mut A,
+        held: &Held,
+        c: &[Self::Scalar],
+        x: &[A::Node],
+        y: &mut [A::Node],
+    );
+
+    /// The tape after the solve. `x` = (t, q…, v…, v̇…, λ… one per row, 0 for rows that do not act).
+    fn report<A: Arithmetic<Scalar = Self::Scalar>>(
+        &self,
+        a: &mut A,
+        held: &Held,
+        c: &[Self::Scalar],
+        x: &[A::Node],
+        y: &mut [A::Node],
+    );
+}
+
+/// The size of a tape.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TapeShape {
+    /// Number of slots that its operations write (the `to` arguments are below this).
+    pub slots: usize,
+    /// Number of outputs.
+    pub outputs: usize,
+}
+
+/// Everything the core knows of a system, beside its tapes. Indices run in order of declaration.
+#[derive(Debug)]
+pub struct Description {
+    /// Name of the struct.
+    pub name: &'static str,
+    /// Doc comment of the struct.
+    pub documentation: &'static str,
+    /// Fields of the struct (arrays flattened).
+    pub parameters: &'static [Parameter],
+    /// Generalized coordinates.
+    pub coordinates: &'static [Coordinate],
+    /// Number of needs; sets have ⌈needs / 64⌉ words. Need 0 is always held.
+    pub needs: usize,
+    /// Number of parameter-only constants.
+    pub constants: usize,
+    /// Size of the tape before the solve.
+    pub motion: TapeShape,
+    /// Size of the tape after the solve.
+    pub report: TapeShape,
+    /// Lower triangle of the mass matrix, structural zeros left out: (row, column ≤ row, where). Motion.
+    pub mass: &'static [(usize, usize, Place)],
+    /// f, one per coordinate. Motion.
+    pub forcing: &'static [Place],
+    /// All rows: constraints first, then contacts, then the slip components of frictions. Motion.
+    pub rows: &'static [Row],
+    /// Forces proportional to a row's multiplier, beside aᵀλ: Q[coordinate] += place · λ[row]. Motion.
+    pub couplings: &'static [Coupling],
+    /// Named kinetic energies.
+    pub kinetic: &'static [Effect],
+    /// Named potential energies.
+    pub potential: &'static [Effect],
+    /// Equality constraints.
+    pub constraints: &'static [Constraint],
+    /// One-sided contacts.
+    pub contacts: &'static [Contact],
+    /// Frictions.
+    pub frictions: &'static [Friction],
+    /// Applied forces.
+    pub forces: &'static [Load],
+    /// Rayleigh dissipations.
+    pub dissipations: &'static [Load],
+    /// Piecewise branches; guard ≥ 0 on the `then` side.
+    pub branches: &'static [Branch],
+    /// Energies. Report.
+    pub energy: Energy,
+    /// Generalized momenta ∂L/∂v, one per coordinate. Report.
+    pub momenta: Momenta,
+    /// Extra outputs. Report.
+    pub observes: &'static [Observe],
+    /// What ends a run.
+    pub stops: &'static [Watch],
+    /// What is logged.
+    pub marks: &'static [Watch],
+    /// Named starts.
+    pub starts: &'static [&'static str],
+}
+
+/// A field of the struct.
+#[derive(Debug)]
+pub struct Parameter {
+    /// Name, `mass` or `length[2]`.
+    pub name: &'static str,
+    /// Doc comment.
+    pub documentation: &'static str,
+    /// Unit as declared, or empty.
+    pub unit: &'static str,
+    /// TeX symbol as declared, or empty.
+    pub tex: &'static str,
+}
+
+/// A generalized coordinate.
+#[derive(Debug)]
+pub struct Coordinate {
+    /// Name, `theta` or `theta[2]`.
+    pub name: &'static str,
+    /// Unit as declared, or empty.
+    pub unit: &'static str,
+    /// Whether no energy, row or force depends on it.
+    pub cyclic: bool,
+}
+
+/// One scalar equation aᵢ v̇ + γᵢ = 0 with multiplier λᵢ.
+#[derive(Debug)]
+pub struct Row {
+    /// aᵢ: (coordinate, where), structural zeros left out. Need [`RowNeeds::jacobian`].
+    pub jacobian: &'static [(usize, Place)],
+    /// γᵢ. Need [`RowNeeds::bias`].
+    pub bias: Place,
+    /// g(q,t), for rows of position level (constraints, contacts). Need [`RowNeeds::position`].
+    pub position: Option<Place>,
+    /// aᵢ v + bᵢ: the rate of g, or the velocity-level residual, or the slip. Need [`RowNeeds::velocity`].
+    pub velocity: Place,
+    /// What to hold to have each of these.
+    pub needs: RowNeeds,
+}
+
+/// Needs of a row.
+#[derive(Clone, Copy, Debug)]
+pub struct RowNeeds {
+    /// For the Jacobian (and the couplings of this row).
+    pub jacobian: usize,
+    /// For the acceleration bias γ.
+    pub bias: usize,
+    /// For the position residual or gap.
+    pub position: usize,
+    /// For the velocity residual or slip.
+    pub velocity: usize,
+}
+
+/// A force proportional to a multiplier.
+#[derive(Clone, Copy, Debug)]
+pub struct Coupling {
+    /// Coordinate that it acts on.
+    pub coordinate: usize,
+    /// Row whose multiplier scales it.
+    pub row: usize,
+    /// The factor.
+    pub factor: Place,
+    /// Need of the force item that it belongs to.
+    pub need: usize,
+}
+
+/// A named term of the energies.
+#[derive(Debug)]
+pub struct Effect {
+    /// Name.
+    pub name: &'static str,
+    /// Need of its contributions.
+    pub need: usize,
+    /// Whether it can be left out (named by the user).
+    pub optional: bool,
+}
+
+/// An equality constraint.
+#[derive(Debug)]
+pub struct Constraint {
+    /// Name.
+    pub name: &'static str,
+    /// Index into the rows.
+    pub row: usize,
+    /// The contact without which it does not hold.
+    pub while_contact: Option<usize>,
+}
+
+/// A one-sided contact: gap = `rows[row].position` ≥ 0.
+#[derive(Debug)]
+pub struct Contact {
+    /// Name.
+    pub name: &'static str,
+    /// Index into the rows.
+    pub row: usize,
+    /// |∂gap/∂p| where `at` is declared: N = λ · factor. None: 1. Motion, need `rows[row].needs.jacobian`.
+    pub normal_factor: Option<Place>,
+    /// Law of impact. Motion, need `restitution_need`.
+    pub restitution: Restitution,
+    /// Need of the restitution.
+    pub restitution_need: usize,
+    /// ≥ 0 where the contact exists. Motion, need `rows[row].needs.position`.
+    pub region: Option<Place>,
+}
+
+/// Law of impact.
+#[derive(Clone, Copy, Debug)]
+pub enum Restitution {
+    /// v⁺ = −e v⁻.
+    Newton(Place),
+    /// Impulse of restitution = e · impulse of compression.
+    Poisson(Place),
+}
+
+/// Coulomb friction.
+#[derive(Debug)]
+pub struct Friction {
+    /// Name.
+    pub name: &'static str,
+    /// First of its rows (slip components); `rows[row].velocity` is the slip.
+    pub row: usize,
+    /// Number of slip components, 1 or 2.
+    pub components: usize,
+    /// Where the normal force comes from.
+    pub normal: Normal,
+    /// μs. Motion, need `coefficients_need`.
+    pub static_coefficient: Place,
+    /// μk. Motion, need `coefficients_need`.
+    pub kinetic_coefficient: Place,
+    /// Need of the coefficients (and of a given normal force).
+    pub coefficients_need: usize,
+}
+
+/// Source of a friction's normal force.
+#[derive(Clone, Copy, Debug)]
+pub enum Normal {
+    /// λ · factor of this contact.
+    Contact(usize),
+    /// |λ| of this constraint.
+    Constraint(usize),
+    /// An expression (`normal = …`; 1 for `limit = …`, whose limits are the coefficients).
+    Given(Place),
+}
+
+/// An applied force or a dissipation.
+#[derive(Debug)]
+pub struct Load {
+    /// Name.
+    pub name: &'static str,
+    /// Need of its contribution to the forcing.
+    pub need: usize,
+    /// Its value (for a dissipation R itself; for a vector force its magnitude). Report, need `report_need`.
+    pub value: Place,
+    /// Q · v, W. Report, need `report_need`.
+    pub power: Place,
+    /// Need of value and power.
+    pub report_need: usize,
+}
+
+/// A piecewise branch.
+#[derive(Debug)]
+pub struct Branch {
+    /// `then` while ≥ 0. Motion if [`Self::after_solve`] is false, else report.
+    pub guard: Place,
+    /// Need of the guard.
+    pub need: usize,
+    /// Whether the guard uses accelerations or forces, so only outputs of the report can use the branch.
+    pub after_solve: bool,
+    /// Needs of which any one makes the branch matter.
+    pub users: &'static [usize],
+    /// As the user wrote it.
+    pub text: &'static str,
+}
+
+/// Energies; all in the report tape under one need.
+#[derive(Debug)]
+pub struct Energy {
+    /// T as declared.
+    pub kinetic: Place,
+    /// V as declared.
+    pub potential: Place,
+    /// v·∂L/∂v − L.
+    pub jacobi: Place,
+    /// −∂L/∂t: the rate of the Jacobi integral that explicit time causes.
+    pub time_power: Place,
+    /// Need of all of them.
+    pub need: usize,
+}
+
+/// Generalized momenta.
+#[derive(Debug)]
+pub struct Momenta {
+    /// ∂L/∂v, one per coordinate. Report.
+    pub places: &'static [Place],
+    /// Need of all of them.
+    pub need: usize,
+}
+
+/// An extra output.
+#[derive(Debug)]
+pub struct Observe {
+    /// Name.
+    pub name: &'static str,
+    /// Where. Report.
+    pub place: Place,
+    /// Its need.
+    pub need: usize,
+    /// Unit as declared, or empty.
+    pub unit: &'static str,
+}
+
+/// A stop or a mark: true when all `terms` are ≥ 0 and all `conditions` hold.
+#[derive(Debug)]
+pub struct Watch {
+    /// Name.
+    pub name: &'static str,
+    /// Guards; report.
+    pub terms: &'static [Place],
+    /// Conditions on the mode.
+    pub conditions: &'static [Condition],
+    /// Its need.
+    pub need: usize,
+    /// `mark(name: e)`: every zero of the single term, in both directions.
+    pub zeros: bool,
+}
+
+/// A condition on the mode.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Condition {
+    /// This contact is closed.
+    Closed(usize),
+    /// This contact is open.
+    Open(usize),
+    /// This friction sticks.
+    Sticks(usize),
+    /// This friction slips.
+    Slips(usize),
+}

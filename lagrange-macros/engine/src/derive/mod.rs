@@ -1,0 +1,163 @@
+//! System → [`Equations`]: Euler–Lagrange, rows with their accelerations, energies; one theorem a file.
+//!
+//! Every number that the core needs is an [`Output`]: a sum of terms, each with the need that asks for it.
+//! The [`Structure`] says what the outputs mean; it mirrors `lagrange_core::system::Description` field by field,
+//! with an [`OutputId`] where the description has a `Place`.
+
+use crate::model::System;
+use crate::symbolic::ExprId;
+
+/// A bit of the need mask. Need 0 is always held.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub struct NeedId(pub usize);
+
+/// Index into `Equations::outputs`.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub struct OutputId(pub usize);
+
+/// Which tape computes an output.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Stage {
+    /// Before the solve: inputs t, q, v.
+    Motion,
+    /// After it: inputs t, q, v, v̇ and the forces of all rows.
+    Report,
+}
+
+/// A number the core asks for: the sum of those terms whose need is held.
+pub struct Output {
+    /// Which tape.
+    pub stage: Stage,
+    /// What it is, for comments in the generated code: `mass[theta, theta]`.
+    pub label: String,
+    /// (need, term); an output without terms is structurally zero.
+    pub terms: Vec<(NeedId, ExprId)>,
+}
+
+/// Everything derived from a system.
+pub struct Equations {
+    /// The system, with its pool.
+    pub system: System,
+    /// What each need asks for, for comments in the generated code.
+    pub needs: Vec<String>,
+    /// All outputs.
+    pub outputs: Vec<Output>,
+    /// What they mean.
+    pub structure: Structure<OutputId>,
+}
+
+/// What the outputs mean: see `lagrange_core::system::Description`, field by field.
+pub struct Structure<P> {
+    /// (row, column ≤ row, value)
+    pub mass: Vec<(usize, usize, P)>,
+    /// One per coordinate.
+    pub forcing: Vec<P>,
+    /// Constraints, contacts, slip components.
+    pub rows: Vec<Row<P>>,
+    /// Multiplier-proportional forces.
+    pub couplings: Vec<Coupling<P>>,
+    /// Needs of the kinetic terms.
+    pub kinetic: Vec<NeedId>,
+    /// Needs of the potential terms.
+    pub potential: Vec<NeedId>,
+    /// Per contact.
+    pub contacts: Vec<Contact<P>>,
+    /// Per friction.
+    pub frictions: Vec<Friction<P>>,
+    /// Per force.
+    pub forces: Vec<Load<P>>,
+    /// Per dissipation.
+    pub dissipations: Vec<Load<P>>,
+    /// Per branch.
+    pub branches: Vec<Branch<P>>,
+    /// T, V, Jacobi, −∂L/∂t; need.
+    pub energy: (P, P, P, P, NeedId),
+    /// ∂L/∂v; need.
+    pub momenta: (Vec<P>, NeedId),
+    /// Per observe: (value, need).
+    pub observes: Vec<(P, NeedId)>,
+    /// Per stop: (terms, need).
+    pub stops: Vec<(Vec<P>, NeedId)>,
+    /// Per mark: (terms, need).
+    pub marks: Vec<(Vec<P>, NeedId)>,
+    /// Per coordinate: neither energies nor rows nor forces depend on it.
+    pub cyclic: Vec<bool>,
+}
+
+/// One row; the index is constraint, contact or slip component in this order.
+pub struct Row<P> {
+    /// (coordinate, aᵢⱼ)
+    pub jacobian: Vec<(usize, P)>,
+    /// γ
+    pub bias: P,
+    /// g, on position level.
+    pub position: Option<P>,
+    /// a v + b
+    pub velocity: P,
+    /// Needs: jacobian, bias, position, velocity.
+    pub needs: [NeedId; 4],
+}
+
+/// Q[coordinate] += factor · λ[row]
+pub struct Coupling<P> {
+    /// Coordinate.
+    pub coordinate: usize,
+    /// Row.
+    pub row: usize,
+    /// Factor.
+    pub factor: P,
+    /// Need of the force item.
+    pub need: NeedId,
+}
+
+/// A contact's numbers.
+pub struct Contact<P> {
+    /// Row index.
+    pub row: usize,
+    /// |∂gap/∂p|
+    pub normal_factor: Option<P>,
+    /// e
+    pub restitution: P,
+    /// Need of e.
+    pub restitution_need: NeedId,
+    /// Region guard.
+    pub region: Option<P>,
+}
+
+/// A friction's numbers.
+pub struct Friction<P> {
+    /// First row index.
+    pub row: usize,
+    /// Given normal force.
+    pub given_normal: Option<P>,
+    /// μs
+    pub static_coefficient: P,
+    /// μk
+    pub kinetic_coefficient: P,
+    /// Need of the coefficients and the given normal force.
+    pub coefficients_need: NeedId,
+}
+
+/// A force's or dissipation's numbers.
+pub struct Load<P> {
+    /// Need of its contribution to f.
+    pub need: NeedId,
+    /// Reported value.
+    pub value: P,
+    /// Q·v
+    pub power: P,
+    /// Need of value and power.
+    pub report_need: NeedId,
+}
+
+/// A branch's numbers.
+pub struct Branch<P> {
+    /// Guard.
+    pub guard: P,
+    /// Its need.
+    pub need: NeedId,
+    /// Whether the guard belongs to the report.
+    pub after_solve: bool,
+    /// Needs of the outputs that contain the branch.
+    pub users: Vec<NeedId>,
+}

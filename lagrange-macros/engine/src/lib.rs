@@ -1,0 +1,1 @@
+//! Symbolic mechanics: tokens of a declaration → equations → tokens of Rust.

@@ -1,0 +1,254 @@
+//! Declaration → [`System`]: names resolved, arrays and sums unrolled, constraints typed by level.
+//!
+//! Everything is an expression of one [`Pool`]. Piecewise functions (`abs sign min max if`) have become
+//! selections on numbered branches; `at` and `along` have become generalized forces; `gap(c)`, `slip(f)`,
+//! `momentum(x)`, `energy` in outputs have become expressions, and the name of a contact, constraint, friction
+//! or force in an output the symbol of its force. Not mutable after this point, but for the pool.
+
+use crate::symbolic::{ExprId, Pool, Symbol};
+use proc_macro2::{Ident, Span};
+
+/// A mechanical system with all names resolved.
+pub struct System {
+    /// The struct.
+    pub name: Ident,
+    /// Doc comment of the struct.
+    pub documentation: String,
+    /// The scalar: `None` for plain `f64` fields, or the struct's one type parameter.
+    pub scalar: Option<Ident>,
+    /// Tokens of the path to lagrange-core (`::lagrange_core` unless `crate = …` is given).
+    pub core: proc_macro2::TokenStream,
+    /// All expressions.
+    pub pool: Pool,
+    /// Time t.
+    pub time: Symbol,
+    /// Fields, arrays flattened.
+    pub parameters: Vec<Parameter>,
+    /// Coordinates, arrays flattened.
+    pub coordinates: Vec<Coordinate>,
+    /// Kinetic energy terms. With `lagrangian = L`: the single term L − L(v=0).
+    pub kinetic: Vec<EnergyTerm>,
+    /// Potential energy terms. With `lagrangian = L`: the single term −L(v=0).
+    pub potential: Vec<EnergyTerm>,
+    /// Whether the user gave `lagrangian`; then the energy is v·∂L/∂v − L.
+    pub from_lagrangian: bool,
+    /// Equality constraints.
+    pub constraints: Vec<Constraint>,
+    /// One-sided contacts.
+    pub contacts: Vec<Contact>,
+    /// Frictions.
+    pub frictions: Vec<Friction>,
+    /// Applied forces.
+    pub forces: Vec<Force>,
+    /// Rayleigh dissipations.
+    pub dissipations: Vec<Dissipation>,
+    /// Guards of the piecewise branches: ≥ 0 selects `then`.
+    pub branches: Vec<Branch>,
+    /// Named starts.
+    pub starts: Vec<Start>,
+    /// Extra outputs.
+    pub observes: Vec<Observe>,
+    /// What ends a run.
+    pub stops: Vec<Watch>,
+    /// What is logged.
+    pub marks: Vec<Watch>,
+}
+
+/// Name of an item, `rim` or `ball[3]`.
+#[derive(Clone)]
+pub struct ItemName {
+    /// Full name with its index.
+    pub text: String,
+    /// Name without index, as the user wrote it (`None` for the unnamed kinetic or potential).
+    pub ident: Option<Ident>,
+    /// Index and number of elements of an indexed item: (k − lower bound, count).
+    pub element: Option<(usize, usize)>,
+    /// Where it is declared.
+    pub span: Span,
+}
+
+/// A field of the struct, or one element of an array field.
+pub struct Parameter {
+    /// Field.
+    pub field: Ident,
+    /// Element of an array field.
+    pub element: Option<usize>,
+    /// `mass` or `length[2]`.
+    pub name: String,
+    /// Its symbol.
+    pub symbol: Symbol,
+    /// Doc comment.
+    pub documentation: String,
+    /// `#[lagrange(unit = …)]`, or empty.
+    pub unit: String,
+    /// `#[lagrange(tex = …)]`, or empty.
+    pub tex: String,
+}
+
+/// A generalized coordinate.
+pub struct Coordinate {
+    /// Name (with index).
+    pub name: ItemName,
+    /// q
+    pub position: Symbol,
+    /// v = dq/dt
+    pub velocity: Symbol,
+    /// dv/dt, in outputs after the solve only.
+    pub acceleration: Symbol,
+    /// Unit, or empty.
+    pub unit: String,
+}
+
+/// A term of the kinetic or potential energy.
+pub struct EnergyTerm {
+    /// Name; unnamed terms cannot be left out.
+    pub name: ItemName,
+    /// The energy, J.
+    pub energy: ExprId,
+}
+
+/// Level at which a constraint is given.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Level {
+    /// g(q,t) = 0
+    Position,
+    /// a(q,t) v + b(q,t) = 0; linearity has been checked.
+    Velocity,
+}
+
+/// An equality constraint `residual = 0`, residual = left − right.
+pub struct Constraint {
+    /// Name.
+    pub name: ItemName,
+    /// Level.
+    pub level: Level,
+    /// left − right
+    pub residual: ExprId,
+    /// Index of the contact without which it does not hold (velocity level then).
+    pub while_contact: Option<usize>,
+    /// Symbol of its multiplier in outputs and forces.
+    pub force: Symbol,
+}
+
+/// A one-sided contact gap ≥ 0.
+pub struct Contact {
+    /// Name.
+    pub name: ItemName,
+    /// left − right (of `>=`)
+    pub gap: ExprId,
+    /// |∂gap/∂p| where `at p` is declared.
+    pub normal_factor: Option<ExprId>,
+    /// Law of impact.
+    pub restitution: Restitution,
+    /// `where c >= d`: c − d.
+    pub region: Option<ExprId>,
+    /// Symbol of its multiplier.
+    pub force: Symbol,
+}
+
+/// Law of impact.
+#[derive(Clone, Copy)]
+pub enum Restitution {
+    /// Newton's: v⁺ = −e v⁻.
+    Newton(ExprId),
+    /// Poisson's.
+    Poisson(ExprId),
+}
+
+/// Coulomb friction.
+pub struct Friction {
+    /// Name.
+    pub name: ItemName,
+    /// Slip velocity, one or two components, linear in the velocities (checked), with the symbol of the force along each.
+    pub slip: Vec<(ExprId, Symbol)>,
+    /// Where the normal force comes from.
+    pub normal: Normal,
+    /// μs (or the static limit)
+    pub static_coefficient: ExprId,
+    /// μk (or the kinetic limit)
+    pub kinetic_coefficient: ExprId,
+}
+
+/// Source of the normal force.
+#[derive(Clone, Copy)]
+pub enum Normal {
+    /// Of contact i.
+    Contact(usize),
+    /// |λ| of constraint i.
+    Constraint(usize),
+    /// An expression in q, v, t; 1 for `limit`.
+    Given(ExprId),
+}
+
+/// An applied force; its generalized forces may contain force symbols of rows linearly (checked).
+pub struct Force {
+    /// Name.
+    pub name: ItemName,
+    /// What is reported: the scalar, or the norm of the vector.
+    pub value: ExprId,
+    /// Q per coordinate (index, Qᵢ).
+    pub generalized: Vec<(usize, ExprId)>,
+    /// Symbol that stands for its value in outputs.
+    pub force: Symbol,
+}
+
+/// Rayleigh dissipation: Q = −∂R/∂v.
+pub struct Dissipation {
+    /// Name.
+    pub name: ItemName,
+    /// R, W.
+    pub rayleigh: ExprId,
+}
+
+/// Guard of a piecewise branch.
+pub struct Branch {
+    /// ≥ 0 selects `then`.
+    pub guard: ExprId,
+    /// As the user wrote it, `abs(x - y)`.
+    pub text: String,
+    /// Where.
+    pub span: Span,
+}
+
+/// A named start; coordinates and velocities that are not named are 0.
+pub struct Start {
+    /// Name.
+    pub name: ItemName,
+    /// (coordinate, position), expressions in parameters and t.
+    pub positions: Vec<(usize, ExprId)>,
+    /// (coordinate, velocity)
+    pub velocities: Vec<(usize, ExprId)>,
+}
+
+/// An extra output.
+pub struct Observe {
+    /// Name.
+    pub name: ItemName,
+    /// Value; may contain accelerations and forces.
+    pub value: ExprId,
+}
+
+/// A stop or mark: all terms ≥ 0 and all conditions.
+pub struct Watch {
+    /// Name.
+    pub name: ItemName,
+    /// left − right of each `>=`.
+    pub terms: Vec<ExprId>,
+    /// Conditions on the mode.
+    pub conditions: Vec<Condition>,
+    /// `mark(name: e)`: every zero of the one term.
+    pub zeros: bool,
+}
+
+/// A condition on the mode; indices of contacts and frictions.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Condition {
+    /// Contact i is closed.
+    Closed(usize),
+    /// Contact i is open.
+    Open(usize),
+    /// Friction i sticks.
+    Sticks(usize),
+    /// Friction i slips.
+    Slips(usize),
+}

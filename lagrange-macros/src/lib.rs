@@ -1,0 +1,1 @@
+//! `#[derive(Lagrangian)]`: the entry point. Everything it does is in `lagrange-engine`.
