@@ -1,3 +1,5 @@
 //! Symbolic mechanics: tokens of a declaration → equations → tokens of Rust.
 
+pub mod ast;
 pub mod diagnostics;
+pub mod parse;
