@@ -2,4 +2,6 @@
 
 pub mod ast;
 pub mod diagnostics;
+pub mod model;
 pub mod parse;
+pub mod symbolic;
