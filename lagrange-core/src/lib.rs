@@ -4,4 +4,8 @@
 extern crate self as lagrange_core;
 
 pub mod arithmetic;
+pub mod dynamics;
+pub mod effects;
+mod linear;
+pub mod mode;
 pub mod system;

@@ -30,7 +30,11 @@ pub(crate) fn convolution_square<T: Scalar>(x: &[T]) -> T {
     let half = x.len() / 2;
     let sum = convolution(&x[..half], &x[x.len() - half..]);
     let twice = sum + sum;
-    if x.len() % 2 == 1 { twice + x[half] * x[half] } else { twice }
+    if x.len() % 2 == 1 {
+        twice + x[half] * x[half]
+    } else {
+        twice
+    }
 }
 
 /// Σ wⱼ xⱼ yₙ₋₁₋ⱼ

@@ -4,7 +4,9 @@
 //! Taylor coefficients). Reference: Griewank & Walther 2008, Evaluating Derivatives, section 3.1.
 
 use super::Scalar;
-use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Rem, RemAssign, Sub, SubAssign};
+use core::ops::{
+    Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Rem, RemAssign, Sub, SubAssign,
+};
 use num_traits::{Num, One, Zero};
 
 /// A value and its derivatives in `N` directions.
@@ -20,30 +22,47 @@ impl<T: Scalar, const N: usize> Dual<T, N> {
     /// A number that depends on no direction.
     #[inline(always)]
     pub fn constant(value: T) -> Self {
-        Self { value, derivative: [T::zero(); N] }
+        Self {
+            value,
+            derivative: [T::zero(); N],
+        }
     }
 
     /// The independent variable of direction `index`. A direction past `N` leaves it constant.
     #[inline(always)]
     pub fn variable(value: T, index: usize) -> Self {
-        Self { value, derivative: core::array::from_fn(|i| if i == index { T::one() } else { T::zero() }) }
+        Self {
+            value,
+            derivative: core::array::from_fn(|i| if i == index { T::one() } else { T::zero() }),
+        }
     }
 
     /// f(x), given its value and f′(x).
     #[inline(always)]
     fn chain(self, value: T, slope: T) -> Self {
-        Self { value, derivative: self.derivative.map(|d| slope * d) }
+        Self {
+            value,
+            derivative: self.derivative.map(|d| slope * d),
+        }
     }
 
     /// The same where f′ may be infinite: a direction that does not move x does not move f(x) either.
     #[inline(always)]
     fn chain_singular(self, value: T, slope: T) -> Self {
-        Self { value, derivative: self.derivative.map(|d| if d.is_zero() { d } else { slope * d }) }
+        Self {
+            value,
+            derivative: self
+                .derivative
+                .map(|d| if d.is_zero() { d } else { slope * d }),
+        }
     }
 
     #[inline(always)]
     fn zip(self, other: Self, value: T, f: impl Fn(T, T) -> T) -> Self {
-        Self { value, derivative: core::array::from_fn(|i| f(self.derivative[i], other.derivative[i])) }
+        Self {
+            value,
+            derivative: core::array::from_fn(|i| f(self.derivative[i], other.derivative[i])),
+        }
     }
 }
 
@@ -74,7 +93,9 @@ impl<T: Scalar, const N: usize> Mul for Dual<T, N> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, y: Self) -> Self {
-        self.zip(y, self.value * y.value, |dx, dy| dx * y.value + self.value * dy)
+        self.zip(y, self.value * y.value, |dx, dy| {
+            dx * y.value + self.value * dy
+        })
     }
 }
 
@@ -100,7 +121,10 @@ impl<T: Scalar, const N: usize> Neg for Dual<T, N> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Self { value: -self.value, derivative: self.derivative.map(|d| -d) }
+        Self {
+            value: -self.value,
+            derivative: self.derivative.map(|d| -d),
+        }
     }
 }
 
@@ -184,12 +208,18 @@ impl<T: Scalar, const N: usize> Scalar for Dual<T, N> {
     #[inline(always)]
     fn asin(self) -> Self {
         let x = self.value;
-        self.chain_singular(x.asin(), T::one() / ((T::one() - x) * (T::one() + x)).sqrt())
+        self.chain_singular(
+            x.asin(),
+            T::one() / ((T::one() - x) * (T::one() + x)).sqrt(),
+        )
     }
     #[inline(always)]
     fn acos(self) -> Self {
         let x = self.value;
-        self.chain_singular(x.acos(), -T::one() / ((T::one() - x) * (T::one() + x)).sqrt())
+        self.chain_singular(
+            x.acos(),
+            -T::one() / ((T::one() - x) * (T::one() + x)).sqrt(),
+        )
     }
     #[inline(always)]
     fn atan(self) -> Self {
@@ -202,7 +232,11 @@ impl<T: Scalar, const N: usize> Scalar for Dual<T, N> {
         let square = x.value * x.value + y.value * y.value;
         let (along_y, along_x) = (x.value / square, y.value / square);
         y.zip(x, y.value.atan2(x.value), |dy, dx| {
-            if dx.is_zero() && dy.is_zero() { dx } else { along_y * dy - along_x * dx }
+            if dx.is_zero() && dy.is_zero() {
+                dx
+            } else {
+                along_y * dy - along_x * dx
+            }
         })
     }
     #[inline(always)]
@@ -217,6 +251,9 @@ impl<T: Scalar, const N: usize> Scalar for Dual<T, N> {
     }
     #[inline(always)]
     fn powf(self, c: f64) -> Self {
-        self.chain_singular(self.value.powf(c), T::from_f64(c) * self.value.powf(c - 1.0))
+        self.chain_singular(
+            self.value.powf(c),
+            T::from_f64(c) * self.value.powf(c - 1.0),
+        )
     }
 }

@@ -66,7 +66,11 @@ pub struct Coefficients<T> {
 impl<T: Scalar> Coefficients<T> {
     /// A table of zeros.
     pub fn new(slots: usize, order: usize) -> Self {
-        let mut table = Self { table: Vec::new(), weights: Vec::new(), stride: 0 };
+        let mut table = Self {
+            table: Vec::new(),
+            weights: Vec::new(),
+            stride: 0,
+        };
         table.shape(slots, order);
         table
     }
@@ -99,23 +103,42 @@ impl<T: Scalar> Coefficients<T> {
         &self.table[slot.0..slot.0 + self.stride]
     }
 
-    /// All coefficients of a slot, to be written.
-    #[inline(always)]
-    pub fn series_mut(&mut self, slot: Slot) -> &mut [T] {
-        &mut self.table[slot.0..slot.0 + self.stride]
-    }
-
     /// Σ_{j=1..k} xⱼ yₖ₋ⱼ: what coefficient k of a product takes from earlier coefficients of y.
     #[inline(always)]
     pub fn tail_product(&self, x: Slot, y: Slot, k: usize) -> T {
         convolution(&self.table[x.0 + 1..=x.0 + k], &self.table[y.0..y.0 + k])
     }
 
+    /// Coefficient `k` of the product of two slots.
+    #[inline(always)]
+    pub fn product(&self, x: Slot, y: Slot, k: usize) -> T {
+        convolution(&self.table[x.0..=x.0 + k], &self.table[y.0..=y.0 + k])
+    }
+
+    /// Coefficient `k` of a slot.
+    #[inline(always)]
+    pub fn get(&self, slot: Slot, k: usize) -> T {
+        self.table[slot.0 + k]
+    }
+
+    /// Sets coefficient `k` of a slot.
+    #[inline(always)]
+    pub fn put(&mut self, slot: Slot, k: usize, value: T) {
+        self.table[slot.0 + k] = value;
+    }
+
     /// The arithmetic that appends coefficient `k`; its operations write the slots from `base` on.
     #[inline(always)]
     pub fn jet(&mut self, k: usize, base: usize) -> Jet<'_, T> {
         let base = base * self.stride;
-        Jet { table: &mut self.table, weights: &self.weights, stride: self.stride, k, base, singular: None }
+        Jet {
+            table: &mut self.table,
+            weights: &self.weights,
+            stride: self.stride,
+            k,
+            base,
+            singular: None,
+        }
     }
 }
 
@@ -164,7 +187,11 @@ impl<T: Scalar> Jet<'_, T> {
     #[inline(always)]
     fn derivative_product(&self, x: usize, y: usize) -> T {
         let k = self.k;
-        weighted(&self.weights[1..=k], self.part(x, 1, k + 1), self.part(y, 0, k))
+        weighted(
+            &self.weights[1..=k],
+            self.part(x, 1, k + 1),
+            self.part(y, 0, k),
+        )
     }
 
     /// Σ_{j=1..k−1} j zⱼ yₖ₋ⱼ
@@ -189,8 +216,18 @@ impl<T: Scalar> Jet<'_, T> {
 
     /// `start` at k = 0, else `next`, where x₀ is fit for expansion; zero and a flag where not.
     #[inline(always)]
-    fn unless(&mut self, bad: bool, operation: Operation, to: usize, f: impl FnOnce(&Self) -> T) -> T {
-        if bad { self.fail(operation, to) } else { f(self) }
+    fn unless(
+        &mut self,
+        bad: bool,
+        operation: Operation,
+        to: usize,
+        f: impl FnOnce(&Self) -> T,
+    ) -> T {
+        if bad {
+            self.fail(operation, to)
+        } else {
+            f(self)
+        }
     }
 }
 
@@ -259,7 +296,11 @@ impl<T: Scalar> Arithmetic for Jet<'_, T> {
         let (k, z) = (self.k, self.to(to));
         let x0 = self.table[x.0];
         let value = self.unless(x0.value() == 0.0, Operation::Division, to, |a| {
-            if k == 0 { c / x0 } else { -convolution(a.part(x.0, 1, k + 1), a.part(z, 0, k)) / x0 }
+            if k == 0 {
+                c / x0
+            } else {
+                -convolution(a.part(x.0, 1, k + 1), a.part(z, 0, k)) / x0
+            }
         });
         self.put(to, value)
     }
@@ -286,7 +327,8 @@ impl<T: Scalar> Arithmetic for Jet<'_, T> {
             if k == 0 {
                 x0.powf(c)
             } else {
-                (T::from_f64(c) * a.derivative_product(x.0, z) - a.derivative_tail(z, x.0)) / (a.order() * x0)
+                (T::from_f64(c) * a.derivative_product(x.0, z) - a.derivative_tail(z, x.0))
+                    / (a.order() * x0)
             }
         });
         self.put(to, value)
@@ -294,8 +336,11 @@ impl<T: Scalar> Arithmetic for Jet<'_, T> {
 
     fn exp(&mut self, to: usize, x: Slot) -> Slot {
         let z = self.to(to);
-        let value =
-            if self.k == 0 { self.at(x).exp() } else { self.derivative_product(x.0, z) / self.order() };
+        let value = if self.k == 0 {
+            self.at(x).exp()
+        } else {
+            self.derivative_product(x.0, z) / self.order()
+        };
         self.put(to, value)
     }
 
@@ -304,7 +349,11 @@ impl<T: Scalar> Arithmetic for Jet<'_, T> {
         let x0 = self.table[x.0];
         // x z′ = x′
         let value = self.unless(!(x0.value() > 0.0), Operation::Logarithm, to, |a| {
-            if k == 0 { x0.ln() } else { (a.at(x) - a.derivative_tail(z, x.0) / a.order()) / x0 }
+            if k == 0 {
+                x0.ln()
+            } else {
+                (a.at(x) - a.derivative_tail(z, x.0) / a.order()) / x0
+            }
         });
         self.put(to, value)
     }
@@ -336,22 +385,42 @@ impl<T: Scalar> Arithmetic for Jet<'_, T> {
     fn tan(&mut self, to: usize, x: Slot) -> Slot {
         let (z, u) = (self.to(to), self.to(to + 1));
         // z′ = u x′, u = 1 + z²
-        let value =
-            if self.k == 0 { self.at(x).tan() } else { self.derivative_product(x.0, u) / self.order() };
+        let value = if self.k == 0 {
+            self.at(x).tan()
+        } else {
+            self.derivative_product(x.0, u) / self.order()
+        };
         let slot = self.put(to, value);
         let square = convolution_square(self.part(z, 0, self.k + 1));
-        self.put(to + 1, if self.k == 0 { T::one() + square } else { square });
+        self.put(
+            to + 1,
+            if self.k == 0 {
+                T::one() + square
+            } else {
+                square
+            },
+        );
         slot
     }
 
     fn tanh(&mut self, to: usize, x: Slot) -> Slot {
         let (z, u) = (self.to(to), self.to(to + 1));
         // z′ = u x′, u = 1 − z²
-        let value =
-            if self.k == 0 { self.at(x).tanh() } else { self.derivative_product(x.0, u) / self.order() };
+        let value = if self.k == 0 {
+            self.at(x).tanh()
+        } else {
+            self.derivative_product(x.0, u) / self.order()
+        };
         let slot = self.put(to, value);
         let square = convolution_square(self.part(z, 0, self.k + 1));
-        self.put(to + 1, if self.k == 0 { T::one() - square } else { -square });
+        self.put(
+            to + 1,
+            if self.k == 0 {
+                T::one() - square
+            } else {
+                -square
+            },
+        );
         slot
     }
 
@@ -379,7 +448,8 @@ impl<T: Scalar> Arithmetic for Jet<'_, T> {
     fn atan2(&mut self, to: usize, y: Slot, x: Slot) -> Slot {
         let (k, z, u) = (self.k, self.to(to), self.to(to + 1));
         // u z′ = x y′ − y x′, u = x² + y²
-        let square = convolution_square(self.part(x.0, 0, k + 1)) + convolution_square(self.part(y.0, 0, k + 1));
+        let square = convolution_square(self.part(x.0, 0, k + 1))
+            + convolution_square(self.part(y.0, 0, k + 1));
         self.put(to + 1, square);
         let u0 = self.table[u];
         let value = self.unless(!(u0.value() > 0.0), Operation::Angle, to, |a| {
@@ -409,7 +479,8 @@ impl<T: Scalar> Jet<'_, T> {
             return self.put(to, start(x0));
         }
         let u0 = self.table[u];
-        let square = convolution_square(self.part(x.0, 0, k + 1)) + convolution_square(self.part(u, 1, k));
+        let square =
+            convolution_square(self.part(x.0, 0, k + 1)) + convolution_square(self.part(u, 1, k));
         self.put(to + 1, -square / (u0 + u0));
         let value = (sign * self.at(x) - self.derivative_tail(z, u) / self.order()) / u0;
         self.put(to, value)
