@@ -125,6 +125,16 @@ impl<S: System> Dynamics<S> {
         }
     }
 
+    /// What the equations of motion of the present mode need.
+    pub fn motion_needs(&self) -> &NeedSet {
+        &self.motion_needs
+    }
+
+    /// What was asked of the report tape.
+    pub fn report_needs(&self) -> &NeedSet {
+        &self.report_needs
+    }
+
     /// The rows that act as equations in this mode, ascending.
     pub fn acting_rows(&self) -> &[usize] {
         &self.plan.acting

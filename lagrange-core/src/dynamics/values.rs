@@ -37,6 +37,11 @@ impl<S: System> Dynamics<S> {
         Ok(())
     }
 
+    /// Runs only the motion tape at (t, q, v), for the needs held: then read [`Self::motion`].
+    pub fn tape(&mut self, t: S::Scalar, q: &[S::Scalar], v: &[S::Scalar]) {
+        self.run_motion(t, q, v);
+    }
+
     /// The motion tape and the plan's program.
     pub(super) fn run_motion(&mut self, t: S::Scalar, q: &[S::Scalar], v: &[S::Scalar]) {
         let n = self.plan.coordinates;
