@@ -1,0 +1,220 @@
+//! What can go wrong at run time, with the numbers that say where.
+
+use crate::dynamics::EvaluationError;
+use crate::mode::Mode;
+use crate::system::Description;
+use core::fmt;
+
+/// Why a run ended early, or could not begin.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Error {
+    /// A number that the caller gave is not usable.
+    Argument {
+        /// What it is for.
+        what: &'static str,
+        /// What was given.
+        value: f64,
+        /// What would do.
+        expected: &'static str,
+    },
+    /// The state has another number of coordinates than the system.
+    Dimension {
+        /// Number of coordinates of the system.
+        expected: usize,
+        /// Number given.
+        found: usize,
+    },
+    /// The start does not satisfy a constraint, or penetrates a contact.
+    Start {
+        /// Name of the constraint or contact.
+        item: &'static str,
+        /// Level of the residual.
+        level: Level,
+        /// Its value, in the unit of the declaration.
+        residual: f64,
+        /// What is accepted.
+        tolerance: f64,
+    },
+    /// No state near the one asked for satisfies all constraints.
+    Projection {
+        /// Time, s.
+        time: f64,
+        /// Largest residual left.
+        residual: f64,
+        /// Name of the row it belongs to.
+        item: &'static str,
+    },
+    /// The equations of motion cannot be solved.
+    Singular {
+        /// Time, s.
+        time: f64,
+        /// The mode.
+        mode: String,
+        /// Names of the coordinates or rows concerned.
+        items: Vec<&'static str>,
+        /// Why.
+        reason: String,
+    },
+    /// A quantity is not a finite number.
+    NotFinite {
+        /// Time, s.
+        time: f64,
+        /// The mode.
+        mode: String,
+        /// Which quantity.
+        what: String,
+    },
+    /// No mode continues the motion (Painlevé's paradox), or no impact law has a solution.
+    NoMode {
+        /// Time, s.
+        time: f64,
+        /// The mode before.
+        mode: String,
+        /// The contact or friction concerned.
+        item: &'static str,
+        /// Number of modes that were tried.
+        tried: usize,
+    },
+    /// The step became too small to advance time.
+    StepTooSmall {
+        /// Time, s.
+        time: f64,
+        /// Step, s.
+        step: f64,
+        /// The mode.
+        mode: String,
+    },
+    /// Modes alternate without time advancing.
+    NoProgress {
+        /// Time, s.
+        time: f64,
+        /// The last modes, newest last.
+        modes: Vec<String>,
+        /// The item that switched last.
+        item: &'static str,
+    },
+    /// A limit of the simulation was reached.
+    Limit {
+        /// Time, s.
+        time: f64,
+        /// What was counted.
+        what: &'static str,
+        /// The limit.
+        limit: usize,
+    },
+    /// A time outside the trajectory was asked for.
+    OutsideTrajectory {
+        /// Time asked for, s.
+        time: f64,
+        /// First time, s.
+        first: f64,
+        /// Last time, s.
+        last: f64,
+    },
+    /// The scene has something that this version of the core, or the chosen method, cannot do.
+    Unsupported {
+        /// What.
+        what: &'static str,
+        /// Which item.
+        item: &'static str,
+        /// What does it instead.
+        instead: &'static str,
+    },
+}
+
+/// Level of a residual.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Level {
+    /// g(q,t)
+    Position,
+    /// ġ
+    Velocity,
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Error::Argument { what, value, expected } => {
+                write!(f, "{what} = {value}: must be {expected}")
+            }
+            Error::Dimension { expected, found } => {
+                write!(f, "the state has {found} coordinates, the system {expected}")
+            }
+            Error::Start { item, level, residual, tolerance } => {
+                let level = match level {
+                    Level::Position => "position",
+                    Level::Velocity => "velocity",
+                };
+                write!(
+                    f,
+                    "the start violates `{item}`: {level} residual {residual:.3e} (accepted: {tolerance:.1e}); \
+                     give a consistent start or ask the simulation to project it"
+                )
+            }
+            Error::Projection { time, residual, item } => write!(
+                f,
+                "t = {time}: no nearby state satisfies all constraints; `{item}` is left with residual {residual:.3e}; \
+                 start nearer to the constraints or free more coordinates"
+            ),
+            Error::Singular { time, mode, items, reason } => {
+                write!(f, "t = {time} ({mode}): {reason}")?;
+                for (k, item) in items.iter().enumerate() {
+                    write!(f, "{}`{item}`", if k == 0 { ": " } else { ", " })?;
+                }
+                Ok(())
+            }
+            Error::NotFinite { time, mode, what } => {
+                write!(f, "t = {time} ({mode}): {what} is not finite; the expression leaves its domain here")
+            }
+            Error::NoMode { time, mode, item, tried } => write!(
+                f,
+                "t = {time} ({mode}): none of {tried} modes continues the motion at `{item}` \
+                 (a paradox of rigid friction, Painlevé 1895); lower the friction coefficient or make the contact compliant"
+            ),
+            Error::StepTooSmall { time, step, mode } => write!(
+                f,
+                "t = {time} ({mode}): the step fell to {step:.1e} s; the motion is singular here or the tolerance is too tight"
+            ),
+            Error::NoProgress { time, modes, item } => write!(
+                f,
+                "t = {time}: `{item}` keeps switching without time advancing; last modes: {}",
+                modes.join(" → ")
+            ),
+            Error::Limit { time, what, limit } => {
+                write!(f, "t = {time}: more than {limit} {what}; raise the limit if this is intended")
+            }
+            Error::OutsideTrajectory { time, first, last } => {
+                write!(f, "t = {time} is outside the trajectory [{first}, {last}]")
+            }
+            Error::Unsupported { what, item, instead } => {
+                write!(f, "`{item}`: {what} is not supported here; {instead}")
+            }
+        }
+    }
+}
+
+impl core::error::Error for Error {}
+
+impl Error {
+    /// Adds time, mode and names to what the equations of motion report.
+    pub(crate) fn from_evaluation(
+        error: EvaluationError,
+        time: f64,
+        mode: &Mode,
+        description: &'static Description,
+    ) -> Error {
+        let mode = mode.display(description).to_string();
+        let item = error.item(description);
+        match error {
+            EvaluationError::NotFiniteAcceleration { .. } | EvaluationError::NotFiniteForce { .. } => {
+                let what = format!("the acceleration or force of `{}`", item.unwrap_or(description.name));
+                Error::NotFinite { time, mode, what }
+            }
+            EvaluationError::Projection { residual, .. } => {
+                Error::Projection { time, residual, item: item.unwrap_or(description.name) }
+            }
+            other => Error::Singular { time, mode, items: item.into_iter().collect(), reason: other.to_string() },
+        }
+    }
+}
