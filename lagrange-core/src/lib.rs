@@ -6,6 +6,8 @@ extern crate self as lagrange_core;
 pub mod arithmetic;
 pub mod dynamics;
 pub mod effects;
+pub mod events;
+pub mod integrate;
 mod linear;
 pub mod mode;
 pub mod system;
