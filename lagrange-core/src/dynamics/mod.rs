@@ -117,6 +117,16 @@ impl<S: System> Dynamics<S> {
         &self.mode
     }
 
+    /// What the equations of motion of this mode need.
+    pub fn motion_needs(&self) -> &NeedSet {
+        &self.motion_needs
+    }
+
+    /// What was asked of the report tape.
+    pub fn report_needs(&self) -> &NeedSet {
+        &self.report_needs
+    }
+
     /// Work done so far.
     pub fn work(&self) -> Work {
         Work {
