@@ -5,6 +5,7 @@
 mod error;
 mod needs;
 mod series;
+mod stepping;
 #[cfg(test)]
 mod tests;
 mod values;
@@ -133,16 +134,6 @@ impl<S: System> Dynamics<S> {
             factorizations: self.solver.factorizations,
             ..self.work
         }
-    }
-
-    /// What the equations of motion of the present mode need.
-    pub fn motion_needs(&self) -> &NeedSet {
-        &self.motion_needs
-    }
-
-    /// What was asked of the report tape.
-    pub fn report_needs(&self) -> &NeedSet {
-        &self.report_needs
     }
 
     /// The rows that act as equations in this mode, ascending.
