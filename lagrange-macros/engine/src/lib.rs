@@ -1,1 +1,3 @@
 //! Symbolic mechanics: tokens of a declaration → equations → tokens of Rust.
+
+pub mod diagnostics;
