@@ -12,6 +12,7 @@ mod friction;
 mod loads;
 mod needs;
 mod outputs;
+mod quadratic;
 mod regular;
 mod rows;
 mod sheet;

@@ -28,11 +28,9 @@ impl Sheet {
             by_need.entry(need).or_default().push(term);
         }
         let pool = &mut self.system.pool;
-        let terms = by_need
-            .into_iter()
-            .map(|(need, terms)| (need, pool.sum(&terms)))
-            .filter(|&(_, term)| !pool.is_zero(term))
-            .collect();
+        let mut terms: Vec<(NeedId, ExprId)> =
+            by_need.into_iter().map(|(need, terms)| (need, pool.sum(&terms))).collect();
+        terms.retain(|&(_, term)| !pool.is_zero(term));
         self.outputs.push(Output { stage, label, terms });
         OutputId(self.outputs.len() - 1)
     }

@@ -1,0 +1,7 @@
+//! Derived equations against hand-derived ones, against exact numeric derivatives, and against the theorems.
+
+mod hyperdual;
+mod kit;
+mod structure;
+mod textbook;
+mod theorems;
