@@ -1,6 +1,6 @@
 //! Symbolic mechanics: tokens of a declaration → equations → tokens of Rust.
 
-pub mod diagnostics;
 pub mod derive;
+pub mod diagnostics;
 pub mod model;
 pub mod symbolic;
