@@ -21,7 +21,8 @@ pub(super) fn cyclic(sheet: &mut Sheet, inertias: &[Inertia], others: &[ExprId])
         .map(|&q| {
             !present.contains(&q)
                 && inertias.iter().all(|inertia| {
-                    free_of(pool, &guards, inertia.kinetic, q) && free_of(pool, &guards, inertia.potential, q)
+                    free_of(pool, &guards, inertia.kinetic, q)
+                        && free_of(pool, &guards, inertia.potential, q)
                 })
         })
         .collect()
@@ -46,7 +47,10 @@ fn free_of(pool: &mut Pool, guards: &[ExprId], energy: ExprId, q: Symbol) -> boo
     if !reach(pool, guards, energy).contains(&q) {
         return true;
     }
-    let by_guard = pool.branches(energy).into_iter().any(|b| reach(pool, guards, guards[b]).contains(&q));
+    let by_guard = pool
+        .branches(energy)
+        .into_iter()
+        .any(|b| reach(pool, guards, guards[b]).contains(&q));
     if by_guard {
         return false;
     }

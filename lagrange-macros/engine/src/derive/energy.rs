@@ -17,7 +17,10 @@ use super::{NeedId, OutputId, Stage};
 use crate::symbolic::ExprId;
 
 /// T, V, h and −∂L/∂t with their need.
-pub(super) fn energies(sheet: &mut Sheet, inertias: &[Inertia]) -> (OutputId, OutputId, OutputId, OutputId, NeedId) {
+pub(super) fn energies(
+    sheet: &mut Sheet,
+    inertias: &[Inertia],
+) -> (OutputId, OutputId, OutputId, OutputId, NeedId) {
     let mut kinetic = Vec::new();
     let mut potential = Vec::new();
     let mut jacobi = Vec::new();
@@ -32,10 +35,18 @@ pub(super) fn energies(sheet: &mut Sheet, inertias: &[Inertia]) -> (OutputId, Ou
         // With v·∂T/∂v − T = T by Euler's theorem, keep the form that T has already.
         let difference = pool.sub(motional, inertia.kinetic);
         let difference = pool.simplify(difference);
-        let motional = if pool.is_zero(difference) { inertia.kinetic } else { motional };
+        let motional = if pool.is_zero(difference) {
+            inertia.kinetic
+        } else {
+            motional
+        };
 
         // A Lagrangian is not declared in two parts: its energy is h, so its T is what h has beyond V.
-        let declared = if sheet.system.from_lagrangian { motional } else { inertia.kinetic };
+        let declared = if sheet.system.from_lagrangian {
+            motional
+        } else {
+            inertia.kinetic
+        };
         kinetic.push((need, declared));
         potential.push((need, inertia.potential));
         jacobi.push((need, pool.add(motional, inertia.potential)));
@@ -44,7 +55,9 @@ pub(super) fn energies(sheet: &mut Sheet, inertias: &[Inertia]) -> (OutputId, Ou
         let explicit = pool.neg(explicit);
         time_power.push((need, pool.simplify(explicit)));
     }
-    let mut write = |label: &str, terms: &[(NeedId, ExprId)]| sheet.output(Stage::Report, label.to_owned(), terms);
+    let mut write = |label: &str, terms: &[(NeedId, ExprId)]| {
+        sheet.output(Stage::Report, label.to_owned(), terms)
+    };
     (
         write("kinetic_energy", &kinetic),
         write("potential_energy", &potential),
@@ -73,5 +86,9 @@ pub(super) fn momenta(sheet: &mut Sheet, inertias: &[Inertia]) -> (Vec<OutputId>
 
 /// A named energy is reported while it acts, an unnamed one when asked for.
 fn report_need(inertia: &Inertia, asked: NeedId) -> NeedId {
-    if inertia.need == ALWAYS { asked } else { inertia.need }
+    if inertia.need == ALWAYS {
+        asked
+    } else {
+        inertia.need
+    }
 }

@@ -8,9 +8,9 @@
 //! (Goldstein, Poole & Safko 2002, section 1.4; Lanczos 1970, chapter V). Where T is quadratic in v there is a
 //! second form of f, by Christoffel symbols ([`super::quadratic`]); the one with fewer operations is kept.
 
+use super::NeedId;
 use super::forms::{Variables, cheapest};
 use super::needs::{ALWAYS, Needs};
-use super::NeedId;
 use super::quadratic::Quadratic;
 use crate::model::System;
 use crate::symbolic::{ExprId, Pool};
@@ -71,8 +71,10 @@ pub(super) fn groups(system: &mut System, needs: &Needs) -> Vec<Group> {
 /// The Euler–Lagrange equations of one group.
 pub(super) fn derive(pool: &mut Pool, x: &Variables, group: &Group) -> Inertia {
     let moving = x.velocities_in(pool, group.kinetic);
-    let raw_momenta: Vec<(usize, ExprId)> =
-        moving.iter().map(|&i| (i, pool.differentiate(group.kinetic, x.velocities[i]))).collect();
+    let raw_momenta: Vec<(usize, ExprId)> = moving
+        .iter()
+        .map(|&i| (i, pool.differentiate(group.kinetic, x.velocities[i])))
+        .collect();
 
     let mut raw_mass = BTreeMap::new();
     for &(i, p) in &raw_momenta {
@@ -87,7 +89,9 @@ pub(super) fn derive(pool: &mut Pool, x: &Variables, group: &Group) -> Inertia {
             mass.insert(place, entry);
         }
     }
-    let quadratic = mass.values().all(|&entry| x.velocities_in(pool, entry).is_empty());
+    let quadratic = mass
+        .values()
+        .all(|&entry| x.velocities_in(pool, entry).is_empty());
     let expansion = quadratic.then(|| Quadratic::new(pool, x, group.kinetic, &raw_momenta, &mass));
 
     let potential = pool.simplify(group.potential);
@@ -100,12 +104,19 @@ pub(super) fn derive(pool: &mut Pool, x: &Variables, group: &Group) -> Inertia {
 
     let direct = direct_form(pool, x, group.kinetic, &raw_momenta);
     let mut forms = Vec::new();
-    if let Some(inertial) = expansion.as_ref().and_then(|expansion| expansion.forcing(pool, x)) {
+    if let Some(inertial) = expansion
+        .as_ref()
+        .and_then(|expansion| expansion.forcing(pool, x))
+    {
         forms.push(total(pool, &inertial, &conservative));
     }
     forms.push(total(pool, &direct, &conservative));
     if x.len() > LARGE {
-        forms.push((0..x.len()).map(|i| pool.add(direct[i], conservative[i])).collect());
+        forms.push(
+            (0..x.len())
+                .map(|i| pool.add(direct[i], conservative[i]))
+                .collect(),
+        );
     }
     let company: Vec<ExprId> = mass.values().copied().collect();
     let forcing = cheapest(pool, &company, forms);
@@ -114,23 +125,45 @@ pub(super) fn derive(pool: &mut Pool, x: &Variables, group: &Group) -> Inertia {
         Some(expansion) => expansion.energy_and_momenta(pool, x, group.kinetic, &raw_momenta),
         None => {
             let kinetic = pool.simplify(group.kinetic);
-            (kinetic, raw_momenta.iter().map(|&(i, p)| (i, pool.simplify(p))).collect())
+            (
+                kinetic,
+                raw_momenta
+                    .iter()
+                    .map(|&(i, p)| (i, pool.simplify(p)))
+                    .collect(),
+            )
         }
     };
     Inertia {
         need: group.need,
         kinetic,
         potential,
-        momenta: momenta.into_iter().filter(|&(_, p)| !pool.is_zero(p)).collect(),
+        momenta: momenta
+            .into_iter()
+            .filter(|&(_, p)| !pool.is_zero(p))
+            .collect(),
         mass,
-        forcing: forcing.into_iter().enumerate().filter(|&(_, f)| !pool.is_zero(f)).collect(),
+        forcing: forcing
+            .into_iter()
+            .enumerate()
+            .filter(|&(_, f)| !pool.is_zero(f))
+            .collect(),
         quadratic,
     }
 }
 
 /// ∂T/∂qᵢ − (d/dt ∂T/∂vᵢ) at v̇ = 0, term by term.
-fn direct_form(pool: &mut Pool, x: &Variables, kinetic: ExprId, momenta: &[(usize, ExprId)]) -> Vec<ExprId> {
-    let mut forcing: Vec<ExprId> = x.positions.iter().map(|&q| pool.differentiate(kinetic, q)).collect();
+fn direct_form(
+    pool: &mut Pool,
+    x: &Variables,
+    kinetic: ExprId,
+    momenta: &[(usize, ExprId)],
+) -> Vec<ExprId> {
+    let mut forcing: Vec<ExprId> = x
+        .positions
+        .iter()
+        .map(|&q| pool.differentiate(kinetic, q))
+        .collect();
     for &(i, p) in momenta {
         let rate = x.rate(pool, p);
         forcing[i] = pool.sub(forcing[i], rate);

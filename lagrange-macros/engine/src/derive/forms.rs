@@ -67,20 +67,28 @@ impl Variables {
 
     /// e at v = 0.
     pub fn at_rest(&self, pool: &mut Pool, e: ExprId) -> ExprId {
-        let rest: Vec<_> =
-            self.velocities_in(pool, e).into_iter().map(|i| (self.velocities[i], self.zero)).collect();
+        let rest: Vec<_> = self
+            .velocities_in(pool, e)
+            .into_iter()
+            .map(|i| (self.velocities[i], self.zero))
+            .collect();
         pool.substitute(e, &rest)
     }
 
     /// Σ cᵢ vᵢ
     pub fn along_velocity(&self, pool: &mut Pool, coefficients: &[(usize, ExprId)]) -> ExprId {
-        let terms: Vec<ExprId> = coefficients.iter().map(|&(i, c)| pool.mul(c, self.rates[i])).collect();
+        let terms: Vec<ExprId> = coefficients
+            .iter()
+            .map(|&(i, c)| pool.mul(c, self.rates[i]))
+            .collect();
         pool.sum(&terms)
     }
 }
 
 fn indices_in(symbols: &[Symbol], present: &[Symbol]) -> Vec<usize> {
-    (0..symbols.len()).filter(|&i| present.binary_search(&symbols[i]).is_ok()).collect()
+    (0..symbols.len())
+        .filter(|&i| present.binary_search(&symbols[i]).is_ok())
+        .collect()
 }
 
 /// The form with the fewest operations when computed beside `company`; of equals the first.

@@ -24,8 +24,12 @@ pub(super) struct Loads {
 
 /// Derives all loads.
 pub(super) fn loads(sheet: &mut Sheet) -> Loads {
-    let mut loads =
-        Loads { forcing: Vec::new(), couplings: Vec::new(), forces: Vec::new(), dissipations: Vec::new() };
+    let mut loads = Loads {
+        forcing: Vec::new(),
+        couplings: Vec::new(),
+        forces: Vec::new(),
+        dissipations: Vec::new(),
+    };
     for i in 0..sheet.system.forces.len() {
         force(sheet, i, &mut loads);
     }
@@ -50,7 +54,10 @@ fn force(sheet: &mut Sheet, index: usize, loads: &mut Loads) {
             .filter(|(_, symbol)| present.binary_search(symbol).is_ok())
             .map(|(row, &symbol)| (row, symbol))
             .collect();
-        let absent: Vec<(Symbol, ExprId)> = named.iter().map(|&(_, symbol)| (symbol, sheet.x.zero)).collect();
+        let absent: Vec<(Symbol, ExprId)> = named
+            .iter()
+            .map(|&(_, symbol)| (symbol, sheet.x.zero))
+            .collect();
         let free = pool.substitute(q, &absent);
         loads.forcing.push((coordinate, need, pool.simplify(free)));
         for (row, symbol) in named {
@@ -62,11 +69,18 @@ fn force(sheet: &mut Sheet, index: usize, loads: &mut Loads) {
             }
             let label = format!("coupling[{name}, {}, {row}]", sheet.coordinate(coordinate));
             let factor = sheet.motion(label, need, factor);
-            loads.couplings.push(Coupling { coordinate, row, factor, need });
+            loads.couplings.push(Coupling {
+                coordinate,
+                row,
+                factor,
+                need,
+            });
         }
     }
     let power = sheet.x.along_velocity(&mut sheet.system.pool, &generalized);
-    loads.forces.push(report(sheet, &name, [need, report_need], value, power));
+    loads
+        .forces
+        .push(report(sheet, &name, [need, report_need], value, power));
 }
 
 fn dissipation(sheet: &mut Sheet, index: usize, loads: &mut Loads) {
@@ -80,9 +94,13 @@ fn dissipation(sheet: &mut Sheet, index: usize, loads: &mut Loads) {
         let q = pool.neg(slope);
         generalized.push((i, pool.simplify(q)));
     }
-    loads.forcing.extend(generalized.iter().map(|&(i, q)| (i, need, q)));
+    loads
+        .forcing
+        .extend(generalized.iter().map(|&(i, q)| (i, need, q)));
     let power = x.along_velocity(pool, &generalized);
-    loads.dissipations.push(report(sheet, &name, [need, report_need], rayleigh, power));
+    loads
+        .dissipations
+        .push(report(sheet, &name, [need, report_need], rayleigh, power));
 }
 
 fn report(

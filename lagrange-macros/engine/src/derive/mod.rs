@@ -70,8 +70,10 @@ pub struct Equations {
 pub fn equations(system: System, sink: &mut Diagnostics) -> Option<Equations> {
     let mut sheet = Sheet::new(system);
     let groups = euler_lagrange::groups(&mut sheet.system, &sheet.needs);
-    let inertias: Vec<Inertia> =
-        groups.iter().map(|group| euler_lagrange::derive(&mut sheet.system.pool, &sheet.x, group)).collect();
+    let inertias: Vec<Inertia> = groups
+        .iter()
+        .map(|group| euler_lagrange::derive(&mut sheet.system.pool, &sheet.x, group))
+        .collect();
     let mass = mass_matrix(&mut sheet, &inertias);
     let rows = rows::rows(&mut sheet);
     let contacts = rows::contacts(&mut sheet);
@@ -104,8 +106,12 @@ pub fn equations(system: System, sink: &mut Diagnostics) -> Option<Equations> {
         branches: outputs::branches(&mut sheet),
         cyclic,
     };
-    regular::check(&sheet.system, &inertias, &structure, sink)
-        .then(|| Equations { needs: sheet.needs.labels, system: sheet.system, outputs: sheet.outputs, structure })
+    regular::check(&sheet.system, &inertias, &structure, sink).then(|| Equations {
+        needs: sheet.needs.labels,
+        system: sheet.system,
+        outputs: sheet.outputs,
+        structure,
+    })
 }
 
 /// The lower triangle of M; what each energy contributes stands under its need.
@@ -113,7 +119,10 @@ fn mass_matrix(sheet: &mut Sheet, inertias: &[Inertia]) -> Vec<(usize, usize, Ou
     let mut entries: BTreeMap<(usize, usize), Vec<(NeedId, ExprId)>> = BTreeMap::new();
     for inertia in inertias {
         for (&place, &entry) in &inertia.mass {
-            entries.entry(place).or_default().push((inertia.need, entry));
+            entries
+                .entry(place)
+                .or_default()
+                .push((inertia.need, entry));
         }
     }
     let mut mass = Vec::new();

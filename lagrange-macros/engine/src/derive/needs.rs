@@ -50,10 +50,21 @@ pub(super) fn allocate(system: &System) -> Needs {
         labels.push(label);
         NeedId(labels.len() - 1)
     };
-    let kinetic = system.kinetic.iter().map(|k| effect("kinetic", &k.name, &mut new)).collect();
-    let potential = system.potential.iter().map(|v| effect("potential", &v.name, &mut new)).collect();
+    let kinetic = system
+        .kinetic
+        .iter()
+        .map(|k| effect("kinetic", &k.name, &mut new))
+        .collect();
+    let potential = system
+        .potential
+        .iter()
+        .map(|v| effect("potential", &v.name, &mut new))
+        .collect();
     let mut load = |name: &ItemName| {
-        [new(format!("force of {}", name.text)), new(format!("value and power of {}", name.text))]
+        [
+            new(format!("force of {}", name.text)),
+            new(format!("value and power of {}", name.text)),
+        ]
     };
     let forces = system.forces.iter().map(|f| load(&f.name)).collect();
     let dissipations = system.dissipations.iter().map(|d| load(&d.name)).collect();
@@ -66,21 +77,42 @@ pub(super) fn allocate(system: &System) -> Needs {
         rows.push(row(&contact.name, "gap", "rate", &mut new));
     }
     for friction in &system.frictions {
-        let [jacobian, bias] = ["jacobian", "bias"].map(|part| new(format!("{part} of {}", friction.name.text)));
+        let [jacobian, bias] =
+            ["jacobian", "bias"].map(|part| new(format!("{part} of {}", friction.name.text)));
         let slip = new(format!("slip of {}", friction.name.text));
         // A slip is a velocity: it has no position level, and no need for one.
         rows.extend(friction.slip.iter().map(|_| [jacobian, bias, slip, slip]));
     }
-    let restitution =
-        system.contacts.iter().map(|c| new(format!("restitution of {}", c.name.text))).collect();
-    let coefficients =
-        system.frictions.iter().map(|f| new(format!("coefficients of {}", f.name.text))).collect();
-    let branches = (0..system.branches.len()).map(|i| new(format!("branch {i}"))).collect();
+    let restitution = system
+        .contacts
+        .iter()
+        .map(|c| new(format!("restitution of {}", c.name.text)))
+        .collect();
+    let coefficients = system
+        .frictions
+        .iter()
+        .map(|f| new(format!("coefficients of {}", f.name.text)))
+        .collect();
+    let branches = (0..system.branches.len())
+        .map(|i| new(format!("branch {i}")))
+        .collect();
     let energy = new("energy".to_owned());
     let momenta = new("momenta".to_owned());
-    let observes = system.observes.iter().map(|o| new(format!("observe {}", o.name.text))).collect();
-    let stops = system.stops.iter().map(|s| new(format!("stop {}", s.name.text))).collect();
-    let marks = system.marks.iter().map(|m| new(format!("mark {}", m.name.text))).collect();
+    let observes = system
+        .observes
+        .iter()
+        .map(|o| new(format!("observe {}", o.name.text)))
+        .collect();
+    let stops = system
+        .stops
+        .iter()
+        .map(|s| new(format!("stop {}", s.name.text)))
+        .collect();
+    let marks = system
+        .marks
+        .iter()
+        .map(|m| new(format!("mark {}", m.name.text)))
+        .collect();
     Needs {
         labels,
         kinetic,
@@ -107,6 +139,11 @@ fn effect(kind: &str, name: &ItemName, new: &mut impl FnMut(String) -> NeedId) -
     }
 }
 
-fn row(name: &ItemName, position: &str, velocity: &str, new: &mut impl FnMut(String) -> NeedId) -> [NeedId; 4] {
+fn row(
+    name: &ItemName,
+    position: &str,
+    velocity: &str,
+    new: &mut impl FnMut(String) -> NeedId,
+) -> [NeedId; 4] {
     ["jacobian", "bias", position, velocity].map(|part| new(format!("{part} of {}", name.text)))
 }

@@ -7,8 +7,12 @@ use std::collections::BTreeSet;
 
 /// Per observe: (value, need).
 pub(super) fn observes(sheet: &mut Sheet) -> Vec<(OutputId, NeedId)> {
-    let items: Vec<(String, ExprId)> =
-        sheet.system.observes.iter().map(|o| (o.name.text.clone(), o.value)).collect();
+    let items: Vec<(String, ExprId)> = sheet
+        .system
+        .observes
+        .iter()
+        .map(|o| (o.name.text.clone(), o.value))
+        .collect();
     let needs = sheet.needs.observes.clone();
     let mut observes = Vec::new();
     for ((name, value), need) in items.into_iter().zip(needs) {
@@ -20,14 +24,24 @@ pub(super) fn observes(sheet: &mut Sheet) -> Vec<(OutputId, NeedId)> {
 
 /// Per stop: (terms, need).
 pub(super) fn stops(sheet: &mut Sheet) -> Vec<(Vec<OutputId>, NeedId)> {
-    let items = sheet.system.stops.iter().map(|s| (s.name.text.clone(), s.terms.clone())).collect();
+    let items = sheet
+        .system
+        .stops
+        .iter()
+        .map(|s| (s.name.text.clone(), s.terms.clone()))
+        .collect();
     let needs = sheet.needs.stops.clone();
     watches(sheet, "stop", items, needs)
 }
 
 /// Per mark: (terms, need).
 pub(super) fn marks(sheet: &mut Sheet) -> Vec<(Vec<OutputId>, NeedId)> {
-    let items = sheet.system.marks.iter().map(|m| (m.name.text.clone(), m.terms.clone())).collect();
+    let items = sheet
+        .system
+        .marks
+        .iter()
+        .map(|m| (m.name.text.clone(), m.terms.clone()))
+        .collect();
     let needs = sheet.needs.marks.clone();
     watches(sheet, "mark", items, needs)
 }
@@ -56,7 +70,10 @@ fn watches(
 pub(super) fn branches(sheet: &mut Sheet) -> Vec<Branch<OutputId>> {
     let count = sheet.system.branches.len();
     let declared: Vec<ExprId> = sheet.system.branches.iter().map(|b| b.guard).collect();
-    let guards: Vec<ExprId> = declared.into_iter().map(|guard| sheet.reported(guard)).collect();
+    let guards: Vec<ExprId> = declared
+        .into_iter()
+        .map(|guard| sheet.reported(guard))
+        .collect();
     let pool = &sheet.system.pool;
     let inside: Vec<Vec<usize>> = guards.iter().map(|&guard| pool.branches(guard)).collect();
 
@@ -66,10 +83,15 @@ pub(super) fn branches(sheet: &mut Sheet) -> Vec<Branch<OutputId>> {
             users[branch].insert(*need);
         }
     }
-    let results: BTreeSet<Symbol> =
-        sheet.multipliers().into_iter().chain(sheet.system.coordinates.iter().map(|c| c.acceleration)).collect();
-    let mut after_solve: Vec<bool> =
-        guards.iter().map(|&guard| pool.symbols(guard).iter().any(|s| results.contains(s))).collect();
+    let results: BTreeSet<Symbol> = sheet
+        .multipliers()
+        .into_iter()
+        .chain(sheet.system.coordinates.iter().map(|c| c.acceleration))
+        .collect();
+    let mut after_solve: Vec<bool> = guards
+        .iter()
+        .map(|&guard| pool.symbols(guard).iter().any(|s| results.contains(s)))
+        .collect();
     // Guards nest without cycles, so `count` rounds reach every level.
     for _ in 0..count {
         for outer in 0..count {
@@ -83,9 +105,17 @@ pub(super) fn branches(sheet: &mut Sheet) -> Vec<Branch<OutputId>> {
     let mut branches = Vec::new();
     for (i, users) in users.into_iter().enumerate() {
         let need = sheet.needs.branches[i];
-        let stage = if after_solve[i] { Stage::Report } else { Stage::Motion };
+        let stage = if after_solve[i] {
+            Stage::Report
+        } else {
+            Stage::Motion
+        };
         // The guard of a branch that nothing uses is never asked for.
-        let terms = if users.is_empty() { vec![] } else { vec![(need, guards[i])] };
+        let terms = if users.is_empty() {
+            vec![]
+        } else {
+            vec![(need, guards[i])]
+        };
         branches.push(Branch {
             guard: sheet.output(stage, format!("guard[{i}]"), &terms),
             need,

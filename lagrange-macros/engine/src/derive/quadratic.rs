@@ -46,12 +46,20 @@ impl<'a> Quadratic<'a> {
             }
         }
         let rest = x.at_rest(pool, kinetic);
-        Self { mass, linear, rest: pool.simplify(rest) }
+        Self {
+            mass,
+            linear,
+            rest: pool.simplify(rest),
+        }
     }
 
     /// The inertial part of f; None if there are too many Christoffel symbols.
     pub fn forcing(&self, pool: &mut Pool, x: &Variables) -> Option<Vec<ExprId>> {
-        let size: usize = self.mass.values().map(|&entry| x.positions_in(pool, entry).len()).sum();
+        let size: usize = self
+            .mass
+            .values()
+            .map(|&entry| x.positions_in(pool, entry).len())
+            .sum();
         if size > BUDGET {
             return None;
         }
@@ -62,13 +70,21 @@ impl<'a> Quadratic<'a> {
             let slope = pool.differentiate(self.rest, x.positions[k]);
             forcing[k].entry(vec![]).or_default().push(slope);
         }
-        Some(forcing.into_iter().map(|by_velocities| assemble(pool, x, by_velocities)).collect())
+        Some(
+            forcing
+                .into_iter()
+                .map(|by_velocities| assemble(pool, x, by_velocities))
+                .collect(),
+        )
     }
 
     /// Each entry of M feeds the equations of its row, of its column, and of the positions that it depends on.
     fn christoffel(&self, pool: &mut Pool, x: &Variables, forcing: &mut [ByVelocities]) {
         let mut put = |i: usize, j: usize, k: usize, e: ExprId| {
-            forcing[i].entry(vec![j.max(k), j.min(k)]).or_default().push(e);
+            forcing[i]
+                .entry(vec![j.max(k), j.min(k)])
+                .or_default()
+                .push(e);
         };
         for (&(i, j), &entry) in self.mass {
             for k in x.positions_in(pool, entry) {
@@ -87,7 +103,8 @@ impl<'a> Quadratic<'a> {
 
     /// What b and the explicit time in M add.
     fn gyroscopic(&self, pool: &mut Pool, x: &Variables, forcing: &mut [ByVelocities]) {
-        let mut put = |i: usize, by: Vec<usize>, e: ExprId| forcing[i].entry(by).or_default().push(e);
+        let mut put =
+            |i: usize, by: Vec<usize>, e: ExprId| forcing[i].entry(by).or_default().push(e);
         for (&(i, j), &entry) in self.mass {
             let rate = pool.differentiate(entry, x.time);
             let minus = pool.neg(rate);
@@ -120,9 +137,15 @@ impl<'a> Quadratic<'a> {
         for (&(i, j), &entry) in self.mass {
             let product = pool.product(&[entry, x.rates[i], x.rates[j]]);
             rebuilt.push(if i == j { half(pool, product) } else { product });
-            rebuilt_momenta.entry(i).or_default().push(pool.mul(entry, x.rates[j]));
+            rebuilt_momenta
+                .entry(i)
+                .or_default()
+                .push(pool.mul(entry, x.rates[j]));
             if i != j {
-                rebuilt_momenta.entry(j).or_default().push(pool.mul(entry, x.rates[i]));
+                rebuilt_momenta
+                    .entry(j)
+                    .or_default()
+                    .push(pool.mul(entry, x.rates[i]));
             }
         }
         for (&i, &b) in &self.linear {
@@ -141,7 +164,14 @@ impl<'a> Quadratic<'a> {
             }
         }
         let chosen = cheapest(pool, &[], forms.into());
-        (energy, momenta.iter().zip(chosen).map(|(&(i, _), p)| (i, p)).collect())
+        (
+            energy,
+            momenta
+                .iter()
+                .zip(chosen)
+                .map(|(&(i, _), p)| (i, p))
+                .collect(),
+        )
     }
 }
 

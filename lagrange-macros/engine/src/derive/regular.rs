@@ -19,7 +19,11 @@ pub(super) fn check(
     sink: &mut Diagnostics,
 ) -> bool {
     let before = sink.count();
-    let inert: BTreeSet<usize> = structure.mass.iter().flat_map(|&(i, j, _)| [i, j]).collect();
+    let inert: BTreeSet<usize> = structure
+        .mass
+        .iter()
+        .flat_map(|&(i, j, _)| [i, j])
+        .collect();
     let tied: BTreeSet<usize> = system
         .constraints
         .iter()
@@ -29,7 +33,11 @@ pub(super) fn check(
         .collect();
     for (i, coordinate) in system.coordinates.iter().enumerate() {
         if !inert.contains(&i) && !tied.contains(&i) {
-            sink.report(Code::NoInertia, coordinate.name.span, &[&coordinate.name.text]);
+            sink.report(
+                Code::NoInertia,
+                coordinate.name.span,
+                &[&coordinate.name.text],
+            );
         }
     }
     if !system.contacts.is_empty() {
@@ -43,12 +51,25 @@ pub(super) fn check(
 
 /// Reports the velocities that the mass matrix contains.
 fn quadratic(system: &System, inertias: &[Inertia], sink: &mut Diagnostics) {
-    let what = if system.from_lagrangian { "Lagrangian" } else { "kinetic energy" };
-    let Some(term) = system.kinetic.first() else { return };
+    let what = if system.from_lagrangian {
+        "Lagrangian"
+    } else {
+        "kinetic energy"
+    };
+    let Some(term) = system.kinetic.first() else {
+        return;
+    };
     let pool = &system.pool;
-    let entries = inertias.iter().filter(|inertia| !inertia.quadratic).flat_map(|inertia| inertia.mass.values());
+    let entries = inertias
+        .iter()
+        .filter(|inertia| !inertia.quadratic)
+        .flat_map(|inertia| inertia.mass.values());
     let symbols: BTreeSet<_> = entries.flat_map(|&entry| pool.symbols(entry)).collect();
-    for coordinate in system.coordinates.iter().filter(|c| symbols.contains(&c.velocity)) {
+    for coordinate in system
+        .coordinates
+        .iter()
+        .filter(|c| symbols.contains(&c.velocity))
+    {
         let rate = format!("der({})", coordinate.name.text);
         sink.report(Code::NotQuadratic, term.name.span, &[&what, &rate]);
     }

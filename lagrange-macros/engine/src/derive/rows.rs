@@ -97,12 +97,18 @@ fn position_level(pool: &mut Pool, x: &Variables, g: ExprId) -> Form {
         .collect();
     let drift = pool.differentiate(position, x.time);
     let declared = x.rate(pool, position);
-    Form { position: Some(position), ..form(pool, x, jacobian, drift, declared) }
+    Form {
+        position: Some(position),
+        ..form(pool, x, jacobian, drift, declared)
+    }
 }
 
 fn velocity_level(pool: &mut Pool, x: &Variables, s: ExprId) -> Form {
-    let jacobian: Vec<(usize, ExprId)> =
-        x.velocities_in(pool, s).into_iter().map(|i| (i, pool.differentiate(s, x.velocities[i]))).collect();
+    let jacobian: Vec<(usize, ExprId)> = x
+        .velocities_in(pool, s)
+        .into_iter()
+        .map(|i| (i, pool.differentiate(s, x.velocities[i])))
+        .collect();
     let drift = x.at_rest(pool, s);
     form(pool, x, jacobian, drift, s)
 }
@@ -125,7 +131,11 @@ fn form(
     let along = x.along_velocity(pool, &jacobian);
     let rebuilt = pool.add(along, drift);
     let velocity_forms = [rebuilt, declared].map(|e| pool.simplify(e));
-    let velocity = cheapest(pool, &company, velocity_forms.iter().map(|&e| vec![e]).collect())[0];
+    let velocity = cheapest(
+        pool,
+        &company,
+        velocity_forms.iter().map(|&e| vec![e]).collect(),
+    )[0];
 
     let turning: Vec<(usize, ExprId)> = jacobian
         .iter()
@@ -140,10 +150,21 @@ fn form(
     let direct = x.rate(pool, velocity);
     let bias_forms = [rebuilt, direct].map(|e| vec![pool.simplify(e)]);
     let bias = cheapest(pool, &company, bias_forms.into())[0];
-    Form { jacobian, bias, position: None, velocity }
+    Form {
+        jacobian,
+        bias,
+        position: None,
+        velocity,
+    }
 }
 
-fn write(sheet: &mut Sheet, name: &str, velocity: &str, needs: [NeedId; 4], form: Form) -> Row<OutputId> {
+fn write(
+    sheet: &mut Sheet,
+    name: &str,
+    velocity: &str,
+    needs: [NeedId; 4],
+    form: Form,
+) -> Row<OutputId> {
     let mut jacobian = Vec::new();
     for (i, a) in form.jacobian {
         let label = format!("jacobian[{name}, {}]", sheet.coordinate(i));
@@ -152,7 +173,9 @@ fn write(sheet: &mut Sheet, name: &str, velocity: &str, needs: [NeedId; 4], form
     Row {
         jacobian,
         bias: sheet.motion(format!("bias[{name}]"), needs[1], form.bias),
-        position: form.position.map(|g| sheet.motion(format!("position[{name}]"), needs[2], g)),
+        position: form
+            .position
+            .map(|g| sheet.motion(format!("position[{name}]"), needs[2], g)),
         velocity: sheet.motion(format!("{velocity}[{name}]"), needs[3], form.velocity),
         needs,
     }

@@ -18,7 +18,12 @@ pub(super) struct Sheet {
 impl Sheet {
     /// A sheet without outputs.
     pub fn new(mut system: System) -> Self {
-        Self { x: Variables::of(&mut system), needs: allocate(&system), system, outputs: Vec::new() }
+        Self {
+            x: Variables::of(&mut system),
+            needs: allocate(&system),
+            system,
+            outputs: Vec::new(),
+        }
     }
 
     /// Adds an output; terms of one need are added up, zeros left out.
@@ -28,10 +33,16 @@ impl Sheet {
             by_need.entry(need).or_default().push(term);
         }
         let pool = &mut self.system.pool;
-        let mut terms: Vec<(NeedId, ExprId)> =
-            by_need.into_iter().map(|(need, terms)| (need, pool.sum(&terms))).collect();
+        let mut terms: Vec<(NeedId, ExprId)> = by_need
+            .into_iter()
+            .map(|(need, terms)| (need, pool.sum(&terms)))
+            .collect();
         terms.retain(|&(_, term)| !pool.is_zero(term));
-        self.outputs.push(Output { stage, label, terms });
+        self.outputs.push(Output {
+            stage,
+            label,
+            terms,
+        });
         OutputId(self.outputs.len() - 1)
     }
 
@@ -55,13 +66,21 @@ impl Sheet {
         let system = &self.system;
         let constraints = system.constraints.iter().map(|c| c.force);
         let contacts = system.contacts.iter().map(|c| c.force);
-        let frictions = system.frictions.iter().flat_map(|f| f.slip.iter().map(|&(_, force)| force));
+        let frictions = system
+            .frictions
+            .iter()
+            .flat_map(|f| f.slip.iter().map(|&(_, force)| force));
         constraints.chain(contacts).chain(frictions).collect()
     }
 
     /// An expression of the report: names of applied forces become their values, then simplified.
     pub fn reported(&mut self, e: ExprId) -> ExprId {
-        let values: Vec<(Symbol, ExprId)> = self.system.forces.iter().map(|f| (f.force, f.value)).collect();
+        let values: Vec<(Symbol, ExprId)> = self
+            .system
+            .forces
+            .iter()
+            .map(|f| (f.force, f.value))
+            .collect();
         let e = self.system.pool.substitute(e, &values);
         self.system.pool.simplify(e)
     }

@@ -18,7 +18,12 @@ impl HyperDual {
 
     fn mul(self, other: Self) -> Self {
         let ([a, b, c, d], [e, f, g, h]) = (self.0, other.0);
-        Self([a * e, a * f + b * e, a * g + c * e, a * h + b * g + c * f + d * e])
+        Self([
+            a * e,
+            a * f + b * e,
+            a * g + c * e,
+            a * h + b * g + c * f + d * e,
+        ])
     }
 
     /// f(x) from f, f′, f″ at the value.
@@ -29,8 +34,18 @@ impl HyperDual {
 
     fn power(self, p: f64) -> Self {
         let x = self.0[0];
-        let derivative = |factor: f64, p: f64| if factor == 0.0 { 0.0 } else { factor * x.powf(p) };
-        self.chain(x.powf(p), derivative(p, p - 1.0), derivative(p * (p - 1.0), p - 2.0))
+        let derivative = |factor: f64, p: f64| {
+            if factor == 0.0 {
+                0.0
+            } else {
+                factor * x.powf(p)
+            }
+        };
+        self.chain(
+            x.powf(p),
+            derivative(p, p - 1.0),
+            derivative(p * (p - 1.0), p - 2.0),
+        )
     }
 
     fn call(self, f: Function) -> Self {
@@ -61,7 +76,12 @@ impl HyperDual {
 }
 
 /// An expression at `value + ε₁ first + ε₂ second` of each symbol.
-pub fn evaluate(pool: &Pool, e: ExprId, at: &dyn Fn(Symbol) -> [f64; 3], then: &dyn Fn(usize) -> bool) -> HyperDual {
+pub fn evaluate(
+    pool: &Pool,
+    e: ExprId,
+    at: &dyn Fn(Symbol) -> [f64; 3],
+    then: &dyn Fn(usize) -> bool,
+) -> HyperDual {
     let go = |e: ExprId| evaluate(pool, e, at, then);
     match pool.node(e) {
         Node::Number(n) => HyperDual::constant(n.to_f64()),
@@ -70,16 +90,25 @@ pub fn evaluate(pool: &Pool, e: ExprId, at: &dyn Fn(Symbol) -> [f64; 3], then: &
             let [value, first, second] = at(*s);
             HyperDual([value, first, second, 0.0])
         }
-        Node::Sum { constant, terms } => {
-            terms.iter().fold(HyperDual::constant(constant.to_f64()), |sum, &(term, c)| {
+        Node::Sum { constant, terms } => terms
+            .iter()
+            .fold(HyperDual::constant(constant.to_f64()), |sum, &(term, c)| {
                 sum.add(go(term).mul(HyperDual::constant(c.to_f64())))
-            })
-        }
-        Node::Product(factors) => factors.iter().fold(HyperDual::constant(1.0), |product, &(base, exponent)| {
-            product.mul(go(base).power(exponent.to_f64()))
-        }),
-        Node::Power(base, exponent) => go(*base).call(Function::Ln).mul(go(*exponent)).call(Function::Exp),
+            }),
+        Node::Product(factors) => factors
+            .iter()
+            .fold(HyperDual::constant(1.0), |product, &(base, exponent)| {
+                product.mul(go(base).power(exponent.to_f64()))
+            }),
+        Node::Power(base, exponent) => go(*base)
+            .call(Function::Ln)
+            .mul(go(*exponent))
+            .call(Function::Exp),
         Node::Call(f, arguments) => go(arguments[0]).call(*f),
-        Node::Select { branch, then: yes, otherwise } => go(if then(*branch) { *yes } else { *otherwise }),
+        Node::Select {
+            branch,
+            then: yes,
+            otherwise,
+        } => go(if then(*branch) { *yes } else { *otherwise }),
     }
 }

@@ -2,6 +2,8 @@
 
 mod hyperdual;
 mod kit;
+mod notation;
+mod numbers;
 mod structure;
 mod textbook;
 mod theorems;

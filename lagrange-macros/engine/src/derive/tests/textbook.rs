@@ -1,6 +1,7 @@
 //! Equations that textbooks derive by hand, at random states.
 
-use super::kit::{Build, Derived, Point, Random, close};
+use super::kit::Build;
+use super::numbers::{Derived, Point, Random, close};
 use crate::model::{Level, Normal};
 
 /// Calls `check` at ten random points.
@@ -25,31 +26,55 @@ pub fn rolling_sphere() -> Build {
     Build::new("r theta phi", "m g R a")
         .define("px", "r*sin(theta)")
         .define("py", "r*cos(theta)")
-        .kinetic("", "m/2*(der(px)^2 + der(py)^2) + 1/2*(2/5*m*a^2)*der(phi)^2")
+        .kinetic(
+            "",
+            "m/2*(der(px)^2 + der(py)^2) + 1/2*(2/5*m*a^2)*der(phi)^2",
+        )
         .potential("", "m*g*py")
         .contact("shell", "r - (R + a)")
-        .friction("grip", Normal::Contact(0), &["a*(der(phi) - der(theta)) - R*der(theta)"], "1")
+        .friction(
+            "grip",
+            Normal::Contact(0),
+            &["a*(der(phi) - der(theta)) - R*der(theta)"],
+            "1",
+        )
 }
 
 pub fn mass_on_wheel() -> Build {
     Build::new("x phi r theta", "wheel inertia mass radius gravity mu")
         .define("px", "x + r*sin(theta)")
         .define("py", "r*cos(theta)")
-        .kinetic("", "wheel/2*der(x)^2 + inertia/2*der(phi)^2 + mass/2*(der(px)^2 + der(py)^2)")
+        .kinetic(
+            "",
+            "wheel/2*der(x)^2 + inertia/2*der(phi)^2 + mass/2*(der(px)^2 + der(py)^2)",
+        )
         .potential("", "mass*gravity*py")
         .constraint("rolling", Level::Velocity, "der(x) - radius*der(phi)")
         .contact("rim", "r - radius")
-        .friction("grip", Normal::Contact(0), &["radius*(der(theta) - der(phi))"], "mu")
+        .friction(
+            "grip",
+            Normal::Contact(0),
+            &["radius*(der(theta) - der(phi))"],
+            "mu",
+        )
 }
 
 pub fn sphere_in_sphere() -> Build {
     Build::new("r theta phi", "m g R a")
         .define("px", "r*sin(theta)")
         .define("py", "-r*cos(theta)")
-        .kinetic("", "m/2*(der(px)^2 + der(py)^2) + 1/2*(2/5*m*a^2)*der(phi)^2")
+        .kinetic(
+            "",
+            "m/2*(der(px)^2 + der(py)^2) + 1/2*(2/5*m*a^2)*der(phi)^2",
+        )
         .potential("", "m*g*py")
         .contact("shell", "R - a - r")
-        .friction("grip", Normal::Contact(0), &["R*der(theta) - a*(der(phi) + der(theta))"], "1")
+        .friction(
+            "grip",
+            Normal::Contact(0),
+            &["R*der(theta) - a*(der(phi) + der(theta))"],
+            "1",
+        )
 }
 
 pub fn double_pendulum() -> Build {
@@ -58,7 +83,10 @@ pub fn double_pendulum() -> Build {
         .define("y1", "-l1*cos(th1)")
         .define("x2", "x1 + l2*sin(th2)")
         .define("y2", "y1 - l2*cos(th2)")
-        .kinetic("", "m1/2*(der(x1)^2 + der(y1)^2) + m2/2*(der(x2)^2 + der(y2)^2)")
+        .kinetic(
+            "",
+            "m1/2*(der(x1)^2 + der(y1)^2) + m2/2*(der(x2)^2 + der(y2)^2)",
+        )
         .potential("", "m1*g*y1 + m2*g*y2")
 }
 
@@ -73,10 +101,14 @@ pub fn cart_pole() -> Build {
 #[test]
 fn mass_on_shell_in_polar_coordinates() {
     let mut d = mass_on_shell().derive();
-    let [f_r, f_theta] = d.equations.structure.forcing[..] else { panic!() };
+    let [f_r, f_theta] = d.equations.structure.forcing[..] else {
+        panic!()
+    };
     d.expect(f_r, "m*r*v_theta^2 - m*g*cos(theta)");
     d.expect(f_theta, "m*r*(g*sin(theta) - 2*v_r*v_theta)");
-    let [(0, 0, m_rr), (1, 1, m_tt)] = d.equations.structure.mass[..] else { panic!("{:?}", d.pattern()) };
+    let [(0, 0, m_rr), (1, 1, m_tt)] = d.equations.structure.mass[..] else {
+        panic!("{:?}", d.pattern())
+    };
     d.expect(m_rr, "m");
     d.expect(m_tt, "m*r^2");
     // N = m g cosθ − m R θ̇² on the shell.
@@ -84,9 +116,15 @@ fn mass_on_shell_in_polar_coordinates() {
         let mut p = p.clone();
         p.insert("r".into(), p["R"]);
         p.insert("v_r".into(), 0.0);
-        let [_, theta, normal] = d.accelerations(&[0], &p)[..] else { panic!() };
+        let [_, theta, normal] = d.accelerations(&[0], &p)[..] else {
+            panic!()
+        };
         close("theta", theta, p["g"] * p["theta"].sin() / p["R"]);
-        close("N", normal, p["m"] * (p["g"] * p["theta"].cos() - p["R"] * p["v_theta"].powi(2)));
+        close(
+            "N",
+            normal,
+            p["m"] * (p["g"] * p["theta"].cos() - p["R"] * p["v_theta"].powi(2)),
+        );
     });
 }
 
@@ -98,10 +136,24 @@ fn rolling_sphere_on_a_sphere() {
         let reach = p["R"] + p["a"];
         p.insert("r".into(), reach);
         p.insert("v_r".into(), 0.0);
-        let [_, theta, _, normal, friction] = d.accelerations(&[0, 1], &p)[..] else { panic!() };
-        close("theta", theta, 5.0 / 7.0 * p["g"] * p["theta"].sin() / reach);
-        close("N", normal, p["m"] * (p["g"] * p["theta"].cos() - reach * p["v_theta"].powi(2)));
-        close("friction", friction, 2.0 / 7.0 * p["m"] * p["g"] * p["theta"].sin());
+        let [_, theta, _, normal, friction] = d.accelerations(&[0, 1], &p)[..] else {
+            panic!()
+        };
+        close(
+            "theta",
+            theta,
+            5.0 / 7.0 * p["g"] * p["theta"].sin() / reach,
+        );
+        close(
+            "N",
+            normal,
+            p["m"] * (p["g"] * p["theta"].cos() - reach * p["v_theta"].powi(2)),
+        );
+        close(
+            "friction",
+            friction,
+            2.0 / 7.0 * p["m"] * p["g"] * p["theta"].sin(),
+        );
     });
 }
 
@@ -113,9 +165,19 @@ fn sphere_in_a_sphere() {
         let reach = p["R"] - p["a"];
         p.insert("r".into(), reach);
         p.insert("v_r".into(), 0.0);
-        let [_, theta, _, normal, _] = d.accelerations(&[0, 1], &p)[..] else { panic!() };
-        close("theta", theta, -5.0 / 7.0 * p["g"] * p["theta"].sin() / reach);
-        close("N", normal, p["m"] * (p["g"] * p["theta"].cos() + reach * p["v_theta"].powi(2)));
+        let [_, theta, _, normal, _] = d.accelerations(&[0, 1], &p)[..] else {
+            panic!()
+        };
+        close(
+            "theta",
+            theta,
+            -5.0 / 7.0 * p["g"] * p["theta"].sin() / reach,
+        );
+        close(
+            "N",
+            normal,
+            p["m"] * (p["g"] * p["theta"].cos() + reach * p["v_theta"].powi(2)),
+        );
     });
 }
 
@@ -130,12 +192,22 @@ fn mass_on_a_rolling_wheel() {
         ((3, 0), "mass*r*cos(theta)"),
         ((3, 3), "mass*r^2"),
     ] {
-        let entry = d.equations.structure.mass.iter().find(|&&(i, j, _)| (i, j) == place);
+        let entry = d
+            .equations
+            .structure
+            .mass
+            .iter()
+            .find(|&&(i, j, _)| (i, j) == place);
         let output = entry.unwrap_or_else(|| panic!("{place:?} is missing")).2;
         d.expect(output, wanted);
     }
-    let [f_x, f_phi, f_r, f_theta] = d.equations.structure.forcing[..] else { panic!() };
-    d.expect(f_x, "mass*v_theta*(r*v_theta*sin(theta) - 2*v_r*cos(theta))");
+    let [f_x, f_phi, f_r, f_theta] = d.equations.structure.forcing[..] else {
+        panic!()
+    };
+    d.expect(
+        f_x,
+        "mass*v_theta*(r*v_theta*sin(theta) - 2*v_r*cos(theta))",
+    );
     assert!(d.equations.outputs[f_phi.0].terms.is_empty());
     d.expect(f_r, "mass*(r*v_theta^2 - gravity*cos(theta))");
     d.expect(f_theta, "mass*r*(gravity*sin(theta) - 2*v_r*v_theta)");
@@ -155,18 +227,30 @@ fn double_pendulum_equations() {
         close("M00", d.mass(0, 0, p), (m1 + m2) * l1 * l1);
         close("M10", d.mass(1, 0, p), m2 * l1 * l2 * (a - b).cos());
         close("M11", d.mass(1, 1, p), m2 * l2 * l2);
-        close("f0", d.forcing(0, p), -m2 * l1 * l2 * (a - b).sin() * w * w - (m1 + m2) * g * l1 * a.sin());
-        close("f1", d.forcing(1, p), m2 * l1 * l2 * (a - b).sin() * u * u - m2 * g * l2 * b.sin());
+        close(
+            "f0",
+            d.forcing(0, p),
+            -m2 * l1 * l2 * (a - b).sin() * w * w - (m1 + m2) * g * l1 * a.sin(),
+        );
+        close(
+            "f1",
+            d.forcing(1, p),
+            m2 * l1 * l2 * (a - b).sin() * u * u - m2 * g * l2 * b.sin(),
+        );
     });
 }
 
 #[test]
 fn cart_pole_equations() {
     let mut d = cart_pole().derive();
-    let [f_x, f_theta] = d.equations.structure.forcing[..] else { panic!() };
+    let [f_x, f_theta] = d.equations.structure.forcing[..] else {
+        panic!()
+    };
     d.expect(f_x, "m*l*sin(theta)*v_theta^2");
     d.expect(f_theta, "m*g*l*sin(theta)");
-    let [(0, 0, m_xx), (1, 0, m_tx), (1, 1, m_tt)] = d.equations.structure.mass[..] else { panic!() };
+    let [(0, 0, m_xx), (1, 0, m_tx), (1, 1, m_tt)] = d.equations.structure.mass[..] else {
+        panic!()
+    };
     d.expect(m_xx, "M + m");
     d.expect(m_tx, "m*l*cos(theta)");
     d.expect(m_tt, "m*l^2");
@@ -180,8 +264,11 @@ fn pendulum_in_cartesian_coordinates() {
         .constraint("rod", Level::Position, "x^2 + y^2 - l^2")
         .derive();
     let row = &d.equations.structure.rows[0];
-    let (jacobian, bias, position, velocity) = (row.jacobian.clone(), row.bias, row.position, row.velocity);
-    let [(0, a_x), (1, a_y)] = jacobian[..] else { panic!() };
+    let (jacobian, bias, position, velocity) =
+        (row.jacobian.clone(), row.bias, row.position, row.velocity);
+    let [(0, a_x), (1, a_y)] = jacobian[..] else {
+        panic!()
+    };
     d.expect(a_x, "2*x");
     d.expect(a_y, "2*y");
     d.expect(bias, "2*(v_x^2 + v_y^2)");
@@ -202,7 +289,10 @@ fn bead_on_a_rotating_wire() {
     d.expect(forcing, "m*s*w^2");
     d.expect(energy.0, "m/2*(v_s^2 + s^2*w^2)");
     d.expect(energy.2, "m/2*(v_s^2 - s^2*w^2)");
-    assert!(d.equations.outputs[energy.3.0].terms.is_empty(), "the Jacobi integral is conserved");
+    assert!(
+        d.equations.outputs[energy.3.0].terms.is_empty(),
+        "the Jacobi integral is conserved"
+    );
 }
 
 #[test]
@@ -221,13 +311,19 @@ fn moving_support() {
 fn knife_edge() {
     let mut d = Build::new("x y theta", "m J")
         .kinetic("", "m/2*(der(x)^2 + der(y)^2) + J/2*der(theta)^2")
-        .constraint("blade", Level::Velocity, "sin(theta)*der(x) - cos(theta)*der(y)")
+        .constraint(
+            "blade",
+            Level::Velocity,
+            "sin(theta)*der(x) - cos(theta)*der(y)",
+        )
         .derive();
     let row = &d.equations.structure.rows[0];
     assert!(row.position.is_none());
     let bias = row.bias;
     d.expect(bias, "v_theta*(cos(theta)*v_x + sin(theta)*v_y)");
-    at_random(&d, |p| assert_eq!(d.jacobian(0, p), [p["theta"].sin(), -p["theta"].cos(), 0.0]));
+    at_random(&d, |p| {
+        assert_eq!(d.jacobian(0, p), [p["theta"].sin(), -p["theta"].cos(), 0.0])
+    });
 }
 
 #[test]
@@ -236,12 +332,19 @@ fn rayleigh_dissipation() {
         .kinetic("", "m/2*(der(x)^2 + der(y)^2)")
         .dissipation("damper", "c/2*(der(x) - der(y))^2")
         .derive();
-    let [f_x, f_y] = d.equations.structure.forcing[..] else { panic!() };
+    let [f_x, f_y] = d.equations.structure.forcing[..] else {
+        panic!()
+    };
     d.expect(f_x, "c*(v_y - v_x)");
     d.expect(f_y, "c*(v_x - v_y)");
-    let (value, power) = (d.equations.structure.dissipations[0].value, d.equations.structure.dissipations[0].power);
+    let (value, power) = (
+        d.equations.structure.dissipations[0].value,
+        d.equations.structure.dissipations[0].power,
+    );
     d.expect(value, "c/2*(v_x - v_y)^2");
-    at_random(&d, |p| close("power", d.value(power, p), -2.0 * d.value(value, p)));
+    at_random(&d, |p| {
+        close("power", d.value(power, p), -2.0 * d.value(value, p))
+    });
 }
 
 #[test]
@@ -249,7 +352,9 @@ fn charge_in_a_magnetic_field() {
     let mut d = Build::new("x y", "m q B")
         .lagrangian("m/2*(der(x)^2 + der(y)^2) + q*B/2*(x*der(y) - y*der(x))")
         .derive();
-    let [f_x, f_y] = d.equations.structure.forcing[..] else { panic!() };
+    let [f_x, f_y] = d.equations.structure.forcing[..] else {
+        panic!()
+    };
     d.expect(f_x, "q*B*v_y");
     d.expect(f_y, "-q*B*v_x");
     let energy = d.equations.structure.energy;
@@ -261,7 +366,9 @@ fn charge_in_a_magnetic_field() {
 
 #[test]
 fn relativistic_particle() {
-    let d = Build::new("x", "m c k").lagrangian("-m*c^2*sqrt(1 - der(x)^2/c^2) - k/2*x^2").derive();
+    let d = Build::new("x", "m c k")
+        .lagrangian("-m*c^2*sqrt(1 - der(x)^2/c^2) - k/2*x^2")
+        .derive();
     let mut random = Random(7);
     for _ in 0..10 {
         let mut p = d.point(&mut random);
@@ -270,6 +377,10 @@ fn relativistic_particle() {
         close("M", d.mass(0, 0, &p), p["m"] * gamma.powi(3));
         close("f", d.forcing(0, &p), -p["k"] * p["x"]);
         let rest = p["m"] * p["c"].powi(2);
-        close("h", d.value(d.equations.structure.energy.2, &p), rest * gamma + p["k"] / 2.0 * p["x"].powi(2));
+        close(
+            "h",
+            d.value(d.equations.structure.energy.2, &p),
+            rest * gamma + p["k"] / 2.0 * p["x"].powi(2),
+        );
     }
 }

@@ -1,7 +1,8 @@
 //! The derivation against exact numeric derivatives of random Lagrangians, and against the energy theorem.
 
 use super::hyperdual::evaluate;
-use super::kit::{Build, Derived, Point, Random, close};
+use super::kit::Build;
+use super::numbers::{Derived, Point, Random, close};
 use super::textbook;
 use crate::model::Level;
 use crate::symbolic::{ExprId, Symbol};
@@ -11,13 +12,25 @@ fn derivatives(d: &Derived, e: ExprId, point: &Point, first: &Point, second: &Po
     let pool = &d.equations.system.pool;
     let at = |s: Symbol| {
         let name = pool.name(s);
-        [point[name], first.get(name).copied().unwrap_or(0.0), second.get(name).copied().unwrap_or(0.0)]
+        [
+            point[name],
+            first.get(name).copied().unwrap_or(0.0),
+            second.get(name).copied().unwrap_or(0.0),
+        ]
     };
-    evaluate(pool, e, &at, &|branch| d.evaluate(d.equations.system.branches[branch].guard, point) >= 0.0).0
+    evaluate(pool, e, &at, &|branch| {
+        d.evaluate(d.equations.system.branches[branch].guard, point) >= 0.0
+    })
+    .0
 }
 
 fn names(d: &Derived) -> Vec<String> {
-    d.equations.system.coordinates.iter().map(|c| c.name.text.clone()).collect()
+    d.equations
+        .system
+        .coordinates
+        .iter()
+        .map(|c| c.name.text.clone())
+        .collect()
 }
 
 /// The direction of motion: q̇ = v, v̇ = a, ṫ = 1.
@@ -47,10 +60,16 @@ fn check_euler_lagrange(d: &Derived, point: &Point) {
                 size += rate.abs() + slope.abs();
             }
         }
-        let inertial: f64 =
-            names(d).iter().enumerate().map(|(j, other)| d.mass(i, j, point) * point[&format!("a_{other}")]).sum();
+        let inertial: f64 = names(d)
+            .iter()
+            .enumerate()
+            .map(|(j, other)| d.mass(i, j, point) * point[&format!("a_{other}")])
+            .sum();
         let got = inertial - d.forcing(i, point);
-        assert!((got - want).abs() <= 1e-11 * size, "{name}: got {got}, want {want}");
+        assert!(
+            (got - want).abs() <= 1e-11 * size,
+            "{name}: got {got}, want {want}"
+        );
     }
 }
 
@@ -76,14 +95,23 @@ fn random_system(random: &mut Random) -> Build {
     let names = ["a", "b", "c"];
     let mut energy = "1/2*J*(der(a)^2 + der(b)^2 + der(c)^2)".to_owned();
     for _ in 0..2 + random.below(2) {
-        let (x, y) = (random_position(random, &names), random_position(random, &names));
+        let (x, y) = (
+            random_position(random, &names),
+            random_position(random, &names),
+        );
         energy.push_str(&format!(" + m/2*(der({x} + {y})^2 + der({x}*b - {y})^2)"));
     }
     if random.below(2) == 0 {
         energy.push_str(&format!(" + k*der(a)*{}", random_position(random, &names)));
     }
-    let potential = format!("k*{} + {}", random_position(random, &names), random_position(random, &names));
-    Build::new("a b c", "m J k").kinetic("", &energy).potential("", &potential)
+    let potential = format!(
+        "k*{} + {}",
+        random_position(random, &names),
+        random_position(random, &names)
+    );
+    Build::new("a b c", "m J k")
+        .kinetic("", &energy)
+        .potential("", &potential)
 }
 
 #[test]
@@ -155,11 +183,18 @@ fn energy_theorem() {
             rate += slope;
             size += slope.abs();
         }
-        let supplied = [structure.forces[0].power, structure.dissipations[0].power, structure.energy.3];
+        let supplied = [
+            structure.forces[0].power,
+            structure.dissipations[0].power,
+            structure.energy.3,
+        ];
         let supplied = supplied.map(|output| d.value(output, &point));
         let want: f64 = supplied.iter().sum();
         size += supplied.iter().map(|s| s.abs()).sum::<f64>();
-        assert!((rate - want).abs() <= 1e-10 * size, "dh/dt = {rate}, supplied {want}");
+        assert!(
+            (rate - want).abs() <= 1e-10 * size,
+            "dh/dt = {rate}, supplied {want}"
+        );
     }
 }
 
@@ -167,11 +202,19 @@ fn energy_theorem() {
 #[test]
 fn jacobi_integral_is_the_energy() {
     let mut random = Random(5);
-    for scene in [textbook::mass_on_wheel(), textbook::double_pendulum(), chain(4)] {
+    for scene in [
+        textbook::mass_on_wheel(),
+        textbook::double_pendulum(),
+        chain(4),
+    ] {
         let d = scene.derive();
         let point = d.point(&mut random);
         let (t, v, h, by_time, _) = d.equations.structure.energy;
-        close("h", d.value(h, &point), d.value(t, &point) + d.value(v, &point));
+        close(
+            "h",
+            d.value(h, &point),
+            d.value(t, &point) + d.value(v, &point),
+        );
         assert!(d.equations.outputs[by_time.0].terms.is_empty());
     }
 }
@@ -193,7 +236,10 @@ fn momenta_are_slopes_of_the_lagrangian() {
                 .map(|term| derivatives(&d, term.energy, &point, &by_v, &Point::new())[1])
                 .sum();
             let got = d.value(d.equations.structure.momenta.0[i], &point);
-            assert!((got - want).abs() <= 1e-11 * (1.0 + want.abs()), "{name}: {got} {want}");
+            assert!(
+                (got - want).abs() <= 1e-11 * (1.0 + want.abs()),
+                "{name}: {got} {want}"
+            );
         }
     }
 }
@@ -204,8 +250,15 @@ fn rows_are_time_derivatives() {
     let mut random = Random(13);
     let q = ["a", "b", "c"];
     for _ in 0..20 {
-        let holonomic = format!("{} - {}", random_position(&mut random, &q), random_position(&mut random, &q));
-        let (u, w) = (random_position(&mut random, &q), random_position(&mut random, &q));
+        let holonomic = format!(
+            "{} - {}",
+            random_position(&mut random, &q),
+            random_position(&mut random, &q)
+        );
+        let (u, w) = (
+            random_position(&mut random, &q),
+            random_position(&mut random, &q),
+        );
         let rolling = format!("{u}*der(a) + der({w}) - sin(k*t)*b");
         let d = random_system(&mut random)
             .constraint("h", Level::Position, &holonomic)
@@ -223,13 +276,22 @@ fn rows_are_time_derivatives() {
             }
             let rate: f64 = rate_of.iter().sum();
             let a = d.jacobian(index, &point);
-            let with_a: f64 =
-                names(&d).iter().zip(&a).map(|(name, a)| a * point[&format!("a_{name}")]).sum::<f64>()
-                    + d.value(row.bias, &point);
-            assert!((rate - with_a).abs() <= 1e-11 * (1.0 + rate.abs()), "acceleration of row {index}");
+            let with_a: f64 = names(&d)
+                .iter()
+                .zip(&a)
+                .map(|(name, a)| a * point[&format!("a_{name}")])
+                .sum::<f64>()
+                + d.value(row.bias, &point);
+            assert!(
+                (rate - with_a).abs() <= 1e-11 * (1.0 + rate.abs()),
+                "acceleration of row {index}"
+            );
             let [value, slope, ..] = derivatives(&d, declared, &point, &along, &still);
             let want = if row.position.is_some() { slope } else { value };
-            assert!((velocity - want).abs() <= 1e-11 * (1.0 + want.abs()), "velocity of row {index}");
+            assert!(
+                (velocity - want).abs() <= 1e-11 * (1.0 + want.abs()),
+                "velocity of row {index}"
+            );
         }
     }
 }
