@@ -176,9 +176,9 @@ pub struct Structure<P> {
     pub dissipations: Vec<Load<P>>,
     /// Per branch.
     pub branches: Vec<Branch<P>>,
-    /// T, V, Jacobi, −∂L/∂t; need.
+    /// T, V, Jacobi, −∂L/∂t; need of the unnamed energies, the others stand under their own.
     pub energy: (P, P, P, P, NeedId),
-    /// ∂L/∂v; need.
+    /// ∂L/∂v; need as for the energies.
     pub momenta: (Vec<P>, NeedId),
     /// Per observe: (value, need).
     pub observes: Vec<(P, NeedId)>,
