@@ -4,4 +4,5 @@ pub mod ast;
 pub mod diagnostics;
 pub mod model;
 pub mod parse;
+pub mod derive;
 pub mod symbolic;
