@@ -1,2 +1,8 @@
 //! Symbolic mechanics: tokens of a declaration → equations → tokens of Rust.
+
+pub mod derive;
+pub mod diagnostics;
+pub mod interpret;
+pub mod model;
+pub mod plan;
 pub mod symbolic;

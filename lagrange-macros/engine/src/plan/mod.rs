@@ -23,7 +23,7 @@ pub use tape::{Block, Coefficient, Mode, Operation, Step, Tape, Value, Write};
 use crate::derive::{Equations, OutputId, Stage};
 use crate::model::System;
 use crate::symbolic::{ExprId, Pool, Symbol};
-use constants::{Constants, Source};
+use constants::Constants;
 use form::{Fixed, Former};
 use lower::Lowerer;
 use outputs::Target;
