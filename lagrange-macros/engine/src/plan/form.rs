@@ -59,12 +59,24 @@ impl<'a> Former<'a> {
     /// The number 0 as a node.
     pub fn zero(&mut self) -> NodeId {
         let zero = self.pool.integer(0);
-        self.graph.node(Shape::Fixed(zero))
+        self.fixed(zero)
+    }
+
+    /// A fixed number as a node.
+    pub fn fixed(&mut self, e: ExprId) -> NodeId {
+        self.graph.node(Shape::Fixed(e))
+    }
+
+    /// start + form as a node; the start is not folded into the form's own numbers.
+    pub fn offset(&mut self, start: ExprId, form: Form) -> NodeId {
+        let (negative, node) = self.signed_node(form);
+        let magnitude = self.pool.integer(1);
+        self.graph.node(Shape::Sum { offset: Some(start), terms: vec![Term { node, magnitude, negative }] })
     }
 
     /// The form as one node.
     pub fn node(&mut self, form: Form) -> NodeId {
-        let Some(node) = form.node else { return self.graph.node(Shape::Fixed(form.scale)) };
+        let Some(node) = form.node else { return self.fixed(form.scale) };
         if self.pool.is_one(form.scale) {
             return node;
         }
@@ -102,7 +114,7 @@ impl<'a> Former<'a> {
 
     fn varying(&mut self, e: ExprId) -> Form {
         let node = match self.pool.node(e).clone() {
-            Node::Number(_) | Node::Pi => self.graph.node(Shape::Fixed(e)),
+            Node::Number(_) | Node::Pi => self.fixed(e),
             Node::Symbol(symbol) => match self.inputs.get(&symbol) {
                 Some(input) => self.graph.node(Shape::Input(*input)),
                 None => panic!("`{}` is not an input of this stage", self.pool.name(symbol)),

@@ -12,7 +12,8 @@ use std::collections::BTreeMap;
 
 /// An output of a tape: the sum of those terms that are asked for.
 pub(super) struct Target {
-    /// A first term that always runs makes the output defined whatever is held.
+    /// What the sum starts from, a constant that is always there.
+    start: Option<ExprId>,
     terms: Vec<(NeedSet, ExprId)>,
     /// Whether it is 0 where none of the terms is asked for.
     from_zero: bool,
@@ -29,16 +30,16 @@ pub(super) struct Entry {
 impl Target {
     /// One expression that is always computed.
     pub fn always(e: ExprId) -> Target {
-        Target { terms: vec![(NeedSet::always(), e)], from_zero: false }
+        Target { start: None, terms: vec![(NeedSet::always(), e)], from_zero: false }
     }
 
     /// A constant that the tapes ask for.
     pub fn of_constant((source, needs): (Source, NeedSet)) -> Target {
         match source {
-            Source::Whole(e) => Target { terms: vec![(needs, e)], from_zero: false },
+            Source::Whole(e) => Target { start: None, terms: vec![(needs, e)], from_zero: false },
             Source::Masked(terms) => {
                 let terms = terms.into_iter().map(|(need, e)| (NeedSet::single(need), e)).collect();
-                Target { terms, from_zero: true }
+                Target { start: None, terms, from_zero: true }
             }
         }
     }
@@ -46,19 +47,24 @@ impl Target {
     /// What enters the output, in order.
     pub fn entries(&self, output: usize, former: &mut Former) -> Vec<Entry> {
         let mut entries = Vec::with_capacity(self.terms.len() + 1);
-        let starts = !self.from_zero || self.terms.first().is_some_and(|(needs, _)| needs.is_always());
-        if !starts {
-            let node = former.zero();
+        let begun = self.terms.first().is_some_and(|(needs, _)| needs.is_always());
+        if self.from_zero && !begun {
+            let node = match self.start {
+                Some(start) => former.fixed(start),
+                None => former.zero(),
+            };
             entries.push(Entry { output, needs: NeedSet::always(), node, mode: Mode::Set });
         }
         for (needs, e) in &self.terms {
             let form = former.form(*e);
             // The slots of the sums are given when the order is known.
-            let (node, mode) = if entries.is_empty() {
-                (former.node(form), Mode::Set)
-            } else {
-                let (negative, node) = former.signed_node(form);
-                (node, if negative { Mode::Sub(0) } else { Mode::Add(0) })
+            let (node, mode) = match (entries.is_empty(), self.start) {
+                (true, Some(start)) => (former.offset(start, form), Mode::Set),
+                (true, None) => (former.node(form), Mode::Set),
+                _ => {
+                    let (negative, node) = former.signed_node(form);
+                    (node, if negative { Mode::Sub(0) } else { Mode::Add(0) })
+                }
             };
             entries.push(Entry { output, needs: needs.clone(), node, mode });
         }
@@ -120,19 +126,14 @@ fn target(
     fixed: Vec<(NeedId, ExprId)>,
 ) -> Target {
     let from_zero = varying.len() + fixed.len() > 1;
-    let mut terms: Vec<_> = varying.into_iter().map(|(need, e)| (NeedSet::single(need), e)).collect();
-    if !fixed.is_empty() {
-        // What is fixed is where the sum starts; a masked sum of the constants program if any of it can be left out.
-        let start = match fixed[..] {
-            [(need, e)] if need.0 == 0 => e,
-            _ => constants.masked(pool, fixed),
-        };
-        match terms.first_mut() {
-            Some((needs, e)) if needs.is_always() => *e = pool.add(start, *e),
-            _ => terms.insert(0, (NeedSet::always(), start)),
-        }
-    }
-    Target { terms, from_zero }
+    let terms = varying.into_iter().map(|(need, e)| (NeedSet::single(need), e)).collect();
+    // What is fixed is where the sum starts; a masked sum of the constants program if any of it can be left out.
+    let start = match fixed[..] {
+        [] => None,
+        [(need, e)] if need.0 == 0 => Some(e),
+        _ => Some(constants.masked(pool, fixed)),
+    };
+    Target { start, terms, from_zero }
 }
 
 /// Whether an expression changes during a run.
