@@ -1,8 +1,10 @@
 //! Symbolic mechanics: tokens of a declaration → equations → tokens of Rust.
 
 pub mod ast;
+pub mod derive;
 pub mod diagnostics;
+pub mod interpret;
 pub mod model;
 pub mod parse;
-pub mod derive;
+pub mod plan;
 pub mod symbolic;
