@@ -2,6 +2,7 @@
 
 pub mod derive;
 pub mod diagnostics;
+pub mod emit;
 pub mod interpret;
 pub mod model;
 pub mod plan;
