@@ -74,22 +74,23 @@ pub fn equations(system: System, sink: &mut Diagnostics) -> Option<Equations> {
         .iter()
         .map(|group| euler_lagrange::derive(&mut sheet.system.pool, &sheet.x, group))
         .collect();
-    let mass = mass_matrix(&mut sheet, &inertias);
     let rows = rows::rows(&mut sheet);
     let contacts = rows::contacts(&mut sheet);
     let frictions = friction::frictions(&mut sheet);
     let loads = loads::loads(&mut sheet);
-    // So far nothing but the mass matrix comes from energies alone.
-    let others: Vec<ExprId> = sheet.outputs[mass.len()..]
+    // All outputs so far, and what the loads will add to the forcing.
+    let written = sheet
+        .outputs
         .iter()
-        .flat_map(|output| output.terms.iter().map(|&(_, term)| term))
+        .flat_map(|output| &output.terms)
+        .map(|&(_, term)| term);
+    let others: Vec<ExprId> = written
         .chain(loads.forcing.iter().map(|&(_, _, term)| term))
         .collect();
     let cyclic = cyclic::cyclic(&mut sheet, &inertias, &others);
-    let forcing = forcing(&mut sheet, &inertias, &loads);
     let structure = Structure {
-        mass,
-        forcing,
+        mass: mass_matrix(&mut sheet, &inertias),
+        forcing: forcing(&mut sheet, &inertias, &loads),
         rows,
         couplings: loads.couplings,
         kinetic: sheet.needs.kinetic.clone(),
@@ -176,9 +177,9 @@ pub struct Structure<P> {
     pub dissipations: Vec<Load<P>>,
     /// Per branch.
     pub branches: Vec<Branch<P>>,
-    /// T, V, Jacobi, −∂L/∂t; need.
+    /// T, V, Jacobi, −∂L/∂t; need of the unnamed energies, the others stand under their own.
     pub energy: (P, P, P, P, NeedId),
-    /// ∂L/∂v; need.
+    /// ∂L/∂v; need as for the energies.
     pub momenta: (Vec<P>, NeedId),
     /// Per observe: (value, need).
     pub observes: Vec<(P, NeedId)>,

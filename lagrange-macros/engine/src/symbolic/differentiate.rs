@@ -22,29 +22,14 @@ impl Pool {
             }
         };
         let mut known = std::mem::take(&mut self.derivatives[slot]);
-        let bits = direction
-            .iter()
-            .fold(0, |bits, &(symbol, _)| bits | 1_u64 << (symbol.0 % 64));
-        let mut stack = vec![e];
-        while let Some(&top) = stack.last() {
-            let height = stack.len();
-            if !known.contains_key(&top) {
-                self.node(top).for_each_child(|child| {
-                    if self.symbol_bits(child) & bits != 0 && !known.contains_key(&child) {
-                        stack.push(child);
-                    }
-                });
-                if stack.len() > height {
-                    continue;
-                }
-                let derivative = self.derivative_of(top, direction, &known);
-                known.insert(top, derivative);
-            }
-            stack.pop();
-        }
-        let derivative = known[&e];
+        let symbols: Vec<Symbol> = direction.iter().map(|&(symbol, _)| symbol).collect();
+        let bits = Pool::bits(&symbols);
+        let constant = |pool: &Pool, e| pool.symbol_bits(e) & bits == 0;
+        let derivative = self.ascend(e, &mut known, constant, |pool, e, known| {
+            pool.derivative_of(e, direction, known)
+        });
         self.derivatives[slot] = known;
-        derivative
+        derivative.unwrap_or_else(|| self.integer(0))
     }
 
     /// Derivative of one node from those of its children; children that are not in the memo have derivative 0.

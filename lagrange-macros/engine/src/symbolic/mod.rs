@@ -8,10 +8,15 @@
 
 mod differentiate;
 mod evaluate;
+mod expand;
+mod factor;
 mod function;
 mod hash;
+mod linear;
 mod node;
+mod operations;
 mod pool;
+mod print;
 mod product;
 mod rational;
 mod simplify;

@@ -13,6 +13,8 @@ struct Facts {
     symbols: u64,
     /// A product with a factor sin², cos², sinh² or cosh².
     square: bool,
+    /// A product with a factor exp or a general power, which merge with their like.
+    merging: bool,
 }
 
 /// All expressions of a system.
@@ -33,6 +35,10 @@ pub struct Pool {
     pub(super) primitive: Memo<ExprId, (Rational, ExprId)>,
     /// Product → the squares it contains.
     pub(super) squares: Memo<ExprId, Vec<Square>>,
+    /// Expression → multiplied out.
+    pub(super) expanded: Memo<ExprId, ExprId>,
+    /// Expression → the cheapest form.
+    pub(super) simplified: Memo<ExprId, ExprId>,
 }
 
 impl Default for Pool {
@@ -56,6 +62,8 @@ impl Pool {
             derivatives: Vec::new(),
             primitive: Memo::default(),
             squares: Memo::default(),
+            expanded: Memo::default(),
+            simplified: Memo::default(),
         }
     }
 
@@ -198,6 +206,11 @@ impl Pool {
         self.facts[e.index()].square
     }
 
+    /// Whether it is a product with factors that merge with others by more than their base.
+    pub(super) fn has_merging(&self, e: ExprId) -> bool {
+        self.facts[e.index()].merging
+    }
+
     /// The one expression of a form, which must be canonical.
     pub(super) fn intern(&mut self, node: Node) -> ExprId {
         let hash = hash_of(&node);
@@ -216,6 +229,7 @@ impl Pool {
             hash,
             symbols: self.bits_of(&node),
             square: self.contains_square(&node),
+            merging: self.contains_merging(&node),
         };
         self.facts.push(facts);
         self.nodes.push(node);
@@ -245,6 +259,18 @@ impl Pool {
         let mut bits = 0;
         node.for_each_child(|child| bits |= self.facts[child.index()].symbols);
         bits
+    }
+
+    fn contains_merging(&self, node: &Node) -> bool {
+        let Node::Product(factors) = node else {
+            return false;
+        };
+        factors.iter().any(|&(base, _)| {
+            matches!(
+                self.node(base),
+                Node::Power(..) | Node::Call(Function::Exp, _)
+            )
+        })
     }
 
     fn contains_square(&self, node: &Node) -> bool {

@@ -73,6 +73,16 @@ impl Pool {
 
     /// coefficient · Π baseᵢ^exponentᵢ of any expressions and rational exponents.
     pub fn monomial(&mut self, coefficient: Rational, factors: &[(ExprId, Rational)]) -> ExprId {
+        let (coefficient, core) = self.monomial_parts(coefficient, factors);
+        self.scale(core, coefficient)
+    }
+
+    /// The same as a number times an expression (1 if the product is just a number).
+    pub(super) fn monomial_parts(
+        &mut self,
+        coefficient: Rational,
+        factors: &[(ExprId, Rational)],
+    ) -> (Rational, ExprId) {
         let mut all = Factors {
             coefficient,
             plain: Vec::with_capacity(factors.len() + 4),
@@ -95,14 +105,17 @@ impl Pool {
             }
         }
         if all.coefficient.is_zero() {
-            return self.integer(0);
+            // 0/0 stays visibly undefined.
+            let zero = self.integer(0);
+            all.plain.retain(|&(base, _)| base == zero);
+            all.coefficient = Rational::integer(i64::from(!all.plain.is_empty()));
         }
         let core = match all.plain[..] {
-            [] => return self.number(all.coefficient),
+            [] => self.integer(1),
             [(base, exponent)] if exponent.is_one() => base,
             _ => self.intern(Node::Product(all.plain)),
         };
-        self.scale(core, all.coefficient)
+        (all.coefficient, core)
     }
 
     /// Multiplies by e^r.
@@ -132,7 +145,7 @@ impl Pool {
                 all.plain.push((part, r));
             }
             Node::Product(factors) => {
-                if r.is_one() {
+                if r.is_one() && !self.has_merging(e) {
                     all.plain.extend_from_slice(factors);
                 } else {
                     self.multiply_product(all, e, r);
@@ -247,7 +260,7 @@ impl Pool {
                 prime = n;
             }
             let mut count = 0;
-            while n % prime == 0 {
+            while n.is_multiple_of(prime) {
                 n /= prime;
                 count += 1;
             }

@@ -93,53 +93,70 @@ impl Pool {
 
     /// e with symbols replaced, all at once. Where that puts 0 under a negative power, the value is infinite.
     pub fn substitute(&mut self, e: ExprId, replacement: &[(Symbol, ExprId)]) -> ExprId {
-        let bits = replacement
-            .iter()
-            .fold(0, |bits, &(symbol, _)| bits | 1_u64 << (symbol.0 % 64));
-        self.rebuild(e, bits, |pool, e| match pool.node(e) {
-            Node::Symbol(symbol) => replacement
-                .iter()
-                .find(|(s, _)| s == symbol)
-                .map(|&(_, by)| by),
-            _ => None,
+        let symbols: Vec<Symbol> = replacement.iter().map(|&(symbol, _)| symbol).collect();
+        let bits = Pool::bits(&symbols);
+        let mut known = Memo::default();
+        let untouched = |pool: &Pool, e| pool.symbol_bits(e) & bits == 0;
+        self.ascend(e, &mut known, untouched, |pool, e, known| {
+            match pool.node(e) {
+                Node::Symbol(symbol) => replacement
+                    .iter()
+                    .find(|(s, _)| s == symbol)
+                    .map_or(e, |&(_, by)| by),
+                _ => pool.with_children(e, known),
+            }
         })
+        .unwrap_or(e)
     }
 
-    /// e with every sub-expression that holds a symbol of `bits` replaced, from the leaves up: by `replace` (of the
-    /// old node) where it gives one, else by the same form of the new sub-expressions.
-    fn rebuild(
+    /// Bits of symbols, to compare with those of an expression.
+    pub(super) fn bits(symbols: &[Symbol]) -> u64 {
+        symbols
+            .iter()
+            .fold(0, |bits, symbol| bits | 1_u64 << (symbol.0 % 64))
+    }
+
+    /// Fills a map from the leaves of e up: each distinct sub-expression once, after its children, by `build` from
+    /// the map so far. What `skip` says is left out with all below it. The entry of e, if it is not skipped.
+    pub(super) fn ascend(
         &mut self,
         e: ExprId,
-        bits: u64,
-        replace: impl Fn(&Pool, ExprId) -> Option<ExprId>,
-    ) -> ExprId {
-        let mut known: Memo<ExprId, ExprId> = Memo::default();
+        known: &mut Memo<ExprId, ExprId>,
+        skip: impl Fn(&Pool, ExprId) -> bool,
+        mut build: impl FnMut(&mut Pool, ExprId, &Memo<ExprId, ExprId>) -> ExprId,
+    ) -> Option<ExprId> {
+        if skip(self, e) {
+            return None;
+        }
         let mut stack = vec![e];
         while let Some(&top) = stack.last() {
-            let height = stack.len();
-            if self.symbol_bits(top) & bits == 0 {
-                known.insert(top, top);
-            }
             if !known.contains_key(&top) {
+                let height = stack.len();
                 self.node(top).for_each_child(|child| {
-                    if !known.contains_key(&child) {
+                    if !known.contains_key(&child) && !skip(self, child) {
                         stack.push(child);
                     }
                 });
                 if stack.len() > height {
                     continue;
                 }
-                let new = replace(self, top).unwrap_or_else(|| self.with_children(top, &known));
+                let new = build(self, top, known);
                 known.insert(top, new);
             }
             stack.pop();
         }
-        known[&e]
+        known.get(&e).copied()
     }
 
     /// The same form of other sub-expressions; those that are not in the map stay.
     pub(super) fn with_children(&mut self, e: ExprId, children: &Memo<ExprId, ExprId>) -> ExprId {
         let new = |e: &ExprId| children.get(e).copied().unwrap_or(*e);
+        let mut changed = false;
+        self.node(e)
+            .for_each_child(|child| changed |= new(&child) != child);
+        if !changed {
+            return e;
+        }
         let pairs = |list: &[(ExprId, Rational)]| {
             list.iter().map(|(e, r)| (new(e), *r)).collect::<Vec<_>>()
         };

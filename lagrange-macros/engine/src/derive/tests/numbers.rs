@@ -133,18 +133,44 @@ impl Derived {
         terms.join(" + ")
     }
 
-    /// Operations of M and f together.
-    pub fn operations(&self) -> usize {
+    fn motion(&self) -> impl Iterator<Item = OutputId> {
         let structure = &self.equations.structure;
-        let outputs = structure
+        structure
             .mass
             .iter()
-            .map(|&(_, _, o)| o)
-            .chain(structure.forcing.iter().copied());
-        let terms: Vec<ExprId> = outputs
+            .map(|&(_, _, output)| output)
+            .chain(structure.forcing.iter().copied())
+    }
+
+    /// M and f, printed.
+    pub fn equations_of_motion(&self) -> Vec<String> {
+        let line = |o: OutputId| {
+            format!(
+                "{} = {}",
+                self.equations.outputs[o.0].label,
+                self.printed(o)
+            )
+        };
+        self.motion().map(line).collect()
+    }
+
+    /// Operations of M and f together.
+    pub fn operations(&self) -> usize {
+        let terms: Vec<ExprId> = self
+            .motion()
             .flat_map(|o| self.equations.outputs[o.0].terms.iter().map(|&(_, e)| e))
             .collect();
         self.equations.system.pool.operations(&terms)
+    }
+
+    /// Operations of these expressions together.
+    pub fn operations_of(&mut self, expressions: &[&str]) -> usize {
+        let system = &mut self.equations.system;
+        let parsed: Vec<ExprId> = expressions
+            .iter()
+            .map(|text| parse(system, &self.names, text))
+            .collect();
+        system.pool.operations(&parsed)
     }
 }
 

@@ -77,7 +77,7 @@ fn check_euler_lagrange(d: &Derived, point: &Point) {
 fn random_position(random: &mut Random, names: &[&str]) -> String {
     let q = names[random.below(names.len())];
     let p = names[random.below(names.len())];
-    match random.below(9) {
+    match random.below(10) {
         0 => format!("sin({q})"),
         1 => format!("cos({q} - {p})"),
         2 => format!("{q}^2*{p}"),
@@ -86,6 +86,7 @@ fn random_position(random: &mut Random, names: &[&str]) -> String {
         5 => format!("{q}*cos({p})"),
         6 => format!("tanh({q} + t)"),
         7 => format!("{q}/(2 + {p})"),
+        8 => format!("if({q} - {p}*1.1, {q}^2, 2*{p}*{q})"),
         _ => format!("{q}*sin(k*t)"),
     }
 }
@@ -123,6 +124,26 @@ fn euler_lagrange_on_random_systems() {
             let point = d.point(&mut random);
             check_euler_lagrange(&d, &point);
         }
+    }
+}
+
+/// M depends on the velocities, so only the direct form of f exists.
+#[test]
+fn euler_lagrange_without_a_quadratic_form() {
+    let mut random = Random(31);
+    let q = ["a", "b", "c"];
+    for _ in 0..10 {
+        let (x, y) = (
+            random_position(&mut random, &q),
+            random_position(&mut random, &q),
+        );
+        let lagrangian =
+            format!("(1 + der({x})^2 + der(b + {y})^2)^(3/2) + J*der(c)^2 - exp(der(a))*{x} + {y}");
+        let d = Build::new("a b c", "m J k")
+            .lagrangian(&lagrangian)
+            .derive();
+        let point = d.point(&mut random);
+        check_euler_lagrange(&d, &point);
     }
 }
 
