@@ -3,6 +3,7 @@
 pub mod ast;
 pub mod derive;
 pub mod diagnostics;
+pub mod emit;
 pub mod interpret;
 pub mod model;
 pub mod parse;
