@@ -254,7 +254,9 @@ pub fn first_values<S: System>(
 pub fn all_row_needs(d: &Description, needs: &NeedSet) -> NeedSet {
     let mut all = needs.clone();
     for row in d.rows {
-        [row.needs.jacobian, row.needs.position, row.needs.velocity].map(|need| all.insert(need));
+        for need in [row.needs.jacobian, row.needs.position, row.needs.velocity] {
+            all.insert(need);
+        }
     }
     d.contacts.iter().for_each(|c| all.insert(c.restitution_need));
     d.frictions.iter().for_each(|f| all.insert(f.coefficients_need));

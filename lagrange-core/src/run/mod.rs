@@ -4,6 +4,8 @@ mod curves;
 mod hits;
 mod stepping;
 mod switch;
+#[cfg(test)]
+mod tests;
 
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError, NeedSet, add_guards};

@@ -1,7 +1,8 @@
 //! What happened: the event log, one entry per item that changed.
 
+use crate::handle::StartId;
 use crate::mode::Mode;
-use crate::system::Description;
+use crate::system::{Description, System};
 use core::fmt;
 
 /// Positions and velocities.
@@ -12,6 +13,20 @@ pub struct State<T> {
     /// v = dq/dt.
     pub v: Vec<T>,
 }
+
+/// Named starts as states.
+pub trait Starts: System {
+    /// The state of a named start at time 0.
+    fn at(&self, start: StartId) -> State<Self::Scalar> {
+        let n = Self::DESCRIPTION.coordinates.len();
+        let zero = Self::Scalar::default();
+        let mut state = State { q: vec![zero; n], v: vec![zero; n] };
+        System::start(self, start.0, zero, &mut state.q, &mut state.v);
+        state
+    }
+}
+
+impl<S: System> Starts for S {}
 
 /// What an event is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
