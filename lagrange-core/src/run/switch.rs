@@ -45,6 +45,7 @@ impl<S: System> Run<'_, S> {
             self.state.v.copy_from_slice(&outcome.v);
             self.log_impacts(&outcome, &hit, &before, &state, &forces);
             self.after_impact(&outcome, &near, &mut known);
+            self.close_accumulated(&outcome, &mut known)?;
             struck = Some(outcome);
         } else {
             self.rest_where_slip_vanishes(&mut known);
@@ -80,6 +81,33 @@ impl<S: System> Run<'_, S> {
         // A closed contact keeps its gap rate at zero up to rounding; a hit is faster than that.
         let floor = if self.mode.contacts[c] { 1e-9 * size } else { 1e-15 * size };
         number(row.velocity) < -floor
+    }
+
+    /// Ends the infinitely many impacts of contacts that bounce ever less.
+    fn close_accumulated(&mut self, outcome: &Impact<S::Scalar>, known: &mut Known) -> Result<(), Error> {
+        let d = S::DESCRIPTION;
+        for c in 0..d.contacts.len() {
+            if !outcome.struck[c] || !known.parting[c] {
+                continue;
+            }
+            let Some(count) = self.accumulate(c, known) else { continue };
+            let mut closed = self.mode.clone();
+            for (contact, touching) in closed.contacts.iter_mut().zip(&known.touching) {
+                *contact = *touching;
+            }
+            self.dynamics.set_mode(&closed);
+            self.project(true)?;
+            self.evaluate_all_rows()?;
+            for (f, friction) in d.frictions.iter().enumerate() {
+                if matches!(friction.normal, Normal::Contact(on) if known.touching[on]) {
+                    let (slip, size) = self.slip(friction.row);
+                    known.resting[f] = slip.abs() <= 1e-13 * size;
+                }
+            }
+            let state = self.state.clone();
+            self.log_watch(Subject::Contact(c), EventKind::Accumulates { impacts: count }, self.t, state);
+        }
+        Ok(())
     }
 
     /// What is known after an impact.

@@ -66,6 +66,11 @@ pub enum EventKind {
     Closed,
     /// A contact was hit: velocities jumped.
     Impact,
+    /// Infinitely many impacts in finite time have ended; the contact closes.
+    Accumulates {
+        /// Number of impacts that were followed one by one.
+        impacts: usize,
+    },
     /// A friction began to slip.
     Slips,
     /// A friction began to stick.
@@ -81,12 +86,13 @@ pub enum EventKind {
 }
 
 impl EventKind {
-    /// One word: `lost`, `closed`, `impact`, `slips`, `sticks`, `reverses`, `branches`, `stop`, `mark`.
+    /// One word: `lost`, `closed`, `impact`, `accumulates`, `slips`, `sticks`, `reverses`, `branches`, `stop`, `mark`.
     pub fn word(self) -> &'static str {
         match self {
             EventKind::Lost => "lost",
             EventKind::Closed => "closed",
             EventKind::Impact => "impact",
+            EventKind::Accumulates { .. } => "accumulates",
             EventKind::Slips => "slips",
             EventKind::Sticks => "sticks",
             EventKind::Reverses => "reverses",
@@ -134,6 +140,7 @@ impl<T: crate::arithmetic::Scalar> Event<T> {
             EventKind::Lost => "lets go",
             EventKind::Closed => "closes and holds",
             EventKind::Impact => "is hit",
+            EventKind::Accumulates { .. } => "has bounced infinitely often",
             EventKind::Slips => "starts to slip",
             EventKind::Sticks => "sticks",
             EventKind::Reverses => "reverses its slip",
