@@ -6,6 +6,7 @@ mod error;
 mod needs;
 mod projection;
 mod series;
+mod stepping;
 #[cfg(test)]
 mod tests;
 mod values;

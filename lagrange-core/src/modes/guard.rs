@@ -11,10 +11,11 @@
 //! N = λ·|∂g/∂p|. A guard is read from a [`Reading`] as Taylor coefficients; a plain value is a series of length one.
 
 use crate::arithmetic::Scalar;
-use crate::dynamics::{Dynamics, Reading};
+use crate::dynamics::{Dynamics, NeedSet};
+use crate::modes::reading::{Reading, Terms};
 use crate::effects::Item;
 use crate::mode::{Direction, FrictionMode, Mode, Sliding};
-use crate::system::{Friction, Normal, Place, System};
+use crate::system::{Description, Friction, Normal, Place, System};
 
 /// Longest series of a guard.
 pub const LENGTH: usize = 48;
@@ -67,7 +68,8 @@ impl Series {
     }
 
     /// Adds `factor` times a series.
-    fn add<T: Scalar>(&mut self, factor: f64, series: &[T]) {
+    fn add<T: Scalar>(&mut self, factor: f64, terms: Terms<T>) {
+        let series = terms.as_slice();
         self.length = self.length.max(series.len().min(LENGTH));
         for (c, x) in self.coefficients.iter_mut().zip(series) {
             *c += factor * x.value();
@@ -110,15 +112,15 @@ impl Series {
         }
     }
 
-    fn of<T: Scalar>(series: &[T]) -> Series {
+    fn of<T: Scalar>(terms: Terms<T>) -> Series {
         let mut s = Series::ZERO;
-        s.add(1.0, series);
+        s.add(1.0, terms);
         s
     }
 }
 
-/// Lists the guards of a mode (not those of stops and marks) into `out`.
-pub fn guards_of_mode<S: System>(mode: &Mode, dynamics: &Dynamics<S>, out: &mut Vec<Guard>) {
+/// Lists the guards of a mode (not those of stops and marks) into `out`; `needs` are held.
+pub fn guards_of_mode<S: System>(mode: &Mode, dynamics: &Dynamics<S>, needs: &NeedSet, out: &mut Vec<Guard>) {
     let d = S::DESCRIPTION;
     out.clear();
     for c in 0..d.contacts.len() {
@@ -138,8 +140,8 @@ pub fn guards_of_mode<S: System>(mode: &Mode, dynamics: &Dynamics<S>, out: &mut 
             }
         }
     }
-    for b in 0..d.branches.len() {
-        if dynamics.branch_matters(b) {
+    for (b, branch) in d.branches.iter().enumerate() {
+        if branch.users.iter().any(|&user| needs.contains(user)) {
             out.push(Guard::Branch(b));
         }
     }
@@ -236,4 +238,26 @@ pub fn normal_force<S: System>(f: usize, mode: &Mode, reading: &Reading<'_, S>, 
         }
         Normal::Given(place) => out.add(1.0, reading.motion(place)),
     }
+}
+
+/// First coefficient of each guard, at the start of the series that `dynamics` holds.
+pub fn first_values<S: System>(
+    dynamics: &Dynamics<S>,
+    mode: &Mode,
+    guards: impl Iterator<Item = Guard>,
+) -> Vec<f64> {
+    let reading = Reading::Series(dynamics);
+    guards.map(|g| series(g, mode, &reading, 1.0).as_slice().first().copied().unwrap_or(0.0)).collect()
+}
+
+/// `needs` and everything about every row: Jacobian, residuals, coefficients, restitution, branch guards.
+pub fn all_row_needs(d: &Description, needs: &NeedSet) -> NeedSet {
+    let mut all = needs.clone();
+    for row in d.rows {
+        [row.needs.jacobian, row.needs.position, row.needs.velocity].map(|need| all.insert(need));
+    }
+    d.contacts.iter().for_each(|c| all.insert(c.restitution_need));
+    d.frictions.iter().for_each(|f| all.insert(f.coefficients_need));
+    d.branches.iter().filter(|b| !b.after_solve).for_each(|b| all.insert(b.need));
+    all
 }
