@@ -76,7 +76,13 @@ pub struct Trajectory<S: System> {
 }
 
 impl<S: System> Trajectory<S> {
-    pub(crate) fn new(scene: &S, effects: &Effects, time: S::Scalar, start: State<S::Scalar>, mode: Mode) -> Self {
+    pub(crate) fn new(
+        scene: &S,
+        effects: &Effects,
+        time: S::Scalar,
+        start: State<S::Scalar>,
+        mode: Mode,
+    ) -> Self {
         Self {
             scene: scene.clone(),
             effects: effects.clone(),
@@ -172,7 +178,11 @@ impl<S: System> Trajectory<S> {
             let to = (segment.t + segment.h * segment.end).value();
             match phases.last_mut() {
                 Some(phase) if last == Some(segment.mode) => phase.to = to,
-                _ => phases.push(Phase { from: segment.t.value(), to, mode: self.modes[segment.mode].clone() }),
+                _ => phases.push(Phase {
+                    from: segment.t.value(),
+                    to,
+                    mode: self.modes[segment.mode].clone(),
+                }),
             }
             last = Some(segment.mode);
         }
@@ -185,7 +195,12 @@ impl<S: System> Trajectory<S> {
     }
 
     /// Coefficients of a position (`which` = 0) or velocity (1) in a segment.
-    pub(crate) fn polynomial(&self, segment: &Segment<S::Scalar>, which: usize, coordinate: usize) -> &[S::Scalar] {
+    pub(crate) fn polynomial(
+        &self,
+        segment: &Segment<S::Scalar>,
+        which: usize,
+        coordinate: usize,
+    ) -> &[S::Scalar] {
         let n = S::DESCRIPTION.coordinates.len();
         let width = segment.degree + 1;
         let begin = segment.offset + (which * n + coordinate) * width;
@@ -193,7 +208,13 @@ impl<S: System> Trajectory<S> {
     }
 
     /// State at part `s` of a segment.
-    pub(crate) fn state_at(&self, segment: &Segment<S::Scalar>, s: S::Scalar, q: &mut [S::Scalar], v: &mut [S::Scalar]) {
+    pub(crate) fn state_at(
+        &self,
+        segment: &Segment<S::Scalar>,
+        s: S::Scalar,
+        q: &mut [S::Scalar],
+        v: &mut [S::Scalar],
+    ) {
         for (which, out) in [q, v].into_iter().enumerate() {
             for (i, x) in out.iter_mut().enumerate() {
                 *x = horner(self.polynomial(segment, which, i), s);
