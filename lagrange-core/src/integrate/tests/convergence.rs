@@ -43,8 +43,9 @@ fn errors<P: Problem>(
 #[track_caller]
 fn check_order(coarse: f64, fine: f64, order: f64) {
     let slope = (coarse / fine).log2();
+    // From above the slope may come down to the order, from below it may not stay.
     assert!(
-        (slope - order).abs() < 0.4,
+        slope > order - 0.3 && slope < order + 0.8,
         "slope {slope} from {coarse:e} to {fine:e}, not {order}"
     );
 }
@@ -52,7 +53,7 @@ fn check_order(coarse: f64, fine: f64, order: f64) {
 fn check(method: Method, steps: usize, order: f64) {
     let with = |steps| match method {
         Method::RungeKutta4 { .. } => Method::RungeKutta4 {
-            step: 3.0 / steps as f64,
+            step: 2.0 / steps as f64,
         },
         method => method,
     };
@@ -60,7 +61,7 @@ fn check(method: Method, steps: usize, order: f64) {
         errors(
             Kepler { eccentricity: 0.2 },
             with(steps),
-            3.0,
+            2.0,
             steps,
             &[0.1, 0.35, 0.6, 0.85],
         )
@@ -102,7 +103,7 @@ fn dormand_prince_54() {
 
 #[test]
 fn verner_98() {
-    check(Method::Verner98, 10, 9.0);
+    check(Method::Verner98, 8, 9.0);
 }
 
 #[test]
