@@ -13,6 +13,8 @@ mod rk4;
 mod runge_kutta;
 mod tableau;
 pub mod taylor;
+#[cfg(test)]
+mod tests;
 mod verner98;
 
 use core::fmt;

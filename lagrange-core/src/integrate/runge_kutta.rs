@@ -419,9 +419,9 @@ impl<T: Scalar> RungeKutta<T> {
         for (b, (y1, y0)) in last.iter_mut().zip(self.end.y.iter().zip(&self.start.y)) {
             *b = *y1 - *y0;
         }
-        // B₀ = 0, so the first differences begin at the second row.
-        for r in 2..=degree {
-            for m in (r..=degree).rev() {
+        // Row 1 stays as it is, since B₀ = 0.
+        for r in 1..=degree {
+            for m in (r.max(2)..=degree).rev() {
                 let (before, row) = self.dense[(m - 2) * width..].split_at_mut(width);
                 for (b, a) in row[..width].iter_mut().zip(before) {
                     *b -= *a;
