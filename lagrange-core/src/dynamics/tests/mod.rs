@@ -1,5 +1,7 @@
 //! Values against matrices written by hand, series against values along them.
 
+mod pendulum;
+mod rank;
 mod wheel;
 
 use super::*;

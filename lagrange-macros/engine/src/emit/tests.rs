@@ -17,6 +17,7 @@ fn wheel() -> Program {
         .contact("rim", "r - radius")
         .friction("grip", Normal::Contact(0), &["radius*(der(theta) - der(phi))"], "mu");
     build.system.core = quote!(::lagrange_core);
+    build.system.scalar = Some(super::names::plain("T"));
     plan(build.derive().equations)
 }
 
@@ -39,6 +40,6 @@ fn show() {
         println!("{} {:?} {:?}", o.label, p, o.terms.iter().map(|(n, e)| (n.0, program.equations.system.pool.print(*e))).collect::<Vec<_>>());
     }
     println!("motion {} report {}", program.motion.operations(&[1]), program.report.operations(&[!0]));
-    println!("{}", emit(&program));
+    std::fs::write(format!("/tmp/emit{}.rs", program.equations.system.parameters.len()), emit(&program).to_string()).unwrap();
     }
 }
