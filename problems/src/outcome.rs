@@ -1,0 +1,194 @@
+//! A run as plain data: what every printer starts from, whatever the type of the scene was.
+
+use lagrange_core::mode::Mode;
+use lagrange_core::prelude::*;
+use lagrange_core::system::Description;
+
+/// Everything that happened in a run.
+pub struct Outcome {
+    /// Name of the scene.
+    pub scene: &'static str,
+    /// Its names.
+    pub description: &'static Description,
+    /// Value of every parameter.
+    pub parameters: Vec<f64>,
+    /// Event log.
+    pub events: Vec<Event<f64>>,
+    /// Modes in order of time.
+    pub phases: Vec<Phase>,
+    /// The trajectory at equal intervals, and at the beginning and the end of every phase; in order of time.
+    /// Empty if the run could not begin.
+    pub samples: Vec<Sample>,
+    /// Energy book; `None` if it could not be drawn up.
+    pub ledger: Option<Ledger>,
+    /// Work counts.
+    pub work: Work,
+    /// Why the run ended early.
+    pub failure: Option<Error>,
+}
+
+/// The motion at one instant.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sample {
+    /// Time, s.
+    pub time: f64,
+    /// Index of the phase it belongs to.
+    pub phase: usize,
+    /// Mode.
+    pub mode: Mode,
+    /// Positions and velocities.
+    pub state: State<f64>,
+    /// λ of every row; for a friction its force along +slip.
+    pub forces: Vec<f64>,
+    /// What each friction can hold: μₛN while it sticks, μₖN while it slips, `None` while it is inactive.
+    pub limits: Vec<Option<f64>>,
+    /// Kinetic energy, J.
+    pub kinetic: f64,
+    /// Potential energy, J.
+    pub potential: f64,
+    /// Extra outputs.
+    pub observes: Vec<f64>,
+}
+
+/// A force that a run reports: a named item and the row of its multiplier.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Force {
+    /// Name of the item; with the component for a slip in space.
+    pub name: String,
+    /// Row.
+    pub row: usize,
+    /// What it is.
+    pub source: Source,
+}
+
+/// Where a force comes from: index into the description.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// Of this constraint.
+    Constraint(usize),
+    /// Of this contact: its normal force.
+    Contact(usize),
+    /// Of this friction.
+    Friction(usize),
+}
+
+impl Force {
+    /// Whether it acts in `mode`.
+    pub fn acts(&self, description: &Description, mode: &Mode) -> bool {
+        match self.source {
+            Source::Constraint(i) => description.constraints[i]
+                .while_contact
+                .is_none_or(|c| mode.contacts[c]),
+            Source::Contact(i) => mode.contacts[i],
+            Source::Friction(i) => mode.frictions[i] != FrictionMode::Inactive,
+        }
+    }
+}
+
+/// The forces of a scene, in order of declaration: constraints, contacts, frictions.
+pub fn forces(description: &Description) -> Vec<Force> {
+    let constraints = description
+        .constraints
+        .iter()
+        .enumerate()
+        .map(|(i, constraint)| Force {
+            name: constraint.name.to_owned(),
+            row: constraint.row,
+            source: Source::Constraint(i),
+        });
+    let contacts = description
+        .contacts
+        .iter()
+        .enumerate()
+        .map(|(i, contact)| Force {
+            name: contact.name.to_owned(),
+            row: contact.row,
+            source: Source::Contact(i),
+        });
+    let frictions = description
+        .frictions
+        .iter()
+        .enumerate()
+        .flat_map(|(i, friction)| {
+            (0..friction.components).map(move |k| Force {
+                name: match friction.components {
+                    1 => friction.name.to_owned(),
+                    _ => format!("{}[{k}]", friction.name),
+                },
+                row: friction.row + k,
+                source: Source::Friction(i),
+            })
+        });
+    constraints.chain(contacts).chain(frictions).collect()
+}
+
+impl Outcome {
+    /// Collects what a trajectory knows; `intervals` equal ones are sampled beside the ends of the phases.
+    pub(crate) fn new<S: System<Scalar = f64>>(
+        scene: &'static str,
+        system: &S,
+        trajectory: &Trajectory<S>,
+        failure: Option<Error>,
+        intervals: usize,
+    ) -> Self {
+        let description = S::DESCRIPTION;
+        Outcome {
+            scene,
+            description,
+            parameters: (0..description.parameters.len())
+                .map(|i| system.parameter(i))
+                .collect(),
+            events: trajectory.events().to_vec(),
+            phases: trajectory.phases(),
+            samples: sample(trajectory, intervals),
+            ledger: trajectory.ledger().ok(),
+            work: trajectory.work(),
+            failure,
+        }
+    }
+
+    /// The first instant, if the run began.
+    pub fn first(&self) -> Option<&Sample> {
+        self.samples.first()
+    }
+
+    /// The last instant, if the run began.
+    pub fn last(&self) -> Option<&Sample> {
+        self.samples.last()
+    }
+}
+
+/// Both ends of every phase, and between them the multiples of the whole time over `intervals`.
+fn sample<S: System<Scalar = f64>>(trajectory: &Trajectory<S>, intervals: usize) -> Vec<Sample> {
+    let (first, last) = (trajectory.first_time(), trajectory.last_time());
+    let step = (last - first) / intervals.max(1) as f64;
+    let mut sampler = trajectory.sampler();
+    let mut samples = Vec::new();
+    for (phase, span) in trajectory.phases().iter().enumerate() {
+        let inner = (1..intervals)
+            .map(|k| first + k as f64 * step)
+            .filter(|t| span.from < *t && *t < span.to);
+        let times = core::iter::once(span.from)
+            .chain(inner)
+            .chain(core::iter::once(span.to));
+        for time in times {
+            if let Ok(instant) = sampler.at(time) {
+                samples.push(Sample {
+                    time,
+                    phase,
+                    mode: instant.mode.clone(),
+                    state: State {
+                        q: instant.q.clone(),
+                        v: instant.v.clone(),
+                    },
+                    forces: instant.forces.clone(),
+                    limits: vec![],
+                    kinetic: instant.kinetic,
+                    potential: instant.potential,
+                    observes: instant.observes.clone(),
+                });
+            }
+        }
+    }
+    samples
+}
