@@ -77,19 +77,21 @@ fn complain(trouble: &Trouble) -> ExitCode {
 /// What clap has to say, without its usage paragraphs.
 fn one_line(error: &clap::Error) -> String {
     if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        return "no command given; `lagrange list` shows the scenes, `lagrange run SCENE` runs one".to_owned();
+        return "no command given; `lagrange list` shows the scenes, `lagrange run SCENE` runs one"
+            .to_owned();
     }
     let text = error.render().to_string();
     let said = text
         .lines()
         .map(str::trim)
         .take_while(|line| !line.starts_with("Usage:"));
-    let words: Vec<&str> = said.filter(|line| !line.is_empty()).collect();
-    let line = words.join("; ").replace(":; ", ": ");
-    format!(
-        "{} (`lagrange --help` explains)",
-        line.trim_start_matches("error: ")
-    )
+    let telling = |line: &&str| !line.is_empty() && !line.starts_with("For more information");
+    let words: Vec<&str> = said.filter(telling).collect();
+    words
+        .join("; ")
+        .replace(":; ", ": ")
+        .trim_start_matches("error: ")
+        .to_owned()
 }
 
 /// Writes to stdout; a reader that has gone away (`| head`) is not an error.
@@ -99,9 +101,9 @@ pub(crate) fn print(
     use std::io::Write;
     let mut out = std::io::BufWriter::new(std::io::stdout().lock());
     match write(&mut out).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Trouble::failed(format_args!(
-            "cannot write the result: {error}"
-        ))),
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Trouble::failed(
+            format_args!("cannot write the result: {error}"),
+        )),
         _ => Ok(()),
     }
 }
