@@ -4,4 +4,6 @@
 extern crate self as lagrange_core;
 
 pub mod arithmetic;
+pub mod events;
+pub mod integrate;
 pub mod system;

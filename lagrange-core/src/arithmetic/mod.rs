@@ -8,6 +8,18 @@
 //!
 //! Operations that need auxiliary series (`tan`, `asin`, …) own the slots `to` and `to + 1`; so does a pair.
 
+mod convolution;
+mod direct;
+mod dual;
+mod jet;
+mod scalar;
+#[cfg(test)]
+mod tests;
+
+pub use direct::{Derivative, Value};
+pub use dual::Dual;
+pub use jet::{Coefficients, Jet, Operation, Singular, Slot};
+
 use core::fmt::Debug;
 
 /// A number that parameters, states and coefficients are made of.

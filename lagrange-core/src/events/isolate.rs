@@ -1,0 +1,263 @@
+//! All real roots of a polynomial in (0, 1]: Bernstein subdivision with Descartes' rule of signs.
+//!
+//! An interval whose Bernstein coefficients change sign once holds one root, which Newton's iteration refines. With two
+//! changes and one extremum the sign at the extremum decides between two roots, none, and a touch. Everything else is
+//! halved. Coefficients below the rounding noise of their computation have no sign, so that a polynomial which never
+//! leaves one sign by more than rounding has no roots.
+//!
+//! Collins & Akritas (1976); Lane & Riesenfeld, "Bounds on a polynomial", BIT 21 (1981).
+
+use core::ops::ControlFlow::{self, Break, Continue};
+
+use super::bernstein::{Coefficients, MAX_DEGREE, from_powers, split, variations};
+use super::refine::{Powers, extremum, noise_factor, root};
+use super::{Direction, Root, RootList};
+
+/// Halving stops here: what has not been told apart is one multiple root.
+const MIN_WIDTH: f64 = 1.0 / (1u64 << 44) as f64;
+
+/// All roots of Σ cₖ sᵏ in (0, 1], ascending, into `out`. Multiple roots are reported once.
+///
+/// A value at s = 1 that is zero within rounding counts as a root at s = 1; the one at s = 0 belongs to the step before.
+/// A polynomial that is zero within rounding everywhere has no roots. Costs a few nanoseconds when |c₀| > Σ|cₖ|.
+///
+/// # Panics
+/// If the degree is above [`MAX_DEGREE`].
+pub fn roots(c: &[f64], out: &mut RootList) {
+    out.clear();
+    let _ = visit_roots(c, 0.0, &mut |root| {
+        out.push(root);
+        Continue(())
+    });
+}
+
+/// The earliest root of Σ cₖ sᵏ in (`from`, 1], 0 ≤ `from` < 1. A root whose enclosure touches `from` is left out.
+///
+/// # Panics
+/// If the degree is above [`MAX_DEGREE`].
+pub fn first_root(c: &[f64], from: f64) -> Option<Root> {
+    let mut first = None;
+    let _ = visit_roots(c, from, &mut |root| {
+        if from > 0.0 && root.s - 0.5 * root.width <= from {
+            return Continue(());
+        }
+        first = Some(root);
+        Break(())
+    });
+    first
+}
+
+/// Division by sᵐ of a polynomial whose zero at s = 0 is known to have order `m`: its residues c₀ … cₘ₋₁ are not read.
+pub fn deflate(c: &[f64], m: usize) -> &[f64] {
+    &c[m.min(c.len())..]
+}
+
+/// Order of the zero at s = 0 and whether the polynomial is positive just after it: the first coefficient that
+/// rounding cannot explain. `None` for a polynomial that is zero.
+pub fn sign_after_start(c: &[f64]) -> Option<(usize, bool)> {
+    let noise = noise_factor(c.len()) * c.iter().map(|c| c.abs()).sum::<f64>();
+    let order = c.iter().position(|c| c.abs() > noise)?;
+    Some((order, c[order] > 0.0))
+}
+
+/// Calls `visit` for each root in ascending order until it breaks.
+fn visit_roots<F>(c: &[f64], from: f64, visit: &mut F) -> ControlFlow<()>
+where
+    F: FnMut(Root) -> ControlFlow<()>,
+{
+    let Some((&constant, others)) = c.split_first() else {
+        return Continue(());
+    };
+    let others = sum_of_sizes(others);
+    let size = others + constant.abs();
+    let noise = noise_factor(c.len()) * size;
+    if constant.abs() > others + noise {
+        return Continue(());
+    }
+    // Coefficients that cannot be seen in any value only cost time.
+    let negligible = f64::EPSILON * f64::EPSILON * size;
+    let length = c
+        .iter()
+        .rposition(|c| c.abs() > negligible)
+        .map_or(0, |k| k + 1);
+    if length < 2 {
+        return Continue(());
+    }
+    assert!(
+        length <= MAX_DEGREE + 1,
+        "guard of degree {} is above {MAX_DEGREE}",
+        length - 1
+    );
+
+    let powers = Powers(&c[..length]);
+    let mut b = from_powers(powers.0);
+    if from > 0.0 {
+        b = split(&b[..length], from).1;
+    }
+    let search = Search { powers, noise };
+    search.interval(&b, from, 1.0, visit)?;
+    match search.root_at_end(&b) {
+        Some(root) => visit(root),
+        None => Continue(()),
+    }
+}
+
+/// Σ|cₖ|, in four chains so that it does not wait for each addition.
+fn sum_of_sizes(c: &[f64]) -> f64 {
+    let chunks = c.chunks_exact(4);
+    let rest: f64 = chunks.remainder().iter().map(|c| c.abs()).sum();
+    let sums = chunks.fold([0.0; 4], |mut sums, four| {
+        for (sum, c) in sums.iter_mut().zip(four) {
+            *sum += c.abs();
+        }
+        sums
+    });
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
+}
+
+/// What stays the same while one polynomial is subdivided.
+struct Search<'a> {
+    powers: Powers<'a>,
+    noise: f64,
+}
+
+impl Search<'_> {
+    /// Visits the roots in (lo, hi), where the polynomial has the Bernstein coefficients `b`.
+    fn interval<F>(&self, b: &Coefficients, lo: f64, hi: f64, visit: &mut F) -> ControlFlow<()>
+    where
+        F: FnMut(Root) -> ControlFlow<()>,
+    {
+        let b = &b[..self.powers.0.len()];
+        let signs = variations(b.iter().copied(), self.noise);
+        let positive = match (signs.count, signs.first_positive) {
+            (0, _) | (_, None) => return Continue(()),
+            (_, Some(positive)) => positive,
+        };
+        if signs.count == 1 {
+            return visit(self.crossing(
+                lo,
+                hi,
+                positive,
+                lo + (hi - lo) * polygon_zero(b, positive),
+            ));
+        }
+        let differences = b.windows(2).map(|pair| pair[1] - pair[0]);
+        let turns = variations(differences, 2.0 * self.noise).count;
+        if signs.count == 2 && turns == 1 {
+            return self.turning(lo, hi, positive, visit);
+        }
+        if hi - lo < MIN_WIDTH || turns == 0 {
+            return visit(self.unresolved(lo, hi, positive, signs.count % 2 == 1));
+        }
+        // A root on the border between two intervals would have a sign in neither: move the border.
+        for t in [0.5, 0.4375, 0.5625, 0.3125, 0.6875] {
+            let (left, right) = split(b, t);
+            if right[0].abs() > self.noise {
+                let middle = lo + t * (hi - lo);
+                self.interval(&left, lo, middle, visit)?;
+                return self.interval(&right, middle, hi, visit);
+            }
+        }
+        visit(self.unresolved(lo, hi, positive, signs.count % 2 == 1))
+    }
+
+    /// The one root of an interval in which the sign changes, `positive` at its start.
+    fn crossing(&self, lo: f64, hi: f64, positive: bool, guess: f64) -> Root {
+        let s = root(self.powers, lo..hi, !positive, guess);
+        let slope = self.powers.taylor(s)[1].abs();
+        Root {
+            s,
+            direction: direction(positive),
+            grazing: false,
+            width: (2.0 * self.powers.noise(s) / slope)
+                .min(hi - lo)
+                .max(2.0 * f64::EPSILON * s),
+        }
+    }
+
+    /// An interval with one extremum, of the sign opposite to that of its ends or close to zero.
+    fn turning<F>(&self, lo: f64, hi: f64, positive: bool, visit: &mut F) -> ControlFlow<()>
+    where
+        F: FnMut(Root) -> ControlFlow<()>,
+    {
+        let s = extremum(self.powers, lo..hi, positive, 0.5 * (lo + hi));
+        let [value, _, curvature] = self.powers.taylor(s);
+        let noise = self.powers.noise(s);
+        if value.abs() <= noise {
+            return visit(Root {
+                s,
+                direction: direction(positive),
+                grazing: true,
+                width: (2.0 * (2.0 * noise / curvature.abs()).sqrt()).min(hi - lo),
+            });
+        }
+        if (value > 0.0) == positive {
+            return Continue(());
+        }
+        // Near the extremum p ≈ value + curvature/2 (s − s₀)².
+        let reach = (2.0 * value / curvature).abs().sqrt();
+        let inside = |guess: f64, lo: f64, hi: f64| {
+            if guess > lo && guess < hi {
+                guess
+            } else {
+                0.5 * (lo + hi)
+            }
+        };
+        visit(self.crossing(lo, s, positive, inside(s - reach, lo, s)))?;
+        visit(self.crossing(s, hi, !positive, inside(s + reach, s, hi)))
+    }
+
+    /// A multiple root, or a cluster that rounding does not resolve.
+    fn unresolved(&self, lo: f64, hi: f64, positive: bool, changes: bool) -> Root {
+        if changes {
+            let root = self.crossing(lo, hi, positive, 0.5 * (lo + hi));
+            return Root {
+                width: hi - lo,
+                ..root
+            };
+        }
+        Root {
+            s: 0.5 * (lo + hi),
+            direction: direction(positive),
+            grazing: true,
+            width: hi - lo,
+        }
+    }
+
+    /// A root at s = 1 that rounding cannot tell from it.
+    fn root_at_end(&self, b: &Coefficients) -> Option<Root> {
+        let b = &b[..self.powers.0.len()];
+        if b[b.len() - 1].abs() > self.noise {
+            return None;
+        }
+        let before = b.iter().rfind(|b| b.abs() > self.noise)?;
+        let slope = self.powers.taylor(1.0)[1].abs();
+        let width = 2.0 * self.noise / slope;
+        Some(Root {
+            s: 1.0,
+            direction: direction(*before > 0.0),
+            grazing: slope <= b.len() as f64 * self.noise,
+            width: width.clamp(2.0 * f64::EPSILON, 1.0),
+        })
+    }
+}
+
+/// Where the control polygon of coefficients that change sign once passes zero.
+fn polygon_zero(b: &[f64], positive: bool) -> f64 {
+    let i = b[1..]
+        .iter()
+        .position(|&b| (b > 0.0) != positive)
+        .unwrap_or(b.len() - 2);
+    // b[i] may be noise of either sign at the start of the interval.
+    let fraction = (b[i] / (b[i] - b[i + 1])).clamp(0.0, 1.0);
+    (i as f64 + fraction) / (b.len() - 1) as f64
+}
+
+/// The way to pass zero from the side given.
+fn direction(positive_before: bool) -> Direction {
+    if positive_before {
+        Direction::Falling
+    } else {
+        Direction::Rising
+    }
+}

@@ -1,0 +1,124 @@
+//! Positions and velocities over one step, as polynomials in s = (t − t₀)/h.
+
+use crate::arithmetic::Scalar;
+
+/// The solution over one step: q(t₀ + h s) = Σₖ qₖ sᵏ, the same for v; coefficients carry hᵏ.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StepPolynomial<T> {
+    /// Start of the step.
+    pub t: T,
+    /// Length of the step.
+    pub h: T,
+    /// Degree of every polynomial.
+    pub degree: usize,
+    /// Coefficients of the positions, one row of `degree + 1` per coordinate, ascending powers.
+    pub q: Vec<T>,
+    /// Coefficients of the velocities, likewise.
+    pub v: Vec<T>,
+}
+
+impl<T: Scalar> StepPolynomial<T> {
+    /// Room for `coordinates` coordinates at `degree`, all zero.
+    pub fn new(coordinates: usize, degree: usize) -> Self {
+        let zeros = vec![T::zero(); coordinates * (degree + 1)];
+        Self {
+            t: T::zero(),
+            h: T::zero(),
+            degree,
+            q: zeros.clone(),
+            v: zeros,
+        }
+    }
+
+    /// Changes the degree, coefficients become zero. Does not allocate if the new degree is not above any before.
+    pub fn set_degree(&mut self, degree: usize) {
+        if degree == self.degree {
+            return;
+        }
+        let size = self.coordinates() * (degree + 1);
+        self.degree = degree;
+        for row in [&mut self.q, &mut self.v] {
+            row.clear();
+            row.resize(size, T::zero());
+        }
+    }
+
+    /// Number of coordinates.
+    pub fn coordinates(&self) -> usize {
+        self.q.len() / (self.degree + 1)
+    }
+
+    /// Time at `s`.
+    pub fn time(&self, s: T) -> T {
+        self.t + self.h * s
+    }
+
+    /// Coefficients of the position of coordinate `i`.
+    pub fn position_row(&self, i: usize) -> &[T] {
+        &self.q[i * (self.degree + 1)..][..self.degree + 1]
+    }
+
+    /// Coefficients of the velocity of coordinate `i`.
+    pub fn velocity_row(&self, i: usize) -> &[T] {
+        &self.v[i * (self.degree + 1)..][..self.degree + 1]
+    }
+
+    /// Coefficients of the position and velocity of coordinate `i`, to write.
+    pub fn rows_mut(&mut self, i: usize) -> (&mut [T], &mut [T]) {
+        let width = self.degree + 1;
+        (
+            &mut self.q[i * width..][..width],
+            &mut self.v[i * width..][..width],
+        )
+    }
+
+    /// Position of coordinate `i` at `s`.
+    pub fn position(&self, i: usize, s: T) -> T {
+        horner(self.position_row(i), s)
+    }
+
+    /// Velocity of coordinate `i` at `s`.
+    pub fn velocity(&self, i: usize, s: T) -> T {
+        horner(self.velocity_row(i), s)
+    }
+
+    /// Acceleration of coordinate `i` at `s`: the derivative of the velocity's polynomial by time.
+    pub fn acceleration(&self, i: usize, s: T) -> T {
+        derivative(self.velocity_row(i), s) / self.h
+    }
+
+    /// Positions and velocities of all coordinates at `s`.
+    pub fn state_into(&self, s: T, q: &mut [T], v: &mut [T]) {
+        let width = self.degree + 1;
+        for (q, row) in q.iter_mut().zip(self.q.chunks_exact(width)) {
+            *q = horner(row, s);
+        }
+        for (v, row) in v.iter_mut().zip(self.v.chunks_exact(width)) {
+            *v = horner(row, s);
+        }
+    }
+
+    /// Changes coefficients by rounding errors, so that the state at s = 1 becomes (`q`, `v`) where rounding allows.
+    /// What [`Self::state_into`] then gives at s = 1 is the step's result.
+    pub(crate) fn close_onto(&mut self, q: &[T], v: &[T]) {
+        let width = self.degree + 1;
+        for (rows, end) in [(&mut self.q, q), (&mut self.v, v)] {
+            for (row, &end) in rows.chunks_exact_mut(width).zip(end) {
+                row[1] += end - horner(row, T::one());
+            }
+        }
+    }
+}
+
+/// Σ cₖ sᵏ; the small terms are added first, so that at s = 1 the sum is accurate to rounding for series that decay.
+pub(crate) fn horner<T: Scalar>(c: &[T], s: T) -> T {
+    c.iter().rev().fold(T::zero(), |sum, &c| sum * s + c)
+}
+
+/// Σ k cₖ sᵏ⁻¹.
+pub(crate) fn derivative<T: Scalar>(c: &[T], s: T) -> T {
+    let terms = c.iter().enumerate().skip(1).rev();
+    terms.fold(T::zero(), |sum, (k, &c)| {
+        sum * s + T::from_f64(k as f64) * c
+    })
+}

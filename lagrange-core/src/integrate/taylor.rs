@@ -1,0 +1,196 @@
+//! Order and step size of the Taylor method, and the check that they were right.
+//!
+//! Order ⌈−½ ln ε⌉ + 1 and a step at which the last term is e⁻² of the allowed error: then consecutive terms fall by e⁻²
+//! and the remainder is some 2 % of the limit (Jorba & Zou, "A software package for the numerical integration of ODEs by
+//! means of high-order Taylor methods", Experimental Mathematics 14 (2005), section 3).
+//!
+//! Their step reads the last two coefficients. Those can vanish by symmetry: a pendulum that starts from rest at exactly
+//! π/2 has q₂, q₆, q₁₀ … only, and any order divides badly into such gaps. Here the upper half of the coefficients is
+//! read, and each predicts the last term by the decay that the others show. Independently of all coefficients,
+//! [`defect`] compares the series' acceleration at the end with a fresh evaluation.
+
+use super::{StepPolynomial, Tolerance};
+use crate::arithmetic::Scalar;
+
+/// Largest order that [`order`] gives.
+pub const MAX_ORDER: usize = 24;
+const MIN_ORDER: usize = 4;
+
+/// Order for a tolerance: ⌈−½ ln ε⌉ + 1, between 4 and [`MAX_ORDER`].
+pub fn order(tolerance: Tolerance) -> usize {
+    let digits = (-0.5 * tolerance.strictness().ln()).ceil();
+    // A tolerance of 0 asks for infinitely many, a NaN for none.
+    (digits.clamp(0.0, MAX_ORDER as f64) as usize + 1).clamp(MIN_ORDER, MAX_ORDER)
+}
+
+/// Taylor coefficients of a solution about the start of a step, in powers of the time (not scaled by h).
+pub trait Series<T> {
+    /// Number of coordinates.
+    fn coordinates(&self) -> usize;
+    /// Coefficients of the position of coordinate `i`, at least to the order used.
+    fn position(&self, i: usize) -> &[T];
+    /// Coefficients of the velocity of coordinate `i`, at least to the order used.
+    fn velocity(&self, i: usize) -> &[T];
+}
+
+/// Step size for series used to `order`: every component's truncation error stays below its share of the tolerance
+/// (`absolute` + `relative`·|value at the start|, for positions and velocities alike).
+///
+/// Infinite if the series end (polynomial motion): something else limits that step. `None` if a coefficient that is needed
+/// is not finite.
+pub fn step_size<T: Scalar>(
+    series: &impl Series<T>,
+    order: usize,
+    tolerance: Tolerance,
+) -> Option<f64> {
+    let first = (order / 2).max(3).min(order);
+    let mut sizes = [0.0; MAX_ORDER + 1];
+    let sizes = &mut sizes[..order + 1 - first];
+    let mut poison = 0.0;
+    for i in 0..series.coordinates() {
+        for row in [series.position(i), series.velocity(i)] {
+            let limit = 1.0 / tolerance.scale(row[0].value().abs());
+            for (size, c) in sizes.iter_mut().zip(&row[first..=order]) {
+                let ratio = c.value().abs() * limit;
+                poison += 0.0 * ratio;
+                *size = if ratio > *size { ratio } else { *size };
+            }
+        }
+    }
+    if poison != 0.0 {
+        return None;
+    }
+    Some(step_from_sizes(sizes, first, tolerance.strictness()))
+}
+
+/// Step from the sizes of the coefficients of the orders `first`, `first` + 1, … in units of the allowed error.
+fn step_from_sizes(sizes: &[f64], first: usize, strictness: f64) -> f64 {
+    /// How far the decay may be steeper than the root test says (entire functions: log₂ e), as log₂.
+    const STEEPER: f64 = 2.0;
+    /// Bend of the logarithm that a prediction over several orders may ignore, per order, as log₂.
+    const BEND: f64 = 0.6;
+    /// log₂ e⁻², the last term.
+    const LAST: f64 = -2.0 * core::f64::consts::LOG2_E;
+
+    let order = first + sizes.len() - 1;
+    let mut logs = [f64::NEG_INFINITY; MAX_ORDER + 1];
+    for (log, &size) in logs.iter_mut().zip(sizes) {
+        *log = rough_log2(size);
+    }
+    let orders = first..=order;
+    let base = -rough_log2(strictness);
+    let terms = || {
+        orders
+            .clone()
+            .zip(logs)
+            .filter(|(_, log)| *log > f64::NEG_INFINITY)
+    };
+
+    // Root test: no coefficient lies above 2^(base + root·k).
+    let root = terms()
+        .map(|(k, log)| (log - base) / k as f64)
+        .fold(f64::NEG_INFINITY, f64::max);
+    if root == f64::NEG_INFINITY {
+        return f64::INFINITY;
+    }
+    // Decay between the highest points, seen from that line, of the lower and of the upper half.
+    let middle = first + sizes.len() / 2;
+    let mut highest = [None::<(usize, f64)>; 2];
+    for (k, log) in terms() {
+        let below = log - root * k as f64;
+        let best = &mut highest[usize::from(k >= middle)];
+        if best.is_none_or(|(_, highest)| below > highest) {
+            *best = Some((k, below));
+        }
+    }
+    let decay = match highest {
+        [Some((j, low)), Some((k, high))] => root + ((high - low) / (k - j) as f64).max(-STEEPER),
+        _ => root,
+    };
+    let last = terms()
+        .map(|(k, log)| log + (order - k) as f64 * (decay - BEND))
+        .fold(f64::NEG_INFINITY, f64::max);
+    ((LAST - last) / order as f64).exp2()
+}
+
+/// log₂ x to within 0.1, monotone: the exponent and mantissa bits read as one number. −∞ for 0 and subnormals.
+fn rough_log2(x: f64) -> f64 {
+    if x < f64::MIN_POSITIVE {
+        return f64::NEG_INFINITY;
+    }
+    (x.to_bits() as f64) / (1u64 << 52) as f64 - 1023.0
+}
+
+/// Truncation error of a Taylor step, in units of the allowed error, from the accelerations `dv` evaluated afresh at the
+/// state that the polynomial has at `s` (usually 1, or where an event ended the step).
+///
+/// The remainder of v behaves like s^(order+1), so its derivative, which is what the comparison shows, is
+/// (order + 1)/(h s) times larger. What rounding explains is subtracted. Above 1 (or not a number) the step must be
+/// repeated: [`DefectControl`] says how.
+pub fn defect<T: Scalar>(step: &StepPolynomial<T>, s: f64, dv: &[T], tolerance: Tolerance) -> f64 {
+    const ROUNDING: f64 = 16.0 * f64::EPSILON;
+    let h = step.h.value();
+    let share = s / (step.degree + 1) as f64;
+    let mut worst = 0.0;
+    for (i, dv) in dv.iter().enumerate() {
+        let row = step.velocity_row(i);
+        let [mut rate, mut size, mut value] = [0.0; 3];
+        for (k, c) in row.iter().enumerate().rev() {
+            let c = c.value();
+            value = value * s + c;
+            if k > 0 {
+                rate = rate * s + k as f64 * c;
+                size = size * s + (k as f64 * c).abs();
+            }
+        }
+        let error = (h * dv.value() - rate).abs() - ROUNDING * size;
+        let limit = tolerance.scale(row[0].value().abs().max(value.abs()));
+        let ratio = share * error / limit;
+        if ratio > worst || ratio.is_nan() {
+            worst = ratio;
+        }
+        if worst.is_nan() {
+            return worst;
+        }
+    }
+    worst
+}
+
+/// What to do after a [`defect`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Verdict {
+    /// Go on.
+    Accept,
+    /// Repeat the step from its start (same coefficients) with this size.
+    Redo {
+        /// The smaller step.
+        h: f64,
+    },
+}
+
+/// Judges defects, and notices when a smaller step does not help because what remains is rounding.
+#[derive(Clone, Debug, Default)]
+pub struct DefectControl {
+    previous: Option<f64>,
+}
+
+impl DefectControl {
+    /// Judges a step `h` of `order` with the given [`defect`].
+    pub fn judge(&mut self, h: f64, defect: f64, order: usize) -> Verdict {
+        // Any smooth error falls by 0.7⁵ < ½ with the step; rounding does not.
+        let stagnant = self
+            .previous
+            .is_some_and(|previous| defect > 0.5 * previous);
+        if defect <= 1.0 || (stagnant && defect < 1e3) {
+            self.previous = None;
+            return Verdict::Accept;
+        }
+        let factor = if defect.is_finite() {
+            self.previous = Some(defect);
+            (0.9 * defect.powf(-1.0 / (order + 1) as f64)).clamp(0.1, 0.7)
+        } else {
+            0.1
+        };
+        Verdict::Redo { h: h * factor }
+    }
+}

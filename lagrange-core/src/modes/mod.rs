@@ -1,0 +1,9 @@
+//! Which mode comes next: contacts, friction, impact.
+//!
+//! [`guard`] says what ends a mode, [`decide`](mod@decide) finds the mode that goes on, [`impact`](mod@impact) what velocities do when
+//! a contact is hit, [`start`] what holds at the beginning.
+
+pub(crate) mod decide;
+pub(crate) mod guard;
+pub(crate) mod impact;
+pub(crate) mod start;

@@ -1,0 +1,188 @@
+//! What ends a step early: the earliest root among the guards of the mode and the stops.
+
+use super::Run;
+use super::curves::Curves;
+use crate::events::{Direction, RootList, deflate, first_root, roots};
+use crate::mode::{FrictionMode, Mode};
+use crate::modes::guard::{Guard, LENGTH};
+use crate::system::{Condition, System, Watch};
+
+/// What happens first within a step.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Hit {
+    /// Nothing: the whole step is good.
+    Nothing,
+    /// Guards of the mode fall through zero (in [`Run::fallen`]) at this part of the step.
+    Guards(f64),
+    /// Stop `index` becomes true at this part of the step.
+    Stop(usize, f64),
+}
+
+impl Hit {
+    /// Where the step ends.
+    pub(super) fn end(&self) -> f64 {
+        match *self {
+            Hit::Nothing => 1.0,
+            Hit::Guards(s) | Hit::Stop(_, s) => s,
+        }
+    }
+}
+
+impl<S: System> Run<'_, S> {
+    /// Finds what happens first within the step whose guards are `curves`.
+    pub(super) fn first_hit(&mut self, curves: &Curves) -> Hit {
+        self.falls.clear();
+        let mut first = f64::INFINITY;
+        for (k, &guard) in self.guards.iter().enumerate() {
+            if let Some((s, width)) = self.fall(guard, curves.mode_guard(k)) {
+                self.falls.push((guard, s, width));
+                first = first.min(s + width);
+            }
+        }
+        // Roots whose enclosures overlap with that of the earliest cannot be told apart from it.
+        self.fallen.clear();
+        let mut at = f64::INFINITY;
+        for &(guard, s, width) in &self.falls {
+            if s - width <= first {
+                self.fallen.push(guard);
+                at = at.min(s);
+            }
+        }
+        let guards = if self.fallen.is_empty() { Hit::Nothing } else { Hit::Guards(at) };
+        match self.first_stop(curves, guards.end()) {
+            Some((stop, s)) => Hit::Stop(stop, s),
+            None => guards,
+        }
+    }
+
+    /// Where a guard of the mode falls through zero: (part of the step, half width of the enclosure).
+    fn fall(&self, guard: Guard, curve: &[f64]) -> Option<(f64, f64)> {
+        let known = self.zeros.iter().find(|(g, _)| *g == guard).map_or(0, |(_, order)| *order);
+        if known >= LENGTH {
+            return None;
+        }
+        let curve = deflate(curve, known);
+        // A root that rounding has moved across the border between two steps shows as a negative start.
+        let size: f64 = curve.iter().map(|c| c.abs()).sum();
+        if known == 0 && curve.first().is_some_and(|c| *c < 0.0) {
+            let rises = curve[0] > -1e-13 * size && curve.get(1).is_some_and(|c| *c > 0.0);
+            if !rises {
+                return Some((0.0, 0.0));
+            }
+        }
+        let mut from = 0.0;
+        while let Some(root) = first_root(curve, from) {
+            if root.direction == Direction::Falling && !root.grazing {
+                return Some((root.s, 0.5 * root.width));
+            }
+            from = root.s;
+            if from >= 1.0 {
+                break;
+            }
+        }
+        None
+    }
+
+    /// The earliest stop up to part `end` of the step.
+    fn first_stop(&mut self, curves: &Curves, end: f64) -> Option<(usize, f64)> {
+        let d = S::DESCRIPTION;
+        let mut best: Option<(usize, f64)> = None;
+        for (i, watch) in d.stops.iter().enumerate() {
+            let mode = &self.mode;
+            let below = &self.stop_below;
+            let first = becomes_true(watch, mode, end, |k| curves.stop_term(i, k), |k| below[i][k]);
+            if let Some(s) = first {
+                if best.is_none_or(|(_, t)| s < t) {
+                    best = Some((i, s));
+                }
+            }
+        }
+        best
+    }
+
+    /// Marks up to part `end` of the step, in order.
+    pub(super) fn marks_until(&self, curves: &Curves, end: f64) -> Vec<(usize, f64)> {
+        let d = S::DESCRIPTION;
+        let mut list = Vec::new();
+        for (i, watch) in d.marks.iter().enumerate() {
+            if watch.zeros {
+                let mut all = RootList::new();
+                roots(curves.mark_term(i, 0), &mut all);
+                let below = self.mark_below[i][0];
+                let start = curves.mark_term(i, 0).first().copied().unwrap_or(0.0);
+                if (below && start > 0.0) || (!below && start < 0.0) {
+                    list.push((i, 0.0));
+                }
+                list.extend(all.iter().filter(|r| r.s <= end && holds(watch, &self.mode)).map(|r| (i, r.s)));
+            } else {
+                let below = &self.mark_below;
+                let first = becomes_true(watch, &self.mode, end, |k| curves.mark_term(i, k), |k| below[i][k]);
+                list.extend(first.map(|s| (i, s)));
+            }
+        }
+        list.sort_by(|a, b| a.1.total_cmp(&b.1));
+        list
+    }
+
+    /// Remembers on which side the terms of stops and marks are at part `end` of the step.
+    pub(super) fn remember_sides(&mut self, curves: &Curves, end: f64) {
+        let d = S::DESCRIPTION;
+        let below = |curve: &[f64]| value(curve, end) < 0.0;
+        for (i, watch) in d.stops.iter().enumerate() {
+            for k in 0..watch.terms.len() {
+                self.stop_below[i][k] = below(curves.stop_term(i, k));
+            }
+        }
+        for (i, watch) in d.marks.iter().enumerate() {
+            for k in 0..watch.terms.len() {
+                self.mark_below[i][k] = below(curves.mark_term(i, k));
+            }
+        }
+    }
+}
+
+/// First instant up to `end` at which a watch becomes true: a term rises through zero while the others are ≥ 0.
+fn becomes_true<'c>(
+    watch: &Watch,
+    mode: &Mode,
+    end: f64,
+    term: impl Fn(usize) -> &'c [f64],
+    was_below: impl Fn(usize) -> bool,
+) -> Option<f64> {
+    if !holds(watch, mode) {
+        return None;
+    }
+    let mut best: Option<f64> = None;
+    for k in 0..watch.terms.len() {
+        let curve = term(k);
+        let others = |s: f64| (0..watch.terms.len()).all(|j| j == k || value(term(j), s) >= 0.0);
+        let mut consider = |s: f64| {
+            if s <= end && others(s) && best.is_none_or(|b| s < b) {
+                best = Some(s);
+            }
+        };
+        if was_below(k) && curve.first().is_some_and(|c| *c >= 0.0) {
+            consider(0.0);
+        }
+        let mut all = RootList::new();
+        roots(curve, &mut all);
+        for root in all.iter().filter(|r| r.direction == Direction::Rising && !r.grazing) {
+            consider(root.s);
+        }
+    }
+    best
+}
+
+/// Whether the conditions of a watch hold in a mode.
+pub(super) fn holds(watch: &Watch, mode: &Mode) -> bool {
+    watch.conditions.iter().all(|condition| match *condition {
+        Condition::Closed(c) => mode.contacts[c],
+        Condition::Open(c) => !mode.contacts[c],
+        Condition::Sticks(f) => mode.frictions[f] == FrictionMode::Stick,
+        Condition::Slips(f) => matches!(mode.frictions[f], FrictionMode::Slip(_)),
+    })
+}
+
+fn value(curve: &[f64], s: f64) -> f64 {
+    crate::trajectory::horner(curve, s)
+}

@@ -1,0 +1,172 @@
+//! A run: the system, what takes part in it, how exact it is to be.
+
+use crate::dynamics::Dynamics;
+use crate::effects::Effects;
+use crate::error::Error;
+use crate::integrate::Method;
+use crate::modes::start;
+use crate::run::Run;
+use crate::system::System;
+use crate::trajectory::{State, Trajectory};
+use core::fmt;
+use core::ops::Range;
+
+/// How to run a system. Build it, set what differs from the defaults, call [`Simulation::run`].
+#[derive(Clone, Debug)]
+pub struct Simulation<'a, S: System> {
+    pub(crate) scene: &'a S,
+    pub(crate) effects: Effects,
+    pub(crate) tolerance: f64,
+    pub(crate) method: Method,
+    pub(crate) project_start: bool,
+    pub(crate) max_events: usize,
+    pub(crate) max_steps: usize,
+}
+
+/// A run that ended early, with everything up to there.
+#[derive(Debug)]
+pub struct Failure<S: System> {
+    /// Why.
+    pub error: Error,
+    /// The motion until then.
+    pub trajectory: Box<Trajectory<S>>,
+}
+
+impl<S: System> fmt::Display for Failure<S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.error.fmt(f)
+    }
+}
+
+impl<S: System + fmt::Debug> core::error::Error for Failure<S> {
+    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
+        Some(&self.error)
+    }
+}
+
+/// Which values a consistent state must keep exactly.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Held {
+    /// Per coordinate: keep its position.
+    pub positions: Vec<bool>,
+    /// Per coordinate: keep its velocity.
+    pub velocities: Vec<bool>,
+}
+
+impl<'a, S: System> Simulation<'a, S> {
+    /// All effects, the Taylor method, tolerance 1e-9.
+    pub fn new(scene: &'a S) -> Self {
+        Self {
+            scene,
+            effects: Effects::all(),
+            tolerance: 1e-9,
+            method: Method::Taylor,
+            project_start: false,
+            max_events: 100_000,
+            max_steps: 100_000_000,
+        }
+    }
+
+    /// Local error per step, relative and absolute (in the units of the coordinates); from 1e-17 to 0.1.
+    #[must_use]
+    pub fn tolerance(mut self, tolerance: f64) -> Self {
+        self.tolerance = tolerance;
+        self
+    }
+
+    /// The integration method.
+    #[must_use]
+    pub fn method(mut self, method: Method) -> Self {
+        self.method = method;
+        self
+    }
+
+    /// Which effects take part.
+    #[must_use]
+    pub fn effects(mut self, effects: Effects) -> Self {
+        self.effects = effects;
+        self
+    }
+
+    /// Whether a start that violates a constraint is moved onto it instead of refused.
+    #[must_use]
+    pub fn project_start(mut self, yes: bool) -> Self {
+        self.project_start = yes;
+        self
+    }
+
+    /// Most events before the run ends with [`Error::Limit`].
+    #[must_use]
+    pub fn max_events(mut self, limit: usize) -> Self {
+        self.max_events = limit;
+        self
+    }
+
+    /// Most steps before the run ends with [`Error::Limit`].
+    #[must_use]
+    pub fn max_steps(mut self, limit: usize) -> Self {
+        self.max_steps = limit;
+        self
+    }
+
+    /// Integrates from `start` over `span` (s), or until a stop.
+    ///
+    /// # Errors
+    /// A [`Failure`] with the error and the trajectory so far.
+    pub fn run(&self, start: State<S::Scalar>, span: Range<f64>) -> Result<Trajectory<S>, Failure<S>> {
+        Run::execute(self, start, span)
+    }
+
+    /// The state nearest to `wanted` (in the mass metric) that satisfies all constraints, with the values in `held`
+    /// kept exactly. Contacts that are closed in `reference` stay closed; slips that vanish there vanish.
+    ///
+    /// # Errors
+    /// [`Error::Projection`] if there is none, with the row that cannot be satisfied.
+    pub fn consistent(
+        &self,
+        time: f64,
+        reference: &State<S::Scalar>,
+        wanted: &State<S::Scalar>,
+        held: &Held,
+    ) -> Result<State<S::Scalar>, Error> {
+        let mut dynamics = Dynamics::new(self.scene, &self.effects);
+        start::consistent(&mut dynamics, time, self.tolerance, reference, wanted, held)
+    }
+
+    /// Checks what the caller set.
+    pub(crate) fn check(&self, start: &State<S::Scalar>, span: &Range<f64>) -> Result<(), Error> {
+        use crate::arithmetic::Scalar;
+        let n = S::DESCRIPTION.coordinates.len();
+        if !(1e-17..=0.1).contains(&self.tolerance) {
+            let expected = "between 1e-17 and 0.1";
+            return Err(Error::Argument { what: "tolerance", value: self.tolerance, expected });
+        }
+        for (what, value) in [("first time", span.start), ("last time", span.end)] {
+            if !value.is_finite() {
+                return Err(Error::Argument { what, value, expected: "finite" });
+            }
+        }
+        if span.end < span.start {
+            return Err(Error::Argument { what: "last time", value: span.end, expected: "not before the first" });
+        }
+        for list in [&start.q, &start.v] {
+            if list.len() != n {
+                return Err(Error::Dimension { expected: n, found: list.len() });
+            }
+        }
+        let numbers = start.q.iter().chain(&start.v);
+        for (i, x) in numbers.enumerate() {
+            if !x.value().is_finite() {
+                let what = if i < n { "a position of the start" } else { "a velocity of the start" };
+                return Err(Error::Argument { what, value: x.value(), expected: "finite" });
+            }
+        }
+        for (i, parameter) in S::DESCRIPTION.parameters.iter().enumerate() {
+            let value = self.scene.parameter(i).value();
+            if !value.is_finite() {
+                return Err(Error::Argument { what: parameter.name, value, expected: "finite" });
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,203 @@
+//! The result of a run: the motion as polynomials in time, the modes, the events, the work done.
+
+mod event;
+mod ledger;
+mod sampler;
+
+pub use event::{Event, EventKind, State, Subject};
+pub use ledger::{Energies, Entry, Ledger};
+pub use sampler::{Instant, Sampler};
+
+use crate::arithmetic::Scalar;
+use crate::effects::Effects;
+use crate::integrate::StepPolynomial;
+use crate::mode::Mode;
+use crate::system::System;
+
+/// What a run cost.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Work {
+    /// Accepted steps.
+    pub steps: usize,
+    /// Rejected steps.
+    pub rejected: usize,
+    /// Evaluations of the equations of motion as values.
+    pub evaluations: usize,
+    /// Evaluations as Taylor series.
+    pub series: usize,
+    /// Factorizations of the constrained system.
+    pub factorizations: usize,
+    /// Projections onto the constraints that changed the state.
+    pub projections: usize,
+}
+
+/// A time interval in one mode.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Phase {
+    /// Begin, s.
+    pub from: f64,
+    /// End, s.
+    pub to: f64,
+    /// The mode.
+    pub mode: Mode,
+}
+
+/// One accepted step: polynomials in s = (t − t₀)/h, valid for s in [0, end].
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Segment<T> {
+    /// t₀
+    pub t: T,
+    /// h
+    pub h: T,
+    /// Part of the step that was used.
+    pub end: T,
+    /// Degree of the polynomials.
+    pub degree: usize,
+    /// Index of the first coefficient; positions of all coordinates, then velocities.
+    pub offset: usize,
+    /// Index into the modes.
+    pub mode: usize,
+}
+
+/// The motion of a system over a time interval.
+#[derive(Clone, Debug)]
+pub struct Trajectory<S: System> {
+    pub(crate) scene: S,
+    pub(crate) effects: Effects,
+    pub(crate) first_time: S::Scalar,
+    pub(crate) last_time: S::Scalar,
+    pub(crate) start: State<S::Scalar>,
+    pub(crate) last: State<S::Scalar>,
+    pub(crate) modes: Vec<Mode>,
+    pub(crate) segments: Vec<Segment<S::Scalar>>,
+    pub(crate) coefficients: Vec<S::Scalar>,
+    pub(crate) events: Vec<Event<S::Scalar>>,
+    pub(crate) work: Work,
+}
+
+impl<S: System> Trajectory<S> {
+    pub(crate) fn new(scene: &S, effects: &Effects, time: S::Scalar, start: State<S::Scalar>, mode: Mode) -> Self {
+        Self {
+            scene: scene.clone(),
+            effects: effects.clone(),
+            first_time: time,
+            last_time: time,
+            last: start.clone(),
+            start,
+            modes: vec![mode],
+            segments: Vec::new(),
+            coefficients: Vec::new(),
+            events: Vec::new(),
+            work: Work::default(),
+        }
+    }
+
+    /// Appends a step, valid up to `end` of its length.
+    pub(crate) fn push(&mut self, step: &StepPolynomial<S::Scalar>, end: S::Scalar) {
+        let offset = self.coefficients.len();
+        self.coefficients.extend_from_slice(step.q.as_slice());
+        self.coefficients.extend_from_slice(step.v.as_slice());
+        self.segments.push(Segment {
+            t: step.t,
+            h: step.h,
+            end,
+            degree: step.degree,
+            offset,
+            mode: self.modes.len() - 1,
+        });
+    }
+
+    /// Enters a mode, if it is another one.
+    pub(crate) fn enter(&mut self, mode: &Mode) {
+        if self.modes.last() != Some(mode) {
+            self.modes.push(mode.clone());
+        }
+    }
+
+    /// The system that moved.
+    pub fn scene(&self) -> &S {
+        &self.scene
+    }
+
+    /// The effects that took part.
+    pub fn effects(&self) -> &Effects {
+        &self.effects
+    }
+
+    /// First time, s.
+    pub fn first_time(&self) -> f64 {
+        self.first_time.value()
+    }
+
+    /// Last time, s.
+    pub fn last_time(&self) -> f64 {
+        self.last_time.value()
+    }
+
+    /// State at the beginning.
+    pub fn first_state(&self) -> &State<S::Scalar> {
+        &self.start
+    }
+
+    /// State at the end.
+    pub fn final_state(&self) -> &State<S::Scalar> {
+        &self.last
+    }
+
+    /// Mode at the end.
+    pub fn final_mode(&self) -> &Mode {
+        &self.modes[self.modes.len() - 1]
+    }
+
+    /// What happened, in order.
+    pub fn events(&self) -> &[Event<S::Scalar>] {
+        &self.events
+    }
+
+    /// What the run cost.
+    pub fn work(&self) -> Work {
+        self.work
+    }
+
+    /// The modes with their time intervals.
+    pub fn phases(&self) -> Vec<Phase> {
+        let mut phases: Vec<Phase> = Vec::new();
+        let mut last = None;
+        for segment in &self.segments {
+            let to = (segment.t + segment.h * segment.end).value();
+            match phases.last_mut() {
+                Some(phase) if last == Some(segment.mode) => phase.to = to,
+                _ => phases.push(Phase { from: segment.t.value(), to, mode: self.modes[segment.mode].clone() }),
+            }
+            last = Some(segment.mode);
+        }
+        phases
+    }
+
+    /// Evaluates the trajectory at any time.
+    pub fn sampler(&self) -> Sampler<'_, S> {
+        Sampler::new(self)
+    }
+
+    /// Coefficients of a position (`which` = 0) or velocity (1) in a segment.
+    pub(crate) fn polynomial(&self, segment: &Segment<S::Scalar>, which: usize, coordinate: usize) -> &[S::Scalar] {
+        let n = S::DESCRIPTION.coordinates.len();
+        let width = segment.degree + 1;
+        let begin = segment.offset + (which * n + coordinate) * width;
+        &self.coefficients[begin..begin + width]
+    }
+
+    /// State at part `s` of a segment.
+    pub(crate) fn state_at(&self, segment: &Segment<S::Scalar>, s: S::Scalar, q: &mut [S::Scalar], v: &mut [S::Scalar]) {
+        for (which, out) in [q, v].into_iter().enumerate() {
+            for (i, x) in out.iter_mut().enumerate() {
+                *x = horner(self.polynomial(segment, which, i), s);
+            }
+        }
+    }
+}
+
+/// Σ cₖ sᵏ.
+pub(crate) fn horner<T: Scalar>(c: &[T], s: T) -> T {
+    c.iter().rev().fold(T::default(), |sum, &x| sum * s + x)
+}
