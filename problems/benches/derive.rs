@@ -10,15 +10,33 @@ use std::time::{Duration, Instant};
 const BUDGET: Duration = Duration::from_millis(300);
 
 const SCENES: [(&str, &str); 5] = [
-    ("mass-on-shell", include_str!("../src/scenes/mass_on_shell.rs")),
-    ("rolling-sphere", include_str!("../src/scenes/rolling_sphere.rs")),
-    ("rolling-slipping-sphere", include_str!("../src/scenes/rolling_slipping_sphere.rs")),
-    ("mass-on-wheel", include_str!("../src/scenes/mass_on_wheel.rs")),
-    ("sphere-in-bowl", include_str!("../src/scenes/sphere_in_bowl.rs")),
+    (
+        "mass-on-shell",
+        include_str!("../src/scenes/mass_on_shell.rs"),
+    ),
+    (
+        "rolling-sphere",
+        include_str!("../src/scenes/rolling_sphere.rs"),
+    ),
+    (
+        "rolling-slipping-sphere",
+        include_str!("../src/scenes/rolling_slipping_sphere.rs"),
+    ),
+    (
+        "mass-on-wheel",
+        include_str!("../src/scenes/mass_on_wheel.rs"),
+    ),
+    (
+        "sphere-in-bowl",
+        include_str!("../src/scenes/sphere_in_bowl.rs"),
+    ),
 ];
 
 fn main() {
-    println!("{:24} {:>10} {:>10} {:>10}", "scene", "min ms", "median ms", "tokens");
+    println!(
+        "{:24} {:>10} {:>10} {:>10}",
+        "scene", "min ms", "median ms", "tokens"
+    );
     for (name, source) in SCENES {
         let declaration = declaration(source);
         let mut times = Vec::new();
@@ -32,7 +50,11 @@ fn main() {
             tokens = count(output);
         }
         times.sort_by(f64::total_cmp);
-        println!("{name:24} {:10.3} {:10.3} {tokens:10}", times[0], times[times.len() / 2]);
+        println!(
+            "{name:24} {:10.3} {:10.3} {tokens:10}",
+            times[0],
+            times[times.len() / 2]
+        );
     }
 }
 
@@ -44,7 +66,8 @@ fn declaration(source: &str) -> TokenStream {
         _ => None,
     });
     let mut item = item.expect("a scene has a struct");
-    item.attrs.retain(|attribute| !attribute.path().is_ident("derive"));
+    item.attrs
+        .retain(|attribute| !attribute.path().is_ident("derive"));
     item.into_token_stream()
 }
 

@@ -92,7 +92,7 @@ impl<S: System<Scalar = f64> + Default> Scene for Entry<S> {
         let until = request.until.unwrap_or(self.until);
         let (trajectory, failure) = match simulation.run(start, 0.0..until) {
             Ok(trajectory) => (trajectory, None),
-            Err(stopped) => (stopped.trajectory, Some(stopped.error)),
+            Err(stopped) => (*stopped.trajectory, Some(stopped.error)),
         };
         Ok(Outcome::new(
             self.name,

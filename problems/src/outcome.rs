@@ -1,8 +1,10 @@
 //! A run as plain data: what every printer starts from, whatever the type of the scene was.
 
-use lagrange_core::mode::Mode;
+use core::iter;
+use lagrange_core::dynamics::{Dynamics, NeedSet};
+use lagrange_core::mode::{FrictionMode, Mode};
 use lagrange_core::prelude::*;
-use lagrange_core::system::Description;
+use lagrange_core::system::{Description, Friction, Normal};
 
 /// Everything that happened in a run.
 pub struct Outcome {
@@ -163,32 +165,90 @@ fn sample<S: System<Scalar = f64>>(trajectory: &Trajectory<S>, intervals: usize)
     let (first, last) = (trajectory.first_time(), trajectory.last_time());
     let step = (last - first) / intervals.max(1) as f64;
     let mut sampler = trajectory.sampler();
+    let mut limits = Limits::new(trajectory.scene(), trajectory.effects());
     let mut samples = Vec::new();
     for (phase, span) in trajectory.phases().iter().enumerate() {
+        let inside = |t: &f64| span.from < *t && *t < span.to;
         let inner = (1..intervals)
             .map(|k| first + k as f64 * step)
-            .filter(|t| span.from < *t && *t < span.to);
-        let times = core::iter::once(span.from)
+            .filter(inside);
+        limits.enter(&span.mode);
+        for time in iter::once(span.from)
             .chain(inner)
-            .chain(core::iter::once(span.to));
-        for time in times {
-            if let Ok(instant) = sampler.at(time) {
-                samples.push(Sample {
-                    time,
-                    phase,
-                    mode: instant.mode.clone(),
-                    state: State {
-                        q: instant.q.clone(),
-                        v: instant.v.clone(),
-                    },
-                    forces: instant.forces.clone(),
-                    limits: vec![],
-                    kinetic: instant.kinetic,
-                    potential: instant.potential,
-                    observes: instant.observes.clone(),
-                });
-            }
+            .chain(iter::once(span.to))
+        {
+            let Ok(instant) = sampler.at(time) else {
+                continue;
+            };
+            samples.push(Sample {
+                time,
+                phase,
+                mode: span.mode.clone(),
+                state: State {
+                    q: instant.q.clone(),
+                    v: instant.v.clone(),
+                },
+                limits: limits.at(time, &instant.q, &instant.v),
+                forces: instant.forces.clone(),
+                kinetic: instant.kinetic,
+                potential: instant.potential,
+                observes: instant.observes.clone(),
+            });
         }
     }
     samples
+}
+
+/// What frictions can hold: coefficient × normal force.
+struct Limits<S: System> {
+    dynamics: Dynamics<S>,
+}
+
+impl<S: System<Scalar = f64>> Limits<S> {
+    fn new(scene: &S, effects: &Effects) -> Self {
+        let mut needs = NeedSet::new(S::DESCRIPTION);
+        for friction in S::DESCRIPTION.frictions {
+            needs.insert(friction.coefficients_need);
+        }
+        let mut dynamics = Dynamics::new(scene, effects);
+        dynamics.set_extra_needs(&needs);
+        Self { dynamics }
+    }
+
+    fn enter(&mut self, mode: &Mode) {
+        self.dynamics.set_mode(mode);
+    }
+
+    fn at(&mut self, time: f64, q: &[f64], v: &[f64]) -> Vec<Option<f64>> {
+        let description = S::DESCRIPTION;
+        if self.dynamics.value(time, q, v).is_err() {
+            return vec![None; description.frictions.len()];
+        }
+        let dynamics = &self.dynamics;
+        let limit = |(friction, mode): (&Friction, &FrictionMode)| {
+            let coefficient = match mode {
+                FrictionMode::Inactive => return None,
+                FrictionMode::Stick => friction.static_coefficient,
+                FrictionMode::Slip(_) => friction.kinetic_coefficient,
+            };
+            let normal = match friction.normal {
+                Normal::Contact(i) => {
+                    let contact = &description.contacts[i];
+                    let factor = contact
+                        .normal_factor
+                        .map_or(1.0, |place| dynamics.motion(place));
+                    factor * dynamics.force(contact.row)
+                }
+                Normal::Constraint(i) => dynamics.force(description.constraints[i].row).abs(),
+                Normal::Given(place) => dynamics.motion(place),
+            };
+            Some(dynamics.motion(coefficient) * normal)
+        };
+        description
+            .frictions
+            .iter()
+            .zip(&dynamics.mode().frictions)
+            .map(limit)
+            .collect()
+    }
 }

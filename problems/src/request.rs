@@ -34,7 +34,7 @@ impl Default for Request {
             start: Vec::new(),
             until: None,
             tolerance: 1e-9,
-            method: Method::default(),
+            method: Method::Taylor,
             project: false,
             samples: 0,
         }
@@ -137,7 +137,7 @@ impl Request {
     pub(crate) fn start<S: System<Scalar = f64>>(
         &self,
         system: &S,
-        simulation: &Simulation<S>,
+        simulation: &Simulation<'_, S>,
     ) -> Result<State<f64>, Refusal> {
         let description = S::DESCRIPTION;
         let reference = self.named_start(system)?;
@@ -163,7 +163,7 @@ impl Request {
             flags[index] = true;
         }
         simulation
-            .consistent_with(&reference, 0.0, &wanted, &held)
+            .consistent(0.0, &reference, &wanted, &held)
             .map_err(Refusal::Start)
     }
 

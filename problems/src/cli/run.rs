@@ -39,7 +39,7 @@ pub(super) struct Run {
     #[arg(long, value_name = "X", default_value = "1e-9", value_parser = positive, allow_hyphen_values = true)]
     tolerance: f64,
     /// Method of integration.
-    #[arg(long, value_name = "M", default_value_t = Method::default())]
+    #[arg(long, value_name = "M", default_value_t = Method::Taylor)]
     method: Method,
     /// What to print.
     #[arg(long, value_enum, default_value_t = Format::Table)]

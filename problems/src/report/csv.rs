@@ -63,7 +63,7 @@ fn sample_line(outcome: &Outcome, sample: &Sample) -> Vec<String> {
     );
     line.extend(numbers(&[sample.kinetic, sample.potential]));
     line.extend(numbers(&sample.observes));
-    line.push(sample.mode.describe(outcome.description));
+    line.push(sample.mode.display(outcome.description).to_string());
     line
 }
 
@@ -89,13 +89,13 @@ fn event_lines(outcome: &Outcome, event: &Event<f64>) -> [Vec<String>; 2] {
             label,
             &event.state,
             &event.forces,
-            event.before.describe(description),
+            event.before.display(description).to_string(),
         ),
         line(
             after,
             &event.state_after,
             &event.forces_after,
-            event.after.describe(description),
+            event.after.display(description).to_string(),
         ),
     ]
 }

@@ -100,7 +100,7 @@ fn report(outcome: &Outcome) -> Report {
     let names = description.parameters.iter().map(|p| p.name.to_owned());
     let instant = |sample: &crate::outcome::Sample| Instant {
         time: sample.time,
-        mode: sample.mode.describe(description),
+        mode: sample.mode.display(description).to_string(),
         state: state(description, &sample.state),
         forces: rows(description, &sample.forces),
     };
@@ -125,8 +125,8 @@ fn happening(description: &'static Description, event: &Event<f64>) -> Happening
         time: event.time,
         item: event.subject.name(description),
         kind: event.kind.word(),
-        from: event.before.describe(description),
-        to: event.after.describe(description),
+        from: event.before.display(description).to_string(),
+        to: event.after.display(description).to_string(),
         state: state(description, &event.state),
         forces: rows(description, &event.forces),
         state_after: state(description, &event.state_after),

@@ -55,12 +55,12 @@ fn entries(outcome: &Outcome, items: &[Force]) -> Vec<Entry> {
         upper: acting(&sample.forces, &sample.mode),
         lower: Vec::new(),
         impulse: false,
-        mode: sample.mode.describe(description),
+        mode: sample.mode.display(description).to_string(),
     };
     let happening = |event: &Event<f64>| {
         let (before, after) = (
-            event.before.describe(description),
-            event.after.describe(description),
+            event.before.display(description).to_string(),
+            event.after.display(description).to_string(),
         );
         let changes = before != after;
         let impulse = event.kind == EventKind::Impact;

@@ -30,7 +30,7 @@ pub(super) fn bands(outcome: &Outcome) -> Bands {
         .phases
         .iter()
         .map(|phase| {
-            let name = phase.mode.describe(outcome.description);
+            let name = phase.mode.display(outcome.description).to_string();
             let mode = names
                 .iter()
                 .position(|known| *known == name)
