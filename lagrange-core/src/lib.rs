@@ -4,6 +4,18 @@
 extern crate self as lagrange_core;
 
 pub mod arithmetic;
+pub mod dynamics;
+pub mod effects;
+pub mod error;
 pub mod events;
 pub mod integrate;
+mod linear;
+pub mod mode;
+mod modes;
+mod run;
+pub mod simulation;
 pub mod system;
+pub mod trajectory;
+
+pub use error::Error;
+pub use simulation::{Failure, Held, Simulation};

@@ -103,16 +103,28 @@ impl<T: Scalar> Coefficients<T> {
         &self.table[slot.0..slot.0 + self.stride]
     }
 
-    /// All coefficients of a slot, to be written.
-    #[inline(always)]
-    pub fn series_mut(&mut self, slot: Slot) -> &mut [T] {
-        &mut self.table[slot.0..slot.0 + self.stride]
-    }
-
     /// Σ_{j=1..k} xⱼ yₖ₋ⱼ: what coefficient k of a product takes from earlier coefficients of y.
     #[inline(always)]
     pub fn tail_product(&self, x: Slot, y: Slot, k: usize) -> T {
         convolution(&self.table[x.0 + 1..=x.0 + k], &self.table[y.0..y.0 + k])
+    }
+
+    /// Coefficient `k` of the product of two slots.
+    #[inline(always)]
+    pub fn product(&self, x: Slot, y: Slot, k: usize) -> T {
+        convolution(&self.table[x.0..=x.0 + k], &self.table[y.0..=y.0 + k])
+    }
+
+    /// Coefficient `k` of a slot.
+    #[inline(always)]
+    pub fn get(&self, slot: Slot, k: usize) -> T {
+        self.table[slot.0 + k]
+    }
+
+    /// Sets coefficient `k` of a slot.
+    #[inline(always)]
+    pub fn put(&mut self, slot: Slot, k: usize, value: T) {
+        self.table[slot.0 + k] = value;
     }
 
     /// The arithmetic that appends coefficient `k`; its operations write the slots from `base` on.

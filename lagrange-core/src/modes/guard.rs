@@ -11,7 +11,8 @@
 //! N = λ·|∂g/∂p|. A guard is read from a [`Reading`] as Taylor coefficients; a plain value is a series of length one.
 
 use crate::arithmetic::Scalar;
-use crate::dynamics::{Dynamics, Reading};
+use crate::dynamics::{Dynamics, NeedSet};
+use crate::modes::reading::{Reading, Terms};
 use crate::effects::Item;
 use crate::mode::{Direction, FrictionMode, Mode, Sliding};
 use crate::system::{Friction, Normal, Place, System};
@@ -67,7 +68,8 @@ impl Series {
     }
 
     /// Adds `factor` times a series.
-    fn add<T: Scalar>(&mut self, factor: f64, series: &[T]) {
+    fn add<T: Scalar>(&mut self, factor: f64, terms: Terms<T>) {
+        let series = terms.as_slice();
         self.length = self.length.max(series.len().min(LENGTH));
         for (c, x) in self.coefficients.iter_mut().zip(series) {
             *c += factor * x.value();
@@ -110,15 +112,15 @@ impl Series {
         }
     }
 
-    fn of<T: Scalar>(series: &[T]) -> Series {
+    fn of<T: Scalar>(terms: Terms<T>) -> Series {
         let mut s = Series::ZERO;
-        s.add(1.0, series);
+        s.add(1.0, terms);
         s
     }
 }
 
-/// Lists the guards of a mode (not those of stops and marks) into `out`.
-pub fn guards_of_mode<S: System>(mode: &Mode, dynamics: &Dynamics<S>, out: &mut Vec<Guard>) {
+/// Lists the guards of a mode (not those of stops and marks) into `out`; `needs` are held.
+pub fn guards_of_mode<S: System>(mode: &Mode, dynamics: &Dynamics<S>, needs: &NeedSet, out: &mut Vec<Guard>) {
     let d = S::DESCRIPTION;
     out.clear();
     for c in 0..d.contacts.len() {
@@ -138,8 +140,8 @@ pub fn guards_of_mode<S: System>(mode: &Mode, dynamics: &Dynamics<S>, out: &mut 
             }
         }
     }
-    for b in 0..d.branches.len() {
-        if dynamics.branch_matters(b) {
+    for (b, branch) in d.branches.iter().enumerate() {
+        if branch.users.iter().any(|&user| needs.contains(user)) {
             out.push(Guard::Branch(b));
         }
     }

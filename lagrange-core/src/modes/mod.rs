@@ -6,4 +6,5 @@
 pub(crate) mod decide;
 pub(crate) mod guard;
 pub(crate) mod impact;
+pub(crate) mod reading;
 pub(crate) mod start;

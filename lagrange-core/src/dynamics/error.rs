@@ -1,0 +1,135 @@
+//! Why the equations of motion could not be evaluated.
+
+use crate::arithmetic::Operation;
+use crate::system::Description;
+use core::fmt;
+
+/// Why the equations of motion could not be evaluated. Numbers are indices into the description.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum EvaluationError {
+    /// Nothing determines the acceleration of this coordinate: no inertia and no constraint.
+    NoInertia {
+        /// Coordinate.
+        coordinate: usize,
+    },
+    /// The equations do not determine the force of this row (sliding friction at the edge of Painlevé's paradox).
+    Undetermined {
+        /// Row.
+        row: usize,
+    },
+    /// This row follows from the others, but asks for another acceleration than they do.
+    Inconsistent {
+        /// Row.
+        row: usize,
+        /// By how much, relative to the largest acceleration bias.
+        residual: f64,
+    },
+    /// The motion has no Taylor series here.
+    NoSeries {
+        /// The operation that has none.
+        operation: Operation,
+    },
+    /// The acceleration of this coordinate is not a finite number.
+    NotFiniteAcceleration {
+        /// Coordinate.
+        coordinate: usize,
+    },
+    /// The force of this row is not a finite number.
+    NotFiniteForce {
+        /// Row.
+        row: usize,
+    },
+    /// No state nearby satisfies this row.
+    Projection {
+        /// Row.
+        row: usize,
+        /// Its residual at the best state found, in the unit of the declaration.
+        residual: f64,
+    },
+}
+
+/// Name of the item that a row belongs to.
+pub fn row_name(description: &Description, row: usize) -> &'static str {
+    let constraints = description
+        .constraints
+        .iter()
+        .map(|c| (c.row..c.row + 1, c.name));
+    let contacts = description
+        .contacts
+        .iter()
+        .map(|c| (c.row..c.row + 1, c.name));
+    let frictions = description
+        .frictions
+        .iter()
+        .map(|f| (f.row..f.row + f.components, f.name));
+    let mut items = constraints.chain(contacts).chain(frictions);
+    items
+        .find(|(rows, _)| rows.contains(&row))
+        .map_or("", |(_, name)| name)
+}
+
+impl EvaluationError {
+    /// The coordinate or item concerned, if it is one.
+    pub fn item(&self, description: &Description) -> Option<&'static str> {
+        match *self {
+            Self::NoInertia { coordinate } | Self::NotFiniteAcceleration { coordinate } => {
+                Some(description.coordinates[coordinate].name)
+            }
+            Self::Undetermined { row }
+            | Self::Inconsistent { row, .. }
+            | Self::NotFiniteForce { row }
+            | Self::Projection { row, .. } => Some(row_name(description, row)),
+            Self::NoSeries { .. } => None,
+        }
+    }
+}
+
+impl fmt::Display for EvaluationError {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::NoInertia { coordinate } => write!(
+                f,
+                "nothing determines the acceleration of coordinate {coordinate}; give it a kinetic energy or a constraint"
+            ),
+            Self::Undetermined { row } => {
+                write!(
+                    f,
+                    "the equations do not determine the force of row {row}; lower its kinetic friction"
+                )
+            }
+            Self::Inconsistent { row, residual } => write!(
+                f,
+                "row {row} depends on the other rows but contradicts them by {residual:e}; leave one of them out"
+            ),
+            Self::NoSeries { operation } => write!(
+                f,
+                "the motion has no Taylor series here ({}); use a Runge-Kutta method",
+                match operation {
+                    Operation::Division => "division by zero",
+                    Operation::SquareRoot => "square root of a number that is not positive",
+                    Operation::Power => "power of a number that is not positive",
+                    Operation::Logarithm => "logarithm of a number that is not positive",
+                    Operation::InverseSine => "inverse sine at the end of its range",
+                    Operation::Angle => "angle of the origin",
+                }
+            ),
+            Self::NotFiniteAcceleration { coordinate } => write!(
+                f,
+                "the acceleration of coordinate {coordinate} is not finite; look for a division by zero in the declaration"
+            ),
+            Self::NotFiniteForce { row } => {
+                write!(
+                    f,
+                    "the force of row {row} is not finite; look for a division by zero in the declaration"
+                )
+            }
+            Self::Projection { row, residual } => write!(
+                f,
+                "no state nearby satisfies row {row}: {residual:e} is left; start closer to the constraint"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for EvaluationError {}

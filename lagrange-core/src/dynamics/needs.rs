@@ -1,0 +1,187 @@
+//! Which parts of the tapes a mode asks for.
+
+use crate::effects::{Effects, Item};
+use crate::linear::acts;
+use crate::mode::{Direction, FrictionMode, Mode};
+use crate::system::{Description, Normal};
+use core::ops::Deref;
+
+/// A set of needs; reads as [`crate::system::Needs`].
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct NeedSet {
+    words: Vec<u64>,
+}
+
+impl Deref for NeedSet {
+    type Target = [u64];
+    fn deref(&self) -> &[u64] {
+        &self.words
+    }
+}
+
+impl NeedSet {
+    /// Only need 0, which is always held.
+    pub fn new(description: &Description) -> Self {
+        let mut set = Self {
+            words: vec![0; description.needs.div_ceil(64).max(1)],
+        };
+        set.insert(0);
+        set
+    }
+
+    /// Adds a need.
+    #[inline]
+    pub fn insert(&mut self, need: usize) {
+        self.words[need / 64] |= 1 << (need % 64);
+    }
+
+    /// Takes a need out.
+    #[inline]
+    pub fn remove(&mut self, need: usize) {
+        self.words[need / 64] &= !(1 << (need % 64));
+    }
+
+    /// Whether the need is held.
+    #[inline]
+    pub fn contains(&self, need: usize) -> bool {
+        self.words[need / 64] >> (need % 64) & 1 == 1
+    }
+
+    /// Adds all needs of another set of the same system.
+    pub fn extend(&mut self, other: &[u64]) {
+        for (word, other) in self.words.iter_mut().zip(other) {
+            *word |= other;
+        }
+    }
+
+    /// Leaves only need 0.
+    pub fn clear(&mut self) {
+        self.words.fill(0);
+        self.insert(0);
+    }
+}
+
+/// The needs of the effects of a scene: everything but the contributions of what is left out.
+pub(crate) fn of_effects(description: &Description, effects: &Effects, needs: &mut NeedSet) {
+    needs.words.fill(u64::MAX);
+    let spare = needs.words.len() * 64 - description.needs.max(1);
+    if let Some(last) = needs.words.last_mut() {
+        *last >>= spare;
+    }
+    for item in effects.left_out() {
+        match item {
+            Item::Kinetic(i) => needs.remove(description.kinetic[i].need),
+            Item::Potential(i) => needs.remove(description.potential[i].need),
+            Item::Force(i) => needs.remove(description.forces[i].need),
+            Item::Dissipation(i) => needs.remove(description.dissipations[i].need),
+            _ => {}
+        }
+    }
+}
+
+/// What the equations of motion of a mode need: inertia, forces, the rows that act, sliding friction.
+pub(crate) fn of_motion(
+    description: &Description,
+    effects: &Effects,
+    mode: &Mode,
+    needs: &mut NeedSet,
+) {
+    needs.clear();
+    energies_and_forces(description, effects, needs);
+    for (i, row) in description.rows.iter().enumerate() {
+        if acts(description, effects, mode, i) {
+            needs.insert(row.needs.jacobian);
+            needs.insert(row.needs.bias);
+        }
+    }
+    for (i, friction) in description.frictions.iter().enumerate() {
+        let FrictionMode::Slip(sliding) = mode.frictions[i] else {
+            continue;
+        };
+        if !effects.includes(description, Item::Friction(i)) {
+            continue;
+        }
+        needs.insert(friction.coefficients_need);
+        for row in &description.rows[friction.row..friction.row + friction.components] {
+            needs.insert(row.needs.jacobian);
+            if sliding.direction == Direction::AlongSlip {
+                needs.insert(row.needs.velocity);
+            }
+        }
+    }
+}
+
+fn energies_and_forces(description: &Description, effects: &Effects, needs: &mut NeedSet) {
+    let mut hold = |item: Item, need: usize| {
+        if effects.includes(description, item) {
+            needs.insert(need);
+        }
+    };
+    for (i, effect) in description.kinetic.iter().enumerate() {
+        hold(Item::Kinetic(i), effect.need);
+    }
+    for (i, effect) in description.potential.iter().enumerate() {
+        hold(Item::Potential(i), effect.need);
+    }
+    for (i, load) in description.forces.iter().enumerate() {
+        hold(Item::Force(i), load.need);
+    }
+    for (i, load) in description.dissipations.iter().enumerate() {
+        hold(Item::Dissipation(i), load.need);
+    }
+}
+
+/// What the guards of a mode need beside the equations of motion: the gap of each open contact, the region of each
+/// closed one, the coefficients of each friction that sticks, the slip of each that slides, and the guards of the branches
+/// that anything held in `needs` uses.
+///
+/// Pass the needs of the motion in `needs`; the guards are added.
+pub fn add_guards(description: &Description, effects: &Effects, mode: &Mode, needs: &mut NeedSet) {
+    for (i, contact) in description.contacts.iter().enumerate() {
+        let asks = !mode.contacts[i] || contact.region.is_some();
+        if effects.includes(description, Item::Contact(i)) && asks {
+            needs.insert(description.rows[contact.row].needs.position);
+        }
+    }
+    for (i, friction) in description.frictions.iter().enumerate() {
+        if !effects.includes(description, Item::Friction(i)) {
+            continue;
+        }
+        match mode.frictions[i] {
+            FrictionMode::Inactive => {}
+            FrictionMode::Stick => {
+                needs.insert(friction.coefficients_need);
+                if let Normal::Contact(contact) = friction.normal {
+                    needs.insert(
+                        description.rows[description.contacts[contact].row]
+                            .needs
+                            .jacobian,
+                    );
+                }
+            }
+            FrictionMode::Slip(_) => {
+                for row in &description.rows[friction.row..friction.row + friction.components] {
+                    needs.insert(row.needs.velocity);
+                }
+            }
+        }
+    }
+    add_branch_guards(description, needs);
+}
+
+/// The guards of the branches that anything held uses, and of the branches that those guards use.
+pub fn add_branch_guards(description: &Description, needs: &mut NeedSet) {
+    loop {
+        let mut grew = false;
+        for branch in description.branches {
+            if !needs.contains(branch.need) && branch.users.iter().any(|&user| needs.contains(user))
+            {
+                needs.insert(branch.need);
+                grew = true;
+            }
+        }
+        if !grew {
+            return;
+        }
+    }
+}

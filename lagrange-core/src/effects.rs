@@ -1,0 +1,76 @@
+//! Which named items of a system a scene leaves out.
+
+use crate::system::{Description, Normal};
+use std::collections::BTreeSet;
+
+/// A named item that can be left out; the number is its index in the description's list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Item {
+    /// A term of the kinetic energy.
+    Kinetic(usize),
+    /// A term of the potential energy.
+    Potential(usize),
+    /// An equality constraint.
+    Constraint(usize),
+    /// A one-sided contact; its frictions and `while` constraints go with it.
+    Contact(usize),
+    /// A friction.
+    Friction(usize),
+    /// An applied force.
+    Force(usize),
+    /// A Rayleigh dissipation.
+    Dissipation(usize),
+    /// An extra output.
+    Observe(usize),
+    /// What ends a run.
+    Stop(usize),
+    /// What is logged.
+    Mark(usize),
+}
+
+/// The effects of a scene: all items of the declaration but those left out.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Effects {
+    left_out: BTreeSet<Item>,
+}
+
+impl Effects {
+    /// Everything that is declared.
+    pub fn all() -> Self {
+        Self::default()
+    }
+
+    /// The same without this item. It costs nothing from then on.
+    #[must_use]
+    pub fn without(mut self, item: impl Into<Item>) -> Self {
+        self.left_out.insert(item.into());
+        self
+    }
+
+    /// The items left out by name, in order.
+    pub fn left_out(&self) -> impl Iterator<Item = Item> + '_ {
+        self.left_out.iter().copied()
+    }
+
+    /// Whether an item takes part: neither it nor the item that it hangs on is left out.
+    pub fn includes(&self, description: &Description, item: impl Into<Item>) -> bool {
+        let item = item.into();
+        if self.left_out.contains(&item) {
+            return false;
+        }
+        match item {
+            Item::Constraint(i) => match description.constraints[i].while_contact {
+                Some(contact) => self.includes(description, Item::Contact(contact)),
+                None => true,
+            },
+            Item::Friction(i) => match description.frictions[i].normal {
+                Normal::Contact(contact) => self.includes(description, Item::Contact(contact)),
+                Normal::Constraint(constraint) => {
+                    self.includes(description, Item::Constraint(constraint))
+                }
+                Normal::Given(_) => true,
+            },
+            _ => true,
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! LU factors with complete pivoting: P K Q = L U, rank-revealing.
+//!
+//! Reference: Golub & Van Loan 2013, Matrix Computations, section 3.4.9. The caller equilibrates; pivots are then
+//! comparable with 1 and a pivot below [`NEGLIGIBLE`] means dependence.
+
+use crate::arithmetic::Scalar;
+
+/// Pivots of an equilibrated matrix below this are dependence and not magnitude: rounding leaves some N ε ≈ 1e-15, and a
+/// genuinely smaller pivot would cost more than 12 of the 16 digits.
+pub(crate) const NEGLIGIBLE: f64 = 1e-12;
+
+/// Factors of a square matrix; the memory is reused.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Lu<T> {
+    size: usize,
+    rank: usize,
+    factors: Vec<T>,
+    rows: Vec<usize>,
+    columns: Vec<usize>,
+    scratch: Vec<T>,
+}
+
+impl<T: Scalar> Lu<T> {
+    /// Takes memory for matrices up to `size`.
+    pub(crate) fn reserve(&mut self, size: usize) {
+        self.factors.reserve(size * size);
+        self.rows.reserve(size);
+        self.columns.reserve(size);
+        self.scratch.reserve(size);
+    }
+
+    /// Number of pivots that are not negligible.
+    pub(crate) fn rank(&self) -> usize {
+        self.rank
+    }
+
+    /// The column of a pivot that was not found: an unknown that the equations do not determine.
+    pub(crate) fn undetermined(&self) -> Option<usize> {
+        self.columns.get(self.rank).copied()
+    }
+
+    /// Rows without a pivot: linear combinations of the others.
+    pub(crate) fn dependent_rows(&self) -> impl Iterator<Item = usize> + '_ {
+        self.rows[self.rank..].iter().copied()
+    }
+
+    /// Factors the row-major `matrix`; stops at the rank. Pivots are found in the whole remaining block.
+    pub(crate) fn factor(&mut self, size: usize, matrix: impl Iterator<Item = T>) {
+        self.size = size;
+        self.factors.clear();
+        self.factors.extend(matrix);
+        self.rows.clear();
+        self.rows.extend(0..size);
+        self.columns.clear();
+        self.columns.extend(0..size);
+        self.scratch.clear();
+        self.scratch.resize(size, T::zero());
+        self.rank = size;
+        for step in 0..size {
+            let (mut largest, mut row, mut column) = (0.0, step, step);
+            for i in step..size {
+                for j in step..size {
+                    let magnitude = self.factors[i * size + j].value().abs();
+                    if magnitude > largest {
+                        (largest, row, column) = (magnitude, i, j);
+                    }
+                }
+            }
+            // A NaN never wins the comparison; it shows in the solution.
+            if largest <= NEGLIGIBLE {
+                self.rank = step;
+                return;
+            }
+            self.swap(step, row, column);
+            let (upper, lower) = self.factors.split_at_mut((step + 1) * size);
+            let pivot_row = &upper[step * size..];
+            let inverse = T::one() / pivot_row[step];
+            for row in lower.chunks_exact_mut(size) {
+                if row[step].is_zero() {
+                    continue;
+                }
+                let factor = row[step] * inverse;
+                row[step] = factor;
+                for (x, &p) in row[step + 1..].iter_mut().zip(&pivot_row[step + 1..]) {
+                    *x -= factor * p;
+                }
+            }
+        }
+    }
+
+    fn swap(&mut self, step: usize, row: usize, column: usize) {
+        let size = self.size;
+        if row != step {
+            self.rows.swap(step, row);
+            for j in 0..size {
+                self.factors.swap(step * size + j, row * size + j);
+            }
+        }
+        if column != step {
+            self.columns.swap(step, column);
+            for i in 0..size {
+                self.factors.swap(i * size + step, i * size + column);
+            }
+        }
+    }
+
+    /// Replaces b by x, for a matrix of full rank.
+    pub(crate) fn solve(&mut self, b: &mut [T]) {
+        let size = self.size;
+        for (y, &row) in self.scratch.iter_mut().zip(&self.rows) {
+            *y = b[row];
+        }
+        for i in 1..size {
+            let sum = dot(&self.factors[i * size..i * size + i], &self.scratch);
+            self.scratch[i] -= sum;
+        }
+        for i in (0..size).rev() {
+            let row = &self.factors[i * size..(i + 1) * size];
+            let sum = dot(&row[i + 1..], &self.scratch[i + 1..]);
+            self.scratch[i] = (self.scratch[i] - sum) / row[i];
+        }
+        for (&column, &y) in self.columns.iter().zip(&self.scratch) {
+            b[column] = y;
+        }
+    }
+}
+
+#[inline]
+fn dot<T: Scalar>(x: &[T], y: &[T]) -> T {
+    x.iter().zip(y).fold(T::zero(), |sum, (&x, &y)| sum + x * y)
+}

@@ -1,0 +1,19 @@
+//! The constrained system of one mode and its solution.
+//!
+//! With the rows that act, ordered 0…m−1, the unknowns are x = (v̇, −λ) and
+//!
+//! ```text
+//! ⎡ M  C ⎤ ⎡  v̇ ⎤   ⎡  f ⎤
+//! ⎣ A  0 ⎦ ⎣ −λ ⎦ = ⎣ −γ ⎦
+//! ```
+//!
+//! where column i of C is the generalized force of λᵢ: aᵢᵀ, what couplings add, and sliding friction −μk ν Σ d aₜᵀ.
+//! C = Aᵀ where nothing slides.
+
+mod lu;
+mod plan;
+mod program;
+mod solver;
+
+pub(crate) use plan::{Plan, acts};
+pub(crate) use solver::{SolveError, Solver};

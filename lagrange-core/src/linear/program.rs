@@ -1,0 +1,129 @@
+//! A short tape made at run time: the products of mode-dependent factors (μk a, …) that fill the linear system.
+//!
+//! What depends on parameters only is folded into constants when the mode is set; the rest runs after the motion tape,
+//! in the same arithmetic.
+
+use crate::arithmetic::{Arithmetic, Scalar};
+use crate::system::Place;
+
+/// An operation; nodes are indices into the tape's outputs followed by the results of this program.
+#[derive(Clone, Copy, Debug)]
+enum Op {
+    Scale { constant: usize, x: usize },
+    Offset { constant: usize, x: usize },
+    Add { x: usize, y: usize },
+    Mul { x: usize, y: usize },
+    Sqrt { x: usize },
+    Ratio { constant: usize, x: usize },
+}
+
+/// Operations in order; the result of operation `i` is node `first + i`.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Program {
+    ops: Vec<Op>,
+    first: usize,
+}
+
+impl Program {
+    /// Forgets all operations; results are numbered from `first` on.
+    pub(crate) fn restart(&mut self, first: usize) {
+        self.ops.clear();
+        self.first = first;
+    }
+
+    /// Number of results.
+    pub(crate) fn len(&self) -> usize {
+        self.ops.len()
+    }
+
+    fn push(&mut self, op: Op) -> Place {
+        self.ops.push(op);
+        Place::Node(self.first + self.ops.len() - 1)
+    }
+
+    /// A new constant.
+    pub(crate) fn constant<T: Scalar>(constants: &mut Vec<T>, value: T) -> Place {
+        if value.is_zero() {
+            return Place::Zero;
+        }
+        constants.push(value);
+        Place::Constant(constants.len() - 1)
+    }
+
+    /// x y
+    pub(crate) fn mul<T: Scalar>(&mut self, constants: &mut Vec<T>, x: Place, y: Place) -> Place {
+        match (x, y) {
+            (Place::Zero, _) | (_, Place::Zero) => Place::Zero,
+            (Place::Constant(x), Place::Constant(y)) => {
+                Self::constant(constants, constants[x] * constants[y])
+            }
+            (Place::Constant(constant), Place::Node(x))
+            | (Place::Node(x), Place::Constant(constant)) => {
+                if constants[constant].is_zero() {
+                    Place::Zero
+                } else if constants[constant] == T::one() {
+                    Place::Node(x)
+                } else {
+                    self.push(Op::Scale { constant, x })
+                }
+            }
+            (Place::Node(x), Place::Node(y)) => self.push(Op::Mul { x, y }),
+        }
+    }
+
+    /// c x
+    pub(crate) fn scale<T: Scalar>(&mut self, constants: &mut Vec<T>, c: T, x: Place) -> Place {
+        let c = Self::constant(constants, c);
+        self.mul(constants, c, x)
+    }
+
+    /// x + y
+    pub(crate) fn add<T: Scalar>(&mut self, constants: &mut Vec<T>, x: Place, y: Place) -> Place {
+        match (x, y) {
+            (Place::Zero, z) | (z, Place::Zero) => z,
+            (Place::Constant(x), Place::Constant(y)) => {
+                Self::constant(constants, constants[x] + constants[y])
+            }
+            (Place::Constant(constant), Place::Node(x))
+            | (Place::Node(x), Place::Constant(constant)) => self.push(Op::Offset { constant, x }),
+            (Place::Node(x), Place::Node(y)) => self.push(Op::Add { x, y }),
+        }
+    }
+
+    /// 1 / √x; of a zero, zero.
+    pub(crate) fn inverse_root<T: Scalar>(&mut self, constants: &mut Vec<T>, x: Place) -> Place {
+        match x {
+            Place::Zero => Place::Zero,
+            Place::Constant(x) => Self::constant(constants, T::one() / constants[x].sqrt()),
+            Place::Node(x) => {
+                constants.push(T::one());
+                self.push(Op::Sqrt { x });
+                self.push(Op::Ratio {
+                    constant: constants.len() - 1,
+                    x: self.first + self.ops.len() - 1,
+                })
+            }
+        }
+    }
+
+    /// Runs it; `nodes` begins with the tape's outputs. Result `i` writes slot `i` of the arithmetic's origin.
+    #[inline]
+    pub(crate) fn run<A: Arithmetic>(
+        &self,
+        a: &mut A,
+        constants: &[A::Scalar],
+        nodes: &mut [A::Node],
+    ) {
+        for (to, op) in self.ops.iter().enumerate() {
+            nodes[self.first + to] = match *op {
+                Op::Scale { constant, x } => a.scale(to, constants[constant], nodes[x]),
+                Op::Offset { constant, x } => a.offset(to, constants[constant], nodes[x]),
+                Op::Add { x, y } => a.add(to, nodes[x], nodes[y]),
+                Op::Mul { x, y } if x == y => a.square(to, nodes[x]),
+                Op::Mul { x, y } => a.mul(to, nodes[x], nodes[y]),
+                Op::Sqrt { x } => a.sqrt(to, nodes[x]),
+                Op::Ratio { constant, x } => a.ratio(to, constants[constant], nodes[x]),
+            };
+        }
+    }
+}

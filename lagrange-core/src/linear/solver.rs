@@ -1,0 +1,192 @@
+//! Solves the constrained system: equilibrated LU with complete pivoting, redundant rows set aside.
+//!
+//! Scaling is symmetric, K → D K D, by powers of two (exact): 1/√Mⱼⱼ for coordinates, so that inertia is about 1, then
+//! each row of A to about 1. Pivots are then comparable with 1 whatever the units.
+
+use super::lu::Lu;
+use crate::arithmetic::Scalar;
+
+/// A dependent row may miss its acceleration bias by this fraction of the largest one; rounding and tolerated drift
+/// from the constraints stay below.
+const CONSISTENT: f64 = 1e-7;
+
+/// What is wrong with a system; indices are unknowns and equations.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum SolveError {
+    /// The equations leave this unknown open.
+    Undetermined { unknown: usize },
+    /// The equation has an element that is not a finite number.
+    NotFinite { equation: usize },
+    /// This row depends on others and contradicts them.
+    Inconsistent { row: usize, residual: f64 },
+}
+
+/// A factored system; the memory is reused.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Solver<T> {
+    coordinates: usize,
+    size: usize,
+    matrix: Vec<T>,
+    scale: Vec<f64>,
+    lu: Lu<T>,
+    /// Rows set aside because they depend on the others.
+    aside: Vec<bool>,
+    work: Vec<T>,
+    /// Number of factorizations so far.
+    pub factorizations: usize,
+}
+
+/// The power of two near 1/√x.
+fn inverse_root(x: f64) -> f64 {
+    if x > 0.0 && x.is_finite() {
+        (-0.5 * x.log2()).round().exp2()
+    } else {
+        1.0
+    }
+}
+
+impl<T: Scalar> Solver<T> {
+    /// Takes memory for systems of up to `coordinates + rows` equations.
+    pub(crate) fn reserve(&mut self, coordinates: usize, rows: usize) {
+        let size = coordinates + rows;
+        self.matrix.reserve(size * size);
+        self.scale.reserve(size);
+        self.aside.reserve(rows);
+        self.work.reserve(size);
+        self.lu.reserve(size);
+    }
+
+    /// The row-major matrix to be filled, set to `constant`.
+    pub(crate) fn begin(&mut self, coordinates: usize, size: usize, constant: &[T]) -> &mut [T] {
+        self.coordinates = coordinates;
+        self.size = size;
+        self.matrix.clear();
+        self.matrix.extend_from_slice(constant);
+        &mut self.matrix
+    }
+
+    /// Factors the matrix.
+    pub(crate) fn factor(&mut self) -> Result<(), SolveError> {
+        self.factorizations += 1;
+        self.equilibrate();
+        self.aside.clear();
+        self.aside.resize(self.size - self.coordinates, false);
+        self.factor_kept();
+        if self.lu.rank() == self.size {
+            return Ok(());
+        }
+        if let Some(bad) = self.matrix.iter().position(|x| !x.value().is_finite()) {
+            return Err(SolveError::NotFinite {
+                equation: bad / self.size,
+            });
+        }
+        self.set_dependent_rows_aside();
+        self.factor_kept();
+        match self.lu.undetermined() {
+            Some(unknown) => Err(SolveError::Undetermined { unknown }),
+            None => Ok(()),
+        }
+    }
+
+    fn equilibrate(&mut self) {
+        let (n, size) = (self.coordinates, self.size);
+        self.scale.clear();
+        for j in 0..n {
+            let inertia = self.matrix[j * size + j].value().abs();
+            let largest = (0..size)
+                .map(|i| self.matrix[i * size + j].value().abs())
+                .fold(0.0, f64::max);
+            self.scale.push(if inertia > 0.0 {
+                inverse_root(inertia)
+            } else {
+                inverse_root(largest * largest)
+            });
+        }
+        for row in n..size {
+            let scaled = (0..n).map(|j| self.matrix[row * size + j].value().abs() * self.scale[j]);
+            let largest = scaled.fold(0.0, f64::max);
+            self.scale.push(inverse_root(largest * largest));
+        }
+    }
+
+    /// LU of the scaled matrix, rows set aside replaced by λ = 0.
+    fn factor_kept(&mut self) {
+        let (n, size) = (self.coordinates, self.size);
+        let (matrix, scale, aside) = (&self.matrix, &self.scale, &self.aside);
+        let out = |i: usize| i >= n && aside[i - n];
+        let element = |i: usize, j: usize| match (out(i) || out(j), i == j) {
+            (false, _) => matrix[i * size + j] * T::from_f64(scale[i] * scale[j]),
+            (true, true) => T::one(),
+            (true, false) => T::zero(),
+        };
+        self.lu.factor(
+            size,
+            (0..size)
+                .flat_map(|i| (0..size).map(move |j| (i, j)))
+                .map(|(i, j)| element(i, j)),
+        );
+    }
+
+    /// Chooses an independent subset of the rows of A: elimination with complete pivoting.
+    fn set_dependent_rows_aside(&mut self) {
+        let (n, size) = (self.coordinates, self.size);
+        let rows = size - n;
+        // Square with zeros, so that the same factorization serves.
+        let wide = n.max(rows);
+        let (matrix, scale) = (&self.matrix, &self.scale);
+        let element = |i: usize, j: usize| {
+            if i < rows && j < n {
+                matrix[(n + i) * size + j] * T::from_f64(scale[n + i] * scale[j])
+            } else {
+                T::zero()
+            }
+        };
+        self.lu.factor(
+            wide,
+            (0..wide)
+                .flat_map(|i| (0..wide).map(move |j| (i, j)))
+                .map(|(i, j)| element(i, j)),
+        );
+        for i in self.lu.dependent_rows() {
+            if i < rows {
+                self.aside[i] = true;
+            }
+        }
+    }
+
+    /// Replaces the right-hand side by the solution; multipliers of rows set aside are zero.
+    pub(crate) fn solve(&mut self, b: &mut [T]) {
+        for (i, (b, &scale)) in b.iter_mut().zip(&self.scale).enumerate() {
+            let kept = i < self.coordinates || !self.aside[i - self.coordinates];
+            *b = if kept {
+                *b * T::from_f64(scale)
+            } else {
+                T::zero()
+            };
+        }
+        self.lu.solve(b);
+        for (x, &scale) in b.iter_mut().zip(&self.scale) {
+            *x *= T::from_f64(scale);
+        }
+    }
+
+    /// Whether the rows set aside agree with the solution `x` of the right-hand side `b`.
+    pub(crate) fn check_rows_aside(&self, x: &[T], b: &[T]) -> Result<(), SolveError> {
+        let (n, size) = (self.coordinates, self.size);
+        for (row, _) in self.aside.iter().enumerate().filter(|(_, aside)| **aside) {
+            let (mut residual, mut largest) = (-b[n + row].value(), b[n + row].value().abs());
+            for (j, x) in x[..n].iter().enumerate() {
+                let term = self.matrix[(n + row) * size + j].value() * x.value();
+                residual += term;
+                largest = largest.max(term.abs());
+            }
+            if residual.abs() > CONSISTENT * largest {
+                return Err(SolveError::Inconsistent {
+                    row,
+                    residual: residual.abs() / largest,
+                });
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,133 @@
+//! The mode of a system: which contacts are closed, how each friction acts, on which side each branch is.
+//!
+//! Within one mode the equations of motion are smooth; the guards say where it ends.
+
+use crate::system::Description;
+use core::fmt;
+
+/// How a friction acts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FrictionMode {
+    /// Its contact is open (or it is left out): no force.
+    Inactive,
+    /// Slip is zero; the force is whatever keeps it so.
+    Stick,
+    /// The force is μk N against the slip.
+    Slip(Sliding),
+}
+
+/// State of a sliding friction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sliding {
+    /// Direction of the slip.
+    pub direction: Direction,
+    /// Sign (+1 or −1) of the multiplier that presses, for friction on a constraint (N = |λ|); +1 on a contact.
+    pub normal_sign: f64,
+}
+
+/// Direction of a slip; the friction force points the other way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Direction {
+    /// This unit vector: (±1, 0) for one component.
+    Fixed([f64; 2]),
+    /// The direction of the slip velocity itself, which turns (two components, slip not zero).
+    AlongSlip,
+}
+
+impl Sliding {
+    /// Slip with one component, of this sign, on a contact.
+    pub fn sign(sign: f64) -> Self {
+        Self {
+            direction: Direction::Fixed([sign, 0.0]),
+            normal_sign: 1.0,
+        }
+    }
+}
+
+/// The mode of a system. Lengths are those of the description's lists.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mode {
+    /// Which contacts are closed.
+    pub contacts: Vec<bool>,
+    /// How each friction acts.
+    pub frictions: Vec<FrictionMode>,
+    /// Bit `i`: branch `i` is on its `then` side.
+    pub branches: Vec<u64>,
+}
+
+impl Mode {
+    /// All contacts open, no friction acting, all branches on their other side.
+    pub fn open(description: &Description) -> Self {
+        Self {
+            contacts: vec![false; description.contacts.len()],
+            frictions: vec![FrictionMode::Inactive; description.frictions.len()],
+            branches: vec![0; description.branches.len().div_ceil(64)],
+        }
+    }
+
+    /// Whether branch `index` is on its `then` side.
+    pub fn branch(&self, index: usize) -> bool {
+        self.branches[index / 64] >> (index % 64) & 1 == 1
+    }
+
+    /// Puts branch `index` on its `then` side, or on the other.
+    pub fn set_branch(&mut self, index: usize, then: bool) {
+        let bit = 1 << (index % 64);
+        if then {
+            self.branches[index / 64] |= bit;
+        } else {
+            self.branches[index / 64] &= !bit;
+        }
+    }
+
+    /// The mode in words: `rim closed, grip sticks`.
+    pub fn display<'a>(&'a self, description: &'a Description) -> impl fmt::Display + 'a {
+        Named {
+            mode: self,
+            description,
+        }
+    }
+}
+
+struct Named<'a> {
+    mode: &'a Mode,
+    description: &'a Description,
+}
+
+impl fmt::Display for Named<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let mut separator = "";
+        for (contact, closed) in self.description.contacts.iter().zip(&self.mode.contacts) {
+            write!(
+                f,
+                "{separator}{} {}",
+                contact.name,
+                if *closed { "closed" } else { "open" }
+            )?;
+            separator = ", ";
+        }
+        for (friction, state) in self.description.frictions.iter().zip(&self.mode.frictions) {
+            let verb = match state {
+                FrictionMode::Inactive => continue,
+                FrictionMode::Stick => "sticks",
+                FrictionMode::Slip(sliding) => match sliding.direction {
+                    Direction::Fixed([s, 0.0]) if s > 0.0 => "slips forward",
+                    Direction::Fixed([s, 0.0]) if s < 0.0 => "slips backward",
+                    _ => "slips",
+                },
+            };
+            write!(f, "{separator}{} {verb}", friction.name)?;
+            separator = ", ";
+        }
+        for (i, branch) in self.description.branches.iter().enumerate() {
+            let side = if self.mode.branch(i) { '+' } else { '-' };
+            write!(f, "{separator}{}: {side}", branch.text)?;
+            separator = ", ";
+        }
+        if separator.is_empty() {
+            write!(f, "smooth")
+        } else {
+            Ok(())
+        }
+    }
+}

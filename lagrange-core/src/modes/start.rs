@@ -1,0 +1,206 @@
+//! The beginning of a run: which contacts touch, which frictions rest, and states that satisfy the constraints.
+
+use crate::arithmetic::Scalar;
+use crate::dynamics::{Dynamics, EvaluationError, NeedSet};
+use crate::effects::Item;
+use crate::error::{Error, Level};
+use crate::mode::{FrictionMode, Mode, Sliding};
+use crate::modes::decide::Known;
+use crate::modes::guard;
+use crate::simulation::Held;
+use crate::system::{Normal, Place, System};
+use crate::trajectory::State;
+
+/// What is accepted as zero in a start, relative to the size of the state: a start is typed or computed by a user.
+fn slack(tolerance: f64) -> f64 {
+    tolerance.clamp(1e-10, 1e-6)
+}
+
+/// Looks at a start: leaves `dynamics` in the mode with every touching contact closed and every vanishing slip at
+/// rest, and says what is known.
+///
+/// # Errors
+/// [`Error::Start`] where a constraint is violated (unless `project`) or a contact is penetrated.
+pub fn begin<S: System>(
+    dynamics: &mut Dynamics<S>,
+    t: S::Scalar,
+    state: &mut State<S::Scalar>,
+    tolerance: f64,
+    project: bool,
+) -> Result<Known, Error> {
+    let mut found = survey(dynamics, t, state, tolerance)?;
+    if !project {
+        refuse_violations(dynamics, &found, slack(tolerance))?;
+    }
+    dynamics.set_mode(&found.mode);
+    let before = state.clone();
+    project_onto(dynamics, t, state)?;
+    if *state != before {
+        found = survey(dynamics, t, state, tolerance)?;
+        dynamics.set_mode(&found.mode);
+    }
+    Ok(found.known)
+}
+
+/// See [`crate::Simulation::consistent`].
+pub fn consistent<S: System>(
+    dynamics: &mut Dynamics<S>,
+    time: f64,
+    tolerance: f64,
+    reference: &State<S::Scalar>,
+    wanted: &State<S::Scalar>,
+    held: &Held,
+) -> Result<State<S::Scalar>, Error> {
+    let t = S::Scalar::from_f64(time);
+    let found = survey(dynamics, t, reference, tolerance)?;
+    dynamics.set_mode(&found.mode);
+    let mut state = wanted.clone();
+    let outcome = dynamics.project_holding(t, &mut state.q, &mut state.v, &held.positions, &held.velocities);
+    outcome.map_err(|e| Error::from_evaluation(e, time, &found.mode, S::DESCRIPTION))?;
+    Ok(state)
+}
+
+struct Survey {
+    mode: Mode,
+    known: Known,
+    /// (row, level, residual, size) of every constraint.
+    residuals: Vec<(usize, Level, f64, f64)>,
+    /// (contact, gap, size) of every contact.
+    gaps: Vec<(usize, f64, f64)>,
+}
+
+/// Evaluates every gap, slip and residual of a state.
+fn survey<S: System>(
+    dynamics: &mut Dynamics<S>,
+    t: S::Scalar,
+    state: &State<S::Scalar>,
+    tolerance: f64,
+) -> Result<Survey, Error> {
+    let d = S::DESCRIPTION;
+    let near = slack(tolerance);
+    let mut mode = Mode::open(d);
+    let mut known = Known {
+        touching: vec![false; d.contacts.len()],
+        parting: vec![false; d.contacts.len()],
+        resting: vec![false; d.frictions.len()],
+        balanced: vec![false; d.branches.len()],
+        located: Vec::new(),
+    };
+    branches(dynamics, t, state, &mut mode, &mut known)?;
+    let number = |dynamics: &Dynamics<S>, place: Place| dynamics.motion(place).value();
+    let extent = state.q.iter().fold(1.0_f64, |m, x| m.max(x.value().abs()));
+    let speed = |dynamics: &Dynamics<S>, row: usize| {
+        let terms = d.rows[row].jacobian.iter();
+        terms.map(|&(j, p)| (number(dynamics, p) * state.v[j].value()).abs()).fold(1.0_f64, f64::max)
+    };
+    let mut gaps = Vec::new();
+    for (c, contact) in d.contacts.iter().enumerate() {
+        if !dynamics.effects().includes(d, Item::Contact(c)) {
+            continue;
+        }
+        let row = &d.rows[contact.row];
+        let gap = number(dynamics, row.position.unwrap_or(Place::Zero));
+        gaps.push((c, gap, extent));
+        if gap.abs() <= near * extent {
+            let rate = number(dynamics, row.velocity);
+            let size = speed(dynamics, contact.row);
+            if rate > near * size {
+                known.parting[c] = true;
+            } else {
+                known.touching[c] = true;
+                mode.contacts[c] = true;
+            }
+        }
+    }
+    for (f, friction) in d.frictions.iter().enumerate() {
+        if !dynamics.effects().includes(d, Item::Friction(f)) {
+            continue;
+        }
+        if let Normal::Contact(c) = friction.normal {
+            if !mode.contacts[c] {
+                continue;
+            }
+        }
+        let slip = number(dynamics, d.rows[friction.row].velocity);
+        if slip.abs() <= near * speed(dynamics, friction.row) {
+            known.resting[f] = true;
+            mode.frictions[f] = FrictionMode::Stick;
+        } else {
+            mode.frictions[f] = FrictionMode::Slip(Sliding::sign(slip.signum()));
+        }
+    }
+    let mut residuals = Vec::new();
+    for (i, constraint) in d.constraints.iter().enumerate() {
+        let waits = constraint.while_contact.is_some_and(|c| !mode.contacts[c]);
+        if waits || !dynamics.effects().includes(d, Item::Constraint(i)) {
+            continue;
+        }
+        let row = &d.rows[constraint.row];
+        if let Some(place) = row.position {
+            residuals.push((constraint.row, Level::Position, number(dynamics, place), extent));
+        }
+        let rate = number(dynamics, row.velocity);
+        residuals.push((constraint.row, Level::Velocity, rate, speed(dynamics, constraint.row)));
+    }
+    Ok(Survey { mode, known, residuals, gaps })
+}
+
+/// Puts every branch on its side; the guard of one may depend on the side of another.
+fn branches<S: System>(
+    dynamics: &mut Dynamics<S>,
+    t: S::Scalar,
+    state: &State<S::Scalar>,
+    mode: &mut Mode,
+    known: &mut Known,
+) -> Result<(), Error> {
+    let d = S::DESCRIPTION;
+    let evaluate = |dynamics: &mut Dynamics<S>, mode: &Mode| {
+        dynamics.set_mode(mode);
+        dynamics.set_extra_needs(&guard::all_row_needs(d, &NeedSet::new(d)));
+        dynamics.tape(t, &state.q, &state.v).map_err(|e| Error::from_evaluation(e, t.value(), mode, d))
+    };
+    evaluate(dynamics, mode)?;
+    for _ in 0..d.branches.len() {
+        let mut changed = false;
+        for (b, branch) in d.branches.iter().enumerate().filter(|(_, b)| !b.after_solve) {
+            let guard = dynamics.motion(branch.guard).value();
+            known.balanced[b] = guard == 0.0;
+            if mode.branch(b) != (guard >= 0.0) {
+                mode.set_branch(b, guard >= 0.0);
+                changed = true;
+            }
+        }
+        if !changed {
+            break;
+        }
+        evaluate(dynamics, mode)?;
+    }
+    Ok(())
+}
+
+fn refuse_violations<S: System>(dynamics: &Dynamics<S>, found: &Survey, near: f64) -> Result<(), Error> {
+    let d = dynamics.description();
+    for &(c, gap, size) in &found.gaps {
+        if gap < -near * size {
+            let item = d.contacts[c].name;
+            return Err(Error::Start { item, level: Level::Position, residual: gap, tolerance: near * size });
+        }
+    }
+    for &(row, level, residual, size) in &found.residuals {
+        if residual.abs() > near * size {
+            let item = crate::dynamics::row_name(d, row);
+            return Err(Error::Start { item, level, residual, tolerance: near * size });
+        }
+    }
+    Ok(())
+}
+
+fn project_onto<S: System>(
+    dynamics: &mut Dynamics<S>,
+    t: S::Scalar,
+    state: &mut State<S::Scalar>,
+) -> Result<(), Error> {
+    let mode = dynamics.mode().clone();
+    let outcome: Result<bool, EvaluationError> = dynamics.project(t, &mut state.q, &mut state.v, 0.0);
+    outcome.map(|_| ()).map_err(|e| Error::from_evaluation(e, t.value(), &mode, S::DESCRIPTION))
+}

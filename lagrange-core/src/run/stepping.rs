@@ -1,0 +1,209 @@
+//! One accepted step: polynomials of the motion and of all guards, checked against an independent evaluation.
+
+use super::Run;
+use super::hits::Hit;
+use crate::arithmetic::Scalar;
+use crate::dynamics::{Dynamics, EvaluationError};
+use crate::error::Error;
+use crate::integrate::taylor::{self, DefectControl, Verdict};
+use crate::integrate::{Acceleration, Method, RungeKutta, StepError};
+use crate::system::System;
+
+/// What makes the polynomials of a step.
+pub(super) enum Stepper<T> {
+    /// Taylor series.
+    Taylor(DefectControl),
+    /// A Runge–Kutta method and the step that it would like to take.
+    RungeKutta(Box<RungeKutta<T>>, Option<f64>),
+}
+
+impl<T: Scalar> Stepper<T> {
+    pub(super) fn new(method: Method, coordinates: usize) -> Self {
+        match method {
+            Method::Taylor => Stepper::Taylor(DefectControl::default()),
+            other => Stepper::RungeKutta(Box::new(RungeKutta::new(other, coordinates)), None),
+        }
+    }
+
+    /// Forgets what belongs to the motion before a switch.
+    pub(super) fn restart(&mut self) {
+        match self {
+            Stepper::Taylor(control) => *control = DefectControl::default(),
+            Stepper::RungeKutta(method, _) => method.restart(),
+        }
+    }
+}
+
+/// The Taylor series that a [`Dynamics`] holds.
+struct Held<'a, S: System>(&'a Dynamics<S>);
+
+impl<S: System> taylor::Series<S::Scalar> for Held<'_, S> {
+    fn coordinates(&self) -> usize {
+        S::DESCRIPTION.coordinates.len()
+    }
+    fn position(&self, i: usize) -> &[S::Scalar] {
+        self.0.position_series(i)
+    }
+    fn velocity(&self, i: usize) -> &[S::Scalar] {
+        self.0.velocity_series(i)
+    }
+}
+
+impl<S: System> Acceleration<S::Scalar> for Dynamics<S> {
+    type Error = EvaluationError;
+
+    fn acceleration(
+        &mut self,
+        t: S::Scalar,
+        q: &[S::Scalar],
+        v: &[S::Scalar],
+        dv: &mut [S::Scalar],
+    ) -> Result<(), EvaluationError> {
+        self.value(t, q, v)?;
+        dv.copy_from_slice(Dynamics::acceleration(self));
+        Ok(())
+    }
+}
+
+/// Step that the series in `dynamics` allow, at most `longest`.
+pub(crate) fn natural_step<S: System>(
+    dynamics: &Dynamics<S>,
+    order: usize,
+    tolerance: crate::integrate::Tolerance,
+    longest: f64,
+) -> Option<f64> {
+    taylor::step_size(&Held(dynamics), order, tolerance).map(|h| h.min(longest))
+}
+
+impl<S: System> Run<'_, S> {
+    /// Makes a step from the present state and finds what happens first in it.
+    pub(super) fn accepted_step(&mut self) -> Result<Hit, Error> {
+        match &self.stepper {
+            Stepper::Taylor(_) => self.taylor_step(),
+            Stepper::RungeKutta(..) => self.runge_kutta_step(),
+        }
+    }
+
+    fn taylor_step(&mut self) -> Result<Hit, Error> {
+        if !self.expanded {
+            let outcome = self.dynamics.series(self.t, &self.state.q, &self.state.v, self.order);
+            outcome.map_err(|e| self.error(e))?;
+            self.expanded = true;
+        }
+        let longest = self.end - self.t.value();
+        let mut h = natural_step(&self.dynamics, self.order, self.tolerance, longest)
+            .ok_or_else(|| self.not_finite("a Taylor coefficient"))?;
+        loop {
+            if self.t.value() + h <= self.t.value() {
+                return Err(self.step_too_small(h));
+            }
+            self.write_polynomial(h);
+            let mut curves = core::mem::take(&mut self.curves);
+            curves.from_series(&self.dynamics, &self.mode, &self.guards, h);
+            let hit = self.first_hit(&curves);
+            self.curves = curves;
+            let end = hit.end();
+            if end == 0.0 {
+                return Ok(hit);
+            }
+            // The next step's own first evaluation would do; made here, it also serves the event log.
+            let s = S::Scalar::from_f64(end);
+            self.step.state_into(s, &mut self.scratch.q, &mut self.scratch.v);
+            let defect = match self.dynamics.value(self.step.time(s), &self.scratch.q, &self.scratch.v) {
+                Ok(()) => taylor::defect(&self.step, end, self.dynamics.acceleration(), self.tolerance),
+                Err(_) => f64::INFINITY,
+            };
+            let Stepper::Taylor(control) = &mut self.stepper else { return Ok(hit) };
+            match control.judge(h, defect, self.order) {
+                Verdict::Accept => return Ok(hit),
+                Verdict::Redo { h: smaller } => {
+                    self.trajectory.work.rejected += 1;
+                    h = smaller;
+                }
+            }
+        }
+    }
+
+    /// Scales the series onto a step of length `h`.
+    fn write_polynomial(&mut self, h: f64) {
+        self.step.set_degree(self.order);
+        self.step.t = self.t;
+        self.step.h = S::Scalar::from_f64(h);
+        let h = S::Scalar::from_f64(h);
+        for i in 0..S::DESCRIPTION.coordinates.len() {
+            let (q, v) = self.step.rows_mut(i);
+            let mut power = num_traits::one::<S::Scalar>();
+            let series = self.dynamics.position_series(i).iter().zip(self.dynamics.velocity_series(i));
+            for ((q, v), (x, y)) in q.iter_mut().zip(v).zip(series) {
+                *q = *x * power;
+                *v = *y * power;
+                power *= h;
+            }
+        }
+    }
+
+    fn runge_kutta_step(&mut self) -> Result<Hit, Error> {
+        let longest = self.end - self.t.value();
+        let Stepper::RungeKutta(method, wanted) = &mut self.stepper else {
+            return Ok(Hit::Nothing);
+        };
+        let h = wanted.unwrap_or_else(|| method.first_step(longest)).min(longest);
+        let outcome = method.step(
+            &mut self.dynamics,
+            self.t,
+            &self.state.q,
+            &self.state.v,
+            h,
+            self.tolerance,
+            &mut self.step,
+        );
+        match outcome {
+            Ok(accepted) => {
+                *wanted = Some(accepted.h_next);
+                self.trajectory.work.rejected += accepted.rejected;
+            }
+            Err(StepError::System(e)) => return Err(self.error(e)),
+            Err(StepError::TooSmall { h, .. }) => return Err(self.step_too_small(h)),
+        }
+        let mut curves = core::mem::take(&mut self.curves);
+        let sampled = curves.from_samples(
+            &mut self.dynamics,
+            &self.mode,
+            &self.guards,
+            &self.step,
+            &mut self.scratch.q,
+            &mut self.scratch.v,
+        );
+        let hit = sampled.map(|()| self.first_hit(&curves));
+        self.curves = curves;
+        hit.map_err(|e| self.error(e))
+    }
+
+    fn step_too_small(&self, step: f64) -> Error {
+        let mode = self.mode.display(S::DESCRIPTION).to_string();
+        Error::StepTooSmall { time: self.t.value(), step, mode }
+    }
+
+    fn not_finite(&self, what: &str) -> Error {
+        let mode = self.mode.display(S::DESCRIPTION).to_string();
+        Error::NotFinite { time: self.t.value(), mode, what: what.to_owned() }
+    }
+
+    /// Moves the state back onto the constraints of the mode where its residual calls for it (`always`: in any case).
+    pub(super) fn project(&mut self, always: bool) -> Result<(), Error> {
+        let tolerance = 1e-2 * self.simulation.tolerance.max(1e-14);
+        let outcome = self.dynamics.project(
+            self.t,
+            &mut self.state.q,
+            &mut self.state.v,
+            if always { 0.0 } else { tolerance },
+        );
+        match outcome {
+            Ok(changed) => {
+                self.trajectory.work.projections += usize::from(changed);
+                Ok(())
+            }
+            Err(e) => Err(self.error(e)),
+        }
+    }
+}
