@@ -1,5 +1,8 @@
 //! What can go wrong at run time, with the numbers that say where.
 
+use crate::dynamics::EvaluationError;
+use crate::mode::Mode;
+use crate::system::Description;
 use core::fmt;
 
 /// Why a run ended early, or could not begin.
@@ -192,3 +195,26 @@ impl fmt::Display for Error {
 }
 
 impl core::error::Error for Error {}
+
+impl Error {
+    /// Adds time, mode and names to what the equations of motion report.
+    pub(crate) fn from_evaluation(
+        error: EvaluationError,
+        time: f64,
+        mode: &Mode,
+        description: &'static Description,
+    ) -> Error {
+        let mode = mode.display(description).to_string();
+        let item = error.item(description);
+        match error {
+            EvaluationError::NotFiniteAcceleration { .. } | EvaluationError::NotFiniteForce { .. } => {
+                let what = format!("the acceleration or force of `{}`", item.unwrap_or(description.name));
+                Error::NotFinite { time, mode, what }
+            }
+            EvaluationError::Projection { residual, .. } => {
+                Error::Projection { time, residual, item: item.unwrap_or(description.name) }
+            }
+            other => Error::Singular { time, mode, items: item.into_iter().collect(), reason: other.to_string() },
+        }
+    }
+}

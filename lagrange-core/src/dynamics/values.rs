@@ -15,7 +15,10 @@ impl<S: System> Dynamics<S> {
         v: &[S::Scalar],
     ) -> Result<(), EvaluationError> {
         self.work.values += 1;
-        self.run_motion(t, q, v);
+        self.run_tape(t, q, v);
+        self.plan
+            .program
+            .run(&mut Value::new(), &self.constants, &mut self.nodes);
         self.assemble();
         self.solver.factor().map_err(|e| self.solve_error(e))?;
         self.right.clear();
@@ -37,8 +40,32 @@ impl<S: System> Dynamics<S> {
         Ok(())
     }
 
-    /// The motion tape and the plan's program.
-    pub(super) fn run_motion(&mut self, t: S::Scalar, q: &[S::Scalar], v: &[S::Scalar]) {
+    /// Runs the motion tape at (t, q, v) without solving for accelerations: then read [`Self::motion`].
+    ///
+    /// # Errors
+    /// [`EvaluationError::NotFiniteResidual`] for a gap or slip that is held and not a finite number.
+    pub fn tape(
+        &mut self,
+        t: S::Scalar,
+        q: &[S::Scalar],
+        v: &[S::Scalar],
+    ) -> Result<(), EvaluationError> {
+        self.run_tape(t, q, v);
+        let finite = |place: Place| self.motion(place).value().is_finite();
+        for (index, row) in S::DESCRIPTION.rows.iter().enumerate() {
+            let position = row
+                .position
+                .filter(|_| self.held.contains(row.needs.position));
+            let velocity = Some(row.velocity).filter(|_| self.held.contains(row.needs.velocity));
+            if !position.is_none_or(finite) || !velocity.is_none_or(finite) {
+                return Err(EvaluationError::NotFiniteResidual { row: index });
+            }
+        }
+        Ok(())
+    }
+
+    /// The motion tape for the needs that are held.
+    pub(super) fn run_tape(&mut self, t: S::Scalar, q: &[S::Scalar], v: &[S::Scalar]) {
         let n = self.plan.coordinates;
         self.inputs[0] = t;
         self.inputs[1..1 + n].copy_from_slice(q);

@@ -105,24 +105,72 @@ impl<T: Scalar> Lu<T> {
     }
 
     /// Replaces b by x, for a matrix of full rank.
+    #[inline]
     pub(crate) fn solve(&mut self, b: &mut [T]) {
-        let size = self.size;
+        self.solve_part(b);
+    }
+
+    /// Replaces b by x; unknowns without pivot become zero. Returns the largest residual of the equations without pivot.
+    pub(crate) fn solve_part(&mut self, b: &mut [T]) -> f64 {
+        let (size, rank) = (self.size, self.rank);
         for (y, &row) in self.scratch.iter_mut().zip(&self.rows) {
             *y = b[row];
         }
         for i in 1..size {
-            let sum = dot(&self.factors[i * size..i * size + i], &self.scratch);
+            let sum = dot(
+                &self.factors[i * size..i * size + i.min(rank)],
+                &self.scratch,
+            );
             self.scratch[i] -= sum;
         }
-        for i in (0..size).rev() {
+        let mut left_out = 0.0;
+        for y in &mut self.scratch[rank..] {
+            left_out = f64::max(left_out, y.value().abs());
+            *y = T::zero();
+        }
+        for i in (0..rank).rev() {
             let row = &self.factors[i * size..(i + 1) * size];
-            let sum = dot(&row[i + 1..], &self.scratch[i + 1..]);
+            let sum = dot(&row[i + 1..rank], &self.scratch[i + 1..]);
             self.scratch[i] = (self.scratch[i] - sum) / row[i];
         }
         for (&column, &y) in self.columns.iter().zip(&self.scratch) {
             b[column] = y;
         }
+        left_out
     }
+}
+
+/// Solves the row-major system in place, minimum changes and scalings left to the caller of [`Lu`]; false if it has no
+/// solution. A dependent equation that agrees with the others is left out, and the unknown that it would fix is zero.
+pub(crate) fn solve_consistent<T: Scalar>(matrix: &mut [T], b: &mut [T], size: usize) -> bool {
+    // Rows and columns to about 1.
+    let mut column_scale = vec![1.0; size];
+    for i in 0..size {
+        let row = &mut matrix[i * size..(i + 1) * size];
+        let largest = row.iter().map(|x| x.value().abs()).fold(0.0, f64::max);
+        if largest > 0.0 {
+            let scale = T::from_f64(1.0 / largest);
+            row.iter_mut().for_each(|x| *x *= scale);
+            b[i] *= scale;
+        }
+    }
+    for (j, scale) in column_scale.iter_mut().enumerate() {
+        let largest = (0..size)
+            .map(|i| matrix[i * size + j].value().abs())
+            .fold(0.0, f64::max);
+        if largest > 0.0 {
+            *scale = 1.0 / largest;
+            (0..size).for_each(|i| matrix[i * size + j] *= T::from_f64(*scale));
+        }
+    }
+    let size_of_b = b.iter().map(|x| x.value().abs()).fold(0.0, f64::max);
+    let mut lu = Lu::default();
+    lu.factor(size, matrix.iter().copied());
+    let left_out = lu.solve_part(b);
+    for (x, scale) in b.iter_mut().zip(column_scale) {
+        *x *= T::from_f64(scale);
+    }
+    left_out <= 1e-9 * size_of_b && b.iter().all(|x| x.value().is_finite())
 }
 
 #[inline]

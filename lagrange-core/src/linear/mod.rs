@@ -15,5 +15,6 @@ mod plan;
 mod program;
 mod solver;
 
+pub(crate) use lu::solve_consistent;
 pub(crate) use plan::{Plan, acts};
 pub(crate) use solver::{SolveError, Solver};

@@ -6,12 +6,14 @@
 //! Lötstedt 1982). What is known to vanish (a gap that was closed, a located root) is never read.
 
 use crate::arithmetic::Scalar;
-use crate::dynamics::Dynamics;
+use crate::dynamics::{Dynamics, EvaluationError, NeedSet};
 use crate::error::Error;
 use crate::effects::Item;
 use crate::mode::{FrictionMode, Mode, Sliding};
+use crate::integrate::{Tolerance, taylor};
 use crate::modes::guard::{self, Guard};
-use crate::system::{Normal, Place, System};
+use crate::modes::reading::Reading;
+use crate::system::{Normal, System};
 
 /// What is known exactly at the instant.
 #[derive(Clone, Debug, Default)]
@@ -86,7 +88,7 @@ pub fn decide<S: System>(
                 }
             }
             Ok(None) => {}
-            Err(error) => failure = Some(error),
+            Err(error) => failure = Some((mode, error)),
         }
     }
     match (best, failure) {
@@ -94,7 +96,7 @@ pub fn decide<S: System>(
             dynamics.set_mode(&decision.mode);
             Ok(decision)
         }
-        (None, Some(error)) => Err(error.at(t.value(), present.display(S::DESCRIPTION).to_string())),
+        (None, Some((mode, error))) => Err(Error::from_evaluation(error, t.value(), &mode, S::DESCRIPTION)),
         (None, None) => Err(Error::NoMode {
             time: t.value(),
             mode: present.display(S::DESCRIPTION).to_string(),
@@ -156,10 +158,13 @@ fn candidates<S: System>(
             if touching { vec![closed, open] } else { vec![open] }
         })?;
     }
-    let slip = dynamics.slips(t, q, v);
+    let all = guard::all_row_needs(d, &NeedSet::new(d));
+    dynamics.set_extra_needs(&all);
+    dynamics.tape(t, q, v);
     for (f, friction) in d.frictions.iter().enumerate() {
         let rests = known.resting[f];
-        let sign = if slip[friction.row - dynamics.first_slip_row()] < 0.0 { -1.0 } else { 1.0 };
+        let slip = dynamics.motion(d.rows[friction.row].velocity).value();
+        let sign = if slip < 0.0 { -1.0 } else { 1.0 };
         let left_out = !dynamics.effects().includes(d, Item::Friction(f));
         multiply(&mut modes, &|mode| {
             let idle = left_out || matches!(friction.normal, Normal::Contact(c) if !mode.contacts[c]);
@@ -213,14 +218,14 @@ fn examine<S: System>(
     known: &Known,
     order: usize,
     tolerance: f64,
-) -> Result<Option<Vec<(Guard, usize)>>, Error> {
+) -> Result<Option<Vec<(Guard, usize)>>, EvaluationError> {
     dynamics.set_mode(mode);
     let questions = questions::<S>(mode, known);
     // Most candidates are refused by their values already.
     dynamics.value(t, q, v)?;
     for &(guard, order_known) in &questions {
         if order_known == 0 {
-            let series = guard::series(guard, mode, &dynamics.value_reading(), 1.0);
+            let series = guard::series(guard, mode, &Reading::Values(dynamics), 1.0);
             let value = series.as_slice().first().copied().unwrap_or(0.0);
             let scale = scale(guard, mode, dynamics);
             if value < -1e-6 * scale && !known.located.contains(&guard) {
@@ -229,10 +234,11 @@ fn examine<S: System>(
         }
     }
     dynamics.series(t, q, v, order)?;
-    let h = dynamics.natural_step(tolerance);
+    let step = taylor::step_size(dynamics, order, Tolerance::both(tolerance));
+    let h = step.filter(|h| h.is_finite()).unwrap_or(1.0);
     let mut zeros = Vec::new();
     for &(guard, order_known) in &questions {
-        let mut series = guard::series(guard, mode, &dynamics.series_reading(), h);
+        let mut series = guard::series(guard, mode, &Reading::Series(dynamics), h);
         series.clear(order_known);
         let size = series.as_slice().iter().fold(0.0_f64, |m, c| m.max(c.abs()));
         // The residue of a located root, and what follows from it, has the size of the integration error.
@@ -331,19 +337,18 @@ fn scale<S: System>(guard: Guard, mode: &Mode, dynamics: &Dynamics<S>) -> f64 {
         Guard::Slip(f) | Guard::StickUpper(f) | Guard::StickLower(f) | Guard::StickCone(f) | Guard::Bearing(f) => d.frictions[f].row,
         Guard::Branch(_) | Guard::Stop(..) | Guard::Mark(..) => return 0.0,
     };
-    let reading = dynamics.value_reading();
-    let first = |series: &[S::Scalar]| series.first().map_or(0.0, |x| x.value());
+    let number = |place| dynamics.motion(place).value();
     let mut acceleration = 0.0;
     let mut compliance = 0.0;
     for &(j, place) in d.rows[row].jacobian {
-        let a = first(reading.motion(place)).abs();
+        let a = number(place).abs();
         let mass = d
             .mass
             .iter()
             .find(|(r, c, _)| *r == j && *c == j)
-            .map_or(0.0, |(_, _, place)| first(reading.motion(*place)));
+            .map_or(0.0, |(_, _, place)| number(*place));
         if mass > 0.0 {
-            acceleration += a * first(reading.motion(d.forcing[j])).abs() / mass;
+            acceleration += a * number(d.forcing[j]).abs() / mass;
             compliance += a * a / mass;
         }
     }
@@ -360,9 +365,8 @@ fn scale<S: System>(guard: Guard, mode: &Mode, dynamics: &Dynamics<S>) -> f64 {
 /// Largest multiplier among contacts and frictions that act.
 fn mode_forces<S: System>(mode: &Mode, dynamics: &Dynamics<S>) -> f64 {
     let d = S::DESCRIPTION;
-    let reading = dynamics.value_reading();
     let contacts = d.contacts.iter().zip(&mode.contacts).filter(|(_, closed)| **closed).map(|(c, _)| c.row);
     contacts
-        .map(|row| reading.force(row).first().map_or(0.0, |x| x.value().abs()))
+        .map(|row| dynamics.force(row).value().abs())
         .fold(0.0, f64::max)
 }

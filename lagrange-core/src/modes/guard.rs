@@ -15,7 +15,7 @@ use crate::dynamics::{Dynamics, NeedSet};
 use crate::modes::reading::{Reading, Terms};
 use crate::effects::Item;
 use crate::mode::{Direction, FrictionMode, Mode, Sliding};
-use crate::system::{Friction, Normal, Place, System};
+use crate::system::{Description, Friction, Normal, Place, System};
 
 /// Longest series of a guard.
 pub const LENGTH: usize = 48;
@@ -238,4 +238,26 @@ pub fn normal_force<S: System>(f: usize, mode: &Mode, reading: &Reading<'_, S>, 
         }
         Normal::Given(place) => out.add(1.0, reading.motion(place)),
     }
+}
+
+/// First coefficient of each guard, at the start of the series that `dynamics` holds.
+pub fn first_values<S: System>(
+    dynamics: &Dynamics<S>,
+    mode: &Mode,
+    guards: impl Iterator<Item = Guard>,
+) -> Vec<f64> {
+    let reading = Reading::Series(dynamics);
+    guards.map(|g| series(g, mode, &reading, 1.0).as_slice().first().copied().unwrap_or(0.0)).collect()
+}
+
+/// `needs` and everything about every row: Jacobian, residuals, coefficients, restitution, branch guards.
+pub fn all_row_needs(d: &Description, needs: &NeedSet) -> NeedSet {
+    let mut all = needs.clone();
+    for row in d.rows {
+        [row.needs.jacobian, row.needs.position, row.needs.velocity].map(|need| all.insert(need));
+    }
+    d.contacts.iter().for_each(|c| all.insert(c.restitution_need));
+    d.frictions.iter().for_each(|f| all.insert(f.coefficients_need));
+    d.branches.iter().filter(|b| !b.after_solve).for_each(|b| all.insert(b.need));
+    all
 }

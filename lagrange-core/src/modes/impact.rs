@@ -119,7 +119,7 @@ impl<S: System> Collision<'_, S> {
     }
 
     fn number(&self, place: Place) -> S::Scalar {
-        self.dynamics.value_reading().motion(place).first().copied().unwrap_or_default()
+        self.dynamics.motion(place)
     }
 
     fn restitution(&self, contact: usize) -> S::Scalar {

@@ -8,6 +8,7 @@ use crate::dynamics::{Dynamics, EvaluationError};
 use crate::integrate::StepPolynomial;
 use crate::mode::Mode;
 use crate::modes::guard::{self, Guard, Series};
+use crate::modes::reading::Reading;
 use crate::system::System;
 
 /// The polynomials of all guards of a step.
@@ -63,7 +64,7 @@ impl Curves {
 
     /// Takes the guards from the series that `dynamics` holds, over a step of length `h`.
     pub(super) fn from_series<S: System>(&mut self, dynamics: &Dynamics<S>, mode: &Mode, guards: &[Guard], h: f64) {
-        let reading = dynamics.series_reading();
+        let reading = Reading::Series(dynamics);
         self.guards.clear();
         self.guards.extend(guards.iter().map(|&g| guard::series(g, mode, &reading, h)));
         let stops = self.stops.len();
@@ -97,7 +98,7 @@ impl Curves {
             let s = self.nodes[j];
             step.state_into(S::Scalar::from_f64(s), q, v);
             dynamics.value(step.t + step.h * S::Scalar::from_f64(s), q, v)?;
-            let reading = dynamics.value_reading();
+            let reading = Reading::Values(dynamics);
             let column = |k: usize| self.matrix[k * m + j];
             let all = guards.iter().chain(&self.watches);
             let curves = self.guards.iter_mut().chain(&mut self.stops).chain(&mut self.marks);

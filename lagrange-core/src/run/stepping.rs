@@ -3,10 +3,9 @@
 use super::Run;
 use super::hits::Hit;
 use crate::arithmetic::Scalar;
-use crate::dynamics::{Dynamics, EvaluationError};
 use crate::error::Error;
 use crate::integrate::taylor::{self, DefectControl, Verdict};
-use crate::integrate::{Acceleration, Method, RungeKutta, StepError};
+use crate::integrate::{Method, RungeKutta, StepError};
 use crate::system::System;
 
 /// What makes the polynomials of a step.
@@ -34,47 +33,6 @@ impl<T: Scalar> Stepper<T> {
     }
 }
 
-/// The Taylor series that a [`Dynamics`] holds.
-struct Held<'a, S: System>(&'a Dynamics<S>);
-
-impl<S: System> taylor::Series<S::Scalar> for Held<'_, S> {
-    fn coordinates(&self) -> usize {
-        S::DESCRIPTION.coordinates.len()
-    }
-    fn position(&self, i: usize) -> &[S::Scalar] {
-        self.0.position_series(i)
-    }
-    fn velocity(&self, i: usize) -> &[S::Scalar] {
-        self.0.velocity_series(i)
-    }
-}
-
-impl<S: System> Acceleration<S::Scalar> for Dynamics<S> {
-    type Error = EvaluationError;
-
-    fn acceleration(
-        &mut self,
-        t: S::Scalar,
-        q: &[S::Scalar],
-        v: &[S::Scalar],
-        dv: &mut [S::Scalar],
-    ) -> Result<(), EvaluationError> {
-        self.value(t, q, v)?;
-        dv.copy_from_slice(Dynamics::acceleration(self));
-        Ok(())
-    }
-}
-
-/// Step that the series in `dynamics` allow, at most `longest`.
-pub(crate) fn natural_step<S: System>(
-    dynamics: &Dynamics<S>,
-    order: usize,
-    tolerance: crate::integrate::Tolerance,
-    longest: f64,
-) -> Option<f64> {
-    taylor::step_size(&Held(dynamics), order, tolerance).map(|h| h.min(longest))
-}
-
 impl<S: System> Run<'_, S> {
     /// Makes a step from the present state and finds what happens first in it.
     pub(super) fn accepted_step(&mut self) -> Result<Hit, Error> {
@@ -91,8 +49,9 @@ impl<S: System> Run<'_, S> {
             self.expanded = true;
         }
         let longest = self.end - self.t.value();
-        let mut h = natural_step(&self.dynamics, self.order, self.tolerance, longest)
-            .ok_or_else(|| self.not_finite("a Taylor coefficient"))?;
+        let mut h = taylor::step_size(&self.dynamics, self.order, self.tolerance)
+            .ok_or_else(|| self.not_finite("a Taylor coefficient"))?
+            .min(longest);
         loop {
             if self.t.value() + h <= self.t.value() {
                 return Err(self.step_too_small(h));

@@ -49,9 +49,6 @@ impl<S: System> Run<'_, S> {
         } else {
             self.rest_where_slip_vanishes(&mut known);
         }
-        if let Some(stop) = self.stop_at_impact {
-            return self.finish(stop);
-        }
         let decision = decide(
             &mut self.dynamics,
             self.t,
@@ -77,8 +74,7 @@ impl<S: System> Run<'_, S> {
             return false;
         }
         let row = &S::DESCRIPTION.rows[S::DESCRIPTION.contacts[c].row];
-        let reading = self.dynamics.value_reading();
-        let number = |place| reading.motion(place).first().map_or(0.0, |x: &S::Scalar| x.value());
+        let number = |place| self.dynamics.motion(place).value();
         let size: f64 =
             row.jacobian.iter().map(|&(j, place)| (number(place) * self.state.v[j].value()).abs()).sum();
         // A closed contact keeps its gap rate at zero up to rounding; a hit is faster than that.
@@ -120,8 +116,7 @@ impl<S: System> Run<'_, S> {
     /// Slip of a friction row and the size of the terms that make it.
     pub(super) fn slip(&self, row: usize) -> (f64, f64) {
         let row = &S::DESCRIPTION.rows[row];
-        let reading = self.dynamics.value_reading();
-        let number = |place| reading.motion(place).first().map_or(0.0, |x: &S::Scalar| x.value());
+        let number = |place| self.dynamics.motion(place).value();
         let size = row.jacobian.iter().map(|&(j, place)| (number(place) * self.state.v[j].value()).abs()).sum();
         (number(row.velocity), size)
     }

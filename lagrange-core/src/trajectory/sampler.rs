@@ -1,0 +1,151 @@
+//! The trajectory at any time: state, accelerations, forces, energies, outputs.
+
+use super::{State, Trajectory};
+use crate::arithmetic::Scalar;
+use crate::dynamics::{Dynamics, NeedSet};
+use crate::error::Error;
+use crate::mode::Mode;
+use crate::modes::guard;
+use crate::system::{Place, System};
+
+/// Everything known at one time.
+#[derive(Clone, Debug)]
+pub struct Instant<T> {
+    /// Time, s.
+    pub time: T,
+    /// The mode.
+    pub mode: Mode,
+    /// Positions.
+    pub q: Vec<T>,
+    /// Velocities.
+    pub v: Vec<T>,
+    /// Accelerations.
+    pub acceleration: Vec<T>,
+    /// λ of every row; 0 where it does not act; for frictions the force along +slip.
+    pub forces: Vec<T>,
+    /// Gap of every contact.
+    pub gaps: Vec<T>,
+    /// Slip of every friction component, in the order of the rows.
+    pub slips: Vec<T>,
+    /// Kinetic energy as declared, J.
+    pub kinetic: T,
+    /// Potential energy as declared, J.
+    pub potential: T,
+    /// v·∂L/∂v − L, J.
+    pub jacobi: T,
+    /// Value of every applied force.
+    pub loads: Vec<T>,
+    /// Value of every declared output.
+    pub observes: Vec<T>,
+}
+
+/// Evaluates a trajectory at any time; keeps the memory for it.
+#[derive(Debug)]
+pub struct Sampler<'a, S: System> {
+    trajectory: &'a Trajectory<S>,
+    dynamics: Dynamics<S>,
+    mode: Option<usize>,
+    state: State<S::Scalar>,
+}
+
+impl<'a, S: System> Sampler<'a, S> {
+    pub(super) fn new(trajectory: &'a Trajectory<S>) -> Self {
+        let d = S::DESCRIPTION;
+        let mut dynamics = Dynamics::new(&trajectory.scene, &trajectory.effects);
+        let mut needs = NeedSet::new(d);
+        needs.insert(d.energy.need);
+        let loads = d.forces.iter().chain(d.dissipations).map(|l| l.report_need);
+        loads.chain(d.observes.iter().map(|o| o.need)).for_each(|need| needs.insert(need));
+        dynamics.set_report_needs(&needs);
+        Self { trajectory, dynamics, mode: None, state: trajectory.start.clone() }
+    }
+
+    /// The motion at time `t`, s. At the instant of a switch: just after it.
+    ///
+    /// # Errors
+    /// [`Error::OutsideTrajectory`]; or the equations of motion could not be evaluated there.
+    pub fn at(&mut self, t: f64) -> Result<Instant<S::Scalar>, Error> {
+        let trajectory = self.trajectory;
+        let (first, last) = (trajectory.first_time(), trajectory.last_time());
+        if !(first..=last).contains(&t) {
+            return Err(Error::OutsideTrajectory { time: t, first, last });
+        }
+        let after = trajectory.segments.partition_point(|s| s.t.value() <= t);
+        match trajectory.segments.get(after.saturating_sub(1)) {
+            None => self.evaluate(S::Scalar::from_f64(t), 0, &trajectory.start.clone()),
+            Some(segment) => {
+                let h = segment.h.value();
+                let s = if h > 0.0 { (t - segment.t.value()) / h } else { 0.0 };
+                let s = S::Scalar::from_f64(s.min(segment.end.value()));
+                let mut state = core::mem::take(&mut self.state);
+                trajectory.state_at(segment, s, &mut state.q, &mut state.v);
+                let instant = self.evaluate(S::Scalar::from_f64(t), segment.mode, &state);
+                self.state = state;
+                instant
+            }
+        }
+    }
+
+    /// Everything about a state in mode `mode` of the trajectory.
+    pub(super) fn evaluate(
+        &mut self,
+        t: S::Scalar,
+        mode: usize,
+        state: &State<S::Scalar>,
+    ) -> Result<Instant<S::Scalar>, Error> {
+        let d = S::DESCRIPTION;
+        if self.mode != Some(mode) {
+            self.mode = Some(mode);
+            self.dynamics.set_mode(&self.trajectory.modes[mode]);
+            let needs = guard::all_row_needs(d, &NeedSet::new(d));
+            self.dynamics.set_extra_needs(&needs);
+        }
+        let dynamics = &mut self.dynamics;
+        let outcome = dynamics.value(t, &state.q, &state.v);
+        outcome.map_err(|e| Error::from_evaluation(e, t.value(), &self.trajectory.modes[mode], d))?;
+        dynamics.report_value();
+        let contacts = d.contacts.iter().map(|c| d.rows[c.row].position.unwrap_or(Place::Zero));
+        let frictions = d.frictions.iter().flat_map(|f| f.row..f.row + f.components);
+        Ok(Instant {
+            time: t,
+            mode: self.trajectory.modes[mode].clone(),
+            q: state.q.clone(),
+            v: state.v.clone(),
+            acceleration: dynamics.acceleration().to_vec(),
+            forces: (0..d.rows.len()).map(|row| dynamics.force(row)).collect(),
+            gaps: contacts.map(|place| dynamics.motion(place)).collect(),
+            slips: frictions.map(|row| dynamics.motion(d.rows[row].velocity)).collect(),
+            kinetic: dynamics.report(d.energy.kinetic),
+            potential: dynamics.report(d.energy.potential),
+            jacobi: dynamics.report(d.energy.jacobi),
+            loads: d.forces.iter().map(|f| dynamics.report(f.value)).collect(),
+            observes: d.observes.iter().map(|o| dynamics.report(o.place)).collect(),
+        })
+    }
+
+    /// Power of every force, dissipation and row, and of explicit time, at part `s` of a segment; in the order of
+    /// [`super::ledger`].
+    pub(super) fn powers(&mut self, segment: usize, s: S::Scalar, out: &mut [S::Scalar]) -> Result<(), Error> {
+        let d = S::DESCRIPTION;
+        let segment = &self.trajectory.segments[segment];
+        let mut state = core::mem::take(&mut self.state);
+        self.trajectory.state_at(segment, s, &mut state.q, &mut state.v);
+        let instant = self.evaluate(segment.t + segment.h * s, segment.mode, &state);
+        self.state = state;
+        let instant = instant?;
+        let dynamics = &self.dynamics;
+        let loads = d.forces.iter().chain(d.dissipations).map(|l| dynamics.report(l.power));
+        let rows = d.rows.iter().enumerate().map(|(i, row)| {
+            // The power of λ is λ a·v: not zero where a surface moves.
+            let speed = row.jacobian.iter().fold(S::Scalar::default(), |sum, &(j, place)| {
+                sum + dynamics.motion(place) * instant.v[j]
+            });
+            instant.forces[i] * speed
+        });
+        let time = core::iter::once(dynamics.report(d.energy.time_power));
+        for (out, power) in out.iter_mut().zip(loads.chain(rows).chain(time)) {
+            *out = power;
+        }
+        Ok(())
+    }
+}

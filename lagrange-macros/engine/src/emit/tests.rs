@@ -1,0 +1,1 @@
+//! Emitted code reads as planned.

@@ -1,0 +1,161 @@
+//! "Simplifies to" tables, operation counts, linear coefficients, and what an expression contains.
+
+use super::read::Desk;
+
+#[test]
+fn simplifies_to() {
+    let mut desk = Desk::default();
+    for symbol in ["m", "l", "g", "x", "y", "v", "w"] {
+        desk.symbol(symbol);
+    }
+    for (text, printed) in [
+        ("m*(l*cos(x)*v)^2/2 + m*(l*sin(x)*v)^2/2", "1/2*m*l^2*v^2"),
+        (
+            "(v + l*cos(x)*w)^2 + (l*sin(x)*w)^2 - v^2 - l^2*w^2",
+            "2*l*v*w*cos(x)",
+        ),
+        ("m*x + m*y", "m*(x + y)"),
+        ("(x + y)^2 - x^2 - y^2", "2*x*y"),
+        ("(x + y)*(x - y) + y^2", "x^2"),
+        ("m*g*x + m*l*x + m*v", "m*(v + x*(l + g))"),
+        ("x^3 + x^2", "x^2*(x + 1)"),
+        ("x/l + y/l", "(x + y)/l"),
+        ("(x + y)*m + (x + y)*g", "(x + y)*(m + g)"),
+        ("sin(x)*cos(y)^2 + sin(x)*sin(y)^2", "sin(x)"),
+        ("sqrt((l*sin(x))^2 + (l*cos(x))^2)", "sqrt(l^2)"),
+        (
+            "(x - l*sin(y))^2 + (v - l*cos(y))^2",
+            "(x - l*sin(y))^2 + (v - l*cos(y))^2",
+        ),
+        ("x", "x"),
+    ] {
+        let e = desk.read(text);
+        let simple = desk.pool.simplify(e);
+        assert_eq!(desk.pool.print(simple), printed, "{text}");
+        assert_eq!(desk.pool.simplify(simple), simple, "{text}");
+    }
+}
+
+#[test]
+fn expands_to() {
+    let mut desk = Desk::default();
+    for (text, printed) in [
+        ("(x + y)^2", "x^2 + y^2 + 2*x*y"),
+        ("(x + y)*(x - y)", "x^2 - y^2"),
+        ("(x + 1)^3", "x^3 + 3*x^2 + 3*x + 1"),
+        (
+            "sin(2*(x + y))*(x + 1)",
+            "sin(2*x + 2*y)*x + sin(2*x + 2*y)",
+        ),
+        ("(sin(x) + cos(x))^2", "1 + 2*sin(x)*cos(x)"),
+        ("z*(x + y)/(x - y)", "x*z/(x - y) + y*z/(x - y)"),
+    ] {
+        let e = desk.read(text);
+        let (expanded, expected) = (desk.pool.expand(e), desk.read(printed));
+        assert_eq!(
+            expanded,
+            expected,
+            "{text} became {}",
+            desk.pool.print(expanded)
+        );
+    }
+}
+
+#[test]
+fn large_powers_stay_within_the_budget() {
+    let mut desk = Desk::default();
+    let e = desk.read("(a + b + c + d + e + f)^30*(x + y)^1000");
+    assert_eq!(desk.pool.expand(e), e);
+    assert_eq!(desk.pool.simplify(e), e);
+}
+
+#[test]
+fn operations_count_the_graph() {
+    let mut desk = Desk::default();
+    for (text, count) in [
+        ("x", 0),
+        ("2", 0),
+        ("-x", 0),
+        ("x - y", 1),
+        ("2*x", 1),
+        ("x + y + 1", 2),
+        ("2*x + 2*y", 2),
+        ("x^2", 1),
+        ("x^4", 2),
+        ("x^5", 3),
+        ("x/y", 1),
+        ("x/(y*z)", 2),
+        ("1/x", 1),
+        ("sqrt(x)", 1),
+        ("sin(x)", 1),
+        ("sin(x) + cos(x)", 2),
+        ("sin(x)*cos(x)*sin(y)", 4),
+        ("x^2*y + x^2*z", 4),
+        ("pi*sqrt(2)*3", 0),
+    ] {
+        let e = desk.read(text);
+        assert_eq!(desk.pool.operations(&[e]), count, "{text}");
+    }
+    let pair = [desk.read("sin(x)"), desk.read("cos(x)")];
+    assert_eq!(desk.pool.operations(&pair), 1);
+}
+
+#[test]
+fn affine_expressions_give_their_coefficients() {
+    let mut desk = Desk::default();
+    let symbols = [desk.symbol("v"), desk.symbol("w")];
+    for (text, coefficients) in [
+        ("r*(v - w)", Some(["r", "-r", "0"])),
+        ("v*cos(x) + 3", Some(["cos(x)", "0", "3"])),
+        ("(v + w)^2 - v^2 - w^2 - 2*v*w + v", Some(["1", "0", "0"])),
+        ("(v^2 + v*x)/v", Some(["1", "0", "x"])),
+        ("x", Some(["0", "0", "x"])),
+        ("v*w", None),
+        ("v^2", None),
+        ("sin(v)", None),
+        ("v/w", None),
+    ] {
+        let e = desk.read(text);
+        let found = desk.pool.coefficients_linear(e, &symbols);
+        let expected = coefficients.map(|texts| {
+            let [a, b, rest] = texts.map(|text| desk.read(text));
+            (vec![a, b], rest)
+        });
+        assert_eq!(found, expected, "{text}");
+    }
+}
+
+#[test]
+fn contents_are_listed() {
+    let mut desk = Desk::default();
+    let (x, y, z) = (desk.symbol("x"), desk.symbol("y"), desk.symbol("z"));
+    let e = desk.read("select(4, x, sin(z)) + select(1, x, z)");
+    assert_eq!(desk.pool.symbols(e), [x, z]);
+    assert_eq!(desk.pool.branches(e), [1, 4]);
+    assert!(desk.pool.depends_on(e, z) && !desk.pool.depends_on(e, y));
+    // Symbols 64 apart share a bit of the quick test.
+    let distant: Vec<_> = (0..64).map(|i| desk.symbol(&format!("s{i}"))).collect();
+    assert!(!desk.pool.depends_on(e, distant[61]));
+    let d = desk.pool.differentiate(e, distant[61]);
+    assert!(desk.pool.is_zero(d));
+    let reachable = desk.pool.iter_reachable(&[e]);
+    assert!(reachable.windows(2).all(|pair| pair[0] < pair[1]));
+    assert_eq!(reachable.last(), Some(&e));
+    // x, z, sin(z), two selections, their sum.
+    assert_eq!(reachable.len(), 6);
+}
+
+#[test]
+fn total_time_derivative_follows_the_chain_rule() {
+    let mut desk = Desk::default();
+    let (x, v) = (desk.symbol("x"), desk.symbol("v"));
+    let direction = [
+        (x, desk.read("v")),
+        (v, desk.read("a")),
+        (desk.symbol("t"), desk.read("1")),
+    ];
+    let e = desk.read("m*v*cos(x) + t*x");
+    let total = desk.pool.derivative_along(e, &direction);
+    let expected = desk.read("m*a*cos(x) - m*v^2*sin(x) + x + t*v");
+    assert_eq!(total, expected);
+}
