@@ -167,36 +167,40 @@ fn sample<S: System<Scalar = f64>>(trajectory: &Trajectory<S>, intervals: usize)
     let mut sampler = trajectory.sampler();
     let mut limits = Limits::new(trajectory.scene(), trajectory.effects());
     let mut samples = Vec::new();
-    for (phase, span) in trajectory.phases().iter().enumerate() {
+    let at_once = || vec![Phase { from: first, to: first, mode: trajectory.final_mode().clone() }];
+    let phases = Some(trajectory.phases()).filter(|phases| !phases.is_empty()).unwrap_or_else(at_once);
+    for (phase, span) in phases.iter().enumerate() {
         let inside = |t: &f64| span.from < *t && *t < span.to;
-        let inner = (1..intervals)
-            .map(|k| first + k as f64 * step)
-            .filter(inside);
+        let inner = (1..intervals).map(|k| first + k as f64 * step).filter(inside);
         limits.enter(&span.mode);
-        for time in iter::once(span.from)
-            .chain(inner)
-            .chain(iter::once(span.to))
-        {
-            let Ok(instant) = sampler.at(time) else {
+        for time in iter::once(span.from).chain(inner).chain(iter::once(span.to)) {
+            // At a switch a sampler gives what is just after it: the end of a phase is read a trifle before.
+            let read = if time == span.to && time < last { just_before(time) } else { time };
+            let Ok(instant) = sampler.at(read) else { continue };
+            if instant.mode != span.mode {
                 continue;
-            };
+            }
             samples.push(Sample {
                 time,
                 phase,
-                mode: span.mode.clone(),
-                state: State {
-                    q: instant.q.clone(),
-                    v: instant.v.clone(),
-                },
                 limits: limits.at(time, &instant.q, &instant.v),
-                forces: instant.forces.clone(),
+                mode: instant.mode,
+                state: State { q: instant.q, v: instant.v },
+                forces: instant.forces,
                 kinetic: instant.kinetic,
                 potential: instant.potential,
-                observes: instant.observes.clone(),
+                observes: instant.observes,
             });
         }
     }
+    if let Some(end) = samples.last_mut().filter(|end| end.time == last) {
+        end.state = trajectory.final_state().clone();
+    }
     samples
+}
+
+fn just_before(time: f64) -> f64 {
+    time - 4.0 * f64::EPSILON * time.abs().max(1.0)
 }
 
 /// What frictions can hold: coefficient × normal force.

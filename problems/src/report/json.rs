@@ -59,9 +59,17 @@ struct Happening {
 struct Energy {
     start: Parts,
     end: Parts,
-    work: Numbers,
+    work: Vec<Share>,
     scale: f64,
     closure: f64,
+}
+
+/// Work of one item, J.
+#[derive(Serialize)]
+struct Share {
+    name: &'static str,
+    kind: &'static str,
+    work: f64,
 }
 
 #[derive(Serialize)]
@@ -115,7 +123,7 @@ fn report(outcome: &Outcome) -> Report {
             .collect(),
         last: outcome.last().map(instant),
         energy: outcome.ledger.as_ref().map(energy),
-        work: counts(&outcome.work),
+        work: counts(outcome),
         error: outcome.failure.as_ref().map(Error::to_string),
     }
 }
@@ -163,19 +171,14 @@ fn energy(ledger: &Ledger) -> Energy {
     Energy {
         start: parts(&ledger.start),
         end: parts(&ledger.end),
-        work: Numbers(
-            ledger
-                .work
-                .iter()
-                .map(|entry| (entry.name.to_owned(), entry.work))
-                .collect(),
-        ),
+        work: ledger.work.iter().map(|e| Share { name: e.name, kind: e.kind, work: e.work }).collect(),
         scale: ledger.scale,
         closure: ledger.closure,
     }
 }
 
-fn counts(work: &Work) -> Counts {
+fn counts(outcome: &Outcome) -> Counts {
+    let work = outcome.work;
     Counts {
         steps: work.steps,
         rejected: work.rejected,
@@ -183,6 +186,6 @@ fn counts(work: &Work) -> Counts {
         series: work.series,
         factorizations: work.factorizations,
         projections: work.projections,
-        events: work.events,
+        events: outcome.events.len(),
     }
 }

@@ -8,6 +8,7 @@ use crate::outcome::{Force, Outcome, forces};
 use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, Table, Width, presets};
 use lagrange_core::mode::Mode;
 use lagrange_core::prelude::*;
+use lagrange_core::trajectory::Entry;
 use std::io::{self, Write};
 
 /// Columns of the page.
@@ -21,15 +22,15 @@ pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
         writeln!(
             out,
             "The book closes to {:.1e} of the energy scale, {} J.",
-            ledger.closure.abs(),
+            ledger.closure.abs() / ledger.scale.max(f64::MIN_POSITIVE),
             Decimals::of([ledger.scale]).show(ledger.scale)
         )?;
     }
-    writeln!(out, "\n{}", work(&outcome.work))
+    writeln!(out, "\n{}", work(outcome))
 }
 
 /// One line of the story, before it is laid out.
-struct Entry {
+struct Line {
     time: f64,
     event: String,
     q: Vec<f64>,
@@ -40,7 +41,7 @@ struct Entry {
     mode: String,
 }
 
-fn entries(outcome: &Outcome, items: &[Force]) -> Vec<Entry> {
+fn entries(outcome: &Outcome, items: &[Force]) -> Vec<Line> {
     let description = outcome.description;
     let acting = |rows: &[f64], mode: &Mode| -> Vec<Option<f64>> {
         items
@@ -48,7 +49,7 @@ fn entries(outcome: &Outcome, items: &[Force]) -> Vec<Entry> {
             .map(|item| item.acts(description, mode).then(|| rows[item.row]))
             .collect()
     };
-    let instant = |sample: &crate::outcome::Sample, event: &str| Entry {
+    let instant = |sample: &crate::outcome::Sample, event: &str| Line {
         time: sample.time,
         event: event.to_owned(),
         q: sample.state.q.clone(),
@@ -64,7 +65,7 @@ fn entries(outcome: &Outcome, items: &[Force]) -> Vec<Entry> {
         );
         let changes = before != after;
         let impulse = event.kind == EventKind::Impact;
-        Entry {
+        Line {
             time: event.time,
             event: format!("{} {}", event.subject.name(description), event.kind),
             q: event.state.q.clone(),
@@ -87,7 +88,7 @@ fn entries(outcome: &Outcome, items: &[Force]) -> Vec<Entry> {
             },
         }
     };
-    let mut lines: Vec<Entry> = outcome
+    let mut lines: Vec<Line> = outcome
         .first()
         .map(|first| instant(first, "start"))
         .into_iter()
@@ -203,7 +204,10 @@ fn energy(ledger: &Ledger) -> Table {
             end.kinetic + end.potential,
         ),
     ];
-    let works = ledger.work.iter().map(|entry| entry.work);
+    // Whoever did nothing that counts is left out; friction is worth a line even then.
+    let counts = |entry: &&Entry| entry.kind == "friction" || entry.work.abs() > 1e-12 * ledger.scale;
+    let shown: Vec<&Entry> = ledger.work.iter().filter(counts).collect();
+    let works = shown.iter().map(|entry| entry.work);
     let decimals = Decimals::of(lines.iter().flat_map(|(_, a, b)| [*a, *b]).chain(works));
     let mut table = page();
     table.set_header(["energy\nJ", "start", "end", "change"]);
@@ -215,7 +219,7 @@ fn energy(ledger: &Ledger) -> Table {
             decimals.show(b - a),
         ]);
     }
-    for entry in &ledger.work {
+    for entry in &shown {
         let name = format!("work of {} ({})", entry.name, entry.kind);
         table.add_row([
             name,
@@ -230,19 +234,12 @@ fn energy(ledger: &Ledger) -> Table {
     table
 }
 
-fn work(work: &Work) -> String {
-    let Work {
-        steps,
-        rejected,
-        evaluations,
-        series,
-        factorizations,
-        projections,
-        events,
-    } = work;
+fn work(outcome: &Outcome) -> String {
+    let Work { steps, rejected, evaluations, series, factorizations, projections } = outcome.work;
     format!(
         "Work: {steps} steps, {rejected} rejected, {evaluations} evaluations, {series} series, \
-         {factorizations} factorizations, {projections} projections, {events} events."
+         {factorizations} factorizations, {projections} projections, {} events.",
+        outcome.events.len()
     )
 }
 
