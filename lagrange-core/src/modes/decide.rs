@@ -193,8 +193,7 @@ fn candidates<S: System>(
     }
     let all = guard::all_row_needs(d, &NeedSet::new(d));
     dynamics.set_extra_needs(&all);
-    let outcome = dynamics.tape(t, q, v);
-    outcome.map_err(|e| Error::from_evaluation(e, t.value(), present, d))?;
+    dynamics.tape(t, q, v);
     for (f, friction) in d.frictions.iter().enumerate() {
         let rests = known.resting[f];
         let slip = dynamics.motion(d.rows[friction.row].velocity).value();

@@ -180,10 +180,9 @@ fn branches<S: System>(
     let evaluate = |dynamics: &mut Dynamics<S>, mode: &Mode| {
         dynamics.set_mode(mode);
         dynamics.set_extra_needs(&guard::all_row_needs(d, &NeedSet::new(d)));
-        let outcome = dynamics.tape(t, &state.q, &state.v);
-        outcome.map_err(|e| Error::from_evaluation(e, t.value(), mode, d))
+        dynamics.tape(t, &state.q, &state.v);
     };
-    evaluate(dynamics, mode)?;
+    evaluate(dynamics, mode);
     for _ in 0..d.branches.len() {
         let mut changed = false;
         for (b, branch) in d
@@ -202,7 +201,7 @@ fn branches<S: System>(
         if !changed {
             break;
         }
-        evaluate(dynamics, mode)?;
+        evaluate(dynamics, mode);
     }
     Ok(())
 }
