@@ -11,5 +11,6 @@ pub use crate::mode::{FrictionMode, Mode};
 pub use crate::simulation::{Failure, Held, Simulation};
 pub use crate::system::{Description, System};
 pub use crate::trajectory::{
-    Energies, Entry, Event, EventKind, Instant, Ledger, Phase, Sampler, Starts, State, Subject, Trajectory, Work,
+    Energies, Entry, Event, EventKind, Instant, Ledger, Phase, Sampler, Starts, State, Subject,
+    Trajectory, Work,
 };

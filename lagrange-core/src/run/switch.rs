@@ -103,13 +103,19 @@ impl<S: System> Run<'_, S> {
     }
 
     /// Ends the infinitely many impacts of contacts that bounce ever less.
-    fn close_accumulated(&mut self, outcome: &Impact<S::Scalar>, known: &mut Known) -> Result<(), Error> {
+    fn close_accumulated(
+        &mut self,
+        outcome: &Impact<S::Scalar>,
+        known: &mut Known,
+    ) -> Result<(), Error> {
         let d = S::DESCRIPTION;
         for c in 0..d.contacts.len() {
             if !outcome.struck[c] || !known.parting[c] {
                 continue;
             }
-            let Some(count) = self.accumulate(c, known) else { continue };
+            let Some(count) = self.accumulate(c, known) else {
+                continue;
+            };
             let mut closed = self.mode.clone();
             for (contact, touching) in closed.contacts.iter_mut().zip(&known.touching) {
                 *contact = *touching;
@@ -124,7 +130,12 @@ impl<S: System> Run<'_, S> {
                 }
             }
             let state = self.state.clone();
-            self.log_watch(Subject::Contact(c), EventKind::Accumulates { impacts: count }, self.t, state);
+            self.log_watch(
+                Subject::Contact(c),
+                EventKind::Accumulates { impacts: count },
+                self.t,
+                state,
+            );
         }
         Ok(())
     }
