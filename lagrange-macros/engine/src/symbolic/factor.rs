@@ -1,5 +1,6 @@
 //! Common factors taken out of a sum: what all terms share, then greedily what most terms share (Horner's form).
 
+use super::table::Words;
 use super::{ExprId, Node, Pool, Rational};
 
 /// Longer sums are not searched.
@@ -93,17 +94,29 @@ impl Pool {
         if terms.len() > LONGEST {
             return None;
         }
+        let mut places = Words::<{ u32::MAX }>::default();
         let mut bases = Vec::new();
+        let mut note = |base: ExprId| {
+            if places.get(base) == u32::MAX {
+                places.set(base, 0);
+                bases.push(base);
+            }
+        };
         for &(term, _) in terms {
             match self.node(term) {
-                Node::Product(factors) => bases.extend(factors.iter().map(|&(base, _)| base)),
-                _ => bases.push(term),
+                Node::Product(factors) => {
+                    for &(base, _) in factors {
+                        note(base);
+                    }
+                }
+                _ => note(term),
             }
         }
         bases.sort_unstable();
-        bases.dedup();
-        // Every base is in the list.
-        let place = |base: ExprId| bases.binary_search(&base).unwrap_or_default();
+        for (place, &base) in bases.iter().enumerate() {
+            places.set(base, place as u32);
+        }
+        let place = |base: ExprId| places.get(base) as usize;
         let mut list = Vec::with_capacity(terms.len() + 1);
         for &(term, coefficient) in terms {
             let factors = match self.node(term) {

@@ -29,17 +29,9 @@ impl Pool {
         self.count(e, false)
     }
 
-    /// Operations in a run, then those with what is computed once.
-    pub(super) fn cost(&self, e: ExprId) -> (usize, usize) {
-        let varying = self.count(&[e], false);
-        (
-            varying,
-            if self.has_fixed() {
-                self.count(&[e], true)
-            } else {
-                varying
-            },
-        )
+    /// All operations, also those that are done once.
+    pub(super) fn all_operations(&self, e: ExprId) -> usize {
+        self.count(&[e], true)
     }
 
     fn count(&self, roots: &[ExprId], everything: bool) -> usize {

@@ -22,7 +22,9 @@ impl Pool {
         });
         let mut simple = simplified.unwrap_or(e);
         // Parts that became cheaper alone can have shared more before.
-        if simple != e && self.cost(simple) >= self.cost(e) {
+        let (before, after) = (self.operations(&[e]), self.operations(&[simple]));
+        if simple != e && (after > before || (after == before && !self.needs_less_once(simple, e)))
+        {
             simple = e;
             known.set(e, simple);
         }
@@ -53,16 +55,21 @@ impl Pool {
         if self.has_fixed() {
             forms.push(self.collect_varying(expanded));
         }
-        let (mut best, mut least) = (e, self.cost(e));
-        *work += forms.len() * (1 + least.1);
+        let (mut best, mut least) = (e, self.operations(&[e]));
         for i in 1..forms.len() {
             if !forms[..i].contains(&forms[i]) {
-                let cost = self.cost(forms[i]);
-                if cost < least {
+                let cost = self.operations(&[forms[i]]);
+                if cost < least || (cost == least && self.needs_less_once(forms[i], best)) {
                     (best, least) = (forms[i], cost);
                 }
             }
         }
+        *work += forms.len() * (1 + least);
         best
+    }
+
+    /// Whether a form is cheaper in what is computed once, for forms that are equally cheap in a run.
+    fn needs_less_once(&self, form: ExprId, than: ExprId) -> bool {
+        self.has_fixed() && self.all_operations(form) < self.all_operations(than)
     }
 }
