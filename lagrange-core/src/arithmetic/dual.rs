@@ -57,6 +57,7 @@ impl<T: Scalar, const N: usize> Dual<T, N> {
         }
     }
 
+    /// Combines the directions of two numbers.
     #[inline(always)]
     fn zip(self, other: Self, value: T, f: impl Fn(T, T) -> T) -> Self {
         Self {
@@ -89,6 +90,8 @@ impl<T: Scalar, const N: usize> Sub for Dual<T, N> {
     }
 }
 
+// Product and quotient rule: sums in a product are meant.
+#[allow(clippy::suspicious_arithmetic_impl)]
 impl<T: Scalar, const N: usize> Mul for Dual<T, N> {
     type Output = Self;
     #[inline(always)]
@@ -99,6 +102,8 @@ impl<T: Scalar, const N: usize> Mul for Dual<T, N> {
     }
 }
 
+// Product and quotient rule: sums in a product are meant.
+#[allow(clippy::suspicious_arithmetic_impl)]
 impl<T: Scalar, const N: usize> Div for Dual<T, N> {
     type Output = Self;
     #[inline(always)]

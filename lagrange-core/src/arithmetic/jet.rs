@@ -153,6 +153,12 @@ pub struct Jet<'a, T> {
     singular: Option<Singular>,
 }
 
+/// Whether x > 0; a NaN is not.
+#[inline(always)]
+fn positive<T: Scalar>(x: T) -> bool {
+    x.value() > 0.0
+}
+
 impl<T: Scalar> Jet<'_, T> {
     /// The first operation of this run that has no Taylor series here. Its coefficients are zeros, not NaN.
     #[inline(always)]
@@ -214,7 +220,7 @@ impl<T: Scalar> Jet<'_, T> {
         T::zero()
     }
 
-    /// `start` at k = 0, else `next`, where x₀ is fit for expansion; zero and a flag where not.
+    /// The coefficient, or zero and a flag where there is no series.
     #[inline(always)]
     fn unless(
         &mut self,
@@ -308,7 +314,7 @@ impl<T: Scalar> Arithmetic for Jet<'_, T> {
     fn sqrt(&mut self, to: usize, x: Slot) -> Slot {
         let (k, z) = (self.k, self.to(to));
         let x0 = self.table[x.0];
-        let value = self.unless(!(x0.value() > 0.0), Operation::SquareRoot, to, |a| {
+        let value = self.unless(!positive(x0), Operation::SquareRoot, to, |a| {
             if k == 0 {
                 x0.sqrt()
             } else {
@@ -323,7 +329,7 @@ impl<T: Scalar> Arithmetic for Jet<'_, T> {
         let (k, z) = (self.k, self.to(to));
         let x0 = self.table[x.0];
         // x z′ = c z x′
-        let value = self.unless(!(x0.value() > 0.0), Operation::Power, to, |a| {
+        let value = self.unless(!positive(x0), Operation::Power, to, |a| {
             if k == 0 {
                 x0.powf(c)
             } else {
@@ -348,7 +354,7 @@ impl<T: Scalar> Arithmetic for Jet<'_, T> {
         let (k, z) = (self.k, self.to(to));
         let x0 = self.table[x.0];
         // x z′ = x′
-        let value = self.unless(!(x0.value() > 0.0), Operation::Logarithm, to, |a| {
+        let value = self.unless(!positive(x0), Operation::Logarithm, to, |a| {
             if k == 0 {
                 x0.ln()
             } else {
@@ -452,7 +458,7 @@ impl<T: Scalar> Arithmetic for Jet<'_, T> {
             + convolution_square(self.part(y.0, 0, k + 1));
         self.put(to + 1, square);
         let u0 = self.table[u];
-        let value = self.unless(!(u0.value() > 0.0), Operation::Angle, to, |a| {
+        let value = self.unless(!positive(u0), Operation::Angle, to, |a| {
             if k == 0 {
                 a.at(y).atan2(a.at(x))
             } else {
@@ -469,7 +475,7 @@ impl<T: Scalar> Jet<'_, T> {
     fn inverse_sine(&mut self, to: usize, x: Slot, start: fn(T) -> T, sign: T) -> Slot {
         let (k, z, u) = (self.k, self.to(to), self.to(to + 1));
         let x0 = self.table[x.0];
-        if !(x0.value().abs() < 1.0) {
+        if !positive(T::one() - x0 * x0) {
             let zero = self.fail(Operation::InverseSine, to);
             self.put(to + 1, zero);
             return self.put(to, zero);

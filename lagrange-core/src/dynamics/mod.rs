@@ -4,13 +4,16 @@
 
 mod error;
 mod needs;
+mod projection;
 mod series;
+mod stepping;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 mod values;
 
 pub use error::{EvaluationError, row_name};
 pub use needs::{NeedSet, add_branch_guards, add_guards};
+pub use projection::Residual;
 
 use crate::effects::Effects;
 use crate::linear::{Plan, SolveError, Solver};
@@ -48,6 +51,8 @@ pub struct Dynamics<S: System> {
     /// What the report tape is told: the effects' own needs and what was asked for.
     report_held: NeedSet,
     reports: bool,
+    /// Inertia, Jacobians and residuals of the rows that act.
+    row_needs: NeedSet,
     /// The system's own, then the plan's.
     constants: Vec<S::Scalar>,
     plan: Plan<S::Scalar>,
@@ -59,6 +64,10 @@ pub struct Dynamics<S: System> {
     report_nodes: Vec<S::Scalar>,
     right: Vec<S::Scalar>,
     solution: Vec<S::Scalar>,
+    /// A matrix of zeros.
+    blank: Vec<S::Scalar>,
+    /// Positions before a Newton step.
+    previous: Vec<S::Scalar>,
     table: Table<S::Scalar>,
     work: Work,
 }
@@ -80,6 +89,7 @@ impl<S: System> Dynamics<S> {
             report_needs: NeedSet::new(d),
             report_held: NeedSet::new(d),
             reports: false,
+            row_needs: NeedSet::new(d),
             constants: Vec::with_capacity(d.constants),
             plan: Plan::default(),
             solver: Solver::default(),
@@ -88,6 +98,8 @@ impl<S: System> Dynamics<S> {
             report_nodes: vec![zero; d.report.outputs],
             right: Vec::with_capacity(n + rows),
             solution: Vec::with_capacity(n + rows),
+            blank: Vec::with_capacity((n + rows) * (n + rows)),
+            previous: vec![zero; n],
             table: Table::default(),
             work: Work::default(),
         };
@@ -117,15 +129,7 @@ impl<S: System> Dynamics<S> {
         &self.mode
     }
 
-    /// Work done so far.
-    pub fn work(&self) -> Work {
-        Work {
-            factorizations: self.solver.factorizations,
-            ..self.work
-        }
-    }
-
-    /// What the equations of motion of the present mode need.
+    /// What the equations of motion of this mode need.
     pub fn motion_needs(&self) -> &NeedSet {
         &self.motion_needs
     }
@@ -133,6 +137,14 @@ impl<S: System> Dynamics<S> {
     /// What was asked of the report tape.
     pub fn report_needs(&self) -> &NeedSet {
         &self.report_needs
+    }
+
+    /// Work done so far.
+    pub fn work(&self) -> Work {
+        Work {
+            factorizations: self.solver.factorizations,
+            ..self.work
+        }
     }
 
     /// The rows that act as equations in this mode, ascending.
@@ -146,6 +158,7 @@ impl<S: System> Dynamics<S> {
         let d = S::DESCRIPTION;
         self.mode.clone_from(mode);
         needs::of_motion(d, &self.effects, mode, &mut self.motion_needs);
+        needs::of_rows(d, &self.effects, mode, &mut self.row_needs);
         needs::of_effects(d, &self.effects, &mut self.held);
         self.constants.clear();
         self.constants.resize(d.constants, S::Scalar::default());

@@ -111,6 +111,30 @@ pub(crate) fn of_motion(
     }
 }
 
+/// What a projection needs: inertia, and Jacobian, position and velocity of the rows that act.
+pub(crate) fn of_rows(
+    description: &Description,
+    effects: &Effects,
+    mode: &Mode,
+    needs: &mut NeedSet,
+) {
+    needs.clear();
+    for (i, effect) in description.kinetic.iter().enumerate() {
+        if effects.includes(description, Item::Kinetic(i)) {
+            needs.insert(effect.need);
+        }
+    }
+    for (i, row) in description.rows.iter().enumerate() {
+        if acts(description, effects, mode, i) {
+            needs.insert(row.needs.jacobian);
+            needs.insert(row.needs.velocity);
+            if row.position.is_some() {
+                needs.insert(row.needs.position);
+            }
+        }
+    }
+}
+
 fn energies_and_forces(description: &Description, effects: &Effects, needs: &mut NeedSet) {
     let mut hold = |item: Item, need: usize| {
         if effects.includes(description, item) {

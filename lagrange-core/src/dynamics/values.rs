@@ -15,7 +15,10 @@ impl<S: System> Dynamics<S> {
         v: &[S::Scalar],
     ) -> Result<(), EvaluationError> {
         self.work.values += 1;
-        self.run_motion(t, q, v);
+        self.tape(t, q, v);
+        self.plan
+            .program
+            .run(&mut Value::new(), &self.constants, &mut self.nodes);
         self.assemble();
         self.solver.factor().map_err(|e| self.solve_error(e))?;
         self.right.clear();
@@ -39,11 +42,6 @@ impl<S: System> Dynamics<S> {
 
     /// Runs only the motion tape at (t, q, v), for the needs held: then read [`Self::motion`].
     pub fn tape(&mut self, t: S::Scalar, q: &[S::Scalar], v: &[S::Scalar]) {
-        self.run_motion(t, q, v);
-    }
-
-    /// The motion tape and the plan's program.
-    pub(super) fn run_motion(&mut self, t: S::Scalar, q: &[S::Scalar], v: &[S::Scalar]) {
         let n = self.plan.coordinates;
         self.inputs[0] = t;
         self.inputs[1..1 + n].copy_from_slice(q);
@@ -61,9 +59,6 @@ impl<S: System> Dynamics<S> {
             &self.inputs[..1 + 2 * n],
             &mut self.nodes[..outputs],
         );
-        self.plan
-            .program
-            .run(&mut a, &self.constants, &mut self.nodes);
     }
 
     fn assemble(&mut self) {

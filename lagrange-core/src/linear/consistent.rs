@@ -1,63 +1,39 @@
-//! A dense system that may have dependent rows, solved once: Gauss with complete pivoting.
+//! A dense system that may have dependent rows, solved once: equilibrated, complete pivoting.
 
+use super::lu::Lu;
 use crate::arithmetic::Scalar;
 
-/// Pivots below this share of the largest are rounding.
-const SINGULAR: f64 = 1e-12;
-
-/// Solves `matrix` x = `right` in place (`matrix` is row-major, `size` × `size`). Where rows depend on each other the
+/// Solves `matrix` x = `b` in place (`matrix` is row-major, `size` × `size`). Where rows depend on each other the
 /// superfluous unknowns are 0. False if the system contradicts itself.
-pub(crate) fn solve_consistent<T: Scalar>(matrix: &mut [T], right: &mut [T], size: usize) -> bool {
-    let mut columns: Vec<usize> = (0..size).collect();
-    let mut first = 0.0;
-    let mut rank = size;
-    let scale = right.iter().fold(0.0_f64, |m, x| m.max(x.value().abs()));
-    for k in 0..size {
-        let mut best = (0.0, k, k);
-        for i in k..size {
-            for j in k..size {
-                let x = matrix[i * size + j].value().abs();
-                if x > best.0 {
-                    best = (x, i, j);
-                }
-            }
-        }
-        let (pivot, row, column) = best;
-        if k == 0 {
-            first = pivot;
-        }
-        if pivot <= SINGULAR * first {
-            rank = k;
-            break;
-        }
-        for j in 0..size {
-            matrix.swap(k * size + j, row * size + j);
-        }
-        right.swap(k, row);
-        for i in 0..size {
-            matrix.swap(i * size + k, i * size + column);
-        }
-        columns.swap(k, column);
-        for i in k + 1..size {
-            let factor = matrix[i * size + k] / matrix[k * size + k];
-            for j in k..size {
-                let x = matrix[k * size + j];
-                matrix[i * size + j] -= factor * x;
-            }
-            let x = right[k];
-            right[i] -= factor * x;
+pub(crate) fn solve_consistent<T: Scalar>(matrix: &mut [T], b: &mut [T], size: usize) -> bool {
+    // Rows and columns to about 1.
+    let mut column_scale = vec![1.0; size];
+    for i in 0..size {
+        let row = &mut matrix[i * size..(i + 1) * size];
+        let largest = row.iter().map(|x| x.value().abs()).fold(0.0, f64::max);
+        if largest > 0.0 {
+            let scale = T::from_f64(1.0 / largest);
+            row.iter_mut().for_each(|x| *x *= scale);
+            b[i] *= scale;
         }
     }
-    if right[rank..].iter().any(|x| x.value().abs() > 1e-9 * scale) {
-        return false;
+    for (j, scale) in column_scale.iter_mut().enumerate() {
+        let largest = (0..size)
+            .map(|i| matrix[i * size + j].value().abs())
+            .fold(0.0, f64::max);
+        if largest > 0.0 {
+            *scale = 1.0 / largest;
+            (0..size).for_each(|i| matrix[i * size + j] *= T::from_f64(*scale));
+        }
     }
-    let mut solution = vec![T::default(); size];
-    for k in (0..rank).rev() {
-        let sum = (k + 1..rank).fold(right[k], |sum, j| sum - matrix[k * size + j] * solution[columns[j]]);
-        solution[columns[k]] = sum / matrix[k * size + k];
+    let size_of_b = b.iter().map(|x| x.value().abs()).fold(0.0, f64::max);
+    let mut lu = Lu::default();
+    lu.factor(size, matrix.iter().copied());
+    let left_out = lu.solve_part(b);
+    for (x, scale) in b.iter_mut().zip(column_scale) {
+        *x *= T::from_f64(scale);
     }
-    right.copy_from_slice(&solution);
-    true
+    left_out <= 1e-9 * size_of_b && b.iter().all(|x| x.value().is_finite())
 }
 
 #[cfg(test)]

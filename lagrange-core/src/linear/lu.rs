@@ -105,23 +105,38 @@ impl<T: Scalar> Lu<T> {
     }
 
     /// Replaces b by x, for a matrix of full rank.
+    #[inline]
     pub(crate) fn solve(&mut self, b: &mut [T]) {
-        let size = self.size;
+        self.solve_part(b);
+    }
+
+    /// Replaces b by x; unknowns without pivot become zero. Returns the largest residual of the equations without pivot.
+    pub(crate) fn solve_part(&mut self, b: &mut [T]) -> f64 {
+        let (size, rank) = (self.size, self.rank);
         for (y, &row) in self.scratch.iter_mut().zip(&self.rows) {
             *y = b[row];
         }
         for i in 1..size {
-            let sum = dot(&self.factors[i * size..i * size + i], &self.scratch);
+            let sum = dot(
+                &self.factors[i * size..i * size + i.min(rank)],
+                &self.scratch,
+            );
             self.scratch[i] -= sum;
         }
-        for i in (0..size).rev() {
+        let mut left_out = 0.0;
+        for y in &mut self.scratch[rank..] {
+            left_out = f64::max(left_out, y.value().abs());
+            *y = T::zero();
+        }
+        for i in (0..rank).rev() {
             let row = &self.factors[i * size..(i + 1) * size];
-            let sum = dot(&row[i + 1..], &self.scratch[i + 1..]);
+            let sum = dot(&row[i + 1..rank], &self.scratch[i + 1..]);
             self.scratch[i] = (self.scratch[i] - sum) / row[i];
         }
         for (&column, &y) in self.columns.iter().zip(&self.scratch) {
             b[column] = y;
         }
+        left_out
     }
 }
 

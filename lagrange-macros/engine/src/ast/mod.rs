@@ -1,0 +1,500 @@
+//! What the user wrote: a struct and the items of its `#[lagrange(…)]` attributes, spans kept.
+//!
+//! Nothing is resolved here: names are text, ranges are expressions, levels of constraints are unknown.
+//! Indices run over half-open ranges `k in a..b`.
+
+mod print;
+
+use crate::diagnostics::Extent;
+use proc_macro2::{Ident, Span, TokenStream};
+
+/// A struct with its declaration.
+#[derive(Debug)]
+pub struct Declaration {
+    /// The struct.
+    pub name: Ident,
+    /// Doc comment of the struct.
+    pub documentation: String,
+    /// The one type parameter, if there is one.
+    pub scalar: Option<Ident>,
+    /// Parameters.
+    pub fields: Vec<Field>,
+    /// Items in order, of all attributes.
+    pub items: Vec<Item>,
+    /// `crate = path`.
+    pub core: Option<TokenStream>,
+}
+
+/// A field of the struct.
+#[derive(Debug)]
+pub struct Field {
+    /// Name.
+    pub name: Name,
+    /// N of `[T; N]`.
+    pub length: Option<usize>,
+    /// Doc comment.
+    pub documentation: String,
+    /// `tex = "…"`, or empty.
+    pub tex: String,
+    /// `unit = "…"`, or empty.
+    pub unit: String,
+    /// `symbol = "…"`, or empty.
+    pub letter: String,
+}
+
+/// A name as written; `r#type` reads as `type`.
+#[derive(Clone, Debug)]
+pub struct Name {
+    /// Without `r#`.
+    pub text: String,
+    /// As it came.
+    pub ident: Ident,
+}
+
+impl Name {
+    /// Reads an identifier, raw or keyword too.
+    pub fn new(ident: &Ident) -> Name {
+        let text = ident.to_string();
+        Name {
+            text: text.strip_prefix("r#").map_or(text.clone(), str::to_string),
+            ident: ident.clone(),
+        }
+    }
+
+    /// Where it is.
+    pub fn span(&self) -> Span {
+        self.ident.span()
+    }
+}
+
+impl From<&Name> for Extent {
+    fn from(name: &Name) -> Extent {
+        name.span().into()
+    }
+}
+
+/// `from..to`, half open.
+#[derive(Clone, Debug)]
+pub struct Range {
+    /// First value.
+    pub from: Expr,
+    /// One past the last value.
+    pub to: Expr,
+}
+
+/// `name in from..to`
+#[derive(Clone, Debug)]
+pub struct Index {
+    /// The index.
+    pub name: Name,
+    /// Its values.
+    pub range: Range,
+}
+
+/// Name of an item: `rim`, or `ball[k in 0..63]`.
+#[derive(Clone, Debug)]
+pub struct Head {
+    /// Name.
+    pub name: Name,
+    /// Where it is indexed.
+    pub index: Option<Index>,
+}
+
+/// A use of an item's name: `rim`, or `ball[k]`.
+#[derive(Clone, Debug)]
+pub struct Reference {
+    /// Name.
+    pub name: Name,
+    /// Which element.
+    pub element: Option<Expr>,
+}
+
+/// An item of a declaration.
+#[derive(Clone, Debug)]
+pub struct Item {
+    /// Its keyword.
+    pub keyword: Span,
+    /// What it says.
+    pub kind: ItemKind,
+}
+
+/// What an item says.
+#[derive(Clone, Debug)]
+pub enum ItemKind {
+    /// `coordinates(x, r: "m", theta[8])`
+    Coordinates(Vec<Coordinate>),
+    /// `define(px = …, e = […])`
+    Define(Vec<Definition>),
+    /// `kinetic = …` or `kinetic(name: …)`
+    Kinetic(Energy),
+    /// `potential = …` or `potential(name: …)`
+    Potential(Energy),
+    /// `lagrangian = …`
+    Lagrangian(Expr),
+    /// `constraint(name while contact: a == b)`
+    Constraint(Constraint),
+    /// `contact(name: a >= b at p, restitution = e, where c >= d)`
+    Contact(Contact),
+    /// `friction(name on item: slip = …, …)`
+    Friction(Friction),
+    /// `force(name: …)`
+    Force(Force),
+    /// `dissipation(name: …)`
+    Dissipation(Dissipation),
+    /// `start(name: x = …, der(x) = …)`
+    Start(Start),
+    /// `observe(name = …)` or `observe(name)`
+    Observe(Vec<Observe>),
+    /// `stop(name: …)`
+    Stop(Watch),
+    /// `mark(name: …)`
+    Mark(Watch),
+    /// `attitude(body: q)`
+    Attitude(Attitude),
+    /// `impacts = together | in_turn`
+    Impacts(Impacts),
+}
+
+/// A coordinate, or an array of them.
+#[derive(Clone, Debug)]
+pub struct Coordinate {
+    /// Name.
+    pub name: Name,
+    /// Number of elements.
+    pub length: Option<Expr>,
+    /// Unit, or empty.
+    pub unit: String,
+}
+
+/// A named expression.
+#[derive(Clone, Debug)]
+pub struct Definition {
+    /// Name.
+    pub head: Head,
+    /// What it stands for.
+    pub value: Expr,
+}
+
+/// A term of the kinetic or potential energy.
+#[derive(Clone, Debug)]
+pub struct Energy {
+    /// Name, if it has one.
+    pub head: Option<Head>,
+    /// J
+    pub value: Expr,
+}
+
+/// An equality constraint.
+#[derive(Clone, Debug)]
+pub struct Constraint {
+    /// Name.
+    pub head: Head,
+    /// The `while` keyword and the contact.
+    pub while_contact: Option<(Span, Reference)>,
+    /// Left side.
+    pub left: Expr,
+    /// Right side.
+    pub right: Expr,
+}
+
+/// A one-sided contact.
+#[derive(Clone, Debug)]
+pub struct Contact {
+    /// Name.
+    pub head: Head,
+    /// The gap.
+    pub gap: Comparison,
+    /// `at p`
+    pub at: Option<Expr>,
+    /// `restitution = …`
+    pub restitution: Option<Restitution>,
+    /// `where c >= d`
+    pub region: Option<Comparison>,
+}
+
+/// A law of impact.
+#[derive(Clone, Debug)]
+pub enum Restitution {
+    /// `e`
+    Newton(Expr),
+    /// `poisson(e)`
+    Poisson(Expr),
+}
+
+/// Coulomb friction.
+#[derive(Clone, Debug)]
+pub struct Friction {
+    /// Name.
+    pub head: Head,
+    /// The contact or constraint whose force presses.
+    pub on: Option<Reference>,
+    /// One slip velocity, or a list of two.
+    pub slip: Expr,
+    /// How strong it is.
+    pub law: FrictionLaw,
+}
+
+/// Strength of a friction.
+#[derive(Clone, Debug)]
+pub enum FrictionLaw {
+    /// Coefficients times a normal force: that of the item it is on, or the one given.
+    Coefficients {
+        /// `normal = …`
+        normal: Option<Expr>,
+        /// `static = …`
+        stick: Expr,
+        /// `kinetic = …`; as static if left out
+        slide: Option<Expr>,
+    },
+    /// `limit = F` or `limit = (Fs, Fk)`
+    Limit(Expr),
+}
+
+/// An applied force.
+#[derive(Clone, Debug)]
+pub struct Force {
+    /// Name.
+    pub head: Head,
+    /// How it acts.
+    pub action: Action,
+}
+
+/// How a force acts.
+#[derive(Clone, Debug)]
+pub enum Action {
+    /// `theta = τ`
+    Generalized(Reference, Expr),
+    /// `(fx, fy) at (px, py)`
+    At(Expr, Expr),
+    /// `f along s`
+    Along(Expr, Expr),
+}
+
+/// Rayleigh dissipation.
+#[derive(Clone, Debug)]
+pub struct Dissipation {
+    /// Name.
+    pub head: Head,
+    /// W
+    pub value: Expr,
+}
+
+/// A named start.
+#[derive(Clone, Debug)]
+pub struct Start {
+    /// Name.
+    pub head: Head,
+    /// What is not zero.
+    pub values: Vec<StartValue>,
+}
+
+/// Order of the quantity that a start sets.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Order {
+    /// `x = …`
+    Position,
+    /// `der(x) = …`
+    Velocity,
+}
+
+/// One value of a start.
+#[derive(Clone, Debug)]
+pub struct StartValue {
+    /// Position or velocity.
+    pub order: Order,
+    /// Coordinate.
+    pub name: Name,
+    /// Which elements of an array.
+    pub element: Element,
+    /// Its value.
+    pub value: Expr,
+}
+
+/// Which elements of an array.
+#[derive(Clone, Debug)]
+pub enum Element {
+    /// The coordinate, or a list for the array.
+    Whole,
+    /// `x[2]`
+    One(Expr),
+    /// `x[k in 0..8]`
+    Each(Index),
+}
+
+/// An extra output.
+#[derive(Clone, Debug)]
+pub enum Observe {
+    /// `px`, as defined elsewhere
+    Known(Name),
+    /// `name = …`
+    New(Head, Expr),
+}
+
+/// A stop or mark.
+#[derive(Clone, Debug)]
+pub struct Watch {
+    /// Name.
+    pub head: Head,
+    /// What it waits for.
+    pub trigger: Trigger,
+}
+
+/// What a stop or mark waits for.
+#[derive(Clone, Debug)]
+pub enum Trigger {
+    /// All of these become true.
+    All(Vec<Clause>),
+    /// Every zero of a value (`mark` only).
+    Zero(Expr),
+}
+
+/// One of the terms joined by `and`.
+#[derive(Clone, Debug)]
+pub enum Clause {
+    /// `a >= b` or `a <= b`
+    Comparison(Comparison),
+    /// `closed(c)` and the like
+    Mode(ModeWord, Reference),
+}
+
+/// A condition on the mode.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ModeWord {
+    /// `closed(contact)`
+    Closed,
+    /// `open(contact)`
+    Open,
+    /// `sticks(friction)`
+    Sticks,
+    /// `slips(friction)`
+    Slips,
+}
+
+impl ModeWord {
+    /// All words with their text.
+    pub const ALL: [(&'static str, ModeWord); 4] = [
+        ("closed", ModeWord::Closed),
+        ("open", ModeWord::Open),
+        ("sticks", ModeWord::Sticks),
+        ("slips", ModeWord::Slips),
+    ];
+}
+
+/// `attitude(body: q)`
+#[derive(Clone, Debug)]
+pub struct Attitude {
+    /// The body.
+    pub body: Name,
+    /// Its four coordinates.
+    pub coordinates: Name,
+}
+
+/// How simultaneous impacts are resolved.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+pub enum Impacts {
+    /// In one solution.
+    #[default]
+    Together,
+    /// One by one in order of declaration, until none approaches.
+    InTurn,
+}
+
+/// `left >= right` or `left <= right`
+#[derive(Clone, Debug)]
+pub struct Comparison {
+    /// Left side.
+    pub left: Expr,
+    /// The relation.
+    pub relation: Relation,
+    /// Right side.
+    pub right: Expr,
+}
+
+impl Comparison {
+    /// (larger side, smaller side)
+    pub fn sides(&self) -> (&Expr, &Expr) {
+        match self.relation {
+            Relation::AtLeast => (&self.left, &self.right),
+            Relation::AtMost => (&self.right, &self.left),
+        }
+    }
+
+    /// From its first to its last token.
+    pub fn extent(&self) -> Extent {
+        Extent::new(self.left.extent, self.right.extent)
+    }
+}
+
+/// A relation between two values.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Relation {
+    /// `>=`
+    AtLeast,
+    /// `<=`
+    AtMost,
+}
+
+/// An expression.
+#[derive(Clone, Debug)]
+pub struct Expr {
+    /// Its form.
+    pub kind: ExprKind,
+    /// From its first to its last token.
+    pub extent: Extent,
+}
+
+/// digits · 10^exponent
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Decimal {
+    /// Without trailing zeros if the exponent is negative.
+    pub digits: i128,
+    /// Of ten.
+    pub exponent: i32,
+}
+
+/// Sign of a term of a sum.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Sign {
+    /// `+`
+    Plus,
+    /// `-`
+    Minus,
+}
+
+/// Side of a factor of a product.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Factor {
+    /// `*`
+    Times,
+    /// `/`
+    Over,
+}
+
+/// Form of an expression. Sums and products are flat, so that long ones do not nest.
+#[derive(Clone, Debug)]
+pub enum ExprKind {
+    /// An exact number.
+    Number(Decimal),
+    /// A name, `pi` and `t` too.
+    Name(Name),
+    /// a + b − c
+    Sum(Vec<(Sign, Expr)>),
+    /// a b / c, from left to right
+    Product(Vec<(Factor, Expr)>),
+    /// −a
+    Negative(Box<Expr>),
+    /// base^exponent
+    Power(Box<Expr>, Box<Expr>),
+    /// f(arguments), `der` too
+    Call(Name, Vec<Expr>),
+    /// if(a >= b, then, otherwise)
+    If(Box<Comparison>, Box<Expr>, Box<Expr>),
+    /// sum(i in a..b: body)
+    SumOver(Box<Index>, Box<Expr>),
+    /// [a, b] or (a, b)
+    List(Vec<Expr>),
+    /// list[index]
+    Element(Box<Expr>, Box<Expr>),
+    /// body.axes
+    Member(Box<Expr>, Name),
+}

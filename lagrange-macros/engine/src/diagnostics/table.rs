@@ -1,0 +1,110 @@
+//! Every message of the macro: its code, what is wrong, and what to do next. `{0}`, `{1}`, … are blanks.
+//!
+//! E0xx notation · E1xx the struct · E2xx names · E3xx values · E4xx what may stand where · E5xx mechanics
+
+/// A row of the table.
+pub(super) struct Row {
+    pub code: &'static str,
+    pub message: &'static str,
+    pub hint: &'static str,
+}
+
+macro_rules! table {
+    ($($name:ident $code:literal $message:literal $hint:literal;)*) => {
+        /// A kind of mistake.
+        #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+        pub enum Code {
+            $(#[doc = $message] $name,)*
+        }
+
+        impl Code {
+            pub(super) fn row(self) -> Row {
+                match self {
+                    $(Code::$name => Row { code: $code, message: $message, hint: $hint },)*
+                }
+            }
+
+            /// All codes in the order of the table.
+            #[cfg(test)]
+            pub(super) const ALL: &'static [Code] = &[$(Code::$name,)*];
+        }
+    };
+}
+
+table! {
+    Expected "E001" "expected {0}, found {1}" "";
+    EmptyPart "E002" "nothing is written here" "expected {0}; or take the comma away";
+    MissingComma "E003" "expected a comma before `{0}`" "parts are separated by commas";
+    PowerStars "E004" "`**` is not an operator here" "a power is written with `^`: `x^2`";
+    MethodCall "E005" "`.{0}()` is Rust's notation" "functions are written as in mathematics: `{1}`";
+    SingleEquals "E006" "`=` where an equation is expected" "an equation is written with two: `a == b`";
+    NumberSuffix "E007" "`{0}` is not a number" "{1}";
+    NumberForm "E008" "`{0}` is not a number of the language" "write decimal digits: `12`, `0.5`, `1e-3`";
+    NumberSize "E009" "`{0}` cannot be kept exactly" "numbers have at most 38 digits; pass it as a field of the struct";
+    UnknownItem "E010" "`{0}` is not an item" "{1}";
+    ComparisonExpected "E011" "expected a comparison" "write {0}";
+    ComparisonAsValue "E012" "a comparison is not a value" "`if(a >= b, x, y)` chooses between values; `stop`, `mark`, `contact` and `constraint` take comparisons";
+    StrictComparison "E013" "`{0}` is not used here" "write `{0}=`: a switch happens where both sides are equal";
+    ChainedComparison "E014" "comparisons do not chain" "join two with `and`: `a <= x and x <= b`";
+    WrongRelation "E015" "`{0}` does not make a {1}" "{2}";
+    UnknownPart "E016" "`{0}` is not a part of `{1}`" "{2}";
+    RepeatedPart "E017" "`{0}` is given twice" "keep one";
+    MissingPart "E018" "`{0}` has no {1}" "add `{2}`";
+    Later "E019" "`{0}` comes with a later version" "{1}";
+    InclusiveRange "E020" "ranges are half open" "write `a..b`, which leaves `b` out";
+    RustNotation "E021" "`{0}` is Rust's notation" "{1}";
+    TooDeep "E022" "too many parentheses inside each other" "name inner parts with `define`";
+    Exclusive "E023" "`{0}` and `{1}` exclude each other" "{2}";
+    Operator "E024" "`{0}` is not an operator here" "{1}";
+
+    NotAStruct "E101" "Lagrangian is derived for a struct with named fields" "write `struct {0} { mass: f64, … }`: every field is a parameter";
+    Generics "E102" "{0}" "the struct is plain (`f64` fields) or has exactly one type parameter: `struct {1}<T = f64>`";
+    FieldType "E103" "a parameter cannot have this type" "fields are `{0}` or `[{0}; N]` with a number N";
+    AttributeForm "E104" "{0}" "{1}";
+    NoDeclaration "E105" "nothing is declared" "add `#[lagrange(coordinates(…), kinetic = …, potential = …)]` to the struct";
+
+    UnknownName "E201" "`{0}` is not known" "{1}";
+    DuplicateName "E202" "`{0}` is already the name of a {1}" "fields, coordinates, definitions and items share their names; choose another";
+    ReservedName "E203" "`{0}` is a word of the language" "choose another name";
+    IndexShadows "E204" "the index `{0}` hides the {1} of that name" "choose another letter";
+    Circular "E205" "`{0}` is defined through itself" "break the circle: {1}";
+    WrongKind "E206" "`{0}` is a {1}, not a {2}" "{3}";
+    Unusable "E207" "`{0}` is a {1} and has no value" "{2}";
+
+    ArgumentCount "E301" "`{0}` takes {1}, not {2}" "";
+    ListForScalar "E302" "a list of {0} where a single value is expected" "take one element `e[i]`, or `dot`, `norm`, `sum`";
+    ScalarForList "E303" "a single value where a list is expected" "{0}";
+    Lengths "E304" "lists of {0} and {1} elements do not fit" "both sides need as many elements";
+    IndexRange "E305" "the index {0} is outside {1}..{2}" "indices start at the lower bound, and the upper bound is left out";
+    NotAnInteger "E306" "expected a whole number known at build time" "indices and bounds are made of numbers and indices, not of fields or coordinates";
+    DivisionByZero "E307" "division by zero" "";
+    NotAFunction "E308" "`{0}` is not a function" "{1}";
+    NoSuchMember "E309" "`{0}` has no member `{1}`" "{2}";
+    EmptyRange "E310" "the range {0}..{1} is empty" "the upper bound must be larger than the lower one";
+    TooMany "E311" "{0} elements are too many" "a declaration may unroll to {1}";
+    Overflow "E312" "the exact numbers of this item outgrow 38 digits" "pass such numbers as fields of the struct";
+    ListProduct "E313" "`{0}` of two lists has no single meaning" "write `dot(a, b)`, `cross(a, b)`, or single elements";
+
+    VelocityHere "E401" "{0} depends on positions only, and `{1}` is a velocity" "{2}";
+    AccelerationHere "E402" "`{0}` is an acceleration" "accelerations are known after the equations are solved: in `observe`, `stop` and `mark` only";
+    CoordinateHere "E403" "{0} depends on parameters and t only, and `{1}` depends on the motion" "{2}";
+    HigherDerivative "E404" "the derivative of an acceleration or force is not available" "";
+    OutputOnly "E405" "`{0}` has a value after the equations are solved" "use it in `observe`, `stop` or `mark`";
+    ForceHere "E406" "`{0}` is a {1}, whose force is not known here" "a force item may contain contacts and constraints; every output may contain all";
+    ConditionHere "E407" "`{0}(…)` is a condition, not a value" "use it in `stop` or `mark`, joined by `and`";
+
+    NoCoordinates "E501" "no coordinates are declared" "add `coordinates(x, …)`";
+    NoKinetic "E502" "no kinetic energy is declared" "add `kinetic = mass/2 * der(x)^2`, or a whole `lagrangian = …`";
+    LagrangianExcludes "E503" "`lagrangian` stands for the kinetic and potential energies, and `{0}` is given too" "keep one of them";
+    NotLinear "E504" "the {0} is not linear in `{1}`" "{2}";
+    WhilePosition "E505" "a constraint that holds while a contact is closed is a velocity constraint" "write it with `der(…)`, or leave `while {0}` away";
+    ConstrainsNothing "E506" "the {0} depends on no {1}" "{2}";
+    NotQuadratic "E507" "with contacts the {0} must be quadratic in the velocities" "impacts need a mass matrix that does not depend on them: `{1}` occurs otherwise";
+    PointElsewhere "E508" "the gap does not follow from the position of this point" "`at` takes the point relative to the body that it touches; leave it out where the gap is itself a distance";
+    ForceNotLinear "E509" "the force is not linear in `{0}`" "the forces of contacts and constraints enter the equations linearly";
+    SameTwice "E510" "`{0}` is given twice" "keep one";
+    UnnamedTwice "E511" "a second `{0} =` without a name" "name the terms: `{0}(name: …)`";
+
+    NoInertia "E601" "the coordinate `{0}` has no inertia" "no kinetic energy contains `der({0})`, and no constraint ties it: add its kinetic energy or remove it";
+    EquationCount "E602" "{0} equations for {1} unknowns" "{2}";
+}

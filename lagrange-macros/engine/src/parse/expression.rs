@@ -1,0 +1,347 @@
+//! Expressions by precedence, weakest first:
+//!
+//! ```text
+//! sum     := product (('+' | '-') product)*
+//! product := signed (('*' | '/') signed)*
+//! signed  := ('-' | '+')* power
+//! power   := postfix ('^' signed)?                    right associative, tighter than the sign before it
+//! postfix := atom ('[' sum ']' | '.' name)*
+//! atom    := number | name | name '(' … ')' | '(' sum, … ')' | '[' sum, … ']'
+//! ```
+
+use super::cursor::Cursor;
+use super::number::number;
+use super::relation::{comparison, leftover};
+use crate::ast::{Expr, ExprKind, Factor, Index, Name, Range, Sign};
+use crate::diagnostics::{Code, Diagnostics, Extent};
+use proc_macro2::{Delimiter, TokenTree};
+
+/// Functions of the language that take values.
+pub(crate) const FUNCTIONS: &[&str] = &[
+    "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "ln",
+    "sqrt", "abs", "sign", "min", "max", "dot", "cross", "norm", "der",
+];
+
+/// An expression that fills the rest of the cursor.
+pub(super) fn whole(cursor: &mut Cursor, sink: &mut Diagnostics) -> Option<Expr> {
+    let expr = expression(cursor, sink)?;
+    leftover(cursor, sink)?;
+    Some(expr)
+}
+
+/// An expression as far as it goes.
+pub(super) fn expression(cursor: &mut Cursor, sink: &mut Diagnostics) -> Option<Expr> {
+    let mut terms = vec![(Sign::Plus, product(cursor, sink)?)];
+    loop {
+        let sign = match cursor.operator() {
+            Some("+") => Sign::Plus,
+            Some("-") => Sign::Minus,
+            _ => break,
+        };
+        cursor.next();
+        terms.push((sign, product(cursor, sink)?));
+    }
+    Some(flat(terms, ExprKind::Sum))
+}
+
+fn product(cursor: &mut Cursor, sink: &mut Diagnostics) -> Option<Expr> {
+    let mut factors = vec![(Factor::Times, signed(cursor, sink)?)];
+    loop {
+        let side = match cursor.operator() {
+            Some("*") => Factor::Times,
+            Some("/") => Factor::Over,
+            _ => break,
+        };
+        cursor.next();
+        factors.push((side, signed(cursor, sink)?));
+    }
+    Some(flat(factors, ExprKind::Product))
+}
+
+/// A chain of one is its element.
+fn flat<S>(mut chain: Vec<(S, Expr)>, kind: fn(Vec<(S, Expr)>) -> ExprKind) -> Expr {
+    if chain.len() == 1 {
+        return chain.remove(0).1;
+    }
+    let extent = Extent::new(chain[0].1.extent, chain[chain.len() - 1].1.extent);
+    Expr {
+        kind: kind(chain),
+        extent,
+    }
+}
+
+fn signed(cursor: &mut Cursor, sink: &mut Diagnostics) -> Option<Expr> {
+    let start = cursor.here();
+    let mut negative = false;
+    while let Some(sign @ ("-" | "+")) = cursor.operator() {
+        negative ^= sign == "-";
+        cursor.next();
+    }
+    let value = power(cursor, sink)?;
+    if !negative {
+        return Some(value);
+    }
+    let extent = Extent::new(start, value.extent);
+    Some(Expr {
+        kind: ExprKind::Negative(Box::new(value)),
+        extent,
+    })
+}
+
+fn power(cursor: &mut Cursor, sink: &mut Diagnostics) -> Option<Expr> {
+    let base = postfix(cursor, sink)?;
+    if let Some(stars) = cursor.take("**") {
+        sink.report(Code::PowerStars, stars, &[]);
+    } else if cursor.take("^").is_none() {
+        return Some(base);
+    }
+    cursor.deeper(sink)?;
+    let exponent = signed(cursor, sink)?;
+    cursor.shallower();
+    let extent = Extent::new(base.extent, exponent.extent);
+    Some(Expr {
+        kind: ExprKind::Power(Box::new(base), Box::new(exponent)),
+        extent,
+    })
+}
+
+fn postfix(cursor: &mut Cursor, sink: &mut Diagnostics) -> Option<Expr> {
+    let mut value = atom(cursor, sink)?;
+    loop {
+        if let Some(group) = cursor.take_group(Delimiter::Bracket) {
+            let index = whole(&mut cursor.inside(&group, sink)?, sink)?;
+            value = Expr {
+                extent: Extent::new(value.extent, group.span_close()),
+                kind: ExprKind::Element(Box::new(value), Box::new(index)),
+            };
+        } else if cursor.operator() == Some(".") {
+            cursor.next();
+            let name = cursor.name("a member", sink)?;
+            if let Some(group) = cursor.group(Delimiter::Parenthesis) {
+                return method(value, &name, &group, cursor, sink);
+            }
+            value = Expr {
+                extent: Extent::new(value.extent, &name),
+                kind: ExprKind::Member(Box::new(value), name),
+            };
+        } else {
+            return Some(value);
+        }
+    }
+}
+
+/// `theta.cos()` is reported with what to write instead.
+fn method(
+    value: Expr,
+    name: &Name,
+    group: &proc_macro2::Group,
+    cursor: &Cursor,
+    sink: &mut Diagnostics,
+) -> Option<Expr> {
+    let mut arguments = vec![value.to_string()];
+    for mut part in cursor.inside(group, sink)?.parts("an argument", sink) {
+        arguments.push(part.rest().to_string());
+    }
+    let better = match (name.text.as_str(), arguments.as_slice()) {
+        ("powi" | "powf" | "pow", [base, exponent]) => format!("{base}^{exponent}"),
+        ("log" | "log10", [argument, ..]) => format!("ln({argument})"),
+        ("signum", [argument]) => format!("sign({argument})"),
+        (function, arguments) => format!("{function}({})", arguments.join(", ")),
+    };
+    sink.report(
+        Code::MethodCall,
+        Extent::new(name, group.span_close()),
+        &[&name.text, &better],
+    );
+    None
+}
+
+fn atom(cursor: &mut Cursor, sink: &mut Diagnostics) -> Option<Expr> {
+    let here = cursor.here();
+    match cursor.peek().cloned() {
+        Some(TokenTree::Literal(literal)) => {
+            cursor.next();
+            let kind = ExprKind::Number(number(&literal, sink)?);
+            Some(Expr { kind, extent: here })
+        }
+        Some(TokenTree::Ident(ident)) => {
+            cursor.next();
+            named(Name::new(&ident), cursor, sink)
+        }
+        Some(TokenTree::Group(group)) => match group.delimiter() {
+            Delimiter::Brace => {
+                cursor.expected("a value", sink);
+                None
+            }
+            delimiter => {
+                cursor.next();
+                let inside = cursor.inside(&group, sink)?;
+                bracketed(delimiter, here, inside, sink)
+            }
+        },
+        _ => {
+            no_value(cursor, sink);
+            None
+        }
+    }
+}
+
+/// `(a)`, `(a, b)`, `[a, b]`, or an invisible group.
+fn bracketed(
+    delimiter: Delimiter,
+    extent: Extent,
+    mut inside: Cursor,
+    sink: &mut Diagnostics,
+) -> Option<Expr> {
+    if delimiter == Delimiter::None {
+        return whole(&mut inside, sink);
+    }
+    if inside.is_at_end() {
+        sink.report(Code::EmptyPart, extent, &[&"a value"]);
+        return None;
+    }
+    let elements = expressions(inside, "a value", sink)?;
+    if let (Delimiter::Parenthesis, [_]) = (delimiter, elements.as_slice()) {
+        let [inner] = <[Expr; 1]>::try_from(elements).ok()?;
+        return Some(Expr { extent, ..inner });
+    }
+    Some(Expr {
+        kind: ExprKind::List(elements),
+        extent,
+    })
+}
+
+/// Expressions between commas; mistakes in all of them are reported.
+pub(super) fn expressions(inside: Cursor, what: &str, sink: &mut Diagnostics) -> Option<Vec<Expr>> {
+    let before = sink.count();
+    let elements: Vec<Option<Expr>> = inside
+        .parts(what, sink)
+        .iter_mut()
+        .map(|part| whole(part, sink))
+        .collect();
+    if sink.count() > before {
+        return None;
+    }
+    elements.into_iter().collect()
+}
+
+/// A name, or a call.
+fn named(name: Name, cursor: &mut Cursor, sink: &mut Diagnostics) -> Option<Expr> {
+    if cursor.operator() == Some("::") {
+        path(&name, cursor, sink);
+        return None;
+    }
+    if name.text == "self" && cursor.operator() == Some(".") {
+        sink.report(
+            Code::RustNotation,
+            &name,
+            &[&"self.", &"fields are written by their name alone"],
+        );
+        cursor.next();
+        return postfix(cursor, sink);
+    }
+    let Some(group) = cursor.take_group(Delimiter::Parenthesis) else {
+        let extent = (&name).into();
+        return Some(Expr {
+            kind: ExprKind::Name(name),
+            extent,
+        });
+    };
+    let extent = Extent::new(&name, group.span_close());
+    let inside = cursor.inside(&group, sink)?;
+    if inside.is_at_end() {
+        sink.report(Code::EmptyPart, extent, &[&"an argument"]);
+        return None;
+    }
+    let kind = match name.text.as_str() {
+        "if" => conditional(inside, extent, sink)?,
+        "sum" => sum_over(inside, sink)?,
+        _ => ExprKind::Call(name, expressions(inside, "an argument", sink)?),
+    };
+    Some(Expr { kind, extent })
+}
+
+/// `if(a >= b, then, otherwise)`
+fn conditional(inside: Cursor, extent: Extent, sink: &mut Diagnostics) -> Option<ExprKind> {
+    let mut parts = inside.parts("an argument", sink);
+    let [condition, then, otherwise] = parts.as_mut_slice() else {
+        let count = parts.len();
+        sink.report(
+            Code::ArgumentCount,
+            extent,
+            &[&"if", &"3 arguments: `if(a >= b, x, y)`", &count],
+        );
+        return None;
+    };
+    let condition = comparison(condition, "`a >= b`", sink).and_then(|found| {
+        leftover(condition, sink)?;
+        Some(found)
+    });
+    let (then, otherwise) = (whole(then, sink), whole(otherwise, sink));
+    Some(ExprKind::If(
+        Box::new(condition?),
+        Box::new(then?),
+        Box::new(otherwise?),
+    ))
+}
+
+/// `sum(i in a..b: body)`
+fn sum_over(mut inside: Cursor, sink: &mut Diagnostics) -> Option<ExprKind> {
+    let index = index(&mut inside, sink)?;
+    inside.require(":", sink)?;
+    let body = whole(&mut inside, sink)?;
+    Some(ExprKind::SumOver(Box::new(index), Box::new(body)))
+}
+
+/// `i in a..b`
+pub(super) fn index(cursor: &mut Cursor, sink: &mut Diagnostics) -> Option<Index> {
+    let name = cursor.name("an index: `i in a..b`", sink)?;
+    if cursor.take_word("in").is_none() {
+        cursor.expected("`in`, as in `i in a..b`", sink);
+        return None;
+    }
+    let from = expression(cursor, sink)?;
+    if let Some(inclusive) = cursor.take("..=") {
+        sink.report(Code::InclusiveRange, inclusive, &[]);
+    } else {
+        cursor.require("..", sink)?;
+    }
+    let to = expression(cursor, sink)?;
+    Some(Index {
+        name,
+        range: Range { from, to },
+    })
+}
+
+/// `std::f64::consts::PI` and the like.
+fn path(first: &Name, cursor: &mut Cursor, sink: &mut Diagnostics) {
+    let mut last = first.clone();
+    let mut text = first.text.clone();
+    while cursor.take("::").is_some() {
+        let Some(next) = cursor.word() else { break };
+        cursor.next();
+        text = format!("{text}::{}", next.text);
+        last = next;
+    }
+    let hint = match last.text.as_str() {
+        "PI" => "write `pi`".to_string(),
+        name if FUNCTIONS.contains(&name) => format!("write `{name}(…)`"),
+        _ => "the language knows fields, coordinates and names of the declaration only".to_string(),
+    };
+    sink.report(
+        Code::RustNotation,
+        Extent::new(first, &last),
+        &[&text, &hint],
+    );
+}
+
+/// Reports what stands where a value is expected.
+fn no_value(cursor: &Cursor, sink: &mut Diagnostics) {
+    let hint = match cursor.operator() {
+        Some("|" | "||") => "an absolute value is written `abs(x)`",
+        Some("!" | "&" | "&&") => "conditions are comparisons, joined by `and`",
+        _ => return cursor.expected("a value", sink),
+    };
+    let operator = cursor.operator().unwrap_or_default();
+    sink.report(Code::Operator, cursor.here(), &[&operator, &hint]);
+}

@@ -1,0 +1,183 @@
+//! `constraint`, `contact`, `friction`.
+
+use super::super::cursor::Cursor;
+use super::super::expression::{expression, whole};
+use super::super::relation::{comparison, equation, leftover};
+use super::{head, head_and_colon, key, no_more, once, reference};
+use crate::ast::{
+    Comparison, Constraint, Contact, Friction, FrictionLaw, ItemKind, Name, Restitution,
+};
+use crate::diagnostics::{Code, Diagnostics};
+use proc_macro2::Delimiter;
+
+/// `name: a == b` or `name while contact: a == b`
+pub(super) fn constraint(mut parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<ItemKind> {
+    let (first, others) = parts.split_first_mut()?;
+    let head = head(first, "the name of the constraint", sink)?;
+    let while_contact = match first.take_word("while") {
+        None => None,
+        Some(word) => Some((
+            word.span(),
+            reference(first, "the name of a contact", sink)?,
+        )),
+    };
+    first.require(":", sink)?;
+    let sides = equation(first, sink).and_then(|sides| {
+        leftover(first, sink)?;
+        Some(sides)
+    });
+    no_more(others, "constraint", "a constraint is one equation", sink)?;
+    let (left, right) = sides?;
+    Some(ItemKind::Constraint(Constraint {
+        head,
+        while_contact,
+        left,
+        right,
+    }))
+}
+
+/// `name: a >= b at p, restitution = e, where c >= d`
+pub(super) fn contact(mut parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<ItemKind> {
+    let (first, others) = parts.split_first_mut()?;
+    let head = head_and_colon(first, "the name of the contact", sink)?;
+    let gap = gap(first, sink);
+    let (mut restitution, mut region) = (None, None);
+    for part in others {
+        contact_part(part, &mut restitution, &mut region, sink);
+    }
+    let (gap, at) = gap?;
+    Some(ItemKind::Contact(Contact {
+        head,
+        gap,
+        at,
+        restitution,
+        region,
+    }))
+}
+
+/// `a >= b at p`
+fn gap(
+    part: &mut Cursor,
+    sink: &mut Diagnostics,
+) -> Option<(Comparison, Option<crate::ast::Expr>)> {
+    let gap = comparison(part, "`gap >= 0`", sink)?;
+    let at = match part.take_word("at") {
+        None => None,
+        Some(_) => Some(expression(part, sink)?),
+    };
+    leftover(part, sink)?;
+    Some((gap, at))
+}
+
+fn contact_part(
+    part: &mut Cursor,
+    restitution: &mut Option<Restitution>,
+    region: &mut Option<Comparison>,
+    sink: &mut Diagnostics,
+) -> Option<()> {
+    if let Some(word) = part.take_word("where") {
+        let found = comparison(part, "`where c >= d`", sink)?;
+        once(region, found, &word, sink);
+    } else {
+        let key = key(part, "contact", &["restitution", "where"], sink)?;
+        let found = match part.take_word("poisson") {
+            None => Restitution::Newton(expression(part, sink)?),
+            Some(_) => match part.take_group(Delimiter::Parenthesis) {
+                Some(group) => Restitution::Poisson(whole(&mut part.inside(&group, sink)?, sink)?),
+                None => {
+                    part.expected("`(`, as in `poisson(e)`", sink);
+                    return None;
+                }
+            },
+        };
+        once(restitution, found, &key, sink);
+    }
+    leftover(part, sink)
+}
+
+/// `name on item: slip = …, static = …, kinetic = …`
+pub(super) fn friction(
+    keyword: &Name,
+    mut parts: Vec<Cursor>,
+    sink: &mut Diagnostics,
+) -> Option<ItemKind> {
+    let before = sink.count();
+    let first = parts.first_mut()?;
+    let head = head(first, "the name of the friction", sink)?;
+    let on = match first.take_word("on") {
+        None => None,
+        Some(_) => Some(reference(
+            first,
+            "the name of a contact or constraint",
+            sink,
+        )?),
+    };
+    first.require(":", sink)?;
+    let [mut slip, mut stick, mut slide, mut normal, mut limit] = [const { None }; 5];
+    for part in &mut parts {
+        let keys = ["slip", "static", "kinetic", "normal", "limit"];
+        let Some(key) = key(part, "friction", &keys, sink) else {
+            continue;
+        };
+        let Some(value) = whole(part, sink) else {
+            continue;
+        };
+        let slot = match key.text.as_str() {
+            "slip" => &mut slip,
+            "static" => &mut stick,
+            "kinetic" => &mut slide,
+            "normal" => &mut normal,
+            _ => &mut limit,
+        };
+        once(slot, value, &key, sink);
+    }
+    if sink.count() > before {
+        return None;
+    }
+    let name = &head.name.text;
+    let mut missing = |what: &str, part: &str| {
+        sink.report(Code::MissingPart, &head.name, &[name, &what, &part]);
+    };
+    if slip.is_none() {
+        missing("slip velocity", "slip = …");
+    }
+    let law = match (limit, stick) {
+        (Some(limit), None) if slide.is_none() && normal.is_none() && on.is_none() => {
+            Some(FrictionLaw::Limit(limit))
+        }
+        (Some(_), _) => {
+            let hint = "`limit` is the whole friction force; `static`, `kinetic` and `normal`, or `on`, make another";
+            sink.report(Code::Exclusive, keyword, &[&"limit", &"static", &hint]);
+            None
+        }
+        (None, Some(stick)) => {
+            match (&on, &normal) {
+                (None, None) => missing("normal force", "on contact` or `normal = N"),
+                (Some(on), Some(_)) => {
+                    sink.report(
+                        Code::Exclusive,
+                        &on.name,
+                        &[&"on", &"normal", &"keep one source of the normal force"],
+                    );
+                }
+                _ => {}
+            }
+            Some(FrictionLaw::Coefficients {
+                normal,
+                stick,
+                slide,
+            })
+        }
+        (None, None) => {
+            missing("coefficient", "static = mu");
+            None
+        }
+    };
+    let (slip, law) = (slip?, law?);
+    (sink.count() == before).then_some(ItemKind::Friction(Friction {
+        head,
+        on,
+        slip,
+        law,
+    }))
+}

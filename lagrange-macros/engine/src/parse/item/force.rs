@@ -1,0 +1,55 @@
+//! `force`: generalized, at a point, or along a velocity.
+
+use super::super::cursor::Cursor;
+use super::super::expression::{expression, whole};
+use super::{head_and_colon, no_more};
+use crate::ast::{Action, Expr, ExprKind, Force, ItemKind, Reference};
+use crate::diagnostics::{Code, Diagnostics};
+
+/// `name: theta = τ`, `name: (fx, fy) at (px, py)` or `name: f along s`
+pub(super) fn force(mut parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<ItemKind> {
+    let (first, others) = parts.split_first_mut()?;
+    let head = head_and_colon(first, "the name of the force", sink)?;
+    let value = expression(first, sink)?;
+    let action = if first.take_word("at").is_some() {
+        Action::At(value, whole(first, sink)?)
+    } else if first.take_word("along").is_some() {
+        Action::Along(value, whole(first, sink)?)
+    } else if first.take("=").is_some() {
+        Action::Generalized(coordinate(value, sink)?, whole(first, sink)?)
+    } else {
+        let what = "`x = f` with a coordinate x, `(fx, fy) at (px, py)`, or `f along s`";
+        if first.is_at_end() {
+            sink.report(Code::Expected, value.extent, &[&what, &"a value"]);
+        } else {
+            first.expected("`=`, `at` or `along`", sink);
+        }
+        return None;
+    };
+    no_more(others, "force", "write an item for each force", sink)?;
+    Some(ItemKind::Force(Force { head, action }))
+}
+
+/// A coordinate, read as an expression.
+fn coordinate(value: Expr, sink: &mut Diagnostics) -> Option<Reference> {
+    let found = match &value.kind {
+        ExprKind::Name(name) => Some((name, None)),
+        ExprKind::Element(base, index) => match &base.kind {
+            ExprKind::Name(name) => Some((name, Some((**index).clone()))),
+            _ => None,
+        },
+        _ => None,
+    };
+    let Some((name, element)) = found else {
+        sink.report(
+            Code::Expected,
+            value.extent,
+            &[&"a coordinate before `=`", &format!("`{value}`")],
+        );
+        return None;
+    };
+    Some(Reference {
+        name: name.clone(),
+        element,
+    })
+}

@@ -1,0 +1,297 @@
+//! Items of a declaration: dispatch on their keyword, and what several of them share.
+
+mod contact;
+mod force;
+mod output;
+mod quantity;
+mod start;
+
+use super::cursor::Cursor;
+use super::expression::{index, whole};
+use super::relation::leftover;
+use crate::ast::{Attitude, Head, Impacts, Item, ItemKind, Name, Reference};
+use crate::diagnostics::{Code, Diagnostics, Extent, nearest};
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
+
+/// Words that begin an item.
+const KEYWORDS: &[&str] = &[
+    "coordinates",
+    "define",
+    "kinetic",
+    "potential",
+    "lagrangian",
+    "constraint",
+    "contact",
+    "friction",
+    "force",
+    "dissipation",
+    "start",
+    "observe",
+    "stop",
+    "mark",
+    "attitude",
+    "impacts",
+    "check",
+    "crate",
+];
+
+/// Whether the word begins an item.
+pub(super) fn is_keyword(word: &str) -> bool {
+    KEYWORDS.contains(&word)
+}
+
+/// What has been read so far.
+#[derive(Default)]
+pub(super) struct Items {
+    pub items: Vec<Item>,
+    pub core: Option<TokenStream>,
+}
+
+/// The items of a part: one, or several where commas are missing.
+pub(super) fn items(part: &mut Cursor, read: &mut Items, sink: &mut Diagnostics) {
+    loop {
+        item(part, read, sink);
+        match part.word() {
+            None => break,
+            Some(word) if is_keyword(&word.text) => {
+                sink.report(Code::MissingComma, &word, &[&word.text])
+            }
+            Some(_) => break,
+        }
+    }
+    let _ = leftover(part, sink);
+}
+
+fn item(part: &mut Cursor, read: &mut Items, sink: &mut Diagnostics) -> Option<()> {
+    let Some(keyword) = part.name("an item", sink) else {
+        part.skip_all();
+        return None;
+    };
+    let word = keyword.text.as_str();
+    if !is_keyword(word) {
+        let hint = match nearest(word, KEYWORDS.iter().copied()) {
+            Some(known) => format!("did you mean `{known}`?"),
+            None => format!("items are {}", KEYWORDS.join(", ")),
+        };
+        sink.report(Code::UnknownItem, &keyword, &[&word, &hint]);
+        part.skip_all();
+        return None;
+    }
+    let kind = match (word, part.operator(), part.group(Delimiter::Parenthesis)) {
+        ("crate", Some("="), _) => {
+            part.next();
+            read.core = path(part, sink);
+            return None;
+        }
+        ("impacts", Some("="), _) => {
+            part.next();
+            ItemKind::Impacts(impacts(part, sink)?)
+        }
+        ("kinetic" | "potential" | "lagrangian", Some("="), _) => {
+            part.next();
+            let value = super::expression::expression(part, sink).or_else(|| {
+                part.skip_all();
+                None
+            })?;
+            quantity::unnamed_energy(word, value)
+        }
+        ("lagrangian" | "crate" | "impacts", ..) => {
+            part.expected("`=`", sink);
+            part.skip_all();
+            return None;
+        }
+        (_, _, Some(group)) => {
+            part.next();
+            let inside = part.inside(&group, sink)?;
+            let extent = Extent::new(&keyword, group.span_close());
+            grouped(&keyword, extent, inside, sink)?
+        }
+        _ => {
+            let what = if matches!(word, "kinetic" | "potential") {
+                "`=` or `(`"
+            } else {
+                "`(`"
+            };
+            part.expected(what, sink);
+            part.skip_all();
+            return None;
+        }
+    };
+    read.items.push(Item {
+        keyword: keyword.span(),
+        kind,
+    });
+    Some(())
+}
+
+/// An item with parentheses.
+fn grouped(
+    keyword: &Name,
+    extent: Extent,
+    inside: Cursor,
+    sink: &mut Diagnostics,
+) -> Option<ItemKind> {
+    let example = match keyword.text.as_str() {
+        "coordinates" => "coordinates, as in `coordinates(x, y)`",
+        "define" => "definitions, as in `define(px = r*sin(theta))`",
+        "kinetic" | "potential" | "dissipation" => "a name and an expression: `name: …`",
+        "constraint" => "a name and an equation: `rod: x^2 + y^2 == l^2`",
+        "contact" => "a name and a comparison: `floor: y >= 0`",
+        "friction" => "a friction: `grip on floor: slip = der(x), static = mu`",
+        "force" => "a force: `drive: x = 1`",
+        "start" => "a start: `rest: x = 1`",
+        "observe" => "an output: `height = y`",
+        "stop" | "mark" => "a condition: `ground: y <= 0`",
+        "check" => {
+            sink.report(
+                Code::Later,
+                keyword,
+                &[&"check", &"leave it out, or use `observe`"],
+            );
+            return None;
+        }
+        _ => "a body and its coordinates: `body: q`",
+    };
+    if inside.is_at_end() {
+        sink.report(Code::EmptyPart, extent, &[&example]);
+        return None;
+    }
+    let mut parts = inside.parts(example, sink);
+    match keyword.text.as_str() {
+        "coordinates" => quantity::coordinates(parts, sink),
+        "define" => quantity::define(parts, sink),
+        "kinetic" | "potential" | "dissipation" => {
+            quantity::named_energy(&keyword.text, parts, sink)
+        }
+        "constraint" => contact::constraint(parts, sink),
+        "contact" => contact::contact(parts, sink),
+        "friction" => contact::friction(keyword, parts, sink),
+        "force" => force::force(parts, sink),
+        "start" => start::start(parts, sink),
+        "observe" => output::observe(parts, sink),
+        "stop" | "mark" => output::watch(&keyword.text, parts, sink),
+        _ => attitude(parts.first_mut()?, sink),
+    }
+}
+
+/// `body: q`
+fn attitude(part: &mut Cursor, sink: &mut Diagnostics) -> Option<ItemKind> {
+    let body = part.name("the name of a body", sink)?;
+    part.require(":", sink)?;
+    let coordinates = part.name("the name of its coordinates", sink)?;
+    leftover(part, sink)?;
+    Some(ItemKind::Attitude(Attitude { body, coordinates }))
+}
+
+/// `together` or `in_turn`
+fn impacts(part: &mut Cursor, sink: &mut Diagnostics) -> Option<Impacts> {
+    let impacts = match part.word()?.text.as_str() {
+        "together" => Impacts::Together,
+        "in_turn" => Impacts::InTurn,
+        _ => {
+            part.expected("`together` or `in_turn`", sink);
+            part.skip_all();
+            return None;
+        }
+    };
+    part.next();
+    Some(impacts)
+}
+
+/// The path of `crate = path`.
+fn path(part: &mut Cursor, sink: &mut Diagnostics) -> Option<TokenStream> {
+    let at = part.here();
+    let path = part.rest();
+    match syn::parse2::<syn::Path>(path.clone()) {
+        Ok(_) => Some(path),
+        Err(_) => {
+            sink.report(Code::Expected, at, &[&"a path", &format!("`{path}`")]);
+            None
+        }
+    }
+}
+
+/// `name` or `name[k in a..b]`
+fn head(part: &mut Cursor, what: &str, sink: &mut Diagnostics) -> Option<Head> {
+    let name = part.name(what, sink)?;
+    let index = match part.take_group(Delimiter::Bracket) {
+        None => None,
+        Some(group) => {
+            let mut inside = part.inside(&group, sink)?;
+            let found = index(&mut inside, sink)?;
+            leftover(&mut inside, sink)?;
+            Some(found)
+        }
+    };
+    Some(Head { name, index })
+}
+
+/// `name:` or `name[k in a..b]:`
+fn head_and_colon(part: &mut Cursor, what: &str, sink: &mut Diagnostics) -> Option<Head> {
+    let head = head(part, what, sink)?;
+    part.require(":", sink)?;
+    Some(head)
+}
+
+/// `name` or `name[e]`
+fn reference(part: &mut Cursor, what: &str, sink: &mut Diagnostics) -> Option<Reference> {
+    let name = part.name(what, sink)?;
+    let element = match part.take_group(Delimiter::Bracket) {
+        None => None,
+        Some(group) => Some(whole(&mut part.inside(&group, sink)?, sink)?),
+    };
+    Some(Reference { name, element })
+}
+
+/// `key =`, one of `keys` of the item or field `of`.
+pub(super) fn key(
+    part: &mut Cursor,
+    of: &str,
+    keys: &[&str],
+    sink: &mut Diagnostics,
+) -> Option<Name> {
+    let key = part.name("a part `name = …`", sink)?;
+    if !keys.contains(&key.text.as_str()) {
+        let hint = match nearest(&key.text, keys.iter().copied()) {
+            Some(known) => format!("did you mean `{known}`?"),
+            None => format!("its parts are {}", keys.join(", ")),
+        };
+        sink.report(Code::UnknownPart, &key, &[&key.text, &of, &hint]);
+        return None;
+    }
+    part.require("=", sink)?;
+    Some(key)
+}
+
+/// A string.
+pub(super) fn text(part: &mut Cursor, sink: &mut Diagnostics) -> Option<String> {
+    if let Some(TokenTree::Literal(literal)) = part.peek()
+        && let Ok(text) = syn::parse_str::<syn::LitStr>(&literal.to_string())
+    {
+        part.next();
+        return Some(text.value());
+    }
+    part.expected("a text in quotation marks", sink);
+    None
+}
+
+/// Puts a value into its slot; a second one is reported.
+fn once<V>(slot: &mut Option<V>, value: V, key: &Name, sink: &mut Diagnostics) {
+    if slot.is_some() {
+        sink.report(Code::RepeatedPart, key, &[&key.text]);
+    }
+    *slot = Some(value);
+}
+
+/// Reports parts that an item does not have.
+fn no_more(parts: &mut [Cursor], item: &str, hint: &str, sink: &mut Diagnostics) -> Option<()> {
+    let Some(extra) = parts.first_mut() else {
+        return Some(());
+    };
+    sink.report(
+        Code::UnknownPart,
+        extra.here(),
+        &[&extra.rest(), &item, &hint],
+    );
+    None
+}

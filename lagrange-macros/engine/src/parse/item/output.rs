@@ -1,0 +1,74 @@
+//! `observe`, `stop`, `mark`.
+
+use super::super::cursor::Cursor;
+use super::super::expression::whole;
+use super::super::relation::{comparison, holds_relation, leftover};
+use super::{head, head_and_colon, no_more, reference};
+use crate::ast::{Clause, ItemKind, ModeWord, Observe, Trigger, Watch};
+use crate::diagnostics::Diagnostics;
+use proc_macro2::{Delimiter, TokenTree};
+
+/// `height = y, px`
+pub(super) fn observe(parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<ItemKind> {
+    let read = super::quantity::every(parts, sink, |part, sink| {
+        let head = head(part, "a name", sink)?;
+        if part.is_at_end() && head.index.is_none() {
+            return Some(Observe::Known(head.name));
+        }
+        part.require("=", sink)?;
+        let value = whole(part, sink)?;
+        Some(Observe::New(head, value))
+    })?;
+    Some(ItemKind::Observe(read))
+}
+
+/// `name: a >= b and closed(c)`, and for a mark also `name: e`
+pub(super) fn watch(
+    keyword: &str,
+    mut parts: Vec<Cursor>,
+    sink: &mut Diagnostics,
+) -> Option<ItemKind> {
+    let (first, others) = parts.split_first_mut()?;
+    let head = head_and_colon(first, "a name, as in `name: a >= b`", sink)?;
+    let trigger = if keyword == "mark" && mode(first).is_none() && !holds_relation(first) {
+        Trigger::Zero(whole(first, sink)?)
+    } else {
+        let mut clauses = vec![clause(first, sink)?];
+        while first.take_word("and").is_some() {
+            clauses.push(clause(first, sink)?);
+        }
+        leftover(first, sink)?;
+        Trigger::All(clauses)
+    };
+    no_more(
+        others,
+        keyword,
+        "conditions are joined by `and`; others need an item of their own",
+        sink,
+    )?;
+    let watch = Watch { head, trigger };
+    Some(match keyword {
+        "stop" => ItemKind::Stop(watch),
+        _ => ItemKind::Mark(watch),
+    })
+}
+
+/// `closed(c)` and the like, if it stands here alone.
+fn mode(part: &Cursor) -> Option<ModeWord> {
+    let word = part.word()?;
+    let called = matches!(part.second(), Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Parenthesis);
+    let found = ModeWord::ALL.iter().find(|(text, _)| *text == word.text)?;
+    called.then_some(found.1)
+}
+
+fn clause(part: &mut Cursor, sink: &mut Diagnostics) -> Option<Clause> {
+    let Some(word) = mode(part) else {
+        return comparison(part, "`a >= b`", sink).map(Clause::Comparison);
+    };
+    part.next();
+    let group = part.take_group(Delimiter::Parenthesis)?;
+    let mut inside = part.inside(&group, sink)?;
+    let item = reference(&mut inside, "the name of an item", sink)?;
+    leftover(&mut inside, sink)?;
+    Some(Clause::Mode(word, item))
+}

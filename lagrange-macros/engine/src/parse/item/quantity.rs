@@ -1,0 +1,83 @@
+//! `coordinates`, `define`, `kinetic`, `potential`, `dissipation`.
+
+use super::super::cursor::Cursor;
+use super::super::expression::whole;
+use super::super::relation::leftover;
+use super::{head, head_and_colon, no_more, text};
+use crate::ast::{Coordinate, Definition, Dissipation, Energy, Expr, ItemKind};
+use crate::diagnostics::Diagnostics;
+use proc_macro2::Delimiter;
+
+/// Reads every part; nothing if any of them is wrong.
+pub(super) fn every<R>(
+    parts: Vec<Cursor>,
+    sink: &mut Diagnostics,
+    read: impl Fn(&mut Cursor, &mut Diagnostics) -> Option<R>,
+) -> Option<Vec<R>> {
+    let read: Vec<Option<R>> = parts
+        .into_iter()
+        .map(|mut part| read(&mut part, sink))
+        .collect();
+    read.into_iter().collect()
+}
+
+/// `x, r: "m", theta[8]`
+pub(super) fn coordinates(parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<ItemKind> {
+    let read = every(parts, sink, |part, sink| {
+        let name = part.name("the name of a coordinate", sink)?;
+        let length = match part.take_group(Delimiter::Bracket) {
+            None => None,
+            Some(group) => Some(whole(&mut part.inside(&group, sink)?, sink)?),
+        };
+        let unit = match part.take(":") {
+            None => String::new(),
+            Some(_) => text(part, sink)?,
+        };
+        leftover(part, sink)?;
+        Some(Coordinate { name, length, unit })
+    })?;
+    Some(ItemKind::Coordinates(read))
+}
+
+/// `px = …, p[k in 0..8] = …`
+pub(super) fn define(parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<ItemKind> {
+    let read = every(parts, sink, |part, sink| {
+        let head = head(part, "a name", sink)?;
+        part.require("=", sink)?;
+        let value = whole(part, sink)?;
+        Some(Definition { head, value })
+    })?;
+    Some(ItemKind::Define(read))
+}
+
+/// `kinetic = …`, `potential = …`, `lagrangian = …`
+pub(super) fn unnamed_energy(keyword: &str, value: Expr) -> ItemKind {
+    match keyword {
+        "kinetic" => ItemKind::Kinetic(Energy { head: None, value }),
+        "potential" => ItemKind::Potential(Energy { head: None, value }),
+        _ => ItemKind::Lagrangian(value),
+    }
+}
+
+/// `name: …`
+pub(super) fn named_energy(
+    keyword: &str,
+    mut parts: Vec<Cursor>,
+    sink: &mut Diagnostics,
+) -> Option<ItemKind> {
+    let (first, others) = parts.split_first_mut()?;
+    let head = head_and_colon(first, "a name, as in `name: …`", sink)?;
+    let value = whole(first, sink)?;
+    no_more(others, keyword, "write an item for each term", sink)?;
+    Some(match keyword {
+        "dissipation" => ItemKind::Dissipation(Dissipation { head, value }),
+        "kinetic" => ItemKind::Kinetic(Energy {
+            head: Some(head),
+            value,
+        }),
+        _ => ItemKind::Potential(Energy {
+            head: Some(head),
+            value,
+        }),
+    })
+}

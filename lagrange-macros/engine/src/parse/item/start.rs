@@ -1,0 +1,66 @@
+//! `start(name: x = e, der(x) = e, theta[k in 0..8] = …)`
+
+use super::super::cursor::Cursor;
+use super::super::expression::{index, whole};
+use super::super::relation::leftover;
+use super::head;
+use crate::ast::{Element, ItemKind, Order, Start, StartValue};
+use crate::diagnostics::Diagnostics;
+use proc_macro2::Delimiter;
+
+pub(super) fn start(mut parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<ItemKind> {
+    let alone = parts.len() == 1;
+    let first = parts.first_mut()?;
+    let head = head(first, "the name of the start", sink)?;
+    if first.is_at_end() && alone {
+        return Some(ItemKind::Start(Start {
+            head,
+            values: Vec::new(),
+        }));
+    }
+    first.require(":", sink)?;
+    let values = super::quantity::every(parts, sink, value)?;
+    Some(ItemKind::Start(Start { head, values }))
+}
+
+/// `x = e` or `der(x) = e`
+fn value(part: &mut Cursor, sink: &mut Diagnostics) -> Option<StartValue> {
+    let word = part.name("a coordinate: `x = …` or `der(x) = …`", sink)?;
+    let (order, name, element) = match part.group(Delimiter::Parenthesis) {
+        Some(group) if word.text == "der" => {
+            part.next();
+            let mut inside = part.inside(&group, sink)?;
+            let name = inside.name("a coordinate", sink)?;
+            let element = element(&mut inside, sink)?;
+            leftover(&mut inside, sink)?;
+            (Order::Velocity, name, element)
+        }
+        _ => {
+            let element = element(part, sink)?;
+            (Order::Position, word, element)
+        }
+    };
+    part.require("=", sink)?;
+    let value = whole(part, sink)?;
+    Some(StartValue {
+        order,
+        name,
+        element,
+        value,
+    })
+}
+
+/// Nothing, `[2]` or `[k in 0..8]`
+fn element(part: &mut Cursor, sink: &mut Diagnostics) -> Option<Element> {
+    let Some(group) = part.take_group(Delimiter::Bracket) else {
+        return Some(Element::Whole);
+    };
+    let mut inside = part.inside(&group, sink)?;
+    let each = matches!(inside.second(), Some(proc_macro2::TokenTree::Ident(word)) if word == "in");
+    if each {
+        let index = index(&mut inside, sink)?;
+        leftover(&mut inside, sink)?;
+        return Some(Element::Each(index));
+    }
+    Some(Element::One(whole(&mut inside, sink)?))
+}

@@ -1,0 +1,169 @@
+//! Equations, comparisons, and what is left over where a part should have ended.
+
+use super::cursor::Cursor;
+use super::expression::expression;
+use super::item::is_keyword;
+use crate::ast::{Comparison, Expr, Relation};
+use crate::diagnostics::{Code, Diagnostics};
+use proc_macro2::{Delimiter, TokenTree};
+
+const RELATIONS: &[&str] = &["==", ">=", "<=", "=", ">", "<", "!="];
+
+/// `left >= right` or `left <= right`. `example` says what to write if there is none.
+pub(super) fn comparison(
+    cursor: &mut Cursor,
+    example: &str,
+    sink: &mut Diagnostics,
+) -> Option<Comparison> {
+    if let Some(mut inside) = invisible(cursor, sink) {
+        let found = comparison(&mut inside, example, sink)?;
+        leftover(&mut inside, sink)?;
+        return Some(found);
+    }
+    let left = expression(cursor, sink)?;
+    let (operator, at) = (cursor.operator(), cursor.here());
+    let relation = match operator {
+        Some(">=") => Relation::AtLeast,
+        Some("<=") => Relation::AtMost,
+        Some(strict @ (">" | "<")) => {
+            sink.report(Code::StrictComparison, at, &[&strict]);
+            return None;
+        }
+        Some(equal @ ("==" | "=" | "!=")) => {
+            let hint = format!("write {example}; equations stand in `constraint`");
+            sink.report(Code::WrongRelation, at, &[&equal, &"comparison", &hint]);
+            return None;
+        }
+        _ if cursor.is_at_end() => {
+            sink.report(Code::ComparisonExpected, left.extent, &[&example]);
+            return None;
+        }
+        _ => {
+            cursor.expected("`>=` or `<=`", sink);
+            return None;
+        }
+    };
+    cursor.take(operator.unwrap_or_default());
+    let right = expression(cursor, sink)?;
+    unchained(cursor, sink)?;
+    Some(Comparison {
+        left,
+        relation,
+        right,
+    })
+}
+
+/// `left == right`
+pub(super) fn equation(cursor: &mut Cursor, sink: &mut Diagnostics) -> Option<(Expr, Expr)> {
+    if let Some(mut inside) = invisible(cursor, sink) {
+        let found = equation(&mut inside, sink)?;
+        leftover(&mut inside, sink)?;
+        return Some(found);
+    }
+    let left = expression(cursor, sink)?;
+    if let Some(single) = cursor.take("=") {
+        sink.report(Code::SingleEquals, single, &[]);
+    } else if cursor.take("==").is_none() {
+        match cursor.operator() {
+            Some(other @ (">=" | "<=" | ">" | "<" | "!=")) => {
+                let hint = "an equation is written `a == b`; one-sided conditions are contacts: `contact(name: a >= b)`";
+                sink.report(
+                    Code::WrongRelation,
+                    cursor.here(),
+                    &[&other, &"constraint", &hint],
+                );
+            }
+            _ if cursor.is_at_end() => {
+                sink.report(
+                    Code::Expected,
+                    left.extent,
+                    &[&"an equation `a == b`", &"a value"],
+                );
+            }
+            _ => cursor.expected("`==`", sink),
+        }
+        return None;
+    }
+    let right = expression(cursor, sink)?;
+    unchained(cursor, sink)?;
+    Some((left, right))
+}
+
+fn unchained(cursor: &Cursor, sink: &mut Diagnostics) -> Option<()> {
+    if cursor
+        .operator()
+        .is_some_and(|operator| RELATIONS.contains(&operator))
+    {
+        sink.report(Code::ChainedComparison, cursor.here(), &[]);
+        return None;
+    }
+    Some(())
+}
+
+/// Whether a relation is ahead, be it in an invisible group.
+pub(super) fn holds_relation(cursor: &Cursor) -> bool {
+    match cursor.group(Delimiter::None) {
+        Some(group) => Cursor::new(group.stream(), cursor.here(), 0).has_operator(RELATIONS),
+        None => cursor.has_operator(RELATIONS),
+    }
+}
+
+/// An invisible group here that holds a whole relation is entered.
+fn invisible(cursor: &mut Cursor, sink: &mut Diagnostics) -> Option<Cursor> {
+    let inside = cursor.inside(&cursor.group(Delimiter::None)?, sink)?;
+    if !inside.has_operator(RELATIONS) {
+        return None;
+    }
+    cursor.next();
+    Some(inside)
+}
+
+/// Reports what stands where a part should have ended.
+pub(super) fn leftover(cursor: &mut Cursor, sink: &mut Diagnostics) -> Option<()> {
+    let Some(token) = cursor.peek() else {
+        return Some(());
+    };
+    match (token, cursor.operator()) {
+        (_, Some("=")) => cursor.expected("an operator or a comma", sink),
+        (_, Some(relation)) if RELATIONS.contains(&relation) => {
+            sink.report(Code::ComparisonAsValue, cursor.here(), &[]);
+        }
+        (_, Some(operator @ ("&&" | "&"))) => {
+            sink.report(
+                Code::Operator,
+                cursor.here(),
+                &[&operator, &"conditions are joined by `and`"],
+            );
+        }
+        (_, Some(operator @ ("||" | "|"))) => {
+            let hint =
+                "an absolute value is written `abs(x)`; alternatives are several `stop` items";
+            sink.report(Code::Operator, cursor.here(), &[&operator, &hint]);
+        }
+        (_, Some(operator @ "%")) => {
+            sink.report(
+                Code::Operator,
+                cursor.here(),
+                &[&operator, &"there is no remainder in the language"],
+            );
+        }
+        (TokenTree::Ident(word), _) if starts_part(cursor) => {
+            sink.report(Code::MissingComma, word.span(), &[word]);
+        }
+        _ => cursor.expected("an operator or a comma", sink),
+    }
+    cursor.skip_all();
+    None
+}
+
+/// Whether what is here looks like the next part or item.
+fn starts_part(cursor: &Cursor) -> bool {
+    let Some(word) = cursor.word() else {
+        return false;
+    };
+    match cursor.second() {
+        Some(TokenTree::Punct(punct)) => punct.as_char() == '=',
+        Some(TokenTree::Group(_)) => is_keyword(&word.text),
+        _ => word.text == "where",
+    }
+}
