@@ -107,4 +107,6 @@ table! {
 
     NoInertia "E601" "the coordinate `{0}` has no inertia" "no kinetic energy contains `der({0})`, and no constraint ties it: add its kinetic energy or remove it";
     EquationCount "E602" "{0} equations for {1} unknowns" "{2}";
+
+    Bug "E999" "a bug in the derive: something was left out without a message" "please report it with the declaration";
 }

@@ -9,6 +9,7 @@ use super::{ItemName, System};
 use crate::ast::{Declaration, Expr, Head, Impacts, Item, ItemKind, Name};
 use crate::diagnostics::{Code, Diagnostics};
 use crate::symbolic::{ExprId, Pool, Symbol};
+use proc_macro2::Span;
 use std::collections::BTreeMap;
 
 /// A system on its way.
@@ -26,6 +27,10 @@ pub(super) struct Elaboration<'a> {
     pub definitions: Vec<Pending>,
     /// First coordinate of each name, and the length of an array.
     pub coordinate_names: BTreeMap<String, (usize, Option<usize>)>,
+    /// Whether something could not be read; the sink says why.
+    pub dropped: bool,
+    /// Whether an exact number that did not fit has been reported.
+    pub overflowed: bool,
 }
 
 /// A definition or output.
@@ -57,7 +62,7 @@ pub fn system(declaration: &Declaration, sink: &mut Diagnostics) -> Option<Syste
         }
     }
     elaboration.check_quadratic(declaration);
-    elaboration.check_overflow(declaration);
+    elaboration.check_dropped(declaration);
     let system = elaboration.system;
     (sink.count() == before).then_some(system)
 }
@@ -127,6 +132,8 @@ impl<'a> Elaboration<'a> {
             directions: vec![(time, one)],
             definitions: Vec::new(),
             coordinate_names: BTreeMap::new(),
+            dropped: false,
+            overflowed: false,
         }
     }
 
@@ -160,6 +167,7 @@ impl<'a> Elaboration<'a> {
             (Pass::Watches, ItemKind::Mark(watch)) => self.watch(Kind::Mark, watch),
             _ => {}
         }
+        self.check_overflow(item.keyword);
     }
 
     /// Runs `body` for every element of an item; `body` gives the element's place in the system's list.
@@ -189,6 +197,7 @@ impl<'a> Elaboration<'a> {
                 })
             }),
         };
+        self.dropped |= meaning.is_none();
         self.settle(&name.text, meaning.unwrap_or(Meaning::Poisoned));
     }
 
@@ -225,6 +234,8 @@ impl<'a> Elaboration<'a> {
             }),
         };
         self.indices = indices;
+        self.dropped |= found.is_none();
+        self.check_overflow(head.name.span());
         let meaning = match found {
             None => Meaning::Poisoned,
             Some((value, lower)) => Meaning::Value {
@@ -249,10 +260,18 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// Exact numbers that did not fit make every form doubtful.
-    fn check_overflow(&mut self, declaration: &Declaration) {
-        if self.system.pool.overflowed() && self.sink.is_empty() {
-            self.sink.report(Code::Overflow, &declaration.name, &[]);
+    /// Exact numbers that did not fit make every form doubtful: reported where it first happens.
+    fn check_overflow(&mut self, at: Span) {
+        if self.system.pool.overflowed() && !self.overflowed {
+            self.overflowed = true;
+            self.sink.report(Code::Overflow, at, &[]);
+        }
+    }
+
+    /// Nothing is left out without a message.
+    fn check_dropped(&mut self, declaration: &Declaration) {
+        if self.dropped && self.sink.is_empty() {
+            self.sink.report(Code::Bug, &declaration.name, &[]);
         }
     }
 }

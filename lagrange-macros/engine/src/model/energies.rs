@@ -73,7 +73,7 @@ impl Elaboration<'_> {
                     },
                     keyword,
                 );
-                add(self, name);
+                self.dropped |= add(self, name).is_none();
             }
         }
     }

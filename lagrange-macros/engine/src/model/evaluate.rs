@@ -234,11 +234,11 @@ impl Elaboration<'_> {
                 Some((value, lower))
             }
             Meaning::Item { elements, lower } => {
-                let values: Option<Vec<Value>> = elements
+                self.admit_item(name, kind, context)?;
+                let mut values: Vec<Value> = elements
                     .into_iter()
-                    .map(|element| self.force_of(name, kind, element, context))
+                    .map(|element| self.force_of(kind, element))
                     .collect();
-                let mut values = values?;
                 match lower {
                     Some(lower) => Some((Value::List(values), lower)),
                     None => values.pop().map(|only| (only, 0)),

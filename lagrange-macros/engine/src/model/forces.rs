@@ -155,14 +155,8 @@ impl Elaboration<'_> {
         });
     }
 
-    /// What an item's name stands for in a force or output.
-    pub fn force_of(
-        &mut self,
-        name: &Name,
-        kind: Kind,
-        element: usize,
-        context: Context,
-    ) -> Option<Value> {
+    /// Whether an item's name may stand for its force here.
+    pub fn admit_item(&mut self, name: &Name, kind: Kind, context: Context) -> Option<()> {
         let in_load =
             context.reach == Reach::Loads && matches!(kind, Kind::Contact | Kind::Constraint);
         let has_force = matches!(
@@ -180,9 +174,14 @@ impl Elaboration<'_> {
                 .report(Code::ForceHere, name, &[&name.text, &kind.text()]);
             return None;
         }
+        Some(())
+    }
+
+    /// What the name of an item that has been admitted stands for.
+    pub fn force_of(&mut self, kind: Kind, element: usize) -> Value {
         let system = &mut self.system;
         let pool = &mut system.pool;
-        Some(Value::Scalar(match kind {
+        Value::Scalar(match kind {
             Kind::Constraint => pool.leaf(system.constraints[element].force),
             Kind::Force => pool.leaf(system.forces[element].force),
             Kind::Contact => {
@@ -199,9 +198,9 @@ impl Elaboration<'_> {
                     let forces = components
                         .iter()
                         .map(|(_, force)| Value::Scalar(pool.leaf(*force)));
-                    return Some(Value::List(forces.collect()));
+                    return Value::List(forces.collect());
                 }
             },
-        }))
+        })
     }
 }

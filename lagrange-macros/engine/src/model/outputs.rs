@@ -16,7 +16,7 @@ impl Elaboration<'_> {
                 ast::Observe::Known(name) => name,
                 ast::Observe::New(head, _) => &head.name,
             };
-            self.output(name);
+            self.dropped |= self.output(name).is_none();
         }
     }
 
