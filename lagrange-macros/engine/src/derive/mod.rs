@@ -17,7 +17,7 @@ mod regular;
 mod rows;
 mod sheet;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 use crate::diagnostics::Diagnostics;
 use crate::model::System;
