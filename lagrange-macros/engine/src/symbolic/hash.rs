@@ -36,6 +36,10 @@ impl Hasher for Mix {
         self.word(u64::from(word));
     }
 
+    fn write_i128(&mut self, word: i128) {
+        self.wide(word);
+    }
+
     fn write_u64(&mut self, word: u64) {
         self.word(word);
     }

@@ -21,6 +21,7 @@ mod product;
 mod rational;
 mod simplify;
 mod sum;
+mod table;
 mod traverse;
 mod trigonometry;
 

@@ -1,6 +1,7 @@
 //! The store of nodes: one node per form, found again by its hash; and the elementary constructors.
 
 use super::hash::{Memo, Mix};
+use super::table::Table;
 use super::trigonometry::Square;
 use super::{ExprId, Function, Node, Rational, Symbol};
 use std::hash::Hasher;
@@ -9,12 +10,14 @@ use std::hash::Hasher;
 #[derive(Clone, Copy)]
 struct Facts {
     hash: u64,
-    /// Bit (index mod 64) of each symbol that occurs: a quick "does not depend on".
+    /// Bit (index mod 63) of each symbol that occurs: a quick "does not depend on". Bit 63: holds a selection.
     symbols: u64,
     /// A product with a factor sin², cos², sinh² or cosh².
     square: bool,
     /// A product with a factor exp or a general power, which merge with their like.
     merging: bool,
+    /// Holds a symbol that is not fixed, or a selection.
+    varies: bool,
 }
 
 /// All expressions of a system.
@@ -24,21 +27,24 @@ pub struct Pool {
     /// Open addressing by hash: id + 1, or 0 for a free place.
     table: Vec<u32>,
     names: Vec<String>,
+    /// By symbol.
+    fixed: Vec<bool>,
+    has_fixed: bool,
     leaves: Vec<ExprId>,
     pub(super) pi: Option<ExprId>,
     pub(super) overflow: bool,
     /// Per direction of differentiation: which memo.
     pub(super) directions: Memo<Vec<(Symbol, ExprId)>, usize>,
     /// Derivatives of nodes along each direction.
-    pub(super) derivatives: Vec<Memo<ExprId, ExprId>>,
+    pub(super) derivatives: Vec<Table>,
     /// Sum → (content, sum/content).
     pub(super) primitive: Memo<ExprId, (Rational, ExprId)>,
     /// Product → the squares it contains.
     pub(super) squares: Memo<ExprId, Vec<Square>>,
     /// Expression → multiplied out.
-    pub(super) expanded: Memo<ExprId, ExprId>,
+    pub(super) expanded: Table,
     /// Expression → the cheapest form.
-    pub(super) simplified: Memo<ExprId, ExprId>,
+    pub(super) simplified: Table,
 }
 
 impl Default for Pool {
@@ -55,6 +61,8 @@ impl Pool {
             facts: Vec::new(),
             table: vec![0; 1024],
             names: Vec::new(),
+            fixed: Vec::new(),
+            has_fixed: false,
             leaves: Vec::new(),
             pi: None,
             overflow: false,
@@ -62,8 +70,8 @@ impl Pool {
             derivatives: Vec::new(),
             primitive: Memo::default(),
             squares: Memo::default(),
-            expanded: Memo::default(),
-            simplified: Memo::default(),
+            expanded: Table::default(),
+            simplified: Table::default(),
         }
     }
 
@@ -71,6 +79,7 @@ impl Pool {
     pub fn symbol(&mut self, name: &str) -> Symbol {
         let symbol = Symbol(self.names.len() as u32);
         self.names.push(name.to_owned());
+        self.fixed.push(false);
         let leaf = self.intern(Node::Symbol(symbol));
         self.leaves.push(leaf);
         symbol
@@ -211,6 +220,56 @@ impl Pool {
         self.facts[e.index()].merging
     }
 
+    /// Declares symbols that do not change during a run. Operations on them alone are done once, so they do not
+    /// count, and `simplify` prefers forms with few of the others.
+    pub fn fix(&mut self, symbols: &[Symbol]) {
+        for symbol in symbols {
+            self.fixed[symbol.index()] = true;
+            self.has_fixed = true;
+        }
+        // Children come first.
+        for i in 0..self.nodes.len() {
+            self.facts[i].varies = self.is_varying(&self.nodes[i]);
+        }
+        self.simplified = Table::default();
+    }
+
+    /// Whether it changes during a run: it holds a symbol that is not fixed, or a selection.
+    pub fn varies(&self, e: ExprId) -> bool {
+        self.facts[e.index()].varies
+    }
+
+    pub(super) fn has_fixed(&self) -> bool {
+        self.has_fixed
+    }
+
+    fn is_varying(&self, node: &Node) -> bool {
+        match node {
+            Node::Symbol(symbol) => !self.fixed[symbol.index()],
+            Node::Select { .. } => true,
+            _ => {
+                let mut varies = false;
+                node.for_each_child(|child| varies |= self.varies(child));
+                varies
+            }
+        }
+    }
+
+    /// The expression of a form, if it has been built.
+    pub(super) fn find(&self, node: &Node) -> Option<ExprId> {
+        let hash = hash_of(node);
+        let mask = self.table.len() - 1;
+        let mut at = hash as usize & mask;
+        while self.table[at] != 0 {
+            let id = self.table[at] - 1;
+            if self.facts[id as usize].hash == hash && self.nodes[id as usize] == *node {
+                return Some(ExprId(id));
+            }
+            at = (at + 1) & mask;
+        }
+        None
+    }
+
     /// The one expression of a form, which must be canonical.
     pub(super) fn intern(&mut self, node: Node) -> ExprId {
         let hash = hash_of(&node);
@@ -230,6 +289,7 @@ impl Pool {
             symbols: self.bits_of(&node),
             square: self.contains_square(&node),
             merging: self.contains_merging(&node),
+            varies: self.is_varying(&node),
         };
         self.facts.push(facts);
         self.nodes.push(node);
@@ -254,9 +314,13 @@ impl Pool {
 
     fn bits_of(&self, node: &Node) -> u64 {
         if let Node::Symbol(symbol) = node {
-            return 1 << (symbol.0 % 64);
+            return symbol_bit(*symbol);
         }
-        let mut bits = 0;
+        let mut bits = if matches!(node, Node::Select { .. }) {
+            1 << 63
+        } else {
+            0
+        };
         node.for_each_child(|child| bits |= self.facts[child.index()].symbols);
         bits
     }
@@ -289,6 +353,11 @@ impl Pool {
                 )
         })
     }
+}
+
+/// Bit of a symbol in the sets that quickly say "does not occur"; symbols 63 apart share one.
+pub(super) fn symbol_bit(symbol: Symbol) -> u64 {
+    1 << (symbol.0 % 63)
 }
 
 fn hash_of(node: &Node) -> u64 {

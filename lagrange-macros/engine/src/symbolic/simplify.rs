@@ -22,11 +22,11 @@ impl Pool {
         });
         let mut simple = simplified.unwrap_or(e);
         // Parts that became cheaper alone can have shared more before.
-        if simple != e && self.operations(&[simple]) >= self.operations(&[e]) {
+        if simple != e && self.cost(simple) >= self.cost(e) {
             simple = e;
-            known.insert(e, simple);
+            known.set(e, simple);
         }
-        known.insert(simple, simple);
+        known.set(simple, simple);
         self.simplified = known;
         simple
     }
@@ -45,15 +45,21 @@ impl Pool {
         }
         let factored = self.factor(e);
         let expanded = self.expand(e);
-        let both = self.factor(expanded);
-        let mut best = e;
-        let mut least = self.operations(&[e]);
-        *work += 4 * least;
-        for (i, form) in [factored, expanded, both].into_iter().enumerate() {
-            if form != best && ![e, factored, expanded][..=i].contains(&form) {
-                let cost = self.operations(&[form]);
+        let mut forms = vec![e, factored];
+        if expanded != e {
+            forms.push(expanded);
+            forms.push(self.factor(expanded));
+        }
+        if self.has_fixed() {
+            forms.push(self.collect_varying(expanded));
+        }
+        let (mut best, mut least) = (e, self.cost(e));
+        *work += forms.len() * (1 + least.1);
+        for i in 1..forms.len() {
+            if !forms[..i].contains(&forms[i]) {
+                let cost = self.cost(forms[i]);
                 if cost < least {
-                    (best, least) = (form, cost);
+                    (best, least) = (forms[i], cost);
                 }
             }
         }
