@@ -135,13 +135,25 @@ pub enum Level {
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Error::Argument { what, value, expected } => {
+            Error::Argument {
+                what,
+                value,
+                expected,
+            } => {
                 write!(f, "{what} = {value}: must be {expected}")
             }
             Error::Dimension { expected, found } => {
-                write!(f, "the state has {found} coordinates, the system {expected}")
+                write!(
+                    f,
+                    "the state has {found} coordinates, the system {expected}"
+                )
             }
-            Error::Start { item, level, residual, tolerance } => {
+            Error::Start {
+                item,
+                level,
+                residual,
+                tolerance,
+            } => {
                 let level = match level {
                     Level::Position => "position",
                     Level::Velocity => "velocity",
@@ -152,12 +164,21 @@ impl fmt::Display for Error {
                      give a consistent start or ask the simulation to project it"
                 )
             }
-            Error::Projection { time, residual, item } => write!(
+            Error::Projection {
+                time,
+                residual,
+                item,
+            } => write!(
                 f,
                 "t = {time}: no nearby state satisfies all constraints; `{item}` is left with residual {residual:.3e}; \
                  start nearer to the constraints or free more coordinates"
             ),
-            Error::Singular { time, mode, items, reason } => {
+            Error::Singular {
+                time,
+                mode,
+                items,
+                reason,
+            } => {
                 write!(f, "t = {time} ({mode}): {reason}")?;
                 for (k, item) in items.iter().enumerate() {
                     write!(f, "{}`{item}`", if k == 0 { ": " } else { ", " })?;
@@ -165,9 +186,17 @@ impl fmt::Display for Error {
                 Ok(())
             }
             Error::NotFinite { time, mode, what } => {
-                write!(f, "t = {time} ({mode}): {what} is not finite; the expression leaves its domain here")
+                write!(
+                    f,
+                    "t = {time} ({mode}): {what} is not finite; the expression leaves its domain here"
+                )
             }
-            Error::NoMode { time, mode, item, tried } => write!(
+            Error::NoMode {
+                time,
+                mode,
+                item,
+                tried,
+            } => write!(
                 f,
                 "t = {time} ({mode}): none of {tried} modes continues the motion at `{item}` \
                  (a paradox of rigid friction, Painlevé 1895); lower the friction coefficient or make the contact compliant"
@@ -182,12 +211,19 @@ impl fmt::Display for Error {
                 modes.join(" → ")
             ),
             Error::Limit { time, what, limit } => {
-                write!(f, "t = {time}: more than {limit} {what}; raise the limit if this is intended")
+                write!(
+                    f,
+                    "t = {time}: more than {limit} {what}; raise the limit if this is intended"
+                )
             }
             Error::OutsideTrajectory { time, first, last } => {
                 write!(f, "t = {time} is outside the trajectory [{first}, {last}]")
             }
-            Error::Unsupported { what, item, instead } => {
+            Error::Unsupported {
+                what,
+                item,
+                instead,
+            } => {
                 write!(f, "`{item}`: {what} is not supported here; {instead}")
             }
         }
@@ -207,14 +243,25 @@ impl Error {
         let mode = mode.display(description).to_string();
         let item = error.item(description);
         match error {
-            EvaluationError::NotFiniteAcceleration { .. } | EvaluationError::NotFiniteForce { .. } => {
-                let what = format!("the acceleration or force of `{}`", item.unwrap_or(description.name));
+            EvaluationError::NotFiniteAcceleration { .. }
+            | EvaluationError::NotFiniteForce { .. } => {
+                let what = format!(
+                    "the acceleration or force of `{}`",
+                    item.unwrap_or(description.name)
+                );
                 Error::NotFinite { time, mode, what }
             }
-            EvaluationError::Projection { residual, .. } => {
-                Error::Projection { time, residual, item: item.unwrap_or(description.name) }
-            }
-            other => Error::Singular { time, mode, items: item.into_iter().collect(), reason: other.to_string() },
+            EvaluationError::Projection { residual, .. } => Error::Projection {
+                time,
+                residual,
+                item: item.unwrap_or(description.name),
+            },
+            other => Error::Singular {
+                time,
+                mode,
+                items: item.into_iter().collect(),
+                reason: other.to_string(),
+            },
         }
     }
 }

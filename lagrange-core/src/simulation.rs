@@ -113,7 +113,11 @@ impl<'a, S: System> Simulation<'a, S> {
     ///
     /// # Errors
     /// A [`Failure`] with the error and the trajectory so far.
-    pub fn run(&self, start: State<S::Scalar>, span: Range<f64>) -> Result<Trajectory<S>, Failure<S>> {
+    pub fn run(
+        &self,
+        start: State<S::Scalar>,
+        span: Range<f64>,
+    ) -> Result<Trajectory<S>, Failure<S>> {
         Run::execute(self, start, span)
     }
 
@@ -139,32 +143,59 @@ impl<'a, S: System> Simulation<'a, S> {
         let n = S::DESCRIPTION.coordinates.len();
         if !(1e-17..=0.1).contains(&self.tolerance) {
             let expected = "between 1e-17 and 0.1";
-            return Err(Error::Argument { what: "tolerance", value: self.tolerance, expected });
+            return Err(Error::Argument {
+                what: "tolerance",
+                value: self.tolerance,
+                expected,
+            });
         }
         for (what, value) in [("first time", span.start), ("last time", span.end)] {
             if !value.is_finite() {
-                return Err(Error::Argument { what, value, expected: "finite" });
+                return Err(Error::Argument {
+                    what,
+                    value,
+                    expected: "finite",
+                });
             }
         }
         if span.end < span.start {
-            return Err(Error::Argument { what: "last time", value: span.end, expected: "not before the first" });
+            return Err(Error::Argument {
+                what: "last time",
+                value: span.end,
+                expected: "not before the first",
+            });
         }
         for list in [&start.q, &start.v] {
             if list.len() != n {
-                return Err(Error::Dimension { expected: n, found: list.len() });
+                return Err(Error::Dimension {
+                    expected: n,
+                    found: list.len(),
+                });
             }
         }
         let numbers = start.q.iter().chain(&start.v);
         for (i, x) in numbers.enumerate() {
             if !x.value().is_finite() {
-                let what = if i < n { "a position of the start" } else { "a velocity of the start" };
-                return Err(Error::Argument { what, value: x.value(), expected: "finite" });
+                let what = if i < n {
+                    "a position of the start"
+                } else {
+                    "a velocity of the start"
+                };
+                return Err(Error::Argument {
+                    what,
+                    value: x.value(),
+                    expected: "finite",
+                });
             }
         }
         for (i, parameter) in S::DESCRIPTION.parameters.iter().enumerate() {
             let value = self.scene.parameter(i).value();
             if !value.is_finite() {
-                return Err(Error::Argument { what: parameter.name, value, expected: "finite" });
+                return Err(Error::Argument {
+                    what: parameter.name,
+                    value,
+                    expected: "finite",
+                });
             }
         }
         Ok(())

@@ -40,11 +40,6 @@ pub enum EvaluationError {
         /// Row.
         row: usize,
     },
-    /// The residual, gap or slip of this row is not a finite number.
-    NotFiniteResidual {
-        /// Row.
-        row: usize,
-    },
     /// No state nearby satisfies this row.
     Projection {
         /// Row.
@@ -84,7 +79,6 @@ impl EvaluationError {
             Self::Undetermined { row }
             | Self::Inconsistent { row, .. }
             | Self::NotFiniteForce { row }
-            | Self::NotFiniteResidual { row }
             | Self::Projection { row, .. } => Some(row_name(description, row)),
             Self::NoSeries { .. } => None,
         }
@@ -128,12 +122,6 @@ impl fmt::Display for EvaluationError {
                 write!(
                     f,
                     "the force of row {row} is not finite; look for a division by zero in the declaration"
-                )
-            }
-            Self::NotFiniteResidual { row } => {
-                write!(
-                    f,
-                    "the residual of row {row} is not finite; the state is outside the domain of the declaration"
                 )
             }
             Self::Projection { row, residual } => write!(

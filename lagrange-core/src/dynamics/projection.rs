@@ -171,7 +171,7 @@ impl<S: System> Dynamics<S> {
     fn run_rows(&mut self, t: S::Scalar, q: &[S::Scalar], v: &[S::Scalar]) {
         self.work.projections += 1;
         core::mem::swap(&mut self.held, &mut self.row_needs);
-        self.run_tape(t, q, v);
+        self.tape(t, q, v);
         core::mem::swap(&mut self.held, &mut self.row_needs);
     }
 

@@ -15,7 +15,7 @@ impl<S: System> Dynamics<S> {
         v: &[S::Scalar],
     ) -> Result<(), EvaluationError> {
         self.work.values += 1;
-        self.run_tape(t, q, v);
+        self.tape(t, q, v);
         self.plan
             .program
             .run(&mut Value::new(), &self.constants, &mut self.nodes);
@@ -40,32 +40,8 @@ impl<S: System> Dynamics<S> {
         Ok(())
     }
 
-    /// Runs the motion tape at (t, q, v) without solving for accelerations: then read [`Self::motion`].
-    ///
-    /// # Errors
-    /// [`EvaluationError::NotFiniteResidual`] for a gap or slip that is held and not a finite number.
-    pub fn tape(
-        &mut self,
-        t: S::Scalar,
-        q: &[S::Scalar],
-        v: &[S::Scalar],
-    ) -> Result<(), EvaluationError> {
-        self.run_tape(t, q, v);
-        let finite = |place: Place| self.motion(place).value().is_finite();
-        for (index, row) in S::DESCRIPTION.rows.iter().enumerate() {
-            let position = row
-                .position
-                .filter(|_| self.held.contains(row.needs.position));
-            let velocity = Some(row.velocity).filter(|_| self.held.contains(row.needs.velocity));
-            if !position.is_none_or(finite) || !velocity.is_none_or(finite) {
-                return Err(EvaluationError::NotFiniteResidual { row: index });
-            }
-        }
-        Ok(())
-    }
-
-    /// The motion tape for the needs that are held.
-    pub(super) fn run_tape(&mut self, t: S::Scalar, q: &[S::Scalar], v: &[S::Scalar]) {
+    /// Runs only the motion tape at (t, q, v), for the needs held: then read [`Self::motion`].
+    pub fn tape(&mut self, t: S::Scalar, q: &[S::Scalar], v: &[S::Scalar]) {
         let n = self.plan.coordinates;
         self.inputs[0] = t;
         self.inputs[1..1 + n].copy_from_slice(q);
@@ -83,9 +59,6 @@ impl<S: System> Dynamics<S> {
             &self.inputs[..1 + 2 * n],
             &mut self.nodes[..outputs],
         );
-        self.plan
-            .program
-            .run(&mut a, &self.constants, &mut self.nodes);
     }
 
     fn assemble(&mut self) {

@@ -140,39 +140,6 @@ impl<T: Scalar> Lu<T> {
     }
 }
 
-/// Solves the row-major system in place, minimum changes and scalings left to the caller of [`Lu`]; false if it has no
-/// solution. A dependent equation that agrees with the others is left out, and the unknown that it would fix is zero.
-pub(crate) fn solve_consistent<T: Scalar>(matrix: &mut [T], b: &mut [T], size: usize) -> bool {
-    // Rows and columns to about 1.
-    let mut column_scale = vec![1.0; size];
-    for i in 0..size {
-        let row = &mut matrix[i * size..(i + 1) * size];
-        let largest = row.iter().map(|x| x.value().abs()).fold(0.0, f64::max);
-        if largest > 0.0 {
-            let scale = T::from_f64(1.0 / largest);
-            row.iter_mut().for_each(|x| *x *= scale);
-            b[i] *= scale;
-        }
-    }
-    for (j, scale) in column_scale.iter_mut().enumerate() {
-        let largest = (0..size)
-            .map(|i| matrix[i * size + j].value().abs())
-            .fold(0.0, f64::max);
-        if largest > 0.0 {
-            *scale = 1.0 / largest;
-            (0..size).for_each(|i| matrix[i * size + j] *= T::from_f64(*scale));
-        }
-    }
-    let size_of_b = b.iter().map(|x| x.value().abs()).fold(0.0, f64::max);
-    let mut lu = Lu::default();
-    lu.factor(size, matrix.iter().copied());
-    let left_out = lu.solve_part(b);
-    for (x, scale) in b.iter_mut().zip(column_scale) {
-        *x *= T::from_f64(scale);
-    }
-    left_out <= 1e-9 * size_of_b && b.iter().all(|x| x.value().is_finite())
-}
-
 #[inline]
 fn dot<T: Scalar>(x: &[T], y: &[T]) -> T {
     x.iter().zip(y).fold(T::zero(), |sum, (&x, &y)| sum + x * y)

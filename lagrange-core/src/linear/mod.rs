@@ -10,11 +10,12 @@
 //! where column i of C is the generalized force of λᵢ: aᵢᵀ, what couplings add, and sliding friction −μk ν Σ d aₜᵀ.
 //! C = Aᵀ where nothing slides.
 
+mod consistent;
 mod lu;
 mod plan;
 mod program;
 mod solver;
 
-pub(crate) use lu::solve_consistent;
+pub(crate) use consistent::solve_consistent;
 pub(crate) use plan::{Plan, acts};
 pub(crate) use solver::{SolveError, Solver};

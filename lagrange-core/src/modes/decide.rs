@@ -7,10 +7,10 @@
 
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError, NeedSet};
-use crate::error::Error;
 use crate::effects::Item;
-use crate::mode::{FrictionMode, Mode, Sliding};
+use crate::error::Error;
 use crate::integrate::{Tolerance, taylor};
+use crate::mode::{FrictionMode, Mode, Sliding};
 use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
 use crate::system::{Normal, System};
@@ -77,11 +77,17 @@ pub fn decide<S: System>(
                 let motion: Vec<f64> = dynamics.acceleration().iter().map(|a| a.value()).collect();
                 match &mut best {
                     None => {
-                        best = Some(Decision { mode, zeros, ambiguous: false });
+                        best = Some(Decision {
+                            mode,
+                            zeros,
+                            ambiguous: false,
+                        });
                         best_motion = motion;
                     }
                     // Stick is preferred to slip without being ambiguous (μs > μk allows both).
-                    Some(first) if slips(&first.mode) >= slips(&mode) && differ(&best_motion, &motion) => {
+                    Some(first)
+                        if slips(&first.mode) >= slips(&mode) && differ(&best_motion, &motion) =>
+                    {
                         first.ambiguous = true;
                     }
                     Some(_) => {}
@@ -96,7 +102,12 @@ pub fn decide<S: System>(
             dynamics.set_mode(&decision.mode);
             Ok(decision)
         }
-        (None, Some((mode, error))) => Err(Error::from_evaluation(error, t.value(), &mode, S::DESCRIPTION)),
+        (None, Some((mode, error))) => Err(Error::from_evaluation(
+            error,
+            t.value(),
+            &mode,
+            S::DESCRIPTION,
+        )),
         (None, None) => Err(Error::NoMode {
             time: t.value(),
             mode: present.display(S::DESCRIPTION).to_string(),
@@ -107,7 +118,10 @@ pub fn decide<S: System>(
 }
 
 fn slips(mode: &Mode) -> usize {
-    mode.frictions.iter().filter(|f| matches!(f, FrictionMode::Slip(_))).count()
+    mode.frictions
+        .iter()
+        .filter(|f| matches!(f, FrictionMode::Slip(_)))
+        .count()
 }
 
 fn differ(a: &[f64], b: &[f64]) -> bool {
@@ -119,14 +133,24 @@ fn concerned<S: System>(known: &Known) -> &'static str {
     let d = S::DESCRIPTION;
     let located = known.located.iter().find_map(|g| match *g {
         Guard::Gap(c) | Guard::Normal(c) => Some(d.contacts[c].name),
-        Guard::StickUpper(f) | Guard::StickLower(f) | Guard::StickCone(f) | Guard::Slip(f) | Guard::Bearing(f) => {
-            Some(d.frictions[f].name)
-        }
+        Guard::StickUpper(f)
+        | Guard::StickLower(f)
+        | Guard::StickCone(f)
+        | Guard::Slip(f)
+        | Guard::Bearing(f) => Some(d.frictions[f].name),
         Guard::Branch(b) => Some(d.branches[b].text),
         Guard::Stop(..) | Guard::Mark(..) => None,
     });
-    let resting = known.resting.iter().position(|r| *r).map(|f| d.frictions[f].name);
-    let touching = known.touching.iter().position(|r| *r).map(|c| d.contacts[c].name);
+    let resting = known
+        .resting
+        .iter()
+        .position(|r| *r)
+        .map(|f| d.frictions[f].name);
+    let touching = known
+        .touching
+        .iter()
+        .position(|r| *r)
+        .map(|c| d.contacts[c].name);
     located.or(resting).or(touching).unwrap_or(d.name)
 }
 
@@ -141,13 +165,18 @@ fn candidates<S: System>(
 ) -> Result<Vec<Mode>, Error> {
     let d = S::DESCRIPTION;
     let mut modes = vec![present.clone()];
-    let multiply = |modes: &mut Vec<Mode>, change: &dyn Fn(&Mode) -> Vec<Mode>| -> Result<(), Error> {
-        *modes = modes.iter().flat_map(change).collect();
-        if modes.len() > MOST_CANDIDATES {
-            return Err(Error::Limit { time: t.value(), what: "candidate modes", limit: MOST_CANDIDATES });
-        }
-        Ok(())
-    };
+    let multiply =
+        |modes: &mut Vec<Mode>, change: &dyn Fn(&Mode) -> Vec<Mode>| -> Result<(), Error> {
+            *modes = modes.iter().flat_map(change).collect();
+            if modes.len() > MOST_CANDIDATES {
+                return Err(Error::Limit {
+                    time: t.value(),
+                    what: "candidate modes",
+                    limit: MOST_CANDIDATES,
+                });
+            }
+            Ok(())
+        };
     for c in 0..d.contacts.len() {
         let touching = known.touching[c];
         multiply(&mut modes, &|mode| {
@@ -155,30 +184,45 @@ fn candidates<S: System>(
             closed.contacts[c] = true;
             let mut open = mode.clone();
             open.contacts[c] = false;
-            if touching { vec![closed, open] } else { vec![open] }
+            if touching {
+                vec![closed, open]
+            } else {
+                vec![open]
+            }
         })?;
     }
     let all = guard::all_row_needs(d, &NeedSet::new(d));
     dynamics.set_extra_needs(&all);
-    dynamics.tape(t, q, v);
+    let outcome = dynamics.tape(t, q, v);
+    outcome.map_err(|e| Error::from_evaluation(e, t.value(), present, d))?;
     for (f, friction) in d.frictions.iter().enumerate() {
         let rests = known.resting[f];
         let slip = dynamics.motion(d.rows[friction.row].velocity).value();
         let sign = if slip < 0.0 { -1.0 } else { 1.0 };
         let left_out = !dynamics.effects().includes(d, Item::Friction(f));
         multiply(&mut modes, &|mode| {
-            let idle = left_out || matches!(friction.normal, Normal::Contact(c) if !mode.contacts[c]);
+            let idle =
+                left_out || matches!(friction.normal, Normal::Contact(c) if !mode.contacts[c]);
             let with = |state| {
                 let mut m = mode.clone();
                 m.frictions[f] = state;
                 m
             };
-            let bearings: &[f64] = if let Normal::Constraint(_) = friction.normal { &[1.0, -1.0] } else { &[1.0] };
+            let bearings: &[f64] = if let Normal::Constraint(_) = friction.normal {
+                &[1.0, -1.0]
+            } else {
+                &[1.0]
+            };
             if idle {
                 vec![with(FrictionMode::Inactive)]
             } else if rests {
-                let slides = bearings.iter().flat_map(|&b| [slide(1.0, b), slide(-1.0, b)]);
-                core::iter::once(FrictionMode::Stick).chain(slides).map(with).collect()
+                let slides = bearings
+                    .iter()
+                    .flat_map(|&b| [slide(1.0, b), slide(-1.0, b)]);
+                core::iter::once(FrictionMode::Stick)
+                    .chain(slides)
+                    .map(with)
+                    .collect()
             } else {
                 bearings.iter().map(|&b| with(slide(sign, b))).collect()
             }
@@ -198,12 +242,25 @@ fn candidates<S: System>(
 }
 
 fn slide(sign: f64, normal_sign: f64) -> FrictionMode {
-    FrictionMode::Slip(Sliding { normal_sign, ..Sliding::sign(sign) })
+    FrictionMode::Slip(Sliding {
+        normal_sign,
+        ..Sliding::sign(sign)
+    })
 }
 
 fn changes(a: &Mode, b: &Mode) -> usize {
-    let contacts = a.contacts.iter().zip(&b.contacts).filter(|(x, y)| x != y).count();
-    let frictions = a.frictions.iter().zip(&b.frictions).filter(|(x, y)| x != y).count();
+    let contacts = a
+        .contacts
+        .iter()
+        .zip(&b.contacts)
+        .filter(|(x, y)| x != y)
+        .count();
+    let frictions = a
+        .frictions
+        .iter()
+        .zip(&b.frictions)
+        .filter(|(x, y)| x != y)
+        .count();
     contacts + frictions
 }
 
@@ -240,10 +297,17 @@ fn examine<S: System>(
     for &(guard, order_known) in &questions {
         let mut series = guard::series(guard, mode, &Reading::Series(dynamics), h);
         series.clear(order_known);
-        let size = series.as_slice().iter().fold(0.0_f64, |m, c| m.max(c.abs()));
+        let size = series
+            .as_slice()
+            .iter()
+            .fold(0.0_f64, |m, c| m.max(c.abs()));
         // The residue of a located root, and what follows from it, has the size of the integration error.
         let blurred = concerns(guard, known);
-        let relative = if blurred { (100.0 * tolerance).clamp(1e-11, 1e-3) } else { 1e-13 };
+        let relative = if blurred {
+            (100.0 * tolerance).clamp(1e-11, 1e-3)
+        } else {
+            1e-13
+        };
         let rounding = 1e-14 * scale(guard, mode, dynamics) * unit_of_order(guard, h);
         let noise = (relative * size).max(rounding);
         match series.as_slice().iter().position(|c| c.abs() > noise) {
@@ -309,8 +373,14 @@ fn concerns(guard: Guard, known: &Known) -> bool {
             || match (*root, guard) {
                 (Guard::Normal(c), Guard::Gap(g)) | (Guard::Gap(c), Guard::Normal(g)) => c == g,
                 (
-                    Guard::StickUpper(f) | Guard::StickLower(f) | Guard::StickCone(f) | Guard::Slip(f),
-                    Guard::Slip(g) | Guard::StickUpper(g) | Guard::StickLower(g) | Guard::StickCone(g),
+                    Guard::StickUpper(f)
+                    | Guard::StickLower(f)
+                    | Guard::StickCone(f)
+                    | Guard::Slip(f),
+                    Guard::Slip(g)
+                    | Guard::StickUpper(g)
+                    | Guard::StickLower(g)
+                    | Guard::StickCone(g),
                 ) => f == g,
                 _ => false,
             }
@@ -334,7 +404,11 @@ fn scale<S: System>(guard: Guard, mode: &Mode, dynamics: &Dynamics<S>) -> f64 {
     let d = S::DESCRIPTION;
     let row = match guard {
         Guard::Gap(c) | Guard::Normal(c) => d.contacts[c].row,
-        Guard::Slip(f) | Guard::StickUpper(f) | Guard::StickLower(f) | Guard::StickCone(f) | Guard::Bearing(f) => d.frictions[f].row,
+        Guard::Slip(f)
+        | Guard::StickUpper(f)
+        | Guard::StickLower(f)
+        | Guard::StickCone(f)
+        | Guard::Bearing(f) => d.frictions[f].row,
         Guard::Branch(_) | Guard::Stop(..) | Guard::Mark(..) => return 0.0,
     };
     let number = |place| dynamics.motion(place).value();
@@ -365,7 +439,12 @@ fn scale<S: System>(guard: Guard, mode: &Mode, dynamics: &Dynamics<S>) -> f64 {
 /// Largest multiplier among contacts and frictions that act.
 fn mode_forces<S: System>(mode: &Mode, dynamics: &Dynamics<S>) -> f64 {
     let d = S::DESCRIPTION;
-    let contacts = d.contacts.iter().zip(&mode.contacts).filter(|(_, closed)| **closed).map(|(c, _)| c.row);
+    let contacts = d
+        .contacts
+        .iter()
+        .zip(&mode.contacts)
+        .filter(|(_, closed)| **closed)
+        .map(|(c, _)| c.row);
     contacts
         .map(|row| dynamics.force(row).value().abs())
         .fold(0.0, f64::max)

@@ -12,9 +12,9 @@
 
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, NeedSet};
-use crate::modes::reading::{Reading, Terms};
 use crate::effects::Item;
 use crate::mode::{Direction, FrictionMode, Mode, Sliding};
+use crate::modes::reading::{Reading, Terms};
 use crate::system::{Description, Friction, Normal, Place, System};
 
 /// Longest series of a guard.
@@ -54,7 +54,10 @@ pub struct Series {
 
 impl Series {
     /// The zero series.
-    pub const ZERO: Series = Series { coefficients: [0.0; LENGTH], length: 0 };
+    pub const ZERO: Series = Series {
+        coefficients: [0.0; LENGTH],
+        length: 0,
+    };
 
     /// The coefficients, lowest order first.
     pub fn as_slice(&self) -> &[f64] {
@@ -120,12 +123,21 @@ impl Series {
 }
 
 /// Lists the guards of a mode (not those of stops and marks) into `out`; `needs` are held.
-pub fn guards_of_mode<S: System>(mode: &Mode, dynamics: &Dynamics<S>, needs: &NeedSet, out: &mut Vec<Guard>) {
+pub fn guards_of_mode<S: System>(
+    mode: &Mode,
+    dynamics: &Dynamics<S>,
+    needs: &NeedSet,
+    out: &mut Vec<Guard>,
+) {
     let d = S::DESCRIPTION;
     out.clear();
     for c in 0..d.contacts.len() {
         if dynamics.effects().includes(d, Item::Contact(c)) {
-            out.push(if mode.contacts[c] { Guard::Normal(c) } else { Guard::Gap(c) });
+            out.push(if mode.contacts[c] {
+                Guard::Normal(c)
+            } else {
+                Guard::Gap(c)
+            });
         }
     }
     for (f, friction) in d.frictions.iter().enumerate() {
@@ -151,7 +163,9 @@ pub fn guards_of_mode<S: System>(mode: &Mode, dynamics: &Dynamics<S>, needs: &Ne
 pub fn stick_guards(f: usize, friction: &Friction) -> impl Iterator<Item = Guard> {
     let cone = friction.components > 1 || matches!(friction.normal, Normal::Constraint(_));
     let pair = [Guard::StickUpper(f), Guard::StickLower(f)];
-    cone.then_some(Guard::StickCone(f)).into_iter().chain(pair.into_iter().filter(move |_| !cone))
+    cone.then_some(Guard::StickCone(f))
+        .into_iter()
+        .chain(pair.into_iter().filter(move |_| !cone))
 }
 
 /// Coefficients of a guard over a step of length h.
@@ -169,7 +183,11 @@ pub fn series<S: System>(guard: Guard, mode: &Mode, reading: &Reading<'_, S>, h:
         Guard::StickCone(f) => stick_cone(f, mode, reading, &mut out),
         Guard::Slip(f) => {
             let friction = &d.frictions[f];
-            if let FrictionMode::Slip(Sliding { direction: Direction::Fixed(along), .. }) = mode.frictions[f] {
+            if let FrictionMode::Slip(Sliding {
+                direction: Direction::Fixed(along),
+                ..
+            }) = mode.frictions[f]
+            {
                 for k in 0..friction.components {
                     out.add(along[k], reading.motion(d.rows[friction.row + k].velocity));
                 }
@@ -179,8 +197,11 @@ pub fn series<S: System>(guard: Guard, mode: &Mode, reading: &Reading<'_, S>, h:
         Guard::Branch(b) => {
             let branch = &d.branches[b];
             let sign = if mode.branch(b) { 1.0 } else { -1.0 };
-            let series =
-                if branch.after_solve { reading.report(branch.guard) } else { reading.motion(branch.guard) };
+            let series = if branch.after_solve {
+                reading.report(branch.guard)
+            } else {
+                reading.motion(branch.guard)
+            };
             out.add(sign, series);
         }
         Guard::Stop(i, k) => out.add(1.0, reading.report(d.stops[i].terms[k])),
@@ -225,7 +246,11 @@ pub fn normal_force<S: System>(f: usize, mode: &Mode, reading: &Reading<'_, S>, 
             match contact.normal_factor {
                 None => out.add(1.0, multiplier),
                 Some(factor) => {
-                    out.add_product(1.0, &Series::of(reading.motion(factor)), &Series::of(multiplier));
+                    out.add_product(
+                        1.0,
+                        &Series::of(reading.motion(factor)),
+                        &Series::of(multiplier),
+                    );
                 }
             }
         }
@@ -247,17 +272,34 @@ pub fn first_values<S: System>(
     guards: impl Iterator<Item = Guard>,
 ) -> Vec<f64> {
     let reading = Reading::Series(dynamics);
-    guards.map(|g| series(g, mode, &reading, 1.0).as_slice().first().copied().unwrap_or(0.0)).collect()
+    guards
+        .map(|g| {
+            series(g, mode, &reading, 1.0)
+                .as_slice()
+                .first()
+                .copied()
+                .unwrap_or(0.0)
+        })
+        .collect()
 }
 
 /// `needs` and everything about every row: Jacobian, residuals, coefficients, restitution, branch guards.
 pub fn all_row_needs(d: &Description, needs: &NeedSet) -> NeedSet {
     let mut all = needs.clone();
     for row in d.rows {
-        [row.needs.jacobian, row.needs.position, row.needs.velocity].map(|need| all.insert(need));
+        for need in [row.needs.jacobian, row.needs.position, row.needs.velocity] {
+            all.insert(need);
+        }
     }
-    d.contacts.iter().for_each(|c| all.insert(c.restitution_need));
-    d.frictions.iter().for_each(|f| all.insert(f.coefficients_need));
-    d.branches.iter().filter(|b| !b.after_solve).for_each(|b| all.insert(b.need));
+    d.contacts
+        .iter()
+        .for_each(|c| all.insert(c.restitution_need));
+    d.frictions
+        .iter()
+        .for_each(|f| all.insert(f.coefficients_need));
+    d.branches
+        .iter()
+        .filter(|b| !b.after_solve)
+        .for_each(|b| all.insert(b.need));
     all
 }

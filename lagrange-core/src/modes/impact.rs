@@ -68,13 +68,23 @@ pub fn impact<S: System>(
 ) -> Result<Impact<S::Scalar>, Error> {
     let d = S::DESCRIPTION;
     let effects = dynamics.effects();
-    let constraints = d.constraints.iter().enumerate().filter(|(i, _)| effects.includes(d, Item::Constraint(*i)));
+    let constraints = d
+        .constraints
+        .iter()
+        .enumerate()
+        .filter(|(i, _)| effects.includes(d, Item::Constraint(*i)));
     let collision = Collision {
         dynamics,
         v,
         near,
-        bilateral: constraints.clone().filter(|(_, c)| c.while_contact.is_none()).map(|(_, c)| c.row).collect(),
-        conditional: constraints.filter_map(|(_, c)| c.while_contact.map(|w| (c.row, w))).collect(),
+        bilateral: constraints
+            .clone()
+            .filter(|(_, c)| c.while_contact.is_none())
+            .map(|(_, c)| c.row)
+            .collect(),
+        conditional: constraints
+            .filter_map(|(_, c)| c.while_contact.map(|w| (c.row, w)))
+            .collect(),
         frictions: (0..d.frictions.len())
             .filter(|f| effects.includes(d, Item::Friction(*f)))
             .filter_map(|f| match d.frictions[f].normal {
@@ -137,10 +147,16 @@ impl<S: System> Collision<'_, S> {
     fn solve(&self, share: f64) -> Option<Impact<S::Scalar>> {
         let contacts = self.near.len();
         for open in 0..1_u64 << contacts {
-            let active: Vec<usize> =
-                (0..contacts).filter(|k| open >> k & 1 == 0).map(|k| self.near[k]).collect();
-            let frictions: Vec<(usize, usize)> =
-                self.frictions.iter().copied().filter(|(_, c)| active.contains(c)).collect();
+            let active: Vec<usize> = (0..contacts)
+                .filter(|k| open >> k & 1 == 0)
+                .map(|k| self.near[k])
+                .collect();
+            let frictions: Vec<(usize, usize)> = self
+                .frictions
+                .iter()
+                .copied()
+                .filter(|(_, c)| active.contains(c))
+                .collect();
             for code in 0..3_usize.pow(frictions.len() as u32) {
                 let sliding: Vec<Sliding> = (0..frictions.len())
                     .map(|k| match code / 3_usize.pow(k as u32) % 3 {
@@ -171,11 +187,19 @@ impl<S: System> Collision<'_, S> {
         let mut rows: Vec<(usize, S::Scalar)> = Vec::new();
         let keep = |row: usize| (row, -self.rate(row));
         rows.extend(self.bilateral.iter().map(|&row| keep(row)));
-        rows.extend(self.conditional.iter().filter(|(_, c)| active.contains(c)).map(|&(row, _)| keep(row)));
+        rows.extend(
+            self.conditional
+                .iter()
+                .filter(|(_, c)| active.contains(c))
+                .map(|&(row, _)| keep(row)),
+        );
         for &c in active {
             let row = d.contacts[c].row;
             let bounce = S::Scalar::from_f64(share) * self.restitution(c);
-            rows.push((row, -(num_traits::one::<S::Scalar>() + bounce) * self.rate(row)));
+            rows.push((
+                row,
+                -(num_traits::one::<S::Scalar>() + bounce) * self.rate(row),
+            ));
         }
         for (&(f, _), state) in frictions.iter().zip(sliding) {
             if *state == Sliding::Stick {
@@ -232,7 +256,9 @@ impl<S: System> Collision<'_, S> {
     }
 
     fn factor(&self, contact: usize) -> S::Scalar {
-        S::DESCRIPTION.contacts[contact].normal_factor.map_or(num_traits::one(), |p| self.number(p))
+        S::DESCRIPTION.contacts[contact]
+            .normal_factor
+            .map_or(num_traits::one(), |p| self.number(p))
     }
 
     /// The inequalities, with rounding judged against the speeds and impulses of this impact.
@@ -252,14 +278,22 @@ impl<S: System> Collision<'_, S> {
             .near
             .iter()
             .map(|c| self.rate(d.contacts[*c].row).value().abs())
-            .chain(frictions.iter().map(|(f, _)| self.rate(d.frictions[*f].row).value().abs()))
+            .chain(
+                frictions
+                    .iter()
+                    .map(|(f, _)| self.rate(d.frictions[*f].row).value().abs()),
+            )
             .fold(0.0, f64::max);
         let impulse = impulses.iter().map(|x| x.value().abs()).fold(0.0, f64::max);
         let (tiny_speed, tiny_impulse) = (1e-13 * speed, 1e-13 * impulse);
         let mut a = vec![S::Scalar::default(); change.len()];
         let mut rate_after = |row: usize| {
             self.jacobian(row, &mut a);
-            let jump: f64 = a.iter().zip(change).map(|(x, y)| x.value() * y.value()).sum();
+            let jump: f64 = a
+                .iter()
+                .zip(change)
+                .map(|(x, y)| x.value() * y.value())
+                .sum();
             self.rate(row).value() + jump
         };
         let mut stays = vec![false; d.contacts.len()];
@@ -300,7 +334,14 @@ impl<S: System> Collision<'_, S> {
                 }
             }
         }
-        Some(Impact { v, impulses, stays, struck, sticks, lowered: false })
+        Some(Impact {
+            v,
+            impulses,
+            stays,
+            struck,
+            sticks,
+            lowered: false,
+        })
     }
 
     /// Whether the impact adds kinetic energy although no surface moves.
@@ -321,13 +362,25 @@ impl<S: System> Collision<'_, S> {
     fn moves(&self) -> bool {
         let d = S::DESCRIPTION;
         let mut a = vec![S::Scalar::default(); self.v.len()];
-        let rows = self.near.iter().map(|c| d.contacts[*c].row).chain(self.bilateral.iter().copied());
-        rows.chain(self.frictions.iter().map(|(f, _)| d.frictions[*f].row)).any(|row| {
-            self.jacobian(row, &mut a);
-            let own: f64 = a.iter().zip(self.v).map(|(x, y)| x.value() * y.value()).sum();
-            let size: f64 = a.iter().zip(self.v).map(|(x, y)| (x.value() * y.value()).abs()).sum();
-            (self.rate(row).value() - own).abs() > 1e-12 * size.max(f64::MIN_POSITIVE)
-        })
+        let rows = self
+            .near
+            .iter()
+            .map(|c| d.contacts[*c].row)
+            .chain(self.bilateral.iter().copied());
+        rows.chain(self.frictions.iter().map(|(f, _)| d.frictions[*f].row))
+            .any(|row| {
+                self.jacobian(row, &mut a);
+                let own: f64 = a
+                    .iter()
+                    .zip(self.v)
+                    .map(|(x, y)| x.value() * y.value())
+                    .sum();
+                let size: f64 = a
+                    .iter()
+                    .zip(self.v)
+                    .map(|(x, y)| (x.value() * y.value()).abs())
+                    .sum();
+                (self.rate(row).value() - own).abs() > 1e-12 * size.max(f64::MIN_POSITIVE)
+            })
     }
 }
-

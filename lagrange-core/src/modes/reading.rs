@@ -35,16 +35,24 @@ impl<S: System> Reading<'_, S> {
     /// A number of the motion tape.
     pub fn motion(&self, place: Place) -> Terms<'_, S::Scalar> {
         match (self, place) {
-            (Reading::Series(dynamics), Place::Node(_)) => Terms::Many(dynamics.motion_series(place)),
-            (Reading::Values(dynamics) | Reading::Series(dynamics), _) => Terms::One(dynamics.motion(place)),
+            (Reading::Series(dynamics), Place::Node(_)) => {
+                Terms::Many(dynamics.motion_series(place))
+            }
+            (Reading::Values(dynamics) | Reading::Series(dynamics), _) => {
+                Terms::One(dynamics.motion(place))
+            }
         }
     }
 
     /// A number of the report tape.
     pub fn report(&self, place: Place) -> Terms<'_, S::Scalar> {
         match (self, place) {
-            (Reading::Series(dynamics), Place::Node(_)) => Terms::Many(dynamics.report_series(place)),
-            (Reading::Values(dynamics) | Reading::Series(dynamics), _) => Terms::One(dynamics.report(place)),
+            (Reading::Series(dynamics), Place::Node(_)) => {
+                Terms::Many(dynamics.report_series(place))
+            }
+            (Reading::Values(dynamics) | Reading::Series(dynamics), _) => {
+                Terms::One(dynamics.report(place))
+            }
         }
     }
 

@@ -55,7 +55,13 @@ pub fn consistent<S: System>(
     let found = survey(dynamics, t, reference, tolerance)?;
     dynamics.set_mode(&found.mode);
     let mut state = wanted.clone();
-    let outcome = dynamics.project_holding(t, &mut state.q, &mut state.v, &held.positions, &held.velocities);
+    let outcome = dynamics.project_holding(
+        t,
+        &mut state.q,
+        &mut state.v,
+        &held.positions,
+        &held.velocities,
+    );
     outcome.map_err(|e| Error::from_evaluation(e, time, &found.mode, S::DESCRIPTION))?;
     Ok(state)
 }
@@ -91,7 +97,9 @@ fn survey<S: System>(
     let extent = state.q.iter().fold(1.0_f64, |m, x| m.max(x.value().abs()));
     let speed = |dynamics: &Dynamics<S>, row: usize| {
         let terms = d.rows[row].jacobian.iter();
-        terms.map(|&(j, p)| (number(dynamics, p) * state.v[j].value()).abs()).fold(1.0_f64, f64::max)
+        terms
+            .map(|&(j, p)| (number(dynamics, p) * state.v[j].value()).abs())
+            .fold(1.0_f64, f64::max)
     };
     let mut gaps = Vec::new();
     for (c, contact) in d.contacts.iter().enumerate() {
@@ -137,12 +145,27 @@ fn survey<S: System>(
         }
         let row = &d.rows[constraint.row];
         if let Some(place) = row.position {
-            residuals.push((constraint.row, Level::Position, number(dynamics, place), extent));
+            residuals.push((
+                constraint.row,
+                Level::Position,
+                number(dynamics, place),
+                extent,
+            ));
         }
         let rate = number(dynamics, row.velocity);
-        residuals.push((constraint.row, Level::Velocity, rate, speed(dynamics, constraint.row)));
+        residuals.push((
+            constraint.row,
+            Level::Velocity,
+            rate,
+            speed(dynamics, constraint.row),
+        ));
     }
-    Ok(Survey { mode, known, residuals, gaps })
+    Ok(Survey {
+        mode,
+        known,
+        residuals,
+        gaps,
+    })
 }
 
 /// Puts every branch on its side; the guard of one may depend on the side of another.
@@ -157,12 +180,18 @@ fn branches<S: System>(
     let evaluate = |dynamics: &mut Dynamics<S>, mode: &Mode| {
         dynamics.set_mode(mode);
         dynamics.set_extra_needs(&guard::all_row_needs(d, &NeedSet::new(d)));
-        dynamics.tape(t, &state.q, &state.v);
+        let outcome = dynamics.tape(t, &state.q, &state.v);
+        outcome.map_err(|e| Error::from_evaluation(e, t.value(), mode, d))
     };
-    evaluate(dynamics, mode);
+    evaluate(dynamics, mode)?;
     for _ in 0..d.branches.len() {
         let mut changed = false;
-        for (b, branch) in d.branches.iter().enumerate().filter(|(_, b)| !b.after_solve) {
+        for (b, branch) in d
+            .branches
+            .iter()
+            .enumerate()
+            .filter(|(_, b)| !b.after_solve)
+        {
             let guard = dynamics.motion(branch.guard).value();
             known.balanced[b] = guard == 0.0;
             if mode.branch(b) != (guard >= 0.0) {
@@ -173,23 +202,37 @@ fn branches<S: System>(
         if !changed {
             break;
         }
-        evaluate(dynamics, mode);
+        evaluate(dynamics, mode)?;
     }
     Ok(())
 }
 
-fn refuse_violations<S: System>(dynamics: &Dynamics<S>, found: &Survey, near: f64) -> Result<(), Error> {
+fn refuse_violations<S: System>(
+    dynamics: &Dynamics<S>,
+    found: &Survey,
+    near: f64,
+) -> Result<(), Error> {
     let d = dynamics.description();
     for &(c, gap, size) in &found.gaps {
         if gap < -near * size {
             let item = d.contacts[c].name;
-            return Err(Error::Start { item, level: Level::Position, residual: gap, tolerance: near * size });
+            return Err(Error::Start {
+                item,
+                level: Level::Position,
+                residual: gap,
+                tolerance: near * size,
+            });
         }
     }
     for &(row, level, residual, size) in &found.residuals {
         if residual.abs() > near * size {
             let item = crate::dynamics::row_name(d, row);
-            return Err(Error::Start { item, level, residual, tolerance: near * size });
+            return Err(Error::Start {
+                item,
+                level,
+                residual,
+                tolerance: near * size,
+            });
         }
     }
     Ok(())
@@ -201,6 +244,9 @@ fn project_onto<S: System>(
     state: &mut State<S::Scalar>,
 ) -> Result<(), Error> {
     let mode = dynamics.mode().clone();
-    let outcome: Result<bool, EvaluationError> = dynamics.project(t, &mut state.q, &mut state.v, 0.0);
-    outcome.map(|_| ()).map_err(|e| Error::from_evaluation(e, t.value(), &mode, S::DESCRIPTION))
+    let outcome: Result<bool, EvaluationError> =
+        dynamics.project(t, &mut state.q, &mut state.v, 0.0);
+    outcome
+        .map(|_| ())
+        .map_err(|e| Error::from_evaluation(e, t.value(), &mode, S::DESCRIPTION))
 }

@@ -63,10 +63,17 @@ impl Curves {
     }
 
     /// Takes the guards from the series that `dynamics` holds, over a step of length `h`.
-    pub(super) fn from_series<S: System>(&mut self, dynamics: &Dynamics<S>, mode: &Mode, guards: &[Guard], h: f64) {
+    pub(super) fn from_series<S: System>(
+        &mut self,
+        dynamics: &Dynamics<S>,
+        mode: &Mode,
+        guards: &[Guard],
+        h: f64,
+    ) {
         let reading = Reading::Series(dynamics);
         self.guards.clear();
-        self.guards.extend(guards.iter().map(|&g| guard::series(g, mode, &reading, h)));
+        self.guards
+            .extend(guards.iter().map(|&g| guard::series(g, mode, &reading, h)));
         let stops = self.stops.len();
         let curves = self.stops.iter_mut().chain(&mut self.marks);
         debug_assert!(stops <= self.watches.len());
@@ -101,9 +108,17 @@ impl Curves {
             let reading = Reading::Values(dynamics);
             let column = |k: usize| self.matrix[k * m + j];
             let all = guards.iter().chain(&self.watches);
-            let curves = self.guards.iter_mut().chain(&mut self.stops).chain(&mut self.marks);
+            let curves = self
+                .guards
+                .iter_mut()
+                .chain(&mut self.stops)
+                .chain(&mut self.marks);
             for (curve, &g) in curves.zip(all) {
-                let sample = guard::series(g, mode, &reading, 1.0).as_slice().first().copied().unwrap_or(0.0);
+                let sample = guard::series(g, mode, &reading, 1.0)
+                    .as_slice()
+                    .first()
+                    .copied()
+                    .unwrap_or(0.0);
                 curve.accumulate(m, |k| column(k) * sample);
             }
         }
@@ -116,7 +131,9 @@ impl Curves {
             return;
         }
         let last = (m - 1) as f64;
-        self.nodes = (0..m).map(|j| 0.5 - 0.5 * (core::f64::consts::PI * j as f64 / last).cos()).collect();
+        self.nodes = (0..m)
+            .map(|j| 0.5 - 0.5 * (core::f64::consts::PI * j as f64 / last).cos())
+            .collect();
         self.nodes[0] = 0.0;
         self.nodes[m - 1] = 1.0;
         self.matrix = vec![0.0; m * m];

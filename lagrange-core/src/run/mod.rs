@@ -1,9 +1,12 @@
 //! The loop of a run: step, look for the first thing that happens, switch, go on.
 
+mod accumulation;
 mod curves;
 mod hits;
 mod stepping;
 mod switch;
+#[cfg(test)]
+mod tests;
 
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError, NeedSet, add_guards};
@@ -15,6 +18,7 @@ use crate::modes::start;
 use crate::simulation::{Failure, Simulation};
 use crate::system::System;
 use crate::trajectory::{EventKind, State, Subject, Trajectory, Work};
+use accumulation::Impacts;
 use core::ops::Range;
 use curves::Curves;
 use hits::Hit;
@@ -51,6 +55,8 @@ pub(crate) struct Run<'a, S: System> {
     step: StepPolynomial<S::Scalar>,
     curves: Curves,
     scratch: State<S::Scalar>,
+    /// Per contact: its impacts so far.
+    impacts: Vec<Impacts>,
     /// Modes of the switches since time last advanced.
     stuck: Vec<Mode>,
     finished: bool,
@@ -67,9 +73,18 @@ impl<'a, S: System> Run<'a, S> {
         let d = S::DESCRIPTION;
         let t = S::Scalar::from_f64(span.start);
         let mode = Mode::open(d);
-        let trajectory = Trajectory::new(simulation.scene, &simulation.effects, t, start.clone(), mode.clone());
+        let trajectory = Trajectory::new(
+            simulation.scene,
+            &simulation.effects,
+            t,
+            start.clone(),
+            mode.clone(),
+        );
         if let Err(error) = simulation.check(&start, &span) {
-            return Err(Failure { error, trajectory: Box::new(trajectory) });
+            return Err(Failure {
+                error,
+                trajectory: Box::new(trajectory),
+            });
         }
         let tolerance = Tolerance::both(simulation.tolerance);
         let mut run = Run {
@@ -93,6 +108,7 @@ impl<'a, S: System> Run<'a, S> {
             mark_below: d.marks.iter().map(|w| vec![false; w.terms.len()]).collect(),
             step: StepPolynomial::new(d.coordinates.len(), 1),
             curves: Curves::new::<S>(),
+            impacts: vec![Impacts::default(); d.contacts.len()],
             stuck: Vec::new(),
             finished: false,
             trajectory,
@@ -101,7 +117,10 @@ impl<'a, S: System> Run<'a, S> {
         run.close();
         match outcome {
             Ok(()) => Ok(run.trajectory),
-            Err(error) => Err(Failure { error, trajectory: Box::new(run.trajectory) }),
+            Err(error) => Err(Failure {
+                error,
+                trajectory: Box::new(run.trajectory),
+            }),
         }
     }
 
@@ -139,10 +158,17 @@ impl<'a, S: System> Run<'a, S> {
         if end > 0.0 {
             let whole = end == 1.0;
             self.t = self.step.t + self.step.h * S::Scalar::from_f64(end);
-            if whole && (self.end - self.t.value()).abs() <= 1e-15 * self.end.abs().max(self.step.h.value()) {
+            if whole
+                && (self.end - self.t.value()).abs()
+                    <= 1e-15 * self.end.abs().max(self.step.h.value())
+            {
                 self.t = S::Scalar::from_f64(self.end);
             }
-            self.step.state_into(S::Scalar::from_f64(end), &mut self.state.q, &mut self.state.v);
+            self.step.state_into(
+                S::Scalar::from_f64(end),
+                &mut self.state.q,
+                &mut self.state.v,
+            );
             self.stuck.clear();
             self.zeros.clear();
             self.expanded = false;
@@ -176,7 +202,11 @@ impl<'a, S: System> Run<'a, S> {
         Err(Error::NoProgress {
             time: self.t.value(),
             modes: last.map(|m| m.display(d).to_string()).collect(),
-            item: self.trajectory.events.last().map_or(d.name, |e| e.subject.name(d)),
+            item: self
+                .trajectory
+                .events
+                .last()
+                .map_or(d.name, |e| e.subject.name(d)),
         })
     }
 
@@ -210,19 +240,33 @@ impl<'a, S: System> Run<'a, S> {
     fn stops_of_the_mode(&mut self, before: &Mode) -> Result<(), Error> {
         let d = S::DESCRIPTION;
         for (i, watch) in d.stops.iter().enumerate() {
-            if watch.conditions.is_empty() || hits::holds(watch, before) || !hits::holds(watch, &self.mode) {
+            if watch.conditions.is_empty()
+                || hits::holds(watch, before)
+                || !hits::holds(watch, &self.mode)
+            {
                 continue;
             }
-            let reading = guard::first_values(&self.dynamics, &self.mode, (0..watch.terms.len()).map(|k| Guard::Stop(i, k)));
+            let reading = guard::first_values(
+                &self.dynamics,
+                &self.mode,
+                (0..watch.terms.len()).map(|k| Guard::Stop(i, k)),
+            );
             if reading.iter().all(|x| *x >= 0.0) {
                 return self.finish(i);
             }
         }
         for (i, watch) in d.marks.iter().enumerate() {
-            if watch.conditions.is_empty() || hits::holds(watch, before) || !hits::holds(watch, &self.mode) {
+            if watch.conditions.is_empty()
+                || hits::holds(watch, before)
+                || !hits::holds(watch, &self.mode)
+            {
                 continue;
             }
-            let reading = guard::first_values(&self.dynamics, &self.mode, (0..watch.terms.len()).map(|k| Guard::Mark(i, k)));
+            let reading = guard::first_values(
+                &self.dynamics,
+                &self.mode,
+                (0..watch.terms.len()).map(|k| Guard::Mark(i, k)),
+            );
             if reading.iter().all(|x| *x >= 0.0) {
                 let state = self.state.clone();
                 self.log_watch(Subject::Mark(i), EventKind::Mark, self.t, state);
@@ -270,7 +314,8 @@ impl<'a, S: System> Run<'a, S> {
 
     /// Values at the present state in the present mode, with every row's Jacobian and rate.
     fn evaluate_all_rows(&mut self) -> Result<(), Error> {
-        self.dynamics.set_extra_needs(&guard::all_row_needs(S::DESCRIPTION, &self.needs));
+        self.dynamics
+            .set_extra_needs(&guard::all_row_needs(S::DESCRIPTION, &self.needs));
         self.evaluate()?;
         Ok(())
     }
@@ -283,7 +328,9 @@ impl<'a, S: System> Run<'a, S> {
     /// Taylor series at the present state.
     fn refresh(&mut self) -> Result<(), Error> {
         self.hold_guards();
-        let outcome = self.dynamics.series(self.t, &self.state.q, &self.state.v, self.order);
+        let outcome = self
+            .dynamics
+            .series(self.t, &self.state.q, &self.state.v, self.order);
         outcome.map_err(|e| self.error(e))?;
         self.expanded = true;
         Ok(())
@@ -291,17 +338,30 @@ impl<'a, S: System> Run<'a, S> {
 
     /// λ of every row at the last value.
     fn forces(&self) -> Vec<S::Scalar> {
-        (0..S::DESCRIPTION.rows.len()).map(|row| self.dynamics.force(row)).collect()
+        (0..S::DESCRIPTION.rows.len())
+            .map(|row| self.dynamics.force(row))
+            .collect()
     }
 
     /// λ of every row at the start of the series.
     fn forces_from_series(&self) -> Vec<S::Scalar> {
         let rows = 0..S::DESCRIPTION.rows.len();
-        rows.map(|row| self.dynamics.force_series(row).first().copied().unwrap_or_default()).collect()
+        rows.map(|row| {
+            self.dynamics
+                .force_series(row)
+                .first()
+                .copied()
+                .unwrap_or_default()
+        })
+        .collect()
     }
 
     fn limit(&self, what: &'static str, limit: usize) -> Error {
-        Error::Limit { time: self.t.value(), what, limit }
+        Error::Limit {
+            time: self.t.value(),
+            what,
+            limit,
+        }
     }
 
     fn error(&self, error: EvaluationError) -> Error {

@@ -21,9 +21,14 @@ impl<S: System> Run<'_, S> {
                 .collect(),
             parting: vec![false; d.contacts.len()],
             resting: (0..d.frictions.len())
-                .map(|f| self.mode.frictions[f] == FrictionMode::Stick || self.fallen.contains(&Guard::Slip(f)))
+                .map(|f| {
+                    self.mode.frictions[f] == FrictionMode::Stick
+                        || self.fallen.contains(&Guard::Slip(f))
+                })
                 .collect(),
-            balanced: (0..d.branches.len()).map(|b| self.fallen.contains(&Guard::Branch(b))).collect(),
+            balanced: (0..d.branches.len())
+                .map(|b| self.fallen.contains(&Guard::Branch(b)))
+                .collect(),
             located: self.fallen.clone(),
         };
         self.settle(known)
@@ -36,15 +41,19 @@ impl<S: System> Run<'_, S> {
         let state = self.state.clone();
         self.evaluate_all_rows()?;
         let forces = self.forces();
-        let hit: Vec<usize> =
-            (0..d.contacts.len()).filter(|&c| known.touching[c] && self.approaching(c)).collect();
+        let hit: Vec<usize> = (0..d.contacts.len())
+            .filter(|&c| known.touching[c] && self.approaching(c))
+            .collect();
         let mut struck = None;
         if !hit.is_empty() {
-            let near: Vec<usize> = (0..d.contacts.len()).filter(|&c| known.touching[c]).collect();
+            let near: Vec<usize> = (0..d.contacts.len())
+                .filter(|&c| known.touching[c])
+                .collect();
             let outcome = impact(&self.dynamics, self.t.value(), &self.state.v, &near)?;
             self.state.v.copy_from_slice(&outcome.v);
             self.log_impacts(&outcome, &hit, &before, &state, &forces);
             self.after_impact(&outcome, &near, &mut known);
+            self.close_accumulated(&outcome, &mut known)?;
             struck = Some(outcome);
         } else {
             self.rest_where_slip_vanishes(&mut known);
@@ -70,16 +79,54 @@ impl<S: System> Run<'_, S> {
 
     /// Whether the gap of contact `c` closes at the present state.
     fn approaching(&self, c: usize) -> bool {
-        if !self.dynamics.effects().includes(S::DESCRIPTION, Item::Contact(c)) {
+        if !self
+            .dynamics
+            .effects()
+            .includes(S::DESCRIPTION, Item::Contact(c))
+        {
             return false;
         }
         let row = &S::DESCRIPTION.rows[S::DESCRIPTION.contacts[c].row];
         let number = |place| self.dynamics.motion(place).value();
-        let size: f64 =
-            row.jacobian.iter().map(|&(j, place)| (number(place) * self.state.v[j].value()).abs()).sum();
+        let size: f64 = row
+            .jacobian
+            .iter()
+            .map(|&(j, place)| (number(place) * self.state.v[j].value()).abs())
+            .sum();
         // A closed contact keeps its gap rate at zero up to rounding; a hit is faster than that.
-        let floor = if self.mode.contacts[c] { 1e-9 * size } else { 1e-15 * size };
+        let floor = if self.mode.contacts[c] {
+            1e-9 * size
+        } else {
+            1e-15 * size
+        };
         number(row.velocity) < -floor
+    }
+
+    /// Ends the infinitely many impacts of contacts that bounce ever less.
+    fn close_accumulated(&mut self, outcome: &Impact<S::Scalar>, known: &mut Known) -> Result<(), Error> {
+        let d = S::DESCRIPTION;
+        for c in 0..d.contacts.len() {
+            if !outcome.struck[c] || !known.parting[c] {
+                continue;
+            }
+            let Some(count) = self.accumulate(c, known) else { continue };
+            let mut closed = self.mode.clone();
+            for (contact, touching) in closed.contacts.iter_mut().zip(&known.touching) {
+                *contact = *touching;
+            }
+            self.dynamics.set_mode(&closed);
+            self.project(true)?;
+            self.evaluate_all_rows()?;
+            for (f, friction) in d.frictions.iter().enumerate() {
+                if matches!(friction.normal, Normal::Contact(on) if known.touching[on]) {
+                    let (slip, size) = self.slip(friction.row);
+                    known.resting[f] = slip.abs() <= 1e-13 * size;
+                }
+            }
+            let state = self.state.clone();
+            self.log_watch(Subject::Contact(c), EventKind::Accumulates { impacts: count }, self.t, state);
+        }
+        Ok(())
     }
 
     /// What is known after an impact.
@@ -117,7 +164,11 @@ impl<S: System> Run<'_, S> {
     pub(super) fn slip(&self, row: usize) -> (f64, f64) {
         let row = &S::DESCRIPTION.rows[row];
         let number = |place| self.dynamics.motion(place).value();
-        let size = row.jacobian.iter().map(|&(j, place)| (number(place) * self.state.v[j].value()).abs()).sum();
+        let size = row
+            .jacobian
+            .iter()
+            .map(|&(j, place)| (number(place) * self.state.v[j].value()).abs())
+            .sum();
         (number(row.velocity), size)
     }
 
@@ -170,7 +221,9 @@ impl<S: System> Run<'_, S> {
             let kind = match (before.frictions[f], after.frictions[f]) {
                 (FrictionMode::Stick, FrictionMode::Slip(_)) => EventKind::Slips,
                 (FrictionMode::Slip(_), FrictionMode::Stick) => EventKind::Sticks,
-                (FrictionMode::Slip(a), FrictionMode::Slip(b)) if a.direction != b.direction => EventKind::Reverses,
+                (FrictionMode::Slip(a), FrictionMode::Slip(b)) if a.direction != b.direction => {
+                    EventKind::Reverses
+                }
                 _ => continue,
             };
             list.push((Subject::Friction(f), kind));
@@ -208,7 +261,13 @@ impl<S: System> Run<'_, S> {
     }
 
     /// Logs a stop or a mark at the present instant.
-    pub(super) fn log_watch(&mut self, subject: Subject, kind: EventKind, time: S::Scalar, state: State<S::Scalar>) {
+    pub(super) fn log_watch(
+        &mut self,
+        subject: Subject,
+        kind: EventKind,
+        time: S::Scalar,
+        state: State<S::Scalar>,
+    ) {
         let forces = self.forces();
         self.trajectory.events.push(Event {
             time,

@@ -83,13 +83,24 @@ impl<S: System> Trajectory<S> {
         }
         let mut work: Vec<Entry> = Vec::new();
         for (i, load) in d.forces.iter().enumerate() {
-            work.push(Entry { name: load.name, kind: "force", work: totals[i] });
+            work.push(Entry {
+                name: load.name,
+                kind: "force",
+                work: totals[i],
+            });
         }
         for (i, load) in d.dissipations.iter().enumerate() {
-            work.push(Entry { name: load.name, kind: "dissipation", work: totals[d.forces.len() + i] });
+            work.push(Entry {
+                name: load.name,
+                kind: "dissipation",
+                work: totals[d.forces.len() + i],
+            });
         }
         for row in 0..d.rows.len() {
-            let friction = d.frictions.iter().find(|f| (f.row..f.row + f.components).contains(&row));
+            let friction = d
+                .frictions
+                .iter()
+                .find(|f| (f.row..f.row + f.components).contains(&row));
             let kind = match friction {
                 Some(_) => "friction",
                 None if d.contacts.iter().any(|c| c.row == row) => "contact",
@@ -98,23 +109,51 @@ impl<S: System> Trajectory<S> {
             let name = row_name(d, row);
             let amount = totals[loads + row];
             match work.last_mut() {
-                Some(last) if kind == "friction" && last.kind == kind && last.name == name => last.work += amount,
-                _ => work.push(Entry { name, kind, work: amount }),
+                Some(last) if kind == "friction" && last.kind == kind && last.name == name => {
+                    last.work += amount
+                }
+                _ => work.push(Entry {
+                    name,
+                    kind,
+                    work: amount,
+                }),
             }
         }
-        work.push(Entry { name: "explicit time", kind: "time", work: totals[items - 1] });
+        work.push(Entry {
+            name: "explicit time",
+            kind: "time",
+            work: totals[items - 1],
+        });
         self.book_impacts(&mut sampler, &mut work)?;
         let mode = self.segments.first().map_or(0, |s| s.mode);
         let start = energies(&sampler.evaluate(self.first_time, mode, &self.start)?);
         let end = energies(&sampler.evaluate(self.last_time, self.modes.len() - 1, &self.last)?);
         let sum: f64 = work.iter().map(|e| e.work).sum();
-        let sizes = [start.kinetic, end.kinetic, end.potential - start.potential, end.jacobi - start.jacobi];
-        let scale = sizes.into_iter().chain(work.iter().map(|e| e.work)).fold(0.0_f64, |m, x| m.max(x.abs()));
-        Ok(Ledger { start, end, scale, closure: end.jacobi - start.jacobi - sum, work })
+        let sizes = [
+            start.kinetic,
+            end.kinetic,
+            end.potential - start.potential,
+            end.jacobi - start.jacobi,
+        ];
+        let scale = sizes
+            .into_iter()
+            .chain(work.iter().map(|e| e.work))
+            .fold(0.0_f64, |m, x| m.max(x.abs()));
+        Ok(Ledger {
+            start,
+            end,
+            scale,
+            closure: end.jacobi - start.jacobi - sum,
+            work,
+        })
     }
 
     /// Energy jumps at impacts; several events of one impact book it once.
-    fn book_impacts(&self, sampler: &mut super::Sampler<'_, S>, work: &mut Vec<Entry>) -> Result<(), Error> {
+    fn book_impacts(
+        &self,
+        sampler: &mut super::Sampler<'_, S>,
+        work: &mut Vec<Entry>,
+    ) -> Result<(), Error> {
         let d = S::DESCRIPTION;
         let mut booked = None;
         for event in self.events.iter().filter(|e| e.kind == EventKind::Impact) {
@@ -122,14 +161,27 @@ impl<S: System> Trajectory<S> {
                 continue;
             }
             booked = Some(event.time);
-            let mode = self.modes.iter().position(|m| *m == event.before).unwrap_or(0);
+            let mode = self
+                .modes
+                .iter()
+                .position(|m| *m == event.before)
+                .unwrap_or(0);
             let before = sampler.evaluate(event.time, mode, &event.state)?.jacobi;
-            let after = sampler.evaluate(event.time, mode, &event.state_after)?.jacobi;
+            let after = sampler
+                .evaluate(event.time, mode, &event.state_after)?
+                .jacobi;
             let name = event.subject.name(d);
             let amount = (after - before).value();
-            match work.iter_mut().find(|e| e.kind == "impact" && e.name == name) {
+            match work
+                .iter_mut()
+                .find(|e| e.kind == "impact" && e.name == name)
+            {
                 Some(entry) => entry.work += amount,
-                None => work.push(Entry { name, kind: "impact", work: amount }),
+                None => work.push(Entry {
+                    name,
+                    kind: "impact",
+                    work: amount,
+                }),
             }
         }
         Ok(())

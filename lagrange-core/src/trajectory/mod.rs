@@ -4,7 +4,7 @@ mod event;
 mod ledger;
 mod sampler;
 
-pub use event::{Event, EventKind, State, Subject};
+pub use event::{Event, EventKind, Starts, State, Subject};
 pub use ledger::{Energies, Entry, Ledger};
 pub use sampler::{Instant, Sampler};
 
@@ -12,7 +12,7 @@ use crate::arithmetic::Scalar;
 use crate::effects::Effects;
 use crate::integrate::StepPolynomial;
 use crate::mode::Mode;
-use crate::system::System;
+use crate::system::{Description, System};
 
 /// What a run cost.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -76,7 +76,13 @@ pub struct Trajectory<S: System> {
 }
 
 impl<S: System> Trajectory<S> {
-    pub(crate) fn new(scene: &S, effects: &Effects, time: S::Scalar, start: State<S::Scalar>, mode: Mode) -> Self {
+    pub(crate) fn new(
+        scene: &S,
+        effects: &Effects,
+        time: S::Scalar,
+        start: State<S::Scalar>,
+        mode: Mode,
+    ) -> Self {
         Self {
             scene: scene.clone(),
             effects: effects.clone(),
@@ -117,6 +123,11 @@ impl<S: System> Trajectory<S> {
     /// The system that moved.
     pub fn scene(&self) -> &S {
         &self.scene
+    }
+
+    /// The table of names and places of the system.
+    pub fn description(&self) -> &'static Description {
+        S::DESCRIPTION
     }
 
     /// The effects that took part.
@@ -167,7 +178,11 @@ impl<S: System> Trajectory<S> {
             let to = (segment.t + segment.h * segment.end).value();
             match phases.last_mut() {
                 Some(phase) if last == Some(segment.mode) => phase.to = to,
-                _ => phases.push(Phase { from: segment.t.value(), to, mode: self.modes[segment.mode].clone() }),
+                _ => phases.push(Phase {
+                    from: segment.t.value(),
+                    to,
+                    mode: self.modes[segment.mode].clone(),
+                }),
             }
             last = Some(segment.mode);
         }
@@ -180,7 +195,12 @@ impl<S: System> Trajectory<S> {
     }
 
     /// Coefficients of a position (`which` = 0) or velocity (1) in a segment.
-    pub(crate) fn polynomial(&self, segment: &Segment<S::Scalar>, which: usize, coordinate: usize) -> &[S::Scalar] {
+    pub(crate) fn polynomial(
+        &self,
+        segment: &Segment<S::Scalar>,
+        which: usize,
+        coordinate: usize,
+    ) -> &[S::Scalar] {
         let n = S::DESCRIPTION.coordinates.len();
         let width = segment.degree + 1;
         let begin = segment.offset + (which * n + coordinate) * width;
@@ -188,7 +208,13 @@ impl<S: System> Trajectory<S> {
     }
 
     /// State at part `s` of a segment.
-    pub(crate) fn state_at(&self, segment: &Segment<S::Scalar>, s: S::Scalar, q: &mut [S::Scalar], v: &mut [S::Scalar]) {
+    pub(crate) fn state_at(
+        &self,
+        segment: &Segment<S::Scalar>,
+        s: S::Scalar,
+        q: &mut [S::Scalar],
+        v: &mut [S::Scalar],
+    ) {
         for (which, out) in [q, v].into_iter().enumerate() {
             for (i, x) in out.iter_mut().enumerate() {
                 *x = horner(self.polynomial(segment, which, i), s);

@@ -55,9 +55,16 @@ impl<'a, S: System> Sampler<'a, S> {
         let mut needs = NeedSet::new(d);
         needs.insert(d.energy.need);
         let loads = d.forces.iter().chain(d.dissipations).map(|l| l.report_need);
-        loads.chain(d.observes.iter().map(|o| o.need)).for_each(|need| needs.insert(need));
+        loads
+            .chain(d.observes.iter().map(|o| o.need))
+            .for_each(|need| needs.insert(need));
         dynamics.set_report_needs(&needs);
-        Self { trajectory, dynamics, mode: None, state: trajectory.start.clone() }
+        Self {
+            trajectory,
+            dynamics,
+            mode: None,
+            state: trajectory.start.clone(),
+        }
     }
 
     /// The motion at time `t`, s. At the instant of a switch: just after it.
@@ -68,14 +75,22 @@ impl<'a, S: System> Sampler<'a, S> {
         let trajectory = self.trajectory;
         let (first, last) = (trajectory.first_time(), trajectory.last_time());
         if !(first..=last).contains(&t) {
-            return Err(Error::OutsideTrajectory { time: t, first, last });
+            return Err(Error::OutsideTrajectory {
+                time: t,
+                first,
+                last,
+            });
         }
         let after = trajectory.segments.partition_point(|s| s.t.value() <= t);
         match trajectory.segments.get(after.saturating_sub(1)) {
             None => self.evaluate(S::Scalar::from_f64(t), 0, &trajectory.start.clone()),
             Some(segment) => {
                 let h = segment.h.value();
-                let s = if h > 0.0 { (t - segment.t.value()) / h } else { 0.0 };
+                let s = if h > 0.0 {
+                    (t - segment.t.value()) / h
+                } else {
+                    0.0
+                };
                 let s = S::Scalar::from_f64(s.min(segment.end.value()));
                 let mut state = core::mem::take(&mut self.state);
                 trajectory.state_at(segment, s, &mut state.q, &mut state.v);
@@ -102,9 +117,13 @@ impl<'a, S: System> Sampler<'a, S> {
         }
         let dynamics = &mut self.dynamics;
         let outcome = dynamics.value(t, &state.q, &state.v);
-        outcome.map_err(|e| Error::from_evaluation(e, t.value(), &self.trajectory.modes[mode], d))?;
+        outcome
+            .map_err(|e| Error::from_evaluation(e, t.value(), &self.trajectory.modes[mode], d))?;
         dynamics.report_value();
-        let contacts = d.contacts.iter().map(|c| d.rows[c.row].position.unwrap_or(Place::Zero));
+        let contacts = d
+            .contacts
+            .iter()
+            .map(|c| d.rows[c.row].position.unwrap_or(Place::Zero));
         let frictions = d.frictions.iter().flat_map(|f| f.row..f.row + f.components);
         Ok(Instant {
             time: t,
@@ -114,32 +133,51 @@ impl<'a, S: System> Sampler<'a, S> {
             acceleration: dynamics.acceleration().to_vec(),
             forces: (0..d.rows.len()).map(|row| dynamics.force(row)).collect(),
             gaps: contacts.map(|place| dynamics.motion(place)).collect(),
-            slips: frictions.map(|row| dynamics.motion(d.rows[row].velocity)).collect(),
+            slips: frictions
+                .map(|row| dynamics.motion(d.rows[row].velocity))
+                .collect(),
             kinetic: dynamics.report(d.energy.kinetic),
             potential: dynamics.report(d.energy.potential),
             jacobi: dynamics.report(d.energy.jacobi),
             loads: d.forces.iter().map(|f| dynamics.report(f.value)).collect(),
-            observes: d.observes.iter().map(|o| dynamics.report(o.place)).collect(),
+            observes: d
+                .observes
+                .iter()
+                .map(|o| dynamics.report(o.place))
+                .collect(),
         })
     }
 
     /// Power of every force, dissipation and row, and of explicit time, at part `s` of a segment; in the order of
     /// [`super::ledger`].
-    pub(super) fn powers(&mut self, segment: usize, s: S::Scalar, out: &mut [S::Scalar]) -> Result<(), Error> {
+    pub(super) fn powers(
+        &mut self,
+        segment: usize,
+        s: S::Scalar,
+        out: &mut [S::Scalar],
+    ) -> Result<(), Error> {
         let d = S::DESCRIPTION;
         let segment = &self.trajectory.segments[segment];
         let mut state = core::mem::take(&mut self.state);
-        self.trajectory.state_at(segment, s, &mut state.q, &mut state.v);
+        self.trajectory
+            .state_at(segment, s, &mut state.q, &mut state.v);
         let instant = self.evaluate(segment.t + segment.h * s, segment.mode, &state);
         self.state = state;
         let instant = instant?;
         let dynamics = &self.dynamics;
-        let loads = d.forces.iter().chain(d.dissipations).map(|l| dynamics.report(l.power));
+        let loads = d
+            .forces
+            .iter()
+            .chain(d.dissipations)
+            .map(|l| dynamics.report(l.power));
         let rows = d.rows.iter().enumerate().map(|(i, row)| {
             // The power of λ is λ a·v: not zero where a surface moves.
-            let speed = row.jacobian.iter().fold(S::Scalar::default(), |sum, &(j, place)| {
-                sum + dynamics.motion(place) * instant.v[j]
-            });
+            let speed = row
+                .jacobian
+                .iter()
+                .fold(S::Scalar::default(), |sum, &(j, place)| {
+                    sum + dynamics.motion(place) * instant.v[j]
+                });
             instant.forces[i] * speed
         });
         let time = core::iter::once(dynamics.report(d.energy.time_power));
