@@ -48,6 +48,7 @@ fn bare(parameters: &[&str], coordinates: &[&str]) -> System {
             documentation: String::new(),
             unit: String::new(),
             tex: String::new(),
+ letter: String::new(),
         })
         .collect();
     let coordinates = coordinates
@@ -82,6 +83,7 @@ fn bare(parameters: &[&str], coordinates: &[&str]) -> System {
         observes: Vec::new(),
         stops: Vec::new(),
         marks: Vec::new(),
+        impacts: crate::ast::Impacts::default(),
     }
 }
 
