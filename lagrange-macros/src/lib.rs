@@ -15,7 +15,11 @@ pub fn lagrangian(input: TokenStream) -> TokenStream {
 /// A panic is a mistake of this crate, never the user's.
 fn bug(panic: &(dyn std::any::Any + Send)) -> TokenStream {
     let text = panic.downcast_ref::<String>().map(String::as_str);
-    let text = text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no message");
+    let text = text
+        .or_else(|| panic.downcast_ref::<&str>().copied())
+        .unwrap_or("no message");
     let message = format!("bug in lagrange-macros: {text}; please report it with this struct");
-    format!("::core::compile_error!({message:?});").parse().unwrap_or_default()
+    format!("::core::compile_error!({message:?});")
+        .parse()
+        .unwrap_or_default()
 }

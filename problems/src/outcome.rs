@@ -167,16 +167,35 @@ fn sample<S: System<Scalar = f64>>(trajectory: &Trajectory<S>, intervals: usize)
     let mut sampler = trajectory.sampler();
     let mut limits = Limits::new(trajectory.scene(), trajectory.effects());
     let mut samples = Vec::new();
-    let at_once = || vec![Phase { from: first, to: first, mode: trajectory.final_mode().clone() }];
-    let phases = Some(trajectory.phases()).filter(|phases| !phases.is_empty()).unwrap_or_else(at_once);
+    let at_once = || {
+        vec![Phase {
+            from: first,
+            to: first,
+            mode: trajectory.final_mode().clone(),
+        }]
+    };
+    let phases = Some(trajectory.phases())
+        .filter(|phases| !phases.is_empty())
+        .unwrap_or_else(at_once);
     for (phase, span) in phases.iter().enumerate() {
         let inside = |t: &f64| span.from < *t && *t < span.to;
-        let inner = (1..intervals).map(|k| first + k as f64 * step).filter(inside);
+        let inner = (1..intervals)
+            .map(|k| first + k as f64 * step)
+            .filter(inside);
         limits.enter(&span.mode);
-        for time in iter::once(span.from).chain(inner).chain(iter::once(span.to)) {
+        for time in iter::once(span.from)
+            .chain(inner)
+            .chain(iter::once(span.to))
+        {
             // At a switch a sampler gives what is just after it: the end of a phase is read a trifle before.
-            let read = if time == span.to && time < last { just_before(time) } else { time };
-            let Ok(instant) = sampler.at(read) else { continue };
+            let read = if time == span.to && time < last {
+                just_before(time)
+            } else {
+                time
+            };
+            let Ok(instant) = sampler.at(read) else {
+                continue;
+            };
             if instant.mode != span.mode {
                 continue;
             }
@@ -185,7 +204,10 @@ fn sample<S: System<Scalar = f64>>(trajectory: &Trajectory<S>, intervals: usize)
                 phase,
                 limits: limits.at(time, &instant.q, &instant.v),
                 mode: instant.mode,
-                state: State { q: instant.q, v: instant.v },
+                state: State {
+                    q: instant.q,
+                    v: instant.v,
+                },
                 forces: instant.forces,
                 kinetic: instant.kinetic,
                 potential: instant.potential,

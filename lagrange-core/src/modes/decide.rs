@@ -20,6 +20,8 @@ use crate::system::{Normal, System};
 pub struct Known {
     /// Per contact: gap and gap rate vanish, so that it may be closed or open.
     pub touching: Vec<bool>,
+    /// Per contact: the gap has just come to vanish, so that it may be hit.
+    pub arriving: Vec<bool>,
     /// Per contact: the gap vanishes and grows.
     pub parting: Vec<bool>,
     /// Per friction: the slip vanishes, so that it may stick or slip either way.
@@ -193,8 +195,7 @@ fn candidates<S: System>(
     }
     let all = guard::all_row_needs(d, &NeedSet::new(d));
     dynamics.set_extra_needs(&all);
-    let outcome = dynamics.tape(t, q, v);
-    outcome.map_err(|e| Error::from_evaluation(e, t.value(), present, d))?;
+    dynamics.tape(t, q, v);
     for (f, friction) in d.frictions.iter().enumerate() {
         let rests = known.resting[f];
         let slip = dynamics.motion(d.rows[friction.row].velocity).value();

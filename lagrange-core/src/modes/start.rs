@@ -87,6 +87,7 @@ fn survey<S: System>(
     let mut mode = Mode::open(d);
     let mut known = Known {
         touching: vec![false; d.contacts.len()],
+        arriving: vec![false; d.contacts.len()],
         parting: vec![false; d.contacts.len()],
         resting: vec![false; d.frictions.len()],
         balanced: vec![false; d.branches.len()],
@@ -116,7 +117,8 @@ fn survey<S: System>(
                 known.parting[c] = true;
             } else {
                 known.touching[c] = true;
-                mode.contacts[c] = true;
+                known.arriving[c] = rate < -near * size;
+                mode.contacts[c] = !known.arriving[c];
             }
         }
     }
@@ -180,10 +182,9 @@ fn branches<S: System>(
     let evaluate = |dynamics: &mut Dynamics<S>, mode: &Mode| {
         dynamics.set_mode(mode);
         dynamics.set_extra_needs(&guard::all_row_needs(d, &NeedSet::new(d)));
-        let outcome = dynamics.tape(t, &state.q, &state.v);
-        outcome.map_err(|e| Error::from_evaluation(e, t.value(), mode, d))
+        dynamics.tape(t, &state.q, &state.v);
     };
-    evaluate(dynamics, mode)?;
+    evaluate(dynamics, mode);
     for _ in 0..d.branches.len() {
         let mut changed = false;
         for (b, branch) in d
@@ -202,7 +203,7 @@ fn branches<S: System>(
         if !changed {
             break;
         }
-        evaluate(dynamics, mode)?;
+        evaluate(dynamics, mode);
     }
     Ok(())
 }

@@ -32,7 +32,16 @@ impl Impacts {
         let ratio = interval / self.interval;
         let shrinking = self.count > 0 && ratio < 1.0;
         let steady = shrinking && (ratio - self.ratio).abs() < 0.1 * (1.0 - ratio);
-        *self = Impacts { count: if shrinking || self.count < 2 { self.count + 1 } else { 1 }, last: time, interval, ratio };
+        *self = Impacts {
+            count: if shrinking || self.count < 2 {
+                self.count + 1
+            } else {
+                1
+            },
+            last: time,
+            interval,
+            ratio,
+        };
         (steady && self.count >= FEWEST).then(|| interval * ratio / (1.0 - ratio))
     }
 }
@@ -56,8 +65,13 @@ impl<S: System> Run<'_, S> {
         known.parting[c] = false;
         // Contacts that take part in the same cycle (the other corner of a rocking block) close with it.
         for (other, impacts) in self.impacts.iter().enumerate() {
-            let recent = impacts.count >= FEWEST && self.t.value() - impacts.last <= 2.0 * impacts.interval;
-            let gap = self.dynamics.motion(d.rows[d.contacts[other].row].position.unwrap_or(Place::Zero));
+            let recent =
+                impacts.count >= FEWEST && self.t.value() - impacts.last <= 2.0 * impacts.interval;
+            let gap = self.dynamics.motion(
+                d.rows[d.contacts[other].row]
+                    .position
+                    .unwrap_or(Place::Zero),
+            );
             if other != c && recent && gap.value().abs() <= tolerance {
                 known.touching[other] = true;
                 known.parting[other] = false;

@@ -48,7 +48,11 @@ impl<S: System> Run<'_, S> {
                 at = at.min(s);
             }
         }
-        let guards = if self.fallen.is_empty() { Hit::Nothing } else { Hit::Guards(at) };
+        let guards = if self.fallen.is_empty() {
+            Hit::Nothing
+        } else {
+            Hit::Guards(at)
+        };
         // A stop at the instant of an impact ends the run before it; rounding may see it a little later.
         match self.first_stop(curves, (guards.end() * (1.0 + 1e-13)).min(1.0)) {
             Some((stop, s)) => Hit::Stop(stop, s),
@@ -58,7 +62,11 @@ impl<S: System> Run<'_, S> {
 
     /// Where a guard of the mode falls through zero: (part of the step, half width of the enclosure).
     fn fall(&self, guard: Guard, curve: &[f64]) -> Option<(f64, f64)> {
-        let known = self.zeros.iter().find(|(g, _)| *g == guard).map_or(0, |(_, order)| *order);
+        let known = self
+            .zeros
+            .iter()
+            .find(|(g, _)| *g == guard)
+            .map_or(0, |(_, order)| *order);
         if known >= LENGTH {
             return None;
         }
@@ -91,7 +99,13 @@ impl<S: System> Run<'_, S> {
         for (i, watch) in d.stops.iter().enumerate() {
             let mode = &self.mode;
             let below = &self.stop_below;
-            let first = becomes_true(watch, mode, end, |k| curves.stop_term(i, k), |k| below[i][k]);
+            let first = becomes_true(
+                watch,
+                mode,
+                end,
+                |k| curves.stop_term(i, k),
+                |k| below[i][k],
+            );
             if let Some(s) = first {
                 if best.is_none_or(|(_, t)| s < t) {
                     best = Some((i, s));
@@ -114,10 +128,20 @@ impl<S: System> Run<'_, S> {
                 if (below && start > 0.0) || (!below && start < 0.0) {
                     list.push((i, 0.0));
                 }
-                list.extend(all.iter().filter(|r| r.s <= end && holds(watch, &self.mode)).map(|r| (i, r.s)));
+                list.extend(
+                    all.iter()
+                        .filter(|r| r.s <= end && holds(watch, &self.mode))
+                        .map(|r| (i, r.s)),
+                );
             } else {
                 let below = &self.mark_below;
-                let first = becomes_true(watch, &self.mode, end, |k| curves.mark_term(i, k), |k| below[i][k]);
+                let first = becomes_true(
+                    watch,
+                    &self.mode,
+                    end,
+                    |k| curves.mark_term(i, k),
+                    |k| below[i][k],
+                );
                 list.extend(first.map(|s| (i, s)));
             }
         }
@@ -167,7 +191,10 @@ fn becomes_true<'c>(
         }
         let mut all = RootList::new();
         roots(curve, &mut all);
-        for root in all.iter().filter(|r| r.direction == Direction::Rising && !r.grazing) {
+        for root in all
+            .iter()
+            .filter(|r| r.direction == Direction::Rising && !r.grazing)
+        {
             consider(root.s);
         }
     }

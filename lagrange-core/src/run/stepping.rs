@@ -47,7 +47,9 @@ impl<S: System> Run<'_, S> {
 
     fn taylor_step(&mut self) -> Result<Hit, Error> {
         if !self.expanded {
-            let outcome = self.dynamics.series(self.t, &self.state.q, &self.state.v, self.order);
+            let outcome = self
+                .dynamics
+                .series(self.t, &self.state.q, &self.state.v, self.order);
             outcome.map_err(|e| self.error(e))?;
             self.expanded = true;
         }
@@ -70,12 +72,24 @@ impl<S: System> Run<'_, S> {
             }
             // The next step's own first evaluation would do; made here, it also serves the event log.
             let s = S::Scalar::from_f64(end);
-            self.step.state_into(s, &mut self.scratch.q, &mut self.scratch.v);
-            let defect = match self.dynamics.value(self.step.time(s), &self.scratch.q, &self.scratch.v) {
-                Ok(()) => taylor::defect(&self.step, end, self.dynamics.acceleration(), self.tolerance),
-                Err(_) => f64::INFINITY,
+            self.step
+                .state_into(s, &mut self.scratch.q, &mut self.scratch.v);
+            let defect =
+                match self
+                    .dynamics
+                    .value(self.step.time(s), &self.scratch.q, &self.scratch.v)
+                {
+                    Ok(()) => taylor::defect(
+                        &self.step,
+                        end,
+                        self.dynamics.acceleration(),
+                        self.tolerance,
+                    ),
+                    Err(_) => f64::INFINITY,
+                };
+            let Stepper::Taylor(control) = &mut self.stepper else {
+                return Ok(hit);
             };
-            let Stepper::Taylor(control) = &mut self.stepper else { return Ok(hit) };
             match control.judge(h, defect, self.order) {
                 Verdict::Accept => return Ok(hit),
                 Verdict::Redo { h: smaller } => {
@@ -95,7 +109,11 @@ impl<S: System> Run<'_, S> {
         for i in 0..S::DESCRIPTION.coordinates.len() {
             let (q, v) = self.step.rows_mut(i);
             let mut power = num_traits::one::<S::Scalar>();
-            let series = self.dynamics.position_series(i).iter().zip(self.dynamics.velocity_series(i));
+            let series = self
+                .dynamics
+                .position_series(i)
+                .iter()
+                .zip(self.dynamics.velocity_series(i));
             for ((q, v), (x, y)) in q.iter_mut().zip(v).zip(series) {
                 *q = *x * power;
                 *v = *y * power;
@@ -116,7 +134,15 @@ impl<S: System> Run<'_, S> {
         };
         let outcome = first.and_then(|h| {
             let h = h.min(longest);
-            method.step(&mut self.dynamics, self.t, q, v, h, self.tolerance, &mut self.step)
+            method.step(
+                &mut self.dynamics,
+                self.t,
+                q,
+                v,
+                h,
+                self.tolerance,
+                &mut self.step,
+            )
         });
         match outcome {
             Ok(accepted) => {
@@ -142,12 +168,20 @@ impl<S: System> Run<'_, S> {
 
     fn step_too_small(&self, step: f64) -> Error {
         let mode = self.mode.display(S::DESCRIPTION).to_string();
-        Error::StepTooSmall { time: self.t.value(), step, mode }
+        Error::StepTooSmall {
+            time: self.t.value(),
+            step,
+            mode,
+        }
     }
 
     fn not_finite(&self, what: &str) -> Error {
         let mode = self.mode.display(S::DESCRIPTION).to_string();
-        Error::NotFinite { time: self.t.value(), mode, what: what.to_owned() }
+        Error::NotFinite {
+            time: self.t.value(),
+            mode,
+            what: what.to_owned(),
+        }
     }
 
     /// Moves the state back onto the constraints of the mode where its residual calls for it (`always`: in any case).

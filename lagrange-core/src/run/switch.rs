@@ -19,6 +19,9 @@ impl<S: System> Run<'_, S> {
             touching: (0..d.contacts.len())
                 .map(|c| self.mode.contacts[c] || self.fallen.contains(&Guard::Gap(c)))
                 .collect(),
+            arriving: (0..d.contacts.len())
+                .map(|c| self.fallen.contains(&Guard::Gap(c)))
+                .collect(),
             parting: vec![false; d.contacts.len()],
             resting: (0..d.frictions.len())
                 .map(|f| {
@@ -42,7 +45,7 @@ impl<S: System> Run<'_, S> {
         self.evaluate_all_rows()?;
         let forces = self.forces();
         let hit: Vec<usize> = (0..d.contacts.len())
-            .filter(|&c| known.touching[c] && self.approaching(c))
+            .filter(|&c| known.arriving[c] && self.approaching(c))
             .collect();
         let mut struck = None;
         if !hit.is_empty() {
@@ -79,37 +82,25 @@ impl<S: System> Run<'_, S> {
 
     /// Whether the gap of contact `c` closes at the present state.
     fn approaching(&self, c: usize) -> bool {
-        if !self
-            .dynamics
-            .effects()
-            .includes(S::DESCRIPTION, Item::Contact(c))
-        {
-            return false;
-        }
-        let row = &S::DESCRIPTION.rows[S::DESCRIPTION.contacts[c].row];
-        let number = |place| self.dynamics.motion(place).value();
-        let size: f64 = row
-            .jacobian
-            .iter()
-            .map(|&(j, place)| (number(place) * self.state.v[j].value()).abs())
-            .sum();
-        // A closed contact keeps its gap rate at zero up to rounding; a hit is faster than that.
-        let floor = if self.mode.contacts[c] {
-            1e-9 * size
-        } else {
-            1e-15 * size
-        };
-        number(row.velocity) < -floor
+        let d = S::DESCRIPTION;
+        self.dynamics.effects().includes(d, Item::Contact(c))
+            && self.dynamics.motion(d.rows[d.contacts[c].row].velocity).value() < 0.0
     }
 
     /// Ends the infinitely many impacts of contacts that bounce ever less.
-    fn close_accumulated(&mut self, outcome: &Impact<S::Scalar>, known: &mut Known) -> Result<(), Error> {
+    fn close_accumulated(
+        &mut self,
+        outcome: &Impact<S::Scalar>,
+        known: &mut Known,
+    ) -> Result<(), Error> {
         let d = S::DESCRIPTION;
         for c in 0..d.contacts.len() {
             if !outcome.struck[c] || !known.parting[c] {
                 continue;
             }
-            let Some(count) = self.accumulate(c, known) else { continue };
+            let Some(count) = self.accumulate(c, known) else {
+                continue;
+            };
             let mut closed = self.mode.clone();
             for (contact, touching) in closed.contacts.iter_mut().zip(&known.touching) {
                 *contact = *touching;
@@ -124,7 +115,12 @@ impl<S: System> Run<'_, S> {
                 }
             }
             let state = self.state.clone();
-            self.log_watch(Subject::Contact(c), EventKind::Accumulates { impacts: count }, self.t, state);
+            self.log_watch(
+                Subject::Contact(c),
+                EventKind::Accumulates { impacts: count },
+                self.t,
+                state,
+            );
         }
         Ok(())
     }

@@ -20,7 +20,10 @@ pub trait Starts: System {
     fn at(&self, start: StartId) -> State<Self::Scalar> {
         let n = Self::DESCRIPTION.coordinates.len();
         let zero = Self::Scalar::default();
-        let mut state = State { q: vec![zero; n], v: vec![zero; n] };
+        let mut state = State {
+            q: vec![zero; n],
+            v: vec![zero; n],
+        };
         System::start(self, start.0, zero, &mut state.q, &mut state.v);
         state
     }

@@ -16,7 +16,9 @@ pub struct Held<'a> {
 
 impl Held<'_> {
     fn branch(&self, index: usize) -> bool {
-        self.branches.get(index / 64).is_some_and(|word| word >> (index % 64) & 1 == 1)
+        self.branches
+            .get(index / 64)
+            .is_some_and(|word| word >> (index % 64) & 1 == 1)
     }
 }
 
@@ -29,7 +31,10 @@ pub struct Machine<'a> {
 impl Machine<'_> {
     /// `parameters` in order of declaration.
     pub fn new<'a>(program: &'a Program, parameters: &[f64]) -> Machine<'a> {
-        Machine { program, parameters: parameters.to_vec() }
+        Machine {
+            program,
+            parameters: parameters.to_vec(),
+        }
     }
 
     /// The constants; NaN where nothing that is held asks for one.
@@ -54,7 +59,15 @@ impl Machine<'_> {
         let start = &self.program.starts[index];
         let mut x = self.parameters.clone();
         x.push(t);
-        let y = self.run(&start.tape, &Held { needs: &[1], branches: &[] }, &[], &x);
+        let y = self.run(
+            &start.tape,
+            &Held {
+                needs: &[1],
+                branches: &[],
+            },
+            &[],
+            &x,
+        );
         for (target, value) in start.targets.iter().zip(y) {
             match target {
                 StartTarget::Position(i) => q[*i] = value,
@@ -87,7 +100,11 @@ impl Machine<'_> {
         let mut values = vec![f64::NAN; tape.values];
         values[..tape.inputs].copy_from_slice(inputs);
         let mut outputs = vec![f64::NAN; tape.outputs];
-        for block in tape.blocks.iter().filter(|block| block.needs.runs(held.needs)) {
+        for block in tape
+            .blocks
+            .iter()
+            .filter(|block| block.needs.runs(held.needs))
+        {
             for step in &block.steps {
                 let number = |coefficient| self.coefficient(constants, coefficient);
                 let (first, second) = apply(step.operation, &|Value(i)| values[i], &number, held);

@@ -171,7 +171,15 @@ fn energy(ledger: &Ledger) -> Energy {
     Energy {
         start: parts(&ledger.start),
         end: parts(&ledger.end),
-        work: ledger.work.iter().map(|e| Share { name: e.name, kind: e.kind, work: e.work }).collect(),
+        work: ledger
+            .work
+            .iter()
+            .map(|e| Share {
+                name: e.name,
+                kind: e.kind,
+                work: e.work,
+            })
+            .collect(),
         scale: ledger.scale,
         closure: ledger.closure,
     }

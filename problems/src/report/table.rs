@@ -205,7 +205,8 @@ fn energy(ledger: &Ledger) -> Table {
         ),
     ];
     // Whoever did nothing that counts is left out; friction is worth a line even then.
-    let counts = |entry: &&Entry| entry.kind == "friction" || entry.work.abs() > 1e-12 * ledger.scale;
+    let counts =
+        |entry: &&Entry| entry.kind == "friction" || entry.work.abs() > 1e-12 * ledger.scale;
     let shown: Vec<&Entry> = ledger.work.iter().filter(counts).collect();
     let works = shown.iter().map(|entry| entry.work);
     let decimals = Decimals::of(lines.iter().flat_map(|(_, a, b)| [*a, *b]).chain(works));
@@ -235,7 +236,14 @@ fn energy(ledger: &Ledger) -> Table {
 }
 
 fn work(outcome: &Outcome) -> String {
-    let Work { steps, rejected, evaluations, series, factorizations, projections } = outcome.work;
+    let Work {
+        steps,
+        rejected,
+        evaluations,
+        series,
+        factorizations,
+        projections,
+    } = outcome.work;
     format!(
         "Work: {steps} steps, {rejected} rejected, {evaluations} evaluations, {series} series, \
          {factorizations} factorizations, {projections} projections, {} events.",

@@ -10,27 +10,31 @@ use std::collections::BTreeSet;
 pub(super) fn cyclic(sheet: &mut Sheet, inertias: &[Inertia], others: &[ExprId]) -> Vec<bool> {
     let guards: Vec<ExprId> = sheet.system.branches.iter().map(|b| b.guard).collect();
     let pool = &mut sheet.system.pool;
-    let mut present = BTreeSet::new();
-    for &e in others {
-        present.extend(reach(pool, &guards, e));
-    }
-    sheet
-        .x
-        .positions
+    let mut present: BTreeSet<Symbol> = BTreeSet::new();
+    let mut energies = Vec::new();
+    for part in inertias
         .iter()
-        .map(|&q| {
-            !present.contains(&q)
-                && inertias.iter().all(|inertia| {
-                    free_of(pool, &guards, inertia.kinetic, q)
-                        && free_of(pool, &guards, inertia.potential, q)
-                })
-        })
-        .collect()
+        .flat_map(|inertia| inertia.parts.iter().chain([&inertia.potential]))
+    {
+        present.extend(behind_guards(pool, &guards, *part));
+        energies.push((*part, pool.symbols(*part)));
+    }
+    for &e in others {
+        present.extend(behind_guards(pool, &guards, e));
+        present.extend(pool.symbols(e));
+    }
+    let mut free = |q: Symbol| {
+        !present.contains(&q)
+            && energies.iter().all(|(part, symbols)| {
+                symbols.binary_search(&q).is_err() || is_flat(pool, *part, q)
+            })
+    };
+    sheet.x.positions.iter().map(|&q| free(q)).collect()
 }
 
-/// Symbols that an expression depends on, also by the guards of its branches.
-fn reach(pool: &Pool, guards: &[ExprId], e: ExprId) -> BTreeSet<Symbol> {
-    let mut symbols: BTreeSet<Symbol> = pool.symbols(e).into_iter().collect();
+/// Symbols that decide the branches of an expression.
+fn behind_guards(pool: &Pool, guards: &[ExprId], e: ExprId) -> BTreeSet<Symbol> {
+    let mut symbols = BTreeSet::new();
     let mut seen = BTreeSet::new();
     let mut open = pool.branches(e);
     while let Some(branch) = open.pop() {
@@ -42,19 +46,9 @@ fn reach(pool: &Pool, guards: &[ExprId], e: ExprId) -> BTreeSet<Symbol> {
     symbols
 }
 
-/// Whether an energy is free of a position, if not by form then because its derivative vanishes.
-fn free_of(pool: &mut Pool, guards: &[ExprId], energy: ExprId, q: Symbol) -> bool {
-    if !reach(pool, guards, energy).contains(&q) {
-        return true;
-    }
-    let by_guard = pool
-        .branches(energy)
-        .into_iter()
-        .any(|b| reach(pool, guards, guards[b]).contains(&q));
-    if by_guard {
-        return false;
-    }
-    let slope = pool.differentiate(energy, q);
+/// Whether an expression contains a position by form only.
+fn is_flat(pool: &mut Pool, e: ExprId, q: Symbol) -> bool {
+    let slope = pool.differentiate(e, q);
     let slope = pool.simplify(slope);
     pool.is_zero(slope)
 }

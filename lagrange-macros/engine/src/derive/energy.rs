@@ -28,30 +28,18 @@ pub(super) fn energies(
     let asked = sheet.needs.energy;
     for inertia in inertias {
         let need = report_need(inertia, asked);
-        let (pool, x) = (&mut sheet.system.pool, &sheet.x);
-        let along = x.along_velocity(pool, &inertia.momenta);
-        let excess = pool.sub(along, inertia.kinetic);
-        let motional = pool.simplify(excess);
-        // With v·∂T/∂v − T = T by Euler's theorem, keep the form that T has already.
-        let difference = pool.sub(motional, inertia.kinetic);
-        let difference = pool.simplify(difference);
-        let motional = if pool.is_zero(difference) {
-            inertia.kinetic
-        } else {
-            motional
-        };
-
+        let pool = &mut sheet.system.pool;
         // A Lagrangian is not declared in two parts: its energy is h, so its T is what h has beyond V.
         let declared = if sheet.system.from_lagrangian {
-            motional
+            inertia.motional
         } else {
             inertia.kinetic
         };
         kinetic.push((need, declared));
         potential.push((need, inertia.potential));
-        jacobi.push((need, pool.add(motional, inertia.potential)));
+        jacobi.push((need, pool.add(inertia.motional, inertia.potential)));
         let lagrangian = pool.sub(inertia.kinetic, inertia.potential);
-        let explicit = pool.differentiate(lagrangian, x.time);
+        let explicit = pool.differentiate(lagrangian, sheet.system.time);
         let explicit = pool.neg(explicit);
         time_power.push((need, pool.simplify(explicit)));
     }

@@ -16,8 +16,8 @@ use crate::model::System;
 use crate::symbolic::{ExprId, Pool};
 use std::collections::BTreeMap;
 
-/// From this many coordinates on, entries that are not simplified are tried too: they may share more.
-const LARGE: usize = 8;
+/// With more coordinates than this, entries of f and p are not multiplied out: the terms grow like n³.
+pub(super) const LARGE: usize = 8;
 
 /// All energy under one need.
 pub(super) struct Group {
@@ -35,6 +35,10 @@ pub(super) struct Inertia {
     pub need: NeedId,
     /// T in its cheapest form.
     pub kinetic: ExprId,
+    /// v·∂T/∂v − T: the part of the Jacobi integral beyond V.
+    pub motional: ExprId,
+    /// What T depends on the positions by: M, b and T₀, or T itself where it is not quadratic.
+    pub parts: Vec<ExprId>,
     /// V in its cheapest form.
     pub potential: ExprId,
     /// (i, ∂T/∂vᵢ), zeros left out.
@@ -102,41 +106,52 @@ pub(super) fn derive(pool: &mut Pool, x: &Variables, group: &Group) -> Inertia {
         })
         .collect();
 
-    let direct = direct_form(pool, x, group.kinetic, &raw_momenta);
+    let small = moving.len() <= LARGE;
     let mut forms = Vec::new();
     if let Some(inertial) = expansion
         .as_ref()
         .and_then(|expansion| expansion.forcing(pool, x))
     {
-        forms.push(total(pool, &inertial, &conservative));
+        forms.push(total(pool, &inertial, &conservative, Pool::factor));
+        if small {
+            forms.push(total(pool, &inertial, &conservative, Pool::simplify));
+        }
     }
-    forms.push(total(pool, &direct, &conservative));
-    if x.len() > LARGE {
-        forms.push(
-            (0..x.len())
-                .map(|i| pool.add(direct[i], conservative[i]))
-                .collect(),
-        );
+    if small || forms.is_empty() {
+        let direct = direct_form(pool, x, group.kinetic, &raw_momenta);
+        let cheaper = if small { Pool::simplify } else { Pool::factor };
+        forms.push(total(pool, &direct, &conservative, cheaper));
     }
     let company: Vec<ExprId> = mass.values().copied().collect();
     let forcing = cheapest(pool, &company, forms);
 
-    let (kinetic, momenta) = match &expansion {
-        Some(expansion) => expansion.energy_and_momenta(pool, x, group.kinetic, &raw_momenta),
-        None => {
-            let kinetic = pool.simplify(group.kinetic);
+    let (kinetic, momenta, motional, parts) = match &expansion {
+        Some(expansion) => {
+            let (kinetic, momenta) =
+                expansion.energy_and_momenta(pool, x, group.kinetic, &raw_momenta);
             (
                 kinetic,
-                raw_momenta
-                    .iter()
-                    .map(|&(i, p)| (i, pool.simplify(p)))
-                    .collect(),
+                momenta,
+                expansion.motional(pool, x, kinetic),
+                expansion.coefficients(),
             )
+        }
+        None => {
+            let kinetic = pool.simplify(group.kinetic);
+            let momenta: Vec<_> = raw_momenta
+                .iter()
+                .map(|&(i, p)| (i, pool.simplify(p)))
+                .collect();
+            let along = x.along_velocity(pool, &momenta);
+            let motional = pool.sub(along, kinetic);
+            (kinetic, momenta, pool.simplify(motional), vec![kinetic])
         }
     };
     Inertia {
         need: group.need,
         kinetic,
+        motional,
+        parts,
         potential,
         momenta: momenta
             .into_iter()
@@ -171,14 +186,19 @@ fn direct_form(
     forcing
 }
 
-/// Inertial and conservative parts together, each entry simplified.
-fn total(pool: &mut Pool, inertial: &[ExprId], conservative: &[ExprId]) -> Vec<ExprId> {
+/// Inertial and conservative parts together, each entry brought into a cheaper form.
+fn total(
+    pool: &mut Pool,
+    inertial: &[ExprId],
+    conservative: &[ExprId],
+    cheaper: fn(&mut Pool, ExprId) -> ExprId,
+) -> Vec<ExprId> {
     inertial
         .iter()
         .zip(conservative)
         .map(|(&a, &b)| {
             let sum = pool.add(a, b);
-            pool.simplify(sum)
+            cheaper(pool, sum)
         })
         .collect()
 }

@@ -8,6 +8,7 @@
 //! 1970, section I.5; Goldstein, Poole & Safko 2002, section 8.1). What cancels between ∂T/∂q and d/dt ∂T/∂v
 //! never appears in this form.
 
+use super::euler_lagrange::LARGE;
 use super::forms::{Variables, cheapest};
 use crate::symbolic::{ExprId, Pool, Rational};
 use std::collections::BTreeMap;
@@ -51,6 +52,34 @@ impl<'a> Quadratic<'a> {
             linear,
             rest: pool.simplify(rest),
         }
+    }
+
+    /// M, b and T₀.
+    pub fn coefficients(&self) -> Vec<ExprId> {
+        self.mass
+            .values()
+            .chain(self.linear.values())
+            .chain([&self.rest])
+            .copied()
+            .collect()
+    }
+
+    /// v·∂T/∂v − T = ½ vᵀM v − T₀ by Euler's theorem on homogeneous functions, given T.
+    pub fn motional(&self, pool: &mut Pool, x: &Variables, kinetic: ExprId) -> ExprId {
+        if self.linear.is_empty() && pool.is_zero(self.rest) {
+            return kinetic;
+        }
+        let linear: Vec<(usize, ExprId)> = self.linear.iter().map(|(&i, &b)| (i, b)).collect();
+        let linear = x.along_velocity(pool, &linear);
+        let difference = pool.linear(
+            Rational::ZERO,
+            vec![
+                (kinetic, Rational::ONE),
+                (linear, Rational::MINUS_ONE),
+                (self.rest, Rational::integer(-2)),
+            ],
+        );
+        pool.simplify(difference)
     }
 
     /// The inertial part of f; None if there are too many Christoffel symbols.
@@ -153,14 +182,19 @@ impl<'a> Quadratic<'a> {
             rebuilt_momenta.entry(i).or_default().push(b);
         }
         let rebuilt = pool.sum(&rebuilt);
-        let forms = [rebuilt, kinetic].map(|e| vec![pool.simplify(e)]);
+        let cheaper = if momenta.len() <= LARGE {
+            Pool::simplify
+        } else {
+            Pool::factor
+        };
+        let forms = [rebuilt, kinetic].map(|e| vec![cheaper(pool, e)]);
         let energy = cheapest(pool, &[], forms.into())[0];
 
         let mut forms = [Vec::new(), Vec::new()];
         for &(i, declared) in momenta {
             let rebuilt = pool.sum(rebuilt_momenta.get(&i).map_or(&[], Vec::as_slice));
             for (form, p) in forms.iter_mut().zip([rebuilt, declared]) {
-                form.push(pool.simplify(p));
+                form.push(cheaper(pool, p));
             }
         }
         let chosen = cheapest(pool, &[], forms.into());

@@ -23,32 +23,65 @@ pub fn description(program: &Program) -> TokenStream {
         let (unit, tex) = (&parameter.unit, &parameter.tex);
         quote!(#core::system::Parameter { name: #name, documentation: #documentation, unit: #unit, tex: #tex })
     });
-    let coordinates = system.coordinates.iter().zip(&structure.cyclic).map(|(coordinate, cyclic)| {
-        let (name, unit) = (&coordinate.name.text, &coordinate.unit);
-        quote!(#core::system::Coordinate { name: #name, unit: #unit, cyclic: #cyclic })
-    });
+    let coordinates =
+        system
+            .coordinates
+            .iter()
+            .zip(&structure.cyclic)
+            .map(|(coordinate, cyclic)| {
+                let (name, unit) = (&coordinate.name.text, &coordinate.unit);
+                quote!(#core::system::Coordinate { name: #name, unit: #unit, cyclic: #cyclic })
+            });
     let mass = structure.mass.iter().map(|(row, column, entry)| {
         let (row, column, entry) = (index(*row), index(*column), writer.place(*entry));
         quote!((#row, #column, #entry))
     });
     let forcing = writer.places(&structure.forcing);
     let (rows, couplings) = (writer.rows(), writer.couplings());
-    let kinetic = system.kinetic.iter().zip(&structure.kinetic).map(|(term, need)| writer.effect(&term.name, *need));
-    let potential =
-        system.potential.iter().zip(&structure.potential).map(|(term, need)| writer.effect(&term.name, *need));
-    let (constraints, contacts, frictions) = (writer.constraints(), writer.contacts(), writer.frictions());
-    let forces = system.forces.iter().zip(&structure.forces).map(|(force, load)| writer.load(&force.name, load));
-    let dissipations =
-        system.dissipations.iter().zip(&structure.dissipations).map(|(item, load)| writer.load(&item.name, load));
+    let kinetic = system
+        .kinetic
+        .iter()
+        .zip(&structure.kinetic)
+        .map(|(term, need)| writer.effect(&term.name, *need));
+    let potential = system
+        .potential
+        .iter()
+        .zip(&structure.potential)
+        .map(|(term, need)| writer.effect(&term.name, *need));
+    let (constraints, contacts, frictions) =
+        (writer.constraints(), writer.contacts(), writer.frictions());
+    let forces = system
+        .forces
+        .iter()
+        .zip(&structure.forces)
+        .map(|(force, load)| writer.load(&force.name, load));
+    let dissipations = system
+        .dissipations
+        .iter()
+        .zip(&structure.dissipations)
+        .map(|(item, load)| writer.load(&item.name, load));
     let (branches, energy) = (writer.branches(), writer.energy());
     let momenta = writer.places(&structure.momenta.0);
     let momenta_need = index(structure.momenta.1.0);
-    let observes = system.observes.iter().zip(&structure.observes).map(|(observe, (place, need))| {
-        let (name, place, need) = (&observe.name.text, writer.place(*place), index(need.0));
-        quote!(#core::system::Observe { name: #name, place: #place, need: #need, unit: "" })
-    });
-    let stops = system.stops.iter().zip(&structure.stops).map(|(watch, numbers)| writer.watch(watch, numbers));
-    let marks = system.marks.iter().zip(&structure.marks).map(|(watch, numbers)| writer.watch(watch, numbers));
+    let observes =
+        system
+            .observes
+            .iter()
+            .zip(&structure.observes)
+            .map(|(observe, (place, need))| {
+                let (name, place, need) = (&observe.name.text, writer.place(*place), index(need.0));
+                quote!(#core::system::Observe { name: #name, place: #place, need: #need, unit: "" })
+            });
+    let stops = system
+        .stops
+        .iter()
+        .zip(&structure.stops)
+        .map(|(watch, numbers)| writer.watch(watch, numbers));
+    let marks = system
+        .marks
+        .iter()
+        .zip(&structure.marks)
+        .map(|(watch, numbers)| writer.watch(watch, numbers));
     let starts = system.starts.iter().map(|start| &start.name.text);
     quote! {
         #core::system::Description {
@@ -116,7 +149,8 @@ impl Writer<'_> {
     }
 
     fn effect(&self, name: &ItemName, need: NeedId) -> TokenStream {
-        let (core, text, need, optional) = (self.core(), &name.text, index(need.0), name.ident.is_some());
+        let (core, text, need, optional) =
+            (self.core(), &name.text, index(need.0), name.ident.is_some());
         quote!(#core::system::Effect { name: #text, need: #need, optional: #optional })
     }
 
@@ -172,14 +206,26 @@ impl Writer<'_> {
     fn contacts(&self) -> Vec<TokenStream> {
         let core = self.core();
         let equations = &self.program.equations;
-        let contacts = equations.system.contacts.iter().zip(&equations.structure.contacts);
+        let contacts = equations
+            .system
+            .contacts
+            .iter()
+            .zip(&equations.structure.contacts);
         let contacts = contacts.map(|(contact, numbers)| {
             let (name, row) = (&contact.name.text, index(numbers.row));
-            let (normal_factor, region) = (self.maybe(numbers.normal_factor), self.maybe(numbers.region));
-            let (restitution, need) = (self.place(numbers.restitution), index(numbers.restitution_need.0));
+            let (normal_factor, region) = (
+                self.maybe(numbers.normal_factor),
+                self.maybe(numbers.region),
+            );
+            let (restitution, need) = (
+                self.place(numbers.restitution),
+                index(numbers.restitution_need.0),
+            );
             let restitution = match contact.restitution {
                 Restitution::Newton(_) => quote!(#core::system::Restitution::Newton(#restitution)),
-                Restitution::Poisson(_) => quote!(#core::system::Restitution::Poisson(#restitution)),
+                Restitution::Poisson(_) => {
+                    quote!(#core::system::Restitution::Poisson(#restitution))
+                }
             };
             quote! {
                 #core::system::Contact {
@@ -198,9 +244,17 @@ impl Writer<'_> {
     fn frictions(&self) -> Vec<TokenStream> {
         let core = self.core();
         let equations = &self.program.equations;
-        let frictions = equations.system.frictions.iter().zip(&equations.structure.frictions);
+        let frictions = equations
+            .system
+            .frictions
+            .iter()
+            .zip(&equations.structure.frictions);
         let frictions = frictions.map(|(friction, numbers)| {
-            let (name, row, components) = (&friction.name.text, index(numbers.row), index(friction.slip.len()));
+            let (name, row, components) = (
+                &friction.name.text,
+                index(numbers.row),
+                index(friction.slip.len()),
+            );
             let normal = match (friction.normal, numbers.given_normal) {
                 (Normal::Contact(contact), _) => {
                     let contact = index(contact);
@@ -216,7 +270,10 @@ impl Writer<'_> {
                     quote!(#core::system::Normal::Given(#given))
                 }
             };
-            let (stick, slide) = (self.place(numbers.static_coefficient), self.place(numbers.kinetic_coefficient));
+            let (stick, slide) = (
+                self.place(numbers.static_coefficient),
+                self.place(numbers.kinetic_coefficient),
+            );
             let need = index(numbers.coefficients_need.0);
             quote! {
                 #core::system::Friction {
@@ -235,7 +292,11 @@ impl Writer<'_> {
 
     fn load(&self, name: &ItemName, load: &Load<OutputId>) -> TokenStream {
         let (core, name, need) = (self.core(), &name.text, index(load.need.0));
-        let (value, power, report_need) = (self.place(load.value), self.place(load.power), index(load.report_need.0));
+        let (value, power, report_need) = (
+            self.place(load.value),
+            self.place(load.power),
+            index(load.report_need.0),
+        );
         quote! {
             #core::system::Load {
                 name: #name, need: #need, value: #value, power: #power, report_need: #report_need,
@@ -246,7 +307,11 @@ impl Writer<'_> {
     fn branches(&self) -> Vec<TokenStream> {
         let core = self.core();
         let equations = &self.program.equations;
-        let branches = equations.system.branches.iter().zip(&equations.structure.branches);
+        let branches = equations
+            .system
+            .branches
+            .iter()
+            .zip(&equations.structure.branches);
         let branches = branches.map(|(branch, numbers)| {
             let (guard, need, after_solve) = (self.place(numbers.guard), index(numbers.need.0), numbers.after_solve);
             let users = numbers.users.iter().map(|user| index(user.0));
@@ -262,9 +327,11 @@ impl Writer<'_> {
 
     fn energy(&self) -> TokenStream {
         let core = self.core();
-        let (kinetic, potential, jacobi, time_power, need) = self.program.equations.structure.energy;
+        let (kinetic, potential, jacobi, time_power, need) =
+            self.program.equations.structure.energy;
         let (kinetic, potential) = (self.place(kinetic), self.place(potential));
-        let (jacobi, time_power, need) = (self.place(jacobi), self.place(time_power), index(need.0));
+        let (jacobi, time_power, need) =
+            (self.place(jacobi), self.place(time_power), index(need.0));
         quote! {
             #core::system::Energy {
                 kinetic: #kinetic, potential: #potential, jacobi: #jacobi, time_power: #time_power, need: #need,
@@ -274,7 +341,12 @@ impl Writer<'_> {
 
     fn watch(&self, watch: &Watch, (terms, need): &(Vec<OutputId>, NeedId)) -> TokenStream {
         let core = self.core();
-        let (name, terms, need, zeros) = (&watch.name.text, self.places(terms), index(need.0), watch.zeros);
+        let (name, terms, need, zeros) = (
+            &watch.name.text,
+            self.places(terms),
+            index(need.0),
+            watch.zeros,
+        );
         let conditions = watch.conditions.iter().map(|condition| {
             let (kind, item) = match condition {
                 Condition::Closed(item) => (names::plain("Closed"), item),

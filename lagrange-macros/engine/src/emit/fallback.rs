@@ -8,12 +8,19 @@ use syn::DeriveInput;
 
 /// An implementation without equations for whatever struct the tokens are; nothing if they are none.
 pub fn fallback(input: TokenStream) -> TokenStream {
-    let Ok(input) = syn::parse2::<DeriveInput>(input) else { return TokenStream::new() };
+    let Ok(input) = syn::parse2::<DeriveInput>(input) else {
+        return TokenStream::new();
+    };
     let core = quote!(::lagrange_core);
     let mut generics = input.generics.clone();
-    let scalar = generics.type_params().next().map(|parameter| parameter.ident.clone());
+    let scalar = generics
+        .type_params()
+        .next()
+        .map(|parameter| parameter.ident.clone());
     for parameter in generics.type_params_mut() {
-        parameter.bounds.push(syn::parse_quote!(#core::arithmetic::Scalar));
+        parameter
+            .bounds
+            .push(syn::parse_quote!(#core::arithmetic::Scalar));
     }
     let scalar = scalar.map_or(quote!(f64), |scalar| quote!(#scalar));
     let (name, arithmetic) = (&input.ident, plain("LagrangeArithmetic"));

@@ -30,10 +30,16 @@ pub fn handles(program: &Program) -> TokenStream {
     let mut rest = &items[..];
     while let Some(first) = rest.first() {
         // The elements of an indexed item follow each other.
-        let count = first.name.element.map_or(1, |(_, count)| count).clamp(1, rest.len());
+        let count = first
+            .name
+            .element
+            .map_or(1, |(_, count)| count)
+            .clamp(1, rest.len());
         let (elements, after) = rest.split_at(count);
         rest = after;
-        let Some(ident) = &first.name.ident else { continue };
+        let Some(ident) = &first.name.ident else {
+            continue;
+        };
         let constant = Ident::new(&screaming(&ident.to_string()), ident.span());
         // An output may observe a coordinate or an item under its own name.
         if !taken.insert(constant.to_string()) && first.kind == "ObserveId" {
@@ -65,55 +71,123 @@ pub fn handles(program: &Program) -> TokenStream {
 fn items(system: &System) -> Vec<Handle<'_>> {
     let mut items = Vec::new();
     let pool = &system.pool;
-    let mut add = |kind, index, name, text| items.push(Handle { name, kind, index, text });
+    let mut add = |kind, index, name, text| {
+        items.push(Handle {
+            name,
+            kind,
+            index,
+            text,
+        })
+    };
     for (i, coordinate) in system.coordinates.iter().enumerate() {
-        add("CoordinateId", i, &coordinate.name, format!("Coordinate `{}`.", coordinate.name.text));
+        add(
+            "CoordinateId",
+            i,
+            &coordinate.name,
+            format!("Coordinate `{}`.", coordinate.name.text),
+        );
     }
     for (i, term) in system.kinetic.iter().enumerate() {
-        let text = format!("Kinetic energy `{}` = `{}`.", term.name.text, pool.print(term.energy));
+        let text = format!(
+            "Kinetic energy `{}` = `{}`.",
+            term.name.text,
+            pool.print(term.energy)
+        );
         add("KineticId", i, &term.name, text);
     }
     for (i, term) in system.potential.iter().enumerate() {
-        let text = format!("Potential energy `{}` = `{}`.", term.name.text, pool.print(term.energy));
+        let text = format!(
+            "Potential energy `{}` = `{}`.",
+            term.name.text,
+            pool.print(term.energy)
+        );
         add("PotentialId", i, &term.name, text);
     }
     for (i, constraint) in system.constraints.iter().enumerate() {
-        let text = format!("Constraint `{}`: `{} == 0`.", constraint.name.text, pool.print(constraint.residual));
+        let text = format!(
+            "Constraint `{}`: `{} == 0`.",
+            constraint.name.text,
+            pool.print(constraint.residual)
+        );
         add("ConstraintId", i, &constraint.name, text);
     }
     for (i, contact) in system.contacts.iter().enumerate() {
-        let text = format!("Contact `{}`: `{} >= 0`.", contact.name.text, pool.print(contact.gap));
+        let text = format!(
+            "Contact `{}`: `{} >= 0`.",
+            contact.name.text,
+            pool.print(contact.gap)
+        );
         add("ContactId", i, &contact.name, text);
     }
     for (i, friction) in system.frictions.iter().enumerate() {
-        let slip: Vec<String> = friction.slip.iter().map(|(slip, _)| format!("`{}`", pool.print(*slip))).collect();
+        let slip: Vec<String> = friction
+            .slip
+            .iter()
+            .map(|(slip, _)| format!("`{}`", pool.print(*slip)))
+            .collect();
         let on = match friction.normal {
-            Normal::Contact(contact) => format!(" on contact `{}`", system.contacts[contact].name.text),
-            Normal::Constraint(constraint) => format!(" on constraint `{}`", system.constraints[constraint].name.text),
+            Normal::Contact(contact) => {
+                format!(" on contact `{}`", system.contacts[contact].name.text)
+            }
+            Normal::Constraint(constraint) => format!(
+                " on constraint `{}`",
+                system.constraints[constraint].name.text
+            ),
             Normal::Given(_) => String::new(),
         };
-        let text = format!("Friction `{}`{on}: slip {}.", friction.name.text, slip.join(", "));
+        let text = format!(
+            "Friction `{}`{on}: slip {}.",
+            friction.name.text,
+            slip.join(", ")
+        );
         add("FrictionId", i, &friction.name, text);
     }
     for (i, force) in system.forces.iter().enumerate() {
-        let text = format!("Force `{}` = `{}`.", force.name.text, pool.print(force.value));
+        let text = format!(
+            "Force `{}` = `{}`.",
+            force.name.text,
+            pool.print(force.value)
+        );
         add("ForceId", i, &force.name, text);
     }
     for (i, item) in system.dissipations.iter().enumerate() {
-        let text = format!("Dissipation `{}` = `{}`.", item.name.text, pool.print(item.rayleigh));
+        let text = format!(
+            "Dissipation `{}` = `{}`.",
+            item.name.text,
+            pool.print(item.rayleigh)
+        );
         add("DissipationId", i, &item.name, text);
     }
     for (i, start) in system.starts.iter().enumerate() {
-        add("StartId", i, &start.name, format!("Start `{}`.", start.name.text));
+        add(
+            "StartId",
+            i,
+            &start.name,
+            format!("Start `{}`.", start.name.text),
+        );
     }
     for (i, stop) in system.stops.iter().enumerate() {
-        add("StopId", i, &stop.name, format!("Stop `{}`.", stop.name.text));
+        add(
+            "StopId",
+            i,
+            &stop.name,
+            format!("Stop `{}`.", stop.name.text),
+        );
     }
     for (i, mark) in system.marks.iter().enumerate() {
-        add("MarkId", i, &mark.name, format!("Mark `{}`.", mark.name.text));
+        add(
+            "MarkId",
+            i,
+            &mark.name,
+            format!("Mark `{}`.", mark.name.text),
+        );
     }
     for (i, observe) in system.observes.iter().enumerate() {
-        let text = format!("Output `{}` = `{}`.", observe.name.text, pool.print(observe.value));
+        let text = format!(
+            "Output `{}` = `{}`.",
+            observe.name.text,
+            pool.print(observe.value)
+        );
         add("ObserveId", i, &observe.name, text);
     }
     items

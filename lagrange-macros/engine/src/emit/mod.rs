@@ -22,7 +22,11 @@ pub fn emit(program: &Program) -> TokenStream {
     let system = &program.equations.system;
     let (name, core) = (&system.name, &system.core);
     let (generics, arguments, scalar) = match &system.scalar {
-        Some(scalar) => (quote!(<#scalar: #core::arithmetic::Scalar>), quote!(<#scalar>), quote!(#scalar)),
+        Some(scalar) => (
+            quote!(<#scalar: #core::arithmetic::Scalar>),
+            quote!(<#scalar>),
+            quote!(#scalar),
+        ),
         None => (quote!(), quote!(), quote!(f64)),
     };
     let handles = handles::handles(program);

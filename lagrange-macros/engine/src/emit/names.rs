@@ -36,7 +36,11 @@ pub fn index(index: usize) -> Literal {
 pub fn float(number: Rational) -> TokenStream {
     let number = number.to_f64();
     let size = Literal::f64_suffixed(number.abs());
-    if number < 0.0 { quote!(-#size) } else { quote!(#size) }
+    if number < 0.0 {
+        quote!(-#size)
+    } else {
+        quote!(#size)
+    }
 }
 
 /// The field of a parameter.
@@ -72,7 +76,11 @@ pub fn coefficient(system: &System, coefficient: Coefficient) -> TokenStream {
 
 /// Whether one of these needs is held.
 pub fn condition(needs: &NeedSet) -> TokenStream {
-    let words = needs.words().iter().enumerate().filter(|(_, word)| **word != 0);
+    let words = needs
+        .words()
+        .iter()
+        .enumerate()
+        .filter(|(_, word)| **word != 0);
     let tests = words.map(|(word, bits)| {
         let (held, word, bits) = (local("needs"), index(word), Literal::u64_unsuffixed(*bits));
         quote!(#held[#word] & #bits != 0)
@@ -82,7 +90,11 @@ pub fn condition(needs: &NeedSet) -> TokenStream {
 
 /// Binds the words of the need mask.
 pub fn needs(program_needs: usize) -> TokenStream {
-    let (needs, held, words) = (local("needs"), local("held"), index(program_needs.div_ceil(64).max(1)));
+    let (needs, held, words) = (
+        local("needs"),
+        local("held"),
+        index(program_needs.div_ceil(64).max(1)),
+    );
     array(&needs, quote!(#held.needs.first_chunk::<#words>()))
 }
 
@@ -99,7 +111,10 @@ pub fn array(name: &Ident, chunk: TokenStream) -> TokenStream {
 pub fn read(tape: &Tape) -> BTreeSet<Value> {
     let steps = tape.blocks.iter().flat_map(|block| &block.steps);
     let writes = tape.blocks.iter().flat_map(|block| &block.writes);
-    steps.flat_map(|step| step.operation.operands()).chain(writes.map(|write| write.value)).collect()
+    steps
+        .flat_map(|step| step.operation.operands())
+        .chain(writes.map(|write| write.value))
+        .collect()
 }
 
 /// Values that are computed in a block that can be left out and read in another one; of a pair
@@ -114,7 +129,10 @@ pub fn crossing(tape: &Tape) -> BTreeSet<Value> {
                 home[step.value.0 + offset] = Some((index, step.value));
             }
         }
-        let operands = block.steps.iter().flat_map(|step| step.operation.operands());
+        let operands = block
+            .steps
+            .iter()
+            .flat_map(|step| step.operation.operands());
         for value in operands.chain(block.writes.iter().map(|write| write.value)) {
             if let Some((_, first)) = home[value.0].filter(|(home, _)| *home != index) {
                 crossing.insert(first);

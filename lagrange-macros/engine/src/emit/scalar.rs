@@ -41,7 +41,11 @@ pub fn constants(program: &Program) -> TokenStream {
     let declared = crossing.iter().map(|value| names::value(*value));
     let inputs = parameters(system, tape);
     let blocks = tape.blocks.iter().map(|block| {
-        let steps = steps(system, block.steps.iter().map(|step| (step.value, step.operation)), &crossing);
+        let steps = steps(
+            system,
+            block.steps.iter().map(|step| (step.value, step.operation)),
+            &crossing,
+        );
         let writes = block.writes.iter().map(|write| {
             let (output, value) = (names::index(write.output), names::value(write.value));
             match write.mode {
@@ -77,20 +81,29 @@ pub fn starts(program: &Program) -> TokenStream {
         let inputs = parameters(system, &start.tape);
         let time = names::value(Value(start.tape.inputs - 1));
         let all = start.tape.blocks.iter().flat_map(|block| &block.steps);
-        let steps = steps(system, all.map(|step| (step.value, step.operation)), &BTreeSet::new());
-        let writes = start.tape.blocks.iter().flat_map(|block| &block.writes).map(|write| {
-            let value = names::value(write.value);
-            match start.targets[write.output] {
-                StartTarget::Position(at) => {
-                    let at = names::index(at);
-                    quote!(#q[#at] = #value;)
+        let steps = steps(
+            system,
+            all.map(|step| (step.value, step.operation)),
+            &BTreeSet::new(),
+        );
+        let writes = start
+            .tape
+            .blocks
+            .iter()
+            .flat_map(|block| &block.writes)
+            .map(|write| {
+                let value = names::value(write.value);
+                match start.targets[write.output] {
+                    StartTarget::Position(at) => {
+                        let at = names::index(at);
+                        quote!(#q[#at] = #value;)
+                    }
+                    StartTarget::Velocity(at) => {
+                        let at = names::index(at);
+                        quote!(#v[#at] = #value;)
+                    }
                 }
-                StartTarget::Velocity(at) => {
-                    let at = names::index(at);
-                    quote!(#v[#at] = #value;)
-                }
-            }
-        });
+            });
         quote! {
             #number => {
                 #inputs
@@ -115,7 +128,11 @@ pub fn starts(program: &Program) -> TokenStream {
 /// Binds the parameters that a program reads.
 fn parameters(system: &System, tape: &Tape) -> TokenStream {
     let read = names::read(tape);
-    let bindings = system.parameters.iter().enumerate().filter(|(index, _)| read.contains(&Value(*index)));
+    let bindings = system
+        .parameters
+        .iter()
+        .enumerate()
+        .filter(|(index, _)| read.contains(&Value(*index)));
     let bindings = bindings.map(|(index, parameter)| {
         let (name, field) = (names::value(Value(index)), names::field(parameter));
         quote!(let #name = #field;)

@@ -16,7 +16,13 @@ pub fn tape(program: &Program, stage: Stage) -> TokenStream {
         Stage::Motion => (quote!(motion), &program.motion),
         Stage::Report => (quote!(report), &program.report),
     };
-    let (a, held, c, x, y) = (local("a"), local("held"), local("c"), local("x"), local("y"));
+    let (a, held, c, x, y) = (
+        local("a"),
+        local("held"),
+        local("c"),
+        local("x"),
+        local("y"),
+    );
     // A type parameter is not hygienic: the struct's own must not have this name.
     let arithmetic = names::plain("LagrangeArithmetic");
     let prologue = prologue(program, tape);
@@ -40,7 +46,10 @@ pub fn tape(program: &Program, stage: Stage) -> TokenStream {
 /// Binds inputs, constants, outputs and the mask with lengths that are known from here on.
 fn prologue(program: &Program, tape: &Tape) -> TokenStream {
     let (c, x, y) = (local("c"), local("x"), local("y"));
-    let (constants, outputs) = (names::index(program.constants.outputs), names::index(tape.outputs));
+    let (constants, outputs) = (
+        names::index(program.constants.outputs),
+        names::index(tape.outputs),
+    );
     let c = names::array(&c, quote!(#c.first_chunk::<#constants>()));
     let y = names::array(&y, quote!(#y.first_chunk_mut::<#outputs>()));
     let needs = names::needs(program.equations.needs.len());
@@ -48,7 +57,11 @@ fn prologue(program: &Program, tape: &Tape) -> TokenStream {
     let inputs = (0..tape.inputs).map(|input| {
         let name = names::value(Value(input));
         // The first one stands for values of blocks that do not run.
-        if input == 0 || read.contains(&Value(input)) { quote!(#name) } else { quote!(_) }
+        if input == 0 || read.contains(&Value(input)) {
+            quote!(#name)
+        } else {
+            quote!(_)
+        }
     });
     quote! {
         let &[#(#inputs,)* ..] = #x else {
@@ -72,13 +85,24 @@ struct Writer<'a> {
 impl<'a> Writer<'a> {
     fn new(system: &'a System, tape: &'a Tape) -> Writer<'a> {
         let writes = tape.blocks.iter().flat_map(|block| &block.writes);
-        let sums = writes.filter(|write| write.mode != Mode::Set).map(|write| write.output).collect();
-        Writer { system, tape, crossing: names::crossing(tape), sums }
+        let sums = writes
+            .filter(|write| write.mode != Mode::Set)
+            .map(|write| write.output)
+            .collect();
+        Writer {
+            system,
+            tape,
+            crossing: names::crossing(tape),
+            sums,
+        }
     }
 
     fn blocks(&self) -> TokenStream {
         // A block that does not run leaves its values at a node that nobody reads.
-        let (idle, declared) = (names::value(Value(0)), self.crossing.iter().map(|value| names::value(*value)));
+        let (idle, declared) = (
+            names::value(Value(0)),
+            self.crossing.iter().map(|value| names::value(*value)),
+        );
         let blocks = self.tape.blocks.iter().map(|block| self.block(block));
         let y = local("y");
         let sums = self.sums.iter().map(|output| {
@@ -118,7 +142,11 @@ impl<'a> Writer<'a> {
 
     fn bind(&self, value: Value, call: TokenStream) -> TokenStream {
         let name = names::value(value);
-        if self.crossing.contains(&value) { quote!(#name = #call;) } else { quote!(let #name = #call;) }
+        if self.crossing.contains(&value) {
+            quote!(#name = #call;)
+        } else {
+            quote!(let #name = #call;)
+        }
     }
 
     fn write(&self, write: &Write) -> TokenStream {

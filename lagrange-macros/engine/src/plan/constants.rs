@@ -31,12 +31,21 @@ impl Constants {
     /// None yet.
     pub fn new(parameters: BTreeMap<Symbol, usize>) -> Constants {
         let (index, symbols) = (BTreeMap::new(), BTreeMap::new());
-        Constants { parameters, open: true, index, symbols, sources: Vec::new() }
+        Constants {
+            parameters,
+            open: true,
+            index,
+            symbols,
+            sources: Vec::new(),
+        }
     }
 
     /// For programs whose only coefficients are exact numbers.
     pub fn closed() -> Constants {
-        Constants { open: false, ..Constants::new(BTreeMap::new()) }
+        Constants {
+            open: false,
+            ..Constants::new(BTreeMap::new())
+        }
     }
 
     /// The constant of this source.

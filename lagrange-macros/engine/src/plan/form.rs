@@ -38,7 +38,15 @@ impl<'a> Former<'a> {
         guards: Option<&'a [ExprId]>,
     ) -> Former<'a> {
         let (graph, forms, varies) = (Graph::default(), HashMap::new(), HashMap::new());
-        Former { pool, inputs, fixed, guards, graph, forms, varies }
+        Former {
+            pool,
+            inputs,
+            fixed,
+            guards,
+            graph,
+            forms,
+            varies,
+        }
     }
 
     /// The nodes made, for the next pass.
@@ -51,7 +59,14 @@ impl<'a> Former<'a> {
         if let Some(form) = self.forms.get(&e) {
             return *form;
         }
-        let form = if self.varies(e) { self.varying(e) } else { Form { scale: e, node: None } };
+        let form = if self.varies(e) {
+            self.varying(e)
+        } else {
+            Form {
+                scale: e,
+                node: None,
+            }
+        };
         self.forms.insert(e, form);
         form
     }
@@ -71,17 +86,33 @@ impl<'a> Former<'a> {
     pub fn offset(&mut self, start: ExprId, form: Form) -> NodeId {
         let (negative, node) = self.signed_node(form);
         let magnitude = self.pool.integer(1);
-        self.graph.node(Shape::Sum { offset: Some(start), terms: vec![Term { node, magnitude, negative }] })
+        self.graph.node(Shape::Sum {
+            offset: Some(start),
+            terms: vec![Term {
+                node,
+                magnitude,
+                negative,
+            }],
+        })
     }
 
     /// The form as one node.
     pub fn node(&mut self, form: Form) -> NodeId {
-        let Some(node) = form.node else { return self.fixed(form.scale) };
+        let Some(node) = form.node else {
+            return self.fixed(form.scale);
+        };
         if self.pool.is_one(form.scale) {
             return node;
         }
         let (negative, magnitude) = self.magnitude(form.scale);
-        self.graph.node(Shape::Sum { offset: None, terms: vec![Term { node, magnitude, negative }] })
+        self.graph.node(Shape::Sum {
+            offset: None,
+            terms: vec![Term {
+                node,
+                magnitude,
+                negative,
+            }],
+        })
     }
 
     /// The form as a sign and one node, for whoever can subtract.
@@ -90,7 +121,13 @@ impl<'a> Former<'a> {
             return (false, self.node(form));
         }
         let (negative, scale) = self.magnitude(form.scale);
-        (negative, self.node(Form { scale, node: form.node }))
+        (
+            negative,
+            self.node(Form {
+                scale,
+                node: form.node,
+            }),
+        )
     }
 
     /// Whether the expression changes during a run.
@@ -106,7 +143,9 @@ impl<'a> Former<'a> {
             (Node::Sum { terms, .. }, _) => terms.iter().any(|(term, _)| self.varies(*term)),
             (Node::Product(factors), _) => factors.iter().any(|(base, _)| self.varies(*base)),
             (Node::Power(base, exponent), _) => self.varies(base) || self.varies(exponent),
-            (Node::Call(_, arguments), _) => arguments.iter().any(|argument| self.varies(*argument)),
+            (Node::Call(_, arguments), _) => {
+                arguments.iter().any(|argument| self.varies(*argument))
+            }
         };
         self.varies.insert(e, varies);
         varies
@@ -136,7 +175,11 @@ impl<'a> Former<'a> {
                 }
                 self.graph.node(call(function, &nodes))
             }
-            Node::Select { branch, then, otherwise } => {
+            Node::Select {
+                branch,
+                then,
+                otherwise,
+            } => {
                 let (then, otherwise) = (self.form(then), self.form(otherwise));
                 let (then, otherwise) = (self.node(then), self.node(otherwise));
                 match self.guards {
@@ -149,7 +192,10 @@ impl<'a> Former<'a> {
                 }
             }
         };
-        Form { scale: self.pool.integer(1), node: Some(node) }
+        Form {
+            scale: self.pool.integer(1),
+            node: Some(node),
+        }
     }
 
     fn product(&mut self, factors: &[(ExprId, Rational)]) -> Form {
@@ -174,7 +220,10 @@ impl<'a> Former<'a> {
                 let base = self.node(form);
                 let root = self.graph.node(Shape::Unary(Unary::Sqrt, base));
                 *powers.entry(root).or_default() += exponent.numerator().signum() as i32;
-                Form { scale: self.pool.integer(1), node: Some(base) }
+                Form {
+                    scale: self.pool.integer(1),
+                    node: Some(base),
+                }
             } else {
                 form
             };
@@ -190,7 +239,12 @@ impl<'a> Former<'a> {
     }
 
     /// Multiplies nodeᵏ into the powers; a product enters factor by factor.
-    fn multiply(&mut self, powers: &mut BTreeMap<NodeId, i32>, node: Option<NodeId>, exponent: i32) {
+    fn multiply(
+        &mut self,
+        powers: &mut BTreeMap<NodeId, i32>,
+        node: Option<NodeId>,
+        exponent: i32,
+    ) {
         let Some(node) = node else { return };
         match self.graph.shape(node) {
             Shape::Product(factors) => {
@@ -222,14 +276,27 @@ impl<'a> Former<'a> {
             }
         }
         match terms[..] {
-            [] => return Form { scale: offset, node: None },
-            [(node, scale)] if self.pool.is_zero(offset) => return Form { scale, node: Some(node) },
+            [] => {
+                return Form {
+                    scale: offset,
+                    node: None,
+                };
+            }
+            [(node, scale)] if self.pool.is_zero(offset) => {
+                return Form {
+                    scale,
+                    node: Some(node),
+                };
+            }
             _ => {}
         }
         let outside = self.common_factor(&terms, offset);
         let (offset, terms) = self.divided(offset, &terms, outside);
         let node = self.grouped(offset, terms);
-        Form { scale: outside, node: Some(node) }
+        Form {
+            scale: outside,
+            node: Some(node),
+        }
     }
 
     /// Divides a sum by a factor that is not zero.
@@ -244,7 +311,11 @@ impl<'a> Former<'a> {
         for &(node, scale) in terms {
             let scale = self.quotient(scale, factor);
             let (negative, magnitude) = self.magnitude(scale);
-            signed.push(Term { node, magnitude, negative });
+            signed.push(Term {
+                node,
+                magnitude,
+                negative,
+            });
         }
         (offset, signed)
     }
@@ -263,9 +334,20 @@ impl<'a> Former<'a> {
                 continue;
             }
             let flip = mostly_negative(&group);
-            let inner = group.iter().map(|term| Term { magnitude: one, negative: term.negative != flip, ..*term });
-            let inner = Shape::Sum { offset: None, terms: inner.collect() };
-            terms.push(Term { node: self.graph.node(inner), magnitude, negative: flip });
+            let inner = group.iter().map(|term| Term {
+                magnitude: one,
+                negative: term.negative != flip,
+                ..*term
+            });
+            let inner = Shape::Sum {
+                offset: None,
+                terms: inner.collect(),
+            };
+            terms.push(Term {
+                node: self.graph.node(inner),
+                magnitude,
+                negative: flip,
+            });
         }
         terms.sort();
         self.graph.node(Shape::Sum { offset, terms })
@@ -274,8 +356,10 @@ impl<'a> Former<'a> {
     /// A signed factor of all terms and the offset, such that at least one term is ±1 after division by it, so that
     /// taking it out costs nothing; 1 or −1 if there is none.
     fn common_factor(&mut self, terms: &[(NodeId, ExprId)], offset: ExprId) -> ExprId {
-        let mut parts: Vec<(Rational, BTreeMap<ExprId, Rational>)> =
-            terms.iter().map(|(_, scale)| self.factors(*scale)).collect();
+        let mut parts: Vec<(Rational, BTreeMap<ExprId, Rational>)> = terms
+            .iter()
+            .map(|(_, scale)| self.factors(*scale))
+            .collect();
         let numbers: Vec<Rational> = parts.iter().map(|(number, _)| absolute(*number)).collect();
         if !self.pool.is_zero(offset) {
             parts.push(self.factors(offset));
@@ -293,7 +377,11 @@ impl<'a> Former<'a> {
             });
         }
         // The number that turns most of the terms into ±1.
-        let bare = numbers.iter().zip(&parts).filter(|(_, (_, factors))| *factors == common).map(|(n, _)| *n);
+        let bare = numbers
+            .iter()
+            .zip(&parts)
+            .filter(|(_, (_, factors))| *factors == common)
+            .map(|(n, _)| *n);
         let mut votes: BTreeMap<Rational, usize> = BTreeMap::new();
         for number in bare {
             *votes.entry(number).or_default() += 1;
@@ -315,7 +403,11 @@ impl<'a> Former<'a> {
             .iter()
             .map(|(node, scale)| {
                 let (negative, magnitude) = self.magnitude(*scale);
-                Term { node: *node, magnitude, negative }
+                Term {
+                    node: *node,
+                    magnitude,
+                    negative,
+                }
             })
             .collect();
         if mostly_negative(&signed) {
@@ -342,7 +434,9 @@ impl<'a> Former<'a> {
     fn magnitude(&mut self, e: ExprId) -> (bool, ExprId) {
         let negative = match self.pool.node(e) {
             Node::Number(number) => number.is_negative(),
-            Node::Sum { terms, .. } => terms.first().is_some_and(|(_, coefficient)| coefficient.is_negative()),
+            Node::Sum { terms, .. } => terms
+                .first()
+                .is_some_and(|(_, coefficient)| coefficient.is_negative()),
             _ => false,
         };
         (negative, if negative { self.pool.neg(e) } else { e })
@@ -354,7 +448,9 @@ impl<'a> Former<'a> {
     }
 
     fn quotient(&mut self, e: ExprId, factor: ExprId) -> ExprId {
-        self.pool.div(e, factor).expect("a common factor is not zero")
+        self.pool
+            .div(e, factor)
+            .expect("a common factor is not zero")
     }
 }
 
@@ -386,5 +482,9 @@ fn call(function: Function, arguments: &[NodeId]) -> Shape {
 }
 
 fn absolute(number: Rational) -> Rational {
-    if number.is_negative() { number.checked_neg().unwrap_or(number) } else { number }
+    if number.is_negative() {
+        number.checked_neg().unwrap_or(number)
+    } else {
+        number
+    }
 }

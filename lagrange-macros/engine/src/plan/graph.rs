@@ -55,11 +55,17 @@ pub(super) enum Shape {
     /// A fixed number used as a node.
     Fixed(ExprId),
     /// offset + Σ terms; sorted by node.
-    Sum { offset: Option<ExprId>, terms: Vec<Term> },
+    Sum {
+        offset: Option<ExprId>,
+        terms: Vec<Term>,
+    },
     /// Π nodeᵏ; sorted; before [`Graph::split_quotients`] exponents may be negative, after it they are not.
     Product(Vec<(NodeId, i32)>),
     /// numerator / denominator
-    Quotient { numerator: Option<NodeId>, denominator: NodeId },
+    Quotient {
+        numerator: Option<NodeId>,
+        denominator: NodeId,
+    },
     /// nodeᶜ
     Powf(NodeId, Rational),
     /// f(node)
@@ -79,7 +85,10 @@ impl Shape {
             Shape::Input(_) | Shape::Fixed(_) => Vec::new(),
             Shape::Sum { terms, .. } => terms.iter().map(|term| term.node).collect(),
             Shape::Product(factors) => factors.iter().map(|(node, _)| *node).collect(),
-            Shape::Quotient { numerator, denominator } => numerator.iter().chain([denominator]).copied().collect(),
+            Shape::Quotient {
+                numerator,
+                denominator,
+            } => numerator.iter().chain([denominator]).copied().collect(),
             Shape::Powf(x, _) | Shape::Unary(_, x) => vec![*x],
             Shape::Atan2(x, y) | Shape::Select(_, x, y) => vec![*x, *y],
             Shape::Choose(x, y, z) => vec![*x, *y, *z],
@@ -141,15 +150,27 @@ impl Graph {
     pub fn split_quotients(&mut self, roots: &[NodeId]) {
         let uses = self.uses(roots);
         for (index, uses) in uses.iter().enumerate() {
-            let Shape::Product(factors) = &self.shapes[index] else { continue };
+            let Shape::Product(factors) = &self.shapes[index] else {
+                continue;
+            };
             if *uses == 0 || factors.iter().all(|(_, exponent)| *exponent > 0) {
                 continue;
             }
             let above: Vec<_> = factors.iter().filter(|(_, k)| *k > 0).copied().collect();
-            let below: Vec<_> = factors.iter().filter(|(_, k)| *k < 0).map(|(node, k)| (*node, -k)).collect();
+            let below: Vec<_> = factors
+                .iter()
+                .filter(|(_, k)| *k < 0)
+                .map(|(node, k)| (*node, -k))
+                .collect();
             let numerator = (!above.is_empty()).then(|| self.product(above));
             let denominator = self.product(below);
-            self.reshape(NodeId(index), Shape::Quotient { numerator, denominator });
+            self.reshape(
+                NodeId(index),
+                Shape::Quotient {
+                    numerator,
+                    denominator,
+                },
+            );
         }
     }
 }

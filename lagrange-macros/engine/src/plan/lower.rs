@@ -39,9 +39,24 @@ impl Lowered {
 
 impl<'a> Lowerer<'a> {
     /// For a tape with this number of inputs.
-    pub fn new(pool: &'a mut Pool, graph: &'a Graph, constants: &'a mut Constants, inputs: usize) -> Lowerer<'a> {
-        let out = Lowered { operations: Vec::new(), values: inputs, known: HashMap::new() };
-        Lowerer { pool, graph, constants, out, values: HashMap::new() }
+    pub fn new(
+        pool: &'a mut Pool,
+        graph: &'a Graph,
+        constants: &'a mut Constants,
+        inputs: usize,
+    ) -> Lowerer<'a> {
+        let out = Lowered {
+            operations: Vec::new(),
+            values: inputs,
+            known: HashMap::new(),
+        };
+        Lowerer {
+            pool,
+            graph,
+            constants,
+            out,
+            values: HashMap::new(),
+        }
     }
 
     /// What has been lowered.
@@ -69,11 +84,17 @@ impl<'a> Lowerer<'a> {
             }
             Shape::Sum { offset, terms } => self.sum(offset, &terms),
             Shape::Product(factors) => self.product(&factors),
-            Shape::Quotient { numerator: Some(numerator), denominator } => {
+            Shape::Quotient {
+                numerator: Some(numerator),
+                denominator,
+            } => {
                 let (x, y) = (self.value(numerator), self.value(denominator));
                 self.out.push(Operation::Div(x, y))
             }
-            Shape::Quotient { numerator: None, denominator } => {
+            Shape::Quotient {
+                numerator: None,
+                denominator,
+            } => {
                 let one = self.pool.integer(1);
                 self.ratio(one, denominator)
             }
@@ -136,7 +157,11 @@ impl<'a> Lowerer<'a> {
         if self.pool.is_one(c) {
             return self.value(node);
         }
-        if let Shape::Quotient { numerator: None, denominator } = *self.graph.shape(node) {
+        if let Shape::Quotient {
+            numerator: None,
+            denominator,
+        } = *self.graph.shape(node)
+        {
             return self.ratio(c, denominator);
         }
         let c = self.coefficient(c);
@@ -148,7 +173,10 @@ impl<'a> Lowerer<'a> {
         let (mut plus, mut minus) = (Vec::new(), Vec::new());
         let all_negative = terms.iter().all(|term| term.negative);
         // Without a positive term, one that is scaled anyway is scaled by the negative.
-        let turned = terms.iter().find(|term| all_negative && !self.pool.is_one(term.magnitude)).copied();
+        let turned = terms
+            .iter()
+            .find(|term| all_negative && !self.pool.is_one(term.magnitude))
+            .copied();
         for &term in terms {
             if Some(term) == turned {
                 let scale = self.pool.neg(term.magnitude);
@@ -156,7 +184,11 @@ impl<'a> Lowerer<'a> {
                 continue;
             }
             let value = self.scaled(term.node, term.magnitude);
-            if term.negative { minus.push(value) } else { plus.push(value) }
+            if term.negative {
+                minus.push(value)
+            } else {
+                plus.push(value)
+            }
         }
         let offset = offset.map(|offset| self.coefficient(offset));
         let plus = self.balanced(plus, &|x, y| Operation::Add(x, y));
@@ -180,13 +212,21 @@ impl<'a> Lowerer<'a> {
 
     fn product(&mut self, factors: &[(NodeId, i32)]) -> Value {
         // (x y)² is cheaper than x² y².
-        let common = factors.iter().fold(0, |divisor, (_, exponent)| gcd(divisor, *exponent));
+        let common = factors
+            .iter()
+            .fold(0, |divisor, (_, exponent)| gcd(divisor, *exponent));
         let mut values = Vec::with_capacity(factors.len());
         for &(node, exponent) in factors {
             let x = self.value(node);
             values.push(self.power(x, exponent / common));
         }
-        let base = self.balanced(values, &|x, y| if x == y { Operation::Square(x) } else { Operation::Mul(x, y) });
+        let base = self.balanced(values, &|x, y| {
+            if x == y {
+                Operation::Square(x)
+            } else {
+                Operation::Mul(x, y)
+            }
+        });
         let base = base.expect("a product has factors");
         self.power(base, common)
     }
@@ -198,15 +238,28 @@ impl<'a> Lowerer<'a> {
         }
         let half = self.power(x, exponent / 2);
         let even = self.out.push(Operation::Square(half));
-        if exponent % 2 == 0 { even } else { self.commutative(even, x, &|x, y| Operation::Mul(x, y)) }
+        if exponent % 2 == 0 {
+            even
+        } else {
+            self.commutative(even, x, &|x, y| Operation::Mul(x, y))
+        }
     }
 
-    fn commutative(&mut self, x: Value, y: Value, join: &dyn Fn(Value, Value) -> Operation) -> Value {
+    fn commutative(
+        &mut self,
+        x: Value,
+        y: Value,
+        join: &dyn Fn(Value, Value) -> Operation,
+    ) -> Value {
         self.out.push(join(x.min(y), x.max(y)))
     }
 
     /// Joins neighbours until one is left: the shortest chain of dependent operations.
-    fn balanced(&mut self, mut values: Vec<Value>, join: &dyn Fn(Value, Value) -> Operation) -> Option<Value> {
+    fn balanced(
+        &mut self,
+        mut values: Vec<Value>,
+        join: &dyn Fn(Value, Value) -> Operation,
+    ) -> Option<Value> {
         values.sort();
         while values.len() > 1 {
             let mut joined = Vec::with_capacity(values.len().div_ceil(2));

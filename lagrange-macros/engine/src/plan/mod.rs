@@ -91,17 +91,36 @@ impl Program {
 
 /// Plans the computation of all outputs.
 pub fn plan(mut equations: Equations) -> Program {
-    let parameters: BTreeMap<Symbol, usize> = numbered(equations.system.parameters.iter().map(|p| p.symbol));
+    let parameters: BTreeMap<Symbol, usize> =
+        numbered(equations.system.parameters.iter().map(|p| p.symbol));
     let mut constants = Constants::new(parameters.clone());
     let mut places = vec![Place::Zero; equations.outputs.len()];
     let motion = stage_tape(&mut equations, Stage::Motion, &mut constants, &mut places);
     let report = stage_tape(&mut equations, Stage::Report, &mut constants, &mut places);
     let starts = starts(&mut equations.system, &parameters);
 
-    let targets: Vec<Target> = constants.sources.into_iter().map(Target::of_constant).collect();
+    let targets: Vec<Target> = constants
+        .sources
+        .into_iter()
+        .map(Target::of_constant)
+        .collect();
     let pool = &mut equations.system.pool;
-    let constants = tape(pool, &mut Constants::closed(), &parameters, Fixed::Numbers, None, &targets);
-    Program { equations, places, constants, motion, report, starts }
+    let constants = tape(
+        pool,
+        &mut Constants::closed(),
+        &parameters,
+        Fixed::Numbers,
+        None,
+        &targets,
+    );
+    Program {
+        equations,
+        places,
+        constants,
+        motion,
+        report,
+        starts,
+    }
 }
 
 /// Inputs of a stage, in order.
@@ -114,16 +133,29 @@ fn inputs(system: &System, stage: Stage) -> Vec<Symbol> {
         inputs.extend(coordinates.iter().map(|coordinate| coordinate.acceleration));
         inputs.extend(system.constraints.iter().map(|constraint| constraint.force));
         inputs.extend(system.contacts.iter().map(|contact| contact.force));
-        inputs.extend(system.frictions.iter().flat_map(|friction| friction.slip.iter().map(|(_, force)| *force)));
+        inputs.extend(
+            system
+                .frictions
+                .iter()
+                .flat_map(|friction| friction.slip.iter().map(|(_, force)| *force)),
+        );
     }
     inputs
 }
 
 fn numbered(symbols: impl Iterator<Item = Symbol>) -> BTreeMap<Symbol, usize> {
-    symbols.enumerate().map(|(index, symbol)| (symbol, index)).collect()
+    symbols
+        .enumerate()
+        .map(|(index, symbol)| (symbol, index))
+        .collect()
 }
 
-fn stage_tape(equations: &mut Equations, stage: Stage, constants: &mut Constants, places: &mut [Place]) -> Tape {
+fn stage_tape(
+    equations: &mut Equations,
+    stage: Stage,
+    constants: &mut Constants,
+    places: &mut [Place],
+) -> Tape {
     let inputs = numbered(inputs(&equations.system, stage).into_iter());
     let pool = &mut equations.system.pool;
     let targets = outputs::targets(pool, &equations.outputs, stage, &inputs, constants, places);
@@ -136,12 +168,25 @@ fn starts(system: &mut System, parameters: &BTreeMap<Symbol, usize>) -> Vec<Star
     let guards: Vec<ExprId> = system.branches.iter().map(|branch| branch.guard).collect();
     let mut starts = Vec::with_capacity(system.starts.len());
     for start in &system.starts {
-        let positions = start.positions.iter().map(|(index, e)| (StartTarget::Position(*index), *e));
-        let velocities = start.velocities.iter().map(|(index, e)| (StartTarget::Velocity(*index), *e));
+        let positions = start
+            .positions
+            .iter()
+            .map(|(index, e)| (StartTarget::Position(*index), *e));
+        let velocities = start
+            .velocities
+            .iter()
+            .map(|(index, e)| (StartTarget::Velocity(*index), *e));
         let (targets, values): (Vec<_>, Vec<_>) = positions.chain(velocities).unzip();
         let values: Vec<Target> = values.into_iter().map(Target::always).collect();
         let mut constants = Constants::closed();
-        let tape = tape(&mut system.pool, &mut constants, &inputs, Fixed::Numbers, Some(&guards), &values);
+        let tape = tape(
+            &mut system.pool,
+            &mut constants,
+            &inputs,
+            Fixed::Numbers,
+            Some(&guards),
+            &values,
+        );
         starts.push(Start { tape, targets });
     }
     starts
@@ -157,7 +202,11 @@ fn tape(
     targets: &[Target],
 ) -> Tape {
     let mut former = Former::new(pool, inputs, fixed, guards);
-    let entries: Vec<_> = targets.iter().enumerate().flat_map(|(i, target)| target.entries(i, &mut former)).collect();
+    let entries: Vec<_> = targets
+        .iter()
+        .enumerate()
+        .flat_map(|(i, target)| target.entries(i, &mut former))
+        .collect();
     let mut graph = former.into_graph();
     let roots: Vec<_> = entries.iter().map(|entry| entry.node).collect();
     graph.split_quotients(&roots);
@@ -166,8 +215,15 @@ fn tape(
     let mut lowerer = Lowerer::new(pool, &graph, constants, inputs.len());
     let mut demands = Vec::with_capacity(entries.len());
     for entry in entries {
-        let write = Write { output: entry.output, value: lowerer.value(entry.node), mode: entry.mode };
-        demands.push(Demand { needs: entry.needs, write });
+        let write = Write {
+            output: entry.output,
+            value: lowerer.value(entry.node),
+            mode: entry.mode,
+        };
+        demands.push(Demand {
+            needs: entry.needs,
+            write,
+        });
     }
     let tape = schedule::schedule(&lowerer.finish(), inputs.len(), targets.len(), &demands);
     for block in &tape.blocks {

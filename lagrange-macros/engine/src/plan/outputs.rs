@@ -30,16 +30,31 @@ pub(super) struct Entry {
 impl Target {
     /// One expression that is always computed.
     pub fn always(e: ExprId) -> Target {
-        Target { start: None, terms: vec![(NeedSet::always(), e)], from_zero: false }
+        Target {
+            start: None,
+            terms: vec![(NeedSet::always(), e)],
+            from_zero: false,
+        }
     }
 
     /// A constant that the tapes ask for.
     pub fn of_constant((source, needs): (Source, NeedSet)) -> Target {
         match source {
-            Source::Whole(e) => Target { start: None, terms: vec![(needs, e)], from_zero: false },
+            Source::Whole(e) => Target {
+                start: None,
+                terms: vec![(needs, e)],
+                from_zero: false,
+            },
             Source::Masked(terms) => {
-                let terms = terms.into_iter().map(|(need, e)| (NeedSet::single(need), e)).collect();
-                Target { start: None, terms, from_zero: true }
+                let terms = terms
+                    .into_iter()
+                    .map(|(need, e)| (NeedSet::single(need), e))
+                    .collect();
+                Target {
+                    start: None,
+                    terms,
+                    from_zero: true,
+                }
             }
         }
     }
@@ -47,13 +62,21 @@ impl Target {
     /// What enters the output, in order.
     pub fn entries(&self, output: usize, former: &mut Former) -> Vec<Entry> {
         let mut entries = Vec::with_capacity(self.terms.len() + 1);
-        let begun = self.terms.first().is_some_and(|(needs, _)| needs.is_always());
+        let begun = self
+            .terms
+            .first()
+            .is_some_and(|(needs, _)| needs.is_always());
         if self.from_zero && !begun {
             let node = match self.start {
                 Some(start) => former.fixed(start),
                 None => former.zero(),
             };
-            entries.push(Entry { output, needs: NeedSet::always(), node, mode: Mode::Set });
+            entries.push(Entry {
+                output,
+                needs: NeedSet::always(),
+                node,
+                mode: Mode::Set,
+            });
         }
         for (needs, e) in &self.terms {
             let form = former.form(*e);
@@ -66,7 +89,12 @@ impl Target {
                     (node, if negative { Mode::Sub(0) } else { Mode::Add(0) })
                 }
             };
-            entries.push(Entry { output, needs: needs.clone(), node, mode });
+            entries.push(Entry {
+                output,
+                needs: needs.clone(),
+                node,
+                mode,
+            });
         }
         entries
     }
@@ -89,7 +117,9 @@ pub(super) fn targets(
         }
         let terms = by_need(pool, output);
         *place = *known.entry(terms.clone()).or_insert_with(|| {
-            let (varying, fixed): (Vec<_>, Vec<_>) = terms.into_iter().partition(|(_, e)| varies(pool, inputs, *e));
+            let (varying, fixed): (Vec<_>, Vec<_>) = terms
+                .into_iter()
+                .partition(|(_, e)| varies(pool, inputs, *e));
             match (&varying[..], &fixed[..]) {
                 ([], []) => Place::Zero,
                 ([], [(need, e)]) => {
@@ -114,7 +144,10 @@ fn by_need(pool: &mut Pool, output: &Output) -> Vec<(NeedId, ExprId)> {
     for (need, e) in &output.terms {
         needs.entry(*need).or_default().push(*e);
     }
-    let mut terms: Vec<_> = needs.into_iter().map(|(need, terms)| (need, pool.sum(&terms))).collect();
+    let mut terms: Vec<_> = needs
+        .into_iter()
+        .map(|(need, terms)| (need, pool.sum(&terms)))
+        .collect();
     terms.retain(|(_, e)| !pool.is_zero(*e));
     terms
 }
@@ -126,17 +159,28 @@ fn target(
     fixed: Vec<(NeedId, ExprId)>,
 ) -> Target {
     let from_zero = varying.len() + fixed.len() > 1;
-    let terms = varying.into_iter().map(|(need, e)| (NeedSet::single(need), e)).collect();
+    let terms = varying
+        .into_iter()
+        .map(|(need, e)| (NeedSet::single(need), e))
+        .collect();
     // What is fixed is where the sum starts; a masked sum of the constants program if any of it can be left out.
     let start = match fixed[..] {
         [] => None,
         [(need, e)] if need.0 == 0 => Some(e),
         _ => Some(constants.masked(pool, fixed)),
     };
-    Target { start, terms, from_zero }
+    Target {
+        start,
+        terms,
+        from_zero,
+    }
 }
 
 /// Whether an expression changes during a run.
 fn varies(pool: &Pool, inputs: &BTreeMap<Symbol, usize>, e: ExprId) -> bool {
-    !pool.branches(e).is_empty() || pool.symbols(e).iter().any(|symbol| inputs.contains_key(symbol))
+    !pool.branches(e).is_empty()
+        || pool
+            .symbols(e)
+            .iter()
+            .any(|symbol| inputs.contains_key(symbol))
 }

@@ -14,7 +14,12 @@ pub(super) struct Demand {
 }
 
 /// Puts the operations that somebody asks for into one block for each distinct need set.
-pub(super) fn schedule(lowered: &Lowered, inputs: usize, outputs: usize, demands: &[Demand]) -> Tape {
+pub(super) fn schedule(
+    lowered: &Lowered,
+    inputs: usize,
+    outputs: usize,
+    demands: &[Demand],
+) -> Tape {
     // Whoever needs a value needs its operands: one pass from the last operation to the first.
     let mut asked = vec![NeedSet::default(); lowered.values];
     for demand in demands {
@@ -34,31 +39,50 @@ pub(super) fn schedule(lowered: &Lowered, inputs: usize, outputs: usize, demands
 
     let mut blocks: BTreeMap<Rank, Block> = BTreeMap::new();
     let mut block = |needs: &NeedSet, fill: &mut dyn FnMut(&mut Block)| {
-        let empty = || Block { needs: needs.clone(), steps: Vec::new(), writes: Vec::new() };
+        let empty = || Block {
+            needs: needs.clone(),
+            steps: Vec::new(),
+            writes: Vec::new(),
+        };
         fill(blocks.entry(rank(needs)).or_insert_with(empty));
     };
     for (index, (value, operation)) in lowered.operations.iter().enumerate() {
         if !needs_of[index].is_empty() {
-            let step = Step { value: *value, operation: *operation, to: 0 };
+            let step = Step {
+                value: *value,
+                operation: *operation,
+                to: 0,
+            };
             block(&needs_of[index], &mut |block| block.steps.push(step));
         }
     }
     for demand in demands {
         block(&demand.needs, &mut |block| block.writes.push(demand.write));
     }
-    numbered(blocks.into_values().collect(), inputs, outputs, lowered.values)
+    numbered(
+        blocks.into_values().collect(),
+        inputs,
+        outputs,
+        lowered.values,
+    )
 }
 
 /// Larger sets first, the set that always runs before all.
 type Rank = (bool, std::cmp::Reverse<usize>, NeedSet);
 
 fn rank(needs: &NeedSet) -> Rank {
-    (!needs.is_always(), std::cmp::Reverse(needs.len()), needs.clone())
+    (
+        !needs.is_always(),
+        std::cmp::Reverse(needs.len()),
+        needs.clone(),
+    )
 }
 
 /// Numbers values and slots in the order in which they are computed.
 fn numbered(mut blocks: Vec<Block>, inputs: usize, outputs: usize, values: usize) -> Tape {
-    let mut names: Vec<Option<usize>> = (0..values).map(|value| (value < inputs).then_some(value)).collect();
+    let mut names: Vec<Option<usize>> = (0..values)
+        .map(|value| (value < inputs).then_some(value))
+        .collect();
     let (mut values, mut slots) = (inputs, 0);
     for block in &mut blocks {
         for step in &mut block.steps {
@@ -67,7 +91,11 @@ fn numbered(mut blocks: Vec<Block>, inputs: usize, outputs: usize, values: usize
                 names[step.value.0 + offset] = Some(values + offset);
             }
             let name = |value: Value| Value(names[value.0].expect("operands come first"));
-            *step = Step { value: name(step.value), operation: step.operation.renamed(name), to: slots };
+            *step = Step {
+                value: name(step.value),
+                operation: step.operation.renamed(name),
+                to: slots,
+            };
             values += count;
             slots += step.operation.slots();
         }
@@ -82,5 +110,11 @@ fn numbered(mut blocks: Vec<Block>, inputs: usize, outputs: usize, values: usize
             }
         }
     }
-    Tape { inputs, values, slots, outputs, blocks }
+    Tape {
+        inputs,
+        values,
+        slots,
+        outputs,
+        blocks,
+    }
 }

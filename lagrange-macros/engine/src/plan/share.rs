@@ -27,7 +27,12 @@ pub(super) fn share(graph: &mut Graph, pool: &mut Pool, roots: &[NodeId]) {
         match graph.shape(NodeId(index)) {
             _ if *uses == 0 => {}
             Shape::Sum { terms, .. } if terms.len() <= LONGEST => {
-                let bag = terms.iter().map(|term| ((term.node, term.magnitude), if term.negative { -1 } else { 1 }));
+                let bag = terms.iter().map(|term| {
+                    (
+                        (term.node, term.magnitude),
+                        if term.negative { -1 } else { 1 },
+                    )
+                });
                 sums.insert(NodeId(index), bag.collect::<Bag<_>>());
             }
             Shape::Product(factors) if factors.len() <= LONGEST => {
@@ -36,7 +41,15 @@ pub(super) fn share(graph: &mut Graph, pool: &mut Pool, roots: &[NodeId]) {
             _ => {}
         }
     }
-    let whole = |graph: &Graph, id: NodeId| !matches!(graph.shape(id), Shape::Sum { offset: Some(_), .. });
+    let whole = |graph: &Graph, id: NodeId| {
+        !matches!(
+            graph.shape(id),
+            Shape::Sum {
+                offset: Some(_),
+                ..
+            }
+        )
+    };
     extract(&mut sums, graph, &whole, &|node| (node, one), &sum_shape);
     extract(&mut products, graph, &whole, &|node| node, &product_shape);
 }
@@ -47,27 +60,71 @@ fn sum_shape(bag: &Bag<(NodeId, ExprId)>, before: Option<&Shape>) -> Shape {
         Some(Shape::Sum { offset, .. }) => *offset,
         _ => None,
     };
-    let terms = bag.iter().map(|(&(node, magnitude), sign)| Term { node, magnitude, negative: *sign < 0 });
-    Shape::Sum { offset, terms: terms.collect() }
+    let terms = bag.iter().map(|(&(node, magnitude), sign)| Term {
+        node,
+        magnitude,
+        negative: *sign < 0,
+    });
+    Shape::Sum {
+        offset,
+        terms: terms.collect(),
+    }
 }
 
 fn product_shape(bag: &Bag<NodeId>, _: Option<&Shape>) -> Shape {
-    Shape::Product(bag.iter().map(|(node, exponent)| (*node, *exponent)).collect())
+    Shape::Product(
+        bag.iter()
+            .map(|(node, exponent)| (*node, *exponent))
+            .collect(),
+    )
 }
 
 /// −(a − b) whose sum nobody else reads is b − a.
 fn flip_private_negations(graph: &mut Graph, one: ExprId, roots: &[NodeId]) {
     let uses = graph.uses(roots);
     for (index, used) in uses.iter().enumerate() {
-        let Shape::Sum { offset: None, terms } = graph.shape(NodeId(index)) else { continue };
-        let [Term { node, magnitude, negative: true }] = terms[..] else { continue };
+        let Shape::Sum {
+            offset: None,
+            terms,
+        } = graph.shape(NodeId(index))
+        else {
+            continue;
+        };
+        let [
+            Term {
+                node,
+                magnitude,
+                negative: true,
+            },
+        ] = terms[..]
+        else {
+            continue;
+        };
         if *used == 0 || magnitude != one || uses[node.0] != 1 {
             continue;
         }
-        let Shape::Sum { offset: None, terms } = graph.shape(node) else { continue };
+        let Shape::Sum {
+            offset: None,
+            terms,
+        } = graph.shape(node)
+        else {
+            continue;
+        };
         if terms.iter().any(|term| term.negative) {
-            let terms = terms.iter().map(|term| Term { negative: !term.negative, ..*term }).collect();
-            graph.reshape(NodeId(index), Shape::Sum { offset: None, terms });
+            let terms = terms
+                .iter()
+                .map(|term| Term {
+                    negative: !term.negative,
+                    ..*term
+                })
+                .collect();
+            graph.reshape(
+                NodeId(index),
+                Shape::Sum {
+                    offset: None,
+                    terms,
+                },
+            );
         }
     }
 }
@@ -116,11 +173,20 @@ fn multiplicity<A: Ord + Copy>(bag: &Bag<A>, (first, second, sign): Pair<A>) -> 
         return m / 2;
     }
     let n = bag.get(&second).copied().unwrap_or(0) * sign;
-    if m.signum() != n.signum() { 0 } else { m.signum() * m.abs().min(n.abs()) }
+    if m.signum() != n.signum() {
+        0
+    } else {
+        m.signum() * m.abs().min(n.abs())
+    }
 }
 
 /// Takes the pair out of the bag `times` times and puts `operand` in its place.
-fn replace<A: Ord + Copy>(bag: &mut Bag<A>, (first, second, sign): Pair<A>, times: i32, operand: A) {
+fn replace<A: Ord + Copy>(
+    bag: &mut Bag<A>,
+    (first, second, sign): Pair<A>,
+    times: i32,
+    operand: A,
+) {
     *bag.entry(first).or_default() -= times;
     *bag.entry(second).or_default() -= times * sign;
     *bag.entry(operand).or_default() += times;
@@ -134,7 +200,10 @@ fn extract<A: Ord + Copy>(
     operand: &dyn Fn(NodeId) -> A,
     shape: &dyn Fn(&Bag<A>, Option<&Shape>) -> Shape,
 ) {
-    let mut census = Census { holders: BTreeMap::new(), ranked: BTreeSet::new() };
+    let mut census = Census {
+        holders: BTreeMap::new(),
+        ranked: BTreeSet::new(),
+    };
     for (&id, bag) in bags.iter() {
         for pair in pairs(bag) {
             census.count(pair, id, true);
@@ -145,7 +214,10 @@ fn extract<A: Ord + Copy>(
         let mut own = Bag::new();
         replace_into(&mut own, pair);
         // A bag that is just this pair is the node that the others use.
-        let exact = holders.iter().find(|id| bags[id] == own && whole(graph, **id)).copied();
+        let exact = holders
+            .iter()
+            .find(|id| bags[id] == own && whole(graph, **id))
+            .copied();
         let node = exact.unwrap_or_else(|| graph.node(shape(&own, None)));
         for id in holders {
             let bag = bags.get_mut(&id).expect("holders are bags");

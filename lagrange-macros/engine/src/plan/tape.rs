@@ -89,7 +89,8 @@ impl Operation {
     pub fn slots(self) -> usize {
         use Operation::*;
         match self {
-            SinCos(_) | SinhCosh(_) | Tan(_) | Tanh(_) | Asin(_) | Acos(_) | Atan(_) | Atan2(..) => 2,
+            SinCos(_) | SinhCosh(_) | Tan(_) | Tanh(_) | Asin(_) | Acos(_) | Atan(_)
+            | Atan2(..) => 2,
             Select(..) | Choose(..) => 0,
             _ => 1,
         }
@@ -97,7 +98,10 @@ impl Operation {
 
     /// Whether it is arithmetic: setting a constant or choosing between two nodes is not.
     pub fn is_work(self) -> bool {
-        !matches!(self, Operation::Constant(_) | Operation::Select(..) | Operation::Choose(..))
+        !matches!(
+            self,
+            Operation::Constant(_) | Operation::Select(..) | Operation::Choose(..)
+        )
     }
 
     /// The values that it reads.
@@ -105,9 +109,25 @@ impl Operation {
         use Operation::*;
         match self {
             Constant(_) => Vec::new(),
-            Add(x, y) | Sub(x, y) | Mul(x, y) | Div(x, y) | Atan2(x, y) | Select(_, x, y) => vec![x, y],
-            Neg(x) | Offset(_, x) | Scale(_, x) | Square(x) | Ratio(_, x) | Sqrt(x) | Powf(x, _) | Exp(x) | Ln(x)
-            | SinCos(x) | SinhCosh(x) | Tan(x) | Tanh(x) | Asin(x) | Acos(x) | Atan(x) => vec![x],
+            Add(x, y) | Sub(x, y) | Mul(x, y) | Div(x, y) | Atan2(x, y) | Select(_, x, y) => {
+                vec![x, y]
+            }
+            Neg(x)
+            | Offset(_, x)
+            | Scale(_, x)
+            | Square(x)
+            | Ratio(_, x)
+            | Sqrt(x)
+            | Powf(x, _)
+            | Exp(x)
+            | Ln(x)
+            | SinCos(x)
+            | SinhCosh(x)
+            | Tan(x)
+            | Tanh(x)
+            | Asin(x)
+            | Acos(x)
+            | Atan(x) => vec![x],
             Choose(x, y, z) => vec![x, y, z],
         }
     }
@@ -115,9 +135,10 @@ impl Operation {
     /// The coefficient that it reads.
     pub fn coefficient(self) -> Option<Coefficient> {
         match self {
-            Operation::Constant(c) | Operation::Offset(c, _) | Operation::Scale(c, _) | Operation::Ratio(c, _) => {
-                Some(c)
-            }
+            Operation::Constant(c)
+            | Operation::Offset(c, _)
+            | Operation::Scale(c, _)
+            | Operation::Ratio(c, _) => Some(c),
             _ => None,
         }
     }
@@ -220,8 +241,17 @@ impl Tape {
         let blocks = self.blocks.iter().filter(|block| block.needs.runs(held));
         blocks
             .map(|block| {
-                let sums = block.writes.iter().filter(|write| write.mode != Mode::Set).count();
-                block.steps.iter().filter(|step| step.operation.is_work()).count() + sums
+                let sums = block
+                    .writes
+                    .iter()
+                    .filter(|write| write.mode != Mode::Set)
+                    .count();
+                block
+                    .steps
+                    .iter()
+                    .filter(|step| step.operation.is_work())
+                    .count()
+                    + sums
             })
             .sum()
     }

@@ -12,7 +12,10 @@ struct Dice(u64);
 
 impl Dice {
     fn below(&mut self, n: usize) -> usize {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        self.0 = self
+            .0
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
         (self.0 >> 33) as usize % n
     }
 
@@ -23,7 +26,12 @@ impl Dice {
 
 fn item(text: &str) -> ItemName {
     let span = Span::call_site();
-    ItemName { text: text.to_owned(), ident: Some(Ident::new(text, span)), element: None, span }
+    ItemName {
+        text: text.to_owned(),
+        ident: Some(Ident::new(text, span)),
+        element: None,
+        span,
+    }
 }
 
 /// A system without items: parameters, coordinates and branches only.
@@ -40,6 +48,7 @@ fn bare(parameters: &[&str], coordinates: &[&str]) -> System {
             documentation: String::new(),
             unit: String::new(),
             tex: String::new(),
+ letter: String::new(),
         })
         .collect();
     let coordinates = coordinates
@@ -74,6 +83,7 @@ fn bare(parameters: &[&str], coordinates: &[&str]) -> System {
         observes: Vec::new(),
         stops: Vec::new(),
         marks: Vec::new(),
+        impacts: crate::ast::Impacts::default(),
     }
 }
 
@@ -99,11 +109,22 @@ fn equations(system: System, outputs: Vec<Output>) -> Equations {
         marks: Vec::new(),
         cyclic: Vec::new(),
     };
-    Equations { system, needs: Vec::new(), outputs, structure }
+    Equations {
+        system,
+        needs: Vec::new(),
+        outputs,
+        structure,
+    }
 }
 
 /// A random expression whose value is moderate.
-fn random(dice: &mut Dice, pool: &mut Pool, leaves: &[ExprId], known: &mut Vec<ExprId>, depth: usize) -> ExprId {
+fn random(
+    dice: &mut Dice,
+    pool: &mut Pool,
+    leaves: &[ExprId],
+    known: &mut Vec<ExprId>,
+    depth: usize,
+) -> ExprId {
     if depth == 0 || dice.below(8) == 0 {
         return match dice.below(6) {
             0 => {
@@ -142,7 +163,16 @@ fn random(dice: &mut Dice, pool: &mut Pool, leaves: &[ExprId], known: &mut Vec<E
             match kind {
                 8 => pool.call(Function::Ln, &[positive]),
                 9 => {
-                    let exponents = [(-3, 2), (-1, 1), (1, 2), (3, 2), (-2, 1), (1, 3), (-1, 2), (5, 2)];
+                    let exponents = [
+                        (-3, 2),
+                        (-1, 1),
+                        (1, 2),
+                        (3, 2),
+                        (-2, 1),
+                        (1, 3),
+                        (-1, 2),
+                        (5, 2),
+                    ];
                     let (p, q) = exponents[dice.below(exponents.len())];
                     let exponent = pool.number(Rational::new(p, q).expect("q > 0"));
                     pool.pow(positive, exponent).expect("1 + x² is not 0")
@@ -172,14 +202,26 @@ fn a_plan_keeps_values_for_every_set_of_needs() {
         let mut system = bare(&["mass", "length"], &["x", "y"]);
         for text in ["first", "second"] {
             let guard = system.pool.leaf(system.time);
-            system.branches.push(Branch { guard, text: text.to_owned(), span: Span::call_site() });
+            system.branches.push(Branch {
+                guard,
+                text: text.to_owned(),
+                span: Span::call_site(),
+            });
         }
         let symbols: Vec<Symbol> = [system.time]
             .into_iter()
             .chain(system.parameters.iter().map(|p| p.symbol))
-            .chain(system.coordinates.iter().flat_map(|c| [c.position, c.velocity]))
+            .chain(
+                system
+                    .coordinates
+                    .iter()
+                    .flat_map(|c| [c.position, c.velocity]),
+            )
             .collect();
-        let leaves: Vec<ExprId> = symbols.iter().map(|symbol| system.pool.leaf(*symbol)).collect();
+        let leaves: Vec<ExprId> = symbols
+            .iter()
+            .map(|symbol| system.pool.leaf(*symbol))
+            .collect();
         let fixed = leaves[1..3].to_vec();
         let mut known = Vec::new();
         let mut outputs = Vec::new();
@@ -188,15 +230,29 @@ fn a_plan_keeps_values_for_every_set_of_needs() {
             let mut terms = Vec::new();
             for _ in 0..count {
                 let of_parameters = dice.below(3) == 0;
-                let (leaves, known) =
-                    if of_parameters { (&fixed, &mut Vec::new()) } else { (&leaves, &mut known) };
+                let (leaves, known) = if of_parameters {
+                    (&fixed, &mut Vec::new())
+                } else {
+                    (&leaves, &mut known)
+                };
                 let e = random(&mut dice, &mut system.pool, leaves, known, 4);
                 terms.push((NeedId(dice.below(NEEDS)), e));
             }
-            let stage = if dice.below(2) == 0 { Stage::Motion } else { Stage::Report };
-            outputs.push(Output { stage, label: format!("output {index}"), terms });
+            let stage = if dice.below(2) == 0 {
+                Stage::Motion
+            } else {
+                Stage::Report
+            };
+            outputs.push(Output {
+                stage,
+                label: format!("output {index}"),
+                terms,
+            });
         }
-        let values: BTreeMap<Symbol, f64> = symbols.iter().map(|symbol| (*symbol, dice.number())).collect();
+        let values: BTreeMap<Symbol, f64> = symbols
+            .iter()
+            .map(|symbol| (*symbol, dice.number()))
+            .collect();
         let value = |symbol: Symbol| values.get(&symbol).copied().unwrap_or(f64::NAN);
         let program = plan(equations(system, outputs));
         assert!(!program.equations.system.pool.overflowed());
@@ -205,26 +261,47 @@ fn a_plan_keeps_values_for_every_set_of_needs() {
         let machine = Machine::new(&program, &parameters);
         for bits in 0..1u64 << (NEEDS - 1) {
             for branches in 0..4 {
-                let held = Held { needs: &[bits << 1 | 1], branches: &[branches] };
+                let held = Held {
+                    needs: &[bits << 1 | 1],
+                    branches: &[branches],
+                };
                 let constants = machine.constants(&held);
-                let x = |stage| inputs(system, stage).into_iter().map(value).collect::<Vec<f64>>();
+                let x = |stage| {
+                    inputs(system, stage)
+                        .into_iter()
+                        .map(value)
+                        .collect::<Vec<f64>>()
+                };
                 let motion = machine.motion(&held, &x(Stage::Motion));
                 let report = machine.report(&held, &x(Stage::Report));
                 for (output, place) in program.equations.outputs.iter().zip(&program.places) {
-                    let asked: Vec<_> =
-                        output.terms.iter().filter(|(need, _)| held.needs[0] >> need.0 & 1 == 1).collect();
-                    let distinct = output.terms.iter().map(|(need, _)| need).collect::<std::collections::BTreeSet<_>>();
+                    let asked: Vec<_> = output
+                        .terms
+                        .iter()
+                        .filter(|(need, _)| held.needs[0] >> need.0 & 1 == 1)
+                        .collect();
+                    let distinct = output
+                        .terms
+                        .iter()
+                        .map(|(need, _)| need)
+                        .collect::<std::collections::BTreeSet<_>>();
                     if asked.is_empty() && distinct.len() == 1 {
                         continue;
                     }
                     let terms: Vec<ExprId> = asked.iter().map(|(_, e)| *e).collect();
-                    let terms = system.pool.evaluate(&terms, &value, &|branch| branches >> branch & 1 == 1);
+                    let terms = system
+                        .pool
+                        .evaluate(&terms, &value, &|branch| branches >> branch & 1 == 1);
                     let expected: f64 = terms.iter().sum();
                     let size: f64 = terms.iter().fold(1.0, |size, term| size + term.abs());
                     if !size.is_finite() || size > 1e6 {
                         continue;
                     }
-                    let outputs = if output.stage == Stage::Motion { &motion } else { &report };
+                    let outputs = if output.stage == Stage::Motion {
+                        &motion
+                    } else {
+                        &report
+                    };
                     let computed = Machine::number(*place, &constants, outputs);
                     // Reordered sums of a few dozen terms of the size of the result.
                     assert!(

@@ -46,6 +46,7 @@ impl Build {
                 documentation: String::new(),
                 unit: String::new(),
                 tex: String::new(),
+ letter: String::new(),
             })
             .collect();
         let coordinates = coordinates
@@ -80,6 +81,7 @@ impl Build {
             observes: vec![],
             stops: vec![],
             marks: vec![],
+            impacts: crate::ast::Impacts::default(),
         };
         Self { system, names }
     }
