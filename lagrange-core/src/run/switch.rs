@@ -84,7 +84,11 @@ impl<S: System> Run<'_, S> {
     fn approaching(&self, c: usize) -> bool {
         let d = S::DESCRIPTION;
         self.dynamics.effects().includes(d, Item::Contact(c))
-            && self.dynamics.motion(d.rows[d.contacts[c].row].velocity).value() < 0.0
+            && self
+                .dynamics
+                .motion(d.rows[d.contacts[c].row].velocity)
+                .value()
+                < 0.0
     }
 
     /// Ends the infinitely many impacts of contacts that bounce ever less.
