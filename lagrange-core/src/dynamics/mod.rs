@@ -8,7 +8,7 @@ mod projection;
 mod series;
 mod stepping;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 mod values;
 
 pub use error::{EvaluationError, row_name};

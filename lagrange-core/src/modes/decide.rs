@@ -20,6 +20,8 @@ use crate::system::{Normal, System};
 pub struct Known {
     /// Per contact: gap and gap rate vanish, so that it may be closed or open.
     pub touching: Vec<bool>,
+    /// Per contact: the gap has just come to vanish, so that it may be hit.
+    pub arriving: Vec<bool>,
     /// Per contact: the gap vanishes and grows.
     pub parting: Vec<bool>,
     /// Per friction: the slip vanishes, so that it may stick or slip either way.

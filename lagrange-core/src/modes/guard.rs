@@ -287,7 +287,9 @@ pub fn first_values<S: System>(
 pub fn all_row_needs(d: &Description, needs: &NeedSet) -> NeedSet {
     let mut all = needs.clone();
     for row in d.rows {
-        [row.needs.jacobian, row.needs.position, row.needs.velocity].map(|need| all.insert(need));
+        for need in [row.needs.jacobian, row.needs.position, row.needs.velocity] {
+            all.insert(need);
+        }
     }
     d.contacts
         .iter()

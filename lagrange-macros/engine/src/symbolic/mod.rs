@@ -10,6 +10,7 @@ mod differentiate;
 mod evaluate;
 mod expand;
 mod factor;
+mod facts;
 mod function;
 mod hash;
 mod linear;
@@ -19,8 +20,10 @@ mod pool;
 mod print;
 mod product;
 mod rational;
+mod root;
 mod simplify;
 mod sum;
+mod table;
 mod traverse;
 mod trigonometry;
 

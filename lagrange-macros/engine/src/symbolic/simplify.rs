@@ -22,11 +22,13 @@ impl Pool {
         });
         let mut simple = simplified.unwrap_or(e);
         // Parts that became cheaper alone can have shared more before.
-        if simple != e && self.operations(&[simple]) >= self.operations(&[e]) {
+        let (before, after) = (self.operations(&[e]), self.operations(&[simple]));
+        if simple != e && (after > before || (after == before && !self.needs_less_once(simple, e)))
+        {
             simple = e;
-            known.insert(e, simple);
+            known.set(e, simple);
         }
-        known.insert(simple, simple);
+        known.set(simple, simple);
         self.simplified = known;
         simple
     }
@@ -45,18 +47,29 @@ impl Pool {
         }
         let factored = self.factor(e);
         let expanded = self.expand(e);
-        let both = self.factor(expanded);
-        let mut best = e;
-        let mut least = self.operations(&[e]);
-        *work += 4 * least;
-        for (i, form) in [factored, expanded, both].into_iter().enumerate() {
-            if form != best && ![e, factored, expanded][..=i].contains(&form) {
-                let cost = self.operations(&[form]);
-                if cost < least {
-                    (best, least) = (form, cost);
+        let mut forms = vec![e, factored];
+        if expanded != e {
+            forms.push(expanded);
+            forms.push(self.factor(expanded));
+        }
+        if self.has_fixed() {
+            forms.push(self.collect_varying(expanded));
+        }
+        let (mut best, mut least) = (e, self.operations(&[e]));
+        for i in 1..forms.len() {
+            if !forms[..i].contains(&forms[i]) {
+                let cost = self.operations(&[forms[i]]);
+                if cost < least || (cost == least && self.needs_less_once(forms[i], best)) {
+                    (best, least) = (forms[i], cost);
                 }
             }
         }
+        *work += forms.len() * (1 + least);
         best
+    }
+
+    /// Whether a form is cheaper in what is computed once, for forms that are equally cheap in a run.
+    fn needs_less_once(&self, form: ExprId, than: ExprId) -> bool {
+        self.has_fixed() && self.all_operations(form) < self.all_operations(than)
     }
 }
