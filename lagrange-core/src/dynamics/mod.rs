@@ -3,6 +3,7 @@
 //! A [`Dynamics`] owns all memory that this takes. It is told a [`Mode`] and from then on runs only what that mode needs.
 
 mod error;
+mod matrices;
 mod needs;
 mod projection;
 mod series;
