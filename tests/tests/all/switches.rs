@@ -252,8 +252,8 @@ fn in_the_bowl_it_goes_round_or_falls_off() {
     let limit = (27.0 / 7.0 * 9.81_f64 * 0.8).sqrt();
     for (share, goes_round) in [(1.001, true), (0.999, false), (0.8, false)] {
         let scene = SphereInBowl {
-            mu_static: 1e8,
-            mu_kinetic: 1e8,
+            mu_static: 1e10,
+            mu_kinetic: 1e10,
             start_speed: share * limit,
             ..SphereInBowl::default()
         };
@@ -263,7 +263,7 @@ fn in_the_bowl_it_goes_round_or_falls_off() {
             assert!(trajectory.events().is_empty(), "{:?}", words(&trajectory));
             assert!(trajectory.final_state().q[1] > 2.0 * core::f64::consts::PI);
         } else {
-            // It slips only where N is some 1e-8 of its weight. N = 0 at cos θ = (10/17)(1 − (7/10) v₀²/(g c)), above the height of the centre.
+            // It slips only where N is some 1e-10 of its weight. N = 0 at cos θ = (10/17)(1 − (7/10) v₀²/(g c)), above the height of the centre.
             let lost = event(&trajectory, "bowl", "lost");
             let v2 = (share * limit).powi(2);
             let cosine = 10.0 / 17.0 * (1.0 - 0.7 * v2 / (9.81 * 0.8));

@@ -1,5 +1,10 @@
 //! The mass on a rolling wheel: a closed form while stuck, high-precision references beyond.
 
+#![allow(
+    clippy::excessive_precision,
+    reason = "references are given with all their digits"
+)]
+
 use lagrange_core::prelude::*;
 use lagrange_problems::scenes::MassOnWheel;
 use lagrange_tests::{agree, closure, event, integral, root, run, words};

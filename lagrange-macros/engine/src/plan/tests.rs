@@ -49,6 +49,7 @@ fn bare(parameters: &[&str], coordinates: &[&str]) -> System {
             documentation: String::new(),
             unit: String::new(),
             tex: String::new(),
+            letter: String::new(),
         })
         .collect();
     let coordinates = coordinates
