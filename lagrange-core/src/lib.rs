@@ -8,14 +8,18 @@ pub mod dynamics;
 pub mod effects;
 pub mod error;
 pub mod events;
+pub mod handle;
 pub mod integrate;
 mod linear;
 pub mod mode;
 mod modes;
+pub mod prelude;
 mod run;
 pub mod simulation;
 pub mod system;
 pub mod trajectory;
 
 pub use error::Error;
+#[cfg(feature = "derive")]
+pub use lagrange_macros::Lagrangian;
 pub use simulation::{Failure, Held, Simulation};

@@ -324,7 +324,10 @@ pub struct Branch {
     pub text: &'static str,
 }
 
-/// Energies; all in the report tape under one need.
+/// Energies; all in the report tape.
+///
+/// What a scene can leave out stands under its own need ([`Effect::need`]), here as in the motion tape, so that
+/// these add up what acts: hold the needs of the active effects beside [`Energy::need`].
 #[derive(Debug)]
 pub struct Energy {
     /// T as declared.
@@ -335,16 +338,16 @@ pub struct Energy {
     pub jacobi: Place,
     /// −∂L/∂t: the rate of the Jacobi integral that explicit time causes.
     pub time_power: Place,
-    /// Need of all of them.
+    /// Need of the unnamed energies' part of all of them.
     pub need: usize,
 }
 
-/// Generalized momenta.
+/// Generalized momenta; needs as for [`Energy`].
 #[derive(Debug)]
 pub struct Momenta {
     /// ∂L/∂v, one per coordinate. Report.
     pub places: &'static [Place],
-    /// Need of all of them.
+    /// Need of the unnamed energies' part of all of them.
     pub need: usize,
 }
 

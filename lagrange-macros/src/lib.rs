@@ -1,1 +1,25 @@
 //! `#[derive(Lagrangian)]`: the entry point. Everything it does is in `lagrange-engine`.
+
+use proc_macro::TokenStream;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// Derives the equations of a mechanical system from its Lagrangian, constraints, contacts and frictions.
+///
+/// See the documentation of `lagrange-core` for the language of `#[lagrange(…)]`.
+#[proc_macro_derive(Lagrangian, attributes(lagrange))]
+pub fn lagrangian(input: TokenStream) -> TokenStream {
+    let expand = || lagrange_engine::expand(input.into()).into();
+    catch_unwind(AssertUnwindSafe(expand)).unwrap_or_else(|panic| bug(&*panic))
+}
+
+/// A panic is a mistake of this crate, never the user's.
+fn bug(panic: &(dyn std::any::Any + Send)) -> TokenStream {
+    let text = panic.downcast_ref::<String>().map(String::as_str);
+    let text = text
+        .or_else(|| panic.downcast_ref::<&str>().copied())
+        .unwrap_or("no message");
+    let message = format!("bug in lagrange-macros: {text}; please report it with this struct");
+    format!("::core::compile_error!({message:?});")
+        .parse()
+        .unwrap_or_default()
+}

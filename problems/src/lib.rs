@@ -1,1 +1,11 @@
-//! Scenes.
+//! Textbook scenes, each declared once on a struct, and what the program `lagrange` needs to run and report them.
+//!
+//! A scene is one file in [`scenes`] and one line in [`catalogue`]. Everything else here works on the names and
+//! numbers that the derive macro puts in [`lagrange_core::system::Description`], so it never has to be touched.
+
+pub mod catalogue;
+pub mod names;
+pub mod outcome;
+pub mod report;
+pub mod request;
+pub mod scenes;

@@ -3,12 +3,13 @@
 //! A [`Dynamics`] owns all memory that this takes. It is told a [`Mode`] and from then on runs only what that mode needs.
 
 mod error;
+mod matrices;
 mod needs;
 mod projection;
 mod series;
 mod stepping;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 mod values;
 
 pub use error::{EvaluationError, row_name};
@@ -215,15 +216,16 @@ impl<S: System> Dynamics<S> {
         let free = self.plan.free();
         match error {
             SolveError::NotFinite { equation } => self.not_finite(equation),
-            SolveError::Undetermined { unknown } if unknown < free => {
-                EvaluationError::NoInertia { coordinate: self.plan.elimination.free[unknown] }
-            }
-            SolveError::Undetermined { unknown } => {
-                EvaluationError::Undetermined { row: self.plan.kept[unknown - free] }
-            }
-            SolveError::Inconsistent { row, residual } => {
-                EvaluationError::Inconsistent { row: self.plan.kept[row], residual }
-            }
+            SolveError::Undetermined { unknown } if unknown < free => EvaluationError::NoInertia {
+                coordinate: self.plan.elimination.free[unknown],
+            },
+            SolveError::Undetermined { unknown } => EvaluationError::Undetermined {
+                row: self.plan.kept[unknown - free],
+            },
+            SolveError::Inconsistent { row, residual } => EvaluationError::Inconsistent {
+                row: self.plan.kept[row],
+                residual,
+            },
         }
     }
 
@@ -231,9 +233,13 @@ impl<S: System> Dynamics<S> {
     fn not_finite(&self, unknown: usize) -> EvaluationError {
         let free = self.plan.free();
         if unknown < free {
-            EvaluationError::NotFiniteAcceleration { coordinate: self.plan.elimination.free[unknown] }
+            EvaluationError::NotFiniteAcceleration {
+                coordinate: self.plan.elimination.free[unknown],
+            }
         } else {
-            EvaluationError::NotFiniteForce { row: self.plan.kept[unknown - free] }
+            EvaluationError::NotFiniteForce {
+                row: self.plan.kept[unknown - free],
+            }
         }
     }
 

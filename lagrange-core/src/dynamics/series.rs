@@ -81,8 +81,10 @@ impl<T: Scalar> Table<T> {
         }
         let (n, inputs) = (d.coordinates.len(), &self.inputs);
         self.unknowns.clear();
-        self.unknowns.extend(plan.elimination.free.iter().map(|&j| inputs[1 + 2 * n + j]));
-        self.unknowns.extend(plan.kept.iter().map(|&row| inputs[1 + 3 * n + row]));
+        self.unknowns
+            .extend(plan.elimination.free.iter().map(|&j| inputs[1 + 2 * n + j]));
+        self.unknowns
+            .extend(plan.kept.iter().map(|&row| inputs[1 + 3 * n + row]));
         // dt/dτ = 1
         if order > 0 {
             self.coefficients.put(self.inputs[0], 1, T::one());
@@ -111,7 +113,8 @@ impl<S: System> Dynamics<S> {
     ) -> Result<(), EvaluationError> {
         self.work.series += 1;
         let n = S::DESCRIPTION.coordinates.len();
-        self.table.prepare(S::DESCRIPTION, &self.constants, &self.plan, order);
+        self.table
+            .prepare(S::DESCRIPTION, &self.constants, &self.plan, order);
         let Table {
             coefficients,
             inputs,
@@ -219,7 +222,18 @@ impl<S: System> Dynamics<S> {
 
     /// Right-hand sides: bₖ − Σ_{j=1..k} Kⱼ xₖ₋ⱼ.
     fn gather(&mut self, k: usize) {
-        let Self { plan, right, table: Table { coefficients, nodes, unknowns, .. }, .. } = self;
+        let Self {
+            plan,
+            right,
+            table:
+                Table {
+                    coefficients,
+                    nodes,
+                    unknowns,
+                    ..
+                },
+            ..
+        } = self;
         right.clear();
         if k == 0 {
             right.extend_from_slice(&plan.constant_load);
@@ -232,19 +246,34 @@ impl<S: System> Dynamics<S> {
         if k > 0 {
             let (accelerations, forces) = plan.entries.split_at(plan.first_force);
             for entry in accelerations {
-                right[entry.row] -= coefficients.tail_product(nodes[entry.node], unknowns[entry.column], k);
+                right[entry.row] -=
+                    coefficients.tail_product(nodes[entry.node], unknowns[entry.column], k);
             }
             // The unknown is −λ, the table holds λ.
             for entry in forces {
-                right[entry.row] += coefficients.tail_product(nodes[entry.node], unknowns[entry.column], k);
+                right[entry.row] +=
+                    coefficients.tail_product(nodes[entry.node], unknowns[entry.column], k);
             }
         }
     }
 
     /// Coefficient k of all accelerations and forces from the solution.
     fn scatter(&mut self, k: usize) {
-        let Self { plan, right, solution, constants, table, .. } = self;
-        let Table { coefficients, inputs, nodes, unknowns, .. } = table;
+        let Self {
+            plan,
+            right,
+            solution,
+            constants,
+            table,
+            ..
+        } = self;
+        let Table {
+            coefficients,
+            inputs,
+            nodes,
+            unknowns,
+            ..
+        } = table;
         let n = S::DESCRIPTION.coordinates.len();
         let (accelerations, forces) = inputs[1 + 2 * n..].split_at(n);
         for (j, &slot) in accelerations.iter().enumerate() {
@@ -255,7 +284,11 @@ impl<S: System> Dynamics<S> {
             coefficients.put(slot, k, -x);
         }
         for (i, &row) in plan.eliminated.iter().enumerate() {
-            coefficients.put(forces[row], k, plan.constant_force(i, solution) - right[size + i]);
+            coefficients.put(
+                forces[row],
+                k,
+                plan.constant_force(i, solution) - right[size + i],
+            );
         }
         for entry in &plan.force_entries {
             let slot = forces[plan.eliminated[entry.row - size]];

@@ -20,7 +20,9 @@ impl<S: System> Dynamics<S> {
     ) -> Result<(), EvaluationError> {
         self.work.values += 1;
         self.tape(t, q, v);
-        self.plan.program.run(&mut Value::new(), &self.constants, &mut self.nodes);
+        self.plan
+            .program
+            .run(&mut Value::new(), &self.constants, &mut self.nodes);
         let nodes = core::mem::take(&mut self.nodes);
         let outcome = self.factor(|node| nodes[node]);
         self.nodes = nodes;
@@ -37,12 +39,17 @@ impl<S: System> Dynamics<S> {
     }
 
     /// Factors the system whose changing numbers are `node(index)`.
-    pub(super) fn factor(&mut self, node: impl Fn(usize) -> S::Scalar) -> Result<(), EvaluationError> {
+    pub(super) fn factor(
+        &mut self,
+        node: impl Fn(usize) -> S::Scalar,
+    ) -> Result<(), EvaluationError> {
         if self.factored && self.plan.entries.is_empty() {
             return Ok(());
         }
         let (free, size) = (self.plan.free(), self.plan.size());
-        let matrix = self.solver.begin(free, size, &self.plan.constant[..size * size]);
+        let matrix = self
+            .solver
+            .begin(free, size, &self.plan.constant[..size * size]);
         for entry in &self.plan.entries {
             matrix[entry.row * size + entry.column] += node(entry.node);
         }
@@ -59,9 +66,15 @@ impl<S: System> Dynamics<S> {
                 row.fill(S::Scalar::default());
             }
         }
-        let inertia = if self.plan.elimination.symmetric { Inertia::Symmetric } else { Inertia::General };
+        let inertia = if self.plan.elimination.symmetric {
+            Inertia::Symmetric
+        } else {
+            Inertia::General
+        };
         self.factored = false;
-        self.solver.factor(inertia).map_err(|e| self.solve_error(e))?;
+        self.solver
+            .factor(inertia)
+            .map_err(|e| self.solve_error(e))?;
         self.factored = true;
         Ok(())
     }
@@ -70,7 +83,8 @@ impl<S: System> Dynamics<S> {
     #[inline]
     pub(super) fn solve(&mut self) -> Result<(), EvaluationError> {
         self.solution.clear();
-        self.solution.extend_from_slice(&self.right[..self.plan.size()]);
+        self.solution
+            .extend_from_slice(&self.right[..self.plan.size()]);
         self.solver.solve(&mut self.solution);
         match self.solution.iter().position(|x| !x.value().is_finite()) {
             Some(unknown) => Err(self.not_finite(unknown)),
@@ -80,7 +94,9 @@ impl<S: System> Dynamics<S> {
 
     /// Whether dependent rows agree with the solution.
     pub(super) fn check_rows_aside(&self) -> Result<(), EvaluationError> {
-        self.solver.check_rows_aside(&self.solution, &self.right).map_err(|e| self.solve_error(e))
+        self.solver
+            .check_rows_aside(&self.solution, &self.right)
+            .map_err(|e| self.solve_error(e))
     }
 
     /// Runs only the motion tape at (t, q, v), for the needs held: then read [`Self::motion`].
@@ -106,7 +122,14 @@ impl<S: System> Dynamics<S> {
 
     /// The solution as inputs of the report.
     fn store(&mut self) {
-        let Self { plan, inputs, nodes, solution, right, .. } = self;
+        let Self {
+            plan,
+            inputs,
+            nodes,
+            solution,
+            right,
+            ..
+        } = self;
         let n = S::DESCRIPTION.coordinates.len();
         let (accelerations, forces) = inputs[1 + 2 * n..].split_at_mut(n);
         for (j, acceleration) in accelerations.iter_mut().enumerate() {
@@ -128,7 +151,9 @@ impl<S: System> Dynamics<S> {
                 Place::Constant(i) => self.constants[i],
                 Place::Node(i) => nodes[i],
             };
-            forces[slide.row] = slide.source.map_or(factor, |source| factor * forces[source]);
+            forces[slide.row] = slide
+                .source
+                .map_or(factor, |source| factor * forces[source]);
         }
     }
 

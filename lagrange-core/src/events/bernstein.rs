@@ -50,12 +50,11 @@ pub(super) fn split(b: &[f64], t: f64) -> (Coefficients, Coefficients) {
     let mut left = [0.0; MAX_DEGREE + 1];
     let mut right = [0.0; MAX_DEGREE + 1];
     right[..=d].copy_from_slice(b);
-    left[0] = right[0];
-    for r in 1..=d {
-        for i in 0..=d - r {
+    for (r, left) in left[..=d].iter_mut().enumerate() {
+        *left = right[0];
+        for i in 0..d - r {
             right[i] = (1.0 - t) * right[i] + t * right[i + 1];
         }
-        left[r] = right[0];
     }
     (left, right)
 }

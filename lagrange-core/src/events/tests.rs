@@ -168,7 +168,7 @@ fn quick_answers_agree_with_the_search() {
                 + usize::from(c[0] * samples[0] < 0.0);
             let count = found(&c).len();
             assert!(
-                count >= changes && (count - changes) % 2 == 0,
+                count >= changes && (count - changes).is_multiple_of(2),
                 "{count} roots, {changes} changes: {c:?}"
             );
             assert!(count - changes <= 2);

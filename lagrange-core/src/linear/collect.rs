@@ -40,9 +40,12 @@ pub(crate) struct Collected {
 pub(crate) fn acts(description: &Description, effects: &Effects, mode: &Mode, row: usize) -> bool {
     let constraint_acts = |i: usize| {
         effects.includes(description, Item::Constraint(i))
-            && description.constraints[i].while_contact.is_none_or(|contact| mode.contacts[contact])
+            && description.constraints[i]
+                .while_contact
+                .is_none_or(|contact| mode.contacts[contact])
     };
-    let contact_acts = |i: usize| effects.includes(description, Item::Contact(i)) && mode.contacts[i];
+    let contact_acts =
+        |i: usize| effects.includes(description, Item::Contact(i)) && mode.contacts[i];
     let (constraints, contacts) = (description.constraints, description.contacts);
     if let Some(i) = constraints.iter().position(|c| c.row == row) {
         return constraint_acts(i);
@@ -50,7 +53,10 @@ pub(crate) fn acts(description: &Description, effects: &Effects, mode: &Mode, ro
     if let Some(i) = contacts.iter().position(|c| c.row == row) {
         return contact_acts(i);
     }
-    let owner = description.frictions.iter().position(|f| (f.row..f.row + f.components).contains(&row));
+    let owner = description
+        .frictions
+        .iter()
+        .position(|f| (f.row..f.row + f.components).contains(&row));
     owner.is_some_and(|i| {
         mode.frictions[i] == FrictionMode::Stick
             && effects.includes(description, Item::Friction(i))
@@ -74,29 +80,41 @@ impl Collected {
         slides: &mut Vec<Slide>,
     ) {
         self.acting.clear();
-        self.acting.extend((0..description.rows.len()).filter(|&row| acts(description, effects, mode, row)));
+        self.acting.extend(
+            (0..description.rows.len()).filter(|&row| acts(description, effects, mode, row)),
+        );
         self.columns.clear();
         self.loads.clear();
         slides.clear();
-        self.loads.extend(description.forcing.iter().copied().enumerate());
+        self.loads
+            .extend(description.forcing.iter().copied().enumerate());
         for (index, &row) in self.acting.iter().enumerate() {
             let elements = description.rows[row].jacobian.iter();
-            self.columns.extend(elements.map(|&(coordinate, place)| ColumnElement {
-                index,
-                coordinate,
-                place,
-                source: Source::Jacobian,
-            }));
+            self.columns
+                .extend(elements.map(|&(coordinate, place)| ColumnElement {
+                    index,
+                    coordinate,
+                    place,
+                    source: Source::Jacobian,
+                }));
         }
         self.slide(description, effects, mode, constants, program, slides);
-        for &Slide { row, factor, source } in slides.iter() {
+        for &Slide {
+            row,
+            factor,
+            source,
+        } in slides.iter()
+        {
             for &(j, place) in description.rows[row].jacobian {
                 let force = program.mul(constants, factor, place);
                 self.push_force(j, force, source);
             }
         }
         for coupling in description.couplings {
-            let owner = description.forces.iter().position(|f| f.need == coupling.need);
+            let owner = description
+                .forces
+                .iter()
+                .position(|f| f.need == coupling.need);
             if owner.is_some_and(|i| !effects.includes(description, Item::Force(i))) {
                 continue;
             }
@@ -120,7 +138,9 @@ impl Collected {
         slides: &mut Vec<Slide>,
     ) {
         for (i, friction) in description.frictions.iter().enumerate() {
-            let FrictionMode::Slip(sliding) = mode.frictions[i] else { continue };
+            let FrictionMode::Slip(sliding) = mode.frictions[i] else {
+                continue;
+            };
             if !effects.includes(description, Item::Friction(i)) {
                 continue;
             }
@@ -158,10 +178,16 @@ impl Collected {
             for component in 0..friction.components {
                 let row = friction.row + component;
                 let factor = match sliding.direction {
-                    Direction::Fixed(d) => program.scale(constants, T::from_f64(d[component]), strength),
+                    Direction::Fixed(d) => {
+                        program.scale(constants, T::from_f64(d[component]), strength)
+                    }
                     Direction::AlongSlip => program.mul(constants, strength, slip(component)),
                 };
-                slides.push(Slide { row, factor, source });
+                slides.push(Slide {
+                    row,
+                    factor,
+                    source,
+                });
             }
         }
     }
@@ -174,7 +200,12 @@ impl Collected {
         match source {
             Some(row) => {
                 if let Ok(index) = self.acting.binary_search(&row) {
-                    self.columns.push(ColumnElement { index, coordinate, place: force, source: Source::Coupled });
+                    self.columns.push(ColumnElement {
+                        index,
+                        coordinate,
+                        place: force,
+                        source: Source::Coupled,
+                    });
                 }
             }
             None => self.loads.push((coordinate, force)),
@@ -182,7 +213,12 @@ impl Collected {
     }
 
     /// Whether a row and the column of its force depend on parameters only, and the row has no bias.
-    pub(crate) fn is_constant<T: Scalar>(&self, description: &Description, index: usize, constants: &[T]) -> bool {
+    pub(crate) fn is_constant<T: Scalar>(
+        &self,
+        description: &Description,
+        index: usize,
+        constants: &[T],
+    ) -> bool {
         let row = &description.rows[self.acting[index]];
         let unbiased = match row.bias {
             Place::Zero => true,
@@ -196,6 +232,10 @@ impl Collected {
         };
         unbiased
             && row.jacobian.iter().all(|&(_, place)| constant(place))
-            && self.columns.iter().filter(|e| e.index == index).all(|e| constant(e.place))
+            && self
+                .columns
+                .iter()
+                .filter(|e| e.index == index)
+                .all(|e| constant(e.place))
     }
 }

@@ -54,7 +54,8 @@ impl<T: Scalar> Direct<T> {
         self.sizes.clear();
         for row in free..size {
             let row = &self.factors[row * size + free..(row + 1) * size];
-            self.sizes.push(row.iter().map(|x| x.value().abs()).fold(0.0, f64::max));
+            self.sizes
+                .push(row.iter().map(|x| x.value().abs()).fold(0.0, f64::max));
         }
         for step in free..size {
             let (mut best, mut pivot) = (0.0, step);

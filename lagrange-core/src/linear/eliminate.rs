@@ -81,7 +81,9 @@ impl<T: Scalar> Echelon<T> {
             }
             self.pivots.push(Some(pivot));
             let inverse = T::one() / self.rows[i * total + pivot];
-            self.rows[i * total..(i + 1) * total].iter_mut().for_each(|x| *x *= inverse);
+            self.rows[i * total..(i + 1) * total]
+                .iter_mut()
+                .for_each(|x| *x *= inverse);
             self.rows[i * total + pivot] = T::one();
             for above in 0..i {
                 if self.pivots[above].is_some() {
@@ -123,7 +125,10 @@ impl<T: Scalar> Echelon<T> {
 /// Where a row is largest, and how large.
 fn largest<T: Scalar>(row: &[T]) -> (usize, f64) {
     let sizes = row.iter().map(|x| x.value().abs()).enumerate();
-    sizes.fold((0, 0.0), |best, (j, size)| if size > best.1 { (j, size) } else { best })
+    sizes.fold(
+        (0, 0.0),
+        |best, (j, size)| if size > best.1 { (j, size) } else { best },
+    )
 }
 
 /// How accelerations and equations are combined once constant rows are eliminated.
@@ -150,7 +155,9 @@ impl<T: Scalar> Elimination<T> {
     pub(crate) fn acceleration(&self, j: usize, solution: &[T]) -> T {
         match *self.right.row(j) {
             [(column, factor)] => factor * solution[column],
-            ref row => row.iter().fold(T::zero(), |sum, &(column, factor)| sum + factor * solution[column]),
+            ref row => row.iter().fold(T::zero(), |sum, &(column, factor)| {
+                sum + factor * solution[column]
+            }),
         }
     }
 
@@ -164,7 +171,14 @@ impl<T: Scalar> Elimination<T> {
     /// Eliminates the independent constant rows `a` with the columns `c` of their forces (both row-major, `n` wide, one row
     /// a force). `extra` equations stay beside those of motion. False if the columns depend on each other: then nothing
     /// can be eliminated this way.
-    pub(crate) fn set(&mut self, a: &[T], c: &[T], n: usize, symmetric: bool, extra: usize) -> bool {
+    pub(crate) fn set(
+        &mut self,
+        a: &[T],
+        c: &[T],
+        n: usize,
+        symmetric: bool,
+        extra: usize,
+    ) -> bool {
         let height = a.len() / n.max(1);
         self.symmetric = symmetric;
         self.accelerations.set(a, height, n);
@@ -172,7 +186,15 @@ impl<T: Scalar> Elimination<T> {
         if self.forces.pivots.iter().any(Option::is_none) {
             return false;
         }
-        let Self { accelerations, forces, free, equations, right, left, .. } = self;
+        let Self {
+            accelerations,
+            forces,
+            free,
+            equations,
+            right,
+            left,
+            ..
+        } = self;
         free.clear();
         free.extend((0..n).filter(|&j| accelerations.pivot_row(j).is_none()));
         equations.clear();

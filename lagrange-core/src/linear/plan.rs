@@ -103,7 +103,14 @@ impl<T: Scalar> Plan<T> {
         constants: &mut Vec<T>,
     ) {
         self.program.restart(description.motion.outputs);
-        self.collected.set(description, effects, mode, constants, &mut self.program, &mut self.slides);
+        self.collected.set(
+            description,
+            effects,
+            mode,
+            constants,
+            &mut self.program,
+            &mut self.slides,
+        );
         self.acting.clone_from(&self.collected.acting);
         self.eliminate(description, constants);
         self.collect_terms(description);
@@ -113,9 +120,22 @@ impl<T: Scalar> Plan<T> {
     /// Chooses the rows to eliminate: constant, without bias, with constant columns, independent.
     fn eliminate(&mut self, description: &Description, constants: &[T]) {
         let n = description.coordinates.len();
-        let Self { collected, constant_rows, a, c, dependent, elimination, kept, eliminated, acting, .. } = self;
+        let Self {
+            collected,
+            constant_rows,
+            a,
+            c,
+            dependent,
+            elimination,
+            kept,
+            eliminated,
+            acting,
+            ..
+        } = self;
         constant_rows.clear();
-        constant_rows.extend((0..acting.len()).filter(|&index| collected.is_constant(description, index, constants)));
+        constant_rows.extend(
+            (0..acting.len()).filter(|&index| collected.is_constant(description, index, constants)),
+        );
         fill(a, n, constant_rows, |index, put| {
             for &(j, place) in description.rows[acting[index]].jacobian {
                 put(j, number(place, constants));
@@ -148,7 +168,10 @@ impl<T: Scalar> Plan<T> {
                     put(element.coordinate, number(element.place, constants));
                 }
             });
-            let symmetric = collected.columns.iter().all(|e| e.source == Source::Jacobian || kept.contains(&e.index));
+            let symmetric = collected
+                .columns
+                .iter()
+                .all(|e| e.source == Source::Jacobian || kept.contains(&e.index));
             if elimination.set(a, c, n, symmetric, kept.len()) {
                 break;
             }
@@ -159,7 +182,17 @@ impl<T: Scalar> Plan<T> {
 
     /// Every contribution, combined by the elimination.
     fn collect_terms(&mut self, description: &Description) {
-        let Self { collected, elimination, terms, kept, eliminated, reduced, cancelling, acting, .. } = self;
+        let Self {
+            collected,
+            elimination,
+            terms,
+            kept,
+            eliminated,
+            reduced,
+            cancelling,
+            acting,
+            ..
+        } = self;
         let (free, rows) = (elimination.free.len(), kept.len());
         let size = free + rows;
         terms.clear();
@@ -172,7 +205,12 @@ impl<T: Scalar> Plan<T> {
                 for &(column, right) in elimination.right.row(j) {
                     // The upper triangle of a symmetric matrix is copied.
                     if !(symmetric && row < column) {
-                        terms.push(Term { row, column, factor: left * right, place });
+                        terms.push(Term {
+                            row,
+                            column,
+                            factor: left * right,
+                            place,
+                        });
                     }
                 }
             }
@@ -186,7 +224,12 @@ impl<T: Scalar> Plan<T> {
         for element in &collected.columns {
             if let Some(index) = kept.iter().position(|&k| k == element.index) {
                 for &(row, factor) in elimination.left.row(element.coordinate) {
-                    terms.push(Term { row, column: free + index, factor, place: element.place });
+                    terms.push(Term {
+                        row,
+                        column: free + index,
+                        factor,
+                        place: element.place,
+                    });
                 }
             }
         }
@@ -198,7 +241,12 @@ impl<T: Scalar> Plan<T> {
                 let parts = elimination.right.row(j);
                 combined |= !matches!(parts, [(_, one)] if *one == T::one());
                 for &(column, factor) in parts {
-                    terms.push(Term { row: free + index, column, factor, place });
+                    terms.push(Term {
+                        row: free + index,
+                        column,
+                        factor,
+                        place,
+                    });
                     cancelling.push((factor, place));
                 }
             }
@@ -207,11 +255,21 @@ impl<T: Scalar> Plan<T> {
             } else {
                 cancelling.truncate(first);
             }
-            terms.push(Term { row: free + index, column: size, factor: minus, place: row.bias });
+            terms.push(Term {
+                row: free + index,
+                column: size,
+                factor: minus,
+                place: row.bias,
+            });
         }
         for &(j, place) in &collected.loads {
             for &(row, factor) in elimination.left.row(j) {
-                terms.push(Term { row, column: size, factor, place });
+                terms.push(Term {
+                    row,
+                    column: size,
+                    factor,
+                    place,
+                });
             }
         }
         terms.retain(|term| term.place != Place::Zero);
@@ -239,7 +297,8 @@ impl<T: Scalar> Plan<T> {
         self.terms.sort_unstable_by_key(key);
         let mut rest = &self.terms[..];
         while let Some(&Term { row, column, .. }) = rest.first() {
-            let (element, after) = rest.split_at(rest.partition_point(|t| (t.row, t.column) <= (row, column)));
+            let (element, after) =
+                rest.split_at(rest.partition_point(|t| (t.row, t.column) <= (row, column)));
             rest = after;
             let mut constant = T::zero();
             self.program.begin_sum();
@@ -266,14 +325,23 @@ impl<T: Scalar> Plan<T> {
                 self.constant[column * size + row] += constant;
             }
             if let Some(node) = self.program.end_sum() {
-                let entries = if row < size { &mut self.entries } else { &mut self.force_entries };
+                let entries = if row < size {
+                    &mut self.entries
+                } else {
+                    &mut self.force_entries
+                };
                 entries.push(Entry { row, column, node });
                 if mirrored {
-                    entries.push(Entry { row: column, column: row, node });
+                    entries.push(Entry {
+                        row: column,
+                        column: row,
+                        node,
+                    });
                 }
             }
         }
-        self.entries.sort_unstable_by_key(|e| (e.column >= free, e.row, e.column));
+        self.entries
+            .sort_unstable_by_key(|e| (e.column >= free, e.row, e.column));
         self.first_force = self.entries.partition_point(|e| e.column < free);
     }
 
@@ -282,7 +350,9 @@ impl<T: Scalar> Plan<T> {
     pub(crate) fn constant_force(&self, index: usize, solution: &[T]) -> T {
         let size = solution.len();
         let row = &self.constant[(size + index) * size..(size + index + 1) * size];
-        row.iter().zip(solution).fold(T::zero(), |sum, (&k, &x)| sum + k * x)
+        row.iter()
+            .zip(solution)
+            .fold(T::zero(), |sum, (&k, &x)| sum + k * x)
     }
 
     /// The size of the terms of each kept row that elimination may cancel: (row, largest term).
@@ -291,7 +361,9 @@ impl<T: Scalar> Plan<T> {
         read: impl Fn(Place) -> T + 'a,
     ) -> impl Iterator<Item = (usize, f64)> + 'a {
         self.reduced.iter().map(move |&(row, first, end)| {
-            let sizes = self.cancelling[first..end].iter().map(|&(factor, place)| (factor * read(place)).value().abs());
+            let sizes = self.cancelling[first..end]
+                .iter()
+                .map(|&(factor, place)| (factor * read(place)).value().abs());
             (row, sizes.fold(0.0, f64::max))
         })
     }
@@ -305,7 +377,12 @@ fn number<T: Scalar>(place: Place, constants: &[T]) -> T {
 }
 
 /// Row-major matrix with one row per index, summed from what `each` puts.
-fn fill<T: Scalar>(matrix: &mut Vec<T>, n: usize, indices: &[usize], each: impl Fn(usize, &mut dyn FnMut(usize, T))) {
+fn fill<T: Scalar>(
+    matrix: &mut Vec<T>,
+    n: usize,
+    indices: &[usize],
+    each: impl Fn(usize, &mut dyn FnMut(usize, T)),
+) {
     matrix.clear();
     matrix.resize(n * indices.len(), T::zero());
     for (row, &index) in matrix.chunks_exact_mut(n.max(1)).zip(indices) {

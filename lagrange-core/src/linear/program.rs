@@ -9,20 +9,29 @@ use crate::system::Place;
 /// Arithmetics that sum many terms at once.
 pub(crate) trait Sum: Arithmetic {
     /// Σ factor · nodes[node]
-    fn sum(&mut self, to: usize, terms: &[(Self::Scalar, usize)], nodes: &[Self::Node]) -> Self::Node;
+    fn sum(
+        &mut self,
+        to: usize,
+        terms: &[(Self::Scalar, usize)],
+        nodes: &[Self::Node],
+    ) -> Self::Node;
 }
 
 impl<T: Scalar> Sum for Value<T> {
     #[inline(always)]
     fn sum(&mut self, _: usize, terms: &[(T, usize)], nodes: &[T]) -> T {
-        terms.iter().fold(T::zero(), |sum, &(factor, node)| sum + factor * nodes[node])
+        terms
+            .iter()
+            .fold(T::zero(), |sum, &(factor, node)| sum + factor * nodes[node])
     }
 }
 
 impl<T: Scalar> Sum for Jet<'_, T> {
     #[inline(always)]
     fn sum(&mut self, to: usize, terms: &[(T, usize)], nodes: &[Slot]) -> Slot {
-        let sum = terms.iter().fold(T::zero(), |sum, &(factor, node)| sum + factor * self.latest(nodes[node]));
+        let sum = terms.iter().fold(T::zero(), |sum, &(factor, node)| {
+            sum + factor * self.latest(nodes[node])
+        });
         self.append(to, sum)
     }
 }

@@ -91,13 +91,19 @@ impl<T: Scalar> Solver<T> {
     pub(crate) fn factor(&mut self, inertia: Inertia) -> Result<(), SolveError> {
         self.factorizations += 1;
         self.aside.clear();
-        if inertia == Inertia::Symmetric && self.direct.factor(self.coordinates, self.size, &self.matrix) {
+        if inertia == Inertia::Symmetric
+            && self
+                .direct
+                .factor(self.coordinates, self.size, &self.matrix)
+        {
             self.factors = Factors::Direct;
             return Ok(());
         }
         self.factors = Factors::Complete;
         if let Some(bad) = self.matrix.iter().position(|x| !x.value().is_finite()) {
-            return Err(SolveError::NotFinite { equation: bad / self.size });
+            return Err(SolveError::NotFinite {
+                equation: bad / self.size,
+            });
         }
         self.aside.resize(self.size - self.coordinates, false);
         self.equilibrate();

@@ -188,8 +188,8 @@ pub fn series<S: System>(guard: Guard, mode: &Mode, reading: &Reading<'_, S>, h:
                 ..
             }) = mode.frictions[f]
             {
-                for k in 0..friction.components {
-                    out.add(along[k], reading.motion(d.rows[friction.row + k].velocity));
+                for (k, &part) in along.iter().enumerate().take(friction.components) {
+                    out.add(part, reading.motion(d.rows[friction.row + k].velocity));
                 }
             }
         }
@@ -287,7 +287,9 @@ pub fn first_values<S: System>(
 pub fn all_row_needs(d: &Description, needs: &NeedSet) -> NeedSet {
     let mut all = needs.clone();
     for row in d.rows {
-        [row.needs.jacobian, row.needs.position, row.needs.velocity].map(|need| all.insert(need));
+        for need in [row.needs.jacobian, row.needs.position, row.needs.velocity] {
+            all.insert(need);
+        }
     }
     d.contacts
         .iter()

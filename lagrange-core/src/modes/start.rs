@@ -87,6 +87,7 @@ fn survey<S: System>(
     let mut mode = Mode::open(d);
     let mut known = Known {
         touching: vec![false; d.contacts.len()],
+        arriving: vec![false; d.contacts.len()],
         parting: vec![false; d.contacts.len()],
         resting: vec![false; d.frictions.len()],
         balanced: vec![false; d.branches.len()],
@@ -116,7 +117,8 @@ fn survey<S: System>(
                 known.parting[c] = true;
             } else {
                 known.touching[c] = true;
-                mode.contacts[c] = true;
+                known.arriving[c] = rate < -near * size;
+                mode.contacts[c] = !known.arriving[c];
             }
         }
     }
@@ -124,10 +126,10 @@ fn survey<S: System>(
         if !dynamics.effects().includes(d, Item::Friction(f)) {
             continue;
         }
-        if let Normal::Contact(c) = friction.normal {
-            if !mode.contacts[c] {
-                continue;
-            }
+        if let Normal::Contact(c) = friction.normal
+            && !mode.contacts[c]
+        {
+            continue;
         }
         let slip = number(dynamics, d.rows[friction.row].velocity);
         if slip.abs() <= near * speed(dynamics, friction.row) {

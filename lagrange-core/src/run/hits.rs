@@ -53,7 +53,8 @@ impl<S: System> Run<'_, S> {
         } else {
             Hit::Guards(at)
         };
-        match self.first_stop(curves, guards.end()) {
+        // A stop at the instant of an impact ends the run before it; rounding may see it a little later.
+        match self.first_stop(curves, (guards.end() * (1.0 + 1e-13)).min(1.0)) {
             Some((stop, s)) => Hit::Stop(stop, s),
             None => guards,
         }
@@ -105,10 +106,10 @@ impl<S: System> Run<'_, S> {
                 |k| curves.stop_term(i, k),
                 |k| below[i][k],
             );
-            if let Some(s) = first {
-                if best.is_none_or(|(_, t)| s < t) {
-                    best = Some((i, s));
-                }
+            if let Some(s) = first
+                && best.is_none_or(|(_, t)| s < t)
+            {
+                best = Some((i, s));
             }
         }
         best

@@ -1,9 +1,12 @@
 //! The loop of a run: step, look for the first thing that happens, switch, go on.
 
+mod accumulation;
 mod curves;
 mod hits;
 mod stepping;
 mod switch;
+#[cfg(test)]
+mod tests;
 
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError, NeedSet, add_guards};
@@ -15,6 +18,7 @@ use crate::modes::start;
 use crate::simulation::{Failure, Simulation};
 use crate::system::System;
 use crate::trajectory::{EventKind, State, Subject, Trajectory, Work};
+use accumulation::Impacts;
 use core::ops::Range;
 use curves::Curves;
 use hits::Hit;
@@ -51,6 +55,8 @@ pub(crate) struct Run<'a, S: System> {
     step: StepPolynomial<S::Scalar>,
     curves: Curves,
     scratch: State<S::Scalar>,
+    /// Per contact: its impacts so far.
+    impacts: Vec<Impacts>,
     /// Modes of the switches since time last advanced.
     stuck: Vec<Mode>,
     finished: bool,
@@ -102,6 +108,7 @@ impl<'a, S: System> Run<'a, S> {
             mark_below: d.marks.iter().map(|w| vec![false; w.terms.len()]).collect(),
             step: StepPolynomial::new(d.coordinates.len(), 1),
             curves: Curves::new::<S>(),
+            impacts: vec![Impacts::default(); d.contacts.len()],
             stuck: Vec::new(),
             finished: false,
             trajectory,

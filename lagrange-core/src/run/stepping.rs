@@ -18,9 +18,9 @@ pub(super) enum Stepper<T> {
 
 impl<T: Scalar> Stepper<T> {
     pub(super) fn new(method: Method, coordinates: usize) -> Self {
-        match method {
-            Method::Taylor => Stepper::Taylor(DefectControl::default()),
-            other => Stepper::RungeKutta(Box::new(RungeKutta::new(other, coordinates)), None),
+        match RungeKutta::new(method, coordinates) {
+            None => Stepper::Taylor(DefectControl::default()),
+            Some(method) => Stepper::RungeKutta(Box::new(method), None),
         }
     }
 
@@ -28,7 +28,10 @@ impl<T: Scalar> Stepper<T> {
     pub(super) fn restart(&mut self) {
         match self {
             Stepper::Taylor(control) => *control = DefectControl::default(),
-            Stepper::RungeKutta(method, _) => method.restart(),
+            Stepper::RungeKutta(method, wanted) => {
+                method.restart();
+                *wanted = None;
+            }
         }
     }
 }
@@ -60,7 +63,7 @@ impl<S: System> Run<'_, S> {
             }
             self.write_polynomial(h);
             let mut curves = core::mem::take(&mut self.curves);
-            curves.from_series(&self.dynamics, &self.mode, &self.guards, h);
+            curves.take_series(&self.dynamics, &self.mode, &self.guards, h);
             let hit = self.first_hit(&curves);
             self.curves = curves;
             let end = hit.end();
@@ -124,28 +127,33 @@ impl<S: System> Run<'_, S> {
         let Stepper::RungeKutta(method, wanted) = &mut self.stepper else {
             return Ok(Hit::Nothing);
         };
-        let h = wanted
-            .unwrap_or_else(|| method.first_step(longest))
-            .min(longest);
-        let outcome = method.step(
-            &mut self.dynamics,
-            self.t,
-            &self.state.q,
-            &self.state.v,
-            h,
-            self.tolerance,
-            &mut self.step,
-        );
+        let (q, v) = (&self.state.q, &self.state.v);
+        let first = match *wanted {
+            Some(h) => Ok(h),
+            None => method.first_step(&mut self.dynamics, self.t, q, v, longest, self.tolerance),
+        };
+        let outcome = first.and_then(|h| {
+            let h = h.min(longest);
+            method.step(
+                &mut self.dynamics,
+                self.t,
+                q,
+                v,
+                h,
+                self.tolerance,
+                &mut self.step,
+            )
+        });
         match outcome {
             Ok(accepted) => {
                 *wanted = Some(accepted.h_next);
                 self.trajectory.work.rejected += accepted.rejected;
             }
-            Err(StepError::System(e)) => return Err(self.error(e)),
+            Err(StepError::Acceleration(e)) => return Err(self.error(e)),
             Err(StepError::TooSmall { h, .. }) => return Err(self.step_too_small(h)),
         }
         let mut curves = core::mem::take(&mut self.curves);
-        let sampled = curves.from_samples(
+        let sampled = curves.sample(
             &mut self.dynamics,
             &self.mode,
             &self.guards,

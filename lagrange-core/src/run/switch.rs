@@ -19,6 +19,9 @@ impl<S: System> Run<'_, S> {
             touching: (0..d.contacts.len())
                 .map(|c| self.mode.contacts[c] || self.fallen.contains(&Guard::Gap(c)))
                 .collect(),
+            arriving: (0..d.contacts.len())
+                .map(|c| self.fallen.contains(&Guard::Gap(c)))
+                .collect(),
             parting: vec![false; d.contacts.len()],
             resting: (0..d.frictions.len())
                 .map(|f| {
@@ -42,7 +45,7 @@ impl<S: System> Run<'_, S> {
         self.evaluate_all_rows()?;
         let forces = self.forces();
         let hit: Vec<usize> = (0..d.contacts.len())
-            .filter(|&c| known.touching[c] && self.approaching(c))
+            .filter(|&c| known.arriving[c] && self.approaching(c))
             .collect();
         let mut struck = None;
         if !hit.is_empty() {
@@ -53,6 +56,7 @@ impl<S: System> Run<'_, S> {
             self.state.v.copy_from_slice(&outcome.v);
             self.log_impacts(&outcome, &hit, &before, &state, &forces);
             self.after_impact(&outcome, &near, &mut known);
+            self.close_accumulated(&outcome, &mut known)?;
             struck = Some(outcome);
         } else {
             self.rest_where_slip_vanishes(&mut known);
@@ -78,27 +82,51 @@ impl<S: System> Run<'_, S> {
 
     /// Whether the gap of contact `c` closes at the present state.
     fn approaching(&self, c: usize) -> bool {
-        if !self
-            .dynamics
-            .effects()
-            .includes(S::DESCRIPTION, Item::Contact(c))
-        {
-            return false;
+        let d = S::DESCRIPTION;
+        self.dynamics.effects().includes(d, Item::Contact(c))
+            && self
+                .dynamics
+                .motion(d.rows[d.contacts[c].row].velocity)
+                .value()
+                < 0.0
+    }
+
+    /// Ends the infinitely many impacts of contacts that bounce ever less.
+    fn close_accumulated(
+        &mut self,
+        outcome: &Impact<S::Scalar>,
+        known: &mut Known,
+    ) -> Result<(), Error> {
+        let d = S::DESCRIPTION;
+        for c in 0..d.contacts.len() {
+            if !outcome.struck[c] || !known.parting[c] {
+                continue;
+            }
+            let Some(count) = self.accumulate(c, known) else {
+                continue;
+            };
+            let mut closed = self.mode.clone();
+            for (contact, touching) in closed.contacts.iter_mut().zip(&known.touching) {
+                *contact = *touching;
+            }
+            self.dynamics.set_mode(&closed);
+            self.project(true)?;
+            self.evaluate_all_rows()?;
+            for (f, friction) in d.frictions.iter().enumerate() {
+                if matches!(friction.normal, Normal::Contact(on) if known.touching[on]) {
+                    let (slip, size) = self.slip(friction.row);
+                    known.resting[f] = slip.abs() <= 1e-13 * size;
+                }
+            }
+            let state = self.state.clone();
+            self.log_watch(
+                Subject::Contact(c),
+                EventKind::Accumulates { impacts: count },
+                self.t,
+                state,
+            );
         }
-        let row = &S::DESCRIPTION.rows[S::DESCRIPTION.contacts[c].row];
-        let number = |place| self.dynamics.motion(place).value();
-        let size: f64 = row
-            .jacobian
-            .iter()
-            .map(|&(j, place)| (number(place) * self.state.v[j].value()).abs())
-            .sum();
-        // A closed contact keeps its gap rate at zero up to rounding; a hit is faster than that.
-        let floor = if self.mode.contacts[c] {
-            1e-9 * size
-        } else {
-            1e-15 * size
-        };
-        number(row.velocity) < -floor
+        Ok(())
     }
 
     /// What is known after an impact.
@@ -109,10 +137,10 @@ impl<S: System> Run<'_, S> {
             known.parting[c] = !outcome.stays[c];
         }
         for f in 0..d.frictions.len() {
-            if let Normal::Contact(c) = d.frictions[f].normal {
-                if near.contains(&c) {
-                    known.resting[f] = outcome.sticks[f];
-                }
+            if let Normal::Contact(c) = d.frictions[f].normal
+                && near.contains(&c)
+            {
+                known.resting[f] = outcome.sticks[f];
             }
         }
         // Velocities have jumped: what was located for the old ones says nothing about the new.

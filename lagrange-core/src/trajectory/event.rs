@@ -1,7 +1,8 @@
 //! What happened: the event log, one entry per item that changed.
 
+use crate::handle::StartId;
 use crate::mode::Mode;
-use crate::system::Description;
+use crate::system::{Description, System};
 use core::fmt;
 
 /// Positions and velocities.
@@ -12,6 +13,23 @@ pub struct State<T> {
     /// v = dq/dt.
     pub v: Vec<T>,
 }
+
+/// Named starts as states.
+pub trait Starts: System {
+    /// The state of a named start at time 0.
+    fn at(&self, start: StartId) -> State<Self::Scalar> {
+        let n = Self::DESCRIPTION.coordinates.len();
+        let zero = Self::Scalar::default();
+        let mut state = State {
+            q: vec![zero; n],
+            v: vec![zero; n],
+        };
+        System::start(self, start.0, zero, &mut state.q, &mut state.v);
+        state
+    }
+}
+
+impl<S: System> Starts for S {}
 
 /// What an event is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,6 +69,11 @@ pub enum EventKind {
     Closed,
     /// A contact was hit: velocities jumped.
     Impact,
+    /// Infinitely many impacts in finite time have ended; the contact closes.
+    Accumulates {
+        /// Number of impacts that were followed one by one.
+        impacts: usize,
+    },
     /// A friction began to slip.
     Slips,
     /// A friction began to stick.
@@ -66,12 +89,13 @@ pub enum EventKind {
 }
 
 impl EventKind {
-    /// One word: `lost`, `closed`, `impact`, `slips`, `sticks`, `reverses`, `branches`, `stop`, `mark`.
+    /// One word: `lost`, `closed`, `impact`, `accumulates`, `slips`, `sticks`, `reverses`, `branches`, `stop`, `mark`.
     pub fn word(self) -> &'static str {
         match self {
             EventKind::Lost => "lost",
             EventKind::Closed => "closed",
             EventKind::Impact => "impact",
+            EventKind::Accumulates { .. } => "accumulates",
             EventKind::Slips => "slips",
             EventKind::Sticks => "sticks",
             EventKind::Reverses => "reverses",
@@ -119,6 +143,7 @@ impl<T: crate::arithmetic::Scalar> Event<T> {
             EventKind::Lost => "lets go",
             EventKind::Closed => "closes and holds",
             EventKind::Impact => "is hit",
+            EventKind::Accumulates { .. } => "has bounced infinitely often",
             EventKind::Slips => "starts to slip",
             EventKind::Sticks => "sticks",
             EventKind::Reverses => "reverses its slip",

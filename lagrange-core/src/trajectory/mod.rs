@@ -4,7 +4,7 @@ mod event;
 mod ledger;
 mod sampler;
 
-pub use event::{Event, EventKind, State, Subject};
+pub use event::{Event, EventKind, Starts, State, Subject};
 pub use ledger::{Energies, Entry, Ledger};
 pub use sampler::{Instant, Sampler};
 
@@ -12,7 +12,7 @@ use crate::arithmetic::Scalar;
 use crate::effects::Effects;
 use crate::integrate::StepPolynomial;
 use crate::mode::Mode;
-use crate::system::System;
+use crate::system::{Description, System};
 
 /// What a run cost.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -123,6 +123,11 @@ impl<S: System> Trajectory<S> {
     /// The system that moved.
     pub fn scene(&self) -> &S {
         &self.scene
+    }
+
+    /// The table of names and places of the system.
+    pub fn description(&self) -> &'static Description {
+        S::DESCRIPTION
     }
 
     /// The effects that took part.

@@ -2,7 +2,7 @@
 
 mod pendulum;
 mod rank;
-mod wheel;
+pub(crate) mod wheel;
 
 use super::*;
 use crate::arithmetic::Scalar;

@@ -4,8 +4,28 @@
 //! The [`Structure`] says what the outputs mean; it mirrors `lagrange_core::system::Description` field by field,
 //! with an [`OutputId`] where the description has a `Place`.
 
+mod cyclic;
+mod energy;
+mod euler_lagrange;
+mod forms;
+mod friction;
+mod loads;
+mod needs;
+mod outputs;
+mod quadratic;
+mod regular;
+mod rows;
+mod sheet;
+#[cfg(test)]
+mod tests;
+
+use crate::diagnostics::Diagnostics;
 use crate::model::System;
 use crate::symbolic::ExprId;
+use euler_lagrange::Inertia;
+use loads::Loads;
+use sheet::Sheet;
+use std::collections::BTreeMap;
 
 /// A bit of the need mask. Need 0 is always held.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -46,6 +66,93 @@ pub struct Equations {
     pub structure: Structure<OutputId>,
 }
 
+/// Derives all equations of a system. None if it is structurally singular, which the sink then tells.
+pub fn equations(system: System, sink: &mut Diagnostics) -> Option<Equations> {
+    let mut sheet = Sheet::new(system);
+    let groups = euler_lagrange::groups(&mut sheet.system, &sheet.needs);
+    let inertias: Vec<Inertia> = groups
+        .iter()
+        .map(|group| euler_lagrange::derive(&mut sheet.system.pool, &sheet.x, group))
+        .collect();
+    let rows = rows::rows(&mut sheet);
+    let contacts = rows::contacts(&mut sheet);
+    let frictions = friction::frictions(&mut sheet);
+    let loads = loads::loads(&mut sheet);
+    // All outputs so far, and what the loads will add to the forcing.
+    let written = sheet
+        .outputs
+        .iter()
+        .flat_map(|output| &output.terms)
+        .map(|&(_, term)| term);
+    let others: Vec<ExprId> = written
+        .chain(loads.forcing.iter().map(|&(_, _, term)| term))
+        .collect();
+    let cyclic = cyclic::cyclic(&mut sheet, &inertias, &others);
+    let structure = Structure {
+        mass: mass_matrix(&mut sheet, &inertias),
+        forcing: forcing(&mut sheet, &inertias, &loads),
+        rows,
+        couplings: loads.couplings,
+        kinetic: sheet.needs.kinetic.clone(),
+        potential: sheet.needs.potential.clone(),
+        contacts,
+        frictions,
+        forces: loads.forces,
+        dissipations: loads.dissipations,
+        energy: energy::energies(&mut sheet, &inertias),
+        momenta: energy::momenta(&mut sheet, &inertias),
+        observes: outputs::observes(&mut sheet),
+        stops: outputs::stops(&mut sheet),
+        marks: outputs::marks(&mut sheet),
+        branches: outputs::branches(&mut sheet),
+        cyclic,
+    };
+    regular::check(&sheet.system, &inertias, &structure, sink).then(|| Equations {
+        needs: sheet.needs.labels,
+        system: sheet.system,
+        outputs: sheet.outputs,
+        structure,
+    })
+}
+
+/// The lower triangle of M; what each energy contributes stands under its need.
+fn mass_matrix(sheet: &mut Sheet, inertias: &[Inertia]) -> Vec<(usize, usize, OutputId)> {
+    let mut entries: BTreeMap<(usize, usize), Vec<(NeedId, ExprId)>> = BTreeMap::new();
+    for inertia in inertias {
+        for (&place, &entry) in &inertia.mass {
+            entries
+                .entry(place)
+                .or_default()
+                .push((inertia.need, entry));
+        }
+    }
+    let mut mass = Vec::new();
+    for ((i, j), terms) in entries {
+        let label = format!("mass[{}, {}]", sheet.coordinate(i), sheet.coordinate(j));
+        mass.push((i, j, sheet.output(Stage::Motion, label, &terms)));
+    }
+    mass
+}
+
+/// f: inertial and conservative forces, applied forces, dissipation.
+fn forcing(sheet: &mut Sheet, inertias: &[Inertia], loads: &Loads) -> Vec<OutputId> {
+    let mut terms: Vec<Vec<(NeedId, ExprId)>> = vec![Vec::new(); sheet.x.len()];
+    for inertia in inertias {
+        for &(i, f) in &inertia.forcing {
+            terms[i].push((inertia.need, f));
+        }
+    }
+    for &(i, need, f) in &loads.forcing {
+        terms[i].push((need, f));
+    }
+    let mut forcing = Vec::new();
+    for (i, terms) in terms.iter().enumerate() {
+        let label = format!("forcing[{}]", sheet.coordinate(i));
+        forcing.push(sheet.output(Stage::Motion, label, terms));
+    }
+    forcing
+}
+
 /// What the outputs mean: see `lagrange_core::system::Description`, field by field.
 pub struct Structure<P> {
     /// (row, column ≤ row, value)
@@ -70,9 +177,9 @@ pub struct Structure<P> {
     pub dissipations: Vec<Load<P>>,
     /// Per branch.
     pub branches: Vec<Branch<P>>,
-    /// T, V, Jacobi, −∂L/∂t; need.
+    /// T, V, Jacobi, −∂L/∂t; need of the unnamed energies, the others stand under their own.
     pub energy: (P, P, P, P, NeedId),
-    /// ∂L/∂v; need.
+    /// ∂L/∂v; need as for the energies.
     pub momenta: (Vec<P>, NeedId),
     /// Per observe: (value, need).
     pub observes: Vec<(P, NeedId)>,
@@ -98,7 +205,7 @@ pub struct Row<P> {
     pub needs: [NeedId; 4],
 }
 
-/// Q[coordinate] += factor · λ[row]
+/// `Q[coordinate] += factor · λ[row]`
 pub struct Coupling<P> {
     /// Coordinate.
     pub coordinate: usize,

@@ -103,7 +103,10 @@ table! {
     PointElsewhere "E508" "the gap does not follow from the position of this point" "`at` takes the point relative to the body that it touches; leave it out where the gap is itself a distance";
     ForceNotLinear "E509" "the force is not linear in `{0}`" "the forces of contacts and constraints enter the equations linearly";
     SameTwice "E510" "`{0}` is given twice" "keep one";
+    UnnamedTwice "E511" "a second `{0} =` without a name" "name the terms: `{0}(name: …)`";
 
     NoInertia "E601" "the coordinate `{0}` has no inertia" "no kinetic energy contains `der({0})`, and no constraint ties it: add its kinetic energy or remove it";
     EquationCount "E602" "{0} equations for {1} unknowns" "{2}";
+
+    Bug "E999" "a bug in the derive: something was left out without a message" "please report it with the declaration";
 }

@@ -5,8 +5,29 @@
 //! `momentum(x)`, `energy` in outputs have become expressions, and the name of a contact, constraint, friction
 //! or force in an output the symbol of its force. Not mutable after this point, but for the pool.
 
+mod calls;
+mod constraints;
+mod contacts;
+mod declare;
+mod elaborate;
+mod energies;
+mod evaluate;
+mod forces;
+mod frictions;
+mod names;
+mod outputs;
+mod piecewise;
+mod reach;
+mod starts;
+#[cfg(test)]
+pub(crate) mod tests;
+mod value;
+
+use crate::ast::Impacts;
 use crate::symbolic::{ExprId, Pool, Symbol};
 use proc_macro2::{Ident, Span};
+
+pub use elaborate::system;
 
 /// A mechanical system with all names resolved.
 pub struct System {
@@ -52,10 +73,12 @@ pub struct System {
     pub stops: Vec<Watch>,
     /// What is logged.
     pub marks: Vec<Watch>,
+    /// How simultaneous impacts are resolved.
+    pub impacts: Impacts,
 }
 
 /// Name of an item, `rim` or `ball[3]`.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub struct ItemName {
     /// Full name with its index.
     pub text: String,
@@ -83,6 +106,8 @@ pub struct Parameter {
     pub unit: String,
     /// `#[lagrange(tex = …)]`, or empty.
     pub tex: String,
+    /// `#[lagrange(symbol = …)]`, or empty: how printers name it.
+    pub letter: String,
 }
 
 /// A generalized coordinate.

@@ -1,6 +1,6 @@
 //! Derivatives by one pass over the distinct nodes, with a memo per direction that lasts as long as the pool.
 
-use super::hash::Memo;
+use super::table::Table;
 use super::{ExprId, Function, Node, Pool, Rational, Symbol};
 
 impl Pool {
@@ -17,7 +17,7 @@ impl Pool {
             None => {
                 let slot = self.derivatives.len();
                 self.directions.insert(direction.to_vec(), slot);
-                self.derivatives.push(Memo::default());
+                self.derivatives.push(Table::default());
                 slot
             }
         };
@@ -37,10 +37,10 @@ impl Pool {
         &mut self,
         e: ExprId,
         direction: &[(Symbol, ExprId)],
-        known: &Memo<ExprId, ExprId>,
+        known: &Table,
     ) -> ExprId {
         let zero = self.integer(0);
-        let of = |e: &ExprId| known.get(e).copied().filter(|&d| d != zero);
+        let of = |e: &ExprId| known.get(*e).filter(|&d| d != zero);
         match self.node(e) {
             Node::Number(_) | Node::Pi => zero,
             Node::Symbol(symbol) => direction

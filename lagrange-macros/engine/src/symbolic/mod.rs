@@ -6,10 +6,12 @@
 //! Architecture invariant: an expression is made of expressions with smaller ids, so ascending ids are a
 //! topological order, and what a pool contains depends on nothing but the calls that built it.
 
+mod angles;
 mod differentiate;
 mod evaluate;
 mod expand;
 mod factor;
+mod facts;
 mod function;
 mod hash;
 mod linear;
@@ -19,8 +21,10 @@ mod pool;
 mod print;
 mod product;
 mod rational;
+mod root;
 mod simplify;
 mod sum;
+mod table;
 mod traverse;
 mod trigonometry;
 

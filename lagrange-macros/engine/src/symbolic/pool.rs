@@ -1,44 +1,38 @@
 //! The store of nodes: one node per form, found again by its hash; and the elementary constructors.
 
-use super::hash::{Memo, Mix};
+use super::facts::Facts;
+use super::hash::{Memo, hash_of};
+use super::table::Table;
 use super::trigonometry::Square;
-use super::{ExprId, Function, Node, Rational, Symbol};
-use std::hash::Hasher;
-
-/// What is kept beside each node.
-#[derive(Clone, Copy)]
-struct Facts {
-    hash: u64,
-    /// Bit (index mod 64) of each symbol that occurs: a quick "does not depend on".
-    symbols: u64,
-    /// A product with a factor sin², cos², sinh² or cosh².
-    square: bool,
-    /// A product with a factor exp or a general power, which merge with their like.
-    merging: bool,
-}
+use super::{ExprId, Node, Rational, Symbol};
 
 /// All expressions of a system.
 pub struct Pool {
-    nodes: Vec<Node>,
-    facts: Vec<Facts>,
+    pub(super) nodes: Vec<Node>,
+    pub(super) facts: Vec<Facts>,
     /// Open addressing by hash: id + 1, or 0 for a free place.
     table: Vec<u32>,
     names: Vec<String>,
+    /// By symbol.
+    pub(super) fixed: Vec<bool>,
+    pub(super) has_fixed: bool,
     leaves: Vec<ExprId>,
     pub(super) pi: Option<ExprId>,
     pub(super) overflow: bool,
     /// Per direction of differentiation: which memo.
     pub(super) directions: Memo<Vec<(Symbol, ExprId)>, usize>,
     /// Derivatives of nodes along each direction.
-    pub(super) derivatives: Vec<Memo<ExprId, ExprId>>,
+    pub(super) derivatives: Vec<Table>,
     /// Sum → (content, sum/content).
     pub(super) primitive: Memo<ExprId, (Rational, ExprId)>,
     /// Product → the squares it contains.
     pub(super) squares: Memo<ExprId, Vec<Square>>,
     /// Expression → multiplied out.
-    pub(super) expanded: Memo<ExprId, ExprId>,
+    pub(super) expanded: Table,
     /// Expression → the cheapest form.
-    pub(super) simplified: Memo<ExprId, ExprId>,
+    pub(super) simplified: Table,
+    /// Expression → with functions of sums of angles as products.
+    pub(super) split: Table,
 }
 
 impl Default for Pool {
@@ -55,6 +49,8 @@ impl Pool {
             facts: Vec::new(),
             table: vec![0; 1024],
             names: Vec::new(),
+            fixed: Vec::new(),
+            has_fixed: false,
             leaves: Vec::new(),
             pi: None,
             overflow: false,
@@ -62,8 +58,9 @@ impl Pool {
             derivatives: Vec::new(),
             primitive: Memo::default(),
             squares: Memo::default(),
-            expanded: Memo::default(),
-            simplified: Memo::default(),
+            expanded: Table::default(),
+            simplified: Table::default(),
+            split: Table::default(),
         }
     }
 
@@ -71,6 +68,7 @@ impl Pool {
     pub fn symbol(&mut self, name: &str) -> Symbol {
         let symbol = Symbol(self.names.len() as u32);
         self.names.push(name.to_owned());
+        self.fixed.push(false);
         let leaf = self.intern(Node::Symbol(symbol));
         self.leaves.push(leaf);
         symbol
@@ -196,47 +194,41 @@ impl Pool {
         self.checked(a.checked_neg())
     }
 
-    /// Bits of the symbols that occur.
-    pub(super) fn symbol_bits(&self, e: ExprId) -> u64 {
-        self.facts[e.index()].symbols
-    }
-
-    /// Whether it is a product with a squared sin, cos, sinh or cosh.
-    pub(super) fn has_square(&self, e: ExprId) -> bool {
-        self.facts[e.index()].square
-    }
-
-    /// Whether it is a product with factors that merge with others by more than their base.
-    pub(super) fn has_merging(&self, e: ExprId) -> bool {
-        self.facts[e.index()].merging
+    /// The expression of a form, if it has been built.
+    pub(super) fn find(&self, node: &Node) -> Option<ExprId> {
+        self.place(hash_of(node), node).ok()
     }
 
     /// The one expression of a form, which must be canonical.
     pub(super) fn intern(&mut self, node: Node) -> ExprId {
         let hash = hash_of(&node);
-        let mask = self.table.len() - 1;
-        let mut at = hash as usize & mask;
-        while self.table[at] != 0 {
-            let id = self.table[at] - 1;
-            if self.facts[id as usize].hash == hash && self.nodes[id as usize] == node {
-                return ExprId(id);
-            }
-            at = (at + 1) & mask;
-        }
+        let at = match self.place(hash, &node) {
+            Ok(known) => return known,
+            Err(free) => free,
+        };
         let id = self.nodes.len() as u32;
         self.table[at] = id + 1;
-        let facts = Facts {
-            hash,
-            symbols: self.bits_of(&node),
-            square: self.contains_square(&node),
-            merging: self.contains_merging(&node),
-        };
+        let facts = self.facts_of(hash, &node);
         self.facts.push(facts);
         self.nodes.push(node);
         if self.nodes.len() * 2 > self.table.len() {
             self.grow();
         }
         ExprId(id)
+    }
+
+    /// The expression of a form, or its free place in the table.
+    fn place(&self, hash: u64, node: &Node) -> Result<ExprId, usize> {
+        let mask = self.table.len() - 1;
+        let mut at = hash as usize & mask;
+        while self.table[at] != 0 {
+            let id = ExprId(self.table[at] - 1);
+            if self.facts[id.index()].hash == hash && self.nodes[id.index()] == *node {
+                return Ok(id);
+            }
+            at = (at + 1) & mask;
+        }
+        Err(at)
     }
 
     fn grow(&mut self) {
@@ -251,98 +243,4 @@ impl Pool {
             self.table[at] = id as u32 + 1;
         }
     }
-
-    fn bits_of(&self, node: &Node) -> u64 {
-        if let Node::Symbol(symbol) = node {
-            return 1 << (symbol.0 % 64);
-        }
-        let mut bits = 0;
-        node.for_each_child(|child| bits |= self.facts[child.index()].symbols);
-        bits
-    }
-
-    fn contains_merging(&self, node: &Node) -> bool {
-        let Node::Product(factors) = node else {
-            return false;
-        };
-        factors.iter().any(|&(base, _)| {
-            matches!(
-                self.node(base),
-                Node::Power(..) | Node::Call(Function::Exp, _)
-            )
-        })
-    }
-
-    fn contains_square(&self, node: &Node) -> bool {
-        let Node::Product(factors) = node else {
-            return false;
-        };
-        factors.iter().any(|&(base, exponent)| {
-            exponent.is_integer()
-                && exponent.numerator() >= 2
-                && matches!(
-                    self.node(base),
-                    Node::Call(
-                        Function::Sin | Function::Cos | Function::Sinh | Function::Cosh,
-                        _
-                    )
-                )
-        })
-    }
-}
-
-fn hash_of(node: &Node) -> u64 {
-    let mut mix = Mix::default();
-    let rational = |mix: &mut Mix, r: Rational| {
-        mix.wide(r.numerator());
-        mix.wide(r.denominator());
-    };
-    let pairs = |mix: &mut Mix, list: &[(ExprId, Rational)]| {
-        for &(e, r) in list {
-            mix.word(u64::from(e.0));
-            rational(mix, r);
-        }
-    };
-    match node {
-        Node::Number(n) => {
-            mix.word(1);
-            rational(&mut mix, *n);
-        }
-        Node::Pi => mix.word(2),
-        Node::Symbol(symbol) => {
-            mix.word(3);
-            mix.word(u64::from(symbol.0));
-        }
-        Node::Sum { constant, terms } => {
-            mix.word(4);
-            rational(&mut mix, *constant);
-            pairs(&mut mix, terms);
-        }
-        Node::Product(factors) => {
-            mix.word(5);
-            pairs(&mut mix, factors);
-        }
-        Node::Power(base, exponent) => {
-            mix.word(6);
-            mix.word(u64::from(base.0));
-            mix.word(u64::from(exponent.0));
-        }
-        Node::Call(f, arguments) => {
-            mix.word(7 + 16 * (*f as u64));
-            for e in arguments {
-                mix.word(u64::from(e.0));
-            }
-        }
-        Node::Select {
-            branch,
-            then,
-            otherwise,
-        } => {
-            mix.word(8);
-            mix.word(*branch as u64);
-            mix.word(u64::from(then.0));
-            mix.word(u64::from(otherwise.0));
-        }
-    }
-    mix.finish()
 }

@@ -1,15 +1,15 @@
 //! Products Π baseᵢ^exponentᵢ and powers: bases collected, numbers folded into one coefficient.
 //!
 //! x^a x^b = x^(a+b), (x^a)^n = x^(an) for integer n, and for any exponent where x^a is never negative; (√x)² = x,
-//! but √(x²) stays. Numbers to broken powers are split into primes: √8 = 2 · 2^(1/2), √(1/2) = 1/2 · 2^(1/2).
+//! but √(x²) stays.
 
 use super::{ExprId, Function, Node, Pool, Rational};
 
 /// Factors on their way into a product.
-struct Factors {
-    coefficient: Rational,
+pub(super) struct Factors {
+    pub(super) coefficient: Rational,
     /// base^exponent
-    plain: Vec<(ExprId, Rational)>,
+    pub(super) plain: Vec<(ExprId, Rational)>,
     /// exp(argument)^exponent
     exponentials: Vec<(ExprId, Rational)>,
     /// (base^exponent)^n with an exponent that is not a number
@@ -220,76 +220,6 @@ impl Pool {
         }
     }
 
-    /// Multiplies by n^r.
-    fn multiply_number(&mut self, all: &mut Factors, n: Rational, r: Rational) {
-        if n.is_zero() {
-            if r.is_negative() {
-                let zero = self.integer(0);
-                all.plain.push((zero, r));
-            } else {
-                all.coefficient = n;
-            }
-            return;
-        }
-        if let Some(k) = r.to_integer() {
-            let power = if k == 1 {
-                n
-            } else {
-                self.checked(n.pow_int(k))
-            };
-            all.coefficient = self.times(all.coefficient, power);
-            return;
-        }
-        if n.is_negative() {
-            let base = self.integer(-1);
-            all.plain.push((base, r));
-        }
-        self.multiply_primes(all, n.numerator().unsigned_abs(), r);
-        let below = self.negative(r);
-        self.multiply_primes(all, n.denominator().unsigned_abs(), below);
-    }
-
-    /// Multiplies by n^r as a product of powers of primes.
-    fn multiply_primes(&mut self, all: &mut Factors, n: u128, r: Rational) {
-        // Trial division that far finds all common literals; a cofactor beyond it stays one base.
-        const LARGEST_TRIAL: u128 = 1000;
-        let mut n = n;
-        let mut prime = 2;
-        while n > 1 && prime <= LARGEST_TRIAL {
-            if prime * prime > n {
-                prime = n;
-            }
-            let mut count = 0;
-            while n.is_multiple_of(prime) {
-                n /= prime;
-                count += 1;
-            }
-            if count > 0 {
-                self.multiply_prime(all, prime, count, r);
-            }
-            prime += 1;
-        }
-        if n > 1 {
-            // A large cofactor of a root is mostly a perfect square.
-            let root = integer_root(n);
-            if root * root == n {
-                self.multiply_prime(all, root, 2, r);
-            } else {
-                self.multiply_prime(all, n, 1, r);
-            }
-        }
-    }
-
-    fn multiply_prime(&mut self, all: &mut Factors, prime: u128, count: i64, r: Rational) {
-        let Some(prime) = i128::try_from(prime).ok().and_then(|n| Rational::new(n, 1)) else {
-            self.overflow = true;
-            return;
-        };
-        let exponent = self.times(r, Rational::integer(count));
-        let base = self.number(prime);
-        all.plain.push((base, exponent));
-    }
-
     /// exp a · exp b = exp(a + b)
     fn merge_exponentials(&mut self, all: &mut Factors) {
         if all.exponentials.is_empty() {
@@ -381,20 +311,5 @@ impl Pool {
             }
         }
         again
-    }
-}
-
-/// ⌊√n⌋ by Newton's iteration from above.
-fn integer_root(n: u128) -> u128 {
-    if n < 2 {
-        return n;
-    }
-    let mut root = 1_u128 << (128 - n.leading_zeros()).div_ceil(2);
-    loop {
-        let next = (root + n / root) / 2;
-        if next >= root {
-            return root;
-        }
-        root = next;
     }
 }

@@ -1,6 +1,7 @@
 //! What an expression is made of: sub-expressions, symbols, branches; replacement of symbols.
 
-use super::hash::Memo;
+use super::facts::symbol_bit;
+use super::table::{Flags, Table};
 use super::{ExprId, Node, Pool, Rational, Symbol};
 
 impl Pool {
@@ -36,15 +37,15 @@ impl Pool {
     pub fn depends_on_any(&self, e: ExprId, symbols: &[Symbol]) -> bool {
         let bits = symbols
             .iter()
-            .fold(0, |bits, symbol| bits | 1_u64 << (symbol.0 % 64));
+            .fold(0, |bits, symbol| bits | symbol_bit(*symbol));
         if self.symbol_bits(e) & bits == 0 {
             return false;
         }
-        let mut seen: Memo<ExprId, ()> = Memo::default();
+        let mut seen = Flags::default();
         let mut stack = vec![e];
         let mut found = false;
         while let Some(e) = stack.pop() {
-            if self.symbol_bits(e) & bits == 0 || seen.insert(e, ()).is_some() {
+            if self.symbol_bits(e) & bits == 0 || !seen.raise(e, 0) {
                 continue;
             }
             if let Node::Symbol(symbol) = self.node(e) {
@@ -95,7 +96,7 @@ impl Pool {
     pub fn substitute(&mut self, e: ExprId, replacement: &[(Symbol, ExprId)]) -> ExprId {
         let symbols: Vec<Symbol> = replacement.iter().map(|&(symbol, _)| symbol).collect();
         let bits = Pool::bits(&symbols);
-        let mut known = Memo::default();
+        let mut known = Table::default();
         let untouched = |pool: &Pool, e| pool.symbol_bits(e) & bits == 0;
         self.ascend(e, &mut known, untouched, |pool, e, known| {
             match pool.node(e) {
@@ -113,7 +114,7 @@ impl Pool {
     pub(super) fn bits(symbols: &[Symbol]) -> u64 {
         symbols
             .iter()
-            .fold(0, |bits, symbol| bits | 1_u64 << (symbol.0 % 64))
+            .fold(0, |bits, symbol| bits | symbol_bit(*symbol))
     }
 
     /// Fills a map from the leaves of e up: each distinct sub-expression once, after its children, by `build` from
@@ -121,19 +122,19 @@ impl Pool {
     pub(super) fn ascend(
         &mut self,
         e: ExprId,
-        known: &mut Memo<ExprId, ExprId>,
+        known: &mut Table,
         skip: impl Fn(&Pool, ExprId) -> bool,
-        mut build: impl FnMut(&mut Pool, ExprId, &Memo<ExprId, ExprId>) -> ExprId,
+        mut build: impl FnMut(&mut Pool, ExprId, &Table) -> ExprId,
     ) -> Option<ExprId> {
         if skip(self, e) {
             return None;
         }
         let mut stack = vec![e];
         while let Some(&top) = stack.last() {
-            if !known.contains_key(&top) {
+            if !known.holds(top) {
                 let height = stack.len();
                 self.node(top).for_each_child(|child| {
-                    if !known.contains_key(&child) && !skip(self, child) {
+                    if !known.holds(child) && !skip(self, child) {
                         stack.push(child);
                     }
                 });
@@ -141,16 +142,16 @@ impl Pool {
                     continue;
                 }
                 let new = build(self, top, known);
-                known.insert(top, new);
+                known.set(top, new);
             }
             stack.pop();
         }
-        known.get(&e).copied()
+        known.get(e)
     }
 
     /// The same form of other sub-expressions; those that are not in the map stay.
-    pub(super) fn with_children(&mut self, e: ExprId, children: &Memo<ExprId, ExprId>) -> ExprId {
-        let new = |e: &ExprId| children.get(e).copied().unwrap_or(*e);
+    pub(super) fn with_children(&mut self, e: ExprId, children: &Table) -> ExprId {
+        let new = |e: &ExprId| children.get(*e).unwrap_or(*e);
         let mut changed = false;
         self.node(e)
             .for_each_child(|child| changed |= new(&child) != child);

@@ -9,7 +9,7 @@ mod start;
 use super::cursor::Cursor;
 use super::expression::{index, whole};
 use super::relation::leftover;
-use crate::ast::{Attitude, Expr, Head, Impacts, Item, ItemKind, Name, Reference};
+use crate::ast::{Attitude, Head, Impacts, Item, ItemKind, Name, Reference};
 use crate::diagnostics::{Code, Diagnostics, Extent, nearest};
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
@@ -294,9 +294,4 @@ fn no_more(parts: &mut [Cursor], item: &str, hint: &str, sink: &mut Diagnostics)
         &[&extra.rest(), &item, &hint],
     );
     None
-}
-
-/// An expression that is the rest of a part, for `key = e`.
-fn value(part: &mut Cursor, sink: &mut Diagnostics) -> Option<Expr> {
-    whole(part, sink)
 }

@@ -1,0 +1,33 @@
+//! Dense output from both ends of a step, for methods without their own: positions by the quintic through position,
+//! velocity and acceleration at both ends, velocities by its derivative. Errors are O(h⁶) and O(h⁵).
+
+use crate::arithmetic::Scalar;
+
+/// Degree of the positions' polynomial.
+pub(super) const DEGREE: usize = 5;
+
+/// Writes the coefficients of sᵏ for `ends` = [(q, v, a) at s = 0, at s = 1], per unit of time; h is the step.
+pub(super) fn quintic<T: Scalar>(h: T, ends: [[T; 3]; 2], q: &mut [T], v: &mut [T]) {
+    let number = T::from_f64;
+    let [[q0, v0, a0], [q1, v1, a1]] = ends;
+    let (v0, v1) = (h * v0, h * v1);
+    let (a0, a1) = (h * h * a0, h * h * a1);
+    // What the parabola from s = 0 leaves to be made up at s = 1.
+    let dq = (q1 - q0) - v0 - number(0.5) * a0;
+    let dv = v1 - v0 - a0;
+    let da = a1 - a0;
+    let coefficients = [
+        q0,
+        v0,
+        number(0.5) * a0,
+        number(10.0) * dq - number(4.0) * dv + number(0.5) * da,
+        number(-15.0) * dq + number(7.0) * dv - da,
+        number(6.0) * dq - number(3.0) * dv + number(0.5) * da,
+    ];
+    q.copy_from_slice(&coefficients);
+    for (k, v) in v[..DEGREE].iter_mut().enumerate() {
+        *v = number((k + 1) as f64) * coefficients[k + 1] / h;
+    }
+    v[0] = ends[0][1];
+    v[DEGREE] = T::zero();
+}

@@ -1,0 +1,125 @@
+//! The methods by name.
+
+use core::fmt;
+use core::str::FromStr;
+
+/// A way to integrate.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub enum Method {
+    /// Taylor series of the whole constrained system, order from the tolerance. `taylor`
+    #[default]
+    Taylor,
+    /// Dormand–Prince 8(5,3). `dop853`
+    DormandPrince853,
+    /// Dormand–Prince 5(4). `dopri5`
+    DormandPrince54,
+    /// Verner 9(8). `verner98`
+    Verner98,
+    /// The classical method of order 4. `rk4:0.001`
+    RungeKutta4 {
+        /// Its fixed step.
+        step: f64,
+    },
+}
+
+/// Names without a step, in the order in which help texts list them.
+const NAMES: [(&str, Method); 4] = [
+    ("taylor", Method::Taylor),
+    ("dop853", Method::DormandPrince853),
+    ("dopri5", Method::DormandPrince54),
+    ("verner98", Method::Verner98),
+];
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        if let Self::RungeKutta4 { step } = self {
+            return write!(f, "rk4:{step}");
+        }
+        let name = NAMES.iter().find(|(_, method)| method == self);
+        f.write_str(name.map_or("unnamed", |(name, _)| name))
+    }
+}
+
+/// A text that names no method.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ParseMethodError {
+    /// No method has this name.
+    Unknown {
+        /// What was given.
+        name: String,
+    },
+    /// A method with fixed steps was named without a positive step.
+    Step {
+        /// The method.
+        name: String,
+        /// What was given as its step.
+        step: String,
+    },
+    /// A method that chooses its steps was given one.
+    NoStep {
+        /// The method.
+        name: String,
+    },
+}
+
+impl fmt::Display for ParseMethodError {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::Unknown { name } => {
+                write!(f, "no method is called `{name}`; there are ")?;
+                for (name, _) in NAMES {
+                    write!(f, "{name}, ")?;
+                }
+                f.write_str("rk4:STEP")
+            }
+            Self::Step { name, step } if step.is_empty() => {
+                write!(f, "`{name}` has fixed steps: give one as {name}:0.001")
+            }
+            Self::Step { name, step } => {
+                write!(
+                    f,
+                    "`{step}` is no step size for `{name}`: give a positive number, as {name}:0.001"
+                )
+            }
+            Self::NoStep { name } => {
+                write!(
+                    f,
+                    "`{name}` chooses its steps by the tolerance: leave out the step size"
+                )
+            }
+        }
+    }
+}
+
+impl core::error::Error for ParseMethodError {}
+
+impl FromStr for Method {
+    type Err = ParseMethodError;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let (name, given) = match text.split_once(':') {
+            Some((name, step)) => (name, Some(step)),
+            None => (text, None),
+        };
+        if name == "rk4" {
+            let given = given.unwrap_or_default();
+            let step = given
+                .parse()
+                .ok()
+                .filter(|step: &f64| *step > 0.0 && step.is_finite());
+            return step.map(|step| Self::RungeKutta4 { step }).ok_or_else(|| {
+                ParseMethodError::Step {
+                    name: name.into(),
+                    step: given.into(),
+                }
+            });
+        }
+        match NAMES.iter().find(|(known, _)| *known == name) {
+            None => Err(ParseMethodError::Unknown { name: name.into() }),
+            Some(_) if given.is_some() => Err(ParseMethodError::NoStep { name: name.into() }),
+            Some((_, method)) => Ok(*method),
+        }
+    }
+}

@@ -1,0 +1,54 @@
+//! Which coordinates are cyclic (ignorable): nothing that acts depends on them, so their momentum changes by
+//! named forces only (Goldstein, Poole & Safko 2002, section 2.6; Lanczos 1970, section V.4).
+
+use super::euler_lagrange::Inertia;
+use super::sheet::Sheet;
+use crate::symbolic::{ExprId, Pool, Symbol};
+use std::collections::BTreeSet;
+
+/// Per coordinate: whether neither energies nor `others` (rows, forces, coefficients) depend on its position.
+pub(super) fn cyclic(sheet: &mut Sheet, inertias: &[Inertia], others: &[ExprId]) -> Vec<bool> {
+    let guards: Vec<ExprId> = sheet.system.branches.iter().map(|b| b.guard).collect();
+    let pool = &mut sheet.system.pool;
+    let mut present: BTreeSet<Symbol> = BTreeSet::new();
+    let mut energies = Vec::new();
+    for part in inertias
+        .iter()
+        .flat_map(|inertia| inertia.parts.iter().chain([&inertia.potential]))
+    {
+        present.extend(behind_guards(pool, &guards, *part));
+        energies.push((*part, pool.symbols(*part)));
+    }
+    for &e in others {
+        present.extend(behind_guards(pool, &guards, e));
+        present.extend(pool.symbols(e));
+    }
+    let mut free = |q: Symbol| {
+        !present.contains(&q)
+            && energies.iter().all(|(part, symbols)| {
+                symbols.binary_search(&q).is_err() || is_flat(pool, *part, q)
+            })
+    };
+    sheet.x.positions.iter().map(|&q| free(q)).collect()
+}
+
+/// Symbols that decide the branches of an expression.
+fn behind_guards(pool: &Pool, guards: &[ExprId], e: ExprId) -> BTreeSet<Symbol> {
+    let mut symbols = BTreeSet::new();
+    let mut seen = BTreeSet::new();
+    let mut open = pool.branches(e);
+    while let Some(branch) = open.pop() {
+        if seen.insert(branch) {
+            symbols.extend(pool.symbols(guards[branch]));
+            open.extend(pool.branches(guards[branch]));
+        }
+    }
+    symbols
+}
+
+/// Whether an expression contains a position by form only.
+fn is_flat(pool: &mut Pool, e: ExprId, q: Symbol) -> bool {
+    let slope = pool.differentiate(e, q);
+    let slope = pool.simplify(slope);
+    pool.is_zero(slope)
+}

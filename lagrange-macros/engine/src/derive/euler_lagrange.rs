@@ -1,0 +1,204 @@
+//! Energies → mass matrix and forcing, by the Euler–Lagrange equations
+//!
+//! ```text
+//! d/dt ∂L/∂vᵢ − ∂L/∂qᵢ = Qᵢ,  L = T − V     ⇒     M v̇ = f
+//! Mᵢⱼ = ∂²T/∂vᵢ∂vⱼ        fᵢ = ∂L/∂qᵢ − (d/dt ∂T/∂vᵢ) at v̇ = 0
+//! ```
+//!
+//! (Goldstein, Poole & Safko 2002, section 1.4; Lanczos 1970, chapter V). Where T is quadratic in v there is a
+//! second form of f, by Christoffel symbols ([`super::quadratic`]); the one with fewer operations is kept.
+
+use super::NeedId;
+use super::forms::{Variables, cheapest};
+use super::needs::{ALWAYS, Needs};
+use super::quadratic::Quadratic;
+use crate::model::System;
+use crate::symbolic::{ExprId, Pool};
+use std::collections::BTreeMap;
+
+/// With more coordinates than this, entries of f and p are not multiplied out: the terms grow like n³.
+pub(super) const LARGE: usize = 8;
+
+/// All energy under one need.
+pub(super) struct Group {
+    /// Need of its contributions to M and f.
+    pub need: NeedId,
+    /// T
+    pub kinetic: ExprId,
+    /// V
+    pub potential: ExprId,
+}
+
+/// The equations of motion that one [`Group`] contributes.
+pub(super) struct Inertia {
+    /// Need of its contributions.
+    pub need: NeedId,
+    /// T in its cheapest form.
+    pub kinetic: ExprId,
+    /// v·∂T/∂v − T: the part of the Jacobi integral beyond V.
+    pub motional: ExprId,
+    /// What T depends on the positions by: M, b and T₀, or T itself where it is not quadratic.
+    pub parts: Vec<ExprId>,
+    /// V in its cheapest form.
+    pub potential: ExprId,
+    /// (i, ∂T/∂vᵢ), zeros left out.
+    pub momenta: Vec<(usize, ExprId)>,
+    /// ((i, j ≤ i), Mᵢⱼ), zeros left out.
+    pub mass: BTreeMap<(usize, usize), ExprId>,
+    /// (i, fᵢ), zeros left out.
+    pub forcing: Vec<(usize, ExprId)>,
+    /// Whether M is free of velocities.
+    pub quadratic: bool,
+}
+
+/// Sums up the energies that share a need.
+pub(super) fn groups(system: &mut System, needs: &Needs) -> Vec<Group> {
+    let mut terms: BTreeMap<NeedId, [Vec<ExprId>; 2]> = BTreeMap::new();
+    terms.insert(ALWAYS, Default::default());
+    for (term, &need) in system.kinetic.iter().zip(&needs.kinetic) {
+        terms.entry(need).or_default()[0].push(term.energy);
+    }
+    for (term, &need) in system.potential.iter().zip(&needs.potential) {
+        terms.entry(need).or_default()[1].push(term.energy);
+    }
+    let pool = &mut system.pool;
+    terms
+        .into_iter()
+        .map(|(need, [kinetic, potential])| Group {
+            need,
+            kinetic: pool.sum(&kinetic),
+            potential: pool.sum(&potential),
+        })
+        .collect()
+}
+
+/// The Euler–Lagrange equations of one group.
+pub(super) fn derive(pool: &mut Pool, x: &Variables, group: &Group) -> Inertia {
+    let moving = x.velocities_in(pool, group.kinetic);
+    let raw_momenta: Vec<(usize, ExprId)> = moving
+        .iter()
+        .map(|&i| (i, pool.differentiate(group.kinetic, x.velocities[i])))
+        .collect();
+
+    let mut raw_mass = BTreeMap::new();
+    for &(i, p) in &raw_momenta {
+        for j in x.velocities_in(pool, p).into_iter().filter(|&j| j <= i) {
+            raw_mass.insert((i, j), pool.differentiate(p, x.velocities[j]));
+        }
+    }
+    let mut mass = BTreeMap::new();
+    for (&place, &entry) in &raw_mass {
+        let entry = pool.simplify(entry);
+        if !pool.is_zero(entry) {
+            mass.insert(place, entry);
+        }
+    }
+    let quadratic = mass
+        .values()
+        .all(|&entry| x.velocities_in(pool, entry).is_empty());
+    let expansion = quadratic.then(|| Quadratic::new(pool, x, group.kinetic, &raw_momenta, &mass));
+
+    let potential = pool.simplify(group.potential);
+    let conservative: Vec<ExprId> = (0..x.len())
+        .map(|i| {
+            let slope = pool.differentiate(potential, x.positions[i]);
+            pool.neg(slope)
+        })
+        .collect();
+
+    let small = moving.len() <= LARGE;
+    let mut forms = Vec::new();
+    if let Some(inertial) = expansion
+        .as_ref()
+        .and_then(|expansion| expansion.forcing(pool, x))
+    {
+        forms.push(total(pool, &inertial, &conservative, Pool::factor));
+        if small {
+            forms.push(total(pool, &inertial, &conservative, Pool::simplify));
+        }
+    }
+    if small || forms.is_empty() {
+        let direct = direct_form(pool, x, group.kinetic, &raw_momenta);
+        let cheaper = if small { Pool::simplify } else { Pool::factor };
+        forms.push(total(pool, &direct, &conservative, cheaper));
+    }
+    let company: Vec<ExprId> = mass.values().copied().collect();
+    let forcing = cheapest(pool, &company, forms);
+
+    let (kinetic, momenta, motional, parts) = match &expansion {
+        Some(expansion) => {
+            let (kinetic, momenta) =
+                expansion.energy_and_momenta(pool, x, group.kinetic, &raw_momenta);
+            (
+                kinetic,
+                momenta,
+                expansion.motional(pool, x, kinetic),
+                expansion.coefficients(),
+            )
+        }
+        None => {
+            let kinetic = pool.simplify(group.kinetic);
+            let momenta: Vec<_> = raw_momenta
+                .iter()
+                .map(|&(i, p)| (i, pool.simplify(p)))
+                .collect();
+            let along = x.along_velocity(pool, &momenta);
+            let motional = pool.sub(along, kinetic);
+            (kinetic, momenta, pool.simplify(motional), vec![kinetic])
+        }
+    };
+    Inertia {
+        need: group.need,
+        kinetic,
+        motional,
+        parts,
+        potential,
+        momenta: momenta
+            .into_iter()
+            .filter(|&(_, p)| !pool.is_zero(p))
+            .collect(),
+        mass,
+        forcing: forcing
+            .into_iter()
+            .enumerate()
+            .filter(|&(_, f)| !pool.is_zero(f))
+            .collect(),
+        quadratic,
+    }
+}
+
+/// ∂T/∂qᵢ − (d/dt ∂T/∂vᵢ) at v̇ = 0, term by term.
+fn direct_form(
+    pool: &mut Pool,
+    x: &Variables,
+    kinetic: ExprId,
+    momenta: &[(usize, ExprId)],
+) -> Vec<ExprId> {
+    let mut forcing: Vec<ExprId> = x
+        .positions
+        .iter()
+        .map(|&q| pool.differentiate(kinetic, q))
+        .collect();
+    for &(i, p) in momenta {
+        let rate = x.rate(pool, p);
+        forcing[i] = pool.sub(forcing[i], rate);
+    }
+    forcing
+}
+
+/// Inertial and conservative parts together, each entry brought into a cheaper form.
+fn total(
+    pool: &mut Pool,
+    inertial: &[ExprId],
+    conservative: &[ExprId],
+    cheaper: fn(&mut Pool, ExprId) -> ExprId,
+) -> Vec<ExprId> {
+    inertial
+        .iter()
+        .zip(conservative)
+        .map(|(&a, &b)| {
+            let sum = pool.add(a, b);
+            cheaper(pool, sum)
+        })
+        .collect()
+}

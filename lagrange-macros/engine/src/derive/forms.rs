@@ -1,0 +1,101 @@
+//! The variables of a system, total time derivatives, and the choice between equal forms.
+
+use crate::model::System;
+use crate::symbolic::{ExprId, Pool, Symbol};
+
+/// t, q and v of a system, as symbols and as expressions.
+pub(super) struct Variables {
+    /// t
+    pub time: Symbol,
+    /// q
+    pub positions: Vec<Symbol>,
+    /// v
+    pub velocities: Vec<Symbol>,
+    /// v as expressions.
+    pub rates: Vec<ExprId>,
+    /// 0
+    pub zero: ExprId,
+    /// 1
+    pub one: ExprId,
+}
+
+impl Variables {
+    /// The variables of a system.
+    pub fn of(system: &mut System) -> Self {
+        let pool = &mut system.pool;
+        let velocities: Vec<Symbol> = system.coordinates.iter().map(|c| c.velocity).collect();
+        Self {
+            time: system.time,
+            positions: system.coordinates.iter().map(|c| c.position).collect(),
+            rates: velocities.iter().map(|&v| pool.leaf(v)).collect(),
+            velocities,
+            zero: pool.integer(0),
+            one: pool.integer(1),
+        }
+    }
+
+    /// Number of coordinates.
+    pub fn len(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// What d/dt leaves of e(q, v, t) without accelerations: Σ ∂e/∂qᵢ vᵢ + ∂e/∂t.
+    pub fn rate(&self, pool: &mut Pool, e: ExprId) -> ExprId {
+        let present = pool.symbols(e);
+        let mut direction: Vec<(Symbol, ExprId)> = self
+            .positions
+            .iter()
+            .zip(&self.rates)
+            .filter(|(q, _)| present.binary_search(q).is_ok())
+            .map(|(&q, &v)| (q, v))
+            .collect();
+        if present.binary_search(&self.time).is_ok() {
+            direction.push((self.time, self.one));
+        }
+        pool.derivative_along(e, &direction)
+    }
+
+    /// Indices of the coordinates whose velocity occurs in e.
+    pub fn velocities_in(&self, pool: &Pool, e: ExprId) -> Vec<usize> {
+        indices_in(&self.velocities, &pool.symbols(e))
+    }
+
+    /// Indices of the coordinates whose position occurs in e.
+    pub fn positions_in(&self, pool: &Pool, e: ExprId) -> Vec<usize> {
+        indices_in(&self.positions, &pool.symbols(e))
+    }
+
+    /// e at v = 0.
+    pub fn at_rest(&self, pool: &mut Pool, e: ExprId) -> ExprId {
+        let rest: Vec<_> = self
+            .velocities_in(pool, e)
+            .into_iter()
+            .map(|i| (self.velocities[i], self.zero))
+            .collect();
+        pool.substitute(e, &rest)
+    }
+
+    /// Σ cᵢ vᵢ
+    pub fn along_velocity(&self, pool: &mut Pool, coefficients: &[(usize, ExprId)]) -> ExprId {
+        let terms: Vec<ExprId> = coefficients
+            .iter()
+            .map(|&(i, c)| pool.mul(c, self.rates[i]))
+            .collect();
+        pool.sum(&terms)
+    }
+}
+
+fn indices_in(symbols: &[Symbol], present: &[Symbol]) -> Vec<usize> {
+    (0..symbols.len())
+        .filter(|&i| present.binary_search(&symbols[i]).is_ok())
+        .collect()
+}
+
+/// The form with the fewest operations when computed beside `company`; of equals the first.
+pub(super) fn cheapest(pool: &Pool, company: &[ExprId], forms: Vec<Vec<ExprId>>) -> Vec<ExprId> {
+    let cost = |form: &Vec<ExprId>| {
+        let all: Vec<ExprId> = company.iter().chain(form).copied().collect();
+        pool.operations(&all)
+    };
+    forms.into_iter().min_by_key(cost).unwrap_or_default()
+}

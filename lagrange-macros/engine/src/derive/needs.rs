@@ -1,0 +1,149 @@
+//! System → need allocation: one bit for every part of the equations that a scene or a mode can do without.
+//!
+//! Need 0 is always held: energies without a name belong to it. Every named energy, force and dissipation has a
+//! need, so that a scene may leave it out; every row has four, so that a mode pays for what it uses: an open
+//! contact for its gap, a closed one for Jacobian and bias, a sliding friction for Jacobian and slip but no bias.
+//! The components of one friction act together and share their needs.
+
+use super::NeedId;
+use crate::model::{ItemName, System};
+
+/// Needs of everything in a system, in order of declaration.
+pub(super) struct Needs {
+    /// What each need asks for.
+    pub labels: Vec<String>,
+    /// Per kinetic term.
+    pub kinetic: Vec<NeedId>,
+    /// Per potential term.
+    pub potential: Vec<NeedId>,
+    /// Per force: contribution to f; report.
+    pub forces: Vec<[NeedId; 2]>,
+    /// Per dissipation: contribution to f; report.
+    pub dissipations: Vec<[NeedId; 2]>,
+    /// Per row: Jacobian, bias, position, velocity.
+    pub rows: Vec<[NeedId; 4]>,
+    /// Per contact.
+    pub restitution: Vec<NeedId>,
+    /// Per friction: coefficients and given normal force.
+    pub coefficients: Vec<NeedId>,
+    /// Per branch: its guard.
+    pub branches: Vec<NeedId>,
+    /// Energies.
+    pub energy: NeedId,
+    /// Momenta.
+    pub momenta: NeedId,
+    /// Per observe.
+    pub observes: Vec<NeedId>,
+    /// Per stop.
+    pub stops: Vec<NeedId>,
+    /// Per mark.
+    pub marks: Vec<NeedId>,
+}
+
+/// Need 0.
+pub(super) const ALWAYS: NeedId = NeedId(0);
+
+/// Numbers the needs of a system.
+pub(super) fn allocate(system: &System) -> Needs {
+    let mut labels = vec!["always".to_owned()];
+    let mut new = |label: String| {
+        labels.push(label);
+        NeedId(labels.len() - 1)
+    };
+    let kinetic = system
+        .kinetic
+        .iter()
+        .map(|k| effect("kinetic", &k.name, &mut new))
+        .collect();
+    let potential = system
+        .potential
+        .iter()
+        .map(|v| effect("potential", &v.name, &mut new))
+        .collect();
+    let mut load = |name: &ItemName| {
+        [
+            new(format!("force of {}", name.text)),
+            new(format!("value and power of {}", name.text)),
+        ]
+    };
+    let forces = system.forces.iter().map(|f| load(&f.name)).collect();
+    let dissipations = system.dissipations.iter().map(|d| load(&d.name)).collect();
+
+    let mut rows = Vec::new();
+    for constraint in &system.constraints {
+        rows.push(row(&constraint.name, "residual", "rate", &mut new));
+    }
+    for contact in &system.contacts {
+        rows.push(row(&contact.name, "gap", "rate", &mut new));
+    }
+    for friction in &system.frictions {
+        let [jacobian, bias] =
+            ["jacobian", "bias"].map(|part| new(format!("{part} of {}", friction.name.text)));
+        let slip = new(format!("slip of {}", friction.name.text));
+        // A slip is a velocity: it has no position level, and no need for one.
+        rows.extend(friction.slip.iter().map(|_| [jacobian, bias, slip, slip]));
+    }
+    let restitution = system
+        .contacts
+        .iter()
+        .map(|c| new(format!("restitution of {}", c.name.text)))
+        .collect();
+    let coefficients = system
+        .frictions
+        .iter()
+        .map(|f| new(format!("coefficients of {}", f.name.text)))
+        .collect();
+    let branches = (0..system.branches.len())
+        .map(|i| new(format!("branch {i}")))
+        .collect();
+    let energy = new("energy".to_owned());
+    let momenta = new("momenta".to_owned());
+    let observes = system
+        .observes
+        .iter()
+        .map(|o| new(format!("observe {}", o.name.text)))
+        .collect();
+    let stops = system
+        .stops
+        .iter()
+        .map(|s| new(format!("stop {}", s.name.text)))
+        .collect();
+    let marks = system
+        .marks
+        .iter()
+        .map(|m| new(format!("mark {}", m.name.text)))
+        .collect();
+    Needs {
+        labels,
+        kinetic,
+        potential,
+        forces,
+        dissipations,
+        rows,
+        restitution,
+        coefficients,
+        branches,
+        energy,
+        momenta,
+        observes,
+        stops,
+        marks,
+    }
+}
+
+/// Energies that the user did not name cannot be left out.
+fn effect(kind: &str, name: &ItemName, new: &mut impl FnMut(String) -> NeedId) -> NeedId {
+    match name.ident {
+        Some(_) => new(format!("{kind} {}", name.text)),
+        None => ALWAYS,
+    }
+}
+
+fn row(
+    name: &ItemName,
+    position: &str,
+    velocity: &str,
+    new: &mut impl FnMut(String) -> NeedId,
+) -> [NeedId; 4] {
+    ["jacobian", "bias", position, velocity].map(|part| new(format!("{part} of {}", name.text)))
+}

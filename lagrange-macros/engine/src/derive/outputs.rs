@@ -1,0 +1,127 @@
+//! Observables, stops, marks and piecewise branches.
+
+use super::sheet::Sheet;
+use super::{Branch, NeedId, OutputId, Stage};
+use crate::symbolic::{ExprId, Symbol};
+use std::collections::BTreeSet;
+
+/// Per observe: (value, need).
+pub(super) fn observes(sheet: &mut Sheet) -> Vec<(OutputId, NeedId)> {
+    let items: Vec<(String, ExprId)> = sheet
+        .system
+        .observes
+        .iter()
+        .map(|o| (o.name.text.clone(), o.value))
+        .collect();
+    let needs = sheet.needs.observes.clone();
+    let mut observes = Vec::new();
+    for ((name, value), need) in items.into_iter().zip(needs) {
+        let value = sheet.reported(value);
+        observes.push((sheet.report(format!("observe[{name}]"), need, value), need));
+    }
+    observes
+}
+
+/// Per stop: (terms, need).
+pub(super) fn stops(sheet: &mut Sheet) -> Vec<(Vec<OutputId>, NeedId)> {
+    let items = sheet
+        .system
+        .stops
+        .iter()
+        .map(|s| (s.name.text.clone(), s.terms.clone()))
+        .collect();
+    let needs = sheet.needs.stops.clone();
+    watches(sheet, "stop", items, needs)
+}
+
+/// Per mark: (terms, need).
+pub(super) fn marks(sheet: &mut Sheet) -> Vec<(Vec<OutputId>, NeedId)> {
+    let items = sheet
+        .system
+        .marks
+        .iter()
+        .map(|m| (m.name.text.clone(), m.terms.clone()))
+        .collect();
+    let needs = sheet.needs.marks.clone();
+    watches(sheet, "mark", items, needs)
+}
+
+fn watches(
+    sheet: &mut Sheet,
+    kind: &str,
+    items: Vec<(String, Vec<ExprId>)>,
+    needs: Vec<NeedId>,
+) -> Vec<(Vec<OutputId>, NeedId)> {
+    let mut watches = Vec::new();
+    for ((name, terms), need) in items.into_iter().zip(needs) {
+        let mut outputs = Vec::new();
+        for (k, term) in terms.into_iter().enumerate() {
+            let term = sheet.reported(term);
+            outputs.push(sheet.report(format!("{kind}[{name}, {k}]"), need, term));
+        }
+        watches.push((outputs, need));
+    }
+    watches
+}
+
+/// The branches; to be called last, when all outputs that may contain them are known.
+///
+/// Users are the needs of the terms that contain a branch, be it inside the guard of another branch.
+pub(super) fn branches(sheet: &mut Sheet) -> Vec<Branch<OutputId>> {
+    let count = sheet.system.branches.len();
+    let declared: Vec<ExprId> = sheet.system.branches.iter().map(|b| b.guard).collect();
+    let guards: Vec<ExprId> = declared
+        .into_iter()
+        .map(|guard| sheet.reported(guard))
+        .collect();
+    let pool = &sheet.system.pool;
+    let inside: Vec<Vec<usize>> = guards.iter().map(|&guard| pool.branches(guard)).collect();
+
+    let mut users: Vec<BTreeSet<NeedId>> = vec![BTreeSet::new(); count];
+    for (need, term) in sheet.outputs.iter().flat_map(|o| &o.terms) {
+        for branch in pool.branches(*term) {
+            users[branch].insert(*need);
+        }
+    }
+    let results: BTreeSet<Symbol> = sheet
+        .multipliers()
+        .into_iter()
+        .chain(sheet.system.coordinates.iter().map(|c| c.acceleration))
+        .collect();
+    let mut after_solve: Vec<bool> = guards
+        .iter()
+        .map(|&guard| pool.symbols(guard).iter().any(|s| results.contains(s)))
+        .collect();
+    // Guards nest without cycles, so `count` rounds reach every level.
+    for _ in 0..count {
+        for outer in 0..count {
+            for &inner in &inside[outer] {
+                let inherited: Vec<NeedId> = users[outer].iter().copied().collect();
+                users[inner].extend(inherited);
+                after_solve[outer] |= after_solve[inner];
+            }
+        }
+    }
+    let mut branches = Vec::new();
+    for (i, users) in users.into_iter().enumerate() {
+        let need = sheet.needs.branches[i];
+        let stage = if after_solve[i] {
+            Stage::Report
+        } else {
+            Stage::Motion
+        };
+        // The guard of a branch that nothing uses is never asked for.
+        let terms = if users.is_empty() {
+            vec![]
+        } else {
+            vec![(need, guards[i])]
+        };
+        branches.push(Branch {
+            guard: sheet.output(stage, format!("guard[{i}]"), &terms),
+            need,
+            after_solve: after_solve[i],
+            users: users.into_iter().collect(),
+        });
+    }
+    branches
+}

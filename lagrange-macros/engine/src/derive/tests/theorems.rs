@@ -1,0 +1,318 @@
+//! The derivation against exact numeric derivatives of random Lagrangians, and against the energy theorem.
+
+use super::hyperdual::evaluate;
+use super::kit::Build;
+use super::numbers::{Derived, Point, Random, close};
+use super::textbook;
+use crate::model::Level;
+use crate::symbolic::{ExprId, Symbol};
+
+/// Value and mixed derivative of an expression of the system: ε₁ along `first`, ε₂ along `second`, by name.
+fn derivatives(d: &Derived, e: ExprId, point: &Point, first: &Point, second: &Point) -> [f64; 4] {
+    let pool = &d.equations.system.pool;
+    let at = |s: Symbol| {
+        let name = pool.name(s);
+        [
+            point[name],
+            first.get(name).copied().unwrap_or(0.0),
+            second.get(name).copied().unwrap_or(0.0),
+        ]
+    };
+    evaluate(pool, e, &at, &|branch| {
+        d.evaluate(d.equations.system.branches[branch].guard, point) >= 0.0
+    })
+    .0
+}
+
+fn names(d: &Derived) -> Vec<String> {
+    d.equations
+        .system
+        .coordinates
+        .iter()
+        .map(|c| c.name.text.clone())
+        .collect()
+}
+
+/// The direction of motion: q̇ = v, v̇ = a, ṫ = 1.
+fn motion(d: &Derived, point: &Point) -> Point {
+    let mut direction = Point::from([("t".to_owned(), 1.0)]);
+    for name in names(d) {
+        direction.insert(format!("v_{name}"), point[&format!("a_{name}")]);
+        direction.insert(name.clone(), point[&format!("v_{name}")]);
+    }
+    direction
+}
+
+/// d/dt ∂L/∂v − ∂L/∂q = M v̇ − f for any v̇.
+fn check_euler_lagrange(d: &Derived, point: &Point) {
+    let system = &d.equations.system;
+    let along = motion(d, point);
+    let still = Point::new();
+    for (i, name) in names(d).iter().enumerate() {
+        let (mut want, mut size) = (0.0, 1.0);
+        let by_v = Point::from([(format!("v_{name}"), 1.0)]);
+        let by_q = Point::from([(name.clone(), 1.0)]);
+        for (terms, sign) in [(&system.kinetic, 1.0), (&system.potential, -1.0)] {
+            for term in terms {
+                let rate = derivatives(d, term.energy, point, &by_v, &along)[3];
+                let slope = derivatives(d, term.energy, point, &by_q, &still)[1];
+                want += sign * (rate - slope);
+                size += rate.abs() + slope.abs();
+            }
+        }
+        let inertial: f64 = names(d)
+            .iter()
+            .enumerate()
+            .map(|(j, other)| d.mass(i, j, point) * point[&format!("a_{other}")])
+            .sum();
+        let got = inertial - d.forcing(i, point);
+        assert!(
+            (got - want).abs() <= 1e-11 * size,
+            "{name}: got {got}, want {want}"
+        );
+    }
+}
+
+/// A random expression of the positions, linear or not, never singular for arguments between 0.3 and 1.7.
+fn random_position(random: &mut Random, names: &[&str]) -> String {
+    let q = names[random.below(names.len())];
+    let p = names[random.below(names.len())];
+    match random.below(10) {
+        0 => format!("sin({q})"),
+        1 => format!("cos({q} - {p})"),
+        2 => format!("{q}^2*{p}"),
+        3 => format!("sqrt(1 + {q}^2)"),
+        4 => format!("exp(-{q}*{p})"),
+        5 => format!("{q}*cos({p})"),
+        6 => format!("tanh({q} + t)"),
+        7 => format!("{q}/(2 + {p})"),
+        8 => format!("if({q} - {p}*1.1, {q}^2, 2*{p}*{q})"),
+        _ => format!("{q}*sin(k*t)"),
+    }
+}
+
+/// T of two or three points at random functions of the coordinates, V random.
+fn random_system(random: &mut Random) -> Build {
+    let names = ["a", "b", "c"];
+    let mut energy = "1/2*J*(der(a)^2 + der(b)^2 + der(c)^2)".to_owned();
+    for _ in 0..2 + random.below(2) {
+        let (x, y) = (
+            random_position(random, &names),
+            random_position(random, &names),
+        );
+        energy.push_str(&format!(" + m/2*(der({x} + {y})^2 + der({x}*b - {y})^2)"));
+    }
+    if random.below(2) == 0 {
+        energy.push_str(&format!(" + k*der(a)*{}", random_position(random, &names)));
+    }
+    let potential = format!(
+        "k*{} + {}",
+        random_position(random, &names),
+        random_position(random, &names)
+    );
+    Build::new("a b c", "m J k")
+        .kinetic("", &energy)
+        .potential("", &potential)
+}
+
+#[test]
+fn euler_lagrange_on_random_systems() {
+    let mut random = Random(20260101);
+    for _ in 0..20 {
+        let d = random_system(&mut random).derive();
+        for _ in 0..3 {
+            let point = d.point(&mut random);
+            check_euler_lagrange(&d, &point);
+        }
+    }
+}
+
+/// M depends on the velocities, so only the direct form of f exists.
+#[test]
+fn euler_lagrange_without_a_quadratic_form() {
+    let mut random = Random(31);
+    let q = ["a", "b", "c"];
+    for _ in 0..10 {
+        let (x, y) = (
+            random_position(&mut random, &q),
+            random_position(&mut random, &q),
+        );
+        let lagrangian =
+            format!("(1 + der({x})^2 + der(b + {y})^2)^(3/2) + J*der(c)^2 - exp(der(a))*{x} + {y}");
+        let d = Build::new("a b c", "m J k")
+            .lagrangian(&lagrangian)
+            .derive();
+        let point = d.point(&mut random);
+        check_euler_lagrange(&d, &point);
+    }
+}
+
+#[test]
+fn euler_lagrange_on_standard_systems() {
+    let mut random = Random(11);
+    for scene in [
+        textbook::mass_on_shell(),
+        textbook::rolling_sphere(),
+        textbook::mass_on_wheel(),
+        textbook::sphere_in_sphere(),
+        textbook::double_pendulum(),
+        textbook::cart_pole(),
+        chain(5),
+        chain(10),
+    ] {
+        let d = scene.derive();
+        for _ in 0..3 {
+            check_euler_lagrange(&d, &d.point(&mut random));
+        }
+    }
+}
+
+/// n-link pendulum with point masses m and links l.
+pub fn chain(n: usize) -> Build {
+    let list: Vec<String> = (0..n).map(|i| format!("q{i}")).collect();
+    let mut build = Build::new(&list.join(" "), "m l g");
+    let (mut x, mut y) = ("0".to_owned(), "0".to_owned());
+    let (mut kinetic, mut potential) = ("0".to_owned(), "0".to_owned());
+    for i in 0..n {
+        build = build.define(&format!("x{i}"), &format!("{x} + l*sin(q{i})"));
+        build = build.define(&format!("y{i}"), &format!("{y} - l*cos(q{i})"));
+        (x, y) = (format!("x{i}"), format!("y{i}"));
+        kinetic.push_str(&format!(" + m/2*(der({x})^2 + der({y})^2)"));
+        potential.push_str(&format!(" + m*g*{y}"));
+    }
+    build.kinetic("", &kinetic).potential("", &potential)
+}
+
+/// dh/dt = Q·v − ∂L/∂t along the accelerations that M v̇ = f gives.
+#[test]
+fn energy_theorem() {
+    let mut random = Random(77);
+    for _ in 0..20 {
+        let d = random_system(&mut random)
+            .load("push", "k*a", &[(0, "k*a*b"), (2, "sin(t)")])
+            .dissipation("drag", "J/2*(der(a)^2 + b^2*der(c)^2)")
+            .derive();
+        let mut point = d.point(&mut random);
+        for (name, a) in names(&d).iter().zip(d.accelerations(&[], &point)) {
+            point.insert(format!("a_{name}"), a);
+        }
+        let structure = &d.equations.structure;
+        let along = motion(&d, &point);
+        let (mut rate, mut size) = (0.0, 1.0);
+        for &(_, h) in &d.equations.outputs[structure.energy.2.0].terms {
+            let slope = derivatives(&d, h, &point, &along, &Point::new())[1];
+            rate += slope;
+            size += slope.abs();
+        }
+        let supplied = [
+            structure.forces[0].power,
+            structure.dissipations[0].power,
+            structure.energy.3,
+        ];
+        let supplied = supplied.map(|output| d.value(output, &point));
+        let want: f64 = supplied.iter().sum();
+        size += supplied.iter().map(|s| s.abs()).sum::<f64>();
+        assert!(
+            (rate - want).abs() <= 1e-10 * size,
+            "dh/dt = {rate}, supplied {want}"
+        );
+    }
+}
+
+/// Where T is a quadratic form and nothing depends on time, h = T + V.
+#[test]
+fn jacobi_integral_is_the_energy() {
+    let mut random = Random(5);
+    for scene in [
+        textbook::mass_on_wheel(),
+        textbook::double_pendulum(),
+        chain(4),
+    ] {
+        let d = scene.derive();
+        let point = d.point(&mut random);
+        let (t, v, h, by_time, _) = d.equations.structure.energy;
+        close(
+            "h",
+            d.value(h, &point),
+            d.value(t, &point) + d.value(v, &point),
+        );
+        assert!(d.equations.outputs[by_time.0].terms.is_empty());
+    }
+}
+
+/// Momenta are ∂L/∂v.
+#[test]
+fn momenta_are_slopes_of_the_lagrangian() {
+    let mut random = Random(9);
+    for _ in 0..5 {
+        let d = random_system(&mut random).derive();
+        let point = d.point(&mut random);
+        for (i, name) in names(&d).iter().enumerate() {
+            let by_v = Point::from([(format!("v_{name}"), 1.0)]);
+            let want: f64 = d
+                .equations
+                .system
+                .kinetic
+                .iter()
+                .map(|term| derivatives(&d, term.energy, &point, &by_v, &Point::new())[1])
+                .sum();
+            let got = d.value(d.equations.structure.momenta.0[i], &point);
+            assert!(
+                (got - want).abs() <= 1e-11 * (1.0 + want.abs()),
+                "{name}: {got} {want}"
+            );
+        }
+    }
+}
+
+/// Rows: velocity = dg/dt, and d/dt velocity = a v̇ + γ, for random residuals.
+#[test]
+fn rows_are_time_derivatives() {
+    let mut random = Random(13);
+    let q = ["a", "b", "c"];
+    for _ in 0..20 {
+        let holonomic = format!(
+            "{} - {}",
+            random_position(&mut random, &q),
+            random_position(&mut random, &q)
+        );
+        let (u, w) = (
+            random_position(&mut random, &q),
+            random_position(&mut random, &q),
+        );
+        let rolling = format!("{u}*der(a) + der({w}) - sin(k*t)*b");
+        let d = random_system(&mut random)
+            .constraint("h", Level::Position, &holonomic)
+            .constraint("n", Level::Velocity, &rolling)
+            .derive();
+        let point = d.point(&mut random);
+        let along = motion(&d, &point);
+        let still = Point::new();
+        for (index, row) in d.equations.structure.rows.iter().enumerate() {
+            let declared = d.equations.system.constraints[index].residual;
+            let velocity = d.value(row.velocity, &point);
+            let mut rate_of = Vec::new();
+            for &(_, e) in &d.equations.outputs[row.velocity.0].terms {
+                rate_of.push(derivatives(&d, e, &point, &along, &still)[1]);
+            }
+            let rate: f64 = rate_of.iter().sum();
+            let a = d.jacobian(index, &point);
+            let with_a: f64 = names(&d)
+                .iter()
+                .zip(&a)
+                .map(|(name, a)| a * point[&format!("a_{name}")])
+                .sum::<f64>()
+                + d.value(row.bias, &point);
+            assert!(
+                (rate - with_a).abs() <= 1e-11 * (1.0 + rate.abs()),
+                "acceleration of row {index}"
+            );
+            let [value, slope, ..] = derivatives(&d, declared, &point, &along, &still);
+            let want = if row.position.is_some() { slope } else { value };
+            assert!(
+                (velocity - want).abs() <= 1e-11 * (1.0 + want.abs()),
+                "velocity of row {index}"
+            );
+        }
+    }
+}

@@ -1,0 +1,54 @@
+//! [`Program`] → tokens: the tapes, the table that says what their numbers mean, and the handles.
+//! The only place that uses `quote`.
+
+mod description;
+mod fallback;
+mod handles;
+mod names;
+mod scalar;
+mod tape;
+#[cfg(test)]
+mod tests;
+
+use crate::derive::Stage;
+use crate::plan::Program;
+use proc_macro2::TokenStream;
+use quote::quote;
+
+pub use fallback::fallback;
+
+/// `impl System` and the handles of a program.
+pub fn emit(program: &Program) -> TokenStream {
+    let system = &program.equations.system;
+    let (name, core) = (&system.name, &system.core);
+    let (generics, arguments, scalar) = match &system.scalar {
+        Some(scalar) => (
+            quote!(<#scalar: #core::arithmetic::Scalar>),
+            quote!(<#scalar>),
+            quote!(#scalar),
+        ),
+        None => (quote!(), quote!(), quote!(f64)),
+    };
+    let handles = handles::handles(program);
+    let description = description::description(program);
+    let access = scalar::access(system);
+    let start = scalar::starts(program);
+    let constants = scalar::constants(program);
+    let motion = tape::tape(program, Stage::Motion);
+    let report = tape::tape(program, Stage::Report);
+    quote! {
+        #handles
+
+        #[automatically_derived]
+        #[allow(unused, clippy::all, clippy::pedantic, clippy::nursery)]
+        impl #generics #core::system::System for #name #arguments {
+            type Scalar = #scalar;
+            const DESCRIPTION: &'static #core::system::Description = &#description;
+            #access
+            #start
+            #constants
+            #motion
+            #report
+        }
+    }
+}

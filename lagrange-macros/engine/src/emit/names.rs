@@ -1,0 +1,163 @@
+//! Names and small pieces that all emitted code shares. Locals are hygienic: no name of the user can meet them.
+
+use crate::model::{Parameter, System};
+use crate::plan::{Coefficient, NeedSet, Place, Tape, Value};
+use crate::symbolic::Rational;
+use proc_macro2::{Ident, Literal, Span, TokenStream};
+use quote::quote;
+use std::collections::BTreeSet;
+
+/// A local variable.
+pub fn local(name: &str) -> Ident {
+    Ident::new(name, Span::mixed_site())
+}
+
+/// A name that is not hygienic: a method, a type parameter, `_`.
+pub fn plain(name: &str) -> Ident {
+    Ident::new(name, Span::call_site())
+}
+
+/// The local that holds a value.
+pub fn value(value: Value) -> Ident {
+    local(&format!("n{}", value.0))
+}
+
+/// The local that an output is summed in.
+pub fn sum(output: usize) -> Ident {
+    local(&format!("sum{output}"))
+}
+
+/// An integer without suffix.
+pub fn index(index: usize) -> Literal {
+    Literal::usize_unsuffixed(index)
+}
+
+/// An exact number as the nearest f64.
+pub fn float(number: Rational) -> TokenStream {
+    let number = number.to_f64();
+    let size = Literal::f64_suffixed(number.abs());
+    if number < 0.0 {
+        quote!(-#size)
+    } else {
+        quote!(#size)
+    }
+}
+
+/// The field of a parameter.
+pub fn field(parameter: &Parameter) -> TokenStream {
+    let field = &parameter.field;
+    match parameter.element {
+        Some(element) => {
+            let element = index(element);
+            quote!(self.#field[#element])
+        }
+        None => quote!(self.#field),
+    }
+}
+
+/// A number that is fixed during a run, as a scalar.
+pub fn coefficient(system: &System, coefficient: Coefficient) -> TokenStream {
+    let core = &system.core;
+    match coefficient {
+        Coefficient::Number(number) => {
+            let number = float(number);
+            quote!(<Self::Scalar as #core::arithmetic::Scalar>::from_f64(#number))
+        }
+        Coefficient::Pi => {
+            quote!(<Self::Scalar as #core::arithmetic::Scalar>::from_f64(::core::f64::consts::PI))
+        }
+        Coefficient::Parameter(parameter) => field(&system.parameters[parameter]),
+        Coefficient::Constant(constant) => {
+            let (c, constant) = (local("c"), index(constant));
+            quote!(#c[#constant])
+        }
+    }
+}
+
+/// Whether one of these needs is held.
+pub fn condition(needs: &NeedSet) -> TokenStream {
+    let words = needs
+        .words()
+        .iter()
+        .enumerate()
+        .filter(|(_, word)| **word != 0);
+    let tests = words.map(|(word, bits)| {
+        let (held, word, bits) = (local("needs"), index(word), Literal::u64_unsuffixed(*bits));
+        quote!(#held[#word] & #bits != 0)
+    });
+    quote!(#(#tests)||*)
+}
+
+/// Binds the words of the need mask.
+pub fn needs(program_needs: usize) -> TokenStream {
+    let (needs, held, words) = (
+        local("needs"),
+        local("held"),
+        index(program_needs.div_ceil(64).max(1)),
+    );
+    array(&needs, quote!(#held.needs.first_chunk::<#words>()))
+}
+
+/// Binds an array of known length, so that indexing it needs no checks.
+pub fn array(name: &Ident, chunk: TokenStream) -> TokenStream {
+    quote! {
+        let ::core::option::Option::Some(#name) = #chunk else {
+            ::core::panic!("the length of a tape's argument is not that of the description")
+        };
+    }
+}
+
+/// Values that are read by a step or written to an output.
+pub fn read(tape: &Tape) -> BTreeSet<Value> {
+    let steps = tape.blocks.iter().flat_map(|block| &block.steps);
+    let writes = tape.blocks.iter().flat_map(|block| &block.writes);
+    steps
+        .flat_map(|step| step.operation.operands())
+        .chain(writes.map(|write| write.value))
+        .collect()
+}
+
+/// Values that are computed in a block that can be left out and read in another one; of a pair
+/// both or none.
+pub fn crossing(tape: &Tape) -> BTreeSet<Value> {
+    // Of each value the block and the first value of its step.
+    let mut home: Vec<Option<(usize, Value)>> = vec![None; tape.values];
+    let mut crossing = BTreeSet::new();
+    for (index, block) in tape.blocks.iter().enumerate() {
+        for step in block.steps.iter().filter(|_| !block.needs.is_always()) {
+            for offset in 0..step.operation.values() {
+                home[step.value.0 + offset] = Some((index, step.value));
+            }
+        }
+        let operands = block
+            .steps
+            .iter()
+            .flat_map(|step| step.operation.operands());
+        for value in operands.chain(block.writes.iter().map(|write| write.value)) {
+            if let Some((_, first)) = home[value.0].filter(|(home, _)| *home != index) {
+                crossing.insert(first);
+            }
+        }
+    }
+    let steps = tape.blocks.iter().flat_map(|block| &block.steps);
+    let pairs = steps.filter(|step| step.operation.values() == 2 && crossing.contains(&step.value));
+    let second: Vec<Value> = pairs.map(|step| Value(step.value.0 + 1)).collect();
+    crossing.extend(second);
+    crossing
+}
+
+/// `Place::…`
+pub fn place(system: &System, place: Place) -> TokenStream {
+    let core = &system.core;
+    match place {
+        Place::Zero => quote!(#core::system::Place::Zero),
+        Place::Constant(at) => {
+            let at = index(at);
+            quote!(#core::system::Place::Constant(#at))
+        }
+        Place::Node(at) => {
+            let at = index(at);
+            quote!(#core::system::Place::Node(#at))
+        }
+    }
+}

@@ -1,0 +1,290 @@
+//! Declaration → [`System`]: first all names, then the items in the order in which they need each other.
+//!
+//! A name that fails to get a meaning is poisoned: uses of it are silent, since the cause has been reported.
+
+use super::names::{Kind, Meaning, Names};
+use super::reach::{Context, Depth, Reach};
+use super::value::Value;
+use super::{ItemName, System};
+use crate::ast::{Declaration, Expr, Head, Impacts, Item, ItemKind, Name};
+use crate::diagnostics::{Code, Diagnostics};
+use crate::symbolic::{ExprId, Pool, Symbol};
+use proc_macro2::Span;
+use std::collections::BTreeMap;
+
+/// A system on its way.
+pub(super) struct Elaboration<'a> {
+    pub system: System,
+    pub sink: &'a mut Diagnostics,
+    pub names: Names,
+    /// Bound indices, innermost last.
+    pub indices: Vec<(String, i64)>,
+    /// Kind of each symbol, by its index.
+    pub depths: Vec<Depth>,
+    /// q → v, v → v̇, t → 1.
+    pub directions: Vec<(Symbol, ExprId)>,
+    /// What `define` and `observe` name.
+    pub definitions: Vec<Pending>,
+    /// First coordinate of each name, and the length of an array.
+    pub coordinate_names: BTreeMap<String, (usize, Option<usize>)>,
+    /// Whether something could not be read; the sink says why.
+    pub dropped: bool,
+    /// Whether an exact number that did not fit has been reported.
+    pub overflowed: bool,
+}
+
+/// A definition or output.
+#[derive(Clone)]
+pub(super) struct Pending {
+    pub head: Head,
+    pub value: Expr,
+    pub context: Context,
+}
+
+/// Resolves all names of a declaration; mistakes go to the sink.
+pub fn system(declaration: &Declaration, sink: &mut Diagnostics) -> Option<System> {
+    let before = sink.count();
+    let mut elaboration = Elaboration::new(declaration, sink);
+    let accepted = elaboration.declare(declaration);
+    elaboration.check_energies(declaration);
+    let items = || {
+        declaration
+            .items
+            .iter()
+            .zip(&accepted)
+            .filter(|(_, accepted)| **accepted)
+            .map(|(item, _)| item)
+    };
+    elaboration.definitions_all();
+    for pass in Pass::ALL {
+        for item in items() {
+            elaboration.read(item, pass);
+        }
+    }
+    elaboration.check_quadratic(declaration);
+    elaboration.check_dropped(declaration);
+    let system = elaboration.system;
+    (sink.count() == before).then_some(system)
+}
+
+/// Items are read in this order: each needs only what comes before it.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Pass {
+    Energies,
+    Contacts,
+    Constraints,
+    Frictions,
+    Forces,
+    Starts,
+    Observes,
+    Watches,
+}
+
+impl Pass {
+    const ALL: [Pass; 8] = [
+        Pass::Energies,
+        Pass::Contacts,
+        Pass::Constraints,
+        Pass::Frictions,
+        Pass::Forces,
+        Pass::Starts,
+        Pass::Observes,
+        Pass::Watches,
+    ];
+}
+
+impl<'a> Elaboration<'a> {
+    fn new(declaration: &Declaration, sink: &'a mut Diagnostics) -> Elaboration<'a> {
+        let mut pool = Pool::new();
+        let time = pool.symbol("t");
+        let one = pool.integer(1);
+        let core = || "::lagrange_core".parse().unwrap_or_default();
+        let system = System {
+            name: declaration.name.clone(),
+            documentation: declaration.documentation.clone(),
+            scalar: declaration.scalar.clone(),
+            core: declaration.core.clone().unwrap_or_else(core),
+            pool,
+            time,
+            parameters: Vec::new(),
+            coordinates: Vec::new(),
+            kinetic: Vec::new(),
+            potential: Vec::new(),
+            from_lagrangian: false,
+            constraints: Vec::new(),
+            contacts: Vec::new(),
+            frictions: Vec::new(),
+            forces: Vec::new(),
+            dissipations: Vec::new(),
+            branches: Vec::new(),
+            starts: Vec::new(),
+            observes: Vec::new(),
+            stops: Vec::new(),
+            marks: Vec::new(),
+            impacts: Impacts::default(),
+        };
+        Elaboration {
+            system,
+            sink,
+            names: Names::new(),
+            indices: Vec::new(),
+            depths: vec![Depth::Parameter; time.index() + 1],
+            directions: vec![(time, one)],
+            definitions: Vec::new(),
+            coordinate_names: BTreeMap::new(),
+            dropped: false,
+            overflowed: false,
+        }
+    }
+
+    /// A new symbol of this kind.
+    pub fn symbol(&mut self, name: &str, depth: Depth) -> Symbol {
+        let symbol = self.system.pool.symbol(name);
+        self.depths.resize(symbol.index() + 1, Depth::Parameter);
+        self.depths[symbol.index()] = depth;
+        symbol
+    }
+
+    fn read(&mut self, item: &Item, pass: Pass) {
+        match (pass, &item.kind) {
+            (Pass::Energies, ItemKind::Kinetic(energy)) => {
+                self.energy_term(Kind::Kinetic, energy, item.keyword)
+            }
+            (Pass::Energies, ItemKind::Potential(energy)) => {
+                self.energy_term(Kind::Potential, energy, item.keyword)
+            }
+            (Pass::Energies, ItemKind::Lagrangian(value)) => {
+                self.split_lagrangian(value, item.keyword)
+            }
+            (Pass::Contacts, ItemKind::Contact(contact)) => self.contact(contact),
+            (Pass::Constraints, ItemKind::Constraint(constraint)) => self.constraint(constraint),
+            (Pass::Frictions, ItemKind::Friction(friction)) => self.friction(friction),
+            (Pass::Forces, ItemKind::Force(force)) => self.force(force),
+            (Pass::Forces, ItemKind::Dissipation(dissipation)) => self.dissipation(dissipation),
+            (Pass::Starts, ItemKind::Start(start)) => self.start(start),
+            (Pass::Observes, ItemKind::Observe(observes)) => self.observe(observes),
+            (Pass::Watches, ItemKind::Stop(watch)) => self.watch(Kind::Stop, watch),
+            (Pass::Watches, ItemKind::Mark(watch)) => self.watch(Kind::Mark, watch),
+            _ => {}
+        }
+        self.check_overflow(item.keyword);
+    }
+
+    /// Runs `body` for every element of an item; `body` gives the element's place in the system's list.
+    /// After a mistake the other elements are left out: they would repeat it.
+    pub fn each(
+        &mut self,
+        head: &Head,
+        mut body: impl FnMut(&mut Self, ItemName) -> Option<usize>,
+    ) {
+        let name = &head.name;
+        let meaning = match &head.index {
+            None => body(self, item_name(name, None)).map(|element| Meaning::Item {
+                elements: vec![element],
+                lower: None,
+            }),
+            Some(index) => self.range(index).and_then(|(from, to)| {
+                let count = (to - from) as usize;
+                let elements: Option<Vec<usize>> = (from..to)
+                    .map(|k| {
+                        let element = item_name(name, Some((k, (k - from) as usize, count)));
+                        self.with_index(&index.name, k, |this| body(this, element))
+                    })
+                    .collect();
+                elements.map(|elements| Meaning::Item {
+                    elements,
+                    lower: Some(from),
+                })
+            }),
+        };
+        self.dropped |= meaning.is_none();
+        self.settle(&name.text, meaning.unwrap_or(Meaning::Poisoned));
+    }
+
+    /// The bounds of an item's index, which may not be empty.
+    fn range(&mut self, index: &crate::ast::Index) -> Option<(i64, i64)> {
+        self.free_index(&index.name)?;
+        let (from, to) = self.bounds(&index.range)?;
+        if to <= from {
+            let at =
+                crate::diagnostics::Extent::new(index.range.from.extent, index.range.to.extent);
+            self.sink.report(Code::EmptyRange, at, &[&from, &to]);
+            return None;
+        }
+        Some((from, to))
+    }
+
+    /// Evaluates a definition and settles its name.
+    pub fn define(&mut self, definition: usize) {
+        let Pending {
+            head,
+            value,
+            context,
+        } = self.definitions[definition].clone();
+        self.settle(&head.name.text, Meaning::Busy);
+        // A definition does not see the indices of where it is used.
+        let indices = std::mem::take(&mut self.indices);
+        let found = match &head.index {
+            None => self.value(&value, context).map(|value| (value, 0)),
+            Some(index) => self.range(index).and_then(|(from, to)| {
+                let elements: Option<Vec<Value>> = (from..to)
+                    .map(|k| self.with_index(&index.name, k, |this| this.value(&value, context)))
+                    .collect();
+                elements.map(|elements| (Value::List(elements), from))
+            }),
+        };
+        self.indices = indices;
+        self.dropped |= found.is_none();
+        self.check_overflow(head.name.span());
+        let meaning = match found {
+            None => Meaning::Poisoned,
+            Some((value, lower)) => Meaning::Value {
+                depth: self.depth(&value.scalars()),
+                value,
+                lower,
+            },
+        };
+        self.settle(&head.name.text, meaning);
+    }
+
+    /// Evaluates every definition that nothing has used, so that its mistakes are found.
+    fn definitions_all(&mut self) {
+        for definition in 0..self.definitions.len() {
+            let pending = &self.definitions[definition];
+            let entry = self.names.get(&pending.head.name.text);
+            let is_pending =
+                entry.is_some_and(|entry| matches!(entry.meaning, Meaning::Pending(_)));
+            if is_pending && pending.context.reach == Reach::Definition {
+                self.define(definition);
+            }
+        }
+    }
+
+    /// Exact numbers that did not fit make every form doubtful: reported where it first happens.
+    fn check_overflow(&mut self, at: Span) {
+        if self.system.pool.overflowed() && !self.overflowed {
+            self.overflowed = true;
+            self.sink.report(Code::Overflow, at, &[]);
+        }
+    }
+
+    /// Nothing is left out without a message.
+    fn check_dropped(&mut self, declaration: &Declaration) {
+        if self.dropped && self.sink.is_empty() {
+            self.sink.report(Code::Bug, &declaration.name, &[]);
+        }
+    }
+}
+
+/// Name of an element: (index, position, count).
+pub(super) fn item_name(name: &Name, element: Option<(i64, usize, usize)>) -> ItemName {
+    ItemName {
+        text: match element {
+            None => name.text.clone(),
+            Some((index, ..)) => format!("{}[{index}]", name.text),
+        },
+        ident: Some(name.ident.clone()),
+        element: element.map(|(_, position, count)| (position, count)),
+        span: name.span(),
+    }
+}

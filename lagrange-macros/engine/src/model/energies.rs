@@ -1,0 +1,209 @@
+//! Kinetic and potential energies, or a Lagrangian split at v = 0: V = −L(q, 0, t), T = L + V.
+
+use super::elaborate::Elaboration;
+use super::names::Kind;
+use super::reach::{Context, Reach};
+use super::{EnergyTerm, ItemName};
+use crate::ast::{Declaration, Energy, Expr, ItemKind, Name};
+use crate::diagnostics::Code;
+use crate::symbolic::{ExprId, Symbol};
+use proc_macro2::Span;
+
+const KINETIC: Context = Context::new(Reach::Motion, "a kinetic energy");
+const POTENTIAL: Context = Context::new(Reach::Positions, "a potential energy");
+const LAGRANGIAN: Context = Context::new(Reach::Motion, "a Lagrangian");
+
+impl Elaboration<'_> {
+    /// Either one Lagrangian, or kinetic energies.
+    pub fn check_energies(&mut self, declaration: &Declaration) {
+        let (mut lagrangian, mut kinetic) = (false, false);
+        for item in &declaration.items {
+            match &item.kind {
+                ItemKind::Lagrangian(_) if lagrangian => {
+                    self.sink
+                        .report(Code::SameTwice, item.keyword, &[&"lagrangian"]);
+                }
+                ItemKind::Lagrangian(_) => lagrangian = true,
+                ItemKind::Kinetic(_) => kinetic = true,
+                _ => {}
+            }
+        }
+        let [mut first_kinetic, mut first_potential] = [true, true];
+        for item in &declaration.items {
+            let (word, head, first) = match &item.kind {
+                ItemKind::Kinetic(energy) => ("kinetic", &energy.head, &mut first_kinetic),
+                ItemKind::Potential(energy) => ("potential", &energy.head, &mut first_potential),
+                _ => continue,
+            };
+            if lagrangian {
+                self.sink
+                    .report(Code::LagrangianExcludes, item.keyword, &[&word]);
+            }
+            if head.is_none() && !std::mem::replace(first, false) {
+                self.sink.report(Code::UnnamedTwice, item.keyword, &[&word]);
+            }
+        }
+        if !lagrangian && !kinetic {
+            self.sink.report(Code::NoKinetic, &declaration.name, &[]);
+        }
+    }
+
+    pub fn energy_term(&mut self, kind: Kind, energy: &Energy, keyword: Span) {
+        let context = match kind {
+            Kind::Kinetic => KINETIC,
+            _ => POTENTIAL,
+        };
+        let add = |this: &mut Self, name: ItemName| {
+            let energy = this.scalar(&energy.value, context)?;
+            let terms = match kind {
+                Kind::Kinetic => &mut this.system.kinetic,
+                _ => &mut this.system.potential,
+            };
+            terms.push(EnergyTerm { name, energy });
+            Some(terms.len() - 1)
+        };
+        match &energy.head {
+            Some(head) => self.each(head, add),
+            None => {
+                let name = unnamed(
+                    if kind == Kind::Kinetic {
+                        "kinetic"
+                    } else {
+                        "potential"
+                    },
+                    keyword,
+                );
+                self.dropped |= add(self, name).is_none();
+            }
+        }
+    }
+
+    pub fn split_lagrangian(&mut self, value: &Expr, keyword: Span) {
+        let Some(lagrangian) = self.scalar(value, LAGRANGIAN) else {
+            return;
+        };
+        let rest: Vec<(Symbol, ExprId)> = self
+            .velocities()
+            .into_iter()
+            .map(|velocity| (velocity, self.system.pool.integer(0)))
+            .collect();
+        let at_rest = self.system.pool.substitute(lagrangian, &rest);
+        let kinetic = self.system.pool.sub(lagrangian, at_rest);
+        let potential = self.system.pool.neg(at_rest);
+        self.system.from_lagrangian = true;
+        self.system.kinetic.push(EnergyTerm {
+            name: unnamed("kinetic", keyword),
+            energy: kinetic,
+        });
+        self.system.potential.push(EnergyTerm {
+            name: unnamed("potential", keyword),
+            energy: potential,
+        });
+    }
+
+    /// Symbols of all velocities.
+    pub fn velocities(&self) -> Vec<Symbol> {
+        self.system
+            .coordinates
+            .iter()
+            .map(|coordinate| coordinate.velocity)
+            .collect()
+    }
+
+    /// L = ΣT − ΣV
+    pub fn lagrangian(&mut self) -> ExprId {
+        let (kinetic, potential) = self.energies();
+        self.system.pool.sub(kinetic, potential)
+    }
+
+    /// (ΣT, ΣV)
+    fn energies(&mut self) -> (ExprId, ExprId) {
+        let total = |terms: &[EnergyTerm]| {
+            terms
+                .iter()
+                .map(|term| term.energy)
+                .collect::<Vec<ExprId>>()
+        };
+        let (kinetic, potential) = (total(&self.system.kinetic), total(&self.system.potential));
+        (
+            self.system.pool.sum(&kinetic),
+            self.system.pool.sum(&potential),
+        )
+    }
+
+    /// `energy`: T + V as declared, or v·∂L/∂v − L for a Lagrangian.
+    pub fn energy(&mut self, name: &Name, context: Context) -> Option<ExprId> {
+        if context.reach != Reach::Outputs {
+            self.sink.report(Code::OutputOnly, name, &[&"energy"]);
+            return None;
+        }
+        if !self.system.from_lagrangian {
+            let (kinetic, potential) = self.energies();
+            return Some(self.system.pool.add(kinetic, potential));
+        }
+        let lagrangian = self.lagrangian();
+        let mut terms = vec![self.system.pool.neg(lagrangian)];
+        for velocity in self.velocities() {
+            let momentum = self.system.pool.differentiate(lagrangian, velocity);
+            let v = self.system.pool.leaf(velocity);
+            terms.push(self.system.pool.mul(momentum, v));
+        }
+        Some(self.system.pool.sum(&terms))
+    }
+
+    /// Impacts need ∂²L/∂v² without v.
+    pub fn check_quadratic(&mut self, declaration: &Declaration) {
+        if self.system.contacts.is_empty() {
+            return;
+        }
+        let velocities = self.velocities();
+        let (kinetic, _) = self.energies();
+        for &velocity in &velocities {
+            let momentum = self.system.pool.differentiate(kinetic, velocity);
+            if self.nonlinear_in(momentum, &velocities).is_none() {
+                continue;
+            }
+            let item = declaration.items.iter().find(|item| match item.kind {
+                ItemKind::Lagrangian(_) => self.system.from_lagrangian,
+                ItemKind::Kinetic(_) => !self.system.from_lagrangian,
+                _ => false,
+            });
+            if let Some(item) = item {
+                let what = if self.system.from_lagrangian {
+                    "Lagrangian"
+                } else {
+                    "kinetic energy"
+                };
+                let velocity = self.system.pool.name(velocity).to_string();
+                self.sink
+                    .report(Code::NotQuadratic, item.keyword, &[&what, &velocity]);
+            }
+            return;
+        }
+    }
+
+    /// A symbol of these in which an expression is not linear.
+    pub fn nonlinear_in(&mut self, e: ExprId, symbols: &[Symbol]) -> Option<Symbol> {
+        let occurring = self.system.pool.symbols(e);
+        for &symbol in symbols.iter().filter(|symbol| occurring.contains(symbol)) {
+            let slope = self.system.pool.differentiate(e, symbol);
+            if !self.system.pool.depends_on_any(slope, symbols) {
+                continue;
+            }
+            let slope = self.system.pool.simplify(slope);
+            if self.system.pool.depends_on_any(slope, symbols) {
+                return Some(symbol);
+            }
+        }
+        None
+    }
+}
+
+fn unnamed(text: &str, span: Span) -> ItemName {
+    ItemName {
+        text: text.to_string(),
+        ident: None,
+        element: None,
+        span,
+    }
+}

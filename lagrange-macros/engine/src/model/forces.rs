@@ -1,0 +1,206 @@
+//! Applied forces by virtual work: Q·δq = f·δp at a point p, or Q = f ∂s/∂v along a velocity s; dissipation.
+
+use super::elaborate::Elaboration;
+use super::names::Kind;
+use super::reach::{Context, Depth, Reach};
+use super::value::{Value, norm};
+use super::{Dissipation, Force};
+use crate::ast::{self, Action, Expr, Name};
+use crate::diagnostics::{Code, Extent};
+use crate::symbolic::{ExprId, Symbol};
+
+const FORCE: Context = Context::new(Reach::Loads, "a force");
+const POINT: Context = Context::new(Reach::Positions, "a point");
+const SPEED: Context = Context::new(Reach::Motion, "a velocity");
+const DISSIPATION: Context = Context::new(Reach::Motion, "a dissipation");
+
+impl Elaboration<'_> {
+    pub fn force(&mut self, declared: &ast::Force) {
+        self.each(&declared.head, |this, name| {
+            let (value, generalized, at) = match &declared.action {
+                Action::Generalized(coordinate, value) => {
+                    let (index, force) = (this.coordinate(coordinate), this.scalar(value, FORCE));
+                    let (index, force) = (index?, force?);
+                    (force, vec![(index, force)], value.extent)
+                }
+                Action::At(force, point) => {
+                    let (value, generalized) = this.at_point(force, point)?;
+                    (value, generalized, force.extent)
+                }
+                Action::Along(force, speed) => {
+                    let (value, generalized) = this.along(force, speed)?;
+                    (value, generalized, force.extent)
+                }
+            };
+            this.linear_in_forces(&generalized, at)?;
+            let force = this.symbol(&name.text, Depth::Force);
+            this.system.forces.push(Force {
+                name,
+                value,
+                generalized,
+                force,
+            });
+            Some(this.system.forces.len() - 1)
+        });
+    }
+
+    /// Qⱼ = Σ fᵢ ∂pᵢ/∂qⱼ
+    fn at_point(&mut self, force: &Expr, point: &Expr) -> Option<(ExprId, Vec<(usize, ExprId)>)> {
+        let (f, p) = (self.value(force, FORCE), self.value(point, POINT));
+        let (f, p) = (f?, p?);
+        if f.length() != p.length() {
+            let count = |value: &Value| value.length().unwrap_or(1);
+            self.sink
+                .report(Code::Lengths, point.extent, &[&count(&f), &count(&p)]);
+            return None;
+        }
+        let (f, p) = (f.scalars(), p.scalars());
+        if self.depth(&p) < Depth::Position {
+            let hint =
+                "a fixed point does no work: write the point where the force acts in coordinates";
+            self.sink.report(
+                Code::ConstrainsNothing,
+                point.extent,
+                &[&"point", &"coordinate", &hint],
+            );
+            return None;
+        }
+        let positions: Vec<Symbol> = self.system.coordinates.iter().map(|q| q.position).collect();
+        let generalized = self.project(&f, &p, &positions);
+        let value = match f.as_slice() {
+            [only] => *only,
+            f => norm(&mut self.system.pool, f),
+        };
+        Some((value, generalized))
+    }
+
+    /// Qⱼ = f ∂s/∂vⱼ
+    fn along(&mut self, force: &Expr, speed: &Expr) -> Option<(ExprId, Vec<(usize, ExprId)>)> {
+        let (f, s) = (self.scalar(force, FORCE), self.scalar(speed, SPEED));
+        let (f, s) = (f?, s?);
+        if self.depth(&[s]) < Depth::Velocity {
+            let hint = "`along` takes a velocity: write it with `der(…)`";
+            self.sink.report(
+                Code::ConstrainsNothing,
+                speed.extent,
+                &[&"direction", &"velocity", &hint],
+            );
+            return None;
+        }
+        let velocities = self.velocities();
+        Some((f, self.project(&[f], &[s], &velocities)))
+    }
+
+    /// Σ fᵢ ∂pᵢ/∂xⱼ for every symbol xⱼ, zeros left out.
+    fn project(&mut self, f: &[ExprId], p: &[ExprId], symbols: &[Symbol]) -> Vec<(usize, ExprId)> {
+        let pool = &mut self.system.pool;
+        let mut generalized = Vec::new();
+        for (j, &symbol) in symbols.iter().enumerate() {
+            let terms: Vec<ExprId> = f
+                .iter()
+                .zip(p)
+                .map(|(&f, &p)| {
+                    let slope = pool.differentiate(p, symbol);
+                    pool.mul(f, slope)
+                })
+                .collect();
+            let component = pool.sum(&terms);
+            if !pool.is_zero(component) {
+                generalized.push((j, component));
+            }
+        }
+        generalized
+    }
+
+    fn linear_in_forces(&mut self, generalized: &[(usize, ExprId)], at: Extent) -> Option<()> {
+        let constraints = self
+            .system
+            .constraints
+            .iter()
+            .map(|constraint| constraint.force);
+        let forces: Vec<Symbol> = self
+            .system
+            .contacts
+            .iter()
+            .map(|contact| contact.force)
+            .chain(constraints)
+            .collect();
+        for &(_, component) in generalized {
+            if let Some(force) = self.nonlinear_in(component, &forces) {
+                let force = self.system.pool.name(force).to_string();
+                self.sink.report(Code::ForceNotLinear, at, &[&force]);
+                return None;
+            }
+        }
+        Some(())
+    }
+
+    pub fn dissipation(&mut self, declared: &ast::Dissipation) {
+        self.each(&declared.head, |this, name| {
+            let rayleigh = this.scalar(&declared.value, DISSIPATION)?;
+            if this.depth(&[rayleigh]) < Depth::Velocity {
+                let hint = "a dissipation is half a power: `c/2 * der(x)^2`";
+                let at = declared.value.extent;
+                this.sink.report(
+                    Code::ConstrainsNothing,
+                    at,
+                    &[&"dissipation", &"velocity", &hint],
+                );
+                return None;
+            }
+            this.system
+                .dissipations
+                .push(Dissipation { name, rayleigh });
+            Some(this.system.dissipations.len() - 1)
+        });
+    }
+
+    /// Whether an item's name may stand for its force here.
+    pub fn admit_item(&mut self, name: &Name, kind: Kind, context: Context) -> Option<()> {
+        let in_load =
+            context.reach == Reach::Loads && matches!(kind, Kind::Contact | Kind::Constraint);
+        let has_force = matches!(
+            kind,
+            Kind::Contact | Kind::Constraint | Kind::Friction | Kind::Force
+        );
+        if !has_force {
+            let hint = "its name is for the run and its report; write the expression itself, or a `define`";
+            self.sink
+                .report(Code::Unusable, name, &[&name.text, &kind.text(), &hint]);
+            return None;
+        }
+        if !in_load && context.reach != Reach::Outputs {
+            self.sink
+                .report(Code::ForceHere, name, &[&name.text, &kind.text()]);
+            return None;
+        }
+        Some(())
+    }
+
+    /// What the name of an item that has been admitted stands for.
+    pub fn force_of(&mut self, kind: Kind, element: usize) -> Value {
+        let system = &mut self.system;
+        let pool = &mut system.pool;
+        Value::Scalar(match kind {
+            Kind::Constraint => pool.leaf(system.constraints[element].force),
+            Kind::Force => pool.leaf(system.forces[element].force),
+            Kind::Contact => {
+                let contact = &system.contacts[element];
+                let multiplier = pool.leaf(contact.force);
+                match contact.normal_factor {
+                    None => multiplier,
+                    Some(factor) => pool.mul(multiplier, factor),
+                }
+            }
+            _ => match system.frictions[element].slip.as_slice() {
+                [(_, force)] => pool.leaf(*force),
+                components => {
+                    let forces = components
+                        .iter()
+                        .map(|(_, force)| Value::Scalar(pool.leaf(*force)));
+                    return Value::List(forces.collect());
+                }
+            },
+        })
+    }
+}

@@ -1,0 +1,117 @@
+//! Coulomb friction: slip velocities, coefficients, and the source of the normal force.
+
+use super::elaborate::Elaboration;
+use super::names::Kind;
+use super::reach::{Context, Depth, Reach};
+use super::value::Value;
+use super::{Friction, Normal};
+use crate::ast::{self, Expr, FrictionLaw};
+use crate::diagnostics::Code;
+use crate::symbolic::{ExprId, Symbol};
+
+const SLIP: Context = Context::new(Reach::Motion, "a slip velocity");
+const COEFFICIENT: Context = Context::new(Reach::Motion, "a coefficient of friction");
+const NORMAL: Context = Context::new(Reach::Motion, "a normal force");
+const LIMIT: Context = Context::new(Reach::Motion, "a friction force");
+
+impl Elaboration<'_> {
+    pub fn friction(&mut self, declared: &ast::Friction) {
+        self.each(&declared.head, |this, name| {
+            let on = declared
+                .on
+                .as_ref()
+                .map(|on| this.item(on, &[Kind::Contact, Kind::Constraint]));
+            let slip = this.slip(&declared.slip, &name.text);
+            let (given, static_coefficient, kinetic_coefficient) = this.law(&declared.law)?;
+            let normal = match (on, given) {
+                (Some(on), _) => match on? {
+                    (Kind::Contact, contact) => Normal::Contact(contact),
+                    (_, constraint) => Normal::Constraint(constraint),
+                },
+                (None, given) => Normal::Given(given?),
+            };
+            this.system.frictions.push(Friction {
+                name,
+                slip: slip?,
+                normal,
+                static_coefficient,
+                kinetic_coefficient,
+            });
+            Some(this.system.frictions.len() - 1)
+        });
+    }
+
+    /// (given normal force, μs, μk); a limit is the coefficient of the normal force 1.
+    fn law(&mut self, law: &FrictionLaw) -> Option<(Option<ExprId>, ExprId, ExprId)> {
+        match law {
+            FrictionLaw::Coefficients {
+                normal,
+                stick,
+                slide,
+            } => {
+                let normal = normal.as_ref().map(|normal| self.scalar(normal, NORMAL));
+                let stick = self.scalar(stick, COEFFICIENT);
+                let slide = match slide {
+                    None => stick,
+                    Some(slide) => self.scalar(slide, COEFFICIENT),
+                };
+                let normal = match normal {
+                    None => None,
+                    Some(normal) => Some(normal?),
+                };
+                Some((normal, stick?, slide?))
+            }
+            FrictionLaw::Limit(limit) => {
+                let one = self.system.pool.integer(1);
+                match self.value(limit, LIMIT)? {
+                    Value::Scalar(force) => Some((Some(one), force, force)),
+                    list => match list.vector().as_deref() {
+                        Some(&[stick, slide]) => Some((Some(one), stick, slide)),
+                        _ => {
+                            let hint = "a limit is one force, or two: `(static, kinetic)`";
+                            self.sink
+                                .report(Code::ScalarForList, limit.extent, &[&hint]);
+                            None
+                        }
+                    },
+                }
+            }
+        }
+    }
+
+    /// One or two slip components with the symbols of the forces along them.
+    fn slip(&mut self, slip: &Expr, name: &str) -> Option<Vec<(ExprId, Symbol)>> {
+        let components = match self.value(slip, SLIP)? {
+            Value::Scalar(e) => vec![e],
+            list => match list.vector() {
+                Some(components) if matches!(components.len(), 1 | 2) => components,
+                _ => {
+                    let hint = "a slip has one component, or two: `(s1, s2)`";
+                    self.sink.report(Code::ScalarForList, slip.extent, &[&hint]);
+                    return None;
+                }
+            },
+        };
+        let count = components.len();
+        let mut found = Vec::new();
+        for (i, component) in components.into_iter().enumerate() {
+            if self.depth(&[component]) < Depth::Velocity {
+                let hint = "a slip is the velocity of the contact point: write it with `der(…)`";
+                self.sink.report(
+                    Code::ConstrainsNothing,
+                    slip.extent,
+                    &[&"slip", &"velocity", &hint],
+                );
+                return None;
+            }
+            let hint = "a slip is a component of a velocity; of two components write `(s1, s2)`, not their norm";
+            self.linear(component, "slip", hint, slip.extent)?;
+            let text = match count {
+                1 => name.to_string(),
+                _ => format!("{name}[{i}]"),
+            };
+            found.push((component, self.symbol(&text, Depth::Force)));
+        }
+        Some(found)
+    }
+}

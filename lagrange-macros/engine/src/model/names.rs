@@ -1,0 +1,221 @@
+//! The one namespace of fields, coordinates, definitions and items.
+
+use super::elaborate::Elaboration;
+use super::reach::Depth;
+use super::value::Value;
+use crate::ast::{Name, Reference};
+use crate::diagnostics::{Code, nearest};
+use crate::parse::FUNCTIONS;
+use std::collections::BTreeMap;
+
+/// Words with a meaning of their own in expressions, beside the functions.
+const RESERVED: &[&str] = &[
+    "t", "pi", "sum", "if", "gap", "slip", "momentum", "energy", "closed", "open", "sticks",
+    "slips", "poisson", "at", "along", "on", "where", "while", "and", "in",
+];
+
+/// A kind of item.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Kind {
+    Field,
+    Coordinate,
+    Definition,
+    Output,
+    Kinetic,
+    Potential,
+    Constraint,
+    Contact,
+    Friction,
+    Force,
+    Dissipation,
+    Start,
+    Stop,
+    Mark,
+}
+
+impl Kind {
+    /// For messages.
+    pub fn text(self) -> &'static str {
+        match self {
+            Kind::Field => "field",
+            Kind::Coordinate => "coordinate",
+            Kind::Definition => "definition",
+            Kind::Output => "output",
+            Kind::Kinetic => "kinetic energy",
+            Kind::Potential => "potential energy",
+            Kind::Constraint => "constraint",
+            Kind::Contact => "contact",
+            Kind::Friction => "friction",
+            Kind::Force => "force",
+            Kind::Dissipation => "dissipation",
+            Kind::Start => "start",
+            Kind::Stop => "stop",
+            Kind::Mark => "mark",
+        }
+    }
+}
+
+/// What a name stands for.
+#[derive(Clone, Debug)]
+pub(super) enum Meaning {
+    /// A value; indices of a list begin at `lower`.
+    Value {
+        value: Value,
+        lower: i64,
+        depth: Depth,
+    },
+    /// A definition or output that is evaluated when it is first used: index into the definitions.
+    Pending(usize),
+    /// It is being evaluated.
+    Busy,
+    /// An item: its elements, as indices into the system's list of that kind.
+    Item {
+        elements: Vec<usize>,
+        lower: Option<i64>,
+    },
+    /// It could not be made sense of, which has been reported.
+    Poisoned,
+}
+
+/// A name of the namespace.
+#[derive(Clone, Debug)]
+pub(super) struct Entry {
+    pub kind: Kind,
+    pub meaning: Meaning,
+}
+
+/// The namespace.
+pub(super) type Names = BTreeMap<String, Entry>;
+
+impl Elaboration<'_> {
+    /// Enters a name; a reserved word or second use of a name is reported.
+    pub fn enter(&mut self, name: &Name, kind: Kind, meaning: Meaning) -> Option<()> {
+        let text = name.text.as_str();
+        if is_reserved(text) {
+            self.sink.report(Code::ReservedName, name, &[&text]);
+            return None;
+        }
+        if let Some(first) = self.names.get(text) {
+            self.sink
+                .report(Code::DuplicateName, name, &[&text, &first.kind.text()]);
+            return None;
+        }
+        self.names.insert(text.to_string(), Entry { kind, meaning });
+        Some(())
+    }
+
+    /// What a name has come to mean.
+    pub fn settle(&mut self, name: &str, meaning: Meaning) {
+        if let Some(entry) = self.names.get_mut(name) {
+            entry.meaning = meaning;
+        }
+    }
+
+    /// Reports a name that nothing has, with the nearest one that exists.
+    pub fn unknown(&mut self, name: &Name) {
+        let text = name.text.as_str();
+        let hint = self.suggestion(text);
+        self.sink.report(Code::UnknownName, name, &[&text, &hint]);
+    }
+
+    fn suggestion(&self, text: &str) -> String {
+        let bases = [
+            text.strip_suffix("_dot"),
+            text.strip_suffix("dot"),
+            text.strip_prefix('d'),
+        ];
+        let is_coordinate = |base: &&str| {
+            self.names
+                .get(*base)
+                .is_some_and(|entry| entry.kind == Kind::Coordinate)
+        };
+        if let Some(base) = bases.into_iter().flatten().find(is_coordinate) {
+            return format!("the velocity of `{base}` is written `der({base})`");
+        }
+        let indices = self.indices.iter().map(|(name, _)| name.as_str());
+        let names = self
+            .names
+            .keys()
+            .map(String::as_str)
+            .chain(indices)
+            .chain(["pi"]);
+        match nearest(text, names) {
+            Some(known) => format!("did you mean `{known}`?"),
+            None => {
+                "declare it as a field of the struct, a coordinate, or with `define`".to_string()
+            }
+        }
+    }
+
+    /// The element of an item of one of these kinds that a reference names.
+    pub fn item(&mut self, reference: &Reference, kinds: &[Kind]) -> Option<(Kind, usize)> {
+        let name = &reference.name;
+        let Some(entry) = self.names.get(&name.text) else {
+            self.unknown(name);
+            return None;
+        };
+        let kind = entry.kind;
+        let wanted: Vec<&str> = kinds.iter().map(|kind| kind.text()).collect();
+        let wanted = wanted.join(" or ");
+        let (elements, lower) = match &entry.meaning {
+            Meaning::Poisoned => return None,
+            Meaning::Item { elements, lower } if kinds.contains(&kind) => {
+                (elements.clone(), *lower)
+            }
+            _ => {
+                let hint = self.known(kinds);
+                self.sink.report(
+                    Code::WrongKind,
+                    name,
+                    &[&name.text, &kind.text(), &wanted, &hint],
+                );
+                return None;
+            }
+        };
+        let Some(element) = &reference.element else {
+            return match (lower, elements.as_slice()) {
+                (None, [only]) => Some((kind, *only)),
+                _ => {
+                    let (list, hint) = (
+                        format!("list of {}", elements.len()),
+                        format!("write `{}[k]`", name.text),
+                    );
+                    self.sink
+                        .report(Code::WrongKind, name, &[&name.text, &list, &wanted, &hint]);
+                    None
+                }
+            };
+        };
+        let Some(lower) = lower else {
+            let hint = format!("write `{}` alone", name.text);
+            self.sink.report(
+                Code::WrongKind,
+                name,
+                &[&name.text, &kind.text(), &"list", &hint],
+            );
+            return None;
+        };
+        let index = self.position(element, lower, elements.len())?;
+        Some((kind, elements[index]))
+    }
+
+    /// Names of these kinds, for a hint.
+    fn known(&self, kinds: &[Kind]) -> String {
+        let known: Vec<String> = self
+            .names
+            .iter()
+            .filter(|(_, entry)| kinds.contains(&entry.kind))
+            .map(|(name, _)| format!("`{name}`"))
+            .collect();
+        if known.is_empty() {
+            format!("declare a {}", kinds[0].text())
+        } else {
+            format!("there is {}", known.join(", "))
+        }
+    }
+}
+
+/// Whether a word cannot be a name.
+pub(super) fn is_reserved(word: &str) -> bool {
+    RESERVED.contains(&word) || FUNCTIONS.contains(&word)
+}

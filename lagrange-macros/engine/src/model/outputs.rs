@@ -1,0 +1,103 @@
+//! What is reported, what ends a run, and what is logged.
+
+use super::elaborate::{Elaboration, item_name};
+use super::names::{Kind, Meaning};
+use super::reach::{Context, Reach};
+use super::value::Value;
+use super::{Condition, Observe, Watch};
+use crate::ast::{self, Clause, Expr, ExprKind, ModeWord, Name, Trigger};
+
+const OUTPUT: Context = Context::new(Reach::Outputs, "an output");
+
+impl Elaboration<'_> {
+    pub fn observe(&mut self, declared: &[ast::Observe]) {
+        for observe in declared {
+            let name = match observe {
+                ast::Observe::Known(name) => name,
+                ast::Observe::New(head, _) => &head.name,
+            };
+            self.dropped |= self.output(name).is_none();
+        }
+    }
+
+    /// The value of a name becomes an output, a list one for each element.
+    fn output(&mut self, name: &Name) -> Option<()> {
+        let expr = Expr {
+            kind: ExprKind::Name(name.clone()),
+            extent: name.into(),
+        };
+        let value = self.value(&expr, OUTPUT)?;
+        let lower = match self.names.get(&name.text).map(|entry| &entry.meaning) {
+            Some(Meaning::Value { lower, .. }) => *lower,
+            Some(Meaning::Item { lower, .. }) => lower.unwrap_or(0),
+            _ => 0,
+        };
+        let elements = match value {
+            Value::Scalar(value) => {
+                let name = item_name(name, None);
+                self.system.observes.push(Observe { name, value });
+                return Some(());
+            }
+            Value::List(elements) => elements,
+        };
+        let count = elements.len();
+        for (k, element) in elements.into_iter().enumerate() {
+            let value = self.single(element, name.into())?;
+            let name = item_name(name, Some((lower + k as i64, k, count)));
+            self.system.observes.push(Observe { name, value });
+        }
+        Some(())
+    }
+
+    pub fn watch(&mut self, kind: Kind, declared: &ast::Watch) {
+        self.each(&declared.head, |this, name| {
+            let mut watch = Watch {
+                name,
+                terms: Vec::new(),
+                conditions: Vec::new(),
+                zeros: matches!(declared.trigger, Trigger::Zero(_)),
+            };
+            match &declared.trigger {
+                Trigger::Zero(e) => watch.terms.push(this.scalar(e, OUTPUT)?),
+                Trigger::All(clauses) => {
+                    let before = this.sink.count();
+                    for clause in clauses {
+                        this.clause(clause, &mut watch);
+                    }
+                    if this.sink.count() > before {
+                        return None;
+                    }
+                }
+            }
+            let list = match kind {
+                Kind::Stop => &mut this.system.stops,
+                _ => &mut this.system.marks,
+            };
+            list.push(watch);
+            Some(list.len() - 1)
+        });
+    }
+
+    fn clause(&mut self, clause: &Clause, watch: &mut Watch) -> Option<()> {
+        match clause {
+            Clause::Comparison(comparison) => {
+                let term = self.difference(comparison, OUTPUT)?;
+                watch.terms.push(term);
+            }
+            Clause::Mode(word, item) => {
+                let kind = match word {
+                    ModeWord::Closed | ModeWord::Open => Kind::Contact,
+                    ModeWord::Sticks | ModeWord::Slips => Kind::Friction,
+                };
+                let (_, index) = self.item(item, &[kind])?;
+                watch.conditions.push(match word {
+                    ModeWord::Closed => Condition::Closed(index),
+                    ModeWord::Open => Condition::Open(index),
+                    ModeWord::Sticks => Condition::Sticks(index),
+                    ModeWord::Slips => Condition::Slips(index),
+                });
+            }
+        }
+        Some(())
+    }
+}

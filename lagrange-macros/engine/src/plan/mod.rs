@@ -1,0 +1,240 @@
+//! Equations → [`Program`]: which operations compute the outputs, shared, masked by need, in static slots.
+//!
+//! ```text
+//! expression → form (fixed scale · varying node) → n-ary graph with shared pairs → operations → blocks
+//! ```
+//!
+//! What depends on parameters only is computed once per run by the constants program; everything else is an
+//! operation of `lagrange_core::arithmetic::Arithmetic` in one of two tapes, before the solve and after it.
+
+mod constants;
+mod form;
+mod graph;
+mod lower;
+mod needs;
+mod outputs;
+mod schedule;
+mod share;
+mod tape;
+
+pub use needs::NeedSet;
+pub use tape::{Block, Coefficient, Mode, Operation, Step, Tape, Value, Write};
+
+use crate::derive::{Equations, OutputId, Stage};
+use crate::model::System;
+use crate::symbolic::{ExprId, Pool, Symbol};
+use constants::Constants;
+use form::{Fixed, Former};
+use lower::Lowerer;
+use outputs::Target;
+use schedule::Demand;
+use std::collections::BTreeMap;
+
+/// Where a number is found after a tape has run; as `lagrange_core::system::Place`.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Place {
+    /// Structurally zero.
+    Zero,
+    /// Index into the constants.
+    Constant(usize),
+    /// Index into the outputs of the stage's tape.
+    Node(usize),
+}
+
+/// What is emitted.
+pub struct Program {
+    /// What it computes.
+    pub equations: Equations,
+    /// Of each output of the equations.
+    pub places: Vec<Place>,
+    /// Inputs are the parameters, outputs the constants. Scalar operations.
+    pub constants: Tape,
+    /// Inputs t, q, v.
+    pub motion: Tape,
+    /// Inputs t, q, v, v̇ and the force of each row.
+    pub report: Tape,
+    /// In order of declaration.
+    pub starts: Vec<Start>,
+}
+
+/// A named start. Scalar operations.
+pub struct Start {
+    /// Inputs are the parameters, then t.
+    pub tape: Tape,
+    /// What the outputs are; what is not named is 0.
+    pub targets: Vec<StartTarget>,
+}
+
+/// What an output of a start is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum StartTarget {
+    /// Position of this coordinate.
+    Position(usize),
+    /// Velocity of this coordinate.
+    Velocity(usize),
+}
+
+impl Program {
+    /// Where an output is found.
+    pub fn place(&self, output: OutputId) -> Place {
+        self.places[output.0]
+    }
+
+    /// Arithmetic operations of a stage that run while `held` (words of a need mask) is held.
+    pub fn operations(&self, stage: Stage, held: &[u64]) -> usize {
+        match stage {
+            Stage::Motion => self.motion.operations(held),
+            Stage::Report => self.report.operations(held),
+        }
+    }
+}
+
+/// Plans the computation of all outputs.
+pub fn plan(mut equations: Equations) -> Program {
+    let parameters: BTreeMap<Symbol, usize> =
+        numbered(equations.system.parameters.iter().map(|p| p.symbol));
+    let mut constants = Constants::new(parameters.clone());
+    let mut places = vec![Place::Zero; equations.outputs.len()];
+    let motion = stage_tape(&mut equations, Stage::Motion, &mut constants, &mut places);
+    let report = stage_tape(&mut equations, Stage::Report, &mut constants, &mut places);
+    let starts = starts(&mut equations.system, &parameters);
+
+    let targets: Vec<Target> = constants
+        .sources
+        .into_iter()
+        .map(Target::of_constant)
+        .collect();
+    let pool = &mut equations.system.pool;
+    let constants = tape(
+        pool,
+        &mut Constants::closed(),
+        &parameters,
+        Fixed::Numbers,
+        None,
+        &targets,
+    );
+    Program {
+        equations,
+        places,
+        constants,
+        motion,
+        report,
+        starts,
+    }
+}
+
+/// Inputs of a stage, in order.
+fn inputs(system: &System, stage: Stage) -> Vec<Symbol> {
+    let coordinates = &system.coordinates;
+    let mut inputs = vec![system.time];
+    inputs.extend(coordinates.iter().map(|coordinate| coordinate.position));
+    inputs.extend(coordinates.iter().map(|coordinate| coordinate.velocity));
+    if stage == Stage::Report {
+        inputs.extend(coordinates.iter().map(|coordinate| coordinate.acceleration));
+        inputs.extend(system.constraints.iter().map(|constraint| constraint.force));
+        inputs.extend(system.contacts.iter().map(|contact| contact.force));
+        inputs.extend(
+            system
+                .frictions
+                .iter()
+                .flat_map(|friction| friction.slip.iter().map(|(_, force)| *force)),
+        );
+    }
+    inputs
+}
+
+fn numbered(symbols: impl Iterator<Item = Symbol>) -> BTreeMap<Symbol, usize> {
+    symbols
+        .enumerate()
+        .map(|(index, symbol)| (symbol, index))
+        .collect()
+}
+
+fn stage_tape(
+    equations: &mut Equations,
+    stage: Stage,
+    constants: &mut Constants,
+    places: &mut [Place],
+) -> Tape {
+    let inputs = numbered(inputs(&equations.system, stage).into_iter());
+    let pool = &mut equations.system.pool;
+    let targets = outputs::targets(pool, &equations.outputs, stage, &inputs, constants, places);
+    tape(pool, constants, &inputs, Fixed::Parameters, None, &targets)
+}
+
+fn starts(system: &mut System, parameters: &BTreeMap<Symbol, usize>) -> Vec<Start> {
+    let mut inputs = parameters.clone();
+    inputs.insert(system.time, parameters.len());
+    let guards: Vec<ExprId> = system.branches.iter().map(|branch| branch.guard).collect();
+    let mut starts = Vec::with_capacity(system.starts.len());
+    for start in &system.starts {
+        let positions = start
+            .positions
+            .iter()
+            .map(|(index, e)| (StartTarget::Position(*index), *e));
+        let velocities = start
+            .velocities
+            .iter()
+            .map(|(index, e)| (StartTarget::Velocity(*index), *e));
+        let (targets, values): (Vec<_>, Vec<_>) = positions.chain(velocities).unzip();
+        let values: Vec<Target> = values.into_iter().map(Target::always).collect();
+        let mut constants = Constants::closed();
+        let tape = tape(
+            &mut system.pool,
+            &mut constants,
+            &inputs,
+            Fixed::Numbers,
+            Some(&guards),
+            &values,
+        );
+        starts.push(Start { tape, targets });
+    }
+    starts
+}
+
+/// One tape for all targets.
+fn tape(
+    pool: &mut Pool,
+    constants: &mut Constants,
+    inputs: &BTreeMap<Symbol, usize>,
+    fixed: Fixed,
+    guards: Option<&[ExprId]>,
+    targets: &[Target],
+) -> Tape {
+    let mut former = Former::new(pool, inputs, fixed, guards);
+    let entries: Vec<_> = targets
+        .iter()
+        .enumerate()
+        .flat_map(|(i, target)| target.entries(i, &mut former))
+        .collect();
+    let mut graph = former.into_graph();
+    let roots: Vec<_> = entries.iter().map(|entry| entry.node).collect();
+    graph.split_quotients(&roots);
+    share::share(&mut graph, pool, &roots);
+
+    let mut lowerer = Lowerer::new(pool, &graph, constants, inputs.len());
+    let mut demands = Vec::with_capacity(entries.len());
+    for entry in entries {
+        let write = Write {
+            output: entry.output,
+            value: lowerer.value(entry.node),
+            mode: entry.mode,
+        };
+        demands.push(Demand {
+            needs: entry.needs,
+            write,
+        });
+    }
+    let tape = schedule::schedule(&lowerer.finish(), inputs.len(), targets.len(), &demands);
+    for block in &tape.blocks {
+        for step in &block.steps {
+            if let Some(coefficient) = step.operation.coefficient() {
+                constants.ask(coefficient, &block.needs);
+            }
+        }
+    }
+    tape
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,186 @@
+//! Outputs of the equations → what a tape must deliver, and where each output will be found.
+
+use super::Place;
+use super::constants::{Constants, Source};
+use super::form::Former;
+use super::graph::NodeId;
+use super::needs::NeedSet;
+use super::tape::Mode;
+use crate::derive::{NeedId, Output, Stage};
+use crate::symbolic::{ExprId, Pool, Symbol};
+use std::collections::BTreeMap;
+
+/// An output of a tape: the sum of those terms that are asked for.
+pub(super) struct Target {
+    /// What the sum starts from, a constant that is always there.
+    start: Option<ExprId>,
+    terms: Vec<(NeedSet, ExprId)>,
+    /// Whether it is 0 where none of the terms is asked for.
+    from_zero: bool,
+}
+
+/// A node that enters an output.
+pub(super) struct Entry {
+    pub output: usize,
+    pub needs: NeedSet,
+    pub node: NodeId,
+    pub mode: Mode,
+}
+
+impl Target {
+    /// One expression that is always computed.
+    pub fn always(e: ExprId) -> Target {
+        Target {
+            start: None,
+            terms: vec![(NeedSet::always(), e)],
+            from_zero: false,
+        }
+    }
+
+    /// A constant that the tapes ask for.
+    pub fn of_constant((source, needs): (Source, NeedSet)) -> Target {
+        match source {
+            Source::Whole(e) => Target {
+                start: None,
+                terms: vec![(needs, e)],
+                from_zero: false,
+            },
+            Source::Masked(terms) => {
+                let terms = terms
+                    .into_iter()
+                    .map(|(need, e)| (NeedSet::single(need), e))
+                    .collect();
+                Target {
+                    start: None,
+                    terms,
+                    from_zero: true,
+                }
+            }
+        }
+    }
+
+    /// What enters the output, in order.
+    pub fn entries(&self, output: usize, former: &mut Former) -> Vec<Entry> {
+        let mut entries = Vec::with_capacity(self.terms.len() + 1);
+        let begun = self
+            .terms
+            .first()
+            .is_some_and(|(needs, _)| needs.is_always());
+        if self.from_zero && !begun {
+            let node = match self.start {
+                Some(start) => former.fixed(start),
+                None => former.zero(),
+            };
+            entries.push(Entry {
+                output,
+                needs: NeedSet::always(),
+                node,
+                mode: Mode::Set,
+            });
+        }
+        for (needs, e) in &self.terms {
+            let form = former.form(*e);
+            // The slots of the sums are given when the order is known.
+            let (node, mode) = match (entries.is_empty(), self.start) {
+                (true, Some(start)) => (former.offset(start, form), Mode::Set),
+                (true, None) => (former.node(form), Mode::Set),
+                _ => {
+                    let (negative, node) = former.signed_node(form);
+                    (node, if negative { Mode::Sub(0) } else { Mode::Add(0) })
+                }
+            };
+            entries.push(Entry {
+                output,
+                needs: needs.clone(),
+                node,
+                mode,
+            });
+        }
+        entries
+    }
+}
+
+/// Targets of a stage; equal outputs share a place.
+pub(super) fn targets(
+    pool: &mut Pool,
+    outputs: &[Output],
+    stage: Stage,
+    inputs: &BTreeMap<Symbol, usize>,
+    constants: &mut Constants,
+    places: &mut [Place],
+) -> Vec<Target> {
+    let mut targets = Vec::new();
+    let mut known: BTreeMap<Vec<(NeedId, ExprId)>, Place> = BTreeMap::new();
+    for (output, place) in outputs.iter().zip(places) {
+        if output.stage != stage {
+            continue;
+        }
+        let terms = by_need(pool, output);
+        *place = *known.entry(terms.clone()).or_insert_with(|| {
+            let (varying, fixed): (Vec<_>, Vec<_>) = terms
+                .into_iter()
+                .partition(|(_, e)| varies(pool, inputs, *e));
+            match (&varying[..], &fixed[..]) {
+                ([], []) => Place::Zero,
+                ([], [(need, e)]) => {
+                    let index = constants.constant(Source::Whole(*e));
+                    constants.sources[index].1.join(&NeedSet::single(*need));
+                    Place::Constant(index)
+                }
+                ([], _) => Place::Constant(constants.constant(Source::Masked(fixed))),
+                _ => {
+                    targets.push(target(pool, constants, varying, fixed));
+                    Place::Node(targets.len() - 1)
+                }
+            }
+        });
+    }
+    targets
+}
+
+/// Terms of one need become one expression; zeros vanish.
+fn by_need(pool: &mut Pool, output: &Output) -> Vec<(NeedId, ExprId)> {
+    let mut needs: BTreeMap<NeedId, Vec<ExprId>> = BTreeMap::new();
+    for (need, e) in &output.terms {
+        needs.entry(*need).or_default().push(*e);
+    }
+    let mut terms: Vec<_> = needs
+        .into_iter()
+        .map(|(need, terms)| (need, pool.sum(&terms)))
+        .collect();
+    terms.retain(|(_, e)| !pool.is_zero(*e));
+    terms
+}
+
+fn target(
+    pool: &mut Pool,
+    constants: &mut Constants,
+    varying: Vec<(NeedId, ExprId)>,
+    fixed: Vec<(NeedId, ExprId)>,
+) -> Target {
+    let from_zero = varying.len() + fixed.len() > 1;
+    let terms = varying
+        .into_iter()
+        .map(|(need, e)| (NeedSet::single(need), e))
+        .collect();
+    // What is fixed is where the sum starts; a masked sum of the constants program if any of it can be left out.
+    let start = match fixed[..] {
+        [] => None,
+        [(need, e)] if need.0 == 0 => Some(e),
+        _ => Some(constants.masked(pool, fixed)),
+    };
+    Target {
+        start,
+        terms,
+        from_zero,
+    }
+}
+
+/// Whether an expression changes during a run.
+fn varies(pool: &Pool, inputs: &BTreeMap<Symbol, usize>, e: ExprId) -> bool {
+    !pool.branches(e).is_empty()
+        || pool
+            .symbols(e)
+            .iter()
+            .any(|symbol| inputs.contains_key(symbol))
+}

@@ -1,0 +1,120 @@
+//! Operations → blocks: who needs what, in which order, in which slot.
+
+use super::lower::Lowered;
+use super::needs::NeedSet;
+use super::tape::{Block, Mode, Step, Tape, Value, Write};
+use std::collections::BTreeMap;
+
+/// What enters an output, when asked for; slots are not given yet.
+pub(super) struct Demand {
+    /// Who asks.
+    pub needs: NeedSet,
+    /// What enters where.
+    pub write: Write,
+}
+
+/// Puts the operations that somebody asks for into one block for each distinct need set.
+pub(super) fn schedule(
+    lowered: &Lowered,
+    inputs: usize,
+    outputs: usize,
+    demands: &[Demand],
+) -> Tape {
+    // Whoever needs a value needs its operands: one pass from the last operation to the first.
+    let mut asked = vec![NeedSet::default(); lowered.values];
+    for demand in demands {
+        asked[demand.write.value.0].join(&demand.needs);
+    }
+    let mut needs_of = vec![NeedSet::default(); lowered.operations.len()];
+    for (index, (first, operation)) in lowered.operations.iter().enumerate().rev() {
+        let mut needs = NeedSet::default();
+        for needed in &asked[first.0..first.0 + operation.values()] {
+            needs.join(needed);
+        }
+        for operand in operation.operands() {
+            asked[operand.0].join(&needs);
+        }
+        needs_of[index] = needs;
+    }
+
+    let mut blocks: BTreeMap<Rank, Block> = BTreeMap::new();
+    let mut block = |needs: &NeedSet, fill: &mut dyn FnMut(&mut Block)| {
+        let empty = || Block {
+            needs: needs.clone(),
+            steps: Vec::new(),
+            writes: Vec::new(),
+        };
+        fill(blocks.entry(rank(needs)).or_insert_with(empty));
+    };
+    for (index, (value, operation)) in lowered.operations.iter().enumerate() {
+        if !needs_of[index].is_empty() {
+            let step = Step {
+                value: *value,
+                operation: *operation,
+                to: 0,
+            };
+            block(&needs_of[index], &mut |block| block.steps.push(step));
+        }
+    }
+    for demand in demands {
+        block(&demand.needs, &mut |block| block.writes.push(demand.write));
+    }
+    numbered(
+        blocks.into_values().collect(),
+        inputs,
+        outputs,
+        lowered.values,
+    )
+}
+
+/// Larger sets first, the set that always runs before all.
+type Rank = (bool, std::cmp::Reverse<usize>, NeedSet);
+
+fn rank(needs: &NeedSet) -> Rank {
+    (
+        !needs.is_always(),
+        std::cmp::Reverse(needs.len()),
+        needs.clone(),
+    )
+}
+
+/// Numbers values and slots in the order in which they are computed.
+fn numbered(mut blocks: Vec<Block>, inputs: usize, outputs: usize, values: usize) -> Tape {
+    let mut names: Vec<Option<usize>> = (0..values)
+        .map(|value| (value < inputs).then_some(value))
+        .collect();
+    let (mut values, mut slots) = (inputs, 0);
+    for block in &mut blocks {
+        for step in &mut block.steps {
+            let count = step.operation.values();
+            for offset in 0..count {
+                names[step.value.0 + offset] = Some(values + offset);
+            }
+            let name = |value: Value| Value(names[value.0].expect("operands come first"));
+            *step = Step {
+                value: name(step.value),
+                operation: step.operation.renamed(name),
+                to: slots,
+            };
+            values += count;
+            slots += step.operation.slots();
+        }
+        for write in &mut block.writes {
+            write.value = Value(names[write.value.0].expect("outputs come last"));
+            match &mut write.mode {
+                Mode::Set => {}
+                Mode::Add(to) | Mode::Sub(to) => {
+                    *to = slots;
+                    slots += 1;
+                }
+            }
+        }
+    }
+    Tape {
+        inputs,
+        values,
+        slots,
+        outputs,
+        blocks,
+    }
+}

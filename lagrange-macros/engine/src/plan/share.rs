@@ -1,0 +1,244 @@
+//! Shared partial sums and products: the pair that occurs in most sums becomes a node of its own, again and again.
+//!
+//! The greedy pair extraction of algebraic factoring (R. Brayton, C. McMullen 1982, restricted to two operands):
+//! each extraction of a pair found in n sums saves n − 1 operations and never costs one.
+
+use super::graph::{Graph, NodeId, Shape, Term};
+use crate::symbolic::{ExprId, Pool};
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Sums and products longer than this are not searched for pairs (their number is quadratic).
+const LONGEST: usize = 96;
+
+/// A multiset of operands: for a sum ±1 per term, for a product the exponent.
+type Bag<A> = BTreeMap<A, i32>;
+
+/// Two operands and the sign of the second relative to the first (+1 in products; there both may be one operand).
+type Pair<A> = (A, A, i32);
+
+/// Rewrites the graph below the roots with shared pairs.
+pub(super) fn share(graph: &mut Graph, pool: &mut Pool, roots: &[NodeId]) {
+    let one = pool.integer(1);
+    flip_private_negations(graph, one, roots);
+    let uses = graph.uses(roots);
+    let (mut sums, mut products) = (BTreeMap::new(), BTreeMap::new());
+    for (index, uses) in uses.iter().enumerate() {
+        match graph.shape(NodeId(index)) {
+            _ if *uses == 0 => {}
+            Shape::Sum { terms, .. } if terms.len() <= LONGEST => {
+                let bag = terms.iter().map(|term| {
+                    (
+                        (term.node, term.magnitude),
+                        if term.negative { -1 } else { 1 },
+                    )
+                });
+                sums.insert(NodeId(index), bag.collect::<Bag<_>>());
+            }
+            Shape::Product(factors) if factors.len() <= LONGEST => {
+                products.insert(NodeId(index), factors.iter().copied().collect::<Bag<_>>());
+            }
+            _ => {}
+        }
+    }
+    let whole = |graph: &Graph, id: NodeId| {
+        !matches!(
+            graph.shape(id),
+            Shape::Sum {
+                offset: Some(_),
+                ..
+            }
+        )
+    };
+    extract(&mut sums, graph, &whole, &|node| (node, one), &sum_shape);
+    extract(&mut products, graph, &whole, &|node| node, &product_shape);
+}
+
+/// Writes the bag as a sum with the offset that the node had.
+fn sum_shape(bag: &Bag<(NodeId, ExprId)>, before: Option<&Shape>) -> Shape {
+    let offset = match before {
+        Some(Shape::Sum { offset, .. }) => *offset,
+        _ => None,
+    };
+    let terms = bag.iter().map(|(&(node, magnitude), sign)| Term {
+        node,
+        magnitude,
+        negative: *sign < 0,
+    });
+    Shape::Sum {
+        offset,
+        terms: terms.collect(),
+    }
+}
+
+fn product_shape(bag: &Bag<NodeId>, _: Option<&Shape>) -> Shape {
+    Shape::Product(
+        bag.iter()
+            .map(|(node, exponent)| (*node, *exponent))
+            .collect(),
+    )
+}
+
+/// −(a − b) whose sum nobody else reads is b − a.
+fn flip_private_negations(graph: &mut Graph, one: ExprId, roots: &[NodeId]) {
+    let uses = graph.uses(roots);
+    for (index, used) in uses.iter().enumerate() {
+        let Shape::Sum {
+            offset: None,
+            terms,
+        } = graph.shape(NodeId(index))
+        else {
+            continue;
+        };
+        let [
+            Term {
+                node,
+                magnitude,
+                negative: true,
+            },
+        ] = terms[..]
+        else {
+            continue;
+        };
+        if *used == 0 || magnitude != one || uses[node.0] != 1 {
+            continue;
+        }
+        let Shape::Sum {
+            offset: None,
+            terms,
+        } = graph.shape(node)
+        else {
+            continue;
+        };
+        if terms.iter().any(|term| term.negative) {
+            let terms = terms
+                .iter()
+                .map(|term| Term {
+                    negative: !term.negative,
+                    ..*term
+                })
+                .collect();
+            graph.reshape(
+                NodeId(index),
+                Shape::Sum {
+                    offset: None,
+                    terms,
+                },
+            );
+        }
+    }
+}
+
+/// Which bags contain each pair, and the pairs by how many do.
+struct Census<A> {
+    holders: BTreeMap<Pair<A>, BTreeSet<NodeId>>,
+    ranked: BTreeSet<(Reverse<usize>, Pair<A>)>,
+}
+
+impl<A: Ord + Copy> Census<A> {
+    fn count(&mut self, pair: Pair<A>, bag: NodeId, present: bool) {
+        let holders = self.holders.entry(pair).or_default();
+        self.ranked.remove(&(Reverse(holders.len()), pair));
+        if present {
+            holders.insert(bag);
+        } else {
+            holders.remove(&bag);
+        }
+        if holders.len() > 1 {
+            self.ranked.insert((Reverse(holders.len()), pair));
+        } else if holders.is_empty() {
+            self.holders.remove(&pair);
+        }
+    }
+}
+
+/// All pairs of a bag.
+fn pairs<A: Ord + Copy>(bag: &Bag<A>) -> Vec<Pair<A>> {
+    let mut pairs = Vec::new();
+    for (i, (&first, &m)) in bag.iter().enumerate() {
+        if m >= 2 {
+            pairs.push((first, first, 1));
+        }
+        for (&second, &n) in bag.iter().skip(i + 1) {
+            pairs.push((first, second, m.signum() * n.signum()));
+        }
+    }
+    pairs
+}
+
+/// How often the pair can be taken from the bag; negative for its negation.
+fn multiplicity<A: Ord + Copy>(bag: &Bag<A>, (first, second, sign): Pair<A>) -> i32 {
+    let m = bag.get(&first).copied().unwrap_or(0);
+    if first == second {
+        return m / 2;
+    }
+    let n = bag.get(&second).copied().unwrap_or(0) * sign;
+    if m.signum() != n.signum() {
+        0
+    } else {
+        m.signum() * m.abs().min(n.abs())
+    }
+}
+
+/// Takes the pair out of the bag `times` times and puts `operand` in its place.
+fn replace<A: Ord + Copy>(
+    bag: &mut Bag<A>,
+    (first, second, sign): Pair<A>,
+    times: i32,
+    operand: A,
+) {
+    *bag.entry(first).or_default() -= times;
+    *bag.entry(second).or_default() -= times * sign;
+    *bag.entry(operand).or_default() += times;
+    bag.retain(|_, count| *count != 0);
+}
+
+fn extract<A: Ord + Copy>(
+    bags: &mut BTreeMap<NodeId, Bag<A>>,
+    graph: &mut Graph,
+    whole: &dyn Fn(&Graph, NodeId) -> bool,
+    operand: &dyn Fn(NodeId) -> A,
+    shape: &dyn Fn(&Bag<A>, Option<&Shape>) -> Shape,
+) {
+    let mut census = Census {
+        holders: BTreeMap::new(),
+        ranked: BTreeSet::new(),
+    };
+    for (&id, bag) in bags.iter() {
+        for pair in pairs(bag) {
+            census.count(pair, id, true);
+        }
+    }
+    while let Some((_, pair)) = census.ranked.pop_first() {
+        let holders = census.holders[&pair].clone();
+        let mut own = Bag::new();
+        replace_into(&mut own, pair);
+        // A bag that is just this pair is the node that the others use.
+        let exact = holders
+            .iter()
+            .find(|id| bags[id] == own && whole(graph, **id))
+            .copied();
+        let node = exact.unwrap_or_else(|| graph.node(shape(&own, None)));
+        for id in holders {
+            let bag = bags.get_mut(&id).expect("holders are bags");
+            let times = multiplicity(bag, pair);
+            for old in pairs(bag) {
+                census.count(old, id, false);
+            }
+            if id != node && times != 0 && !bag.contains_key(&operand(node)) {
+                replace(bag, pair, times, operand(node));
+                graph.reshape(id, shape(bag, Some(&graph.shape(id).clone())));
+            }
+            if id != node {
+                for new in pairs(bag).into_iter().filter(|new| *new != pair) {
+                    census.count(new, id, true);
+                }
+            }
+        }
+    }
+}
+
+fn replace_into<A: Ord + Copy>(bag: &mut Bag<A>, (first, second, sign): Pair<A>) {
+    *bag.entry(first).or_default() += 1;
+    *bag.entry(second).or_default() += sign;
+}

@@ -1,0 +1,97 @@
+//! `lagrange list`: what there is to run.
+
+use super::{Trouble, print};
+use clap::Args;
+use lagrange_problems::catalogue::{SCENES, Scene, find};
+use std::io::{self, Write};
+
+/// List the scenes, or everything that one of them can be given.
+#[derive(Args)]
+pub(super) struct List {
+    /// A scene, to see its parameters, coordinates, starts and forces.
+    scene: Option<String>,
+}
+
+impl List {
+    pub(super) fn execute(&self) -> Result<(), Trouble> {
+        match &self.scene {
+            None => print(all),
+            Some(name) => {
+                let scene = find(name).map_err(Trouble::usage)?;
+                print(|out| one(scene, out))
+            }
+        }
+    }
+}
+
+fn all(out: &mut dyn Write) -> io::Result<()> {
+    let width = SCENES
+        .iter()
+        .map(|scene| scene.name().len())
+        .max()
+        .unwrap_or(0);
+    for scene in SCENES {
+        writeln!(out, "{:width$}  {}", scene.name(), scene.summary())?;
+    }
+    Ok(())
+}
+
+fn one(scene: &dyn Scene, out: &mut dyn Write) -> io::Result<()> {
+    let description = scene.description();
+    writeln!(out, "{}\n", scene.name())?;
+    for line in description.documentation.trim().lines() {
+        writeln!(out, "  {}", line.trim_end())?;
+    }
+    writeln!(out, "\nparameters (--set name=value)")?;
+    let width = description
+        .parameters
+        .iter()
+        .map(|p| p.name.len())
+        .max()
+        .unwrap_or(0);
+    for (parameter, default) in description.parameters.iter().zip(scene.defaults()) {
+        let summary = parameter
+            .documentation
+            .trim()
+            .lines()
+            .next()
+            .unwrap_or_default();
+        writeln!(
+            out,
+            "  {:width$} = {default:<6}  {}",
+            parameter.name,
+            summary.trim()
+        )?;
+    }
+    let line = |out: &mut dyn Write, title: &str, names: Vec<&str>| match names.is_empty() {
+        true => Ok(()),
+        false => writeln!(out, "{title}\n  {}", names.join(", ")),
+    };
+    line(
+        out,
+        "coordinates (--start name=value, --start \"der(name)=value\")",
+        names(description.coordinates, |c| c.name),
+    )?;
+    line(
+        out,
+        "starts (--from NAME; the first is the default)",
+        description.starts.to_vec(),
+    )?;
+    line(
+        out,
+        "constraints",
+        names(description.constraints, |c| c.name),
+    )?;
+    line(out, "contacts", names(description.contacts, |c| c.name))?;
+    line(out, "frictions", names(description.frictions, |f| f.name))?;
+    line(out, "stops", names(description.stops, |s| s.name))?;
+    writeln!(
+        out,
+        "ends at t = {} s if nothing ends it before (--until)",
+        scene.until()
+    )
+}
+
+fn names<T>(items: &'static [T], name: impl Fn(&'static T) -> &'static str) -> Vec<&'static str> {
+    items.iter().map(name).collect()
+}

@@ -1,0 +1,105 @@
+//! Outcome → CSV: one line per sample, two (before and after) per event, in order of time.
+//!
+//! Columns: `t`, `event` (empty for a sample, else `grip slips`, `grip slips (after)`), coordinates, velocities,
+//! `force(item)`, `kinetic`, `potential`, `observe`d names, `mode`. Lines of events leave out the last but one group.
+
+use super::named_state;
+use crate::outcome::{Outcome, Sample, forces};
+use lagrange_core::prelude::*;
+use std::io::{self, Write};
+
+/// Writes `outcome` as CSV with a header line.
+pub fn write(outcome: &Outcome, out: impl Write) -> io::Result<()> {
+    let mut table = ::csv::Writer::from_writer(out);
+    table.write_record(header(outcome))?;
+    let mut samples = outcome.samples.iter().peekable();
+    for event in &outcome.events {
+        while let Some(sample) = samples.next_if(|sample| sample.time < event.time) {
+            table.write_record(sample_line(outcome, sample))?;
+        }
+        for line in event_lines(outcome, event) {
+            table.write_record(line)?;
+        }
+    }
+    for sample in samples {
+        table.write_record(sample_line(outcome, sample))?;
+    }
+    table.flush()
+}
+
+fn header(outcome: &Outcome) -> Vec<String> {
+    let description = outcome.description;
+    let none = vec![0.0; description.coordinates.len()];
+    let mut names = vec!["t".to_owned(), "event".to_owned()];
+    names.extend(
+        named_state(description, &none, &none)
+            .into_iter()
+            .map(|(name, _)| name),
+    );
+    names.extend(
+        forces(description)
+            .into_iter()
+            .map(|force| format!("force({})", force.name)),
+    );
+    names.extend(["kinetic".to_owned(), "potential".to_owned()]);
+    names.extend(
+        description
+            .observes
+            .iter()
+            .map(|observe| observe.name.to_owned()),
+    );
+    names.push("mode".to_owned());
+    names
+}
+
+fn sample_line(outcome: &Outcome, sample: &Sample) -> Vec<String> {
+    let mut line = vec![sample.time.to_string(), String::new()];
+    line.extend(numbers(&sample.state.q));
+    line.extend(numbers(&sample.state.v));
+    line.extend(
+        forces(outcome.description)
+            .iter()
+            .map(|force| sample.forces[force.row].to_string()),
+    );
+    line.extend(numbers(&[sample.kinetic, sample.potential]));
+    line.extend(numbers(&sample.observes));
+    line.push(sample.mode.display(outcome.description).to_string());
+    line
+}
+
+fn event_lines(outcome: &Outcome, event: &Event<f64>) -> [Vec<String>; 2] {
+    let description = outcome.description;
+    let label = format!("{} {}", event.subject.name(description), event.kind);
+    let line = |label: String, state: &State<f64>, rows: &[f64], mode: String| {
+        let mut line = vec![event.time.to_string(), label];
+        line.extend(numbers(&state.q));
+        line.extend(numbers(&state.v));
+        line.extend(
+            forces(description)
+                .iter()
+                .map(|force| rows[force.row].to_string()),
+        );
+        line.extend(vec![String::new(); 2 + description.observes.len()]);
+        line.push(mode);
+        line
+    };
+    let after = format!("{label} (after)");
+    [
+        line(
+            label,
+            &event.state,
+            &event.forces,
+            event.before.display(description).to_string(),
+        ),
+        line(
+            after,
+            &event.state_after,
+            &event.forces_after,
+            event.after.display(description).to_string(),
+        ),
+    ]
+}
+
+fn numbers(values: &[f64]) -> impl Iterator<Item = String> {
+    values.iter().map(f64::to_string)
+}

@@ -1,0 +1,199 @@
+//! Outcome → JSON: everything, every number in full precision, names in the order of the declaration.
+
+use super::named_state;
+use crate::outcome::{Outcome, forces};
+use lagrange_core::prelude::*;
+use lagrange_core::system::Description;
+use serde::{Serialize, Serializer};
+use std::io::{self, Write};
+
+/// Writes `outcome` as one JSON object and a newline.
+pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
+    serde_json::to_writer_pretty(&mut out, &report(outcome)).map_err(io::Error::from)?;
+    writeln!(out)
+}
+
+#[derive(Serialize)]
+struct Report {
+    scene: &'static str,
+    parameters: Numbers,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    start: Option<Instant>,
+    events: Vec<Happening>,
+    #[serde(rename = "final", skip_serializing_if = "Option::is_none")]
+    last: Option<Instant>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    energy: Option<Energy>,
+    work: Counts,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error: Option<String>,
+}
+
+#[derive(Serialize)]
+struct Instant {
+    time: f64,
+    mode: String,
+    state: Numbers,
+    forces: Numbers,
+}
+
+#[derive(Serialize)]
+struct Happening {
+    time: f64,
+    item: &'static str,
+    kind: &'static str,
+    from: String,
+    to: String,
+    state: Numbers,
+    forces: Numbers,
+    state_after: Numbers,
+    forces_after: Numbers,
+    impulses: Numbers,
+    #[serde(skip_serializing_if = "is_false")]
+    restitution_lowered: bool,
+    #[serde(skip_serializing_if = "is_false")]
+    ambiguous: bool,
+}
+
+#[derive(Serialize)]
+struct Energy {
+    start: Parts,
+    end: Parts,
+    work: Vec<Share>,
+    scale: f64,
+    closure: f64,
+}
+
+/// Work of one item, J.
+#[derive(Serialize)]
+struct Share {
+    name: &'static str,
+    kind: &'static str,
+    work: f64,
+}
+
+#[derive(Serialize)]
+struct Parts {
+    kinetic: f64,
+    potential: f64,
+    total: f64,
+}
+
+#[derive(Serialize)]
+struct Counts {
+    steps: usize,
+    rejected: usize,
+    evaluations: usize,
+    series: usize,
+    factorizations: usize,
+    projections: usize,
+    events: usize,
+}
+
+/// A JSON object that keeps its order.
+struct Numbers(Vec<(String, f64)>);
+
+impl Serialize for Numbers {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
+    }
+}
+
+fn is_false(flag: &bool) -> bool {
+    !flag
+}
+
+fn report(outcome: &Outcome) -> Report {
+    let description = outcome.description;
+    let names = description.parameters.iter().map(|p| p.name.to_owned());
+    let instant = |sample: &crate::outcome::Sample| Instant {
+        time: sample.time,
+        mode: sample.mode.display(description).to_string(),
+        state: state(description, &sample.state),
+        forces: rows(description, &sample.forces),
+    };
+    Report {
+        scene: outcome.scene,
+        parameters: Numbers(names.zip(outcome.parameters.iter().copied()).collect()),
+        start: outcome.first().map(instant),
+        events: outcome
+            .events
+            .iter()
+            .map(|event| happening(description, event))
+            .collect(),
+        last: outcome.last().map(instant),
+        energy: outcome.ledger.as_ref().map(energy),
+        work: counts(outcome),
+        error: outcome.failure.as_ref().map(Error::to_string),
+    }
+}
+
+fn happening(description: &'static Description, event: &Event<f64>) -> Happening {
+    Happening {
+        time: event.time,
+        item: event.subject.name(description),
+        kind: event.kind.word(),
+        from: event.before.display(description).to_string(),
+        to: event.after.display(description).to_string(),
+        state: state(description, &event.state),
+        forces: rows(description, &event.forces),
+        state_after: state(description, &event.state_after),
+        forces_after: rows(description, &event.forces_after),
+        impulses: rows(description, &event.impulses),
+        restitution_lowered: event.restitution_lowered,
+        ambiguous: event.ambiguous,
+    }
+}
+
+fn state(description: &Description, state: &State<f64>) -> Numbers {
+    Numbers(named_state(description, &state.q, &state.v))
+}
+
+/// Values per row under the names of their items; none if there are no values.
+fn rows(description: &Description, values: &[f64]) -> Numbers {
+    if values.is_empty() {
+        return Numbers(Vec::new());
+    }
+    Numbers(
+        forces(description)
+            .into_iter()
+            .map(|force| (force.name, values[force.row]))
+            .collect(),
+    )
+}
+
+fn energy(ledger: &Ledger) -> Energy {
+    let parts = |energies: &Energies| Parts {
+        kinetic: energies.kinetic,
+        potential: energies.potential,
+        total: energies.kinetic + energies.potential,
+    };
+    Energy {
+        start: parts(&ledger.start),
+        end: parts(&ledger.end),
+        work: ledger
+            .work
+            .iter()
+            .map(|e| Share {
+                name: e.name,
+                kind: e.kind,
+                work: e.work,
+            })
+            .collect(),
+        scale: ledger.scale,
+        closure: ledger.closure,
+    }
+}
+
+fn counts(outcome: &Outcome) -> Counts {
+    let work = outcome.work;
+    Counts {
+        steps: work.steps,
+        rejected: work.rejected,
+        evaluations: work.evaluations,
+        series: work.series,
+        factorizations: work.factorizations,
+        projections: work.projections,
+        events: outcome.events.len(),
+    }
+}

@@ -1,0 +1,54 @@
+//! Printers of an [`Outcome`](crate::outcome::Outcome): a table to read, JSON and CSV to compute with, a plot to look at.
+
+pub mod csv;
+pub mod json;
+pub mod plot;
+pub mod table;
+
+use lagrange_core::system::{Coordinate, Description};
+
+/// Whether a coordinate is an angle, so that people read it in degrees: its unit is declared as `rad`, or its
+/// name is that of a Greek letter customary for angles (`theta`, `phi2`, `psi_left`, `alpha[3]`).
+pub fn is_angle(coordinate: &Coordinate) -> bool {
+    const LETTERS: [&str; 7] = ["theta", "phi", "psi", "alpha", "beta", "gamma", "chi"];
+    if !coordinate.unit.is_empty() {
+        return coordinate.unit == "rad";
+    }
+    let stem = coordinate
+        .name
+        .split(|c: char| !c.is_ascii_alphabetic())
+        .next()
+        .unwrap_or_default();
+    LETTERS.contains(&stem)
+}
+
+/// A state as (name, value) pairs in the order of the coordinates: positions, then velocities.
+pub(crate) fn named_state(description: &Description, q: &[f64], v: &[f64]) -> Vec<(String, f64)> {
+    let names = || description.coordinates.iter().map(|c| c.name);
+    let positions = names().map(str::to_owned).zip(q.iter().copied());
+    let velocities = names()
+        .map(crate::request::velocity_name)
+        .zip(v.iter().copied());
+    positions.chain(velocities).collect()
+}
+
+/// Greek letters for the names of Greek letters; other names as they are.
+pub(crate) fn symbol(name: &str) -> String {
+    const GREEK: [(&str, &str); 7] = [
+        ("theta", "θ"),
+        ("phi", "φ"),
+        ("psi", "ψ"),
+        ("alpha", "α"),
+        ("beta", "β"),
+        ("gamma", "γ"),
+        ("chi", "χ"),
+    ];
+    let split = name
+        .find(|c: char| !c.is_ascii_alphabetic())
+        .unwrap_or(name.len());
+    let (stem, rest) = name.split_at(split);
+    match GREEK.iter().find(|(word, _)| *word == stem) {
+        Some((_, letter)) => format!("{letter}{rest}"),
+        None => name.to_owned(),
+    }
+}

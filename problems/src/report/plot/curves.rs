@@ -1,0 +1,142 @@
+//! Which curves a picture has: one panel of forces, one per unit of the coordinates, broken where modes change.
+
+use crate::outcome::{Outcome, Sample, Source, forces};
+use crate::report::{is_angle, symbol};
+
+/// Curves that share an axis.
+pub(super) struct Panel {
+    pub title: String,
+    pub curves: Vec<Curve>,
+}
+
+/// One named quantity over time, in pieces: (time, value).
+pub(super) struct Curve {
+    pub name: String,
+    pub pieces: Vec<Vec<(f64, f64)>>,
+    pub dashed: bool,
+    /// Index into the colours.
+    pub colour: usize,
+}
+
+/// The phases as bands: (from, to, mode), and what each mode is called.
+pub(super) struct Bands {
+    pub spans: Vec<(f64, f64, usize)>,
+    pub names: Vec<String>,
+}
+
+pub(super) fn bands(outcome: &Outcome) -> Bands {
+    let mut names: Vec<String> = Vec::new();
+    let spans = outcome
+        .phases
+        .iter()
+        .map(|phase| {
+            let name = phase.mode.display(outcome.description).to_string();
+            let mode = names
+                .iter()
+                .position(|known| *known == name)
+                .unwrap_or_else(|| {
+                    names.push(name);
+                    names.len() - 1
+                });
+            (phase.from, phase.to, mode)
+        })
+        .collect();
+    Bands { spans, names }
+}
+
+pub(super) fn panels(outcome: &Outcome) -> Vec<Panel> {
+    let mut panels = vec![Panel {
+        title: "force, N".to_owned(),
+        curves: force_curves(outcome),
+    }];
+    let coordinates = outcome.description.coordinates;
+    let of_kind = |angle: bool| -> Vec<Curve> {
+        coordinates
+            .iter()
+            .enumerate()
+            .filter(|(_, coordinate)| is_angle(coordinate) == angle)
+            .enumerate()
+            .map(|(colour, (i, coordinate))| {
+                let scale = if angle {
+                    180.0 / core::f64::consts::PI
+                } else {
+                    1.0
+                };
+                let value = |sample: &Sample| Some(sample.state.q[i] * scale);
+                Curve {
+                    name: symbol(coordinate.name),
+                    pieces: pieces(outcome, value),
+                    dashed: false,
+                    colour,
+                }
+            })
+            .collect()
+    };
+    panels.push(Panel {
+        title: "angle, °".to_owned(),
+        curves: of_kind(true),
+    });
+    panels.push(Panel {
+        title: "position, m".to_owned(),
+        curves: of_kind(false),
+    });
+    panels.retain(|panel| !panel.curves.is_empty());
+    panels
+}
+
+fn force_curves(outcome: &Outcome) -> Vec<Curve> {
+    let description = outcome.description;
+    let mut curves = Vec::new();
+    for (colour, force) in forces(description).into_iter().enumerate() {
+        let friction = matches!(force.source, Source::Friction(_));
+        let value = |sample: &Sample| {
+            let value = sample.forces[force.row];
+            force
+                .acts(description, &sample.mode)
+                .then(|| if friction { value.abs() } else { value })
+        };
+        let name = if friction {
+            format!("|{}|", force.name)
+        } else {
+            force.name.clone()
+        };
+        curves.push(Curve {
+            name,
+            pieces: pieces(outcome, value),
+            dashed: false,
+            colour,
+        });
+        if let Source::Friction(i) = force.source {
+            let limit = |sample: &Sample| sample.limits[i];
+            let name = format!("μN of {}", description.frictions[i].name);
+            curves.push(Curve {
+                name,
+                pieces: pieces(outcome, limit),
+                dashed: true,
+                colour,
+            });
+        }
+    }
+    curves.retain(|curve| !curve.pieces.is_empty());
+    curves
+}
+
+/// The values of a quantity, broken where it does not exist or the phase changes.
+fn pieces(outcome: &Outcome, value: impl Fn(&Sample) -> Option<f64>) -> Vec<Vec<(f64, f64)>> {
+    let mut pieces: Vec<Vec<(f64, f64)>> = Vec::new();
+    let mut phase = None;
+    for sample in &outcome.samples {
+        let Some(value) = value(sample) else {
+            phase = None;
+            continue;
+        };
+        if phase != Some(sample.phase) {
+            pieces.push(Vec::new());
+        }
+        phase = Some(sample.phase);
+        if let Some(piece) = pieces.last_mut() {
+            piece.push((sample.time, value));
+        }
+    }
+    pieces
+}

@@ -1,0 +1,299 @@
+//! Outcome → text: the story of the run, then the energy book and the work counts.
+//!
+//! Each event has two lines: above, the forces and the mode just before; below, just after. An impact shows
+//! impulses instead. Numbers of a column have the same number of decimals, so that they can be compared by eye.
+
+use super::{is_angle, symbol};
+use crate::outcome::{Force, Outcome, forces};
+use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, Table, Width, presets};
+use lagrange_core::mode::Mode;
+use lagrange_core::prelude::*;
+use lagrange_core::trajectory::Entry;
+use std::io::{self, Write};
+
+/// Columns of the page.
+const WIDTH: u16 = 100;
+
+/// Writes the story of `outcome`.
+pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
+    writeln!(out, "{}", story(outcome))?;
+    if let Some(ledger) = &outcome.ledger {
+        writeln!(out, "\n{}", energy(ledger))?;
+        writeln!(
+            out,
+            "The book closes to {:.1e} of the energy scale, {} J.",
+            ledger.closure.abs() / ledger.scale.max(f64::MIN_POSITIVE),
+            Decimals::of([ledger.scale]).show(ledger.scale)
+        )?;
+    }
+    writeln!(out, "\n{}", work(outcome))
+}
+
+/// One line of the story, before it is laid out.
+struct Line {
+    time: f64,
+    event: String,
+    q: Vec<f64>,
+    /// Force or impulse per force, above and below; `None` where it does not act.
+    upper: Vec<Option<f64>>,
+    lower: Vec<Option<f64>>,
+    impulse: bool,
+    mode: String,
+}
+
+fn entries(outcome: &Outcome, items: &[Force]) -> Vec<Line> {
+    let description = outcome.description;
+    let acting = |rows: &[f64], mode: &Mode| -> Vec<Option<f64>> {
+        items
+            .iter()
+            .map(|item| item.acts(description, mode).then(|| rows[item.row]))
+            .collect()
+    };
+    let instant = |sample: &crate::outcome::Sample, event: &str| Line {
+        time: sample.time,
+        event: event.to_owned(),
+        q: sample.state.q.clone(),
+        upper: acting(&sample.forces, &sample.mode),
+        lower: Vec::new(),
+        impulse: false,
+        mode: sample.mode.display(description).to_string(),
+    };
+    let happening = |event: &Event<f64>| {
+        let (before, after) = (
+            event.before.display(description).to_string(),
+            event.after.display(description).to_string(),
+        );
+        let changes = before != after;
+        let impulse = event.kind == EventKind::Impact;
+        Line {
+            time: event.time,
+            event: format!("{} {}", event.subject.name(description), event.kind),
+            q: event.state.q.clone(),
+            upper: match impulse {
+                true => items
+                    .iter()
+                    .map(|item| Some(event.impulses[item.row]).filter(|j| *j != 0.0))
+                    .collect(),
+                false => acting(&event.forces, &event.before),
+            },
+            lower: match impulse || !changes {
+                true => Vec::new(),
+                false => acting(&event.forces_after, &event.after),
+            },
+            impulse,
+            mode: if changes {
+                format!("{before}\n→ {after}")
+            } else {
+                before
+            },
+        }
+    };
+    let mut lines: Vec<Line> = outcome
+        .first()
+        .map(|first| instant(first, "start"))
+        .into_iter()
+        .collect();
+    lines.extend(outcome.events.iter().map(happening));
+    let stopped = outcome
+        .events
+        .last()
+        .is_some_and(|event| event.kind == EventKind::Stop);
+    if let Some(last) = outcome.last().filter(|_| !stopped) {
+        lines.push(instant(
+            last,
+            if outcome.failure.is_some() {
+                "failed"
+            } else {
+                "end"
+            },
+        ));
+    }
+    lines
+}
+
+fn story(outcome: &Outcome) -> Table {
+    let items = forces(outcome.description);
+    let lines = entries(outcome, &items);
+    let coordinates = outcome.description.coordinates;
+    let angles: Vec<usize> = (0..coordinates.len())
+        .filter(|&i| is_angle(&coordinates[i]))
+        .collect();
+    let shown = if angles.is_empty() {
+        (0..coordinates.len()).collect()
+    } else {
+        angles.clone()
+    };
+    let scale = |i: usize| {
+        if angles.contains(&i) {
+            180.0 / core::f64::consts::PI
+        } else {
+            1.0
+        }
+    };
+
+    let mut table = page();
+    let mut header = vec!["t\ns".to_owned(), "event".to_owned()];
+    header.extend(shown.iter().map(|&i| {
+        let unit = if angles.contains(&i) {
+            "°"
+        } else {
+            coordinates[i].unit
+        };
+        format!("{}\n{unit}", symbol(coordinates[i].name))
+    }));
+    header.extend(items.iter().map(|item| format!("{}\nN", item.name)));
+    header.push("mode".to_owned());
+    table.set_header(header);
+
+    let of_coordinates: Vec<Decimals> = shown
+        .iter()
+        .map(|&i| Decimals::of(lines.iter().map(|line| line.q[i] * scale(i))))
+        .collect();
+    let of_forces: Vec<Decimals> = (0..items.len())
+        .map(|k| {
+            Decimals::of(
+                lines
+                    .iter()
+                    .flat_map(|line| [&line.upper, &line.lower])
+                    .filter_map(|f| *f.get(k)?),
+            )
+        })
+        .collect();
+    for line in &lines {
+        let mut row = vec![format!("{:.6}", line.time), line.event.clone()];
+        row.extend(
+            shown
+                .iter()
+                .zip(&of_coordinates)
+                .map(|(&i, decimals)| decimals.show(line.q[i] * scale(i))),
+        );
+        row.extend((0..items.len()).map(|k| {
+            let show = |values: &[Option<f64>]| match values.get(k).copied().flatten() {
+                Some(value) if line.impulse => format!("{} Ns", of_forces[k].show(value)),
+                Some(value) => of_forces[k].show(value),
+                None => String::new(),
+            };
+            format!("{}\n{}", show(&line.upper), show(&line.lower))
+                .trim_end()
+                .to_owned()
+        }));
+        row.push(line.mode.clone());
+        table.add_row(row);
+    }
+    let numbers = 2 + shown.len() + items.len();
+    for (index, column) in table.column_iter_mut().enumerate() {
+        if index == 0 || (2..numbers).contains(&index) {
+            column.set_cell_alignment(CellAlignment::Right);
+            column.set_constraint(ColumnConstraint::ContentWidth);
+        }
+        if index == numbers {
+            column.set_constraint(ColumnConstraint::LowerBoundary(Width::Fixed(18)));
+        }
+    }
+    table
+}
+
+fn energy(ledger: &Ledger) -> Table {
+    let (start, end) = (&ledger.start, &ledger.end);
+    let lines = [
+        ("kinetic", start.kinetic, end.kinetic),
+        ("potential", start.potential, end.potential),
+        (
+            "total",
+            start.kinetic + start.potential,
+            end.kinetic + end.potential,
+        ),
+    ];
+    // Whoever did nothing that counts is left out; friction is worth a line even then.
+    let counts =
+        |entry: &&Entry| entry.kind == "friction" || entry.work.abs() > 1e-12 * ledger.scale;
+    let shown: Vec<&Entry> = ledger.work.iter().filter(counts).collect();
+    let works = shown.iter().map(|entry| entry.work);
+    let decimals = Decimals::of(lines.iter().flat_map(|(_, a, b)| [*a, *b]).chain(works));
+    let mut table = page();
+    table.set_header(["energy\nJ", "start", "end", "change"]);
+    for (name, a, b) in lines {
+        table.add_row([
+            name.to_owned(),
+            decimals.show(a),
+            decimals.show(b),
+            decimals.show(b - a),
+        ]);
+    }
+    for entry in &shown {
+        let name = format!("work of {} ({})", entry.name, entry.kind);
+        table.add_row([
+            name,
+            String::new(),
+            String::new(),
+            decimals.show(entry.work),
+        ]);
+    }
+    for column in table.column_iter_mut().skip(1) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    table
+}
+
+fn work(outcome: &Outcome) -> String {
+    let Work {
+        steps,
+        rejected,
+        evaluations,
+        series,
+        factorizations,
+        projections,
+    } = outcome.work;
+    format!(
+        "Work: {steps} steps, {rejected} rejected, {evaluations} evaluations, {series} series, \
+         {factorizations} factorizations, {projections} projections, {} events.",
+        outcome.events.len()
+    )
+}
+
+fn page() -> Table {
+    let mut table = Table::new();
+    table
+        .load_style(presets::UTF8_HORIZONTAL_ONLY)
+        .set_content_arrangement(ContentArrangement::Dynamic)
+        .set_width(WIDTH);
+    table
+}
+
+/// How many decimals a column of numbers needs: five significant digits of its largest.
+struct Decimals(usize);
+
+impl Decimals {
+    fn of(values: impl IntoIterator<Item = f64>) -> Self {
+        let largest = values
+            .into_iter()
+            .fold(0.0, |largest: f64, value| largest.max(value.abs()));
+        if largest == 0.0 {
+            return Decimals(4);
+        }
+        Decimals((4.0 - largest.log10().floor()).clamp(0.0, 12.0) as usize)
+    }
+
+    /// The number, without the sign of a zero.
+    fn show(&self, value: f64) -> String {
+        let text = format!("{value:.*}", self.0);
+        match text.strip_prefix('-') {
+            Some(digits) if digits.chars().all(|c| matches!(c, '0' | '.')) => digits.to_owned(),
+            _ => text,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Decimals;
+
+    #[test]
+    fn five_digits_of_the_largest_number_and_no_negative_zero() {
+        let decimals = Decimals::of([12.3456789, -0.00001]);
+        assert_eq!(decimals.show(12.3456789), "12.346");
+        assert_eq!(decimals.show(-0.00001), "0.000");
+        assert_eq!(Decimals::of([0.0]).show(-0.0), "0.0000");
+        assert_eq!(Decimals::of([123456.7]).show(123456.7), "123457");
+    }
+}

@@ -1,0 +1,222 @@
+//! What to run, as a user asks for it by name, and how the start is found from it.
+
+use crate::names::nearest;
+use core::fmt;
+use lagrange_core::prelude::*;
+use lagrange_core::system::Description;
+
+/// A run of a scene as asked for. Names are those of the declaration.
+#[derive(Clone, Debug)]
+pub struct Request {
+    /// Parameters that differ from the defaults.
+    pub parameters: Vec<(String, f64)>,
+    /// Named start; the first one if `None`.
+    pub from: Option<String>,
+    /// Coordinates (`theta`) and velocities (`der(theta)`) to be held exactly.
+    pub start: Vec<(String, f64)>,
+    /// End, s; the scene's own if `None`.
+    pub until: Option<f64>,
+    /// Relative and absolute tolerance of the integration.
+    pub tolerance: f64,
+    /// Method of integration.
+    pub method: Method,
+    /// Whether a start off a constraint is moved onto it.
+    pub project: bool,
+    /// Number of intervals to sample the trajectory at; 0 samples its ends only.
+    pub samples: usize,
+}
+
+impl Default for Request {
+    fn default() -> Self {
+        Self {
+            parameters: Vec::new(),
+            from: None,
+            start: Vec::new(),
+            until: None,
+            tolerance: 1e-9,
+            method: Method::Taylor,
+            project: false,
+            samples: 0,
+        }
+    }
+}
+
+/// Why a request cannot be run.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Refusal {
+    /// A name that is not known.
+    Unknown {
+        /// What it should name.
+        what: &'static str,
+        /// As given.
+        name: String,
+        /// The nearest known name, if one is near.
+        nearest: Option<String>,
+        /// All known names.
+        known: Vec<String>,
+    },
+    /// The same name twice.
+    Repeated {
+        /// The name.
+        name: String,
+    },
+    /// No consistent state with the values that are to be held.
+    Start(Error),
+}
+
+impl Refusal {
+    /// A refusal of `name`, with the nearest of the known names.
+    pub fn unknown<'a>(
+        what: &'static str,
+        name: &str,
+        known: impl Iterator<Item = &'a str>,
+    ) -> Self {
+        let known: Vec<&str> = known.collect();
+        Refusal::Unknown {
+            what,
+            name: name.to_owned(),
+            nearest: nearest(name, &known).map(str::to_owned),
+            known: known.into_iter().map(str::to_owned).collect(),
+        }
+    }
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Refusal::Unknown {
+                what,
+                name,
+                nearest,
+                known,
+            } => {
+                write!(f, "no {what} is called `{name}`")?;
+                match nearest {
+                    Some(nearest) => write!(f, "; did you mean `{nearest}`?"),
+                    None if known.is_empty() => write!(f, "; there are none"),
+                    None => write!(f, "; there are: {}", known.join(", ")),
+                }
+            }
+            Refusal::Repeated { name } => write!(f, "`{name}` is given twice; give it once"),
+            Refusal::Start(error) => write!(f, "no such start: {error}"),
+        }
+    }
+}
+
+impl core::error::Error for Refusal {}
+
+impl Request {
+    /// Index of the parameter called `name`.
+    pub(crate) fn parameter(
+        &self,
+        description: &'static Description,
+        name: &str,
+    ) -> Result<usize, Refusal> {
+        if self
+            .parameters
+            .iter()
+            .filter(|(other, _)| other == name)
+            .count()
+            > 1
+        {
+            return Err(Refusal::Repeated {
+                name: name.to_owned(),
+            });
+        }
+        let known = || description.parameters.iter().map(|p| p.name);
+        known()
+            .position(|p| p == name)
+            .ok_or_else(|| Refusal::unknown("parameter", name, known()))
+    }
+
+    /// The state to start from.
+    ///
+    /// Values given by name are held exactly. The others begin as in the named start and are then solved so that
+    /// constraints hold, contacts closed there stay closed, and slips that are zero there stay zero.
+    pub(crate) fn start<S: System<Scalar = f64>>(
+        &self,
+        system: &S,
+        simulation: &Simulation<'_, S>,
+    ) -> Result<State<f64>, Refusal> {
+        let description = S::DESCRIPTION;
+        let reference = self.named_start(system)?;
+        if self.start.is_empty() {
+            return Ok(reference);
+        }
+        let n = description.coordinates.len();
+        let mut wanted = reference.clone();
+        let mut held = Held {
+            positions: vec![false; n],
+            velocities: vec![false; n],
+        };
+        for (name, value) in &self.start {
+            let (index, level) = find_state(description, name)?;
+            let (values, flags) = match level {
+                Quantity::Position => (&mut wanted.q, &mut held.positions),
+                Quantity::Velocity => (&mut wanted.v, &mut held.velocities),
+            };
+            if flags[index] {
+                return Err(Refusal::Repeated { name: name.clone() });
+            }
+            values[index] = *value;
+            flags[index] = true;
+        }
+        simulation
+            .consistent(0.0, &reference, &wanted, &held)
+            .map_err(Refusal::Start)
+    }
+
+    fn named_start<S: System<Scalar = f64>>(&self, system: &S) -> Result<State<f64>, Refusal> {
+        let starts = S::DESCRIPTION.starts;
+        let n = S::DESCRIPTION.coordinates.len();
+        let mut state = State {
+            q: vec![0.0; n],
+            v: vec![0.0; n],
+        };
+        let index = match &self.from {
+            Some(name) => starts
+                .iter()
+                .position(|start| start == name)
+                .ok_or_else(|| Refusal::unknown("start", name, starts.iter().copied()))?,
+            None if starts.is_empty() => return Ok(state),
+            None => 0,
+        };
+        system.start(index, 0.0, &mut state.q, &mut state.v);
+        Ok(state)
+    }
+}
+
+enum Quantity {
+    Position,
+    Velocity,
+}
+
+/// `theta` or `der(theta)`, blanks ignored.
+fn find_state(description: &'static Description, name: &str) -> Result<(usize, Quantity), Refusal> {
+    let plain: String = name.chars().filter(|c| !c.is_whitespace()).collect();
+    for (index, coordinate) in description.coordinates.iter().enumerate() {
+        if plain == coordinate.name {
+            return Ok((index, Quantity::Position));
+        }
+        if plain == velocity_name(coordinate.name) {
+            return Ok((index, Quantity::Velocity));
+        }
+    }
+    let velocities: Vec<String> = description
+        .coordinates
+        .iter()
+        .map(|c| velocity_name(c.name))
+        .collect();
+    let known = description
+        .coordinates
+        .iter()
+        .map(|c| c.name)
+        .chain(velocities.iter().map(String::as_str));
+    Err(Refusal::unknown("coordinate or velocity", &plain, known))
+}
+
+/// How the velocity of a coordinate is written, `der(theta)`.
+pub fn velocity_name(coordinate: &str) -> String {
+    format!("der({coordinate})")
+}

@@ -1,0 +1,52 @@
+//! Where does a mass that slides down a smooth sphere leave it?
+
+use lagrange_core::prelude::*;
+
+/// A point mass slides without friction down a fixed spherical shell, leaves it and falls.
+///
+/// The coordinates are those of the *flying* mass: r and θ, both free. The shell is the inequality `r >= radius`.
+/// While it is closed its multiplier is the normal force; where that falls to zero the mass leaves, and no other
+/// equation has to be written for the flight.
+///
+/// What to expect: energy gives R θ̇² = 2 g (cos θ₀ − cos θ), the radial equation N = m g cos θ − m R θ̇², so
+///
+/// ```text
+/// N = m g (3 cos θ − 2 cos θ₀)        leaves at cos θ = ⅔ cos θ₀ (48.19° from the top)
+/// ```
+///
+/// neither of which depends on the mass, the radius or gravity. Then a parabola.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(r, theta),
+    define(
+        x = r * sin(theta),
+        y = r * cos(theta),
+    ),
+    kinetic   = mass/2 * (der(x)^2 + der(y)^2),
+    potential = mass * gravity * y,
+    contact(shell: r >= radius),
+    start(rest: r = radius, theta = start_angle),
+    observe(x, y),
+    stop(floor: y <= -radius),
+)]
+pub struct MassOnShell<T = f64> {
+    /// Mass, kg.
+    pub mass: T,
+    /// Radius of the shell, m.
+    pub radius: T,
+    /// Gravitational acceleration, m/s².
+    pub gravity: T,
+    /// θ at the start, rad from the upward vertical.
+    pub start_angle: T,
+}
+
+impl Default for MassOnShell {
+    fn default() -> Self {
+        Self {
+            mass: 1.0,
+            radius: 1.0,
+            gravity: 9.81,
+            start_angle: 0.01,
+        }
+    }
+}

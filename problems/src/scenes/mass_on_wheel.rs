@@ -1,0 +1,65 @@
+//! A mass rides on a wheel that is free to roll away under it.
+
+use lagrange_core::prelude::*;
+
+/// A small mass carried up and thrown off by the rim of a rolling wheel.
+///
+/// The wheel rolls on the floor (x is its centre, φ its turn, clockwise as it moves to the right); the mass sits
+/// on its rim at r and θ, seen from the centre and measured from the upward vertical. Stuck to the rim, it turns the
+/// wheel, which rolls to the side where the mass goes down: what the rim must give depends on both motions.
+///
+/// What to expect: the mass sticks to the rim until grip is not enough, slips over it, and is thrown
+/// off; the wheel then rolls on with constant speed. While stuck the system has one degree of freedom, and
+/// energy gives θ̇ in closed form. After that no closed form is known.
+///
+/// With large kinetic friction the rigid rim has no answer at all (Painlevé 1895): above μₖ ≈ 6.35 a slipping
+/// mass can neither stay on nor leave, and the run ends with an error that says so.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, phi, r, theta),
+    define(
+        px = x + r * sin(theta),
+        py = r * cos(theta),
+    ),
+    kinetic   = wheel/2 * der(x)^2 + inertia/2 * der(phi)^2 + mass/2 * (der(px)^2 + der(py)^2),
+    potential = mass * gravity * py,
+    constraint(rolling: der(x) == radius * der(phi)),
+    contact(rim: r >= radius, restitution = 0),
+    friction(grip on rim: slip = radius * (der(theta) - der(phi)), static = mu_static, kinetic = mu_kinetic),
+    start(rest: r = radius, theta = start_angle),
+    observe(px, py),
+    stop(floor: py <= -radius),
+)]
+pub struct MassOnWheel<T = f64> {
+    /// Mass of the wheel, kg.
+    pub wheel: T,
+    /// Moment of inertia of the wheel about its centre, kg m²; ½ M R² for a disc.
+    pub inertia: T,
+    /// The small mass, kg.
+    pub mass: T,
+    /// Radius of the wheel, m.
+    pub radius: T,
+    /// Gravitational acceleration, m/s².
+    pub gravity: T,
+    /// Coefficient of static friction.
+    pub mu_static: T,
+    /// Coefficient of kinetic friction.
+    pub mu_kinetic: T,
+    /// θ at the start, rad from the upward vertical.
+    pub start_angle: T,
+}
+
+impl Default for MassOnWheel {
+    fn default() -> Self {
+        Self {
+            wheel: 1.0,
+            inertia: 0.125,
+            mass: 0.2,
+            radius: 0.5,
+            gravity: 9.81,
+            mu_static: 0.6,
+            mu_kinetic: 0.5,
+            start_angle: 0.05,
+        }
+    }
+}

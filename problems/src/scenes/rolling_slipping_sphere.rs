@@ -1,0 +1,67 @@
+//! A real ball on a sphere: it rolls, slips, and only then leaves.
+
+use lagrange_core::prelude::*;
+
+/// A solid sphere rolls down a fixed spherical shell, begins to slip, leaves and falls.
+///
+/// The same sphere as [`RollingSphere`](super::RollingSphere), but now the force that keeps it rolling is Coulomb
+/// friction: while it sticks, |F| ≤ μₛ N; once that is not enough it slips, and F = −μₖ N along the slip.
+/// `slip` is the velocity of the sphere's contact point over the shell, so that `slip = 0` is rolling.
+///
+/// What to expect: rolling needs (2/7) m g sin θ and N falls, so slip comes first, always, where
+///
+/// ```text
+/// (2/7) sin θ = (μₛ/7) (17 cos θ − 10 cos θ₀)        39.26° for μₛ = 0.4 from θ₀ = 0.01
+/// ```
+///
+/// After that u = θ̇² obeys du/dθ − 2 μₖ u = 2 g/(R + a) · (sin θ − μₖ cos θ), linear with constant coefficients,
+/// and the sphere leaves where N = m g cos θ − m (R + a) u = 0. In flight φ̇ stays what it was: φ and θ are no
+/// longer tied.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(r, theta, phi),
+    define(
+        x = r * sin(theta),
+        y = r * cos(theta),
+        inertia = 2/5 * mass * sphere_radius^2,
+    ),
+    kinetic   = mass/2 * (der(x)^2 + der(y)^2) + inertia/2 * der(phi)^2,
+    potential = mass * gravity * y,
+    contact(shell: r >= radius + sphere_radius),
+    friction(grip on shell:
+        slip = radius * der(theta) - sphere_radius * (der(phi) - der(theta)),
+        static = mu_static, kinetic = mu_kinetic),
+    start(rest: r = radius + sphere_radius, theta = start_angle),
+    observe(x, y),
+    stop(floor: y <= -radius),
+)]
+pub struct RollingSlippingSphere<T = f64> {
+    /// Mass of the sphere, kg.
+    pub mass: T,
+    /// Radius of the shell, m.
+    pub radius: T,
+    /// Radius of the sphere, m.
+    pub sphere_radius: T,
+    /// Gravitational acceleration, m/s².
+    pub gravity: T,
+    /// Coefficient of static friction.
+    pub mu_static: T,
+    /// Coefficient of kinetic friction.
+    pub mu_kinetic: T,
+    /// θ at the start, rad from the upward vertical.
+    pub start_angle: T,
+}
+
+impl Default for RollingSlippingSphere {
+    fn default() -> Self {
+        Self {
+            mass: 1.0,
+            radius: 1.0,
+            sphere_radius: 0.2,
+            gravity: 9.81,
+            mu_static: 0.4,
+            mu_kinetic: 0.3,
+            start_angle: 0.01,
+        }
+    }
+}

@@ -1,0 +1,60 @@
+//! A ball rolls down a sphere: where does it leave?
+
+use lagrange_core::prelude::*;
+
+/// A solid sphere rolls without slipping down a fixed spherical shell, leaves it and falls, still spinning.
+///
+/// r and θ place its centre, φ is how far it has turned. Rolling is a condition on velocities, and it holds only
+/// while the sphere touches: `constraint(rolling while shell: …)`. Its multiplier is the friction force that
+/// rolling needs, however large that is; see [`RollingSlippingSphere`](super::RollingSlippingSphere) for a ball
+/// that cannot have as much as it needs.
+///
+/// What to expect, with the moment of inertia I = ⅖ m a²:
+///
+/// ```text
+/// θ̈ = (5/7) g sin θ / (R + a)
+/// N = (m g / 7) (17 cos θ − 10 cos θ₀)        leaves at cos θ = (10/17) cos θ₀ (53.97° from the top)
+/// F = −(2/7) m g sin θ                        uphill, against the slip it prevents
+/// ```
+///
+/// Later than a sliding mass, since part of the energy has gone into the spin.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(r, theta, phi),
+    define(
+        x = r * sin(theta),
+        y = r * cos(theta),
+        inertia = 2/5 * mass * sphere_radius^2,
+    ),
+    kinetic   = mass/2 * (der(x)^2 + der(y)^2) + inertia/2 * der(phi)^2,
+    potential = mass * gravity * y,
+    contact(shell: r >= radius + sphere_radius),
+    constraint(rolling while shell: radius * der(theta) == sphere_radius * (der(phi) - der(theta))),
+    start(rest: r = radius + sphere_radius, theta = start_angle),
+    observe(x, y),
+    stop(floor: y <= -radius),
+)]
+pub struct RollingSphere<T = f64> {
+    /// Mass of the sphere, kg.
+    pub mass: T,
+    /// Radius of the shell, m.
+    pub radius: T,
+    /// Radius of the sphere, m.
+    pub sphere_radius: T,
+    /// Gravitational acceleration, m/s².
+    pub gravity: T,
+    /// θ at the start, rad from the upward vertical.
+    pub start_angle: T,
+}
+
+impl Default for RollingSphere {
+    fn default() -> Self {
+        Self {
+            mass: 1.0,
+            radius: 1.0,
+            sphere_radius: 0.2,
+            gravity: 9.81,
+            start_angle: 0.01,
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! A ball inside a hollow sphere: swings, slips, goes round, or falls off on the way.
+
+use lagrange_core::prelude::*;
+
+/// A solid sphere moves inside a fixed hollow sphere, in a vertical plane.
+///
+/// Here θ is counted from the **bottom**, counter-clockwise, and φ turns the same way: rolling to the right, the
+/// sphere turns clockwise and φ falls. The bowl holds it from outside, `r <= radius - sphere_radius`.
+///
+/// What to expect while it rolls, with I = ⅖ m a²:
+///
+/// ```text
+/// θ̈ = −(5/7) g sin θ / (R − a)        small swings: ω² = (5/7) g / (R − a)
+/// N = (m g / 7) (17 cos θ − 10 cos θ₀)        from rest at θ₀;   |F| = (2/7) m g |sin θ|
+/// ```
+///
+/// So from rest it rolls at once if tan θ₀ ≤ (7/2) μₛ (54.46° for μₛ = 0.4) and slips first if not: the start
+/// `rest` (1.2 rad) slips, each swing a little less, until rolling is enough. The start `kicked` begins at the
+/// bottom with the centre at `start_speed`; rolling all the way round needs v₀² ≥ (27/7) g (R − a), 5.502 m/s
+/// with the defaults. With less it falls off above the height of the centre, or swings. Give a large friction
+/// (`--set mu_static=10 --set mu_kinetic=10`) to see it never slip.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(r, theta, phi),
+    define(
+        x = r * sin(theta),
+        y = -r * cos(theta),
+        inertia = 2/5 * mass * sphere_radius^2,
+    ),
+    kinetic   = mass/2 * (der(x)^2 + der(y)^2) + inertia/2 * der(phi)^2,
+    potential = mass * gravity * y,
+    contact(bowl: r <= radius - sphere_radius),
+    friction(grip on bowl:
+        slip = (radius - sphere_radius) * der(theta) + sphere_radius * der(phi),
+        static = mu_static, kinetic = mu_kinetic),
+    start(rest: r = radius - sphere_radius, theta = start_angle),
+    start(kicked:
+        r = radius - sphere_radius,
+        der(theta) = start_speed / (radius - sphere_radius),
+        der(phi) = -start_speed / sphere_radius),
+    observe(x, y),
+)]
+pub struct SphereInBowl<T = f64> {
+    /// Mass of the sphere, kg.
+    pub mass: T,
+    /// Inner radius of the bowl, m.
+    pub radius: T,
+    /// Radius of the sphere, m.
+    pub sphere_radius: T,
+    /// Gravitational acceleration, m/s².
+    pub gravity: T,
+    /// Coefficient of static friction.
+    pub mu_static: T,
+    /// Coefficient of kinetic friction.
+    pub mu_kinetic: T,
+    /// θ of the start `rest`, rad from the bottom.
+    pub start_angle: T,
+    /// Speed of the centre in the start `kicked`, m/s.
+    pub start_speed: T,
+}
+
+impl Default for SphereInBowl {
+    fn default() -> Self {
+        Self {
+            mass: 1.0,
+            radius: 1.0,
+            sphere_radius: 0.2,
+            gravity: 9.81,
+            mu_static: 0.4,
+            mu_kinetic: 0.3,
+            start_angle: 1.2,
+            start_speed: 6.0,
+        }
+    }
+}

@@ -1,0 +1,268 @@
+//! The program as a user meets it: what goes where, and with which exit code.
+
+use serde_json::Value;
+use std::process::{Command, Output};
+
+fn lagrange(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_lagrange"))
+        .args(arguments)
+        .output()
+        .expect("the program starts")
+}
+
+fn text(bytes: &[u8]) -> &str {
+    core::str::from_utf8(bytes).expect("output is UTF-8")
+}
+
+/// Runs it, expects success and silence on stderr, gives stdout.
+fn says(arguments: &[&str]) -> String {
+    let output = lagrange(arguments);
+    assert_eq!(text(&output.stderr), "", "{arguments:?}");
+    assert_eq!(output.status.code(), Some(0), "{arguments:?}");
+    text(&output.stdout).to_owned()
+}
+
+/// Runs it, expects a refusal: exit code, one line on stderr that contains `reason`, nothing on stdout.
+fn refuses(arguments: &[&str], code: i32, reason: &str) {
+    let output = lagrange(arguments);
+    let said = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {said}");
+    assert_eq!(text(&output.stdout), "", "{arguments:?}");
+    assert_eq!(said.lines().count(), 1, "{arguments:?}: {said}");
+    assert!(said.contains(reason), "{arguments:?}: {said}");
+}
+
+fn json(arguments: &[&str]) -> Value {
+    let arguments: Vec<&str> = ["run"]
+        .iter()
+        .chain(arguments)
+        .chain(&["--format", "json"])
+        .copied()
+        .collect();
+    serde_json::from_str(&says(&arguments)).expect("output is JSON")
+}
+
+/// `item kind` of every event.
+fn story(run: &Value) -> Vec<String> {
+    let word = |event: &Value, key: &str| event[key].as_str().unwrap_or_default().to_owned();
+    let events = run["events"].as_array().expect("events is a list");
+    events
+        .iter()
+        .map(|event| format!("{} {}", word(event, "item"), word(event, "kind")))
+        .collect()
+}
+
+#[test]
+fn list_has_every_scene_with_a_summary() {
+    let list = says(&["list"]);
+    let names = [
+        "mass-on-shell",
+        "rolling-sphere",
+        "rolling-slipping-sphere",
+        "mass-on-wheel",
+        "sphere-in-bowl",
+    ];
+    assert_eq!(list.lines().count(), names.len());
+    for (line, name) in list.lines().zip(names) {
+        assert!(
+            line.starts_with(name) && line.len() > name.len() + 20,
+            "{line}"
+        );
+    }
+    let details = says(&["list", "mass-on-wheel"]);
+    for word in ["mu_static", "0.6", "theta", "rest", "rim", "grip", "floor"] {
+        assert!(details.contains(word), "{word} is missing in\n{details}");
+    }
+}
+
+#[test]
+fn requests_without_sense_are_refused_in_one_line() {
+    refuses(&[], 2, "lagrange list");
+    refuses(&["walk"], 2, "unrecognized subcommand 'walk'");
+    refuses(&["run"], 2, "<SCENE>");
+    refuses(
+        &["list", "mass-on-whele"],
+        2,
+        "did you mean `mass-on-wheel`?",
+    );
+    let run = |arguments: &[&str], reason: &str| {
+        refuses(&[&["run", "mass-on-wheel"], arguments].concat(), 2, reason);
+    };
+    run(&["--set", "mu_statik=1"], "did you mean `mu_static`?");
+    run(
+        &["--set", "mass=1", "--set", "mass=2"],
+        "`mass` is given twice",
+    );
+    run(&["--set", "mass"], "expected name=value");
+    run(&["--set", "mass=nan"], "must be finite");
+    run(&["--set", "mass=1e999"], "must be finite");
+    run(&["--from", "rset"], "did you mean `rest`?");
+    run(&["--start", "thta=1"], "did you mean `theta`?");
+    run(
+        &["--start", "theta=1", "--start", "theta=1"],
+        "`theta` is given twice",
+    );
+    run(&["--until", "0"], "must be above 0");
+    run(&["--tolerance", "-1"], "must be above 0");
+    run(&["--format", "xml"], "table, json, csv");
+}
+
+#[test]
+fn stories_in_order() {
+    let story = |scene: &str| story(&json(&[scene]));
+    assert_eq!(story("mass-on-shell"), ["shell lost", "floor stop"]);
+    assert_eq!(story("rolling-sphere"), ["shell lost", "floor stop"]);
+    assert_eq!(
+        story("rolling-slipping-sphere"),
+        ["grip slips", "shell lost", "floor stop"]
+    );
+    assert_eq!(
+        story("mass-on-wheel"),
+        ["grip slips", "rim lost", "floor stop"]
+    );
+}
+
+#[test]
+fn numbers_are_in_full_and_where_they_belong() {
+    let run = json(&[
+        "mass-on-shell",
+        "--set",
+        "start_angle=0.1",
+        "--tolerance",
+        "1e-12",
+    ]);
+    assert_eq!(run["scene"], "mass-on-shell");
+    assert_eq!(run["parameters"]["start_angle"], 0.1);
+    let lost = &run["events"][0];
+    let theta = lost["state"]["theta"].as_f64().expect("θ is a number");
+    assert!(
+        (theta - (2.0 / 3.0 * 0.1f64.cos()).acos()).abs() < 1e-10,
+        "{theta}"
+    );
+    assert!(
+        lost["forces"]["shell"]
+            .as_f64()
+            .expect("N is a number")
+            .abs()
+            < 1e-10
+    );
+    assert!(run["final"]["time"].as_f64() > lost["time"].as_f64());
+    assert!(
+        run["energy"]["closure"]
+            .as_f64()
+            .expect("closure is a number")
+            .abs()
+            < 1e-10
+    );
+    assert!(run["work"]["steps"].as_u64() > Some(0));
+}
+
+#[test]
+fn start_holds_what_is_named_and_solves_the_rest() {
+    let run = json(&[
+        "rolling-sphere",
+        "--start",
+        "theta=0.3",
+        "--start",
+        "der(theta)=1",
+        "--until",
+        "0.01",
+    ]);
+    let state = &run["start"]["state"];
+    assert_eq!(state["theta"], 0.3);
+    assert_eq!(state["der(theta)"], 1.0);
+    let spin = state["der(phi)"].as_f64().expect("φ̇ is a number");
+    assert!(
+        (spin - 6.0).abs() < 1e-12,
+        "a (φ̇ − θ̇) = R θ̇ gives 6, not {spin}"
+    );
+    // Held together, these two cannot roll.
+    let impossible = [
+        "run",
+        "rolling-sphere",
+        "--start",
+        "der(theta)=1",
+        "--start",
+        "der(phi)=0",
+    ];
+    refuses(&impossible, 1, "rolling");
+}
+
+#[test]
+fn csv_has_one_header_and_lines_in_order_of_time() {
+    let table = says(&["run", "mass-on-wheel", "--format", "csv"]);
+    let mut reader = csv::Reader::from_reader(table.as_bytes());
+    let header = reader.headers().expect("a header").clone();
+    for name in [
+        "t",
+        "event",
+        "theta",
+        "der(theta)",
+        "force(rim)",
+        "kinetic",
+        "px",
+        "mode",
+    ] {
+        assert!(
+            header.iter().any(|column| column == name),
+            "{name} is missing in {header:?}"
+        );
+    }
+    let times: Vec<f64> = reader
+        .records()
+        .map(|r| r.expect("a line")[0].parse().expect("a time"))
+        .collect();
+    assert!(times.len() > 200 && times.is_sorted());
+}
+
+#[test]
+fn a_run_that_fails_prints_what_there_is() {
+    // Above μk ≈ 6.35 a rigid wheel has no answer (Painlevé).
+    let output = lagrange(&[
+        "run",
+        "mass-on-wheel",
+        "--set",
+        "mu_static=10",
+        "--set",
+        "mu_kinetic=7",
+    ]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(text(&output.stdout).contains("start"));
+    assert_eq!(text(&output.stderr).lines().count(), 1);
+}
+
+#[test]
+fn files_are_written_or_the_reason_is_given() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let (data, picture) = (folder.join("run.json"), folder.join("run.svg"));
+    let [data, picture] = [&data, &picture].map(|path| path.to_str().expect("a plain path"));
+    let run = [
+        "run",
+        "mass-on-wheel",
+        "--format",
+        "json",
+        "--output",
+        data,
+        "--plot",
+        picture,
+    ];
+    assert_eq!(says(&run), "");
+    let written = std::fs::read_to_string(data).expect("the data");
+    assert!(serde_json::from_str::<Value>(&written).is_ok());
+    let drawn = std::fs::read_to_string(picture).expect("the picture");
+    assert!(
+        drawn.starts_with("<svg") && drawn.contains("rim open") && drawn.contains("μN of grip")
+    );
+    refuses(
+        &[
+            "run",
+            "mass-on-wheel",
+            "--output",
+            "/nowhere/run.json",
+            "--format",
+            "json",
+        ],
+        1,
+        "/nowhere/run.json",
+    );
+}
