@@ -26,7 +26,11 @@ impl Random {
 /// The root of `f` in [low, high], which must change sign, to the last bit by bisection.
 pub fn root(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     let rising = f(low) < 0.0;
-    assert_ne!(rising, f(high) < 0.0, "no change of sign in [{low}, {high}]");
+    assert_ne!(
+        rising,
+        f(high) < 0.0,
+        "no change of sign in [{low}, {high}]"
+    );
     for _ in 0..200 {
         let middle = 0.5 * (low + high);
         if (f(middle) < 0.0) == rising {
@@ -65,13 +69,20 @@ pub fn error(a: f64, b: f64) -> f64 {
 /// Asserts that two numbers agree to `tolerance`, relative to the larger of the second and 1.
 #[track_caller]
 pub fn agree(what: &str, a: f64, b: f64, tolerance: f64) {
-    assert!(error(a, b) <= tolerance, "{what}: {a} instead of {b}, error {:.1e}", error(a, b));
+    assert!(
+        error(a, b) <= tolerance,
+        "{what}: {a} instead of {b}, error {:.1e}",
+        error(a, b)
+    );
 }
 
 /// Runs a scene from a state at tolerance 1e-12.
 #[track_caller]
 pub fn run<S: System<Scalar = f64>>(scene: &S, start: State<f64>, until: f64) -> Trajectory<S> {
-    match Simulation::new(scene).tolerance(1e-12).run(start, 0.0..until) {
+    match Simulation::new(scene)
+        .tolerance(1e-12)
+        .run(start, 0.0..until)
+    {
         Ok(trajectory) => trajectory,
         Err(failure) => panic!("{failure}; {:?}", words(&failure.trajectory)),
     }
@@ -80,12 +91,18 @@ pub fn run<S: System<Scalar = f64>>(scene: &S, start: State<f64>, until: f64) ->
 /// The events as `item kind`.
 pub fn words<S: System>(trajectory: &Trajectory<S>) -> Vec<String> {
     let events = trajectory.events().iter();
-    events.map(|e| format!("{} {}", e.subject.name(S::DESCRIPTION), e.kind)).collect()
+    events
+        .map(|e| format!("{} {}", e.subject.name(S::DESCRIPTION), e.kind))
+        .collect()
 }
 
 /// The first event of an item and kind, `("shell", "lost")`.
 #[track_caller]
-pub fn event<'a, S: System>(trajectory: &'a Trajectory<S>, item: &str, kind: &str) -> &'a Event<S::Scalar> {
+pub fn event<'a, S: System>(
+    trajectory: &'a Trajectory<S>,
+    item: &str,
+    kind: &str,
+) -> &'a Event<S::Scalar> {
     let mut events = trajectory.events().iter();
     let found = events.find(|e| e.subject.name(S::DESCRIPTION) == item && e.kind.word() == kind);
     found.unwrap_or_else(|| panic!("no `{item} {kind}` in {:?}", words(trajectory)))

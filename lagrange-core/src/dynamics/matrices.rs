@@ -18,7 +18,10 @@ impl<S: System> Dynamics<S> {
 
     /// f, one per coordinate, at the last [`Self::value`].
     pub fn forcing(&self) -> DVector<S::Scalar> {
-        let forcing = S::DESCRIPTION.forcing.iter().map(|&place| self.motion(place));
+        let forcing = S::DESCRIPTION
+            .forcing
+            .iter()
+            .map(|&place| self.motion(place));
         DVector::from_iterator(S::DESCRIPTION.coordinates.len(), forcing)
     }
 

@@ -37,13 +37,21 @@ static ALLOCATOR: Counting = Counting;
 
 #[test]
 fn a_step_does_not_allocate() {
-    let scene = SphereInBowl { mu_static: 1e6, mu_kinetic: 1e6, ..SphereInBowl::default() };
+    let scene = SphereInBowl {
+        mu_static: 1e6,
+        mu_kinetic: 1e6,
+        ..SphereInBowl::default()
+    };
     for method in ["taylor", "dop853", "dopri5", "verner98", "rk4:0.01"] {
         let method: Method = method.parse().expect("a method");
         let counted = |until: f64| {
             let start = scene.at(<SphereInBowl>::REST);
             let before = ALLOCATIONS.get();
-            let run = Simulation::new(&scene).method(method).tolerance(1e-9).run(start, 0.0..until).expect("smooth");
+            let run = Simulation::new(&scene)
+                .method(method)
+                .tolerance(1e-9)
+                .run(start, 0.0..until)
+                .expect("smooth");
             (ALLOCATIONS.get() - before, run.work().steps)
         };
         counted(1.0);
@@ -51,6 +59,9 @@ fn a_step_does_not_allocate() {
         let (long, many) = counted(80.0);
         assert!(many > 10 * few, "{method}: {few} and {many} steps");
         // Two vectors grow by doubling: at most 2·log₂(80/5) + 2 reallocations more.
-        assert!(long <= short + 10, "{method}: {short} allocations in {few} steps, {long} in {many}");
+        assert!(
+            long <= short + 10,
+            "{method}: {short} allocations in {few} steps, {long} in {many}"
+        );
     }
 }

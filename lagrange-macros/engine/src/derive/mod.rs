@@ -17,7 +17,7 @@ mod regular;
 mod rows;
 mod sheet;
 #[cfg(test)]
-pub(crate) mod tests;
+mod tests;
 
 use crate::diagnostics::Diagnostics;
 use crate::model::System;
