@@ -132,13 +132,13 @@ pub enum ItemKind {
     /// `lagrangian = …`
     Lagrangian(Expr),
     /// `constraint(name while contact: a == b)`
-    Constraint(Constraint),
+    Constraint(Box<Constraint>),
     /// `contact(name: a >= b at p, restitution = e, where c >= d)`
-    Contact(Contact),
+    Contact(Box<Contact>),
     /// `friction(name on item: slip = …, …)`
-    Friction(Friction),
+    Friction(Box<Friction>),
     /// `force(name: …)`
-    Force(Force),
+    Force(Box<Force>),
     /// `dissipation(name: …)`
     Dissipation(Dissipation),
     /// `start(name: x = …, der(x) = …)`
@@ -240,11 +240,11 @@ pub enum FrictionLaw {
     /// Coefficients times a normal force: that of the item it is on, or the one given.
     Coefficients {
         /// `normal = …`
-        normal: Option<Expr>,
+        normal: Option<Box<Expr>>,
         /// `static = …`
-        stick: Expr,
+        stick: Box<Expr>,
         /// `kinetic = …`; as static if left out
-        slide: Option<Expr>,
+        slide: Option<Box<Expr>>,
     },
     /// `limit = F` or `limit = (Fs, Fk)`
     Limit(Expr),
@@ -327,7 +327,7 @@ pub enum Observe {
     /// `px`, as defined elsewhere
     Known(Name),
     /// `name = …`
-    New(Head, Expr),
+    New(Box<Head>, Expr),
 }
 
 /// A stop or mark.
@@ -493,7 +493,7 @@ pub enum ExprKind {
     SumOver(Box<Index>, Box<Expr>),
     /// [a, b] or (a, b)
     List(Vec<Expr>),
-    /// list[index]
+    /// `list[index]`
     Element(Box<Expr>, Box<Expr>),
     /// body.axes
     Member(Box<Expr>, Name),
