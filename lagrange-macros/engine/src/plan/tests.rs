@@ -6,6 +6,7 @@ use crate::interpret::{Held, Machine};
 use crate::model::{Branch, Coordinate, ItemName, Parameter};
 use crate::symbolic::{Function, Rational};
 use proc_macro2::{Ident, Span};
+use quote::quote;
 
 /// Pseudo-random numbers (Knuth's MMIX linear congruence), seeded.
 struct Dice(u64);
@@ -48,7 +49,7 @@ fn bare(parameters: &[&str], coordinates: &[&str]) -> System {
             documentation: String::new(),
             unit: String::new(),
             tex: String::new(),
- letter: String::new(),
+            letter: String::new(),
         })
         .collect();
     let coordinates = coordinates
@@ -315,4 +316,40 @@ fn a_plan_keeps_values_for_every_set_of_needs() {
         }
     }
     assert!(compared > 5_000, "only {compared} comparisons");
+}
+
+/// Operations of the motion tape when everything is held, and of the report.
+fn operations(declaration: proc_macro2::TokenStream) -> (usize, usize) {
+    let program = crate::program(declaration).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+    let all = vec![!0; program.equations.needs.len().div_ceil(64)];
+    (
+        program.operations(Stage::Motion, &all),
+        program.operations(Stage::Report, &all),
+    )
+}
+
+#[test]
+fn operation_counts_do_not_grow() {
+    let double_pendulum = quote! {
+        #[lagrange(
+            coordinates(a, b),
+            define(x1 = l1*sin(a), y1 = -l1*cos(a), x2 = x1 + l2*sin(b), y2 = y1 - l2*cos(b)),
+            kinetic = m1/2*(der(x1)^2 + der(y1)^2) + m2/2*(der(x2)^2 + der(y2)^2),
+            potential = m1*g*y1 + m2*g*y2,
+        )]
+        struct Double { m1: f64, m2: f64, l1: f64, l2: f64, g: f64 }
+    };
+    assert_eq!(operations(double_pendulum), (0, 0));
+    let wheel = crate::model::tests::MASS_ON_WHEEL.parse().expect("tokens");
+    assert_eq!(operations(wheel), (0, 0));
+}
+
+#[test]
+fn what_is_not_asked_for_does_not_run() {
+    let wheel = crate::model::tests::MASS_ON_WHEEL.parse().expect("tokens");
+    let program = crate::program(wheel).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+    assert_eq!(program.operations(Stage::Report, &[1]), 0);
+    let slip = program.equations.structure.rows[2].needs[3];
+    let with_slip = program.operations(Stage::Motion, &[1 | 1 << slip.0]);
+    assert_eq!(with_slip - program.operations(Stage::Motion, &[1]), 2);
 }
