@@ -10,6 +10,7 @@ mod calls;
 mod constraints;
 mod contacts;
 mod declare;
+mod degree;
 mod elaborate;
 mod energies;
 mod evaluate;

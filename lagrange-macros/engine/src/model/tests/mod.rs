@@ -308,6 +308,15 @@ fn constraints_find_their_level() {
     assert_eq!(system.constraints[2].while_contact, Some(0));
 }
 
+/// Squares that cancel leave a linear constraint, though its form is of second degree.
+#[test]
+fn linear_is_meant_not_written() {
+    let system = with("constraint(c: (der(x) + y)^2 - der(x)^2 == a)").unwrap();
+    assert_eq!(system.constraints[0].level, Level::Velocity);
+    let cancelling = "contact(c: x >= 0), kinetic(k: (der(x) + 1)^3 - der(x)^3)";
+    assert!(with(cancelling).is_ok());
+}
+
 #[test]
 fn point_of_a_contact_gives_the_normal() {
     // The gap in halves of a metre: N = λ/2 · … by hand |∂gap/∂p| = 1/2.
