@@ -176,6 +176,18 @@ impl<T: Scalar> Jet<'_, T> {
         self.table[x.0 + self.k]
     }
 
+    /// Coefficient k of a slot.
+    #[inline(always)]
+    pub(crate) fn latest(&self, x: Slot) -> T {
+        self.at(x)
+    }
+
+    /// Sets coefficient k of slot `to`.
+    #[inline(always)]
+    pub(crate) fn append(&mut self, to: usize, value: T) -> Slot {
+        self.put(to, value)
+    }
+
     #[inline(always)]
     fn put(&mut self, to: usize, value: T) -> Slot {
         let offset = self.to(to);

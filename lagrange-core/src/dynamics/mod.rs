@@ -3,6 +3,7 @@
 //! A [`Dynamics`] owns all memory that this takes. It is told a [`Mode`] and from then on runs only what that mode needs.
 
 mod error;
+mod matrices;
 mod needs;
 mod projection;
 mod series;
@@ -57,6 +58,8 @@ pub struct Dynamics<S: System> {
     constants: Vec<S::Scalar>,
     plan: Plan<S::Scalar>,
     solver: Solver<S::Scalar>,
+    /// Whether the solver holds the factors of this plan.
+    factored: bool,
     /// t, q, v, v̇, λ of all rows.
     inputs: Vec<S::Scalar>,
     /// Outputs of the motion tape, then results of the plan's program.
@@ -93,6 +96,7 @@ impl<S: System> Dynamics<S> {
             constants: Vec::with_capacity(d.constants),
             plan: Plan::default(),
             solver: Solver::default(),
+            factored: false,
             inputs: vec![zero; 1 + 3 * n + rows],
             nodes: vec![zero; d.motion.outputs],
             report_nodes: vec![zero; d.report.outputs],
@@ -175,6 +179,7 @@ impl<S: System> Dynamics<S> {
         let forces = 1 + 3 * d.coordinates.len();
         self.inputs[forces..].fill(S::Scalar::default());
         self.table.outdate();
+        self.factored = false;
         self.hold();
     }
 
@@ -208,17 +213,17 @@ impl<S: System> Dynamics<S> {
     }
 
     fn solve_error(&self, error: SolveError) -> EvaluationError {
-        let n = self.plan.coordinates;
+        let free = self.plan.free();
         match error {
             SolveError::NotFinite { equation } => self.not_finite(equation),
-            SolveError::Undetermined { unknown } if unknown < n => EvaluationError::NoInertia {
-                coordinate: unknown,
+            SolveError::Undetermined { unknown } if unknown < free => EvaluationError::NoInertia {
+                coordinate: self.plan.elimination.free[unknown],
             },
             SolveError::Undetermined { unknown } => EvaluationError::Undetermined {
-                row: self.plan.acting[unknown - n],
+                row: self.plan.kept[unknown - free],
             },
             SolveError::Inconsistent { row, residual } => EvaluationError::Inconsistent {
-                row: self.plan.acting[row],
+                row: self.plan.kept[row],
                 residual,
             },
         }
@@ -226,14 +231,14 @@ impl<S: System> Dynamics<S> {
 
     /// The acceleration or force that is not finite, given a solution with such a number.
     fn not_finite(&self, unknown: usize) -> EvaluationError {
-        let n = self.plan.coordinates;
-        if unknown < n {
+        let free = self.plan.free();
+        if unknown < free {
             EvaluationError::NotFiniteAcceleration {
-                coordinate: unknown,
+                coordinate: self.plan.elimination.free[unknown],
             }
         } else {
             EvaluationError::NotFiniteForce {
-                row: self.plan.acting[unknown - n],
+                row: self.plan.kept[unknown - free],
             }
         }
     }
@@ -261,13 +266,13 @@ impl<S: System> Dynamics<S> {
     /// v̇ at the last [`Self::value`], one per coordinate.
     #[inline]
     pub fn acceleration(&self) -> &[S::Scalar] {
-        let n = self.plan.coordinates;
+        let n = S::DESCRIPTION.coordinates.len();
         &self.inputs[1 + 2 * n..1 + 3 * n]
     }
 
     /// The force λ of a row at the last [`Self::value`]: 0 where the row does not act; −μk N d for sliding friction.
     #[inline]
     pub fn force(&self, row: usize) -> S::Scalar {
-        self.inputs[1 + 3 * self.plan.coordinates + row]
+        self.inputs[1 + 3 * S::DESCRIPTION.coordinates.len() + row]
     }
 }

@@ -10,6 +10,7 @@
 
 use super::{Dynamics, EvaluationError};
 use crate::arithmetic::Scalar;
+use crate::linear::Inertia;
 use crate::system::{Place, System};
 use num_traits::{One, Zero};
 
@@ -215,7 +216,7 @@ impl<S: System> Dynamics<S> {
     /// The change of the free coordinates that the linearized rows ask for, in `solution`; false if there is none.
     fn correction(&mut self, level: Level, held: &[bool]) -> bool {
         let d = S::DESCRIPTION;
-        let n = self.plan.coordinates;
+        let n = d.coordinates.len();
         let is_held = |j: usize| held.get(j).copied().unwrap_or(false);
         let rows = self
             .plan
@@ -224,6 +225,7 @@ impl<S: System> Dynamics<S> {
             .filter(|&&row| Self::residual_place(row, level).is_some())
             .count();
         let size = n + rows;
+        self.factored = false;
         for without_inertia in [false, true] {
             self.right.clear();
             self.right.resize(size, S::Scalar::zero());
@@ -264,7 +266,7 @@ impl<S: System> Dynamics<S> {
                 self.right[index] = -read(place, &self.constants, &self.nodes);
                 index += 1;
             }
-            if self.solver.factor().is_ok() {
+            if self.solver.factor(Inertia::Symmetric).is_ok() {
                 self.solution.clear();
                 self.solution.extend_from_slice(&self.right);
                 self.solver.solve(&mut self.solution);

@@ -11,6 +11,7 @@
 
 use super::{Dynamics, EvaluationError};
 use crate::arithmetic::{Arithmetic, Coefficients, Scalar, Slot};
+use crate::linear::Plan;
 use crate::system::{Description, Held, Place, System};
 
 /// Coefficient table: zero | t q v v̇ λ | constants | motion tape | report tape | plan's program.
@@ -22,6 +23,8 @@ pub(super) struct Table<T> {
     inputs: Vec<Slot>,
     nodes: Vec<Slot>,
     report_nodes: Vec<Slot>,
+    /// Where the unknowns of the linear system are (forces with the other sign).
+    unknowns: Vec<Slot>,
 }
 
 /// First slots of the parts.
@@ -53,13 +56,14 @@ impl<T: Scalar> Table<T> {
         self.current = false;
     }
 
-    fn prepare(&mut self, d: &Description, constants: &[T], program: usize, order: usize) {
+    fn prepare(&mut self, d: &Description, constants: &[T], plan: &Plan<T>, order: usize) {
         if self.current && self.order == order {
             return;
         }
         self.current = true;
         self.order = order;
         let parts = layout(d);
+        let program = plan.program.len();
         self.coefficients.shape(parts.program + program, order);
         let stride = self.coefficients.stride();
         self.inputs.clear();
@@ -75,6 +79,12 @@ impl<T: Scalar> Table<T> {
             self.coefficients
                 .put(Slot::new(parts.constants + i, stride), 0, c);
         }
+        let (n, inputs) = (d.coordinates.len(), &self.inputs);
+        self.unknowns.clear();
+        self.unknowns
+            .extend(plan.elimination.free.iter().map(|&j| inputs[1 + 2 * n + j]));
+        self.unknowns
+            .extend(plan.kept.iter().map(|&row| inputs[1 + 3 * n + row]));
         // dt/dτ = 1
         if order > 0 {
             self.coefficients.put(self.inputs[0], 1, T::one());
@@ -102,13 +112,9 @@ impl<S: System> Dynamics<S> {
         order: usize,
     ) -> Result<(), EvaluationError> {
         self.work.series += 1;
-        let n = self.plan.coordinates;
-        self.table.prepare(
-            S::DESCRIPTION,
-            &self.constants,
-            self.plan.program.len(),
-            order,
-        );
+        let n = S::DESCRIPTION.coordinates.len();
+        self.table
+            .prepare(S::DESCRIPTION, &self.constants, &self.plan, order);
         let Table {
             coefficients,
             inputs,
@@ -197,90 +203,111 @@ impl<S: System> Dynamics<S> {
     }
 
     fn factor_start(&mut self) -> Result<(), EvaluationError> {
-        let size = self.plan.size();
-        let Table {
-            coefficients,
-            nodes,
-            ..
-        } = &self.table;
-        let matrix = self
-            .solver
-            .begin(self.plan.coordinates, size, &self.plan.constant);
-        for entry in &self.plan.entries {
-            matrix[entry.row * size + entry.column] += coefficients.get(nodes[entry.node], 0);
-        }
-        self.solver.factor().map_err(|e| self.solve_error(e))
+        let table = core::mem::take(&mut self.table);
+        let outcome = self.factor(|node| table.coefficients.get(table.nodes[node], 0));
+        self.table = table;
+        outcome
     }
 
     /// Coefficient k of accelerations and forces.
     fn append_solution(&mut self, k: usize) -> Result<(), EvaluationError> {
-        let n = self.plan.coordinates;
-        let forces = 1 + 3 * n;
-        let Table {
-            coefficients,
-            inputs,
-            nodes,
+        self.gather(k);
+        self.solve()?;
+        if k == 0 {
+            self.check_rows_aside()?;
+        }
+        self.scatter(k);
+        Ok(())
+    }
+
+    /// Right-hand sides: bₖ − Σ_{j=1..k} Kⱼ xₖ₋ⱼ.
+    fn gather(&mut self, k: usize) {
+        let Self {
+            plan,
+            right,
+            table:
+                Table {
+                    coefficients,
+                    nodes,
+                    unknowns,
+                    ..
+                },
             ..
-        } = &mut self.table;
-        self.right.clear();
-        self.right.resize(self.plan.size(), S::Scalar::default());
-        for &(row, sign, place) in &self.plan.loads {
-            match place {
-                Place::Node(node) => self.right[row] += sign * coefficients.get(nodes[node], k),
-                Place::Constant(c) if k == 0 => self.right[row] += sign * self.constants[c],
-                _ => {}
-            }
+        } = self;
+        right.clear();
+        if k == 0 {
+            right.extend_from_slice(&plan.constant_load);
+        } else {
+            right.resize(plan.constant_load.len(), S::Scalar::default());
+        }
+        for load in &plan.loads {
+            right[load.row] += load.factor * coefficients.get(nodes[load.node], k);
         }
         if k > 0 {
-            for entry in &self.plan.entries {
-                if entry.column < n {
-                    let x = inputs[1 + 2 * n + entry.column];
-                    self.right[entry.row] -= coefficients.tail_product(nodes[entry.node], x, k);
-                } else {
-                    // The unknown is −λ, the table holds λ.
-                    let x = inputs[forces + self.plan.acting[entry.column - n]];
-                    self.right[entry.row] += coefficients.tail_product(nodes[entry.node], x, k);
-                }
+            let (accelerations, forces) = plan.entries.split_at(plan.first_force);
+            for entry in accelerations {
+                right[entry.row] -=
+                    coefficients.tail_product(nodes[entry.node], unknowns[entry.column], k);
+            }
+            // The unknown is −λ, the table holds λ.
+            for entry in forces {
+                right[entry.row] +=
+                    coefficients.tail_product(nodes[entry.node], unknowns[entry.column], k);
             }
         }
-        self.solution.clear();
-        self.solution.extend_from_slice(&self.right);
-        self.solver.solve(&mut self.solution);
-        if let Some(unknown) = self.solution.iter().position(|x| !x.value().is_finite()) {
-            return Err(self.not_finite(unknown));
-        }
-        if k == 0 {
-            self.solver
-                .check_rows_aside(&self.solution, &self.right)
-                .map_err(|e| self.solve_error(e))?;
-        }
+    }
+
+    /// Coefficient k of all accelerations and forces from the solution.
+    fn scatter(&mut self, k: usize) {
+        let Self {
+            plan,
+            right,
+            solution,
+            constants,
+            table,
+            ..
+        } = self;
         let Table {
             coefficients,
             inputs,
             nodes,
+            unknowns,
             ..
-        } = &mut self.table;
-        for (&slot, &x) in inputs[1 + 2 * n..forces].iter().zip(&self.solution) {
-            coefficients.put(slot, k, x);
+        } = table;
+        let n = S::DESCRIPTION.coordinates.len();
+        let (accelerations, forces) = inputs[1 + 2 * n..].split_at(n);
+        for (j, &slot) in accelerations.iter().enumerate() {
+            coefficients.put(slot, k, plan.elimination.acceleration(j, solution));
         }
-        for (&row, &x) in self.plan.acting.iter().zip(&self.solution[n..]) {
-            coefficients.put(inputs[forces + row], k, -x);
+        let (free, size) = (plan.free(), plan.size());
+        for (&slot, &x) in unknowns[free..].iter().zip(&solution[free..]) {
+            coefficients.put(slot, k, -x);
         }
-        for slide in &self.plan.slides {
-            let normal = slide.source.map(|source| inputs[forces + source]);
+        for (i, &row) in plan.eliminated.iter().enumerate() {
+            coefficients.put(
+                forces[row],
+                k,
+                plan.constant_force(i, solution) - right[size + i],
+            );
+        }
+        for entry in &plan.force_entries {
+            let slot = forces[plan.eliminated[entry.row - size]];
+            let part = coefficients.product(nodes[entry.node], unknowns[entry.column], k);
+            let sum = coefficients.get(slot, k) + if entry.column < free { part } else { -part };
+            coefficients.put(slot, k, sum);
+        }
+        for slide in &plan.slides {
+            let normal = slide.source.map(|source| forces[source]);
             let force = match (slide.factor, normal) {
                 (Place::Zero, _) => S::Scalar::default(),
-                (Place::Constant(c), Some(normal)) => {
-                    self.constants[c] * coefficients.get(normal, k)
-                }
-                (Place::Constant(c), None) if k == 0 => self.constants[c],
+                (Place::Constant(c), Some(normal)) => constants[c] * coefficients.get(normal, k),
+                (Place::Constant(c), None) if k == 0 => constants[c],
                 (Place::Constant(_), None) => S::Scalar::default(),
                 (Place::Node(node), Some(normal)) => coefficients.product(nodes[node], normal, k),
                 (Place::Node(node), None) => coefficients.get(nodes[node], k),
             };
-            coefficients.put(inputs[forces + slide.row], k, force);
+            coefficients.put(forces[slide.row], k, force);
         }
-        Ok(())
     }
 
     /// Position coefficients of coordinate `i`.
@@ -292,21 +319,21 @@ impl<S: System> Dynamics<S> {
     pub fn velocity_series(&self, i: usize) -> &[S::Scalar] {
         self.table
             .coefficients
-            .series(self.table.inputs[1 + self.plan.coordinates + i])
+            .series(self.table.inputs[1 + S::DESCRIPTION.coordinates.len() + i])
     }
 
     /// Acceleration coefficients of coordinate `i`.
     pub fn acceleration_series(&self, i: usize) -> &[S::Scalar] {
         self.table
             .coefficients
-            .series(self.table.inputs[1 + 2 * self.plan.coordinates + i])
+            .series(self.table.inputs[1 + 2 * S::DESCRIPTION.coordinates.len() + i])
     }
 
     /// Force coefficients of a row; zeros where it does not act.
     pub fn force_series(&self, row: usize) -> &[S::Scalar] {
         self.table
             .coefficients
-            .series(self.table.inputs[1 + 3 * self.plan.coordinates + row])
+            .series(self.table.inputs[1 + 3 * S::DESCRIPTION.coordinates.len() + row])
     }
 
     /// Coefficients of a number of the motion tape. Its need must have been held.

@@ -63,7 +63,7 @@ impl<S: System> Run<'_, S> {
             }
             self.write_polynomial(h);
             let mut curves = core::mem::take(&mut self.curves);
-            curves.from_series(&self.dynamics, &self.mode, &self.guards, h);
+            curves.take_series(&self.dynamics, &self.mode, &self.guards, h);
             let hit = self.first_hit(&curves);
             self.curves = curves;
             let end = hit.end();
@@ -153,7 +153,7 @@ impl<S: System> Run<'_, S> {
             Err(StepError::TooSmall { h, .. }) => return Err(self.step_too_small(h)),
         }
         let mut curves = core::mem::take(&mut self.curves);
-        let sampled = curves.from_samples(
+        let sampled = curves.sample(
             &mut self.dynamics,
             &self.mode,
             &self.guards,

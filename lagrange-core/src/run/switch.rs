@@ -137,10 +137,10 @@ impl<S: System> Run<'_, S> {
             known.parting[c] = !outcome.stays[c];
         }
         for f in 0..d.frictions.len() {
-            if let Normal::Contact(c) = d.frictions[f].normal {
-                if near.contains(&c) {
-                    known.resting[f] = outcome.sticks[f];
-                }
+            if let Normal::Contact(c) = d.frictions[f].normal
+                && near.contains(&c)
+            {
+                known.resting[f] = outcome.sticks[f];
             }
         }
         // Velocities have jumped: what was located for the old ones says nothing about the new.

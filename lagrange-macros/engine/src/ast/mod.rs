@@ -493,7 +493,7 @@ pub enum ExprKind {
     SumOver(Box<Index>, Box<Expr>),
     /// [a, b] or (a, b)
     List(Vec<Expr>),
-    /// list[index]
+    /// `list[index]`
     Element(Box<Expr>, Box<Expr>),
     /// body.axes
     Member(Box<Expr>, Name),

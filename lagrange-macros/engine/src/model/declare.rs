@@ -61,6 +61,7 @@ impl Elaboration<'_> {
                 documentation: field.documentation.clone(),
                 unit: field.unit.clone(),
                 tex: field.tex.clone(),
+                letter: field.letter.clone(),
             });
             Value::Scalar(self.system.pool.leaf(symbol))
         };

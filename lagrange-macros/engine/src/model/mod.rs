@@ -106,6 +106,8 @@ pub struct Parameter {
     pub unit: String,
     /// `#[lagrange(tex = …)]`, or empty.
     pub tex: String,
+    /// `#[lagrange(symbol = …)]`, or empty: how printers name it.
+    pub letter: String,
 }
 
 /// A generalized coordinate.

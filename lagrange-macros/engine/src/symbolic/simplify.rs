@@ -1,4 +1,5 @@
-//! The cheapest of some forms of equal value: as built, multiplied out, and both with common factors taken out.
+//! The cheapest of some forms of equal value: as built, multiplied out, with functions of sums of angles for products
+//! or the other way round; each with common factors taken out.
 
 use super::{ExprId, Node, Pool};
 
@@ -7,7 +8,7 @@ const WORK_BUDGET: usize = 400_000;
 
 impl Pool {
     /// The cheapest of the forms tried, for each sub-expression from the leaves up: as is, expanded with
-    /// sin² + cos² = 1, common factors taken out. Of equally cheap forms the first.
+    /// sin² + cos² = 1, with sums of angles, common factors taken out. Of equally cheap forms the first.
     pub fn simplify(&mut self, e: ExprId) -> ExprId {
         let mut known = std::mem::take(&mut self.simplified);
         let mut work = 0;
@@ -45,16 +46,7 @@ impl Pool {
         if !worthwhile {
             return e;
         }
-        let factored = self.factor(e);
-        let expanded = self.expand(e);
-        let mut forms = vec![e, factored];
-        if expanded != e {
-            forms.push(expanded);
-            forms.push(self.factor(expanded));
-        }
-        if self.has_fixed() {
-            forms.push(self.collect_varying(expanded));
-        }
+        let forms = self.forms(e);
         let (mut best, mut least) = (e, self.operations(&[e]));
         for i in 1..forms.len() {
             if !forms[..i].contains(&forms[i]) {
@@ -66,6 +58,32 @@ impl Pool {
         }
         *work += forms.len() * (1 + least);
         best
+    }
+
+    /// Forms of equal value, e first.
+    fn forms(&mut self, e: ExprId) -> Vec<ExprId> {
+        let expanded = self.expand(e);
+        let mut flat = vec![e, expanded];
+        let contracted = self.contract_angles(expanded);
+        flat.push(contracted);
+        if self.has_angle_sum(expanded) {
+            let split = self.split_angles(expanded);
+            let split = self.expand(split);
+            flat.push(split);
+            flat.push(self.contract_angles(split));
+        }
+        let mut forms: Vec<ExprId> = Vec::with_capacity(3 * flat.len());
+        for i in 0..flat.len() {
+            if flat[..i].contains(&flat[i]) {
+                continue;
+            }
+            forms.push(flat[i]);
+            forms.push(self.factor(flat[i]));
+            if self.has_fixed() {
+                forms.push(self.collect_varying(flat[i]));
+            }
+        }
+        forms
     }
 
     /// Whether a form is cheaper in what is computed once, for forms that are equally cheap in a run.

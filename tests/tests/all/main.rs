@@ -1,0 +1,8 @@
+//! All tests of the workspace's public behaviour, in one binary.
+
+mod derived;
+mod errors;
+mod recording;
+mod switches;
+mod systems;
+mod wheel;
