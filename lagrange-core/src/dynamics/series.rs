@@ -13,6 +13,7 @@ use super::table::{Table, layout};
 use super::{Dynamics, EvaluationError};
 use crate::arithmetic::{Arithmetic, Jet, Scalar};
 use crate::system::{Held, Place, System};
+use num_traits::One;
 
 impl<S: System> Dynamics<S> {
     /// Taylor coefficients 0…`order` in the time τ since `t` of positions, velocities, accelerations, forces and all outputs
@@ -34,6 +35,10 @@ impl<S: System> Dynamics<S> {
             ..
         } = &mut self.table;
         coefficients.put(inputs[0], 0, t);
+        if order > 0 {
+            // dt/dτ = 1
+            coefficients.put(inputs[0], 1, S::Scalar::one());
+        }
         for (&slot, &x) in inputs[1..1 + 2 * n].iter().zip(q.iter().chain(v)) {
             coefficients.put(slot, 0, x);
         }

@@ -30,9 +30,9 @@ impl<T: Scalar> Sum for Jet<'_, T> {
     #[inline(always)]
     fn sum(&mut self, to: usize, terms: &[(T, usize)], nodes: &[Slot]) -> Slot {
         let sum = terms.iter().fold(T::zero(), |sum, &(factor, node)| {
-            sum + factor * self.latest(nodes[node])
+            sum + factor * self.at(nodes[node])
         });
-        self.append(to, sum)
+        self.put(to, sum)
     }
 }
 
