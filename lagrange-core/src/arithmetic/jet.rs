@@ -80,6 +80,12 @@ impl<'a, T: Scalar> Jet<'a, T> {
         }
     }
 
+    /// The order k of the coefficients that this run appends.
+    #[inline(always)]
+    pub(super) fn coefficient(&self) -> usize {
+        self.k
+    }
+
     /// The first operation of this run that has no Taylor series here. Its coefficients are zeros, not NaN.
     #[inline(always)]
     pub fn singular(&self) -> Option<Singular> {
@@ -93,19 +99,19 @@ impl<'a, T: Scalar> Jet<'a, T> {
 
     /// Coefficient k of a slot.
     #[inline(always)]
-    pub(crate) fn at(&self, x: Slot) -> T {
+    pub(super) fn at(&self, x: Slot) -> T {
         self.table[x.0 + self.k]
     }
 
     /// Coefficient 0 of a slot.
     #[inline(always)]
-    fn start(&self, x: Slot) -> T {
+    pub(super) fn start(&self, x: Slot) -> T {
         self.table[x.0]
     }
 
     /// Sets coefficient k of slot `to`.
     #[inline(always)]
-    pub(crate) fn put(&mut self, to: usize, value: T) -> Slot {
+    pub(super) fn put(&mut self, to: usize, value: T) -> Slot {
         let slot = self.to(to);
         self.table[slot.0 + self.k] = value;
         slot
@@ -154,6 +160,15 @@ impl<'a, T: Scalar> Jet<'a, T> {
             coefficient(self, self.to(to))
         };
         self.put(to, value)
+    }
+
+    /// x / y for a y that does not depend on time.
+    #[inline(always)]
+    pub(super) fn div_constant(&mut self, to: usize, x: Slot, y: Slot) -> Slot {
+        let y0 = self.start(y);
+        self.put_unless(y0.value() == 0.0, Operation::Division, to, |a, _| {
+            a.at(x) / y0
+        })
     }
 
     /// asin (sign +) or acos (sign −): u z′ = ±x′, u = √(1 − x²).
