@@ -46,48 +46,76 @@ impl Pool {
         if !worthwhile {
             return e;
         }
-        let forms = self.forms(e);
-        let (mut best, mut least) = (e, self.operations(&[e]));
-        for i in 1..forms.len() {
-            if !forms[..i].contains(&forms[i]) {
-                let cost = self.operations(&[forms[i]]);
-                if cost < least || (cost == least && self.needs_less_once(forms[i], best)) {
-                    (best, least) = (forms[i], cost);
+        let mut choice = Choice {
+            form: e,
+            cost: self.operations(&[e]),
+            seen: vec![e],
+        };
+        for flat in self.flat_forms(e) {
+            self.consider(flat, &mut choice);
+            // Taking factors out leaves all additions.
+            if self.has_fixed() || self.additions(flat) < choice.cost {
+                let factored = self.factor(flat);
+                self.consider(factored, &mut choice);
+                if self.has_fixed() {
+                    let collected = self.collect_varying(flat);
+                    self.consider(collected, &mut choice);
                 }
             }
         }
-        *work += forms.len() * (1 + least);
-        best
+        *work += choice.seen.len() * (1 + choice.cost);
+        choice.form
     }
 
-    /// Forms of equal value, e first.
-    fn forms(&mut self, e: ExprId) -> Vec<ExprId> {
+    /// Different forms of equal value without common factors taken out, e first.
+    fn flat_forms(&mut self, e: ExprId) -> Vec<ExprId> {
         let expanded = self.expand(e);
-        let mut flat = vec![e, expanded];
-        let contracted = self.contract_angles(expanded);
-        flat.push(contracted);
+        let mut flat = vec![e, expanded, self.contract_angles(expanded)];
         if self.has_angle_sum(expanded) {
             let split = self.split_angles(expanded);
             let split = self.expand(split);
             flat.push(split);
             flat.push(self.contract_angles(split));
         }
-        let mut forms: Vec<ExprId> = Vec::with_capacity(3 * flat.len());
-        for i in 0..flat.len() {
-            if flat[..i].contains(&flat[i]) {
-                continue;
-            }
-            forms.push(flat[i]);
-            forms.push(self.factor(flat[i]));
-            if self.has_fixed() {
-                forms.push(self.collect_varying(flat[i]));
+        let mut distinct: Vec<ExprId> = Vec::with_capacity(flat.len());
+        for form in flat {
+            if !distinct.contains(&form) {
+                distinct.push(form);
             }
         }
-        forms
+        distinct
+    }
+
+    /// Takes the form if it is cheaper.
+    fn consider(&self, form: ExprId, choice: &mut Choice) {
+        if choice.seen.contains(&form) {
+            return;
+        }
+        choice.seen.push(form);
+        let cost = self.operations(&[form]);
+        if cost < choice.cost || (cost == choice.cost && self.needs_less_once(form, choice.form)) {
+            (choice.form, choice.cost) = (form, cost);
+        }
+    }
+
+    /// Additions of a sum itself.
+    fn additions(&self, e: ExprId) -> usize {
+        match self.node(e) {
+            Node::Sum { constant, terms } => terms.len() - usize::from(constant.is_zero()),
+            _ => 0,
+        }
     }
 
     /// Whether a form is cheaper in what is computed once, for forms that are equally cheap in a run.
     fn needs_less_once(&self, form: ExprId, than: ExprId) -> bool {
         self.has_fixed() && self.all_operations(form) < self.all_operations(than)
     }
+}
+
+/// The cheapest form so far.
+struct Choice {
+    form: ExprId,
+    cost: usize,
+    /// What has been looked at.
+    seen: Vec<ExprId>,
 }
