@@ -211,6 +211,34 @@ fn needs_asked_for_later_are_met() {
 }
 
 #[test]
+fn jacobians_agree_with_differences() {
+    let mut dynamics = Dynamics::new(&Wheel::<f64>::example(), &Effects::all());
+    for mode in modes() {
+        dynamics.set_mode(&mode);
+        let mut columns = [0.0; 32];
+        dynamics
+            .jacobian(0.4, &Q, &V, &mut columns)
+            .expect("regular");
+        for column in 0..8 {
+            let mut at = |h: f64| {
+                let mut x = [Q, V];
+                x[column / 4][column % 4] += h;
+                dynamics.value(0.4, &x[0], &x[1]).expect("regular");
+                dynamics.acceleration().to_vec()
+            };
+            // Central differences of fourth order.
+            let h = 1e-3;
+            let [two_back, back, forth, two_forth] = [-2.0, -1.0, 1.0, 2.0].map(|m| at(m * h));
+            for i in 0..4 {
+                let expected =
+                    (8.0 * (forth[i] - back[i]) - (two_forth[i] - two_back[i])) / (12.0 * h);
+                close(columns[column * 4 + i], expected, 1e-9);
+            }
+        }
+    }
+}
+
+#[test]
 fn sensitivities_come_from_jets_over_dual_numbers() {
     use crate::arithmetic::Dual;
     type D = Dual<f64, 1>;
