@@ -4,7 +4,7 @@
 //! Equal nodes have equal ids.
 
 use crate::symbolic::{ExprId, Rational};
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 /// A node of the graph.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -146,31 +146,42 @@ impl Graph {
         uses
     }
 
-    /// Negative powers of a product become one division.
+    /// Negative powers of a product become one division; where several products have the same denominator, a
+    /// multiplication by its reciprocal.
     pub fn split_quotients(&mut self, roots: &[NodeId]) {
         let uses = self.uses(roots);
+        let mut quotients = Vec::new();
+        let mut sharers: BTreeMap<NodeId, usize> = BTreeMap::new();
         for (index, uses) in uses.iter().enumerate() {
             let Shape::Product(factors) = &self.shapes[index] else {
                 continue;
             };
-            if *uses == 0 || factors.iter().all(|(_, exponent)| *exponent > 0) {
-                continue;
+            let (above, below): (Vec<_>, Vec<_>) =
+                factors.iter().copied().partition(|(_, k)| *k > 0);
+            if *uses > 0 && !below.is_empty() {
+                let denominator =
+                    self.product(below.into_iter().map(|(node, k)| (node, -k)).collect());
+                *sharers.entry(denominator).or_default() += 1;
+                quotients.push((NodeId(index), above, denominator));
             }
-            let above: Vec<_> = factors.iter().filter(|(_, k)| *k > 0).copied().collect();
-            let below: Vec<_> = factors
-                .iter()
-                .filter(|(_, k)| *k < 0)
-                .map(|(node, k)| (*node, -k))
-                .collect();
-            let numerator = (!above.is_empty()).then(|| self.product(above));
-            let denominator = self.product(below);
-            self.reshape(
-                NodeId(index),
+        }
+        for (id, mut above, denominator) in quotients {
+            let shape = if sharers[&denominator] > 1 {
+                let reciprocal = Shape::Quotient {
+                    numerator: None,
+                    denominator,
+                };
+                above.push((self.node(reciprocal), 1));
+                above.sort();
+                Shape::Product(above)
+            } else {
+                let numerator = (!above.is_empty()).then(|| self.product(above));
                 Shape::Quotient {
                     numerator,
                     denominator,
-                },
-            );
+                }
+            };
+            self.reshape(id, shape);
         }
     }
 }

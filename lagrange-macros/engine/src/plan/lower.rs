@@ -20,6 +20,8 @@ pub(super) struct Lowerer<'a> {
     pool: &'a mut Pool,
     graph: &'a Graph,
     constants: &'a mut Constants,
+    /// How often each node is read.
+    uses: Vec<usize>,
     out: Lowered,
     values: HashMap<NodeId, Value>,
 }
@@ -41,10 +43,11 @@ impl<'a> Lowerer<'a> {
     /// For a tape with this number of inputs.
     pub fn new(
         pool: &'a mut Pool,
-        graph: &'a Graph,
+        (graph, roots): (&'a Graph, &[NodeId]),
         constants: &'a mut Constants,
         inputs: usize,
     ) -> Lowerer<'a> {
+        let uses = graph.uses(roots);
         let out = Lowered {
             operations: Vec::new(),
             values: inputs,
@@ -54,6 +57,7 @@ impl<'a> Lowerer<'a> {
             pool,
             graph,
             constants,
+            uses,
             out,
             values: HashMap::new(),
         }
@@ -161,6 +165,7 @@ impl<'a> Lowerer<'a> {
             numerator: None,
             denominator,
         } = *self.graph.shape(node)
+            && self.uses[node.0] == 1
         {
             return self.ratio(c, denominator);
         }
@@ -262,9 +267,30 @@ impl<'a> Lowerer<'a> {
     }
 
     fn scaled_product(&mut self, scale: ExprId, factors: &[(NodeId, i32)]) -> Value {
-        let x = self.plain_product(factors);
-        let scale = self.coefficient(scale);
-        self.out.push(Operation::Scale(scale, x))
+        // c/x is one operation, if nobody else reads 1/x.
+        let ratio = factors
+            .iter()
+            .enumerate()
+            .find_map(|(at, (node, exponent))| match *self.graph.shape(*node) {
+                Shape::Quotient {
+                    numerator: None,
+                    denominator,
+                } if *exponent == 1 && self.uses[node.0] == 1 => Some((at, denominator)),
+                _ => None,
+            });
+        let Some((at, denominator)) = ratio else {
+            let x = self.plain_product(factors);
+            let scale = self.coefficient(scale);
+            return self.out.push(Operation::Scale(scale, x));
+        };
+        let ratio = self.ratio(scale, denominator);
+        let mut rest = factors.to_vec();
+        rest.remove(at);
+        if rest.is_empty() {
+            return ratio;
+        }
+        let x = self.plain_product(&rest);
+        self.commutative(ratio, x, &|x, y| Operation::Mul(x, y))
     }
 
     fn plain_product(&mut self, factors: &[(NodeId, i32)]) -> Value {

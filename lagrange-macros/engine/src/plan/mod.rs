@@ -220,7 +220,7 @@ fn tape(
     graph.split_quotients(&roots);
     share::share(&mut graph, pool, &roots);
 
-    let mut lowerer = Lowerer::new(pool, &graph, constants, inputs.len());
+    let mut lowerer = Lowerer::new(pool, (&graph, &roots), constants, inputs.len());
     let mut demands = Vec::with_capacity(entries.len());
     for entry in entries {
         let write = Write {

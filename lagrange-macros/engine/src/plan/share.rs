@@ -163,7 +163,7 @@ fn multiply_scales_in(graph: &mut Graph, one: ExprId, roots: &[NodeId]) {
                 // c/x is one operation.
                 Shape::Quotient {
                     numerator: None, ..
-                } => return term,
+                } if uses[term.node.0] == 1 => return term,
                 Shape::Product(factors) => factors.clone(),
                 _ => vec![(term.node, 1)],
             };

@@ -363,6 +363,16 @@ fn operation_counts_do_not_grow() {
         struct Top { i1: f64, i3: f64, m: f64, g: f64, l: f64 }
     };
     assert_eq!(operations(top), (19, 19));
+    // Three differences, their squares and two sums, root, cube, one division, three products and their negatives.
+    let two_bodies = quote! {
+        #[lagrange(
+            coordinates(x, y, z, u, v, w),
+            kinetic = m/2*(der(x)^2 + der(y)^2 + der(z)^2) + n/2*(der(u)^2 + der(v)^2 + der(w)^2),
+            potential = -g*m*n/sqrt((x - u)^2 + (y - v)^2 + (z - w)^2),
+        )]
+        struct Two { m: f64, n: f64, g: f64 }
+    };
+    assert_eq!(operations(two_bodies), (17, 31));
 }
 
 /// A chain of n point masses on rods.
