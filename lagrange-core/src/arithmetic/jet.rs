@@ -12,20 +12,10 @@
 //! References: Jorba & Zou 2005, A software package for the numerical integration of ODEs by means of high-order
 //! Taylor methods, section 2; Griewank & Walther 2008, Evaluating Derivatives, chapter 13.
 
-use super::convolution::{convolution, convolution_square, weighted, weighted_pair};
-use super::{Arithmetic, Scalar};
-
-/// A slot of a coefficient table: the offset of its coefficient 0.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub struct Slot(usize);
-
-impl Slot {
-    /// Slot number `index` of a table with `stride` coefficients per slot.
-    #[inline(always)]
-    pub fn new(index: usize, stride: usize) -> Self {
-        Slot(index * stride)
-    }
-}
+use super::convolution::{
+    convolution, convolution_ends_last, convolution_square, weighted, weighted_pair,
+};
+use super::{Arithmetic, Scalar, Slot};
 
 /// An operation whose Taylor series can fail to exist.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,94 +44,6 @@ pub struct Singular {
     pub slot: usize,
 }
 
-/// Storage of Taylor coefficients: `slots` series of `order + 1` coefficients each.
-#[derive(Clone, Debug, Default)]
-pub struct Coefficients<T> {
-    table: Vec<T>,
-    /// 0, 1, 2, …: the weights j of the recurrences, as scalars.
-    weights: Vec<T>,
-    stride: usize,
-}
-
-impl<T: Scalar> Coefficients<T> {
-    /// A table of zeros.
-    pub fn new(slots: usize, order: usize) -> Self {
-        let mut table = Self {
-            table: Vec::new(),
-            weights: Vec::new(),
-            stride: 0,
-        };
-        table.shape(slots, order);
-        table
-    }
-
-    /// Sets the shape; everything becomes zero. Allocates only beyond the largest size so far.
-    pub fn shape(&mut self, slots: usize, order: usize) {
-        self.stride = order + 1;
-        self.table.clear();
-        self.table.resize(slots * self.stride, T::zero());
-        for j in self.weights.len()..=order {
-            self.weights.push(T::from_f64(j as f64));
-        }
-    }
-
-    /// Coefficients per slot, order + 1.
-    #[inline(always)]
-    pub fn stride(&self) -> usize {
-        self.stride
-    }
-
-    /// Number `index` of the slots.
-    #[inline(always)]
-    pub fn slot(&self, index: usize) -> Slot {
-        Slot::new(index, self.stride)
-    }
-
-    /// All coefficients of a slot.
-    #[inline(always)]
-    pub fn series(&self, slot: Slot) -> &[T] {
-        &self.table[slot.0..slot.0 + self.stride]
-    }
-
-    /// Σ_{j=1..k} xⱼ yₖ₋ⱼ: what coefficient k of a product takes from earlier coefficients of y.
-    #[inline(always)]
-    pub fn tail_product(&self, x: Slot, y: Slot, k: usize) -> T {
-        convolution(&self.table[x.0 + 1..=x.0 + k], &self.table[y.0..y.0 + k])
-    }
-
-    /// Coefficient `k` of the product of two slots.
-    #[inline(always)]
-    pub fn product(&self, x: Slot, y: Slot, k: usize) -> T {
-        convolution(&self.table[x.0..=x.0 + k], &self.table[y.0..=y.0 + k])
-    }
-
-    /// Coefficient `k` of a slot.
-    #[inline(always)]
-    pub fn get(&self, slot: Slot, k: usize) -> T {
-        self.table[slot.0 + k]
-    }
-
-    /// Sets coefficient `k` of a slot.
-    #[inline(always)]
-    pub fn put(&mut self, slot: Slot, k: usize, value: T) {
-        self.table[slot.0 + k] = value;
-    }
-
-    /// The arithmetic that appends coefficient `k`; its operations write the slots from `base` on.
-    #[inline(always)]
-    pub fn jet(&mut self, k: usize, base: usize) -> Jet<'_, T> {
-        let base = base * self.stride;
-        Jet {
-            table: &mut self.table,
-            weights: &self.weights,
-            stride: self.stride,
-            k,
-            base,
-            singular: None,
-        }
-    }
-}
-
 /// Runs a tape on Taylor coefficients; made by [`Coefficients::jet`].
 #[derive(Debug)]
 pub struct Jet<'a, T> {
@@ -159,7 +61,26 @@ fn positive<T: Scalar>(x: T) -> bool {
     x.value() > 0.0
 }
 
-impl<T: Scalar> Jet<'_, T> {
+impl<'a, T: Scalar> Jet<'a, T> {
+    /// Appends coefficient `k` of slots whose first begins at `base` in `table`.
+    #[inline(always)]
+    pub(super) fn new(
+        table: &'a mut [T],
+        weights: &'a [T],
+        stride: usize,
+        k: usize,
+        base: usize,
+    ) -> Self {
+        Self {
+            table,
+            weights,
+            stride,
+            k,
+            base,
+            singular: None,
+        }
+    }
+
     /// The first operation of this run that has no Taylor series here. Its coefficients are zeros, not NaN.
     #[inline(always)]
     pub fn singular(&self) -> Option<Singular> {
@@ -292,7 +213,7 @@ impl<T: Scalar> Arithmetic for Jet<'_, T> {
 
     fn mul(&mut self, to: usize, x: Slot, y: Slot) -> Slot {
         let n = self.k + 1;
-        let z = convolution(self.part(x.0, 0, n), self.part(y.0, 0, n));
+        let z = convolution_ends_last(self.part(x.0, 0, n), self.part(y.0, 0, n));
         self.put(to, z)
     }
 

@@ -8,6 +8,7 @@
 //!
 //! Operations that need auxiliary series (`tan`, `asin`, …) own the slots `to` and `to + 1`; so does a pair.
 
+mod coefficients;
 mod convolution;
 mod direct;
 mod dual;
@@ -16,9 +17,10 @@ mod scalar;
 #[cfg(test)]
 mod tests;
 
+pub use coefficients::{Coefficients, Slot};
 pub use direct::{Derivative, Value};
 pub use dual::Dual;
-pub use jet::{Coefficients, Jet, Operation, Singular, Slot};
+pub use jet::{Jet, Operation, Singular};
 
 use core::fmt::Debug;
 

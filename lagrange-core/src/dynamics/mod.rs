@@ -8,6 +8,7 @@ mod needs;
 mod projection;
 mod series;
 mod stepping;
+mod table;
 #[cfg(test)]
 pub(crate) mod tests;
 mod values;
@@ -20,7 +21,7 @@ use crate::effects::Effects;
 use crate::linear::{Plan, SolveError, Solver};
 use crate::mode::Mode;
 use crate::system::{Description, Held, Place, System};
-use series::Table;
+use table::Table;
 
 /// Work done so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -67,10 +68,7 @@ pub struct Dynamics<S: System> {
     report_nodes: Vec<S::Scalar>,
     right: Vec<S::Scalar>,
     solution: Vec<S::Scalar>,
-    /// A matrix of zeros.
-    blank: Vec<S::Scalar>,
-    /// Positions before a Newton step.
-    previous: Vec<S::Scalar>,
+    projection: projection::Scratch<S::Scalar>,
     table: Table<S::Scalar>,
     work: Work,
 }
@@ -102,8 +100,7 @@ impl<S: System> Dynamics<S> {
             report_nodes: vec![zero; d.report.outputs],
             right: Vec::with_capacity(n + rows),
             solution: Vec::with_capacity(n + rows),
-            blank: Vec::with_capacity((n + rows) * (n + rows)),
-            previous: vec![zero; n],
+            projection: projection::Scratch::new(n, rows),
             table: Table::default(),
             work: Work::default(),
         };
@@ -179,6 +176,9 @@ impl<S: System> Dynamics<S> {
         let forces = 1 + 3 * d.coordinates.len();
         self.inputs[forces..].fill(S::Scalar::default());
         self.table.outdate();
+        self.right
+            .resize(self.plan.constant_load.len(), S::Scalar::default());
+        self.solution.resize(self.plan.size(), S::Scalar::default());
         self.factored = false;
         self.hold();
     }

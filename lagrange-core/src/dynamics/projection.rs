@@ -30,6 +30,31 @@ enum Level {
     Velocity,
 }
 
+/// Memory of a projection.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Scratch<T> {
+    right: Vec<T>,
+    /// Of positions or velocities.
+    change: Vec<T>,
+    /// A matrix of zeros.
+    blank: Vec<T>,
+    /// Positions before a Newton step.
+    previous: Vec<T>,
+}
+
+impl<T: Scalar> Scratch<T> {
+    /// Memory for so many coordinates and rows.
+    pub(super) fn new(coordinates: usize, rows: usize) -> Self {
+        let size = coordinates + rows;
+        Self {
+            right: Vec::with_capacity(size),
+            change: Vec::with_capacity(size),
+            blank: Vec::with_capacity(size * size),
+            previous: vec![T::default(); coordinates],
+        }
+    }
+}
+
 /// Largest residual of a level: relative to a displacement (or velocity) of the size of the state, and where.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Residual {
@@ -117,10 +142,11 @@ impl<S: System> Dynamics<S> {
             }
             let before = residual.relative;
             let mut part = S::Scalar::one();
-            self.previous.copy_from_slice(q);
+            self.projection.previous.copy_from_slice(q);
             for _ in 0..MOST_HALVINGS {
-                for (q, (&start, &change)) in
-                    q.iter_mut().zip(self.previous.iter().zip(&self.solution))
+                for (q, (&start, &change)) in q
+                    .iter_mut()
+                    .zip(self.projection.previous.iter().zip(&self.projection.change))
                 {
                     *q = start + part * change;
                 }
@@ -132,7 +158,7 @@ impl<S: System> Dynamics<S> {
                 part *= S::Scalar::from_f64(0.5);
             }
             if !(residual.relative < before) {
-                q.copy_from_slice(&self.previous);
+                q.copy_from_slice(&self.projection.previous);
                 self.run_rows(t, q, v);
                 residual = self.residual(Level::Position, q);
                 break;
@@ -159,7 +185,7 @@ impl<S: System> Dynamics<S> {
             if residual.relative <= ROUNDING || !self.correction(Level::Velocity, held) {
                 break;
             }
-            for (v, &change) in v.iter_mut().zip(&self.solution) {
+            for (v, &change) in v.iter_mut().zip(&self.projection.change) {
                 *v += change;
             }
             self.run_rows(t, q, v);
@@ -213,7 +239,7 @@ impl<S: System> Dynamics<S> {
         worst
     }
 
-    /// The change of the free coordinates that the linearized rows ask for, in `solution`; false if there is none.
+    /// The change of the free coordinates that the linearized rows ask for, in `projection.change`; false if there is none.
     fn correction(&mut self, level: Level, held: &[bool]) -> bool {
         let d = S::DESCRIPTION;
         let n = d.coordinates.len();
@@ -227,11 +253,11 @@ impl<S: System> Dynamics<S> {
         let size = n + rows;
         self.factored = false;
         for without_inertia in [false, true] {
-            self.right.clear();
-            self.right.resize(size, S::Scalar::zero());
-            self.blank.clear();
-            self.blank.resize(size * size, S::Scalar::zero());
-            let matrix = self.solver.begin(n, size, &self.blank);
+            self.projection.right.clear();
+            self.projection.right.resize(size, S::Scalar::zero());
+            self.projection.blank.clear();
+            self.projection.blank.resize(size * size, S::Scalar::zero());
+            let matrix = self.solver.begin(n, size, &self.projection.blank);
             for &(i, j, place) in d.mass {
                 let value = read(place, &self.constants, &self.nodes);
                 if !is_held(i) && !is_held(j) {
@@ -263,15 +289,17 @@ impl<S: System> Dynamics<S> {
                         matrix[j * size + index] = value;
                     }
                 }
-                self.right[index] = -read(place, &self.constants, &self.nodes);
+                self.projection.right[index] = -read(place, &self.constants, &self.nodes);
                 index += 1;
             }
             if self.solver.factor(Inertia::Symmetric).is_ok() {
-                self.solution.clear();
-                self.solution.extend_from_slice(&self.right);
-                self.solver.solve(&mut self.solution);
-                self.solution.truncate(n);
-                return self.solution.iter().all(|x| x.value().is_finite());
+                self.projection.change.clear();
+                self.projection
+                    .change
+                    .extend_from_slice(&self.projection.right);
+                self.solver.solve(&mut self.projection.change);
+                self.projection.change.truncate(n);
+                return self.projection.change.iter().all(|x| x.value().is_finite());
             }
         }
         false

@@ -9,97 +9,10 @@
 //! one factorization whatever the order; the sum runs over those matrix elements that change with the state.
 //! Reference: Griewank & Walther 2008, Evaluating Derivatives, section 13.2 (implicit relations).
 
+use super::table::{Table, layout};
 use super::{Dynamics, EvaluationError};
-use crate::arithmetic::{Arithmetic, Coefficients, Scalar, Slot};
-use crate::linear::Plan;
-use crate::system::{Description, Held, Place, System};
-
-/// Coefficient table: zero | t q v v̇ λ | constants | motion tape | report tape | plan's program.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Table<T> {
-    coefficients: Coefficients<T>,
-    current: bool,
-    order: usize,
-    inputs: Vec<Slot>,
-    nodes: Vec<Slot>,
-    report_nodes: Vec<Slot>,
-    /// Where the unknowns of the linear system are (forces with the other sign).
-    unknowns: Vec<Slot>,
-}
-
-/// First slots of the parts.
-struct Layout {
-    inputs: usize,
-    constants: usize,
-    motion: usize,
-    report: usize,
-    program: usize,
-}
-
-fn layout(d: &Description) -> Layout {
-    let inputs = 1;
-    let constants = inputs + 1 + 3 * d.coordinates.len() + d.rows.len();
-    let motion = constants + d.constants;
-    let report = motion + d.motion.slots;
-    Layout {
-        inputs,
-        constants,
-        motion,
-        report,
-        program: report + d.report.slots,
-    }
-}
-
-impl<T: Scalar> Table<T> {
-    /// The mode has changed: shape and constants must be set before the next series.
-    pub(super) fn outdate(&mut self) {
-        self.current = false;
-    }
-
-    fn prepare(&mut self, d: &Description, constants: &[T], plan: &Plan<T>, order: usize) {
-        if self.current && self.order == order {
-            return;
-        }
-        self.current = true;
-        self.order = order;
-        let parts = layout(d);
-        let program = plan.program.len();
-        self.coefficients.shape(parts.program + program, order);
-        let stride = self.coefficients.stride();
-        self.inputs.clear();
-        self.inputs
-            .extend((parts.inputs..parts.constants).map(|slot| Slot::new(slot, stride)));
-        self.nodes.clear();
-        self.nodes
-            .resize(d.motion.outputs + program, Slot::new(0, stride));
-        self.report_nodes.clear();
-        self.report_nodes
-            .resize(d.report.outputs, Slot::new(0, stride));
-        for (i, &c) in constants[..d.constants].iter().enumerate() {
-            self.coefficients
-                .put(Slot::new(parts.constants + i, stride), 0, c);
-        }
-        let (n, inputs) = (d.coordinates.len(), &self.inputs);
-        self.unknowns.clear();
-        self.unknowns
-            .extend(plan.elimination.free.iter().map(|&j| inputs[1 + 2 * n + j]));
-        self.unknowns
-            .extend(plan.kept.iter().map(|&row| inputs[1 + 3 * n + row]));
-        // dt/dτ = 1
-        if order > 0 {
-            self.coefficients.put(self.inputs[0], 1, T::one());
-        }
-    }
-
-    fn series(&self, d: &Description, place: Place, nodes: &[Slot]) -> &[T] {
-        let slot = match place {
-            Place::Zero => self.coefficients.slot(0),
-            Place::Constant(i) => self.coefficients.slot(layout(d).constants + i),
-            Place::Node(i) => nodes[i],
-        };
-        self.coefficients.series(slot)
-    }
-}
+use crate::arithmetic::{Arithmetic, Jet, Scalar};
+use crate::system::{Held, Place, System};
 
 impl<S: System> Dynamics<S> {
     /// Taylor coefficients 0…`order` in the time τ since `t` of positions, velocities, accelerations, forces and all outputs
@@ -128,23 +41,20 @@ impl<S: System> Dynamics<S> {
             self.work.coefficients += 1;
             self.append_motion(k)?;
             if k == 0 {
+                self.table.resolve(S::DESCRIPTION, &self.plan);
                 self.factor_start()?;
             }
-            self.append_solution(k)?;
+            self.gather(k);
+            self.solve()?;
+            if k == 0 {
+                self.check_rows_aside()?;
+            }
+            self.scatter(k);
             if self.reports {
                 self.append_report(k)?;
             }
             if k < order {
-                let Table {
-                    coefficients,
-                    inputs,
-                    ..
-                } = &mut self.table;
-                let next = S::Scalar::from_f64((k + 1) as f64);
-                for i in 1..1 + 2 * n {
-                    let rate = coefficients.get(inputs[i + n], k);
-                    coefficients.put(inputs[i], k + 1, rate / next);
-                }
+                self.integrate(k);
             }
         }
         Ok(())
@@ -174,11 +84,7 @@ impl<S: System> Dynamics<S> {
         );
         a.origin(parts.program);
         self.plan.program.run(&mut a, &self.constants, nodes);
-        a.singular().map_or(Ok(()), |s| {
-            Err(EvaluationError::NoSeries {
-                operation: s.operation,
-            })
-        })
+        expandable(&a)
     }
 
     fn append_report(&mut self, k: usize) -> Result<(), EvaluationError> {
@@ -195,11 +101,7 @@ impl<S: System> Dynamics<S> {
         let mut a = coefficients.jet(k, layout(S::DESCRIPTION).report);
         self.scene
             .report(&mut a, &held, &self.constants, inputs, report_nodes);
-        a.singular().map_or(Ok(()), |s| {
-            Err(EvaluationError::NoSeries {
-                operation: s.operation,
-            })
-        })
+        expandable(&a)
     }
 
     fn factor_start(&mut self) -> Result<(), EvaluationError> {
@@ -209,51 +111,33 @@ impl<S: System> Dynamics<S> {
         outcome
     }
 
-    /// Coefficient k of accelerations and forces.
-    fn append_solution(&mut self, k: usize) -> Result<(), EvaluationError> {
-        self.gather(k);
-        self.solve()?;
-        if k == 0 {
-            self.check_rows_aside()?;
-        }
-        self.scatter(k);
-        Ok(())
-    }
-
     /// Right-hand sides: bₖ − Σ_{j=1..k} Kⱼ xₖ₋ⱼ.
     fn gather(&mut self, k: usize) {
         let Self {
-            plan,
-            right,
-            table:
-                Table {
-                    coefficients,
-                    nodes,
-                    unknowns,
-                    ..
-                },
-            ..
+            plan, right, table, ..
         } = self;
-        right.clear();
+        let Table {
+            coefficients,
+            loads,
+            with_accelerations,
+            with_forces,
+            ..
+        } = table;
         if k == 0 {
-            right.extend_from_slice(&plan.constant_load);
+            right.copy_from_slice(&plan.constant_load);
         } else {
-            right.resize(plan.constant_load.len(), S::Scalar::default());
-        }
-        for load in &plan.loads {
-            right[load.row] += load.factor * coefficients.get(nodes[load.node], k);
-        }
-        if k > 0 {
-            let (accelerations, forces) = plan.entries.split_at(plan.first_force);
-            for entry in accelerations {
-                right[entry.row] -=
-                    coefficients.tail_product(nodes[entry.node], unknowns[entry.column], k);
+            right.fill(S::Scalar::default());
+            for product in with_accelerations.iter() {
+                right[product.row] -=
+                    coefficients.tail_product(product.element, product.unknown, k);
             }
-            // The unknown is −λ, the table holds λ.
-            for entry in forces {
-                right[entry.row] +=
-                    coefficients.tail_product(nodes[entry.node], unknowns[entry.column], k);
+            for product in with_forces.iter() {
+                right[product.row] +=
+                    coefficients.tail_product(product.element, product.unknown, k);
             }
+        }
+        for &(row, factor, node) in loads.iter() {
+            right[row] += factor * coefficients.get(node, k);
         }
     }
 
@@ -271,7 +155,8 @@ impl<S: System> Dynamics<S> {
             coefficients,
             inputs,
             nodes,
-            unknowns,
+            kept,
+            force_parts,
             ..
         } = table;
         let n = S::DESCRIPTION.coordinates.len();
@@ -279,22 +164,18 @@ impl<S: System> Dynamics<S> {
         for (j, &slot) in accelerations.iter().enumerate() {
             coefficients.put(slot, k, plan.elimination.acceleration(j, solution));
         }
-        let (free, size) = (plan.free(), plan.size());
-        for (&slot, &x) in unknowns[free..].iter().zip(&solution[free..]) {
+        for (&slot, &x) in kept.iter().zip(&solution[plan.free()..]) {
             coefficients.put(slot, k, -x);
         }
-        for (i, &row) in plan.eliminated.iter().enumerate() {
-            coefficients.put(
-                forces[row],
-                k,
-                plan.constant_force(i, solution) - right[size + i],
-            );
+        let constant_parts = plan.constant_forces(solution).zip(&right[plan.size()..]);
+        for (&row, (part, &load)) in plan.eliminated.iter().zip(constant_parts) {
+            coefficients.put(forces[row], k, part - load);
         }
-        for entry in &plan.force_entries {
-            let slot = forces[plan.eliminated[entry.row - size]];
-            let part = coefficients.product(nodes[entry.node], unknowns[entry.column], k);
-            let sum = coefficients.get(slot, k) + if entry.column < free { part } else { -part };
-            coefficients.put(slot, k, sum);
+        for part in force_parts.iter() {
+            let product = coefficients.product(part.element, part.unknown, k);
+            let sum =
+                coefficients.get(part.force, k) + if part.subtract { -product } else { product };
+            coefficients.put(part.force, k, sum);
         }
         for slide in &plan.slides {
             let normal = slide.source.map(|source| forces[source]);
@@ -307,6 +188,21 @@ impl<S: System> Dynamics<S> {
                 (Place::Node(node), None) => coefficients.get(nodes[node], k),
             };
             coefficients.put(forces[slide.row], k, force);
+        }
+    }
+
+    /// Coefficient k + 1 of positions and velocities.
+    fn integrate(&mut self, k: usize) {
+        let Table {
+            coefficients,
+            inputs,
+            ..
+        } = &mut self.table;
+        let n = S::DESCRIPTION.coordinates.len();
+        let next = S::Scalar::from_f64((k + 1) as f64);
+        for (&slot, &rate) in inputs[1..1 + 2 * n].iter().zip(&inputs[1 + n..]) {
+            let rate = coefficients.get(rate, k);
+            coefficients.put(slot, k + 1, rate / next);
         }
     }
 
@@ -345,5 +241,14 @@ impl<S: System> Dynamics<S> {
     pub fn report_series(&self, place: Place) -> &[S::Scalar] {
         self.table
             .series(S::DESCRIPTION, place, &self.table.report_nodes)
+    }
+}
+
+fn expandable<T: Scalar>(a: &Jet<'_, T>) -> Result<(), EvaluationError> {
+    match a.singular() {
+        None => Ok(()),
+        Some(singular) => Err(EvaluationError::NoSeries {
+            operation: singular.operation,
+        }),
     }
 }

@@ -27,8 +27,7 @@ impl<S: System> Dynamics<S> {
         let outcome = self.factor(|node| nodes[node]);
         self.nodes = nodes;
         outcome?;
-        self.right.clear();
-        self.right.extend_from_slice(&self.plan.constant_load);
+        self.right.copy_from_slice(&self.plan.constant_load);
         for load in &self.plan.loads {
             self.right[load.row] += load.factor * self.nodes[load.node];
         }
@@ -82,9 +81,8 @@ impl<S: System> Dynamics<S> {
     /// The solution of the equations with the right-hand side `right`.
     #[inline]
     pub(super) fn solve(&mut self) -> Result<(), EvaluationError> {
-        self.solution.clear();
-        self.solution
-            .extend_from_slice(&self.right[..self.plan.size()]);
+        let equations = &self.right[..self.plan.size()];
+        self.solution.copy_from_slice(equations);
         self.solver.solve(&mut self.solution);
         match self.solution.iter().position(|x| !x.value().is_finite()) {
             Some(unknown) => Err(self.not_finite(unknown)),
@@ -139,8 +137,9 @@ impl<S: System> Dynamics<S> {
             forces[row] = -x;
         }
         let size = plan.size();
-        for (i, &row) in plan.eliminated.iter().enumerate() {
-            forces[row] = plan.constant_force(i, solution) - right[size + i];
+        let constant_parts = plan.constant_forces(solution).zip(&right[size..]);
+        for (&row, (part, &load)) in plan.eliminated.iter().zip(constant_parts) {
+            forces[row] = part - load;
         }
         for entry in &plan.force_entries {
             forces[plan.eliminated[entry.row - size]] += nodes[entry.node] * solution[entry.column];

@@ -21,5 +21,5 @@ mod solver;
 
 pub(crate) use collect::acts;
 pub(crate) use consistent::solve_consistent;
-pub(crate) use plan::Plan;
+pub(crate) use plan::{Entry, Plan};
 pub(crate) use solver::{Inertia, SolveError, Solver};

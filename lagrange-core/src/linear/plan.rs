@@ -345,14 +345,16 @@ impl<T: Scalar> Plan<T> {
         self.first_force = self.entries.partition_point(|e| e.column < free);
     }
 
-    /// What the constant elements give of eliminated force `index`, for a solution.
+    /// What the constant elements give of each eliminated force, for a solution.
     #[inline]
-    pub(crate) fn constant_force(&self, index: usize, solution: &[T]) -> T {
-        let size = solution.len();
-        let row = &self.constant[(size + index) * size..(size + index + 1) * size];
-        row.iter()
-            .zip(solution)
-            .fold(T::zero(), |sum, (&k, &x)| sum + k * x)
+    pub(crate) fn constant_forces<'a>(&'a self, solution: &'a [T]) -> impl Iterator<Item = T> + 'a {
+        let size = self.size();
+        (0..self.eliminated.len()).map(move |i| {
+            let row = &self.constant[(size + i) * size..(size + i + 1) * size];
+            row.iter()
+                .zip(solution)
+                .fold(T::zero(), |sum, (&k, &x)| sum + k * x)
+        })
     }
 
     /// The size of the terms of each kept row that elimination may cancel: (row, largest term).

@@ -1,4 +1,4 @@
-//! Solves the constrained system: [`Direct`] where inertia is safely positive and the rows are independent, else equilibrated
+//! Solves the constrained system: [`Direct`] where that is safe, else equilibrated
 //! LU with complete pivoting, dependent rows set aside.
 //!
 //! Scaling is symmetric, K → D K D, by powers of two (exact): 1/√Mⱼⱼ for coordinates, so that inertia is about 1, then
@@ -74,7 +74,7 @@ impl<T: Scalar> Solver<T> {
         self.scale.reserve(size);
         self.aside.reserve(rows);
         self.work.reserve(size);
-        self.direct.reserve(coordinates, rows);
+        self.direct.reserve(size);
         self.lu.reserve(size);
     }
 
@@ -91,11 +91,11 @@ impl<T: Scalar> Solver<T> {
     pub(crate) fn factor(&mut self, inertia: Inertia) -> Result<(), SolveError> {
         self.factorizations += 1;
         self.aside.clear();
-        if inertia == Inertia::Symmetric
-            && self
-                .direct
-                .factor(self.coordinates, self.size, &self.matrix)
-        {
+        let leading = match inertia {
+            Inertia::Symmetric => self.coordinates,
+            Inertia::General => 0,
+        };
+        if self.direct.factor(leading, self.size, &self.matrix) {
             self.factors = Factors::Direct;
             return Ok(());
         }

@@ -5,7 +5,9 @@
 
 use super::{is_angle, symbol};
 use crate::outcome::{Force, Outcome, forces};
-use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, Table, Width, presets};
+use comfy_table::{
+    CellAlignment, ColumnConstraint, ContentArrangement, LineStyle, Table, TableStyle, Width,
+};
 use lagrange_core::mode::Mode;
 use lagrange_core::prelude::*;
 use lagrange_core::trajectory::Entry;
@@ -16,9 +18,9 @@ const WIDTH: u16 = 100;
 
 /// Writes the story of `outcome`.
 pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
-    writeln!(out, "{}", story(outcome))?;
+    writeln!(out, "{}", story(outcome).trim_fmt())?;
     if let Some(ledger) = &outcome.ledger {
-        writeln!(out, "\n{}", energy(ledger))?;
+        writeln!(out, "\n{}", energy(ledger).trim_fmt())?;
         writeln!(
             out,
             "The book closes to {:.1e} of the energy scale, {} J.",
@@ -252,9 +254,10 @@ fn work(outcome: &Outcome) -> String {
 }
 
 fn page() -> Table {
+    let rule = LineStyle::none().fill('─').junction('─');
     let mut table = Table::new();
     table
-        .load_style(presets::UTF8_HORIZONTAL_ONLY)
+        .load_style(TableStyle::new().header_separator(rule))
         .set_content_arrangement(ContentArrangement::Dynamic)
         .set_width(WIDTH);
     table

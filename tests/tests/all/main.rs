@@ -3,6 +3,7 @@
 mod derived;
 mod errors;
 mod recording;
+mod steppers;
 mod switches;
 mod systems;
 mod wheel;

@@ -77,13 +77,17 @@ fn constants_starts_and_handles() {
 #[test]
 fn mistakes_come_with_an_implementation_that_type_checks() {
     let declaration = quote! {
-        #[lagrange(coordinates(x), kinetic = mass/2 * der(y)^2)]
+        #[lagrange(coordinates(x), kinetic = mass/2 * der(y)^2, contact(floor: x >= 0))]
         struct Wrong<T> { mass: T }
     };
     let emitted = crate::expand(declaration);
     check(
         &emitted,
         quote!(impl<T: ::lagrange_core::arithmetic::Scalar> ::lagrange_core::system::System for Wrong<T>),
+    );
+    check(
+        &emitted,
+        quote!(pub const FLOOR: ::lagrange_core::handle::ContactId),
     );
     assert_eq!(emitted.to_string().matches("compile_error").count(), 1);
 }

@@ -112,6 +112,19 @@ fn invisible_groups_are_entered() {
         let mut sink = Diagnostics::new();
         declaration(tokens, &mut sink).unwrap_or_else(|| panic!("{sink}"))
     };
+    let typed = |ty: TokenTree| {
+        let field = wrap("a:", ty, "");
+        let body = Group::new(Delimiter::Brace, field).into();
+        let mut sink = Diagnostics::new();
+        let tokens = wrap("#[lagrange(coordinates(x))] struct S<T>", body, "");
+        declaration(tokens, &mut sink).unwrap_or_else(|| panic!("{sink}"))
+    };
+    assert_eq!(typed(hidden("T")).fields[0].length, None);
+    let array: TokenStream = wrap("T;", hidden("3"), "");
+    assert_eq!(
+        typed(Group::new(Delimiter::Bracket, array).into()).fields[0].length,
+        Some(3)
+    );
     let energy = |declaration: &Declaration| match &declaration.items[0].kind {
         ItemKind::Kinetic(energy) => energy.value.to_string(),
         other => panic!("{other:?}"),
