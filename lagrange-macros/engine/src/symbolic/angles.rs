@@ -9,6 +9,15 @@
 
 use super::{ExprId, Function, Node, Pool, Rational};
 
+/// Longer sums are not searched.
+const MOST_TERMS: usize = 512;
+
+/// Products with more sines and cosines are not searched.
+const MOST_CIRCULAR: usize = 8;
+
+/// Factors of one term that are split; each doubles the number of terms.
+const MOST_SPLITS: Rational = Rational::integer(3);
+
 /// One way to see a product as X · f(a) · g(b), a < b.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Pair {
@@ -38,6 +47,9 @@ impl Pool {
                 return e;
             };
             let (constant, mut terms) = (*constant, terms.clone());
+            if terms.len() > MOST_TERMS {
+                return e;
+            }
             let mut pairs = Vec::new();
             for (i, &(term, c)) in terms.iter().enumerate() {
                 self.pairs_of(term, c, i, &mut pairs);
@@ -108,7 +120,7 @@ impl Pool {
                 }
             }
         }
-        if circular.len() < 2 {
+        if circular.len() < 2 || circular.len() > MOST_CIRCULAR {
             return;
         }
         let factors = factors.clone();
@@ -128,6 +140,7 @@ impl Pool {
                     rest[i].1 = self.plus(rest[i].1, Rational::MINUS_ONE);
                 }
                 let rest = self.monomial(Rational::ONE, &rest);
+                self.effort += 1;
                 pairs.push(Pair {
                     rest,
                     a: f.1,
@@ -142,16 +155,47 @@ impl Pool {
         }
     }
 
-    /// Every sin and cos of a sum of two terms as products; longer sums would give too many.
+    /// A sum (or product) with sin and cos of sums of two terms as products, multiplied out; anything else, and terms
+    /// with many such factors, as they are.
     pub(super) fn split_angles(&mut self, e: ExprId) -> ExprId {
-        let mut known = std::mem::take(&mut self.split);
-        let untouched = |pool: &Pool, e| !pool.has_angle_sum(e);
-        let split = self.ascend(e, &mut known, untouched, |pool, e, known| {
-            let e = pool.with_children(e, known);
-            pool.split_call(e).unwrap_or(e)
-        });
-        self.split = known;
-        split.unwrap_or(e)
+        let (constant, terms) = match self.node(e) {
+            Node::Sum { constant, terms } => (*constant, terms.clone()),
+            _ => (Rational::ZERO, vec![(e, Rational::ONE)]),
+        };
+        if terms.len() > MOST_TERMS {
+            return e;
+        }
+        let mut new = terms.clone();
+        for term in &mut new {
+            term.0 = self.split_term(term.0);
+        }
+        if new == terms {
+            return e;
+        }
+        let e = self.linear(constant, new);
+        self.expand(e)
+    }
+
+    fn split_term(&mut self, term: ExprId) -> ExprId {
+        let mut factors = match self.node(term) {
+            Node::Product(factors) => factors.clone(),
+            _ => vec![(term, Rational::ONE)],
+        };
+        let mut degree = Rational::ZERO;
+        for factor in &mut factors {
+            if factor.1.is_integer()
+                && !factor.1.is_negative()
+                && let Some(split) = self.split_call(factor.0)
+            {
+                degree = self.plus(degree, factor.1);
+                factor.0 = split;
+            }
+        }
+        if degree.is_zero() || degree > MOST_SPLITS {
+            term
+        } else {
+            self.monomial(Rational::ONE, &factors)
+        }
     }
 
     fn split_call(&mut self, e: ExprId) -> Option<ExprId> {

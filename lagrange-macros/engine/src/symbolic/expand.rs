@@ -140,6 +140,7 @@ impl Pool {
         a: (ExprId, Rational),
         b: (ExprId, Rational),
     ) {
+        self.effort += 1;
         let c = self.times(a.1, c);
         let c = self.times(c, b.1);
         let factors = [(a.0, Rational::ONE), (b.0, Rational::ONE)];

@@ -154,6 +154,7 @@ impl Pool {
 
     fn factor_terms(&mut self, search: &mut Search, terms: Vec<Term>) -> ExprId {
         let mut terms = terms;
+        self.effort += terms.len() as u64;
         if terms.len() > 1 {
             let mut common = self.take_common(&mut terms);
             if !common.is_empty() {
@@ -173,6 +174,7 @@ impl Pool {
         }
         let mut parts = Vec::new();
         while let Some((base, negative)) = search.most_frequent(&terms) {
+            self.effort += terms.len() as u64;
             let holds =
                 |term: &Term| exponent_of(term, base).is_some_and(|e| e.is_negative() == negative);
             let (group, rest): (Vec<Term>, Vec<Term>) = terms.into_iter().partition(holds);

@@ -19,6 +19,8 @@ pub struct Pool {
     leaves: Vec<ExprId>,
     pub(super) pi: Option<ExprId>,
     pub(super) overflow: bool,
+    /// Work done by rewriting: terms and nodes looked at.
+    pub(super) effort: u64,
     /// Per direction of differentiation: which memo.
     pub(super) directions: Memo<Vec<(Symbol, ExprId)>, usize>,
     /// Derivatives of nodes along each direction.
@@ -31,8 +33,6 @@ pub struct Pool {
     pub(super) expanded: Table,
     /// Expression → the cheapest form.
     pub(super) simplified: Table,
-    /// Expression → with functions of sums of angles as products.
-    pub(super) split: Table,
 }
 
 impl Default for Pool {
@@ -54,13 +54,13 @@ impl Pool {
             leaves: Vec::new(),
             pi: None,
             overflow: false,
+            effort: 0,
             directions: Memo::default(),
             derivatives: Vec::new(),
             primitive: Memo::default(),
             squares: Memo::default(),
             expanded: Table::default(),
             simplified: Table::default(),
-            split: Table::default(),
         }
     }
 

@@ -3,22 +3,25 @@
 
 use super::{ExprId, Node, Pool};
 
-/// Sub-expressions looked at by one call of `simplify`; beyond it, forms stay as built.
-const WORK_BUDGET: usize = 400_000;
+/// Terms and nodes looked at by one call of `simplify`; beyond it, forms stay as built. Some seconds, unoptimised.
+const CALL_BUDGET: u64 = 1_000_000;
+
+/// The same for all calls.
+const POOL_BUDGET: u64 = 40_000_000;
 
 impl Pool {
     /// The cheapest of the forms tried, for each sub-expression from the leaves up: as is, expanded with
     /// sin² + cos² = 1, with sums of angles, common factors taken out. Of equally cheap forms the first.
     pub fn simplify(&mut self, e: ExprId) -> ExprId {
         let mut known = std::mem::take(&mut self.simplified);
-        let mut work = 0;
+        let limit = POOL_BUDGET.min(self.effort + CALL_BUDGET);
         let never = |_: &Pool, _| false;
         let simplified = self.ascend(e, &mut known, never, |pool, e, known| {
             let e = pool.with_children(e, known);
-            if work > WORK_BUDGET {
+            if pool.effort > limit {
                 e
             } else {
-                pool.cheapest(e, &mut work)
+                pool.cheapest(e)
             }
         });
         let mut simple = simplified.unwrap_or(e);
@@ -35,7 +38,7 @@ impl Pool {
     }
 
     /// The cheapest form of an expression whose sub-expressions are simplified.
-    fn cheapest(&mut self, e: ExprId, work: &mut usize) -> ExprId {
+    fn cheapest(&mut self, e: ExprId) -> ExprId {
         let worthwhile = match self.node(e) {
             Node::Sum { constant, terms } => terms.len() + usize::from(!constant.is_zero()) > 1,
             Node::Product(factors) => factors
@@ -63,7 +66,6 @@ impl Pool {
                 }
             }
         }
-        *work += choice.seen.len() * (1 + choice.cost);
         choice.form
     }
 
@@ -71,9 +73,8 @@ impl Pool {
     fn flat_forms(&mut self, e: ExprId) -> Vec<ExprId> {
         let expanded = self.expand(e);
         let mut flat = vec![e, expanded, self.contract_angles(expanded)];
-        if self.has_angle_sum(expanded) {
-            let split = self.split_angles(expanded);
-            let split = self.expand(split);
+        let split = self.split_angles(expanded);
+        if split != expanded {
             flat.push(split);
             flat.push(self.contract_angles(split));
         }
@@ -87,12 +88,13 @@ impl Pool {
     }
 
     /// Takes the form if it is cheaper.
-    fn consider(&self, form: ExprId, choice: &mut Choice) {
+    fn consider(&mut self, form: ExprId, choice: &mut Choice) {
         if choice.seen.contains(&form) {
             return;
         }
         choice.seen.push(form);
         let cost = self.operations(&[form]);
+        self.effort += cost as u64;
         if cost < choice.cost || (cost == choice.cost && self.needs_less_once(form, choice.form)) {
             (choice.form, choice.cost) = (form, cost);
         }

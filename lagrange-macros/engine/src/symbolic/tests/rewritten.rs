@@ -1,7 +1,7 @@
 //! "Simplifies to" tables, operation counts, linear coefficients, and what an expression contains.
 
 use super::read::Desk;
-use crate::symbolic::Symbol;
+use crate::symbolic::{Function, Symbol};
 
 #[test]
 fn simplifies_to() {
@@ -87,6 +87,26 @@ fn large_powers_stay_within_the_budget() {
     let e = desk.read("(a + b + c + d + e + f)^30*(x + y)^1000");
     assert_eq!(desk.pool.expand(e), e);
     assert_eq!(desk.pool.simplify(e), e);
+}
+
+#[test]
+fn deep_expressions_stay_within_the_budget() {
+    let mut desk = Desk::default();
+    let (x, one) = (desk.read("x"), desk.read("1"));
+    let symbol = desk.symbol("x");
+    let (mut horner, mut nested) = (one, x);
+    for _ in 0..200 {
+        let product = desk.pool.mul(x, horner);
+        horner = desk.pool.add(one, product);
+        let sine = desk.pool.call(Function::Sin, &[nested]);
+        nested = desk.pool.add(x, sine);
+    }
+    for e in [horner, nested] {
+        let slope = desk.pool.differentiate(e, symbol);
+        let simple = desk.pool.simplify(slope);
+        assert!(desk.pool.operations(&[simple]) <= desk.pool.operations(&[slope]));
+    }
+    assert!(desk.pool.len() < 200_000, "{}", desk.pool.len());
 }
 
 #[test]
