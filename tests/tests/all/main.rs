@@ -2,6 +2,7 @@
 
 mod derived;
 mod errors;
+mod oracle;
 mod recording;
 mod steppers;
 mod switches;
