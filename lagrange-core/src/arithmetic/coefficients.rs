@@ -1,6 +1,8 @@
 //! Storage of Taylor coefficients, slot by slot.
 
-use super::convolution::{convolution, convolution_ends_last, convolution_square, weighted};
+use super::convolution::{
+    convolution, convolution_ends_last, convolution_square, weighted, weighted_pair,
+};
 use super::{Jet, Scalar};
 
 /// A slot of a coefficient table: the offset of its coefficient 0.
@@ -138,4 +140,17 @@ pub(super) fn weighted_product<T: Scalar>(
 ) -> T {
     let (x, y) = (part(table, x, 1, last + 1), part(table, y, k - last, k));
     weighted(&weights[1..=last], x, y)
+}
+
+/// (Σ_{j=1..k} j xⱼ yₖ₋ⱼ, Σ_{j=1..k} j xⱼ zₖ₋ⱼ), for 0 < k.
+#[inline(always)]
+pub(super) fn weighted_products<T: Scalar>(
+    table: &[T],
+    weights: &[T],
+    x: Slot,
+    [y, z]: [Slot; 2],
+    k: usize,
+) -> (T, T) {
+    let (y, z) = (part(table, y, 0, k), part(table, z, 0, k));
+    weighted_pair(&weights[1..=k], part(table, x, 1, k + 1), y, z)
 }

@@ -45,3 +45,13 @@ pub(crate) fn weighted<T: Scalar>(w: &[T], x: &[T], y: &[T]) -> T {
     let terms = w.iter().zip(x).zip(y.iter().rev());
     terms.fold(T::zero(), |sum, ((&w, &x), &y)| sum + w * x * y)
 }
+
+/// (Σ wⱼ xⱼ yₙ₋₁₋ⱼ, Σ wⱼ xⱼ zₙ₋₁₋ⱼ)
+#[inline(always)]
+pub(crate) fn weighted_pair<T: Scalar>(w: &[T], x: &[T], y: &[T], z: &[T]) -> (T, T) {
+    let terms = w.iter().zip(x).zip(y.iter().rev().zip(z.iter().rev()));
+    terms.fold((T::zero(), T::zero()), |sums, ((&w, &x), (&y, &z))| {
+        let wx = w * x;
+        (sums.0 + wx * y, sums.1 + wx * z)
+    })
+}

@@ -12,7 +12,9 @@
 //! References: Jorba & Zou 2005, A software package for the numerical integration of ODEs by means of high-order
 //! Taylor methods, section 2; Griewank & Walther 2008, Evaluating Derivatives, chapter 13.
 
-use super::coefficients::{inner_square, product, square, tail_product, weighted_product};
+use super::coefficients::{
+    inner_square, product, square, tail_product, weighted_product, weighted_products,
+};
 use super::{Arithmetic, Scalar, Slot};
 
 /// An operation whose Taylor series can fail to exist.
@@ -128,6 +130,14 @@ impl<'a, T: Scalar> Jet<'a, T> {
     fn integral(&self, x: Slot, y: Slot) -> T {
         let k = self.k;
         weighted_product(self.table, self.weights, x, y, k, k) / self.weights[k]
+    }
+
+    /// [`Self::integral`] with y and with z at once.
+    #[inline(always)]
+    fn integrals(&self, x: Slot, y: Slot, z: Slot) -> (T, T) {
+        let k = self.k;
+        let (with_y, with_z) = weighted_products(self.table, self.weights, x, [y, z], k);
+        (with_y / self.weights[k], with_z / self.weights[k])
     }
 
     /// Σ_{j=1..k−1} j zⱼ yₖ₋ⱼ / k: what the coefficient of z with y z′ = … takes from earlier coefficients of z.
@@ -304,7 +314,8 @@ impl<T: Scalar> Arithmetic for Jet<'_, T> {
         let (sin, cos) = if self.k == 0 {
             self.at(x).sin_cos()
         } else {
-            (self.integral(x, c), -self.integral(x, s))
+            let (sin, minus_cos) = self.integrals(x, c, s);
+            (sin, -minus_cos)
         };
         (self.put(to, sin), self.put(to + 1, cos))
     }
@@ -314,7 +325,7 @@ impl<T: Scalar> Arithmetic for Jet<'_, T> {
         let (sinh, cosh) = if self.k == 0 {
             self.at(x).sinh_cosh()
         } else {
-            (self.integral(x, c), self.integral(x, s))
+            self.integrals(x, c, s)
         };
         (self.put(to, sinh), self.put(to + 1, cosh))
     }

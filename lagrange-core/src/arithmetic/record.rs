@@ -6,6 +6,7 @@
 //! tape does not matter: its Taylor coefficients run in one loop over the list, whoever wrote the tape.
 
 use super::{Arithmetic, Jet, Scalar, Slot};
+use std::collections::BTreeMap;
 
 /// How a number of a recorded tape depends on time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -92,6 +93,40 @@ enum Op<T> {
     Sum(usize, usize),
 }
 
+/// An operation without its constant, to be found again: its kind, its operands, its real exponent.
+type Key = (u8, [usize; 2], u64);
+
+impl<T: Scalar> Op<T> {
+    /// None for operations with a constant of the scalar type: scalars have no order.
+    fn key(&self) -> Option<Key> {
+        let one = |kind, x: Slot| Some((kind, [x.0, 0], 0));
+        let two = |kind, x: Slot, y: Slot| Some((kind, [x.0, y.0], 0));
+        match *self {
+            Op::Constant(_) | Op::Offset(..) | Op::Scale(..) | Op::Ratio(..) | Op::Sum(..) => None,
+            Op::Powf(x, c) => Some((0, [x.0, 0], c.to_bits())),
+            Op::Add(x, y) => two(1, x, y),
+            Op::Sub(x, y) => two(2, x, y),
+            Op::Mul(x, y) => two(3, x, y),
+            Op::MulConstant(x, y) => two(4, x, y),
+            Op::Div(x, y) => two(5, x, y),
+            Op::DivConstant(x, y) => two(6, x, y),
+            Op::Atan2(y, x) => two(7, y, x),
+            Op::Neg(x) => one(8, x),
+            Op::Square(x) => one(9, x),
+            Op::Sqrt(x) => one(10, x),
+            Op::Exp(x) => one(11, x),
+            Op::Ln(x) => one(12, x),
+            Op::SinCos(x) => one(13, x),
+            Op::SinhCosh(x) => one(14, x),
+            Op::Tan(x) => one(15, x),
+            Op::Tanh(x) => one(16, x),
+            Op::Asin(x) => one(17, x),
+            Op::Acos(x) => one(18, x),
+            Op::Atan(x) => one(19, x),
+        }
+    }
+}
+
 /// A tape written down: operations with the slot that they write.
 #[derive(Clone, Debug, Default)]
 pub struct Recording<T> {
@@ -100,6 +135,8 @@ pub struct Recording<T> {
     varying: Vec<(usize, Op<T>)>,
     /// (factor, number) of the sums.
     terms: Vec<(T, Slot)>,
+    /// Results by operation.
+    known: BTreeMap<Key, Recorded>,
 }
 
 impl<T: Scalar> Recording<T> {
@@ -108,12 +145,26 @@ impl<T: Scalar> Recording<T> {
         self.constant.clear();
         self.varying.clear();
         self.terms.clear();
+        self.known.clear();
     }
 
-    /// The arithmetic that records a tape whose slots begin at `base`, in a table with `stride` coefficients per slot.
-    pub fn record(&mut self, base: usize, stride: usize) -> Recorder<'_, T> {
+    /// Takes memory for so many operations.
+    pub fn reserve(&mut self, operations: usize) {
+        self.constant.reserve(operations);
+        self.varying.reserve(operations);
+    }
+
+    /// The arithmetic that records a tape whose slots begin at `base`, in a table with `stride` coefficients per slot. What
+    /// the recording `before` has computed, which runs first, is not computed again.
+    pub fn record<'a>(
+        &'a mut self,
+        base: usize,
+        stride: usize,
+        before: Option<&'a Self>,
+    ) -> Recorder<'a, T> {
         Recorder {
             recording: self,
+            before,
             base,
             stride,
         }
@@ -168,35 +219,44 @@ impl<T: Scalar> Recording<T> {
 #[derive(Debug)]
 pub struct Recorder<'a, T> {
     recording: &'a mut Recording<T>,
+    before: Option<&'a Recording<T>>,
     base: usize,
     stride: usize,
 }
 
 impl<T: Scalar> Recorder<'_, T> {
     fn push(&mut self, to: usize, op: Op<T>, operands: &[Recorded]) -> Recorded {
+        let key = op.key();
+        if let Some(known) = key.and_then(|key| self.find(&key)) {
+            return known;
+        }
         let to = self.base + to;
-        let varies = operands.iter().any(|x| x.varies());
-        let list = if varies {
-            &mut self.recording.varying
+        let slot = Slot::new(to, self.stride);
+        let (list, result) = if operands.iter().any(|x| x.varies()) {
+            (&mut self.recording.varying, Recorded::varying(slot))
         } else {
-            &mut self.recording.constant
+            (&mut self.recording.constant, Recorded::constant(slot))
         };
         list.push((to, op));
-        let slot = Slot::new(to, self.stride);
-        if varies {
-            Recorded::varying(slot)
-        } else {
-            Recorded::constant(slot)
+        if let Some(key) = key {
+            self.recording.known.insert(key, result);
         }
+        result
+    }
+
+    fn find(&self, key: &Key) -> Option<Recorded> {
+        let before = self.before.and_then(|before| before.known.get(key));
+        before.or_else(|| self.recording.known.get(key)).copied()
     }
 
     /// A function with a second result in the slot after the first.
     fn push_pair(&mut self, to: usize, op: Op<T>, x: Recorded) -> (Recorded, Recorded) {
         let first = self.push(to, op, &[x]);
+        let second = Slot(first.slot.0 + self.stride);
         (
             first,
             Recorded {
-                slot: Slot::new(self.base + to + 1, self.stride),
+                slot: second,
                 ..first
             },
         )

@@ -1,6 +1,7 @@
 //! The equations of a mode as matrices, to look at and to compare with a derivation by hand.
 
 use super::Dynamics;
+use crate::linear::least_norm;
 use crate::system::System;
 use nalgebra::{DMatrix, DVector};
 
@@ -42,5 +43,38 @@ impl<S: System> Dynamics<S> {
     pub fn multipliers(&self) -> DVector<S::Scalar> {
         let rows = self.acting_rows();
         DVector::from_iterator(rows.len(), rows.iter().map(|&row| self.force(row)))
+    }
+
+    /// Whether rows that act depend on one another at the last [`Self::value`], so that single forces are not determined.
+    /// [`Self::force`] then gives those of an independent subset.
+    pub fn has_dependent_rows(&self) -> bool {
+        self.plan.has_dependent_rows() || self.solver.has_rows_aside()
+    }
+
+    /// The forces of all rows at the last [`Self::value`], where they are not determined those of least norm; and whether
+    /// each is determined (rows that do not act are).
+    pub fn least_norm_forces(&self) -> (Vec<S::Scalar>, Vec<bool>) {
+        let d = S::DESCRIPTION;
+        let n = d.coordinates.len();
+        let acting = self.acting_rows();
+        let mut columns = vec![S::Scalar::default(); n * acting.len()];
+        for (index, coordinate, place) in self.plan.columns() {
+            columns[index * n + coordinate] += self.motion(place);
+        }
+        let mut acting_forces: Vec<S::Scalar> = acting.iter().map(|&row| self.force(row)).collect();
+        let acting_determined = least_norm(&columns, n, &mut acting_forces);
+        let mut forces: Vec<S::Scalar> = (0..d.rows.len()).map(|row| self.force(row)).collect();
+        let mut determined = vec![true; d.rows.len()];
+        for (i, &row) in acting.iter().enumerate() {
+            forces[row] = acting_forces[i];
+            determined[row] = acting_determined[i];
+        }
+        for slide in &self.plan.slides {
+            if let Some(source) = slide.source {
+                forces[slide.row] = self.motion(slide.factor) * forces[source];
+                determined[slide.row] = determined[source];
+            }
+        }
+        (forces, determined)
     }
 }

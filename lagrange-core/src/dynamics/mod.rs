@@ -74,6 +74,8 @@ pub struct Dynamics<S: System> {
     projection: projection::Scratch<S::Scalar>,
     /// The solution of the value while its derivatives are computed.
     known: Vec<S::Scalar>,
+    /// Columns of a Jacobian, for a stepper that wants rows.
+    columns: Vec<S::Scalar>,
     lane_inputs: Vec<jacobian::Lanes<S::Scalar>>,
     lane_nodes: Vec<jacobian::Lanes<S::Scalar>>,
     table: Table<S::Scalar>,
@@ -110,6 +112,7 @@ impl<S: System> Dynamics<S> {
             solution: Vec::with_capacity(n + rows),
             projection: projection::Scratch::new(n, rows),
             known: Vec::new(),
+            columns: Vec::new(),
             lane_inputs: Vec::new(),
             lane_nodes: Vec::new(),
             table: Table::default(),

@@ -10,14 +10,20 @@
 
 use super::{Dynamics, EvaluationError};
 use crate::arithmetic::Scalar;
-use crate::linear::Inertia;
+use crate::linear::{Inertia, epsilon};
 use crate::system::{Place, System};
 use num_traits::{One, Zero};
 
-/// Residuals are rounding below this many units of the terms that they cancel from.
-const ROUNDING: f64 = 16.0 * f64::EPSILON;
-/// A residual that no step reduces any more is accepted below this size.
-const ACCEPTED: f64 = 1e-10;
+/// Residuals are rounding below this share of the terms that they cancel from.
+fn rounding<T: Scalar>() -> f64 {
+    16.0 * epsilon::<T>()
+}
+
+/// A residual that no step reduces any more is accepted below this size (1e-10 in double precision).
+fn accepted<T: Scalar>() -> f64 {
+    0.01 * epsilon::<T>().sqrt()
+}
+
 /// Newton steps from a state on a nearby constraint; it takes 2 or 3 unless the start is far away.
 const MOST_STEPS: usize = 40;
 /// Halvings of a step that makes the residual worse.
@@ -94,7 +100,7 @@ impl<S: System> Dynamics<S> {
         tolerance: f64,
     ) -> Result<bool, EvaluationError> {
         self.run_rows(t, q, v);
-        let threshold = tolerance.max(ROUNDING);
+        let threshold = tolerance.max(rounding::<S::Scalar>());
         let moved = self.residual(Level::Position, q).relative > threshold;
         if moved {
             self.project_positions(t, q, v, &[])?;
@@ -154,7 +160,9 @@ impl<S: System> Dynamics<S> {
         self.run_rows(t, q, v);
         let mut residual = self.residual(Level::Position, q);
         for _ in 0..MOST_STEPS {
-            if residual.relative <= ROUNDING || !self.correction(Level::Position, held) {
+            if residual.relative <= rounding::<S::Scalar>()
+                || !self.correction(Level::Position, held)
+            {
                 break;
             }
             let before = residual.relative;
@@ -181,7 +189,7 @@ impl<S: System> Dynamics<S> {
                 break;
             }
         }
-        accept(residual)
+        accept::<S::Scalar>(residual)
     }
 
     /// Least change of v in the mass metric that makes ġ = 0.
@@ -199,7 +207,9 @@ impl<S: System> Dynamics<S> {
         let mut residual = self.residual(Level::Velocity, v);
         // The equations are linear: the second pass only takes away rounding.
         for _ in 0..2 {
-            if residual.relative <= ROUNDING || !self.correction(Level::Velocity, held) {
+            if residual.relative <= rounding::<S::Scalar>()
+                || !self.correction(Level::Velocity, held)
+            {
                 break;
             }
             for (v, &change) in v.iter_mut().zip(&self.projection.change) {
@@ -208,7 +218,7 @@ impl<S: System> Dynamics<S> {
             self.run_rows(t, q, v);
             residual = self.residual(Level::Velocity, v);
         }
-        accept(residual)
+        accept::<S::Scalar>(residual)
     }
 
     /// The motion tape for inertia, Jacobians and residuals of the rows that act.
@@ -331,8 +341,8 @@ fn read<T: Scalar>(place: Place, constants: &[T], nodes: &[T]) -> T {
     }
 }
 
-fn accept(residual: Residual) -> Result<(), EvaluationError> {
-    if residual.relative <= ACCEPTED {
+fn accept<T: Scalar>(residual: Residual) -> Result<(), EvaluationError> {
+    if residual.relative <= accepted::<T>() {
         Ok(())
     } else {
         Err(EvaluationError::Projection {

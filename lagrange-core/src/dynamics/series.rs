@@ -146,8 +146,7 @@ impl<S: System> Dynamics<S> {
             ..
         } = self;
         let n = S::DESCRIPTION.coordinates.len();
-        for j in 0..n {
-            let slot = table.input(1 + 2 * n + j);
+        for &(j, slot) in &table.accelerations {
             table
                 .coefficients
                 .put(slot, k, plan.elimination.acceleration(j, solution));
@@ -192,12 +191,15 @@ impl<S: System> Dynamics<S> {
 
     /// Coefficient k + 1 of positions and velocities.
     fn integrate(&mut self, k: usize) {
-        let n = S::DESCRIPTION.coordinates.len();
+        let Table {
+            coefficients,
+            integrals,
+            ..
+        } = &mut self.table;
         let next = S::Scalar::from_f64((k + 1) as f64);
-        for i in 1..1 + 2 * n {
-            let (slot, rate) = (self.table.input(i), self.table.input(i + n));
-            let rate = self.table.coefficients.get(rate, k);
-            self.table.coefficients.put(slot, k + 1, rate / next);
+        for &(slot, rate) in integrals.iter() {
+            let rate = coefficients.get(rate, k);
+            coefficients.put(slot, k + 1, rate / next);
         }
     }
 

@@ -1,6 +1,7 @@
 //! What the steppers ask for: accelerations, and Taylor series.
 
 use super::{Dynamics, EvaluationError};
+use crate::arithmetic::Scalar;
 use crate::integrate::{Acceleration, taylor};
 use crate::system::System;
 
@@ -17,6 +18,28 @@ impl<S: System> Acceleration<S::Scalar> for Dynamics<S> {
         self.value(t, q, v)?;
         dv.copy_from_slice(Dynamics::acceleration(self));
         Ok(())
+    }
+
+    fn jacobian(
+        &mut self,
+        t: S::Scalar,
+        q: &[S::Scalar],
+        v: &[S::Scalar],
+        by_position: &mut [f64],
+        by_velocity: &mut [f64],
+    ) -> Result<bool, EvaluationError> {
+        let n = q.len();
+        let mut columns = core::mem::take(&mut self.columns);
+        columns.resize(2 * n * n, S::Scalar::default());
+        let outcome = Dynamics::jacobian(self, t, q, v, &mut columns);
+        let (by_q, by_v) = columns.split_at(n * n);
+        for (rows, columns) in [(by_position, by_q), (by_velocity, by_v)] {
+            for (at, element) in rows.iter_mut().enumerate() {
+                *element = columns[at % n * n + at / n].value();
+            }
+        }
+        self.columns = columns;
+        outcome.map(|()| true)
     }
 }
 

@@ -21,6 +21,10 @@ pub(super) struct Table<T> {
     /// Outputs of the motion tape, then results of the plan's program.
     pub nodes: Vec<Recorded>,
     pub report_nodes: Vec<Recorded>,
+    /// Positions and velocities that may change, with their rates.
+    pub integrals: Vec<(Slot, Slot)>,
+    /// Accelerations that may not vanish, by coordinate.
+    pub accelerations: Vec<(usize, Slot)>,
     /// λ of the rows kept, in the order of the unknowns.
     pub kept: Vec<Slot>,
     /// What is not a parameter-only number in the right-hand sides: (row, factor, node).
@@ -117,7 +121,8 @@ impl<T: Scalar> Table<T> {
         self.nodes
             .resize(d.motion.outputs + plan.program.len(), Recorded::ZERO);
         self.motion.clear();
-        let mut a = self.motion.record(parts.motion, stride);
+        self.motion.reserve(d.motion.slots + plan.program.len());
+        let mut a = self.motion.record(parts.motion, stride, None);
         let inputs = &self.inputs[..1 + 2 * d.coordinates.len()];
         let outputs = &mut self.nodes[..d.motion.outputs];
         tapes
@@ -129,7 +134,8 @@ impl<T: Scalar> Table<T> {
         self.report_nodes.resize(d.report.outputs, Recorded::ZERO);
         self.report.clear();
         if let Some(held) = &tapes.report {
-            let mut a = self.report.record(parts.report, stride);
+            self.report.reserve(d.report.slots);
+            let mut a = self.report.record(parts.report, stride, Some(&self.motion));
             tapes.scene.report(
                 &mut a,
                 held,
@@ -175,6 +181,15 @@ impl<T: Scalar> Table<T> {
             None => accelerations[plan.elimination.free[column]].slot,
             Some(index) => forces[plan.kept[index]].slot,
         };
+        let n = d.coordinates.len();
+        let changes = (1..1 + 2 * n).filter(|&i| inputs[i + n].variation != Variation::Zero);
+        self.integrals.clear();
+        self.integrals
+            .extend(changes.map(|i| (inputs[i].slot, inputs[i + n].slot)));
+        let moving = (0..n).filter(|&j| !plan.is_pinned(j));
+        self.accelerations.clear();
+        self.accelerations
+            .extend(moving.map(|j| (j, accelerations[j].slot)));
         self.kept.clear();
         self.kept
             .extend(plan.kept.iter().map(|&row| forces[row].slot));

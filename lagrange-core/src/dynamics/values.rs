@@ -2,11 +2,8 @@
 
 use super::{Dynamics, EvaluationError};
 use crate::arithmetic::{Scalar, Value};
-use crate::linear::Inertia;
+use crate::linear::{Inertia, epsilon};
 use crate::system::{Held, Place, System};
-
-/// A sum below this share of its terms is the rounding of a sum that is zero.
-const CANCELLED: f64 = 1e-13;
 
 impl<S: System> Dynamics<S> {
     /// Accelerations and forces at (t, q, v): then read [`Self::acceleration`], [`Self::force`], [`Self::motion`].
@@ -59,9 +56,10 @@ impl<S: System> Dynamics<S> {
             Place::Constant(i) => constants[i],
             Place::Node(i) => node(i),
         };
+        let rounding = 512.0 * epsilon::<S::Scalar>();
         for (row, terms) in self.plan.cancelled(read) {
             let row = &mut matrix[row * size..row * size + free];
-            if row.iter().all(|x| x.value().abs() <= CANCELLED * terms) {
+            if row.iter().all(|x| x.value().abs() <= rounding * terms) {
                 row.fill(S::Scalar::default());
             }
         }

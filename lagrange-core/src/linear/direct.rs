@@ -5,11 +5,15 @@
 //! sliding friction it is not symmetric. Where M is not symmetric the whole is factored in that way.
 //! Reference: Golub & Van Loan 2013, Matrix Computations, sections 4.1.2 and 3.4.
 
-use super::lu::NEGLIGIBLE;
+use super::epsilon;
+use super::lu::negligible;
 use crate::arithmetic::Scalar;
 
 /// A pivot of M below this share of its diagonal element has lost 10 of 16 digits: M is not safely positive definite.
-const SAFE: f64 = 1e-10;
+#[inline(always)]
+fn safe<T: Scalar>() -> f64 {
+    524_288.0 * epsilon::<T>()
+}
 
 /// Factors of a system; the memory is reused.
 #[derive(Clone, Debug, Default)]
@@ -46,10 +50,12 @@ impl<T: Scalar> Direct<T> {
         for step in 0..leading {
             let diagonal = matrix[step * size + step].value();
             // Not "<=": a NaN is not safe either.
-            if !(self.factors[step * size + step].value() > SAFE * diagonal && diagonal > 0.0) {
+            if !(self.factors[step * size + step].value() > safe::<T>() * diagonal
+                && diagonal > 0.0)
+            {
                 return false;
             }
-            self.eliminate(step);
+            self.eliminate_symmetric(step);
         }
         self.rows.clear();
         self.rows.extend(leading..size);
@@ -68,7 +74,7 @@ impl<T: Scalar> Direct<T> {
                     (best, pivot) = (share, row);
                 }
             }
-            if !(best > NEGLIGIBLE) {
+            if !(best > negligible::<T>()) {
                 return false;
             }
             if pivot != step {
@@ -82,6 +88,32 @@ impl<T: Scalar> Direct<T> {
         self.scratch.clear();
         self.scratch.resize(size - leading, T::zero());
         true
+    }
+
+    /// Takes column `step` of the symmetric block out of the rows below; of that block only the upper triangle is kept.
+    #[inline]
+    fn eliminate_symmetric(&mut self, step: usize) {
+        let (size, leading) = (self.size, self.leading);
+        let (upper, lower) = self.factors.split_at_mut((step + 1) * size);
+        let pivot_row = &upper[step * size..];
+        let inverse = T::one() / pivot_row[step];
+        self.inverses.push(inverse);
+        for (row, i) in lower.chunks_exact_mut(size).zip(step + 1..) {
+            let (element, first) = if i < leading {
+                (pivot_row[i], i)
+            } else {
+                (row[step], step + 1)
+            };
+            if element.is_zero() {
+                row[step] = element;
+                continue;
+            }
+            let factor = element * inverse;
+            row[step] = factor;
+            for (x, &p) in row[first..].iter_mut().zip(&pivot_row[first..]) {
+                *x -= factor * p;
+            }
+        }
     }
 
     /// Takes column `step` out of the rows below.

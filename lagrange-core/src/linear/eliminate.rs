@@ -10,7 +10,7 @@
 //! u̇ are the accelerations of the coordinates that are left, Gᵀ C = 1. Without sliding friction C = Aᵀ and W = Z.
 //! Reference: null-space (coordinate partitioning) method, Wehage & Haug 1982, J. Mech. Design 104.
 
-use super::lu::NEGLIGIBLE;
+use super::lu::negligible;
 use crate::arithmetic::Scalar;
 
 /// A sparse matrix by rows.
@@ -75,7 +75,7 @@ impl<T: Scalar> Echelon<T> {
             }
             let (pivot, left) = largest(&self.rows[i * total..i * total + width]);
             // Not "<=": a NaN is no pivot either.
-            if !(left > NEGLIGIBLE * size) {
+            if !(left > negligible::<T>() * size) {
                 self.pivots.push(None);
                 continue;
             }

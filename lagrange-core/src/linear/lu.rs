@@ -4,11 +4,15 @@
 //! comparable with 1 and a pivot below [`NEGLIGIBLE`] means dependence.
 
 use super::direct::dot;
+use super::epsilon;
 use crate::arithmetic::Scalar;
 
-/// Pivots of an equilibrated matrix below this are dependence and not magnitude: rounding leaves some N ε ≈ 1e-15, and a
-/// genuinely smaller pivot would cost more than 12 of the 16 digits.
-pub(crate) const NEGLIGIBLE: f64 = 1e-12;
+/// Pivots of an equilibrated matrix below this (1e-12 in double precision) are dependence and not magnitude: rounding leaves
+/// some N ε, and a genuinely smaller pivot would cost more than 12 of the 16 digits.
+#[inline(always)]
+pub(crate) fn negligible<T: Scalar>() -> f64 {
+    4096.0 * epsilon::<T>()
+}
 
 /// Factors of a square matrix; the memory is reused.
 #[derive(Clone, Debug, Default)]
@@ -40,6 +44,11 @@ impl<T: Scalar> Lu<T> {
         self.columns.get(self.rank).copied()
     }
 
+    /// Rows with a pivot: they span the others.
+    pub(crate) fn independent_rows(&self) -> impl Iterator<Item = usize> + '_ {
+        self.rows[..self.rank].iter().copied()
+    }
+
     /// Rows without a pivot: linear combinations of the others.
     pub(crate) fn dependent_rows(&self) -> impl Iterator<Item = usize> + '_ {
         self.rows[self.rank..].iter().copied()
@@ -68,7 +77,7 @@ impl<T: Scalar> Lu<T> {
                 }
             }
             // A NaN never wins the comparison; it shows in the solution.
-            if largest <= NEGLIGIBLE {
+            if largest <= negligible::<T>() {
                 self.rank = step;
                 return;
             }

@@ -10,10 +10,13 @@
 //! where column i of C is the generalized force of λᵢ: aᵢᵀ, what couplings add, and sliding friction −μk ν Σ d aₜᵀ.
 //! C = Aᵀ where nothing slides.
 
+use crate::arithmetic::Scalar;
+
 mod collect;
 mod consistent;
 mod direct;
 mod eliminate;
+mod least_norm;
 mod lu;
 mod plan;
 mod program;
@@ -21,7 +24,19 @@ mod solver;
 #[cfg(test)]
 mod tests;
 
+/// The distance from 1 to the next number of a type.
+#[inline(always)]
+pub(crate) fn epsilon<T: Scalar>() -> f64 {
+    let double = T::from_f64(1.0 + f64::EPSILON).value() > 1.0;
+    if double {
+        f64::EPSILON
+    } else {
+        f64::from(f32::EPSILON)
+    }
+}
+
 pub(crate) use collect::acts;
 pub(crate) use consistent::solve_consistent;
+pub(crate) use least_norm::least_norm;
 pub(crate) use plan::{Entry, Plan};
 pub(crate) use solver::{Inertia, SolveError, Solver};

@@ -94,6 +94,17 @@ impl<T: Scalar> Plan<T> {
         self.free() + self.kept.len()
     }
 
+    /// Whether constant rows that follow from others were left out.
+    pub(crate) fn has_dependent_rows(&self) -> bool {
+        self.kept.len() + self.eliminated.len() < self.acting.len()
+    }
+
+    /// The generalized forces of unit forces: (index in `acting`, coordinate, factor).
+    pub(crate) fn columns(&self) -> impl Iterator<Item = (usize, usize, Place)> + '_ {
+        let elements = self.collected.columns.iter();
+        elements.map(|element| (element.index, element.coordinate, element.place))
+    }
+
     /// Whether coordinate `j` cannot accelerate in this mode.
     pub(crate) fn is_pinned(&self, j: usize) -> bool {
         self.elimination.right.row(j).is_empty()

@@ -5,12 +5,15 @@
 //! each row of A to about 1. Pivots are then comparable with 1 whatever the units.
 
 use super::direct::Direct;
+use super::epsilon;
 use super::lu::Lu;
 use crate::arithmetic::Scalar;
 
-/// A dependent row may miss its acceleration bias by this fraction of the largest one; rounding and tolerated drift
-/// from the constraints stay below.
-const CONSISTENT: f64 = 1e-7;
+/// A dependent row may miss its acceleration bias by this fraction of the largest term (1e-7 in double precision); rounding
+/// and tolerated drift from the constraints stay below.
+fn consistent<T: Scalar>() -> f64 {
+    6.0 * epsilon::<T>().sqrt()
+}
 
 /// What is wrong with a system; indices are unknowns and equations.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,6 +88,11 @@ impl<T: Scalar> Solver<T> {
         self.matrix.clear();
         self.matrix.extend_from_slice(constant);
         &mut self.matrix
+    }
+
+    /// Whether a row was set aside.
+    pub(crate) fn has_rows_aside(&self) -> bool {
+        self.aside.contains(&true)
     }
 
     /// Factors the matrix.
@@ -219,7 +227,7 @@ impl<T: Scalar> Solver<T> {
                 residual += term;
                 largest = largest.max(term.abs());
             }
-            if residual.abs() > CONSISTENT * largest {
+            if residual.abs() > consistent::<T>() * largest {
                 return Err(SolveError::Inconsistent {
                     row,
                     residual: residual.abs() / largest,

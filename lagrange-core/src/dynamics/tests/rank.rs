@@ -47,6 +47,11 @@ fn a_second_equal_rod_changes_nothing() {
         tension(q, v),
         1e-13,
     );
+    assert!(dynamics.has_dependent_rows());
+    let (forces, determined) = dynamics.least_norm_forces();
+    close(forces[ROD], tension(q, v) / 5.0, 1e-13);
+    close(forces[TWIN], 2.0 * tension(q, v) / 5.0, 1e-13);
+    assert_eq!(determined, [false, false, true]);
     dynamics.series(0.0, &q, &v, 12).expect("consistent");
     let one = {
         let mut dynamics = Dynamics::new(&SCENE, &with_rows(&[ROD]));
