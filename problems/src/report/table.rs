@@ -5,7 +5,9 @@
 
 use super::{is_angle, symbol};
 use crate::outcome::{Force, Outcome, forces};
-use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, Table, Width, presets};
+use comfy_table::{
+    CellAlignment, ColumnConstraint, ContentArrangement, LineStyle, Table, TableStyle, Width,
+};
 use lagrange_core::mode::Mode;
 use lagrange_core::prelude::*;
 use lagrange_core::trajectory::Entry;
@@ -16,12 +18,12 @@ const WIDTH: u16 = 100;
 
 /// Writes the story of `outcome`.
 pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
-    writeln!(out, "{}", story(outcome))?;
+    writeln!(out, "{}", story(outcome).trim_fmt())?;
     if let Some(ledger) = &outcome.ledger {
-        writeln!(out, "\n{}", energy(ledger))?;
+        writeln!(out, "\n{}", energy(ledger).trim_fmt())?;
         writeln!(
             out,
-            "The book closes to {:.1e} of the energy scale, {} J.",
+            "The ledger closes to {:.1e} of its scale, {} J.",
             ledger.closure.abs() / ledger.scale.max(f64::MIN_POSITIVE),
             Decimals::of([ledger.scale]).show(ledger.scale)
         )?;
@@ -182,6 +184,7 @@ fn story(outcome: &Outcome) -> Table {
     }
     let numbers = 2 + shown.len() + items.len();
     for (index, column) in table.column_iter_mut().enumerate() {
+        column.set_padding((1, 0));
         if index == 0 || (2..numbers).contains(&index) {
             column.set_cell_alignment(CellAlignment::Right);
             column.set_constraint(ColumnConstraint::ContentWidth);
@@ -211,7 +214,7 @@ fn energy(ledger: &Ledger) -> Table {
     let works = shown.iter().map(|entry| entry.work);
     let decimals = Decimals::of(lines.iter().flat_map(|(_, a, b)| [*a, *b]).chain(works));
     let mut table = page();
-    table.set_header(["energy\nJ", "start", "end", "change"]);
+    table.set_header(["energy, J", "start", "end", "change"]);
     for (name, a, b) in lines {
         table.add_row([
             name.to_owned(),
@@ -252,9 +255,10 @@ fn work(outcome: &Outcome) -> String {
 }
 
 fn page() -> Table {
+    let rule = LineStyle::none().fill('─').junction('─');
     let mut table = Table::new();
     table
-        .load_style(presets::UTF8_HORIZONTAL_ONLY)
+        .load_style(TableStyle::new().header_separator(rule))
         .set_content_arrangement(ContentArrangement::Dynamic)
         .set_width(WIDTH);
     table
