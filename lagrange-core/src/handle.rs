@@ -3,6 +3,8 @@
 //! Each is an index into the table of the same name in [`crate::system::Description`]; the number inside is public, so
 //! that systems that are not derived can make them.
 
+use crate::effects::Item;
+
 macro_rules! handles {
     ($($(#[$documentation:meta])* $name:ident)*) => {$(
         $(#[$documentation])*
@@ -36,4 +38,28 @@ handles! {
     MarkId
     /// A named start, [`crate::system::Description::starts`].
     StartId
+}
+
+macro_rules! items {
+    ($($handle:ident $item:ident)*) => {$(
+        impl From<$handle> for Item {
+            fn from($handle(index): $handle) -> Item {
+                Item::$item(index)
+            }
+        }
+    )*};
+}
+
+// What a scene can leave out, `Effects::all().without(MassOnWheel::RIM)`.
+items! {
+    KineticId Kinetic
+    PotentialId Potential
+    ConstraintId Constraint
+    ContactId Contact
+    FrictionId Friction
+    ForceId Force
+    DissipationId Dissipation
+    ObserveId Observe
+    StopId Stop
+    MarkId Mark
 }

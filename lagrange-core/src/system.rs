@@ -119,7 +119,7 @@ pub struct Description {
     pub forcing: &'static [Place],
     /// All rows: constraints first, then contacts, then the slip components of frictions. Motion.
     pub rows: &'static [Row],
-    /// Forces proportional to a row's multiplier, beside aᵀλ: Q[coordinate] += place · λ[row]. Motion.
+    /// Forces proportional to a row's multiplier, beside aᵀλ: `Q[coordinate] += place · λ[row]`. Motion.
     pub couplings: &'static [Coupling],
     /// Named kinetic energies.
     pub kinetic: &'static [Effect],

@@ -1,1 +1,116 @@
-//! Shared test kit.
+//! Shared kit of the tests: seeded numbers, roots and quadrature for closed forms, and short ways to run a scene.
+
+use lagrange_core::prelude::*;
+
+/// Seeded random numbers (splitmix64, Steele, Lea & Flood 2014).
+#[derive(Clone, Debug)]
+pub struct Random(u64);
+
+impl Random {
+    /// A sequence of its own for every seed.
+    pub fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    /// Uniform in [low, high).
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^= z >> 31;
+        low + (high - low) * (z >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
+
+/// The root of `f` in [low, high], which must change sign, to the last bit by bisection.
+pub fn root(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+    let rising = f(low) < 0.0;
+    assert_ne!(
+        rising,
+        f(high) < 0.0,
+        "no change of sign in [{low}, {high}]"
+    );
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if (f(middle) < 0.0) == rising {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    0.5 * (low + high)
+}
+
+/// ∫ f over [a, b] by the tanh–sinh rule (Takahasi & Mori 1974); `f` is given the distance from `a` and may have an
+/// integrable singularity there.
+pub fn integral(f: impl Fn(f64) -> f64, a: f64, b: f64) -> f64 {
+    let (half, step) = (0.5 * (b - a), 1.0 / 64.0);
+    let mut sum = 0.0;
+    for k in -260..=260 {
+        let u = f64::from(k) * step;
+        let w = core::f64::consts::FRAC_PI_2 * u.sinh();
+        // 1 + tanh w without cancellation.
+        let from_a = half * 2.0 / (1.0 + (-2.0 * w).exp());
+        let weight = core::f64::consts::FRAC_PI_2 * u.cosh() / w.cosh().powi(2);
+        let value = f(from_a);
+        if value.is_finite() && weight > 0.0 {
+            sum += weight * value;
+        }
+    }
+    sum * step * half
+}
+
+/// |a − b| relative to the larger of |b| and 1.
+pub fn error(a: f64, b: f64) -> f64 {
+    (a - b).abs() / b.abs().max(1.0)
+}
+
+/// Asserts that two numbers agree to `tolerance`, relative to the larger of the second and 1.
+#[track_caller]
+pub fn agree(what: &str, a: f64, b: f64, tolerance: f64) {
+    assert!(
+        error(a, b) <= tolerance,
+        "{what}: {a} instead of {b}, error {:.1e}",
+        error(a, b)
+    );
+}
+
+/// Runs a scene from a state at tolerance 1e-12.
+#[track_caller]
+pub fn run<S: System<Scalar = f64>>(scene: &S, start: State<f64>, until: f64) -> Trajectory<S> {
+    match Simulation::new(scene)
+        .tolerance(1e-12)
+        .run(start, 0.0..until)
+    {
+        Ok(trajectory) => trajectory,
+        Err(failure) => panic!("{failure}; {:?}", words(&failure.trajectory)),
+    }
+}
+
+/// The events as `item kind`.
+pub fn words<S: System>(trajectory: &Trajectory<S>) -> Vec<String> {
+    let events = trajectory.events().iter();
+    events
+        .map(|e| format!("{} {}", e.subject.name(S::DESCRIPTION), e.kind))
+        .collect()
+}
+
+/// The first event of an item and kind, `("shell", "lost")`.
+#[track_caller]
+pub fn event<'a, S: System>(
+    trajectory: &'a Trajectory<S>,
+    item: &str,
+    kind: &str,
+) -> &'a Event<S::Scalar> {
+    let mut events = trajectory.events().iter();
+    let found = events.find(|e| e.subject.name(S::DESCRIPTION) == item && e.kind.word() == kind);
+    found.unwrap_or_else(|| panic!("no `{item} {kind}` in {:?}", words(trajectory)))
+}
+
+/// Closure of the energy ledger relative to its scale.
+#[track_caller]
+pub fn closure<S: System>(trajectory: &Trajectory<S>) -> f64 {
+    let ledger = trajectory.ledger().expect("the trajectory can be sampled");
+    ledger.closure.abs() / ledger.scale
+}

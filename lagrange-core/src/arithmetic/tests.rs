@@ -63,7 +63,7 @@ fn elementary_functions_have_their_textbook_series() {
     same(&expand(&[&tau], |a, x| a.exp(0, x[0])).unwrap(), |k| {
         1.0 / factorial(k)
     });
-    let sign = |k: usize| if k / 2 % 2 == 0 { 1.0 } else { -1.0 };
+    let sign = |k: usize| if (k / 2).is_multiple_of(2) { 1.0 } else { -1.0 };
     let odd = |k: usize| if k % 2 == 1 { 1.0 } else { 0.0 };
     same(
         &expand(&[&tau], |a, x| a.sin_cos(0, x[0]).0).unwrap(),

@@ -3,10 +3,13 @@
 //! A [`Dynamics`] owns all memory that this takes. It is told a [`Mode`] and from then on runs only what that mode needs.
 
 mod error;
+mod jacobian;
+mod matrices;
 mod needs;
 mod projection;
 mod series;
 mod stepping;
+mod table;
 #[cfg(test)]
 pub(crate) mod tests;
 mod values;
@@ -19,7 +22,7 @@ use crate::effects::Effects;
 use crate::linear::{Plan, SolveError, Solver};
 use crate::mode::Mode;
 use crate::system::{Description, Held, Place, System};
-use series::Table;
+use table::Table;
 
 /// Work done so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -51,12 +54,16 @@ pub struct Dynamics<S: System> {
     /// What the report tape is told: the effects' own needs and what was asked for.
     report_held: NeedSet,
     reports: bool,
+    /// Of the named energies.
+    energies: NeedSet,
     /// Inertia, Jacobians and residuals of the rows that act.
     row_needs: NeedSet,
     /// The system's own, then the plan's.
     constants: Vec<S::Scalar>,
     plan: Plan<S::Scalar>,
     solver: Solver<S::Scalar>,
+    /// Whether the solver holds the factors of this plan.
+    factored: bool,
     /// t, q, v, v̇, λ of all rows.
     inputs: Vec<S::Scalar>,
     /// Outputs of the motion tape, then results of the plan's program.
@@ -64,10 +71,11 @@ pub struct Dynamics<S: System> {
     report_nodes: Vec<S::Scalar>,
     right: Vec<S::Scalar>,
     solution: Vec<S::Scalar>,
-    /// A matrix of zeros.
-    blank: Vec<S::Scalar>,
-    /// Positions before a Newton step.
-    previous: Vec<S::Scalar>,
+    projection: projection::Scratch<S::Scalar>,
+    /// The solution of the value while its derivatives are computed.
+    known: Vec<S::Scalar>,
+    lane_inputs: Vec<jacobian::Lanes<S::Scalar>>,
+    lane_nodes: Vec<jacobian::Lanes<S::Scalar>>,
     table: Table<S::Scalar>,
     work: Work,
 }
@@ -89,17 +97,21 @@ impl<S: System> Dynamics<S> {
             report_needs: NeedSet::new(d),
             report_held: NeedSet::new(d),
             reports: false,
+            energies: needs::of_energies(d),
             row_needs: NeedSet::new(d),
             constants: Vec::with_capacity(d.constants),
             plan: Plan::default(),
             solver: Solver::default(),
+            factored: false,
             inputs: vec![zero; 1 + 3 * n + rows],
             nodes: vec![zero; d.motion.outputs],
             report_nodes: vec![zero; d.report.outputs],
             right: Vec::with_capacity(n + rows),
             solution: Vec::with_capacity(n + rows),
-            blank: Vec::with_capacity((n + rows) * (n + rows)),
-            previous: vec![zero; n],
+            projection: projection::Scratch::new(n, rows),
+            known: Vec::new(),
+            lane_inputs: Vec::new(),
+            lane_nodes: Vec::new(),
             table: Table::default(),
             work: Work::default(),
         };
@@ -175,6 +187,10 @@ impl<S: System> Dynamics<S> {
         let forces = 1 + 3 * d.coordinates.len();
         self.inputs[forces..].fill(S::Scalar::default());
         self.table.outdate();
+        self.right
+            .resize(self.plan.constant_load.len(), S::Scalar::default());
+        self.solution.resize(self.plan.size(), S::Scalar::default());
+        self.factored = false;
         self.hold();
     }
 
@@ -191,34 +207,55 @@ impl<S: System> Dynamics<S> {
     pub fn set_report_needs(&mut self, needs: &[u64]) {
         self.report_needs.clear();
         self.report_needs.extend(needs);
-        self.reports = needs
-            .iter()
-            .enumerate()
-            .any(|(i, &word)| if i == 0 { word & !1 != 0 } else { word != 0 });
         self.hold();
     }
 
+    /// What the tapes are told. A series recorded for other needs is out of date.
     fn hold(&mut self) {
-        self.held.clear();
-        self.held.extend(&self.motion_needs);
-        self.held.extend(&self.extra);
-        self.report_held.clear();
-        self.report_held.extend(&self.held);
-        self.report_held.extend(&self.report_needs);
+        let d = S::DESCRIPTION;
+        let motion = self.motion_needs.iter().zip(self.extra.iter());
+        let mut changed = self.held.assign(motion.map(|(a, b)| a | b));
+        // The named energies stand under their own needs also in the report, for the energy balance alone.
+        let balance =
+            self.report_needs.contains(d.energy.need) || self.report_needs.contains(d.momenta.need);
+        let left_out = |energies: u64| if balance { 0 } else { energies };
+        let report = self
+            .held
+            .iter()
+            .zip(self.report_needs.iter())
+            .zip(self.energies.iter());
+        changed |= self
+            .report_held
+            .assign(report.map(|((a, b), &e)| (a | b) & !left_out(e)));
+        let after_solve = d
+            .branches
+            .iter()
+            .any(|b| b.after_solve && self.held.contains(b.need));
+        let reports = after_solve
+            || self
+                .report_needs
+                .iter()
+                .enumerate()
+                .any(|(i, &w)| w & !u64::from(i == 0) != 0);
+        changed |= reports != self.reports;
+        self.reports = reports;
+        if changed {
+            self.table.outdate();
+        }
     }
 
     fn solve_error(&self, error: SolveError) -> EvaluationError {
-        let n = self.plan.coordinates;
+        let free = self.plan.free();
         match error {
             SolveError::NotFinite { equation } => self.not_finite(equation),
-            SolveError::Undetermined { unknown } if unknown < n => EvaluationError::NoInertia {
-                coordinate: unknown,
+            SolveError::Undetermined { unknown } if unknown < free => EvaluationError::NoInertia {
+                coordinate: self.plan.elimination.free[unknown],
             },
             SolveError::Undetermined { unknown } => EvaluationError::Undetermined {
-                row: self.plan.acting[unknown - n],
+                row: self.plan.kept[unknown - free],
             },
             SolveError::Inconsistent { row, residual } => EvaluationError::Inconsistent {
-                row: self.plan.acting[row],
+                row: self.plan.kept[row],
                 residual,
             },
         }
@@ -226,14 +263,14 @@ impl<S: System> Dynamics<S> {
 
     /// The acceleration or force that is not finite, given a solution with such a number.
     fn not_finite(&self, unknown: usize) -> EvaluationError {
-        let n = self.plan.coordinates;
-        if unknown < n {
+        let free = self.plan.free();
+        if unknown < free {
             EvaluationError::NotFiniteAcceleration {
-                coordinate: unknown,
+                coordinate: self.plan.elimination.free[unknown],
             }
         } else {
             EvaluationError::NotFiniteForce {
-                row: self.plan.acting[unknown - n],
+                row: self.plan.kept[unknown - free],
             }
         }
     }
@@ -261,13 +298,13 @@ impl<S: System> Dynamics<S> {
     /// v̇ at the last [`Self::value`], one per coordinate.
     #[inline]
     pub fn acceleration(&self) -> &[S::Scalar] {
-        let n = self.plan.coordinates;
+        let n = S::DESCRIPTION.coordinates.len();
         &self.inputs[1 + 2 * n..1 + 3 * n]
     }
 
     /// The force λ of a row at the last [`Self::value`]: 0 where the row does not act; −μk N d for sliding friction.
     #[inline]
     pub fn force(&self, row: usize) -> S::Scalar {
-        self.inputs[1 + 3 * self.plan.coordinates + row]
+        self.inputs[1 + 3 * S::DESCRIPTION.coordinates.len() + row]
     }
 }

@@ -10,6 +10,7 @@
 
 use super::{Dynamics, EvaluationError};
 use crate::arithmetic::Scalar;
+use crate::linear::Inertia;
 use crate::system::{Place, System};
 use num_traits::{One, Zero};
 
@@ -27,6 +28,31 @@ const MOST_HALVINGS: usize = 12;
 enum Level {
     Position,
     Velocity,
+}
+
+/// Memory of a projection.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Scratch<T> {
+    right: Vec<T>,
+    /// Of positions or velocities.
+    change: Vec<T>,
+    /// A matrix of zeros.
+    blank: Vec<T>,
+    /// Positions before a Newton step.
+    previous: Vec<T>,
+}
+
+impl<T: Scalar> Scratch<T> {
+    /// Memory for so many coordinates and rows.
+    pub(super) fn new(coordinates: usize, rows: usize) -> Self {
+        let size = coordinates + rows;
+        Self {
+            right: Vec::with_capacity(size),
+            change: Vec::with_capacity(size),
+            blank: Vec::with_capacity(size * size),
+            previous: vec![T::default(); coordinates],
+        }
+    }
 }
 
 /// Largest residual of a level: relative to a displacement (or velocity) of the size of the state, and where.
@@ -56,7 +82,7 @@ impl<S: System> Dynamics<S> {
     }
 
     /// Moves (q, v) onto the rows that act where a relative residual is above `tolerance` (0: wherever it is more than
-    /// rounding). Returns whether anything was moved.
+    /// rounding). Returns whether anything was moved; the rounding in the velocity of a pinned coordinate goes in any case.
     ///
     /// # Errors
     /// [`EvaluationError::Projection`] if no state nearby satisfies a row.
@@ -73,11 +99,28 @@ impl<S: System> Dynamics<S> {
         if moved {
             self.project_positions(t, q, v, &[])?;
         }
-        if moved || self.residual(Level::Velocity, v).relative > threshold {
+        let moved = moved || self.residual(Level::Velocity, v).relative > threshold;
+        if moved {
             self.project_velocities(t, q, v, &[])?;
-            return Ok(true);
         }
-        Ok(false)
+        self.settle_pinned(v, threshold);
+        Ok(moved)
+    }
+
+    /// Takes the rounding out of the velocities of coordinates that a row of their own pins: a coordinate that is exactly
+    /// at rest is constant in a Taylor expansion. The last tape was run at `v`.
+    fn settle_pinned(&self, v: &mut [S::Scalar], threshold: f64) {
+        for &row in &self.plan.acting {
+            let row = &S::DESCRIPTION.rows[row];
+            if let [(j, factor)] = *row.jacobian
+                && self.plan.is_pinned(j)
+            {
+                let excess = self.motion(row.velocity) / self.motion(factor);
+                if excess.value().abs() <= threshold * v[j].value().abs().max(1.0) {
+                    v[j] -= excess;
+                }
+            }
+        }
     }
 
     /// Moves positions, then velocities, with some of them held: `held_positions[j]` keeps qⱼ, `held_velocities[j]` keeps vⱼ
@@ -116,10 +159,11 @@ impl<S: System> Dynamics<S> {
             }
             let before = residual.relative;
             let mut part = S::Scalar::one();
-            self.previous.copy_from_slice(q);
+            self.projection.previous.copy_from_slice(q);
             for _ in 0..MOST_HALVINGS {
-                for (q, (&start, &change)) in
-                    q.iter_mut().zip(self.previous.iter().zip(&self.solution))
+                for (q, (&start, &change)) in q
+                    .iter_mut()
+                    .zip(self.projection.previous.iter().zip(&self.projection.change))
                 {
                     *q = start + part * change;
                 }
@@ -131,7 +175,7 @@ impl<S: System> Dynamics<S> {
                 part *= S::Scalar::from_f64(0.5);
             }
             if !(residual.relative < before) {
-                q.copy_from_slice(&self.previous);
+                q.copy_from_slice(&self.projection.previous);
                 self.run_rows(t, q, v);
                 residual = self.residual(Level::Position, q);
                 break;
@@ -158,7 +202,7 @@ impl<S: System> Dynamics<S> {
             if residual.relative <= ROUNDING || !self.correction(Level::Velocity, held) {
                 break;
             }
-            for (v, &change) in v.iter_mut().zip(&self.solution) {
+            for (v, &change) in v.iter_mut().zip(&self.projection.change) {
                 *v += change;
             }
             self.run_rows(t, q, v);
@@ -212,10 +256,10 @@ impl<S: System> Dynamics<S> {
         worst
     }
 
-    /// The change of the free coordinates that the linearized rows ask for, in `solution`; false if there is none.
+    /// The change of the free coordinates that the linearized rows ask for, in `projection.change`; false if there is none.
     fn correction(&mut self, level: Level, held: &[bool]) -> bool {
         let d = S::DESCRIPTION;
-        let n = self.plan.coordinates;
+        let n = d.coordinates.len();
         let is_held = |j: usize| held.get(j).copied().unwrap_or(false);
         let rows = self
             .plan
@@ -224,12 +268,13 @@ impl<S: System> Dynamics<S> {
             .filter(|&&row| Self::residual_place(row, level).is_some())
             .count();
         let size = n + rows;
+        self.factored = false;
         for without_inertia in [false, true] {
-            self.right.clear();
-            self.right.resize(size, S::Scalar::zero());
-            self.blank.clear();
-            self.blank.resize(size * size, S::Scalar::zero());
-            let matrix = self.solver.begin(n, size, &self.blank);
+            self.projection.right.clear();
+            self.projection.right.resize(size, S::Scalar::zero());
+            self.projection.blank.clear();
+            self.projection.blank.resize(size * size, S::Scalar::zero());
+            let matrix = self.solver.begin(n, size, &self.projection.blank);
             for &(i, j, place) in d.mass {
                 let value = read(place, &self.constants, &self.nodes);
                 if !is_held(i) && !is_held(j) {
@@ -261,15 +306,17 @@ impl<S: System> Dynamics<S> {
                         matrix[j * size + index] = value;
                     }
                 }
-                self.right[index] = -read(place, &self.constants, &self.nodes);
+                self.projection.right[index] = -read(place, &self.constants, &self.nodes);
                 index += 1;
             }
-            if self.solver.factor().is_ok() {
-                self.solution.clear();
-                self.solution.extend_from_slice(&self.right);
-                self.solver.solve(&mut self.solution);
-                self.solution.truncate(n);
-                return self.solution.iter().all(|x| x.value().is_finite());
+            if self.solver.factor(Inertia::Symmetric).is_ok() {
+                self.projection.change.clear();
+                self.projection
+                    .change
+                    .extend_from_slice(&self.projection.right);
+                self.solver.solve(&mut self.projection.change);
+                self.projection.change.truncate(n);
+                return self.projection.change.iter().all(|x| x.value().is_finite());
             }
         }
         false

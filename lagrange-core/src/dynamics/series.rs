@@ -9,91 +9,18 @@
 //! one factorization whatever the order; the sum runs over those matrix elements that change with the state.
 //! Reference: Griewank & Walther 2008, Evaluating Derivatives, section 13.2 (implicit relations).
 
+use super::table::{Table, Tapes};
 use super::{Dynamics, EvaluationError};
-use crate::arithmetic::{Arithmetic, Coefficients, Scalar, Slot};
-use crate::system::{Description, Held, Place, System};
-
-/// Coefficient table: zero | t q v v̇ λ | constants | motion tape | report tape | plan's program.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Table<T> {
-    coefficients: Coefficients<T>,
-    current: bool,
-    order: usize,
-    inputs: Vec<Slot>,
-    nodes: Vec<Slot>,
-    report_nodes: Vec<Slot>,
-}
-
-/// First slots of the parts.
-struct Layout {
-    inputs: usize,
-    constants: usize,
-    motion: usize,
-    report: usize,
-    program: usize,
-}
-
-fn layout(d: &Description) -> Layout {
-    let inputs = 1;
-    let constants = inputs + 1 + 3 * d.coordinates.len() + d.rows.len();
-    let motion = constants + d.constants;
-    let report = motion + d.motion.slots;
-    Layout {
-        inputs,
-        constants,
-        motion,
-        report,
-        program: report + d.report.slots,
-    }
-}
-
-impl<T: Scalar> Table<T> {
-    /// The mode has changed: shape and constants must be set before the next series.
-    pub(super) fn outdate(&mut self) {
-        self.current = false;
-    }
-
-    fn prepare(&mut self, d: &Description, constants: &[T], program: usize, order: usize) {
-        if self.current && self.order == order {
-            return;
-        }
-        self.current = true;
-        self.order = order;
-        let parts = layout(d);
-        self.coefficients.shape(parts.program + program, order);
-        let stride = self.coefficients.stride();
-        self.inputs.clear();
-        self.inputs
-            .extend((parts.inputs..parts.constants).map(|slot| Slot::new(slot, stride)));
-        self.nodes.clear();
-        self.nodes
-            .resize(d.motion.outputs + program, Slot::new(0, stride));
-        self.report_nodes.clear();
-        self.report_nodes
-            .resize(d.report.outputs, Slot::new(0, stride));
-        for (i, &c) in constants[..d.constants].iter().enumerate() {
-            self.coefficients
-                .put(Slot::new(parts.constants + i, stride), 0, c);
-        }
-        // dt/dτ = 1
-        if order > 0 {
-            self.coefficients.put(self.inputs[0], 1, T::one());
-        }
-    }
-
-    fn series(&self, d: &Description, place: Place, nodes: &[Slot]) -> &[T] {
-        let slot = match place {
-            Place::Zero => self.coefficients.slot(0),
-            Place::Constant(i) => self.coefficients.slot(layout(d).constants + i),
-            Place::Node(i) => nodes[i],
-        };
-        self.coefficients.series(slot)
-    }
-}
+use crate::arithmetic::{Coefficients, Recording, Scalar, Variation};
+use crate::system::{Held, Place, System};
+use num_traits::{One, Zero};
 
 impl<S: System> Dynamics<S> {
     /// Taylor coefficients 0…`order` in the time τ since `t` of positions, velocities, accelerations, forces and all outputs
     /// that are held. The arrays that the `…_series` functions return have `order + 1` elements.
+    ///
+    /// # Errors
+    /// Those of [`Self::value`], and [`EvaluationError::NoSeries`].
     pub fn series(
         &mut self,
         t: S::Scalar,
@@ -102,211 +29,200 @@ impl<S: System> Dynamics<S> {
         order: usize,
     ) -> Result<(), EvaluationError> {
         self.work.series += 1;
-        let n = self.plan.coordinates;
-        self.table.prepare(
-            S::DESCRIPTION,
-            &self.constants,
-            self.plan.program.len(),
-            order,
-        );
-        let Table {
-            coefficients,
-            inputs,
-            ..
-        } = &mut self.table;
-        coefficients.put(inputs[0], 0, t);
-        for (&slot, &x) in inputs[1..1 + 2 * n].iter().zip(q.iter().chain(v)) {
-            coefficients.put(slot, 0, x);
-        }
+        self.work.coefficients += order + 1;
+        self.record(v, order);
+        self.begin(t, q, v);
         for k in 0..=order {
-            self.work.coefficients += 1;
-            self.append_motion(k)?;
+            let Table {
+                coefficients,
+                motion,
+                ..
+            } = &mut self.table;
+            append(motion, coefficients, k)?;
             if k == 0 {
                 self.factor_start()?;
             }
-            self.append_solution(k)?;
-            if self.reports {
-                self.append_report(k)?;
+            self.gather(k);
+            self.solve()?;
+            if k == 0 {
+                self.check_rows_aside()?;
             }
+            self.scatter(k);
+            let Table {
+                coefficients,
+                report,
+                ..
+            } = &mut self.table;
+            append(report, coefficients, k)?;
             if k < order {
-                let Table {
-                    coefficients,
-                    inputs,
-                    ..
-                } = &mut self.table;
-                let next = S::Scalar::from_f64((k + 1) as f64);
-                for i in 1..1 + 2 * n {
-                    let rate = coefficients.get(inputs[i + n], k);
-                    coefficients.put(inputs[i], k + 1, rate / next);
-                }
+                self.integrate(k);
             }
         }
         Ok(())
     }
 
-    fn append_motion(&mut self, k: usize) -> Result<(), EvaluationError> {
-        let d = S::DESCRIPTION;
-        let parts = layout(d);
-        let held = Held {
-            needs: &self.held,
-            branches: &self.mode.branches,
+    /// Records the tapes of the mode unless that has been done.
+    fn record(&mut self, v: &[S::Scalar], order: usize) {
+        let branches = &self.mode.branches[..];
+        let tapes = Tapes {
+            scene: &self.scene,
+            constants: &self.constants,
+            plan: &self.plan,
+            motion: Held {
+                needs: &self.held,
+                branches,
+            },
+            report: self.reports.then_some(Held {
+                needs: &self.report_held,
+                branches,
+            }),
         };
-        let Table {
-            coefficients,
-            inputs,
-            nodes,
-            ..
-        } = &mut self.table;
-        let inputs = &inputs[..1 + 2 * d.coordinates.len()];
-        let mut a = coefficients.jet(k, parts.motion);
-        self.scene.motion(
-            &mut a,
-            &held,
-            &self.constants,
-            inputs,
-            &mut nodes[..d.motion.outputs],
-        );
-        a.origin(parts.program);
-        self.plan.program.run(&mut a, &self.constants, nodes);
-        a.singular().map_or(Ok(()), |s| {
-            Err(EvaluationError::NoSeries {
-                operation: s.operation,
-            })
-        })
+        let at_rest = v
+            .iter()
+            .enumerate()
+            .all(|(j, v)| v.is_zero() || !self.plan.is_pinned(j));
+        self.table.prepare(&tapes, order, at_rest);
     }
 
-    fn append_report(&mut self, k: usize) -> Result<(), EvaluationError> {
-        let held = Held {
-            needs: &self.report_held,
-            branches: &self.mode.branches,
-        };
-        let Table {
-            coefficients,
-            inputs,
-            report_nodes,
-            ..
-        } = &mut self.table;
-        let mut a = coefficients.jet(k, layout(S::DESCRIPTION).report);
-        self.scene
-            .report(&mut a, &held, &self.constants, inputs, report_nodes);
-        a.singular().map_or(Ok(()), |s| {
-            Err(EvaluationError::NoSeries {
-                operation: s.operation,
-            })
-        })
+    /// Coefficients 0 of the state, and of time all.
+    fn begin(&mut self, t: S::Scalar, q: &[S::Scalar], v: &[S::Scalar]) {
+        let time = self.table.input(0);
+        self.table.coefficients.put(time, 0, t);
+        if self.table.order() > 0 {
+            // dt/dτ = 1
+            self.table.coefficients.put(time, 1, S::Scalar::one());
+        }
+        for (i, &x) in q.iter().chain(v).enumerate() {
+            let slot = self.table.input(1 + i);
+            self.table.coefficients.put(slot, 0, x);
+        }
     }
 
     fn factor_start(&mut self) -> Result<(), EvaluationError> {
-        let size = self.plan.size();
-        let Table {
-            coefficients,
-            nodes,
-            ..
-        } = &self.table;
-        let matrix = self
-            .solver
-            .begin(self.plan.coordinates, size, &self.plan.constant);
-        for entry in &self.plan.entries {
-            matrix[entry.row * size + entry.column] += coefficients.get(nodes[entry.node], 0);
-        }
-        self.solver.factor().map_err(|e| self.solve_error(e))
+        let table = core::mem::take(&mut self.table);
+        let outcome = self.factor(|node| table.coefficients.get(table.nodes[node].slot, 0));
+        self.table = table;
+        outcome
     }
 
-    /// Coefficient k of accelerations and forces.
-    fn append_solution(&mut self, k: usize) -> Result<(), EvaluationError> {
-        let n = self.plan.coordinates;
-        let forces = 1 + 3 * n;
+    /// Right-hand sides: bₖ − Σ_{j=1..k} Kⱼ xₖ₋ⱼ.
+    fn gather(&mut self, k: usize) {
+        let Self {
+            plan, right, table, ..
+        } = self;
         let Table {
             coefficients,
-            inputs,
-            nodes,
+            loads,
+            with_accelerations,
+            with_forces,
             ..
-        } = &mut self.table;
-        self.right.clear();
-        self.right.resize(self.plan.size(), S::Scalar::default());
-        for &(row, sign, place) in &self.plan.loads {
-            match place {
-                Place::Node(node) => self.right[row] += sign * coefficients.get(nodes[node], k),
-                Place::Constant(c) if k == 0 => self.right[row] += sign * self.constants[c],
-                _ => {}
-            }
-        }
-        if k > 0 {
-            for entry in &self.plan.entries {
-                if entry.column < n {
-                    let x = inputs[1 + 2 * n + entry.column];
-                    self.right[entry.row] -= coefficients.tail_product(nodes[entry.node], x, k);
-                } else {
-                    // The unknown is −λ, the table holds λ.
-                    let x = inputs[forces + self.plan.acting[entry.column - n]];
-                    self.right[entry.row] += coefficients.tail_product(nodes[entry.node], x, k);
-                }
-            }
-        }
-        self.solution.clear();
-        self.solution.extend_from_slice(&self.right);
-        self.solver.solve(&mut self.solution);
-        if let Some(unknown) = self.solution.iter().position(|x| !x.value().is_finite()) {
-            return Err(self.not_finite(unknown));
-        }
+        } = table;
         if k == 0 {
-            self.solver
-                .check_rows_aside(&self.solution, &self.right)
-                .map_err(|e| self.solve_error(e))?;
+            right.copy_from_slice(&plan.constant_load);
+        } else {
+            right.fill(S::Scalar::default());
+            for product in with_accelerations.iter() {
+                right[product.row] -=
+                    coefficients.tail_product(product.element, product.unknown, k);
+            }
+            for product in with_forces.iter() {
+                right[product.row] +=
+                    coefficients.tail_product(product.element, product.unknown, k);
+            }
         }
-        let Table {
-            coefficients,
-            inputs,
-            nodes,
+        for &(row, factor, node) in loads.iter() {
+            right[row] += factor * coefficients.get(node, k);
+        }
+    }
+
+    /// Coefficient k of all accelerations and forces from the solution.
+    fn scatter(&mut self, k: usize) {
+        let Self {
+            plan,
+            right,
+            solution,
+            constants,
+            table,
             ..
-        } = &mut self.table;
-        for (&slot, &x) in inputs[1 + 2 * n..forces].iter().zip(&self.solution) {
-            coefficients.put(slot, k, x);
+        } = self;
+        let n = S::DESCRIPTION.coordinates.len();
+        for j in 0..n {
+            let slot = table.input(1 + 2 * n + j);
+            table
+                .coefficients
+                .put(slot, k, plan.elimination.acceleration(j, solution));
         }
-        for (&row, &x) in self.plan.acting.iter().zip(&self.solution[n..]) {
-            coefficients.put(inputs[forces + row], k, -x);
+        for (&slot, &x) in table.kept.iter().zip(&solution[plan.free()..]) {
+            table.coefficients.put(slot, k, -x);
         }
-        for slide in &self.plan.slides {
-            let normal = slide.source.map(|source| inputs[forces + source]);
-            let force = match (slide.factor, normal) {
-                (Place::Zero, _) => S::Scalar::default(),
-                (Place::Constant(c), Some(normal)) => {
-                    self.constants[c] * coefficients.get(normal, k)
-                }
-                (Place::Constant(c), None) if k == 0 => self.constants[c],
-                (Place::Constant(_), None) => S::Scalar::default(),
-                (Place::Node(node), Some(normal)) => coefficients.product(nodes[node], normal, k),
-                (Place::Node(node), None) => coefficients.get(nodes[node], k),
+        let force = |row: usize| 1 + 3 * n + row;
+        let constant_parts = plan.constant_forces(solution).zip(&right[plan.size()..]);
+        for (&row, (part, &load)) in plan.eliminated.iter().zip(constant_parts) {
+            let slot = table.input(force(row));
+            table.coefficients.put(slot, k, part - load);
+        }
+        let coefficients = &mut table.coefficients;
+        for part in &table.force_parts {
+            let element = part.element.slot;
+            let product = match part.element.variation {
+                Variation::Varying => coefficients.product(element, part.unknown, k),
+                _ => coefficients.get(element, 0) * coefficients.get(part.unknown, k),
             };
-            coefficients.put(inputs[forces + slide.row], k, force);
+            let sum =
+                coefficients.get(part.force, k) + if part.subtract { -product } else { product };
+            coefficients.put(part.force, k, sum);
         }
-        Ok(())
+        for slide in &plan.slides {
+            let normal = slide.source.map(|source| table.input(force(source)));
+            let coefficients = &mut table.coefficients;
+            let value = match (slide.factor, normal) {
+                (Place::Zero, _) => S::Scalar::zero(),
+                (Place::Constant(c), Some(normal)) => constants[c] * coefficients.get(normal, k),
+                (Place::Constant(c), None) if k == 0 => constants[c],
+                (Place::Constant(_), None) => S::Scalar::zero(),
+                (Place::Node(node), Some(normal)) => {
+                    coefficients.product(table.nodes[node].slot, normal, k)
+                }
+                (Place::Node(node), None) => coefficients.get(table.nodes[node].slot, k),
+            };
+            let slot = table.input(force(slide.row));
+            table.coefficients.put(slot, k, value);
+        }
+    }
+
+    /// Coefficient k + 1 of positions and velocities.
+    fn integrate(&mut self, k: usize) {
+        let n = S::DESCRIPTION.coordinates.len();
+        let next = S::Scalar::from_f64((k + 1) as f64);
+        for i in 1..1 + 2 * n {
+            let (slot, rate) = (self.table.input(i), self.table.input(i + n));
+            let rate = self.table.coefficients.get(rate, k);
+            self.table.coefficients.put(slot, k + 1, rate / next);
+        }
     }
 
     /// Position coefficients of coordinate `i`.
     pub fn position_series(&self, i: usize) -> &[S::Scalar] {
-        self.table.coefficients.series(self.table.inputs[1 + i])
+        self.input_series(1 + i)
     }
 
     /// Velocity coefficients of coordinate `i`.
     pub fn velocity_series(&self, i: usize) -> &[S::Scalar] {
-        self.table
-            .coefficients
-            .series(self.table.inputs[1 + self.plan.coordinates + i])
+        self.input_series(1 + S::DESCRIPTION.coordinates.len() + i)
     }
 
     /// Acceleration coefficients of coordinate `i`.
     pub fn acceleration_series(&self, i: usize) -> &[S::Scalar] {
-        self.table
-            .coefficients
-            .series(self.table.inputs[1 + 2 * self.plan.coordinates + i])
+        self.input_series(1 + 2 * S::DESCRIPTION.coordinates.len() + i)
     }
 
     /// Force coefficients of a row; zeros where it does not act.
     pub fn force_series(&self, row: usize) -> &[S::Scalar] {
-        self.table
-            .coefficients
-            .series(self.table.inputs[1 + 3 * self.plan.coordinates + row])
+        self.input_series(1 + 3 * S::DESCRIPTION.coordinates.len() + row)
+    }
+
+    fn input_series(&self, index: usize) -> &[S::Scalar] {
+        self.table.coefficients.series(self.table.input(index))
     }
 
     /// Coefficients of a number of the motion tape. Its need must have been held.
@@ -318,5 +234,21 @@ impl<S: System> Dynamics<S> {
     pub fn report_series(&self, place: Place) -> &[S::Scalar] {
         self.table
             .series(S::DESCRIPTION, place, &self.table.report_nodes)
+    }
+}
+
+/// Appends coefficient `k` of everything in a recording.
+fn append<T: Scalar>(
+    recording: &Recording<T>,
+    coefficients: &mut Coefficients<T>,
+    k: usize,
+) -> Result<(), EvaluationError> {
+    let mut a = coefficients.jet(k, 0);
+    recording.run(&mut a);
+    match a.singular() {
+        None => Ok(()),
+        Some(singular) => Err(EvaluationError::NoSeries {
+            operation: singular.operation,
+        }),
     }
 }

@@ -10,6 +10,7 @@
 use core::ops::ControlFlow::{self, Break, Continue};
 
 use super::bernstein::{Coefficients, MAX_DEGREE, from_powers, split, variations};
+use super::glance::{Glance, glance};
 use super::refine::{Powers, extremum, noise_factor, root};
 use super::{Direction, Root, RootList};
 
@@ -19,7 +20,8 @@ const MIN_WIDTH: f64 = 1.0 / (1u64 << 44) as f64;
 /// All roots of Σ cₖ sᵏ in (0, 1], ascending, into `out`. Multiple roots are reported once.
 ///
 /// A value at s = 1 that is zero within rounding counts as a root at s = 1; the one at s = 0 belongs to the step before.
-/// A polynomial that is zero within rounding everywhere has no roots. Costs a few nanoseconds when |c₀| > Σ|cₖ|.
+/// A polynomial that is zero within rounding everywhere has no roots. Costs a few nanoseconds for most
+/// polynomials without roots.
 ///
 /// # Panics
 /// If the degree is above [`MAX_DEGREE`].
@@ -60,20 +62,21 @@ pub fn sign_after_start(c: &[f64]) -> Option<(usize, bool)> {
     Some((order, c[order] > 0.0))
 }
 
-/// Calls `visit` for each root in ascending order until it breaks.
+/// Calls `visit` for each root in ascending order until it breaks; roots up to `from` may be left out.
 fn visit_roots<F>(c: &[f64], from: f64, visit: &mut F) -> ControlFlow<()>
 where
     F: FnMut(Root) -> ControlFlow<()>,
 {
-    let Some((&constant, others)) = c.split_first() else {
-        return Continue(());
+    let size = match glance(c) {
+        Glance::NoRoots => return Continue(()),
+        Glance::Monotone { size } => {
+            return match monotone_root(c, size) {
+                Some(root) => visit(root),
+                None => Continue(()),
+            };
+        }
+        Glance::Unclear { size } => size,
     };
-    let others = sum_of_sizes(others);
-    let size = others + constant.abs();
-    let noise = noise_factor(c.len()) * size;
-    if constant.abs() > others + noise {
-        return Continue(());
-    }
     // Coefficients that cannot be seen in any value only cost time.
     let negligible = f64::EPSILON * f64::EPSILON * size;
     let length = c
@@ -94,25 +97,41 @@ where
     if from > 0.0 {
         b = split(&b[..length], from).1;
     }
-    let search = Search { powers, noise };
+    let search = Search {
+        powers,
+        noise: noise_factor(c.len()) * size,
+    };
     search.interval(&b, from, 1.0, visit)?;
-    match search.root_at_end(&b) {
+    let before = b[..length].iter().rfind(|b| b.abs() > search.noise);
+    match before.and_then(|before| search.root_at_end(*before > 0.0)) {
         Some(root) => visit(root),
         None => Continue(()),
     }
 }
 
-/// Σ|cₖ|, in four chains so that it does not wait for each addition.
-fn sum_of_sizes(c: &[f64]) -> f64 {
-    let chunks = c.chunks_exact(4);
-    let rest: f64 = chunks.remainder().iter().map(|c| c.abs()).sum();
-    let sums = chunks.fold([0.0; 4], |mut sums, four| {
-        for (sum, c) in sums.iter_mut().zip(four) {
-            *sum += c.abs();
-        }
-        sums
-    });
-    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
+/// The root of a polynomial that only rises or only falls over [0, 1]; `size` = Σ|cₖ|.
+#[inline(never)]
+fn monotone_root(c: &[f64], size: f64) -> Option<Root> {
+    let search = Search {
+        powers: Powers(c),
+        noise: noise_factor(c.len()) * size,
+    };
+    let (start, end) = (c[0], search.powers.newton(1.0).0);
+    if start.abs() <= search.noise {
+        return None;
+    }
+    if end.abs() <= search.noise {
+        return search.root_at_end(start > 0.0);
+    }
+    if (start > 0.0) == (end > 0.0) {
+        return None;
+    }
+    // The parabola through both ends, with the slope at the start.
+    let (below, above) = (start.abs(), end.abs());
+    let slope = c[1].abs();
+    let bend = above + below - slope;
+    let guess = 2.0 * below / (slope + (slope * slope + 4.0 * below * bend).max(0.0).sqrt());
+    Some(search.crossing(0.0, 1.0, start > 0.0, guess.min(1.0)))
 }
 
 /// What stays the same while one polynomial is subdivided.
@@ -163,13 +182,12 @@ impl Search<'_> {
 
     /// The one root of an interval in which the sign changes, `positive` at its start.
     fn crossing(&self, lo: f64, hi: f64, positive: bool, guess: f64) -> Root {
-        let s = root(self.powers, lo..hi, !positive, guess);
-        let slope = self.powers.taylor(s)[1].abs();
+        let (s, slope) = root(self.powers, lo..hi, !positive, guess);
         Root {
             s,
             direction: direction(positive),
             grazing: false,
-            width: (2.0 * self.powers.noise(s) / slope)
+            width: (2.0 * self.powers.noise(s) / slope.abs())
                 .min(hi - lo)
                 .max(2.0 * f64::EPSILON * s),
         }
@@ -180,7 +198,7 @@ impl Search<'_> {
     where
         F: FnMut(Root) -> ControlFlow<()>,
     {
-        let s = extremum(self.powers, lo..hi, positive, 0.5 * (lo + hi));
+        let (s, _) = extremum(self.powers, lo..hi, positive, 0.5 * (lo + hi));
         let [value, _, curvature] = self.powers.taylor(s);
         let noise = self.powers.noise(s);
         if value.abs() <= noise {
@@ -224,19 +242,17 @@ impl Search<'_> {
         }
     }
 
-    /// A root at s = 1 that rounding cannot tell from it.
-    fn root_at_end(&self, b: &Coefficients) -> Option<Root> {
-        let b = &b[..self.powers.0.len()];
-        if b[b.len() - 1].abs() > self.noise {
+    /// A root at s = 1 that rounding cannot tell from it, `positive` before.
+    fn root_at_end(&self, positive: bool) -> Option<Root> {
+        let (value, slope) = self.powers.newton(1.0);
+        if value.abs() > self.noise {
             return None;
         }
-        let before = b.iter().rfind(|b| b.abs() > self.noise)?;
-        let slope = self.powers.taylor(1.0)[1].abs();
-        let width = 2.0 * self.noise / slope;
+        let width = 2.0 * self.noise / slope.abs();
         Some(Root {
             s: 1.0,
-            direction: direction(*before > 0.0),
-            grazing: slope <= b.len() as f64 * self.noise,
+            direction: direction(positive),
+            grazing: slope.abs() <= self.powers.0.len() as f64 * self.noise,
             width: width.clamp(2.0 * f64::EPSILON, 1.0),
         })
     }

@@ -9,6 +9,7 @@
 //! guard that starts negative as an event at s = 0.
 
 mod bernstein;
+mod glance;
 mod isolate;
 mod order;
 mod refine;

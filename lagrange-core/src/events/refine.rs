@@ -19,7 +19,7 @@ impl Powers<'_> {
     }
 
     /// p and p′ at s.
-    fn newton(self, s: f64) -> (f64, f64) {
+    pub fn newton(self, s: f64) -> (f64, f64) {
         let [mut p, mut dp] = [0.0; 2];
         for &c in self.0.iter().rev() {
             dp = dp * s + p;
@@ -40,13 +40,14 @@ pub(super) fn noise_factor(terms: usize) -> f64 {
     (terms + 2) as f64 * f64::EPSILON
 }
 
-/// The zero of p in `bracket`, on whose upper side p is positive if `rising`; `guess` lies in the bracket.
-pub(super) fn root(p: Powers, bracket: Range<f64>, rising: bool, guess: f64) -> f64 {
+/// The zero of p in `bracket`, on whose upper side p is positive if `rising`, and the slope there; `guess` lies in the
+/// bracket.
+pub(super) fn root(p: Powers, bracket: Range<f64>, rising: bool, guess: f64) -> (f64, f64) {
     bracketed_newton(|s| p.newton(s), bracket, rising, guess)
 }
 
-/// The zero of p′ in `bracket`; a minimum of p if `rising`.
-pub(super) fn extremum(p: Powers, bracket: Range<f64>, rising: bool, guess: f64) -> f64 {
+/// The zero of p′ in `bracket`, a minimum of p if `rising`, and p″ there.
+pub(super) fn extremum(p: Powers, bracket: Range<f64>, rising: bool, guess: f64) -> (f64, f64) {
     let derivatives = |s| {
         let [_, dp, ddp] = p.taylor(s);
         (dp, ddp)
@@ -60,7 +61,7 @@ fn bracketed_newton(
     bracket: Range<f64>,
     rising: bool,
     guess: f64,
-) -> f64 {
+) -> (f64, f64) {
     // 60 bisections exhaust the 53 bits of a number in [0, 1]; each is preceded by at most one Newton step.
     const MAX_ITERATIONS: usize = 120;
     let Range {
@@ -69,8 +70,12 @@ fn bracketed_newton(
     } = bracket;
     let mut s = guess;
     let mut previous = hi - lo;
+    // Number of Newton steps in a row.
+    let mut newtons = 0;
+    let mut slope = 0.0;
     for _ in 0..MAX_ITERATIONS {
-        let (value, slope) = f(s);
+        let value;
+        (value, slope) = f(s);
         if value == 0.0 {
             break;
         }
@@ -82,16 +87,17 @@ fn bracketed_newton(
         let newton = s - value / slope;
         let step = (newton - s).abs();
         // Also false where the slope is zero and `newton` is not a number.
-        let next = if newton > lo && newton < hi && step <= 0.5 * previous {
-            newton
-        } else {
-            0.5 * (lo + hi)
-        };
-        previous = (next - s).abs();
-        s = next;
-        if previous <= f64::EPSILON * s || hi - lo <= f64::EPSILON * hi {
+        let inside = newton > lo && newton < hi && step <= 0.5 * previous;
+        s = if inside { newton } else { 0.5 * (lo + hi) };
+        newtons = if inside { newtons + 1 } else { 0 };
+        // Newton's steps shrink quadratically: once the next one is below rounding it need not be computed.
+        let ratio = step / previous;
+        if newtons > 1 && step * ratio * ratio <= 0.1 * f64::EPSILON * s
+            || hi - lo <= f64::EPSILON * hi
+        {
             break;
         }
+        previous = if inside { step } else { hi - lo };
     }
-    s
+    (s, slope)
 }

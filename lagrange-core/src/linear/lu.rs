@@ -3,6 +3,7 @@
 //! Reference: Golub & Van Loan 2013, Matrix Computations, section 3.4.9. The caller equilibrates; pivots are then
 //! comparable with 1 and a pivot below [`NEGLIGIBLE`] means dependence.
 
+use super::direct::dot;
 use crate::arithmetic::Scalar;
 
 /// Pivots of an equilibrated matrix below this are dependence and not magnitude: rounding leaves some N ε ≈ 1e-15, and a
@@ -138,9 +139,4 @@ impl<T: Scalar> Lu<T> {
         }
         left_out
     }
-}
-
-#[inline]
-fn dot<T: Scalar>(x: &[T], y: &[T]) -> T {
-    x.iter().zip(y).fold(T::zero(), |sum, (&x, &y)| sum + x * y)
 }

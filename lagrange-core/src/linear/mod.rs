@@ -10,12 +10,18 @@
 //! where column i of C is the generalized force of λᵢ: aᵢᵀ, what couplings add, and sliding friction −μk ν Σ d aₜᵀ.
 //! C = Aᵀ where nothing slides.
 
+mod collect;
 mod consistent;
+mod direct;
+mod eliminate;
 mod lu;
 mod plan;
 mod program;
 mod solver;
+#[cfg(test)]
+mod tests;
 
+pub(crate) use collect::acts;
 pub(crate) use consistent::solve_consistent;
-pub(crate) use plan::{Plan, acts};
-pub(crate) use solver::{SolveError, Solver};
+pub(crate) use plan::{Entry, Plan};
+pub(crate) use solver::{Inertia, SolveError, Solver};

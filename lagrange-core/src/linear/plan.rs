@@ -1,18 +1,29 @@
-//! What to compute and where to put it: the linear system of one mode as a list, made when the mode is set.
+//! What to compute and where to put it: the linear system of one mode as lists, made when the mode is set.
 //!
-//! Structural zeros never appear, what depends on parameters only is summed once.
+//! Structural zeros never appear, what depends on parameters only is summed once, constant rows are eliminated. What is
+//! left are K w = b for w = (u̇, −λ of the rows kept) and, for the rows eliminated, λ = (further rows of K) w − (of b).
 
+use super::collect::{Collected, Source};
+use super::eliminate::Elimination;
 use super::program::Program;
 use crate::arithmetic::Scalar;
-use crate::effects::{Effects, Item};
-use crate::mode::{Direction, FrictionMode, Mode};
-use crate::system::{Description, Normal, Place};
+use crate::effects::Effects;
+use crate::mode::Mode;
+use crate::system::{Description, Place};
 
 /// A matrix element that changes with the state: K[row, column] += nodes[node].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Entry {
     pub row: usize,
     pub column: usize,
+    pub node: usize,
+}
+
+/// A part of a right-hand side that changes with the state: b[row] += factor · nodes[node].
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Load<T> {
+    pub row: usize,
+    pub factor: T,
     pub node: usize,
 }
 
@@ -24,61 +35,75 @@ pub(crate) struct Slide {
     pub source: Option<usize>,
 }
 
+/// One contribution to an element before like ones are summed.
+#[derive(Clone, Copy, Debug)]
+struct Term<T> {
+    row: usize,
+    /// Column of K, or the number of columns for the right-hand side.
+    column: usize,
+    factor: T,
+    place: Place,
+}
+
 /// The linear system of a mode.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Plan<T> {
-    /// Number of coordinates.
-    pub coordinates: usize,
-    /// Description rows that act, ascending: equation and unknown `coordinates + i` belong to `acting[i]`.
+    /// Description rows that act, ascending.
     pub acting: Vec<usize>,
+    /// Of these, rows of the system: unknown `free + i` is −λ of `kept[i]`.
+    pub kept: Vec<usize>,
+    /// Of these, rows that were eliminated; force `i` is row `size + i` of the lists.
+    pub eliminated: Vec<usize>,
     /// Frictions that slide.
     pub slides: Vec<Slide>,
     /// Work after the motion tape.
-    pub program: Program,
-    /// Elements that change.
+    pub program: Program<T>,
+    /// Elements that change, in the square system: accelerations first, forces after `first_force`.
     pub entries: Vec<Entry>,
-    /// The rest of the matrix, row-major.
+    /// The first of `entries` whose column is a force.
+    pub first_force: usize,
+    /// The same for the rows of eliminated forces.
+    pub force_entries: Vec<Entry>,
+    /// The rest of the matrix, row-major, `size` wide; eliminated forces at the end.
     pub constant: Vec<T>,
-    /// (equation, factor ±1, place): right-hand sides.
-    pub loads: Vec<(usize, T, Place)>,
-}
-
-/// Which rows of a description act in a mode as equations.
-pub(crate) fn acts(description: &Description, effects: &Effects, mode: &Mode, row: usize) -> bool {
-    let constraint_acts = |i: usize| {
-        effects.includes(description, Item::Constraint(i))
-            && description.constraints[i]
-                .while_contact
-                .is_none_or(|contact| mode.contacts[contact])
-    };
-    let contact_acts =
-        |i: usize| effects.includes(description, Item::Contact(i)) && mode.contacts[i];
-    let (constraints, contacts) = (description.constraints, description.contacts);
-    if let Some(i) = constraints.iter().position(|c| c.row == row) {
-        return constraint_acts(i);
-    }
-    if let Some(i) = contacts.iter().position(|c| c.row == row) {
-        return contact_acts(i);
-    }
-    let owner = description
-        .frictions
-        .iter()
-        .position(|f| (f.row..f.row + f.components).contains(&row));
-    owner.is_some_and(|i| {
-        mode.frictions[i] == FrictionMode::Stick
-            && effects.includes(description, Item::Friction(i))
-            && match description.frictions[i].normal {
-                Normal::Contact(contact) => contact_acts(contact),
-                Normal::Constraint(constraint) => constraint_acts(constraint),
-                Normal::Given(_) => true,
-            }
-    })
+    /// Right-hand sides that change.
+    pub loads: Vec<Load<T>>,
+    /// The rest of the right-hand sides; eliminated forces at the end.
+    pub constant_load: Vec<T>,
+    /// Terms of kept rows that elimination may cancel, by row: (row, first, end) of `cancelling`.
+    pub reduced: Vec<(usize, usize, usize)>,
+    cancelling: Vec<(T, Place)>,
+    /// How accelerations follow from those that are left.
+    pub elimination: Elimination<T>,
+    collected: Collected,
+    terms: Vec<Term<T>>,
+    dependent: Vec<bool>,
+    constant_rows: Vec<usize>,
+    a: Vec<T>,
+    c: Vec<T>,
 }
 
 impl<T: Scalar> Plan<T> {
+    /// Number of accelerations in the system.
+    pub(crate) fn free(&self) -> usize {
+        self.elimination.free.len()
+    }
+
     /// Number of equations.
     pub(crate) fn size(&self) -> usize {
-        self.coordinates + self.acting.len()
+        self.free() + self.kept.len()
+    }
+
+    /// Whether coordinate `j` cannot accelerate in this mode.
+    pub(crate) fn is_pinned(&self, j: usize) -> bool {
+        self.elimination.right.row(j).is_empty()
+    }
+
+    /// Whether a row has a force in this mode, as an equation or by sliding.
+    pub(crate) fn has_force(&self, row: usize) -> bool {
+        self.kept.contains(&row)
+            || self.eliminated.contains(&row)
+            || self.slides.iter().any(|slide| slide.row == row)
     }
 
     /// Makes the plan of a mode. `constants` begins with the system's own and is extended.
@@ -89,180 +114,292 @@ impl<T: Scalar> Plan<T> {
         mode: &Mode,
         constants: &mut Vec<T>,
     ) {
-        let n = description.coordinates.len();
-        self.coordinates = n;
-        self.acting.clear();
-        self.acting.extend(
-            (0..description.rows.len()).filter(|&row| acts(description, effects, mode, row)),
-        );
-        let size = self.size();
-        self.entries.clear();
-        self.loads.clear();
-        self.slides.clear();
-        self.constant.clear();
-        self.constant.resize(size * size, T::zero());
         self.program.restart(description.motion.outputs);
-
-        for &(i, j, place) in description.mass {
-            self.element(constants, i, j, place);
-            if i != j {
-                self.element(constants, j, i, place);
-            }
-        }
-        for (i, &place) in description.forcing.iter().enumerate() {
-            self.load(i, T::one(), place);
-        }
-        for index in 0..self.acting.len() {
-            let (row, unknown) = (&description.rows[self.acting[index]], n + index);
-            for &(j, place) in row.jacobian {
-                self.element(constants, unknown, j, place);
-                self.element(constants, j, unknown, place);
-            }
-            self.load(unknown, -T::one(), row.bias);
-        }
-        self.slide(description, effects, mode, constants);
-        self.couple(description, effects, constants);
+        self.collected.set(
+            description,
+            effects,
+            mode,
+            constants,
+            &mut self.program,
+            &mut self.slides,
+        );
+        self.acting.clone_from(&self.collected.acting);
+        self.eliminate(description, constants);
+        self.collect_terms(description);
+        self.merge_terms(constants);
     }
 
-    /// Sliding frictions: they act through the column of their normal force, or as a load.
-    fn slide(
-        &mut self,
-        description: &Description,
-        effects: &Effects,
-        mode: &Mode,
-        constants: &mut Vec<T>,
-    ) {
-        for (i, friction) in description.frictions.iter().enumerate() {
-            let FrictionMode::Slip(sliding) = mode.frictions[i] else {
-                continue;
-            };
-            if !effects.includes(description, Item::Friction(i)) {
-                continue;
+    /// Chooses the rows to eliminate: constant, without bias, with constant columns, independent.
+    fn eliminate(&mut self, description: &Description, constants: &[T]) {
+        let n = description.coordinates.len();
+        let Self {
+            collected,
+            constant_rows,
+            a,
+            c,
+            dependent,
+            elimination,
+            kept,
+            eliminated,
+            acting,
+            ..
+        } = self;
+        constant_rows.clear();
+        constant_rows.extend(
+            (0..acting.len()).filter(|&index| collected.is_constant(description, index, constants)),
+        );
+        fill(a, n, constant_rows, |index, put| {
+            for &(j, place) in description.rows[acting[index]].jacobian {
+                put(j, number(place, constants));
             }
-            let program = &mut self.program;
-            let mut strength = friction.kinetic_coefficient;
-            let source = match friction.normal {
-                Normal::Contact(contact) => {
-                    if let Some(factor) = description.contacts[contact].normal_factor {
-                        strength = program.mul(constants, strength, factor);
+        });
+        elimination.dependent(a, n, dependent);
+        let mut position = 0;
+        // A dependent row follows from the others and has no force of its own.
+        kept.clear();
+        eliminated.clear();
+        let mut aside = dependent.iter();
+        for index in 0..acting.len() {
+            if constant_rows.get(position) == Some(&index) {
+                position += 1;
+                if aside.next() == Some(&false) {
+                    eliminated.push(index);
+                }
+            } else {
+                kept.push(index);
+            }
+        }
+        loop {
+            fill(a, n, eliminated, |index, put| {
+                for &(j, place) in description.rows[acting[index]].jacobian {
+                    put(j, number(place, constants));
+                }
+            });
+            fill(c, n, eliminated, |index, put| {
+                for element in collected.columns.iter().filter(|e| e.index == index) {
+                    put(element.coordinate, number(element.place, constants));
+                }
+            });
+            let symmetric = collected
+                .columns
+                .iter()
+                .all(|e| e.source == Source::Jacobian || kept.contains(&e.index));
+            if elimination.set(a, c, n, symmetric, kept.len()) {
+                break;
+            }
+            kept.append(eliminated);
+            kept.sort_unstable();
+        }
+    }
+
+    /// Every contribution, combined by the elimination.
+    fn collect_terms(&mut self, description: &Description) {
+        let Self {
+            collected,
+            elimination,
+            terms,
+            kept,
+            eliminated,
+            reduced,
+            cancelling,
+            acting,
+            ..
+        } = self;
+        let (free, rows) = (elimination.free.len(), kept.len());
+        let size = free + rows;
+        terms.clear();
+        reduced.clear();
+        cancelling.clear();
+        let minus = -T::one();
+        let symmetric = elimination.symmetric;
+        let mut mass = |i: usize, j: usize, place: Place| {
+            for &(row, left) in elimination.left.row(i) {
+                for &(column, right) in elimination.right.row(j) {
+                    // The upper triangle of a symmetric matrix is copied.
+                    if !(symmetric && row < column) {
+                        terms.push(Term {
+                            row,
+                            column,
+                            factor: left * right,
+                            place,
+                        });
                     }
-                    Some(description.contacts[contact].row)
                 }
-                Normal::Constraint(constraint) => {
-                    strength = program.scale(constants, T::from_f64(sliding.normal_sign), strength);
-                    Some(description.constraints[constraint].row)
-                }
-                Normal::Given(normal) => {
-                    strength = program.mul(constants, strength, normal);
-                    None
-                }
-            };
-            if source.is_some_and(|row| !self.acting.contains(&row)) {
-                continue;
             }
-            let slips = |component: usize| description.rows[friction.row + component].velocity;
-            if sliding.direction == Direction::AlongSlip {
-                let mut square = Place::Zero;
-                for component in 0..friction.components {
-                    let s = slips(component);
-                    let s2 = program.mul(constants, s, s);
-                    square = program.add(constants, square, s2);
-                }
-                let inverse = program.inverse_root(constants, square);
-                strength = program.mul(constants, strength, inverse);
+        };
+        for &(i, j, place) in description.mass {
+            mass(i, j, place);
+            if i != j {
+                mass(j, i, place);
             }
-            strength = program.scale(constants, -T::one(), strength);
-            for component in 0..friction.components {
-                let row = friction.row + component;
-                let factor = match sliding.direction {
-                    Direction::Fixed(d) => {
-                        program.scale(constants, T::from_f64(d[component]), strength)
-                    }
-                    Direction::AlongSlip => program.mul(constants, strength, slips(component)),
-                };
-                self.slides.push(Slide {
+        }
+        for element in &collected.columns {
+            if let Some(index) = kept.iter().position(|&k| k == element.index) {
+                for &(row, factor) in elimination.left.row(element.coordinate) {
+                    terms.push(Term {
+                        row,
+                        column: free + index,
+                        factor,
+                        place: element.place,
+                    });
+                }
+            }
+        }
+        for (index, &row) in kept.iter().enumerate() {
+            let row = &description.rows[acting[row]];
+            let first = cancelling.len();
+            let mut combined = false;
+            for &(j, place) in row.jacobian {
+                let parts = elimination.right.row(j);
+                combined |= !matches!(parts, [(_, one)] if *one == T::one());
+                for &(column, factor) in parts {
+                    terms.push(Term {
+                        row: free + index,
+                        column,
+                        factor,
+                        place,
+                    });
+                    cancelling.push((factor, place));
+                }
+            }
+            if combined {
+                reduced.push((free + index, first, cancelling.len()));
+            } else {
+                cancelling.truncate(first);
+            }
+            terms.push(Term {
+                row: free + index,
+                column: size,
+                factor: minus,
+                place: row.bias,
+            });
+        }
+        for &(j, place) in &collected.loads {
+            for &(row, factor) in elimination.left.row(j) {
+                terms.push(Term {
                     row,
+                    column: size,
                     factor,
-                    source,
+                    place,
                 });
             }
         }
-        for index in 0..self.slides.len() {
-            let Slide {
-                row,
-                factor,
-                source,
-            } = self.slides[index];
-            for &(j, place) in description.rows[row].jacobian {
-                self.push_force(constants, j, factor, place, source);
-            }
+        terms.retain(|term| term.place != Place::Zero);
+        for list in [kept, eliminated] {
+            list.iter_mut().for_each(|index| *index = acting[*index]);
         }
     }
 
-    /// Forces that a force item makes of a multiplier.
-    fn couple(&mut self, description: &Description, effects: &Effects, constants: &mut Vec<T>) {
-        for coupling in description.couplings {
-            let owner = description
-                .forces
-                .iter()
-                .position(|f| f.need == coupling.need);
-            if owner.is_some_and(|i| !effects.includes(description, Item::Force(i))) {
-                continue;
-            }
-            if let Some(index) = self.acting.iter().position(|&row| row == coupling.row) {
-                self.element(
-                    constants,
-                    coupling.coordinate,
-                    self.coordinates + index,
-                    coupling.factor,
-                );
-            } else if let Some(&Slide { factor, source, .. }) =
-                self.slides.iter().find(|s| s.row == coupling.row)
-            {
-                self.push_force(
-                    constants,
-                    coupling.coordinate,
-                    coupling.factor,
-                    factor,
-                    source,
-                );
-            }
-        }
-    }
-
-    /// The generalized force x y λ[source] (or x y) on coordinate `j`.
-    fn push_force(
-        &mut self,
-        constants: &mut Vec<T>,
-        j: usize,
-        x: Place,
-        y: Place,
-        source: Option<usize>,
-    ) {
-        let force = self.program.mul(constants, x, y);
-        match source {
-            Some(source) => {
-                if let Some(index) = self.acting.iter().position(|&row| row == source) {
-                    self.element(constants, j, self.coordinates + index, force);
+    /// Sums like contributions: constants now, the others by the program.
+    fn merge_terms(&mut self, constants: &[T]) {
+        let (free, size) = (self.free(), self.size());
+        let height = size + self.eliminated.len();
+        self.constant.clear();
+        self.constant.resize(height * size, T::zero());
+        self.constant_load.clear();
+        self.constant_load.resize(height, T::zero());
+        self.entries.clear();
+        self.force_entries.clear();
+        self.loads.clear();
+        let key = |term: &Term<T>| match term.place {
+            Place::Zero => (term.row, term.column, 0, 0),
+            Place::Constant(i) => (term.row, term.column, 1, i),
+            Place::Node(i) => (term.row, term.column, 2, i),
+        };
+        self.terms.sort_unstable_by_key(key);
+        let mut rest = &self.terms[..];
+        while let Some(&Term { row, column, .. }) = rest.first() {
+            let (element, after) =
+                rest.split_at(rest.partition_point(|t| (t.row, t.column) <= (row, column)));
+            rest = after;
+            let mut constant = T::zero();
+            self.program.begin_sum();
+            for like in element.chunk_by(|x, y| x.place == y.place) {
+                let factor = like.iter().fold(T::zero(), |sum, term| sum + term.factor);
+                match like[0].place {
+                    Place::Zero => {}
+                    Place::Constant(i) => constant += factor * constants[i],
+                    Place::Node(node) if column == size => {
+                        if !factor.is_zero() {
+                            self.loads.push(Load { row, factor, node });
+                        }
+                    }
+                    Place::Node(node) => self.program.add_term(factor, node),
                 }
             }
-            None => self.load(j, T::one(), force),
-        }
-    }
-
-    fn element(&mut self, constants: &[T], row: usize, column: usize, place: Place) {
-        match place {
-            Place::Zero => {}
-            Place::Constant(c) => {
-                self.constant[row * (self.coordinates + self.acting.len()) + column] += constants[c]
+            if column == size {
+                self.constant_load[row] += constant;
+                continue;
             }
-            Place::Node(node) => self.entries.push(Entry { row, column, node }),
+            let mirrored = self.elimination.symmetric && row > column && row < free;
+            self.constant[row * size + column] += constant;
+            if mirrored {
+                self.constant[column * size + row] += constant;
+            }
+            if let Some(node) = self.program.end_sum() {
+                let entries = if row < size {
+                    &mut self.entries
+                } else {
+                    &mut self.force_entries
+                };
+                entries.push(Entry { row, column, node });
+                if mirrored {
+                    entries.push(Entry {
+                        row: column,
+                        column: row,
+                        node,
+                    });
+                }
+            }
         }
+        self.entries
+            .sort_unstable_by_key(|e| (e.column >= free, e.row, e.column));
+        self.first_force = self.entries.partition_point(|e| e.column < free);
     }
 
-    fn load(&mut self, row: usize, sign: T, place: Place) {
-        if place != Place::Zero {
-            self.loads.push((row, sign, place));
-        }
+    /// What the constant elements give of each eliminated force, for a solution.
+    #[inline]
+    pub(crate) fn constant_forces<'a>(&'a self, solution: &'a [T]) -> impl Iterator<Item = T> + 'a {
+        let size = self.size();
+        (0..self.eliminated.len()).map(move |i| {
+            let row = &self.constant[(size + i) * size..(size + i + 1) * size];
+            row.iter()
+                .zip(solution)
+                .fold(T::zero(), |sum, (&k, &x)| sum + k * x)
+        })
+    }
+
+    /// The size of the terms of each kept row that elimination may cancel: (row, largest term).
+    pub(crate) fn cancelled<'a>(
+        &'a self,
+        read: impl Fn(Place) -> T + 'a,
+    ) -> impl Iterator<Item = (usize, f64)> + 'a {
+        self.reduced.iter().map(move |&(row, first, end)| {
+            let sizes = self.cancelling[first..end]
+                .iter()
+                .map(|&(factor, place)| (factor * read(place)).value().abs());
+            (row, sizes.fold(0.0, f64::max))
+        })
+    }
+}
+
+fn number<T: Scalar>(place: Place, constants: &[T]) -> T {
+    match place {
+        Place::Constant(i) => constants[i],
+        Place::Zero | Place::Node(_) => T::zero(),
+    }
+}
+
+/// Row-major matrix with one row per index, summed from what `each` puts.
+fn fill<T: Scalar>(
+    matrix: &mut Vec<T>,
+    n: usize,
+    indices: &[usize],
+    each: impl Fn(usize, &mut dyn FnMut(usize, T)),
+) {
+    matrix.clear();
+    matrix.resize(n * indices.len(), T::zero());
+    for (row, &index) in matrix.chunks_exact_mut(n.max(1)).zip(indices) {
+        each(index, &mut |j, value| row[j] += value);
     }
 }

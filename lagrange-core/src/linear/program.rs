@@ -3,8 +3,46 @@
 //! What depends on parameters only is folded into constants when the mode is set; the rest runs after the motion tape,
 //! in the same arithmetic.
 
-use crate::arithmetic::{Arithmetic, Scalar};
+use crate::arithmetic::{Arithmetic, Derivative, Dual, Recorded, Recorder, Scalar, Value};
 use crate::system::Place;
+
+/// Arithmetics that sum many terms at once.
+pub(crate) trait Sum: Arithmetic {
+    /// Σ factor · nodes[node]
+    fn sum(
+        &mut self,
+        to: usize,
+        terms: &[(Self::Scalar, usize)],
+        nodes: &[Self::Node],
+    ) -> Self::Node;
+}
+
+impl<T: Scalar> Sum for Value<T> {
+    #[inline(always)]
+    fn sum(&mut self, _: usize, terms: &[(T, usize)], nodes: &[T]) -> T {
+        terms
+            .iter()
+            .fold(T::zero(), |sum, &(factor, node)| sum + factor * nodes[node])
+    }
+}
+
+impl<T: Scalar, const N: usize> Sum for Derivative<T, N> {
+    fn sum(&mut self, _: usize, terms: &[(T, usize)], nodes: &[Dual<T, N>]) -> Dual<T, N> {
+        let scaled = terms
+            .iter()
+            .map(|&(factor, node)| Dual::constant(factor) * nodes[node]);
+        scaled.fold(Dual::default(), |sum, term| sum + term)
+    }
+}
+
+impl<T: Scalar> Sum for Recorder<'_, T> {
+    fn sum(&mut self, to: usize, terms: &[(T, usize)], nodes: &[Recorded]) -> Recorded {
+        self.push_sum(
+            to,
+            terms.iter().map(|&(factor, node)| (factor, nodes[node])),
+        )
+    }
+}
 
 /// An operation; nodes are indices into the tape's outputs followed by the results of this program.
 #[derive(Clone, Copy, Debug)]
@@ -15,19 +53,25 @@ enum Op {
     Mul { x: usize, y: usize },
     Sqrt { x: usize },
     Ratio { constant: usize, x: usize },
+    Sum { first: usize, end: usize },
 }
 
 /// Operations in order; the result of operation `i` is node `first + i`.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Program {
+pub(crate) struct Program<T> {
     ops: Vec<Op>,
+    /// (factor, node) of the sums.
+    terms: Vec<(T, usize)>,
+    /// Where the terms of the sum under construction begin.
+    open: usize,
     first: usize,
 }
 
-impl Program {
+impl<T: Scalar> Program<T> {
     /// Forgets all operations; results are numbered from `first` on.
     pub(crate) fn restart(&mut self, first: usize) {
         self.ops.clear();
+        self.terms.clear();
         self.first = first;
     }
 
@@ -42,7 +86,7 @@ impl Program {
     }
 
     /// A new constant.
-    pub(crate) fn constant<T: Scalar>(constants: &mut Vec<T>, value: T) -> Place {
+    pub(crate) fn constant(constants: &mut Vec<T>, value: T) -> Place {
         if value.is_zero() {
             return Place::Zero;
         }
@@ -51,7 +95,7 @@ impl Program {
     }
 
     /// x y
-    pub(crate) fn mul<T: Scalar>(&mut self, constants: &mut Vec<T>, x: Place, y: Place) -> Place {
+    pub(crate) fn mul(&mut self, constants: &mut Vec<T>, x: Place, y: Place) -> Place {
         match (x, y) {
             (Place::Zero, _) | (_, Place::Zero) => Place::Zero,
             (Place::Constant(x), Place::Constant(y)) => {
@@ -72,13 +116,13 @@ impl Program {
     }
 
     /// c x
-    pub(crate) fn scale<T: Scalar>(&mut self, constants: &mut Vec<T>, c: T, x: Place) -> Place {
+    pub(crate) fn scale(&mut self, constants: &mut Vec<T>, c: T, x: Place) -> Place {
         let c = Self::constant(constants, c);
         self.mul(constants, c, x)
     }
 
     /// x + y
-    pub(crate) fn add<T: Scalar>(&mut self, constants: &mut Vec<T>, x: Place, y: Place) -> Place {
+    pub(crate) fn add(&mut self, constants: &mut Vec<T>, x: Place, y: Place) -> Place {
         match (x, y) {
             (Place::Zero, z) | (z, Place::Zero) => z,
             (Place::Constant(x), Place::Constant(y)) => {
@@ -91,7 +135,7 @@ impl Program {
     }
 
     /// 1 / √x; of a zero, zero.
-    pub(crate) fn inverse_root<T: Scalar>(&mut self, constants: &mut Vec<T>, x: Place) -> Place {
+    pub(crate) fn inverse_root(&mut self, constants: &mut Vec<T>, x: Place) -> Place {
         match x {
             Place::Zero => Place::Zero,
             Place::Constant(x) => Self::constant(constants, T::one() / constants[x].sqrt()),
@@ -106,12 +150,40 @@ impl Program {
         }
     }
 
+    /// Begins Σ factor · node.
+    pub(crate) fn begin_sum(&mut self) {
+        self.open = self.terms.len();
+    }
+
+    /// Adds a term to it.
+    pub(crate) fn add_term(&mut self, factor: T, node: usize) {
+        if !factor.is_zero() {
+            self.terms.push((factor, node));
+        }
+    }
+
+    /// The node of the sum; none if it has no terms.
+    pub(crate) fn end_sum(&mut self) -> Option<usize> {
+        let (first, end) = (self.open, self.terms.len());
+        match self.terms[first..] {
+            [] => None,
+            [(one, node)] if one == T::one() => {
+                self.terms.truncate(first);
+                Some(node)
+            }
+            _ => {
+                self.ops.push(Op::Sum { first, end });
+                Some(self.first + self.ops.len() - 1)
+            }
+        }
+    }
+
     /// Runs it; `nodes` begins with the tape's outputs. Result `i` writes slot `i` of the arithmetic's origin.
     #[inline]
-    pub(crate) fn run<A: Arithmetic>(
+    pub(crate) fn run<A: Sum<Scalar = T>>(
         &self,
         a: &mut A,
-        constants: &[A::Scalar],
+        constants: &[T],
         nodes: &mut [A::Node],
     ) {
         for (to, op) in self.ops.iter().enumerate() {
@@ -122,6 +194,7 @@ impl Program {
                 Op::Mul { x, y } if x == y => a.square(to, nodes[x]),
                 Op::Mul { x, y } => a.mul(to, nodes[x], nodes[y]),
                 Op::Sqrt { x } => a.sqrt(to, nodes[x]),
+                Op::Sum { first, end } => a.sum(to, &self.terms[first..end], nodes),
                 Op::Ratio { constant, x } => a.ratio(to, constants[constant], nodes[x]),
             };
         }

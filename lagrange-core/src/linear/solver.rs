@@ -1,8 +1,10 @@
-//! Solves the constrained system: equilibrated LU with complete pivoting, redundant rows set aside.
+//! Solves the constrained system: [`Direct`] where that is safe, else equilibrated
+//! LU with complete pivoting, dependent rows set aside.
 //!
 //! Scaling is symmetric, K → D K D, by powers of two (exact): 1/√Mⱼⱼ for coordinates, so that inertia is about 1, then
 //! each row of A to about 1. Pivots are then comparable with 1 whatever the units.
 
+use super::direct::Direct;
 use super::lu::Lu;
 use crate::arithmetic::Scalar;
 
@@ -21,6 +23,23 @@ pub(crate) enum SolveError {
     Inconsistent { row: usize, residual: f64 },
 }
 
+/// What is known of the upper left block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Inertia {
+    /// Symmetric, and positive definite unless the system is degenerate.
+    Symmetric,
+    /// Nothing.
+    General,
+}
+
+/// Which factors are current.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Factors {
+    #[default]
+    Direct,
+    Complete,
+}
+
 /// A factored system; the memory is reused.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Solver<T> {
@@ -28,6 +47,8 @@ pub(crate) struct Solver<T> {
     size: usize,
     matrix: Vec<T>,
     scale: Vec<f64>,
+    factors: Factors,
+    direct: Direct<T>,
     lu: Lu<T>,
     /// Rows set aside because they depend on the others.
     aside: Vec<bool>,
@@ -53,6 +74,7 @@ impl<T: Scalar> Solver<T> {
         self.scale.reserve(size);
         self.aside.reserve(rows);
         self.work.reserve(size);
+        self.direct.reserve(size);
         self.lu.reserve(size);
     }
 
@@ -66,19 +88,28 @@ impl<T: Scalar> Solver<T> {
     }
 
     /// Factors the matrix.
-    pub(crate) fn factor(&mut self) -> Result<(), SolveError> {
+    pub(crate) fn factor(&mut self, inertia: Inertia) -> Result<(), SolveError> {
         self.factorizations += 1;
-        self.equilibrate();
         self.aside.clear();
-        self.aside.resize(self.size - self.coordinates, false);
-        self.factor_kept();
-        if self.lu.rank() == self.size {
+        let leading = match inertia {
+            Inertia::Symmetric => self.coordinates,
+            Inertia::General => 0,
+        };
+        if self.direct.factor(leading, self.size, &self.matrix) {
+            self.factors = Factors::Direct;
             return Ok(());
         }
+        self.factors = Factors::Complete;
         if let Some(bad) = self.matrix.iter().position(|x| !x.value().is_finite()) {
             return Err(SolveError::NotFinite {
                 equation: bad / self.size,
             });
+        }
+        self.aside.resize(self.size - self.coordinates, false);
+        self.equilibrate();
+        self.factor_kept();
+        if self.lu.rank() == self.size {
+            return Ok(());
         }
         self.set_dependent_rows_aside();
         self.factor_kept();
@@ -155,7 +186,15 @@ impl<T: Scalar> Solver<T> {
     }
 
     /// Replaces the right-hand side by the solution; multipliers of rows set aside are zero.
+    #[inline]
     pub(crate) fn solve(&mut self, b: &mut [T]) {
+        match self.factors {
+            Factors::Direct => self.direct.solve(b),
+            Factors::Complete => self.solve_complete(b),
+        }
+    }
+
+    fn solve_complete(&mut self, b: &mut [T]) {
         for (i, (b, &scale)) in b.iter_mut().zip(&self.scale).enumerate() {
             let kept = i < self.coordinates || !self.aside[i - self.coordinates];
             *b = if kept {

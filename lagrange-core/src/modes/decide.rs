@@ -13,6 +13,7 @@ use crate::integrate::{Tolerance, taylor};
 use crate::mode::{FrictionMode, Mode, Sliding};
 use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
+use crate::modes::scale::scale;
 use crate::system::{Normal, System};
 
 /// What is known exactly at the instant.
@@ -285,7 +286,7 @@ fn examine<S: System>(
         if order_known == 0 {
             let series = guard::series(guard, mode, &Reading::Values(dynamics), 1.0);
             let value = series.as_slice().first().copied().unwrap_or(0.0);
-            let scale = scale(guard, mode, dynamics);
+            let scale = scale(guard, dynamics);
             if value < -1e-6 * scale && !known.located.contains(&guard) {
                 return Ok(None);
             }
@@ -304,13 +305,13 @@ fn examine<S: System>(
             .fold(0.0_f64, |m, c| m.max(c.abs()));
         // The residue of a located root, and what follows from it, has the size of the integration error.
         let blurred = concerns(guard, known);
-        let relative = if blurred {
-            (100.0 * tolerance).clamp(1e-11, 1e-3)
+        let (relative, absolute) = if blurred {
+            ((100.0 * tolerance).clamp(1e-11, 1e-3), tolerance.max(1e-14))
         } else {
-            1e-13
+            (1e-13, 1e-14)
         };
-        let rounding = 1e-14 * scale(guard, mode, dynamics) * unit_of_order(guard, h);
-        let noise = (relative * size).max(rounding);
+        let cancelling = scale(guard, dynamics) * unit_of_order(guard, h);
+        let noise = (relative * size).max(absolute * cancelling);
         match series.as_slice().iter().position(|c| c.abs() > noise) {
             // Identically zero: the boundary is not left.
             None => {
@@ -395,58 +396,4 @@ fn unit_of_order(guard: Guard, h: f64) -> f64 {
         Guard::Slip(_) => h,
         _ => 1.0,
     }
-}
-
-/// The size of what cancels in a guard: rounding leaves about 1e-16 of it.
-///
-/// With aᵢ the row and f the forcing, the acceleration along the row is Σ|aⱼ||fⱼ|/mⱼⱼ, the multiplier that over
-/// Σaⱼ²/mⱼⱼ: both independent of the units of the coordinates.
-fn scale<S: System>(guard: Guard, mode: &Mode, dynamics: &Dynamics<S>) -> f64 {
-    let d = S::DESCRIPTION;
-    let row = match guard {
-        Guard::Gap(c) | Guard::Normal(c) => d.contacts[c].row,
-        Guard::Slip(f)
-        | Guard::StickUpper(f)
-        | Guard::StickLower(f)
-        | Guard::StickCone(f)
-        | Guard::Bearing(f) => d.frictions[f].row,
-        Guard::Branch(_) | Guard::Stop(..) | Guard::Mark(..) => return 0.0,
-    };
-    let number = |place| dynamics.motion(place).value();
-    let mut acceleration = 0.0;
-    let mut compliance = 0.0;
-    for &(j, place) in d.rows[row].jacobian {
-        let a = number(place).abs();
-        let mass = d
-            .mass
-            .iter()
-            .find(|(r, c, _)| *r == j && *c == j)
-            .map_or(0.0, |(_, _, place)| number(*place));
-        if mass > 0.0 {
-            acceleration += a * number(d.forcing[j]).abs() / mass;
-            compliance += a * a / mass;
-        }
-    }
-    match guard {
-        Guard::Gap(_) | Guard::Slip(_) => acceleration,
-        _ if compliance > 0.0 => {
-            let forces = mode_forces(mode, dynamics);
-            (acceleration / compliance).max(forces)
-        }
-        _ => 0.0,
-    }
-}
-
-/// Largest multiplier among contacts and frictions that act.
-fn mode_forces<S: System>(mode: &Mode, dynamics: &Dynamics<S>) -> f64 {
-    let d = S::DESCRIPTION;
-    let contacts = d
-        .contacts
-        .iter()
-        .zip(&mode.contacts)
-        .filter(|(_, closed)| **closed)
-        .map(|(c, _)| c.row);
-    contacts
-        .map(|row| dynamics.force(row).value().abs())
-        .fold(0.0, f64::max)
 }

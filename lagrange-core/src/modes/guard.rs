@@ -188,8 +188,8 @@ pub fn series<S: System>(guard: Guard, mode: &Mode, reading: &Reading<'_, S>, h:
                 ..
             }) = mode.frictions[f]
             {
-                for k in 0..friction.components {
-                    out.add(along[k], reading.motion(d.rows[friction.row + k].velocity));
+                for (k, &part) in along.iter().enumerate().take(friction.components) {
+                    out.add(part, reading.motion(d.rows[friction.row + k].velocity));
                 }
             }
         }

@@ -7,4 +7,5 @@ pub(crate) mod decide;
 pub(crate) mod guard;
 pub(crate) mod impact;
 pub(crate) mod reading;
+pub(crate) mod scale;
 pub(crate) mod start;

@@ -126,10 +126,10 @@ fn survey<S: System>(
         if !dynamics.effects().includes(d, Item::Friction(f)) {
             continue;
         }
-        if let Normal::Contact(c) = friction.normal {
-            if !mode.contacts[c] {
-                continue;
-            }
+        if let Normal::Contact(c) = friction.normal
+            && !mode.contacts[c]
+        {
+            continue;
         }
         let slip = number(dynamics, d.rows[friction.row].velocity);
         if slip.abs() <= near * speed(dynamics, friction.row) {

@@ -63,7 +63,7 @@ impl Curves {
     }
 
     /// Takes the guards from the series that `dynamics` holds, over a step of length `h`.
-    pub(super) fn from_series<S: System>(
+    pub(super) fn take_series<S: System>(
         &mut self,
         dynamics: &Dynamics<S>,
         mode: &Mode,
@@ -86,7 +86,7 @@ impl Curves {
     ///
     /// # Errors
     /// The equations of motion could not be evaluated somewhere in the step.
-    pub(super) fn from_samples<S: System>(
+    pub(super) fn sample<S: System>(
         &mut self,
         dynamics: &mut Dynamics<S>,
         mode: &Mode,
@@ -105,6 +105,8 @@ impl Curves {
             let s = self.nodes[j];
             step.state_into(S::Scalar::from_f64(s), q, v);
             dynamics.value(step.t + step.h * S::Scalar::from_f64(s), q, v)?;
+            // Stops and marks read the tape after the solve.
+            dynamics.report_value();
             let reading = Reading::Values(dynamics);
             let column = |k: usize| self.matrix[k * m + j];
             let all = guards.iter().chain(&self.watches);
@@ -141,14 +143,12 @@ impl Curves {
             // Coefficients of the Lagrange polynomial of node j.
             let mut c = vec![0.0; m];
             c[0] = 1.0;
-            let mut degree = 0;
-            for i in (0..m).filter(|i| *i != j) {
+            for (degree, i) in (0..m).filter(|i| *i != j).enumerate() {
                 let scale = 1.0 / (self.nodes[j] - self.nodes[i]);
                 for k in (0..=degree).rev() {
                     c[k + 1] += c[k] * scale;
                     c[k] *= -self.nodes[i] * scale;
                 }
-                degree += 1;
             }
             for (k, c) in c.into_iter().enumerate() {
                 self.matrix[k * m + j] = c;

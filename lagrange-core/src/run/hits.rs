@@ -106,10 +106,10 @@ impl<S: System> Run<'_, S> {
                 |k| curves.stop_term(i, k),
                 |k| below[i][k],
             );
-            if let Some(s) = first {
-                if best.is_none_or(|(_, t)| s < t) {
-                    best = Some((i, s));
-                }
+            if let Some(s) = first
+                && best.is_none_or(|(_, t)| s < t)
+            {
+                best = Some((i, s));
             }
         }
         best

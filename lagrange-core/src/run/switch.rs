@@ -84,7 +84,11 @@ impl<S: System> Run<'_, S> {
     fn approaching(&self, c: usize) -> bool {
         let d = S::DESCRIPTION;
         self.dynamics.effects().includes(d, Item::Contact(c))
-            && self.dynamics.motion(d.rows[d.contacts[c].row].velocity).value() < 0.0
+            && self
+                .dynamics
+                .motion(d.rows[d.contacts[c].row].velocity)
+                .value()
+                < 0.0
     }
 
     /// Ends the infinitely many impacts of contacts that bounce ever less.
@@ -133,10 +137,10 @@ impl<S: System> Run<'_, S> {
             known.parting[c] = !outcome.stays[c];
         }
         for f in 0..d.frictions.len() {
-            if let Normal::Contact(c) = d.frictions[f].normal {
-                if near.contains(&c) {
-                    known.resting[f] = outcome.sticks[f];
-                }
+            if let Normal::Contact(c) = d.frictions[f].normal
+                && near.contains(&c)
+            {
+                known.resting[f] = outcome.sticks[f];
             }
         }
         // Velocities have jumped: what was located for the old ones says nothing about the new.

@@ -10,9 +10,27 @@ pub mod parse;
 pub mod plan;
 pub mod symbolic;
 
-use diagnostics::Diagnostics;
+use ast::Declaration;
+use diagnostics::{Code, Diagnostics};
 use plan::Program;
 use proc_macro2::TokenStream;
+
+/// What the derive macro expands to: the implementation, or the mistakes and an implementation without equations.
+pub fn expand(input: TokenStream) -> TokenStream {
+    let mut sink = Diagnostics::new();
+    let declaration = parse::declaration(input.clone(), &mut sink);
+    match declaration
+        .as_ref()
+        .and_then(|declaration| planned(declaration, &mut sink))
+    {
+        Some(program) if sink.is_empty() => emit::emit(&program),
+        _ => {
+            let mut tokens = sink.into_compile_errors();
+            tokens.extend(emit::fallback(input, declaration.as_ref()));
+            tokens
+        }
+    }
+}
 
 /// The program of a struct with its `#[lagrange(…)]` attributes.
 ///
@@ -20,28 +38,23 @@ use proc_macro2::TokenStream;
 /// All mistakes that the first stage with mistakes has found.
 pub fn program(input: TokenStream) -> Result<Program, Diagnostics> {
     let mut sink = Diagnostics::new();
-    let program = stages(input, &mut sink);
-    match program {
+    let declaration = parse::declaration(input, &mut sink);
+    match declaration.and_then(|declaration| planned(&declaration, &mut sink)) {
         Some(program) if sink.is_empty() => Ok(program),
         _ => Err(sink),
     }
 }
 
-fn stages(input: TokenStream, sink: &mut Diagnostics) -> Option<Program> {
-    let declaration = parse::declaration(input, sink)?;
-    let system = model::system(&declaration, sink)?;
-    let equations = derive::equations(system, sink)?;
-    Some(plan::plan(equations))
-}
-
-/// What the derive macro expands to: the implementation, or the mistakes and an implementation without equations.
-pub fn expand(input: TokenStream) -> TokenStream {
-    match program(input.clone()) {
-        Ok(program) => emit::emit(&program),
-        Err(mistakes) => {
-            let mut tokens = mistakes.into_compile_errors();
-            tokens.extend(emit::fallback(input));
-            tokens
+fn planned(declaration: &Declaration, sink: &mut Diagnostics) -> Option<Program> {
+    let system = model::system(declaration, sink);
+    let equations = system.and_then(|system| derive::equations(system, sink));
+    let program = equations.map(plan::plan);
+    match &program {
+        Some(program) if program.equations.system.pool.overflowed() => {
+            sink.report(Code::Overflow, &declaration.name, &[]);
         }
+        None if sink.is_empty() => sink.report(Code::Bug, &declaration.name, &[]),
+        _ => {}
     }
+    program
 }

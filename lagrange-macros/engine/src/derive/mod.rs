@@ -17,7 +17,7 @@ mod regular;
 mod rows;
 mod sheet;
 #[cfg(test)]
-pub(crate) mod tests;
+mod tests;
 
 use crate::diagnostics::Diagnostics;
 use crate::model::System;
@@ -205,7 +205,7 @@ pub struct Row<P> {
     pub needs: [NeedId; 4],
 }
 
-/// Q[coordinate] += factor · λ[row]
+/// `Q[coordinate] += factor · λ[row]`
 pub struct Coupling<P> {
     /// Coordinate.
     pub coordinate: usize,

@@ -1,17 +1,98 @@
 //! What stands beside the errors of a declaration: an `impl System` that type-checks, so that one mistake does not
 //! become an error at every use of the struct.
 
+use super::handles::{self, Indices};
 use super::names::plain;
+use crate::ast::{Declaration, Head, ItemKind, Name, Observe};
 use proc_macro2::TokenStream;
 use quote::quote;
+use std::collections::BTreeSet;
 use syn::DeriveInput;
 
-/// An implementation without equations for whatever struct the tokens are; nothing if they are none.
-pub fn fallback(input: TokenStream) -> TokenStream {
-    let Ok(input) = syn::parse2::<DeriveInput>(input) else {
-        return TokenStream::new();
+/// An implementation without equations for whatever struct the tokens are; nothing if they are none. With a
+/// declaration also the handles of its items.
+pub fn fallback(input: TokenStream, declaration: Option<&Declaration>) -> TokenStream {
+    let core = declaration.and_then(|declaration| declaration.core.clone());
+    let core = core.unwrap_or_else(|| quote!(::lagrange_core));
+    let mut tokens = declaration
+        .map(|declaration| placeholders(declaration, &core))
+        .unwrap_or_default();
+    if let Ok(input) = syn::parse2::<DeriveInput>(input) {
+        tokens.extend(implementation(&input, &core));
+    }
+    tokens
+}
+
+/// Handles of all names, so that their uses are not reported as well.
+fn placeholders(declaration: &Declaration, core: &TokenStream) -> TokenStream {
+    // How many elements an indexed item has is not known here: enough for every index that is used.
+    let many = [0; 1024];
+    let mut constants = Vec::new();
+    let mut taken = BTreeSet::new();
+    let mut add = |kind: &str, name: &Name, indexed: bool| {
+        let constant = handles::screaming(&name.ident);
+        if taken.insert(constant.to_string()) {
+            let indices = if indexed {
+                Indices::Many(&many)
+            } else {
+                Indices::One(0)
+            };
+            constants.push(handles::handle(
+                core,
+                &constant,
+                kind,
+                indices,
+                "Not derived.",
+            ));
+        }
     };
-    let core = quote!(::lagrange_core);
+    for item in &declaration.items {
+        let (kind, head): (_, &Head) = match &item.kind {
+            ItemKind::Coordinates(coordinates) => {
+                coordinates
+                    .iter()
+                    .for_each(|one| add("CoordinateId", &one.name, one.length.is_some()));
+                continue;
+            }
+            ItemKind::Attitude(attitude) => {
+                add("CoordinateId", &attitude.coordinates, true);
+                continue;
+            }
+            ItemKind::Observe(observes) => {
+                for observe in observes {
+                    match observe {
+                        Observe::Known(name) => add("ObserveId", name, false),
+                        Observe::New(head, _) => add("ObserveId", &head.name, head.index.is_some()),
+                    }
+                }
+                continue;
+            }
+            ItemKind::Kinetic(energy) => match &energy.head {
+                Some(head) => ("KineticId", head),
+                None => continue,
+            },
+            ItemKind::Potential(energy) => match &energy.head {
+                Some(head) => ("PotentialId", head),
+                None => continue,
+            },
+            ItemKind::Define(_) | ItemKind::Lagrangian(_) | ItemKind::Impacts(_) => continue,
+            ItemKind::Constraint(item) => ("ConstraintId", &item.head),
+            ItemKind::Contact(item) => ("ContactId", &item.head),
+            ItemKind::Friction(item) => ("FrictionId", &item.head),
+            ItemKind::Force(item) => ("ForceId", &item.head),
+            ItemKind::Dissipation(item) => ("DissipationId", &item.head),
+            ItemKind::Start(item) => ("StartId", &item.head),
+            ItemKind::Stop(item) => ("StopId", &item.head),
+            ItemKind::Mark(item) => ("MarkId", &item.head),
+        };
+        add(kind, &head.name, head.index.is_some());
+    }
+    let name = &declaration.name;
+    let arguments = declaration.scalar.as_ref().map(|_| quote!(<f64>));
+    handles::inherent(quote!(#name #arguments), &constants)
+}
+
+fn implementation(input: &DeriveInput, core: &TokenStream) -> TokenStream {
     let mut generics = input.generics.clone();
     let scalar = generics
         .type_params()
@@ -40,7 +121,7 @@ pub fn fallback(input: TokenStream) -> TokenStream {
             }
         }
     };
-    let (motion, report, description) = (tape("motion"), tape("report"), empty(&core));
+    let (motion, report, description) = (tape("motion"), tape("report"), empty(core));
     quote! {
         #[automatically_derived]
         impl #parameters #core::system::System for #name #arguments #conditions {

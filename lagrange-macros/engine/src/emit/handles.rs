@@ -40,28 +40,58 @@ pub fn handles(program: &Program) -> TokenStream {
         let Some(ident) = &first.name.ident else {
             continue;
         };
-        let constant = Ident::new(&screaming(&ident.to_string()), ident.span());
+        let indices: Vec<usize> = elements.iter().map(|element| element.index).collect();
+        let indices = first
+            .name
+            .element
+            .map_or(Indices::One(first.index), |_| Indices::Many(&indices));
+        let constant = screaming(ident);
         // An output may observe a coordinate or an item under its own name.
-        if !taken.insert(constant.to_string()) && first.kind == "ObserveId" {
-            continue;
+        if taken.insert(constant.to_string()) || first.kind != "ObserveId" {
+            constants.push(handle(core, &constant, first.kind, indices, &first.text));
         }
-        let (kind, text) = (plain(first.kind), &first.text);
-        let indices = elements.iter().map(|element| index(element.index));
-        constants.push(match first.name.element {
-            None => quote!(#[doc = #text] pub const #constant: #core::handle::#kind = #(#core::handle::#kind(#indices))*;),
-            Some(_) => {
-                let count = index(count);
-                quote! {
-                    #[doc = #text]
-                    pub const #constant: [#core::handle::#kind; #count] = [#(#core::handle::#kind(#indices)),*];
-                }
-            }
-        });
     }
+    inherent(quote!(#name #arguments), &constants)
+}
+
+/// Indices of a handle.
+pub(super) enum Indices<'a> {
+    /// An item.
+    One(usize),
+    /// The elements of an indexed item.
+    Many(&'a [usize]),
+}
+
+/// One associated constant.
+pub(super) fn handle(
+    core: &TokenStream,
+    name: &Ident,
+    kind: &str,
+    indices: Indices,
+    text: &str,
+) -> TokenStream {
+    let kind = plain(kind);
+    match indices {
+        Indices::One(at) => {
+            let at = index(at);
+            quote!(#[doc = #text] pub const #name: #core::handle::#kind = #core::handle::#kind(#at);)
+        }
+        Indices::Many(indices) => {
+            let (count, indices) = (index(indices.len()), indices.iter().map(|at| index(*at)));
+            quote! {
+                #[doc = #text]
+                pub const #name: [#core::handle::#kind; #count] = [#(#core::handle::#kind(#indices)),*];
+            }
+        }
+    }
+}
+
+/// `impl X { … }`
+pub(super) fn inherent(target: TokenStream, constants: &[TokenStream]) -> TokenStream {
     quote! {
         #[automatically_derived]
         #[allow(dead_code, non_upper_case_globals, clippy::all, clippy::pedantic)]
-        impl #name #arguments {
+        impl #target {
             #(#constants)*
         }
     }
@@ -194,16 +224,16 @@ fn items(system: &System) -> Vec<Handle<'_>> {
 }
 
 /// `muStatic` and `mu_static` → `MU_STATIC`; `r#static` → `STATIC`.
-fn screaming(ident: &str) -> String {
-    let ident = ident.strip_prefix("r#").unwrap_or(ident);
-    let mut name = String::with_capacity(ident.len() + 4);
+pub(super) fn screaming(ident: &Ident) -> Ident {
+    let text = ident.to_string();
+    let mut name = String::with_capacity(text.len() + 4);
     let mut lower = false;
-    for letter in ident.chars() {
+    for letter in text.strip_prefix("r#").unwrap_or(&text).chars() {
         if lower && letter.is_uppercase() {
             name.push('_');
         }
         lower = letter.is_lowercase() || letter.is_numeric();
         name.extend(letter.to_uppercase());
     }
-    name
+    Ident::new(&name, ident.span())
 }

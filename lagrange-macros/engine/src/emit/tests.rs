@@ -1,72 +1,93 @@
 //! Emitted code reads as planned.
 
-use super::emit;
-use crate::derive::tests::kit::Build;
-use crate::model::{Level, Normal};
-use crate::plan::{Program, plan};
+use super::{emit, tape};
+use crate::derive::Stage;
+use proc_macro2::TokenStream;
 use quote::quote;
 
-/// The wheel of the design with a mass on its rim.
-fn wheel() -> Program {
-    let mut build = Build::new("x phi r theta", "wheel inertia mass gravity radius mu")
-        .define("px", "x + r*sin(theta)")
-        .define("py", "r*cos(theta)")
-        .kinetic(
-            "",
-            "wheel/2*der(x)^2 + inertia/2*der(phi)^2 + mass/2*(der(px)^2 + der(py)^2)",
-        )
-        .potential("", "mass*gravity*py")
-        .constraint("rolling", Level::Velocity, "der(x) - radius*der(phi)")
-        .contact("rim", "r - radius")
-        .friction(
-            "grip",
-            Normal::Contact(0),
-            &["radius*(der(theta) - der(phi))"],
-            "mu",
-        );
-    build.system.core = quote!(::lagrange_core);
-    build.system.scalar = Some(super::names::plain("T"));
-    plan(build.derive().equations)
+fn program(declaration: TokenStream) -> crate::plan::Program {
+    crate::program(declaration).unwrap_or_else(|mistakes| panic!("{mistakes}"))
 }
 
-fn double() -> Program {
-    let mut build = Build::new("a b", "m1 m2 l1 l2 g")
-        .define("x1", "l1*sin(a)")
-        .define("y1", "-l1*cos(a)")
-        .define("x2", "x1 + l2*sin(b)")
-        .define("y2", "y1 - l2*cos(b)")
-        .kinetic(
-            "",
-            "m1/2*(der(x1)^2 + der(y1)^2) + m2/2*(der(x2)^2 + der(y2)^2)",
-        )
-        .potential("", "m1*g*y1 + m2*g*y2");
-    build.system.core = quote!(::lagrange_core);
-    plan(build.derive().equations)
+/// A mass on a spring that can be left out, with a floor below.
+fn spring() -> TokenStream {
+    quote! {
+        #[lagrange(
+            coordinates(x),
+            kinetic = mass/2 * der(x)^2,
+            potential = mass * gravity * x,
+            potential(spring: stiffness/2 * (x - rest*cos(t))^2),
+            contact(floor: x >= 0),
+            start(high: x = 2*rest),
+        )]
+        pub struct Spring<T = f64> {
+            pub mass: T,
+            pub gravity: T,
+            pub stiffness: T,
+            pub rest: T,
+        }
+    }
+}
+
+/// Tokens compare without regard to white space.
+#[track_caller]
+fn check(emitted: &TokenStream, expected: TokenStream) {
+    let (emitted, expected) = (emitted.to_string(), expected.to_string());
+    assert!(
+        emitted.contains(&expected),
+        "\n{expected}\nis not in\n{emitted}"
+    );
 }
 
 #[test]
-fn show() {
-    for program in [double(), wheel()] {
-        for (o, p) in program.equations.outputs.iter().zip(&program.places) {
-            println!(
-                "{} {:?} {:?}",
-                o.label,
-                p,
-                o.terms
-                    .iter()
-                    .map(|(n, e)| (n.0, program.equations.system.pool.print(*e)))
-                    .collect::<Vec<_>>()
-            );
-        }
-        println!(
-            "motion {} report {}",
-            program.motion.operations(&[1]),
-            program.report.operations(&[!0])
-        );
-        std::fs::write(
-            format!("/tmp/emit{}.rs", program.equations.system.parameters.len()),
-            emit(&program).to_string(),
-        )
-        .unwrap();
-    }
+fn a_tape_has_one_call_per_operation_and_one_if_per_block() {
+    let motion = tape::tape(&program(spring()), Stage::Motion);
+    check(
+        &motion,
+        quote! {
+            let n3 = a.constant(0, c[2]);
+            let mut sum2 = n3;
+            if needs[0] & 2 != 0 {
+                let (n4, n5) = a.sin_cos(1, n0);
+                let n6 = a.scale(3, self.rest, n5);
+                let n7 = a.sub(4, n1, n6);
+                let n8 = a.scale(5, self.stiffness, n7);
+                sum2 = a.sub(6, sum2, n8);
+            }
+            if needs[0] & 16 != 0 {
+                y[0] = n1;
+            }
+            if needs[0] & 32 != 0 {
+                y[1] = n2;
+            }
+            y[2] = sum2;
+        },
+    );
+}
+
+#[test]
+fn constants_starts_and_handles() {
+    let emitted = emit(&program(spring()));
+    check(
+        &emitted,
+        quote! { pub const FLOOR: ::lagrange_core::handle::ContactId = ::lagrange_core::handle::ContactId(0); },
+    );
+}
+
+#[test]
+fn mistakes_come_with_an_implementation_that_type_checks() {
+    let declaration = quote! {
+        #[lagrange(coordinates(x), kinetic = mass/2 * der(y)^2, contact(floor: x >= 0))]
+        struct Wrong<T> { mass: T }
+    };
+    let emitted = crate::expand(declaration);
+    check(
+        &emitted,
+        quote!(impl<T: ::lagrange_core::arithmetic::Scalar> ::lagrange_core::system::System for Wrong<T>),
+    );
+    check(
+        &emitted,
+        quote!(pub const FLOOR: ::lagrange_core::handle::ContactId),
+    );
+    assert_eq!(emitted.to_string().matches("compile_error").count(), 1);
 }

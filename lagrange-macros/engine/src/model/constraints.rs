@@ -13,10 +13,8 @@ impl Elaboration<'_> {
     pub fn constraint(&mut self, declared: &ast::Constraint) {
         let at = Extent::new(declared.left.extent, declared.right.extent);
         self.each(&declared.head, |this, name| {
-            let while_contact = match &declared.while_contact {
-                None => None,
-                Some((_, contact)) => Some(this.item(contact, &[Kind::Contact])),
-            };
+            let contact = declared.while_contact.as_ref().map(|(_, contact)| contact);
+            let while_contact = contact.map(|contact| this.item(contact, &[Kind::Contact]));
             let (left, right) = (this.scalar(&declared.left, CONSTRAINT), this.scalar(&declared.right, CONSTRAINT));
             let residual = this.system.pool.sub(left?, right?);
             let level = match this.depth(&[residual]) {

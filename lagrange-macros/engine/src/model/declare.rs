@@ -19,24 +19,26 @@ impl Elaboration<'_> {
             self.field(field);
         }
         for item in &declaration.items {
-            if let ItemKind::Coordinates(coordinates) = &item.kind {
-                for coordinate in coordinates {
-                    self.declare_coordinate(coordinate);
+            match &item.kind {
+                ItemKind::Coordinates(coordinates) => {
+                    coordinates
+                        .iter()
+                        .for_each(|coordinate| self.declare_coordinate(coordinate));
                 }
+                ItemKind::Attitude(attitude) => self.declare_attitude(attitude),
+                _ => {}
             }
         }
-        if !declaration
-            .items
-            .iter()
-            .any(|item| matches!(item.kind, ItemKind::Coordinates(_)))
-        {
+        let declares =
+            |kind: &ItemKind| matches!(kind, ItemKind::Coordinates(_) | ItemKind::Attitude(_));
+        if !declaration.items.iter().any(|item| declares(&item.kind)) {
             self.sink
                 .report(Code::NoCoordinates, &declaration.name, &[]);
         }
         declaration
             .items
             .iter()
-            .map(|item| self.declare_item(&item.kind, item.keyword))
+            .map(|item| self.declare_item(&item.kind))
             .collect()
     }
 
@@ -69,54 +71,58 @@ impl Elaboration<'_> {
             None => one(None),
             Some(length) => Value::List((0..length).map(|k| one(Some(k))).collect()),
         };
-        let (lower, depth) = (0, Depth::Parameter);
-        self.settle(
-            &field.name.text,
-            Meaning::Value {
-                value,
-                lower,
-                depth,
-            },
-        );
+        self.settle_value(&field.name, value, Depth::Parameter);
     }
 
     fn declare_coordinate(&mut self, coordinate: &ast::Coordinate) {
-        if self
-            .enter(&coordinate.name, Kind::Coordinate, Meaning::Poisoned)
-            .is_none()
-        {
-            return;
-        }
-        let first = self.system.coordinates.len();
-        let (value, length) = match &coordinate.length {
-            None => (
-                self.add_coordinate(item_name(&coordinate.name, None), coordinate),
-                None,
-            ),
+        let length = match &coordinate.length {
+            None => Some(None),
+            Some(length) => self.length(length).map(Some),
+        };
+        match length {
             Some(length) => {
-                let Some(length) = self.length(length) else {
-                    return;
-                };
-                let elements = (0..length)
-                    .map(|k| {
-                        let name = item_name(&coordinate.name, Some((k as i64, k, length)));
-                        self.add_coordinate(name, coordinate)
-                    })
-                    .collect();
-                (Value::List(elements), Some(length))
+                self.declare_array(&coordinate.name, length, &coordinate.unit);
+            }
+            None => {
+                self.dropped = true;
+                self.enter(&coordinate.name, Kind::Coordinate, Meaning::Poisoned);
+            }
+        }
+    }
+
+    /// Enters a coordinate or an array of them; gives the first.
+    pub fn declare_array(
+        &mut self,
+        name: &Name,
+        length: Option<usize>,
+        unit: &str,
+    ) -> Option<usize> {
+        self.enter(name, Kind::Coordinate, Meaning::Poisoned)?;
+        let first = self.system.coordinates.len();
+        let value = match length {
+            None => self.add_coordinate(item_name(name, None), unit),
+            Some(length) => {
+                let element = |k| item_name(name, Some((k as i64, k, length)));
+                Value::List(
+                    (0..length)
+                        .map(|k| self.add_coordinate(element(k), unit))
+                        .collect(),
+                )
             }
         };
         self.coordinate_names
-            .insert(coordinate.name.text.clone(), (first, length));
-        let (lower, depth) = (0, Depth::Position);
-        self.settle(
-            &coordinate.name.text,
-            Meaning::Value {
-                value,
-                lower,
-                depth,
-            },
-        );
+            .insert(name.text.clone(), (first, length));
+        self.settle_value(name, value, Depth::Position);
+        Some(first)
+    }
+
+    fn settle_value(&mut self, name: &Name, value: Value, depth: Depth) {
+        let meaning = Meaning::Value {
+            value,
+            lower: 0,
+            depth,
+        };
+        self.settle(&name.text, meaning);
     }
 
     /// The number of elements of an array.
@@ -139,7 +145,7 @@ impl Elaboration<'_> {
         usize::try_from(count).ok().filter(|&count| count > 0)
     }
 
-    fn add_coordinate(&mut self, name: ItemName, declared: &ast::Coordinate) -> Value {
+    fn add_coordinate(&mut self, name: ItemName, unit: &str) -> Value {
         let position = self.symbol(&name.text, Depth::Position);
         let velocity = self.symbol(&format!("der({})", name.text), Depth::Velocity);
         let acceleration = self.symbol(&format!("der(der({}))", name.text), Depth::Acceleration);
@@ -153,13 +159,13 @@ impl Elaboration<'_> {
             position,
             velocity,
             acceleration,
-            unit: declared.unit.clone(),
+            unit: unit.to_string(),
         });
         Value::Scalar(self.system.pool.leaf(position))
     }
 
     /// Whether the item can be read later.
-    fn declare_item(&mut self, item: &ItemKind, keyword: proc_macro2::Span) -> bool {
+    fn declare_item(&mut self, item: &ItemKind) -> bool {
         let (head, kind): (&Head, Kind) = match item {
             ItemKind::Define(definitions) => {
                 for definition in definitions {
@@ -184,12 +190,7 @@ impl Elaboration<'_> {
                 self.system.impacts = *impacts;
                 return true;
             }
-            ItemKind::Attitude(_) => {
-                let hint = "declare four coordinates and their unit constraint";
-                self.sink
-                    .report(Code::Later, keyword, &[&"attitude", &hint]);
-                return false;
-            }
+            ItemKind::Attitude(attitude) => return self.enter_body(attitude),
             ItemKind::Coordinates(_) | ItemKind::Lagrangian(_) => return true,
             ItemKind::Kinetic(energy) | ItemKind::Potential(energy) => {
                 let kind = match item {

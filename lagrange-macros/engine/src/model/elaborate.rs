@@ -27,6 +27,8 @@ pub(super) struct Elaboration<'a> {
     pub definitions: Vec<Pending>,
     /// First coordinate of each name, and the length of an array.
     pub coordinate_names: BTreeMap<String, (usize, Option<usize>)>,
+    /// First coordinate of each body of `attitude`.
+    pub bodies: BTreeMap<String, usize>,
     /// Whether something could not be read; the sink says why.
     pub dropped: bool,
     /// Whether an exact number that did not fit has been reported.
@@ -132,6 +134,7 @@ impl<'a> Elaboration<'a> {
             directions: vec![(time, one)],
             definitions: Vec::new(),
             coordinate_names: BTreeMap::new(),
+            bodies: BTreeMap::new(),
             dropped: false,
             overflowed: false,
         }
@@ -157,6 +160,7 @@ impl<'a> Elaboration<'a> {
                 self.split_lagrangian(value, item.keyword)
             }
             (Pass::Contacts, ItemKind::Contact(contact)) => self.contact(contact),
+            (Pass::Constraints, ItemKind::Attitude(attitude)) => self.attitude(attitude),
             (Pass::Constraints, ItemKind::Constraint(constraint)) => self.constraint(constraint),
             (Pass::Frictions, ItemKind::Friction(friction)) => self.friction(friction),
             (Pass::Forces, ItemKind::Force(force)) => self.force(force),

@@ -158,44 +158,25 @@ impl Elaboration<'_> {
         }
         let velocities = self.velocities();
         let (kinetic, _) = self.energies();
-        for &velocity in &velocities {
-            let momentum = self.system.pool.differentiate(kinetic, velocity);
-            if self.nonlinear_in(momentum, &velocities).is_none() {
-                continue;
-            }
-            let item = declaration.items.iter().find(|item| match item.kind {
-                ItemKind::Lagrangian(_) => self.system.from_lagrangian,
-                ItemKind::Kinetic(_) => !self.system.from_lagrangian,
-                _ => false,
-            });
-            if let Some(item) = item {
-                let what = if self.system.from_lagrangian {
-                    "Lagrangian"
-                } else {
-                    "kinetic energy"
-                };
-                let velocity = self.system.pool.name(velocity).to_string();
-                self.sink
-                    .report(Code::NotQuadratic, item.keyword, &[&what, &velocity]);
-            }
+        let Some(velocity) = self.not_quadratic_in(kinetic, &velocities) else {
             return;
+        };
+        let from_lagrangian = self.system.from_lagrangian;
+        let what = if from_lagrangian {
+            "Lagrangian"
+        } else {
+            "kinetic energy"
+        };
+        let item = declaration.items.iter().find(|item| match item.kind {
+            ItemKind::Lagrangian(_) => from_lagrangian,
+            ItemKind::Kinetic(_) => !from_lagrangian,
+            _ => false,
+        });
+        if let Some(item) = item {
+            let velocity = self.system.pool.name(velocity).to_string();
+            self.sink
+                .report(Code::NotQuadratic, item.keyword, &[&what, &velocity]);
         }
-    }
-
-    /// A symbol of these in which an expression is not linear.
-    pub fn nonlinear_in(&mut self, e: ExprId, symbols: &[Symbol]) -> Option<Symbol> {
-        let occurring = self.system.pool.symbols(e);
-        for &symbol in symbols.iter().filter(|symbol| occurring.contains(symbol)) {
-            let slope = self.system.pool.differentiate(e, symbol);
-            if !self.system.pool.depends_on_any(slope, symbols) {
-                continue;
-            }
-            let slope = self.system.pool.simplify(slope);
-            if self.system.pool.depends_on_any(slope, symbols) {
-                return Some(symbol);
-            }
-        }
-        None
     }
 }
 

@@ -363,15 +363,6 @@ impl Elaboration<'_> {
         self.total(values)
     }
 
-    /// `body.axes` and the like.
-    fn member(&mut self, base: &Expr, name: &Name, context: Context) -> Option<Value> {
-        self.value(base, context)?;
-        let hint = "members belong to a body of `attitude`";
-        self.sink
-            .report(Code::NoSuchMember, name, &[base, &name.text, &hint]);
-        None
-    }
-
     /// An item's name as the target of a call: `gap(c)`, `momentum(x[2])`.
     pub fn reference(&mut self, expr: &Expr) -> Option<Reference> {
         let found = match &expr.kind {

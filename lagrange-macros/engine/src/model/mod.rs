@@ -5,10 +5,12 @@
 //! `momentum(x)`, `energy` in outputs have become expressions, and the name of a contact, constraint, friction
 //! or force in an output the symbol of its force. Not mutable after this point, but for the pool.
 
+mod attitude;
 mod calls;
 mod constraints;
 mod contacts;
 mod declare;
+mod degree;
 mod elaborate;
 mod energies;
 mod evaluate;
@@ -235,7 +237,7 @@ pub struct Branch {
     pub span: Span,
 }
 
-/// A named start; coordinates and velocities that are not named are 0.
+/// A named start; coordinates and velocities that are not in it are 0.
 pub struct Start {
     /// Name.
     pub name: ItemName,

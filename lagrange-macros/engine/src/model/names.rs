@@ -210,7 +210,7 @@ impl Elaboration<'_> {
         if known.is_empty() {
             format!("declare a {}", kinds[0].text())
         } else {
-            format!("there is {}", known.join(", "))
+            format!("known are {}", known.join(", "))
         }
     }
 }

@@ -1,4 +1,5 @@
-//! Named starts: positions and velocities as expressions in parameters and t.
+//! Named starts: positions and velocities as expressions in parameters and t. What is not named is 0; a body that is
+//! not oriented stands along the axes of space.
 
 use super::Start;
 use super::elaborate::Elaboration;
@@ -44,6 +45,7 @@ impl Elaboration<'_> {
                     list.push((coordinate, e));
                 }
             }
+            this.upright(&mut start.positions);
             this.system.starts.push(start);
             Some(this.system.starts.len() - 1)
         });

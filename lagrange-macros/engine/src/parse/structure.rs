@@ -66,17 +66,12 @@ fn scalar(input: &DeriveInput, sink: &mut Diagnostics) -> Option<Ident> {
 
 fn field(field: &syn::Field, scalar: Option<&Ident>, sink: &mut Diagnostics) -> Option<Field> {
     let expected = scalar.map_or("f64".to_string(), Ident::to_string);
-    let is_scalar = |ty: &Type| matches!(ty, Type::Path(path) if path.path.is_ident(&expected));
-    let length = match &field.ty {
+    let is_scalar =
+        |ty: &Type| matches!(visible(ty), Type::Path(path) if path.path.is_ident(&expected));
+    let length = match visible(&field.ty) {
         ty if is_scalar(ty) => None,
         Type::Array(array) if is_scalar(&array.elem) => {
-            let length = match &array.len {
-                Expr::Lit(literal) => match &literal.lit {
-                    Lit::Int(length) => length.base10_parse::<usize>().ok(),
-                    _ => None,
-                },
-                _ => None,
-            };
+            let length = length(&array.len);
             if length.is_none() {
                 sink.report(Code::FieldType, array.len.span(), &[&expected]);
                 return None;
@@ -84,8 +79,7 @@ fn field(field: &syn::Field, scalar: Option<&Ident>, sink: &mut Diagnostics) -> 
             length
         }
         ty => {
-            let span = ty.span();
-            sink.report(Code::FieldType, span, &[&expected]);
+            sink.report(Code::FieldType, ty.span(), &[&expected]);
             return None;
         }
     };
@@ -103,6 +97,26 @@ fn field(field: &syn::Field, scalar: Option<&Ident>, sink: &mut Diagnostics) -> 
         }
     }
     Some(read)
+}
+
+/// A type without the invisible groups around what a `macro_rules!` substituted.
+fn visible(ty: &Type) -> &Type {
+    match ty {
+        Type::Group(group) => visible(&group.elem),
+        ty => ty,
+    }
+}
+
+/// The number N of `[T; N]`.
+fn length(length: &Expr) -> Option<usize> {
+    match length {
+        Expr::Group(group) => self::length(&group.expr),
+        Expr::Lit(literal) => match &literal.lit {
+            Lit::Int(length) => length.base10_parse().ok(),
+            _ => None,
+        },
+        _ => None,
+    }
 }
 
 /// `unit = "kg"`

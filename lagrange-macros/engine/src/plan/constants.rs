@@ -72,6 +72,11 @@ impl Constants {
         pool.leaf(symbol)
     }
 
+    /// Whether it is a masked sum, which no other constant may contain.
+    pub fn is_masked(&self, pool: &Pool, e: ExprId) -> bool {
+        matches!(pool.node(e), Node::Symbol(symbol) if self.symbols.contains_key(symbol))
+    }
+
     /// Where a tape finds a fixed expression.
     pub fn coefficient(&mut self, pool: &Pool, e: ExprId) -> Coefficient {
         match pool.node(e) {

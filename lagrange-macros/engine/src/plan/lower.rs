@@ -83,7 +83,7 @@ impl<'a> Lowerer<'a> {
                 self.out.push(Operation::Constant(c))
             }
             Shape::Sum { offset, terms } => self.sum(offset, &terms),
-            Shape::Product(factors) => self.product(&factors),
+            Shape::Product(factors) => self.product(node, &factors),
             Shape::Quotient {
                 numerator: Some(numerator),
                 denominator,
@@ -171,16 +171,15 @@ impl<'a> Lowerer<'a> {
 
     fn sum(&mut self, offset: Option<ExprId>, terms: &[Term]) -> Value {
         let (mut plus, mut minus) = (Vec::new(), Vec::new());
-        let all_negative = terms.iter().all(|term| term.negative);
         // Without a positive term, one that is scaled anyway is scaled by the negative.
+        let all_negative = terms.iter().all(|term| term.negative);
         let turned = terms
             .iter()
-            .find(|term| all_negative && !self.pool.is_one(term.magnitude))
+            .find(|term| all_negative && self.is_scaled(term))
             .copied();
         for &term in terms {
             if Some(term) == turned {
-                let scale = self.pool.neg(term.magnitude);
-                plus.push(self.scaled(term.node, scale));
+                plus.push(self.negated(term));
                 continue;
             }
             let value = self.scaled(term.node, term.magnitude);
@@ -210,7 +209,65 @@ impl<'a> Lowerer<'a> {
         }
     }
 
-    fn product(&mut self, factors: &[(NodeId, i32)]) -> Value {
+    /// The fixed factor of a product.
+    fn fixed_factor(&self, node: NodeId) -> Option<(NodeId, ExprId)> {
+        let Shape::Product(factors) = self.graph.shape(node) else {
+            return None;
+        };
+        factors
+            .iter()
+            .find_map(|(factor, exponent)| match self.graph.shape(*factor) {
+                Shape::Fixed(e) if *exponent == 1 => Some((*factor, *e)),
+                _ => None,
+            })
+    }
+
+    /// Whether a term costs a scaling that can as well be one by the negative.
+    fn is_scaled(&self, term: &Term) -> bool {
+        !self.pool.is_one(term.magnitude) || self.fixed_factor(term.node).is_some()
+    }
+
+    /// −term, by scaling with the negative.
+    fn negated(&mut self, term: Term) -> Value {
+        if !self.pool.is_one(term.magnitude) {
+            let scale = self.pool.neg(term.magnitude);
+            return self.scaled(term.node, scale);
+        }
+        match (self.fixed_factor(term.node), self.graph.shape(term.node)) {
+            (Some((fixed, e)), Shape::Product(factors)) => {
+                let rest: Vec<_> = factors
+                    .iter()
+                    .filter(|(factor, _)| *factor != fixed)
+                    .copied()
+                    .collect();
+                let scale = self.pool.neg(e);
+                self.scaled_product(scale, &rest)
+            }
+            _ => unreachable!("a scaled term has a fixed factor"),
+        }
+    }
+
+    fn product(&mut self, node: NodeId, factors: &[(NodeId, i32)]) -> Value {
+        match self.fixed_factor(node) {
+            Some((fixed, e)) if factors.len() > 1 => {
+                let rest: Vec<_> = factors
+                    .iter()
+                    .filter(|(factor, _)| *factor != fixed)
+                    .copied()
+                    .collect();
+                self.scaled_product(e, &rest)
+            }
+            _ => self.plain_product(factors),
+        }
+    }
+
+    fn scaled_product(&mut self, scale: ExprId, factors: &[(NodeId, i32)]) -> Value {
+        let x = self.plain_product(factors);
+        let scale = self.coefficient(scale);
+        self.out.push(Operation::Scale(scale, x))
+    }
+
+    fn plain_product(&mut self, factors: &[(NodeId, i32)]) -> Value {
         // (x y)² is cheaper than x² y².
         let common = factors
             .iter()

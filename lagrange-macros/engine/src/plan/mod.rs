@@ -8,6 +8,7 @@
 //! operation of `lagrange_core::arithmetic::Arithmetic` in one of two tapes, before the solve and after it.
 
 mod constants;
+mod distribute;
 mod form;
 mod graph;
 mod lower;
@@ -156,8 +157,14 @@ fn stage_tape(
     constants: &mut Constants,
     places: &mut [Place],
 ) -> Tape {
+    // The solve reads M and f whatever is held.
+    let mass = equations.structure.mass.iter().map(|(_, _, entry)| *entry);
+    let always_read = mass
+        .chain(equations.structure.forcing.iter().copied())
+        .collect();
     let inputs = numbered(inputs(&equations.system, stage).into_iter());
     let pool = &mut equations.system.pool;
+    let stage = (stage, &always_read);
     let targets = outputs::targets(pool, &equations.outputs, stage, &inputs, constants, places);
     tape(pool, constants, &inputs, Fixed::Parameters, None, &targets)
 }
@@ -209,6 +216,7 @@ fn tape(
         .collect();
     let mut graph = former.into_graph();
     let roots: Vec<_> = entries.iter().map(|entry| entry.node).collect();
+    distribute::distribute(&mut graph, pool, constants, &roots);
     graph.split_quotients(&roots);
     share::share(&mut graph, pool, &roots);
 

@@ -6,9 +6,9 @@ use super::form::Former;
 use super::graph::NodeId;
 use super::needs::NeedSet;
 use super::tape::Mode;
-use crate::derive::{NeedId, Output, Stage};
+use crate::derive::{NeedId, Output, OutputId, Stage};
 use crate::symbolic::{ExprId, Pool, Symbol};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// An output of a tape: the sum of those terms that are asked for.
 pub(super) struct Target {
@@ -100,56 +100,73 @@ impl Target {
     }
 }
 
-/// Targets of a stage; equal outputs share a place.
+/// The terms of an output, one for each need.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord)]
+struct Terms {
+    /// Without zeros.
+    terms: Vec<(NeedId, ExprId)>,
+    /// Whether the output is read whatever is held, so that it must be 0 where nothing is.
+    total: bool,
+}
+
+impl Terms {
+    fn new(pool: &mut Pool, output: &Output, always_read: bool) -> Terms {
+        let mut needs: BTreeMap<NeedId, Vec<ExprId>> = BTreeMap::new();
+        for (need, e) in &output.terms {
+            needs.entry(*need).or_default().push(*e);
+        }
+        let total = always_read || needs.len() > 1;
+        let mut terms: Vec<_> = needs
+            .into_iter()
+            .map(|(need, terms)| (need, pool.sum(&terms)))
+            .collect();
+        terms.retain(|(_, e)| !pool.is_zero(*e));
+        Terms { terms, total }
+    }
+}
+
+/// Targets of a stage; equal outputs share a place. `always_read`: outputs that are read whatever is held.
 pub(super) fn targets(
     pool: &mut Pool,
     outputs: &[Output],
-    stage: Stage,
+    (stage, always_read): (Stage, &BTreeSet<OutputId>),
     inputs: &BTreeMap<Symbol, usize>,
     constants: &mut Constants,
     places: &mut [Place],
 ) -> Vec<Target> {
     let mut targets = Vec::new();
-    let mut known: BTreeMap<Vec<(NeedId, ExprId)>, Place> = BTreeMap::new();
-    for (output, place) in outputs.iter().zip(places) {
+    let mut known: BTreeMap<Terms, Place> = BTreeMap::new();
+    for (index, (output, place)) in outputs.iter().zip(places).enumerate() {
         if output.stage != stage {
             continue;
         }
-        let terms = by_need(pool, output);
+        let terms = Terms::new(pool, output, always_read.contains(&OutputId(index)));
         *place = *known.entry(terms.clone()).or_insert_with(|| {
             let (varying, fixed): (Vec<_>, Vec<_>) = terms
+                .terms
                 .into_iter()
                 .partition(|(_, e)| varies(pool, inputs, *e));
-            match (&varying[..], &fixed[..]) {
-                ([], []) => Place::Zero,
-                ([], [(need, e)]) => {
-                    let index = constants.constant(Source::Whole(*e));
-                    constants.sources[index].1.join(&NeedSet::single(*need));
-                    Place::Constant(index)
-                }
-                ([], _) => Place::Constant(constants.constant(Source::Masked(fixed))),
-                _ => {
-                    targets.push(target(pool, constants, varying, fixed));
-                    Place::Node(targets.len() - 1)
-                }
+            if varying.is_empty() {
+                return constant(constants, &fixed, terms.total);
             }
+            targets.push(target(pool, constants, varying, fixed, terms.total));
+            Place::Node(targets.len() - 1)
         });
     }
     targets
 }
 
-/// Terms of one need become one expression; zeros vanish.
-fn by_need(pool: &mut Pool, output: &Output) -> Vec<(NeedId, ExprId)> {
-    let mut needs: BTreeMap<NeedId, Vec<ExprId>> = BTreeMap::new();
-    for (need, e) in &output.terms {
-        needs.entry(*need).or_default().push(*e);
+/// The place of an output of parameters only.
+fn constant(constants: &mut Constants, terms: &[(NeedId, ExprId)], total: bool) -> Place {
+    match *terms {
+        [] => Place::Zero,
+        [(need, e)] if !total || need.0 == 0 => {
+            let index = constants.constant(Source::Whole(e));
+            constants.sources[index].1.join(&NeedSet::single(need));
+            Place::Constant(index)
+        }
+        _ => Place::Constant(constants.constant(Source::Masked(terms.to_vec()))),
     }
-    let mut terms: Vec<_> = needs
-        .into_iter()
-        .map(|(need, terms)| (need, pool.sum(&terms)))
-        .collect();
-    terms.retain(|(_, e)| !pool.is_zero(*e));
-    terms
 }
 
 fn target(
@@ -157,8 +174,8 @@ fn target(
     constants: &mut Constants,
     varying: Vec<(NeedId, ExprId)>,
     fixed: Vec<(NeedId, ExprId)>,
+    total: bool,
 ) -> Target {
-    let from_zero = varying.len() + fixed.len() > 1;
     let terms = varying
         .into_iter()
         .map(|(need, e)| (NeedSet::single(need), e))
@@ -172,7 +189,7 @@ fn target(
     Target {
         start,
         terms,
-        from_zero,
+        from_zero: total,
     }
 }
 

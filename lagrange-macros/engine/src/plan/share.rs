@@ -20,7 +20,8 @@ type Pair<A> = (A, A, i32);
 /// Rewrites the graph below the roots with shared pairs.
 pub(super) fn share(graph: &mut Graph, pool: &mut Pool, roots: &[NodeId]) {
     let one = pool.integer(1);
-    flip_private_negations(graph, one, roots);
+    flip_private_negations(graph, pool, roots);
+    multiply_scales_in(graph, one, roots);
     let uses = graph.uses(roots);
     let (mut sums, mut products) = (BTreeMap::new(), BTreeMap::new());
     for (index, uses) in uses.iter().enumerate() {
@@ -79,53 +80,104 @@ fn product_shape(bag: &Bag<NodeId>, _: Option<&Shape>) -> Shape {
     )
 }
 
-/// −(a − b) whose sum nobody else reads is b − a.
-fn flip_private_negations(graph: &mut Graph, one: ExprId, roots: &[NodeId]) {
+/// −(a − b) is b − a, and −x (a − b) is x (b − a), where nobody else reads the difference.
+fn flip_private_negations(graph: &mut Graph, pool: &mut Pool, roots: &[NodeId]) {
     let uses = graph.uses(roots);
-    for (index, used) in uses.iter().enumerate() {
-        let Shape::Sum {
-            offset: None,
-            terms,
-        } = graph.shape(NodeId(index))
-        else {
+    for index in 0..uses.len() {
+        let Shape::Sum { offset, terms } = graph.shape(NodeId(index)) else {
             continue;
         };
-        let [
-            Term {
-                node,
-                magnitude,
-                negative: true,
-            },
-        ] = terms[..]
-        else {
-            continue;
-        };
-        if *used == 0 || magnitude != one || uses[node.0] != 1 {
+        if uses[index] == 0
+            || !terms
+                .iter()
+                .all(|term| term.negative && pool.is_one(term.magnitude))
+        {
             continue;
         }
-        let Shape::Sum {
-            offset: None,
-            terms,
-        } = graph.shape(node)
-        else {
-            continue;
-        };
-        if terms.iter().any(|term| term.negative) {
+        let (offset, mut terms) = (*offset, terms.clone());
+        let turned = terms
+            .iter()
+            .enumerate()
+            .find_map(|(at, term)| Some((at, negative(graph, pool, &uses, term.node)?)));
+        let turned = turned.filter(|(_, node)| terms.iter().all(|term| term.node != *node));
+        if let Some((at, node)) = turned {
+            terms[at] = Term {
+                node,
+                negative: false,
+                ..terms[at]
+            };
+            terms.sort();
+            graph.reshape(NodeId(index), Shape::Sum { offset, terms });
+        }
+    }
+}
+
+/// The negative of a node that is read once, if it costs nothing.
+fn negative(graph: &mut Graph, pool: &mut Pool, uses: &[usize], node: NodeId) -> Option<NodeId> {
+    if uses.get(node.0) != Some(&1) {
+        return None;
+    }
+    match graph.shape(node).clone() {
+        Shape::Sum { offset, terms } if terms.iter().any(|term| term.negative) => {
+            let offset = offset.map(|offset| pool.neg(offset));
             let terms = terms
-                .iter()
+                .into_iter()
                 .map(|term| Term {
                     negative: !term.negative,
-                    ..*term
+                    ..term
                 })
                 .collect();
-            graph.reshape(
-                NodeId(index),
-                Shape::Sum {
-                    offset: None,
-                    terms,
-                },
-            );
+            Some(graph.node(Shape::Sum { offset, terms }))
         }
+        Shape::Product(mut factors) => {
+            let (at, factor) = factors.iter().enumerate().find_map(
+                |(at, &(factor, exponent))| match exponent {
+                    1 => Some((at, negative(graph, pool, uses, factor)?)),
+                    _ => None,
+                },
+            )?;
+            if factors.iter().any(|(other, _)| *other == factor) {
+                return None;
+            }
+            factors[at].0 = factor;
+            factors.sort();
+            Some(graph.node(Shape::Product(factors)))
+        }
+        _ => None,
+    }
+}
+
+/// A scaled term is a product with a fixed factor, so that k s can be shared by k s x and k s y.
+fn multiply_scales_in(graph: &mut Graph, one: ExprId, roots: &[NodeId]) {
+    let uses = graph.uses(roots);
+    for (index, used) in uses.iter().enumerate() {
+        let Shape::Sum { offset, terms } = graph.shape(NodeId(index)).clone() else {
+            continue;
+        };
+        if *used == 0 || terms.iter().all(|term| term.magnitude == one) {
+            continue;
+        }
+        let scaled = |term: Term| {
+            let mut factors = match graph.shape(term.node) {
+                _ if term.magnitude == one => return term,
+                // c/x is one operation.
+                Shape::Quotient {
+                    numerator: None, ..
+                } => return term,
+                Shape::Product(factors) => factors.clone(),
+                _ => vec![(term.node, 1)],
+            };
+            factors.push((graph.node(Shape::Fixed(term.magnitude)), 1));
+            factors.sort();
+            Term {
+                node: graph.product(factors),
+                magnitude: one,
+                ..term
+            }
+        };
+        let mut terms: Vec<Term> = terms.into_iter().map(scaled).collect();
+        terms.sort();
+        graph.reshape(NodeId(index), Shape::Sum { offset, terms });
     }
 }
 

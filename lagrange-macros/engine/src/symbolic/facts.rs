@@ -15,6 +15,8 @@ pub(super) struct Facts {
     merging: bool,
     /// Holds a symbol that is not fixed, or a selection.
     varies: bool,
+    /// Holds a sin or cos of a sum of two terms.
+    angle_sum: bool,
 }
 
 impl Pool {
@@ -56,6 +58,22 @@ impl Pool {
         self.has_fixed
     }
 
+    pub(super) fn has_angle_sum(&self, e: ExprId) -> bool {
+        self.facts[e.index()].angle_sum
+    }
+
+    fn holds_angle_sum(&self, node: &Node) -> bool {
+        if let Node::Call(Function::Sin | Function::Cos, arguments) = node
+            && let Node::Sum { constant, terms } = self.node(arguments[0])
+            && terms.len() + usize::from(!constant.is_zero()) == 2
+        {
+            return true;
+        }
+        let mut holds = false;
+        node.for_each_child(|child| holds |= self.has_angle_sum(child));
+        holds
+    }
+
     fn is_varying(&self, node: &Node) -> bool {
         match node {
             Node::Symbol(symbol) => !self.fixed[symbol.index()],
@@ -75,6 +93,7 @@ impl Pool {
             square: self.contains_square(node),
             merging: self.contains_merging(node),
             varies: self.is_varying(node),
+            angle_sum: self.holds_angle_sum(node),
         }
     }
 

@@ -6,6 +6,7 @@
 //! Architecture invariant: an expression is made of expressions with smaller ids, so ascending ids are a
 //! topological order, and what a pool contains depends on nothing but the calls that built it.
 
+mod angles;
 mod differentiate;
 mod evaluate;
 mod expand;

@@ -31,6 +31,8 @@ pub struct Pool {
     pub(super) expanded: Table,
     /// Expression → the cheapest form.
     pub(super) simplified: Table,
+    /// Expression → with functions of sums of angles as products.
+    pub(super) split: Table,
 }
 
 impl Default for Pool {
@@ -58,6 +60,7 @@ impl Pool {
             squares: Memo::default(),
             expanded: Table::default(),
             simplified: Table::default(),
+            split: Table::default(),
         }
     }
 

@@ -1,4 +1,5 @@
-//! The cheapest of some forms of equal value: as built, multiplied out, and both with common factors taken out.
+//! The cheapest of some forms of equal value: as built, multiplied out, with functions of sums of angles for products
+//! or the other way round; each with common factors taken out.
 
 use super::{ExprId, Node, Pool};
 
@@ -7,7 +8,7 @@ const WORK_BUDGET: usize = 400_000;
 
 impl Pool {
     /// The cheapest of the forms tried, for each sub-expression from the leaves up: as is, expanded with
-    /// sin² + cos² = 1, common factors taken out. Of equally cheap forms the first.
+    /// sin² + cos² = 1, with sums of angles, common factors taken out. Of equally cheap forms the first.
     pub fn simplify(&mut self, e: ExprId) -> ExprId {
         let mut known = std::mem::take(&mut self.simplified);
         let mut work = 0;
@@ -45,31 +46,76 @@ impl Pool {
         if !worthwhile {
             return e;
         }
-        let factored = self.factor(e);
-        let expanded = self.expand(e);
-        let mut forms = vec![e, factored];
-        if expanded != e {
-            forms.push(expanded);
-            forms.push(self.factor(expanded));
-        }
-        if self.has_fixed() {
-            forms.push(self.collect_varying(expanded));
-        }
-        let (mut best, mut least) = (e, self.operations(&[e]));
-        for i in 1..forms.len() {
-            if !forms[..i].contains(&forms[i]) {
-                let cost = self.operations(&[forms[i]]);
-                if cost < least || (cost == least && self.needs_less_once(forms[i], best)) {
-                    (best, least) = (forms[i], cost);
+        let mut choice = Choice {
+            form: e,
+            cost: self.operations(&[e]),
+            seen: vec![e],
+        };
+        for flat in self.flat_forms(e) {
+            self.consider(flat, &mut choice);
+            // Taking factors out leaves all additions.
+            if self.has_fixed() || self.additions(flat) < choice.cost {
+                let factored = self.factor(flat);
+                self.consider(factored, &mut choice);
+                if self.has_fixed() {
+                    let collected = self.collect_varying(flat);
+                    self.consider(collected, &mut choice);
                 }
             }
         }
-        *work += forms.len() * (1 + least);
-        best
+        *work += choice.seen.len() * (1 + choice.cost);
+        choice.form
+    }
+
+    /// Different forms of equal value without common factors taken out, e first.
+    fn flat_forms(&mut self, e: ExprId) -> Vec<ExprId> {
+        let expanded = self.expand(e);
+        let mut flat = vec![e, expanded, self.contract_angles(expanded)];
+        if self.has_angle_sum(expanded) {
+            let split = self.split_angles(expanded);
+            let split = self.expand(split);
+            flat.push(split);
+            flat.push(self.contract_angles(split));
+        }
+        let mut distinct: Vec<ExprId> = Vec::with_capacity(flat.len());
+        for form in flat {
+            if !distinct.contains(&form) {
+                distinct.push(form);
+            }
+        }
+        distinct
+    }
+
+    /// Takes the form if it is cheaper.
+    fn consider(&self, form: ExprId, choice: &mut Choice) {
+        if choice.seen.contains(&form) {
+            return;
+        }
+        choice.seen.push(form);
+        let cost = self.operations(&[form]);
+        if cost < choice.cost || (cost == choice.cost && self.needs_less_once(form, choice.form)) {
+            (choice.form, choice.cost) = (form, cost);
+        }
+    }
+
+    /// Additions of a sum itself.
+    fn additions(&self, e: ExprId) -> usize {
+        match self.node(e) {
+            Node::Sum { constant, terms } => terms.len() - usize::from(constant.is_zero()),
+            _ => 0,
+        }
     }
 
     /// Whether a form is cheaper in what is computed once, for forms that are equally cheap in a run.
     fn needs_less_once(&self, form: ExprId, than: ExprId) -> bool {
         self.has_fixed() && self.all_operations(form) < self.all_operations(than)
     }
+}
+
+/// The cheapest form so far.
+struct Choice {
+    form: ExprId,
+    cost: usize,
+    /// What has been looked at.
+    seen: Vec<ExprId>,
 }

@@ -46,7 +46,7 @@ impl Build {
                 documentation: String::new(),
                 unit: String::new(),
                 tex: String::new(),
- letter: String::new(),
+                letter: String::new(),
             })
             .collect();
         let coordinates = coordinates

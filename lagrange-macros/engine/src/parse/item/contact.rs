@@ -28,12 +28,12 @@ pub(super) fn constraint(mut parts: Vec<Cursor>, sink: &mut Diagnostics) -> Opti
     });
     no_more(others, "constraint", "a constraint is one equation", sink)?;
     let (left, right) = sides?;
-    Some(ItemKind::Constraint(Constraint {
+    Some(ItemKind::Constraint(Box::new(Constraint {
         head,
         while_contact,
         left,
         right,
-    }))
+    })))
 }
 
 /// `name: a >= b at p, restitution = e, where c >= d`
@@ -46,13 +46,13 @@ pub(super) fn contact(mut parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<
         contact_part(part, &mut restitution, &mut region, sink);
     }
     let (gap, at) = gap?;
-    Some(ItemKind::Contact(Contact {
+    Some(ItemKind::Contact(Box::new(Contact {
         head,
         gap,
         at,
         restitution,
         region,
-    }))
+    })))
 }
 
 /// `a >= b at p`
@@ -163,9 +163,9 @@ pub(super) fn friction(
                 _ => {}
             }
             Some(FrictionLaw::Coefficients {
-                normal,
-                stick,
-                slide,
+                normal: normal.map(Box::new),
+                stick: Box::new(stick),
+                slide: slide.map(Box::new),
             })
         }
         (None, None) => {
@@ -174,10 +174,10 @@ pub(super) fn friction(
         }
     };
     let (slip, law) = (slip?, law?);
-    (sink.count() == before).then_some(ItemKind::Friction(Friction {
+    (sink.count() == before).then_some(ItemKind::Friction(Box::new(Friction {
         head,
         on,
         slip,
         law,
-    }))
+    })))
 }

@@ -27,7 +27,7 @@ pub(super) fn force(mut parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<It
         return None;
     };
     no_more(others, "force", "write an item for each force", sink)?;
-    Some(ItemKind::Force(Force { head, action }))
+    Some(ItemKind::Force(Box::new(Force { head, action })))
 }
 
 /// A coordinate, read as an expression.

@@ -17,7 +17,7 @@ pub(super) fn observe(parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<Item
         }
         part.require("=", sink)?;
         let value = whole(part, sink)?;
-        Some(Observe::New(head, value))
+        Some(Observe::New(Box::new(head), value))
     })?;
     Some(ItemKind::Observe(read))
 }

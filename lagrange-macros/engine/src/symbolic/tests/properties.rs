@@ -257,3 +257,64 @@ fn substitution_commutes_with_evaluation() {
     });
     assert!(checked > 1000, "{checked}");
 }
+
+/// A random polynomial in sin and cos of x, y, x ± y, as text and as value.
+fn trigonometric(random: &mut Random, [x, y, _]: [f64; 3]) -> (String, f64) {
+    let angles = [
+        ("x", x),
+        ("y", y),
+        ("x + y", x + y),
+        ("x - y", x - y),
+        ("x + 1", x + 1.0),
+    ];
+    let mut text = String::from("0");
+    let mut sum = 0.0;
+    for _ in 0..2 + random.below(5) {
+        let n = random.below(5) as i32 - 2;
+        text += &format!(" + ({n})");
+        let mut term = f64::from(n);
+        for _ in 0..random.below(4) {
+            let (name, angle) = angles[random.below(5) as usize];
+            let exponent = 1 + random.below(3) as i32;
+            let (f, value) = match random.below(2) {
+                0 => ("sin", angle.sin()),
+                _ => ("cos", angle.cos()),
+            };
+            text += &format!("*{f}({name})^{exponent}");
+            term *= value.powi(exponent);
+        }
+        sum += term;
+    }
+    (text, sum)
+}
+
+#[test]
+fn trigonometric_polynomials_keep_their_value() {
+    let mut random = Random(7);
+    for _ in 0..100 {
+        let at = [0; 3].map(|_| random.between(-3.0, 3.0));
+        let (a, b) = (
+            trigonometric(&mut random, at),
+            trigonometric(&mut random, at),
+        );
+        let c = trigonometric(&mut random, at);
+        let (text, exact) = (
+            format!("({})*({}) - ({})^2", a.0, b.0, c.0),
+            a.1 * b.1 - c.1 * c.1,
+        );
+        let mut desk = Desk::default();
+        desk.symbol("x");
+        desk.symbol("y");
+        let e = desk.read(&text);
+        let expanded = desk.pool.expand(e);
+        let split = desk.pool.split_angles(expanded);
+        for form in [e, expanded, desk.pool.expand(split), desk.pool.simplify(e)] {
+            let found = value(&desk, form, at);
+            assert!(
+                (found - exact).abs() < 1e-10,
+                "{text} became {}: {exact} {found}",
+                desk.pool.print(form)
+            );
+        }
+    }
+}

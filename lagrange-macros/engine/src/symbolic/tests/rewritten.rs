@@ -1,6 +1,7 @@
 //! "Simplifies to" tables, operation counts, linear coefficients, and what an expression contains.
 
 use super::read::Desk;
+use crate::symbolic::Symbol;
 
 #[test]
 fn simplifies_to() {
@@ -27,12 +28,31 @@ fn simplifies_to() {
             "(x - l*sin(y))^2 + (v - l*cos(y))^2",
             "(x - l*sin(y))^2 + (v - l*cos(y))^2",
         ),
+        ("cos(x)*cos(y) + sin(x)*sin(y)", "cos(x - y)"),
+        ("cos(x)*cos(y) - sin(x)*sin(y)", "cos(x + y)"),
+        ("m*sin(x)*cos(y) + m*cos(x)*sin(y)", "m*sin(x + y)"),
+        ("m*sin(x)*cos(y)*v - m*v*cos(x)*sin(y)", "m*v*sin(x - y)"),
+        ("m*sin(y)*cos(x) - m*cos(y)*sin(x) + g", "g - m*sin(x - y)"),
+        ("cos(x - y) - cos(x)*cos(y) - sin(x)*sin(y)", "0"),
+        ("sin(x + y)^2 + (cos(x)*cos(y) - sin(x)*sin(y))^2", "1"),
+        ("sin(x)*sin(x + y) + cos(x)*cos(x + y)", "cos(y)"),
+        (
+            "sin(x + y)*sin(x + y + w) + cos(x + y)*cos(x + y + w)",
+            "cos(w)",
+        ),
+        (
+            "(l*v*cos(x) + g*w*cos(y))^2 + (l*v*sin(x) + g*w*sin(y))^2",
+            "g^2*w^2 + l*v*(l*v + 2*g*w*cos(x - y))",
+        ),
         ("x", "x"),
     ] {
         let e = desk.read(text);
         let simple = desk.pool.simplify(e);
         assert_eq!(desk.pool.print(simple), printed, "{text}");
         assert_eq!(desk.pool.simplify(simple), simple, "{text}");
+        let at = |symbol: Symbol| 0.3 + (1.7 * symbol.index() as f64).sin().abs();
+        let values = desk.pool.evaluate(&[e, simple], &at, &|_| true);
+        assert!((values[0] - values[1]).abs() < 1e-13, "{text}: {values:?}");
     }
 }
 

@@ -1,0 +1,241 @@
+//! The system of a mode before anything is eliminated: which rows act, their columns, the loads.
+
+use super::plan::Slide;
+use super::program::Program;
+use crate::arithmetic::Scalar;
+use crate::effects::{Effects, Item};
+use crate::mode::{Direction, FrictionMode, Mode};
+use crate::system::{Description, Normal, Place};
+
+/// Where an element of a force's column comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Source {
+    /// aᵀ
+    Jacobian,
+    /// Sliding friction or a force that is proportional to the multiplier.
+    Coupled,
+}
+
+/// Q[coordinate] += place · λ of acting row `index`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ColumnElement {
+    pub index: usize,
+    pub coordinate: usize,
+    pub place: Place,
+    pub source: Source,
+}
+
+/// The pieces of the system of one mode.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Collected {
+    /// Description rows that act, ascending.
+    pub acting: Vec<usize>,
+    /// Generalized forces of the multipliers.
+    pub columns: Vec<ColumnElement>,
+    /// (coordinate, place): f and what friction of a given normal force adds.
+    pub loads: Vec<(usize, Place)>,
+}
+
+/// Which rows of a description act in a mode as equations.
+pub(crate) fn acts(description: &Description, effects: &Effects, mode: &Mode, row: usize) -> bool {
+    let constraint_acts = |i: usize| {
+        effects.includes(description, Item::Constraint(i))
+            && description.constraints[i]
+                .while_contact
+                .is_none_or(|contact| mode.contacts[contact])
+    };
+    let contact_acts =
+        |i: usize| effects.includes(description, Item::Contact(i)) && mode.contacts[i];
+    let (constraints, contacts) = (description.constraints, description.contacts);
+    if let Some(i) = constraints.iter().position(|c| c.row == row) {
+        return constraint_acts(i);
+    }
+    if let Some(i) = contacts.iter().position(|c| c.row == row) {
+        return contact_acts(i);
+    }
+    let owner = description
+        .frictions
+        .iter()
+        .position(|f| (f.row..f.row + f.components).contains(&row));
+    owner.is_some_and(|i| {
+        mode.frictions[i] == FrictionMode::Stick
+            && effects.includes(description, Item::Friction(i))
+            && match description.frictions[i].normal {
+                Normal::Contact(contact) => contact_acts(contact),
+                Normal::Constraint(constraint) => constraint_acts(constraint),
+                Normal::Given(_) => true,
+            }
+    })
+}
+
+impl Collected {
+    /// Collects the pieces of a mode; products are made by `program`.
+    pub(crate) fn set<T: Scalar>(
+        &mut self,
+        description: &Description,
+        effects: &Effects,
+        mode: &Mode,
+        constants: &mut Vec<T>,
+        program: &mut Program<T>,
+        slides: &mut Vec<Slide>,
+    ) {
+        self.acting.clear();
+        self.acting.extend(
+            (0..description.rows.len()).filter(|&row| acts(description, effects, mode, row)),
+        );
+        self.columns.clear();
+        self.loads.clear();
+        slides.clear();
+        self.loads
+            .extend(description.forcing.iter().copied().enumerate());
+        for (index, &row) in self.acting.iter().enumerate() {
+            let elements = description.rows[row].jacobian.iter();
+            self.columns
+                .extend(elements.map(|&(coordinate, place)| ColumnElement {
+                    index,
+                    coordinate,
+                    place,
+                    source: Source::Jacobian,
+                }));
+        }
+        self.slide(description, effects, mode, constants, program, slides);
+        for &Slide {
+            row,
+            factor,
+            source,
+        } in slides.iter()
+        {
+            for &(j, place) in description.rows[row].jacobian {
+                let force = program.mul(constants, factor, place);
+                self.push_force(j, force, source);
+            }
+        }
+        for coupling in description.couplings {
+            let owner = description
+                .forces
+                .iter()
+                .position(|f| f.need == coupling.need);
+            if owner.is_some_and(|i| !effects.includes(description, Item::Force(i))) {
+                continue;
+            }
+            if self.acting.binary_search(&coupling.row).is_ok() {
+                self.push_force(coupling.coordinate, coupling.factor, Some(coupling.row));
+            } else if let Some(slide) = slides.iter().find(|s| s.row == coupling.row) {
+                let force = program.mul(constants, coupling.factor, slide.factor);
+                self.push_force(coupling.coordinate, force, slide.source);
+            }
+        }
+    }
+
+    /// Sliding frictions: they act through the column of their normal force, or as a load.
+    fn slide<T: Scalar>(
+        &self,
+        description: &Description,
+        effects: &Effects,
+        mode: &Mode,
+        constants: &mut Vec<T>,
+        program: &mut Program<T>,
+        slides: &mut Vec<Slide>,
+    ) {
+        for (i, friction) in description.frictions.iter().enumerate() {
+            let FrictionMode::Slip(sliding) = mode.frictions[i] else {
+                continue;
+            };
+            if !effects.includes(description, Item::Friction(i)) {
+                continue;
+            }
+            let mut strength = friction.kinetic_coefficient;
+            let source = match friction.normal {
+                Normal::Contact(contact) => {
+                    if let Some(factor) = description.contacts[contact].normal_factor {
+                        strength = program.mul(constants, strength, factor);
+                    }
+                    Some(description.contacts[contact].row)
+                }
+                Normal::Constraint(constraint) => {
+                    strength = program.scale(constants, T::from_f64(sliding.normal_sign), strength);
+                    Some(description.constraints[constraint].row)
+                }
+                Normal::Given(normal) => {
+                    strength = program.mul(constants, strength, normal);
+                    None
+                }
+            };
+            if source.is_some_and(|row| self.acting.binary_search(&row).is_err()) {
+                continue;
+            }
+            let slip = |component: usize| description.rows[friction.row + component].velocity;
+            if sliding.direction == Direction::AlongSlip {
+                let mut square = Place::Zero;
+                for component in 0..friction.components {
+                    let s2 = program.mul(constants, slip(component), slip(component));
+                    square = program.add(constants, square, s2);
+                }
+                let inverse = program.inverse_root(constants, square);
+                strength = program.mul(constants, strength, inverse);
+            }
+            strength = program.scale(constants, -T::one(), strength);
+            for component in 0..friction.components {
+                let row = friction.row + component;
+                let factor = match sliding.direction {
+                    Direction::Fixed(d) => {
+                        program.scale(constants, T::from_f64(d[component]), strength)
+                    }
+                    Direction::AlongSlip => program.mul(constants, strength, slip(component)),
+                };
+                slides.push(Slide {
+                    row,
+                    factor,
+                    source,
+                });
+            }
+        }
+    }
+
+    /// The generalized force `force` · λ[source] (or just `force`) on a coordinate.
+    fn push_force(&mut self, coordinate: usize, force: Place, source: Option<usize>) {
+        if force == Place::Zero {
+            return;
+        }
+        match source {
+            Some(row) => {
+                if let Ok(index) = self.acting.binary_search(&row) {
+                    self.columns.push(ColumnElement {
+                        index,
+                        coordinate,
+                        place: force,
+                        source: Source::Coupled,
+                    });
+                }
+            }
+            None => self.loads.push((coordinate, force)),
+        }
+    }
+
+    /// Whether a row and the column of its force depend on parameters only, and the row has no bias.
+    pub(crate) fn is_constant<T: Scalar>(
+        &self,
+        description: &Description,
+        index: usize,
+        constants: &[T],
+    ) -> bool {
+        let row = &description.rows[self.acting[index]];
+        let unbiased = match row.bias {
+            Place::Zero => true,
+            Place::Constant(i) => constants[i].is_zero(),
+            Place::Node(_) => false,
+        };
+        let constant = |place: Place| match place {
+            Place::Zero => true,
+            Place::Constant(i) => constants[i].value().is_finite(),
+            Place::Node(_) => false,
+        };
+        unbiased
+            && row.jacobian.iter().all(|&(_, place)| constant(place))
+            && self
+                .columns
+                .iter()
+                .filter(|e| e.index == index)
+                .all(|e| constant(e.place))
+    }
+}

@@ -1,0 +1,167 @@
+//! LU factors of [M C; A 0] where that is safe without much ado.
+//!
+//! Where M is symmetric and positive definite, eliminating the accelerations needs no pivoting (it is the LDLᵀ of M) and
+//! leaves the Schur complement −A M⁻¹ C of the forces, which is factored with partial pivoting in rows scaled to 1: with
+//! sliding friction it is not symmetric. Where M is not symmetric the whole is factored in that way.
+//! Reference: Golub & Van Loan 2013, Matrix Computations, sections 4.1.2 and 3.4.
+
+use super::lu::NEGLIGIBLE;
+use crate::arithmetic::Scalar;
+
+/// A pivot of M below this share of its diagonal element has lost 10 of 16 digits: M is not safely positive definite.
+const SAFE: f64 = 1e-10;
+
+/// Factors of a system; the memory is reused.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Direct<T> {
+    /// Number of leading pivots that are taken as they come.
+    leading: usize,
+    size: usize,
+    factors: Vec<T>,
+    /// 1 / pivot.
+    inverses: Vec<T>,
+    /// Order of the rows of the Schur complement.
+    rows: Vec<usize>,
+    sizes: Vec<f64>,
+    scratch: Vec<T>,
+}
+
+impl<T: Scalar> Direct<T> {
+    /// Takes memory for systems of up to `size` equations.
+    pub(crate) fn reserve(&mut self, size: usize) {
+        self.factors.reserve(size * size);
+        self.inverses.reserve(size);
+        self.rows.reserve(size);
+        self.sizes.reserve(size);
+        self.scratch.reserve(size);
+    }
+
+    /// Factors the row-major `matrix`, whose first `leading` rows and columns are symmetric and should be positive
+    /// definite; false if that is not safe.
+    pub(crate) fn factor(&mut self, leading: usize, size: usize, matrix: &[T]) -> bool {
+        (self.leading, self.size) = (leading, size);
+        self.factors.clear();
+        self.factors.extend_from_slice(matrix);
+        self.inverses.clear();
+        for step in 0..leading {
+            let diagonal = matrix[step * size + step].value();
+            // Not "<=": a NaN is not safe either.
+            if !(self.factors[step * size + step].value() > SAFE * diagonal && diagonal > 0.0) {
+                return false;
+            }
+            self.eliminate(step);
+        }
+        self.rows.clear();
+        self.rows.extend(leading..size);
+        self.sizes.clear();
+        for row in leading..size {
+            let row = &self.factors[row * size + leading..(row + 1) * size];
+            self.sizes
+                .push(row.iter().map(|x| x.value().abs()).fold(0.0, f64::max));
+        }
+        for step in leading..size {
+            let (mut best, mut pivot) = (0.0, step);
+            for row in step..size {
+                let share =
+                    self.factors[row * size + step].value().abs() / self.sizes[row - leading];
+                if share > best {
+                    (best, pivot) = (share, row);
+                }
+            }
+            if !(best > NEGLIGIBLE) {
+                return false;
+            }
+            if pivot != step {
+                self.rows.swap(step - leading, pivot - leading);
+                self.sizes.swap(step - leading, pivot - leading);
+                let (upper, lower) = self.factors.split_at_mut(pivot * size);
+                upper[step * size..(step + 1) * size].swap_with_slice(&mut lower[..size]);
+            }
+            self.eliminate(step);
+        }
+        self.scratch.clear();
+        self.scratch.resize(size - leading, T::zero());
+        true
+    }
+
+    /// Takes column `step` out of the rows below.
+    #[inline]
+    fn eliminate(&mut self, step: usize) {
+        let size = self.size;
+        let (upper, lower) = self.factors.split_at_mut((step + 1) * size);
+        let pivot_row = &upper[step * size..];
+        let inverse = T::one() / pivot_row[step];
+        self.inverses.push(inverse);
+        for row in lower.chunks_exact_mut(size) {
+            if row[step].is_zero() {
+                continue;
+            }
+            let factor = row[step] * inverse;
+            row[step] = factor;
+            for (x, &p) in row[step + 1..].iter_mut().zip(&pivot_row[step + 1..]) {
+                *x -= factor * p;
+            }
+        }
+    }
+
+    /// Replaces b by the solution.
+    #[inline]
+    pub(crate) fn solve(&mut self, b: &mut [T]) {
+        if self.size - self.leading > 1 {
+            for (y, &row) in self.scratch.iter_mut().zip(&self.rows) {
+                *y = b[row];
+            }
+            b[self.leading..].copy_from_slice(&self.scratch);
+        }
+        // Most systems are this small once constant rows are eliminated.
+        match self.size {
+            1 => b[0] *= self.inverses[0],
+            2 => self.substitute_fixed::<2>(b),
+            3 => self.substitute_fixed::<3>(b),
+            4 => self.substitute_fixed::<4>(b),
+            _ => self.substitute(b),
+        }
+    }
+
+    /// [`Self::substitute`] with loops of a length that the compiler knows.
+    #[inline]
+    fn substitute_fixed<const N: usize>(&self, b: &mut [T]) {
+        let (rows, _) = self.factors.as_chunks::<N>();
+        let (Ok(rows), Ok(inverses), Ok(b)) = (
+            <&[[T; N]; N]>::try_from(rows),
+            <&[T; N]>::try_from(&self.inverses[..]),
+            <&mut [T; N]>::try_from(&mut *b),
+        ) else {
+            return self.substitute(b);
+        };
+        for i in 1..N {
+            for j in 0..i {
+                b[i] -= rows[i][j] * b[j];
+            }
+        }
+        for i in (0..N).rev() {
+            for j in i + 1..N {
+                b[i] -= rows[i][j] * b[j];
+            }
+            b[i] *= inverses[i];
+        }
+    }
+
+    /// L y = b, U x = y.
+    fn substitute(&self, b: &mut [T]) {
+        let size = self.size.max(1);
+        for (i, row) in self.factors.chunks_exact(size).enumerate().skip(1) {
+            let (solved, open) = b.split_at_mut(i);
+            open[0] -= dot(&row[..i], solved);
+        }
+        for (i, row) in self.factors.chunks_exact(size).enumerate().rev() {
+            let (open, solved) = b.split_at_mut(i + 1);
+            open[i] = (open[i] - dot(&row[i + 1..], solved)) * self.inverses[i];
+        }
+    }
+}
+
+#[inline]
+pub(super) fn dot<T: Scalar>(x: &[T], y: &[T]) -> T {
+    x.iter().zip(y).fold(T::zero(), |sum, (&x, &y)| sum + x * y)
+}

@@ -1,0 +1,104 @@
+//! Expressions and comparisons.
+
+use super::{Index, Name};
+use crate::diagnostics::Extent;
+
+/// An expression.
+#[derive(Clone, Debug)]
+pub struct Expr {
+    /// Its form.
+    pub kind: ExprKind,
+    /// From its first to its last token.
+    pub extent: Extent,
+}
+
+/// digits · 10^exponent
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Decimal {
+    /// Without trailing zeros if the exponent is negative.
+    pub digits: i128,
+    /// Of ten.
+    pub exponent: i32,
+}
+
+/// Sign of a term of a sum.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Sign {
+    /// `+`
+    Plus,
+    /// `-`
+    Minus,
+}
+
+/// Side of a factor of a product.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Factor {
+    /// `*`
+    Times,
+    /// `/`
+    Over,
+}
+
+/// Form of an expression. Sums and products are flat, so that long ones do not nest.
+#[derive(Clone, Debug)]
+pub enum ExprKind {
+    /// An exact number.
+    Number(Decimal),
+    /// A name, `pi` and `t` too.
+    Name(Name),
+    /// a + b − c
+    Sum(Vec<(Sign, Expr)>),
+    /// a b / c, from left to right
+    Product(Vec<(Factor, Expr)>),
+    /// −a
+    Negative(Box<Expr>),
+    /// base^exponent
+    Power(Box<Expr>, Box<Expr>),
+    /// f(arguments), `der` too
+    Call(Name, Vec<Expr>),
+    /// if(a >= b, then, otherwise)
+    If(Box<Comparison>, Box<Expr>, Box<Expr>),
+    /// sum(i in a..b: body)
+    SumOver(Box<Index>, Box<Expr>),
+    /// [a, b] or (a, b)
+    List(Vec<Expr>),
+    /// `list[index]`
+    Element(Box<Expr>, Box<Expr>),
+    /// body.axes
+    Member(Box<Expr>, Name),
+}
+
+/// `left >= right` or `left <= right`
+#[derive(Clone, Debug)]
+pub struct Comparison {
+    /// Left side.
+    pub left: Expr,
+    /// The relation.
+    pub relation: Relation,
+    /// Right side.
+    pub right: Expr,
+}
+
+impl Comparison {
+    /// (larger side, smaller side)
+    pub fn sides(&self) -> (&Expr, &Expr) {
+        match self.relation {
+            Relation::AtLeast => (&self.left, &self.right),
+            Relation::AtMost => (&self.right, &self.left),
+        }
+    }
+
+    /// From its first to its last token.
+    pub fn extent(&self) -> Extent {
+        Extent::new(self.left.extent, self.right.extent)
+    }
+}
+
+/// A relation between two values.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Relation {
+    /// `>=`
+    AtLeast,
+    /// `<=`
+    AtMost,
+}

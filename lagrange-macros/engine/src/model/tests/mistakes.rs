@@ -1,0 +1,171 @@
+//! Wrong declarations: what is reported, where, and how often.
+
+use super::{read, with};
+
+/// (items from line 2 on, mistakes as `line:col code`)
+#[test]
+fn mistakes_point_at_their_token() {
+    let wrong = [
+        ("potential = g*thetta", "2:15 E201"),
+        ("potential = g*der(x)", "2:15 E401"),
+        ("define(v = der(x)), potential = v", "2:33 E401"),
+        ("contact(c: der(x) >= 0)", "2:12 E401"),
+        ("contact(a: x >= 0)", "2:9 E202"),
+        ("contact(sin: x >= 0)", "2:9 E203"),
+        ("define(der = x)", "2:8 E203"),
+        ("define(t = x)", "2:8 E203"),
+        ("define(u = sum(a in 0..2: x))", "2:16 E204"),
+        ("define(u = w, w = u)", "2:19 E205"),
+        ("friction(f on x: slip = der(x), static = a)", "2:15 E206"),
+        ("friction(f on c: slip = der(x), static = a)", "2:15 E201"),
+        (
+            "contact(c[k in 0..2]: q[k] >= 0), friction(f on c: slip = der(x), static = a)",
+            "2:49 E206",
+        ),
+        ("constraint(c while a: der(x) == 0)", "2:20 E206"),
+        (
+            "contact(c: y >= 0), constraint(d while c: x == 0)",
+            "2:34 E505",
+        ),
+        ("constraint(c: der(x)^2 == a)", "2:15 E504"),
+        ("constraint(c: der(x)*der(y) == a)", "2:15 E504"),
+        ("constraint(c: a == b)", "2:15 E506"),
+        ("contact(c: a >= b)", "2:12 E506"),
+        (
+            "contact(c: x >= 0), friction(f on c: slip = x, static = a)",
+            "2:45 E506",
+        ),
+        (
+            "contact(c: x >= 0), friction(f on c: slip = norm([der(x), der(y)]), static = a)",
+            "2:45 E504",
+        ),
+        ("potential = atan2(x)", "2:13 E301"),
+        ("potential = sin(x, y)", "2:13 E301"),
+        ("potential = max(x)", "2:13 E301"),
+        ("potential = sine(x)", "2:13 E308"),
+        ("potential = a(x + y)", "2:13 E308"),
+        ("potential = log(x)", "2:13 E308"),
+        ("potential = sin", "2:13 E206"),
+        ("potential = q", "2:13 E302"),
+        ("potential = q + 1", "2:17 E303"),
+        ("potential = 1 + q", "2:17 E302"),
+        ("potential = norm(x)", "2:18 E303"),
+        ("potential = norm(q - [1, 2])", "2:22 E304"),
+        ("potential = q*q", "2:15 E313"),
+        ("potential = q[3]", "2:15 E305"),
+        ("potential = q[x]", "2:15 E306"),
+        ("potential = q[1/2]", "2:15 E306"),
+        ("potential = x[1]", "2:13 E303"),
+        ("potential = x/0", "2:15 E307"),
+        ("potential = x/(1 - 1)", "2:15 E307"),
+        ("potential = 0^-1", "2:13 E307"),
+        ("potential = x.axes", "2:15 E309"),
+        ("define(u[k in 3..3] = x)", "2:15 E310"),
+        ("define(u[k in 0..1000000000] = x)", "2:15 E311"),
+        ("potential = 10^30*10^30*x", "2:1 E312"),
+        ("potential = der(der(x))", "2:13 E401"),
+        ("kinetic(k: der(der(x)))", "2:12 E402"),
+        ("define(w = der(der(x))), kinetic(k: w)", "2:37 E402"),
+        ("observe(j = der(der(der(x))))", "2:13 E404"),
+        ("contact(c: x >= 0), observe(j = der(c))", "2:33 E404"),
+        ("start(s: x = y)", "2:14 E403"),
+        ("start(s: x = der(y))", "2:14 E403"),
+        ("start(s: a = 1)", "2:10 E206"),
+        ("start(s: x = 1, x = 2)", "2:17 E510"),
+        ("start(s: q[k in 0..4] = 1)", "2:20 E305"),
+        ("start(s: q = 1)", "2:14 E303"),
+        ("potential = energy", "2:13 E405"),
+        ("contact(c: x >= 0), potential = gap(c)", "2:33 E405"),
+        ("contact(c: x >= 0), potential = c", "2:33 E406"),
+        ("contact(c: x >= 0), dissipation(d: c*der(x))", "2:36 E406"),
+        ("contact(c: x >= 0), force(f: x = c^2)", "2:34 E509"),
+        ("force(f: x = 1), force(h: x = f)", "2:31 E406"),
+        ("force(f: (a, b) at (x, y, r))", "2:20 E304"),
+        ("force(f: (a, b) at (1, 2))", "2:20 E506"),
+        ("force(f: a along x)", "2:18 E506"),
+        ("force(f: a = 1)", "2:10 E206"),
+        ("dissipation(d: x)", "2:16 E506"),
+        ("contact(c: x >= 0), observe(j = closed(c))", "2:33 E407"),
+        ("stop(s: closed(x))", "2:16 E206"),
+        ("start(s), observe(j = s)", "2:23 E207"),
+        ("observe(h = x), potential = h", "2:29 E405"),
+        ("kinetic = x", "2:1 E511"),
+        ("lagrangian = x", "1:47 E503"),
+        ("contact(c: x >= 0), kinetic(k: der(x)^4)", "1:47 E507"),
+        (
+            "attitude(body: z), potential = body.axis[0][1]",
+            "2:37 E309",
+        ),
+        (
+            "attitude(body: z), potential = body.body_rate[0]",
+            "2:37 E401",
+        ),
+        ("attitude(body: x)", "2:16 E202"),
+        ("attitude(x: z)", "2:10 E202"),
+        ("potential(p: theta_dot)", "2:14 E201"),
+    ];
+    let mut failures = String::new();
+    for (items, expected) in wrong {
+        let found = match with(items) {
+            Ok(_) => "nothing wrong".to_string(),
+            Err(found) => found,
+        };
+        let places: Vec<String> = found
+            .lines()
+            .map(|line| line.split(' ').take(2).collect::<Vec<_>>().join(" "))
+            .collect();
+        if places != [expected] {
+            failures += &format!("{items}\n  expected {expected}\n  found {found}\n");
+        }
+    }
+    assert!(failures.is_empty(), "{failures}");
+}
+
+#[test]
+fn hints_say_what_to_do() {
+    let found = with("potential = g*thetta").err().unwrap();
+    assert_eq!(
+        found,
+        "2:15 E201 `thetta` is not known; did you mean `theta`?"
+    );
+    let found = with("potential = theta_dot").err().unwrap();
+    assert_eq!(
+        found,
+        "2:13 E201 `theta_dot` is not known; the velocity of `theta` is written `der(theta)`"
+    );
+    let found = with("friction(f on x: slip = der(x), static = a), contact(rim: x >= 0)")
+        .err()
+        .unwrap();
+    assert_eq!(
+        found,
+        "2:15 E206 `x` is a coordinate, not a contact or constraint; known are `rim`"
+    );
+}
+
+#[test]
+fn one_mistake_is_one_message() {
+    let found = with(
+        "define(p = undefined_name*x, s = p + 1), potential(one: p), potential(two: s), contact(c: p >= 0),
+         friction(f on c: slip = der(p), static = a), observe(c2 = c + gap(c)), stop(end: closed(c)),
+         observe(w[k in 0..3] = nowhere[k])",
+    )
+    .err()
+    .unwrap();
+    let codes: Vec<&str> = found
+        .lines()
+        .map(|line| line.split(' ').nth(1).unwrap())
+        .collect();
+    assert_eq!(codes, ["E201", "E201"], "{found}");
+}
+
+#[test]
+fn what_every_system_needs() {
+    let missing = |items: &str| {
+        read(&format!("#[lagrange(\n{items})] struct S {{ a: f64 }}"))
+            .err()
+            .unwrap()
+    };
+    assert!(missing("kinetic = a").contains("E501"));
+    assert!(missing("coordinates(x)").contains("E502"));
+    assert!(missing("coordinates(x), lagrangian = a, lagrangian = a").contains("E510"));
+}

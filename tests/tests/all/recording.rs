@@ -1,0 +1,67 @@
+//! Steps do not allocate: what a longer run allocates more is the doubling of its recording.
+
+use lagrange_core::prelude::*;
+use lagrange_problems::scenes::SphereInBowl;
+use std::alloc::{GlobalAlloc, Layout, System as Heap};
+use std::cell::Cell;
+
+struct Counting;
+
+thread_local! {
+    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
+}
+
+fn count() {
+    // A thread that is being torn down has no counter any more.
+    let _ = ALLOCATIONS.try_with(|n| n.set(n.get() + 1));
+}
+
+// SAFETY: every request goes to the system's allocator unchanged; counting does not allocate.
+#[allow(unsafe_code)]
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        count();
+        unsafe { Heap.alloc(layout) }
+    }
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        unsafe { Heap.dealloc(pointer, layout) }
+    }
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        count();
+        unsafe { Heap.realloc(pointer, layout, size) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+#[test]
+fn a_step_does_not_allocate() {
+    let scene = SphereInBowl {
+        mu_static: 1e6,
+        mu_kinetic: 1e6,
+        ..SphereInBowl::default()
+    };
+    for method in ["taylor", "dop853", "dopri5", "verner98", "rk4:0.01"] {
+        let method: Method = method.parse().expect("a method");
+        let counted = |until: f64| {
+            let start = scene.at(<SphereInBowl>::REST);
+            let before = ALLOCATIONS.get();
+            let run = Simulation::new(&scene)
+                .method(method)
+                .tolerance(1e-9)
+                .run(start, 0.0..until)
+                .expect("smooth");
+            (ALLOCATIONS.get() - before, run.work().steps)
+        };
+        counted(1.0);
+        let (short, few) = counted(5.0);
+        let (long, many) = counted(80.0);
+        assert!(many > 10 * few, "{method}: {few} and {many} steps");
+        // Two vectors grow by doubling: at most 2·log₂(80/5) + 2 reallocations more.
+        assert!(
+            long <= short + 10,
+            "{method}: {short} allocations in {few} steps, {long} in {many}"
+        );
+    }
+}
