@@ -15,7 +15,7 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
 /// Intervals at which tables of numbers and pictures sample a trajectory.
-const SAMPLES: usize = 200;
+const SAMPLES: usize = 400;
 
 /// Run a scene and tell what happened.
 #[derive(Args)]

@@ -23,7 +23,7 @@ pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
         writeln!(out, "\n{}", energy(ledger).trim_fmt())?;
         writeln!(
             out,
-            "The book closes to {:.1e} of the energy scale, {} J.",
+            "The ledger closes to {:.1e} of its scale, {} J.",
             ledger.closure.abs() / ledger.scale.max(f64::MIN_POSITIVE),
             Decimals::of([ledger.scale]).show(ledger.scale)
         )?;
@@ -184,6 +184,7 @@ fn story(outcome: &Outcome) -> Table {
     }
     let numbers = 2 + shown.len() + items.len();
     for (index, column) in table.column_iter_mut().enumerate() {
+        column.set_padding((1, 0));
         if index == 0 || (2..numbers).contains(&index) {
             column.set_cell_alignment(CellAlignment::Right);
             column.set_constraint(ColumnConstraint::ContentWidth);
@@ -213,7 +214,7 @@ fn energy(ledger: &Ledger) -> Table {
     let works = shown.iter().map(|entry| entry.work);
     let decimals = Decimals::of(lines.iter().flat_map(|(_, a, b)| [*a, *b]).chain(works));
     let mut table = page();
-    table.set_header(["energy\nJ", "start", "end", "change"]);
+    table.set_header(["energy, J", "start", "end", "change"]);
     for (name, a, b) in lines {
         table.add_row([
             name.to_owned(),

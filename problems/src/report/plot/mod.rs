@@ -17,13 +17,19 @@ use panel::Frame;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-const WIDTH: u32 = 900;
-const TITLE: u32 = 34;
-const PANEL: u32 = 210;
-const AXIS: u32 = 30;
-const KEY_LINE: u32 = 20;
+/// Subdivision of a pixel. The drawing library knows whole numbers only, so the picture is drawn this much larger
+/// and scaled down by its view box.
+const FINE: u32 = 10;
+
+const WIDTH: u32 = 900 * FINE;
+const TITLE: u32 = 34 * FINE;
+const PANEL: u32 = 210 * FINE;
+const AXIS: u32 = 38 * FINE;
+const KEY_LINE: u32 = 20 * FINE;
 /// Room for the names of the curves, right of the panels.
-const NAMES: u32 = 150;
+const NAMES: u32 = 150 * FINE;
+/// Room around the key.
+const MARGIN: u32 = 14 * FINE;
 
 /// Colours that colour-blind readers can tell apart (Okabe & Ito 2008).
 const COLOURS: [RGBColor; 7] = [
@@ -59,19 +65,17 @@ pub fn svg(outcome: &Outcome) -> Result<String, String> {
     }
     let panels = panels(outcome);
     let bands = bands(outcome);
-    let key = key_lines(bands.names.len());
-    let height = TITLE + panels.len() as u32 * PANEL + AXIS + key * KEY_LINE + 8;
+    let columns = key_columns(&bands.names);
+    let key = bands.names.len().div_ceil(columns) as u32 * KEY_LINE;
+    let height = TITLE + panels.len() as u32 * PANEL + AXIS + key + 8 * FINE;
     let mut text = String::new();
     {
         let root = SVGBackend::with_string(&mut text, (WIDTH, height)).into_drawing_area();
         root.fill(&WHITE).map_err(|e| e.to_string())?;
         let (title, rest) = root.split_vertically(TITLE);
-        let heading = ("sans-serif", 17)
-            .into_font()
-            .color(&BLACK)
-            .pos(Pos::new(HPos::Left, VPos::Center));
+        let heading = words(17, &BLACK, HPos::Left, VPos::Center);
         title
-            .draw_text(outcome.scene, &heading, (14, TITLE as i32 / 2))
+            .draw_text(outcome.scene, &heading, (MARGIN as i32, TITLE as i32 / 2))
             .map_err(|e| e.to_string())?;
         let (body, foot) = rest.split_vertically(panels.len() as u32 * PANEL + AXIS);
         let count = panels.len();
@@ -89,17 +93,32 @@ pub fn svg(outcome: &Outcome) -> Result<String, String> {
             };
             panel::draw(&area, panel, &frame).map_err(|e| e.to_string())?;
         }
-        panel::draw_key(&foot, &bands.names, key_columns(bands.names.len()))
-            .map_err(|e| e.to_string())?;
+        panel::draw_key(&foot, &bands.names, columns).map_err(|e| e.to_string())?;
         root.present().map_err(|e| e.to_string())?;
     }
-    Ok(text)
+    let drawn = format!("width=\"{WIDTH}\" height=\"{height}\"");
+    let shown = format!("width=\"{}\" height=\"{}\"", WIDTH / FINE, height / FINE);
+    Ok(text.replacen(&drawn, &shown, 1))
 }
 
-fn key_columns(modes: usize) -> usize {
-    modes.clamp(1, 3)
+/// As many columns as the longest name of a mode allows.
+fn key_columns(names: &[String]) -> usize {
+    let longest = names
+        .iter()
+        .map(|name| name.chars().count())
+        .max()
+        .unwrap_or(0) as u32;
+    let width = (longest * 7 + 50) * FINE;
+    (((WIDTH - 2 * MARGIN) / width) as usize).clamp(1, names.len().max(1))
 }
 
-fn key_lines(modes: usize) -> u32 {
-    modes.div_ceil(key_columns(modes)) as u32
+/// Text of a height in pixels.
+fn words<'a>(height: u32, colour: &impl Color, horizontal: HPos, vertical: VPos) -> TextStyle<'a> {
+    let font = ("sans-serif", height * FINE).into_font();
+    font.color(colour).pos(Pos::new(horizontal, vertical))
+}
+
+/// A length in pixels.
+fn px(length: i32) -> i32 {
+    length * FINE as i32
 }

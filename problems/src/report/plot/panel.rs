@@ -1,10 +1,10 @@
 //! One panel of curves over shaded bands, and the key of the modes.
 
 use super::curves::{Bands, Panel};
-use super::{COLOURS, KEY_LINE, NAMES, TINTS, WIDTH};
+use super::{COLOURS, FINE, KEY_LINE, MARGIN, NAMES, TINTS, WIDTH, px, words};
 use plotters::coord::Shift;
 use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::text_anchor::{HPos, VPos};
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Drawn<'a> = Result<(), DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>>;
@@ -23,12 +23,15 @@ pub(super) struct Frame<'b> {
 pub(super) fn draw<'a>(area: &Area<'a>, panel: &Panel, frame: &Frame) -> Drawn<'a> {
     let (low, high) = range(panel);
     let mut chart = ChartBuilder::on(area)
-        .margin_left(8)
-        .margin_top(6)
-        .margin_bottom(if frame.bottom { 0 } else { 8 })
+        .margin_left(px(8))
+        .margin_top(px(6))
+        .margin_bottom(if frame.bottom { 0 } else { px(8) })
         .margin_right(NAMES)
-        .set_label_area_size(LabelAreaPosition::Left, 58)
-        .set_label_area_size(LabelAreaPosition::Bottom, if frame.bottom { 38 } else { 0 })
+        .set_label_area_size(LabelAreaPosition::Left, px(58))
+        .set_label_area_size(
+            LabelAreaPosition::Bottom,
+            if frame.bottom { px(42) } else { 0 },
+        )
         .build_cartesian_2d(frame.from..frame.to, low..high)?;
     chart.draw_series(frame.bands.spans.iter().map(|&(from, to, mode)| {
         Rectangle::new(
@@ -40,29 +43,30 @@ pub(super) fn draw<'a>(area: &Area<'a>, panel: &Panel, frame: &Frame) -> Drawn<'
         .configure_mesh()
         .disable_x_mesh()
         .light_line_style(TRANSPARENT)
-        .bold_line_style(BLACK.mix(0.10))
+        .bold_line_style(BLACK.mix(0.10).stroke_width(FINE))
+        .axis_style(BLACK.stroke_width(FINE))
+        .set_all_tick_mark_size(px(5))
         .x_labels(if frame.bottom { 10 } else { 0 })
-        .y_labels(6)
+        .y_labels(8)
+        .x_label_formatter(&label)
+        .y_label_formatter(&label)
         .x_desc(if frame.bottom { "time, s" } else { "" })
         .y_desc(panel.title.as_str())
-        .axis_desc_style(("sans-serif", 14))
-        .label_style(("sans-serif", 13))
+        .axis_desc_style(("sans-serif", 14 * FINE))
+        .label_style(("sans-serif", 13 * FINE))
         .draw()?;
     for curve in &panel.curves {
-        let style = COLOURS[curve.colour % COLOURS.len()].stroke_width(2);
+        let style = COLOURS[curve.colour % COLOURS.len()].stroke_width(2 * FINE);
         for piece in &curve.pieces {
             let points = piece.iter().copied();
             match curve.dashed {
-                true => chart.draw_series(DashedLineSeries::new(points, 5, 4, style))?,
+                true => chart.draw_series(DashedLineSeries::new(points, px(5), px(4), style))?,
                 false => chart.draw_series(LineSeries::new(points, style))?,
             };
         }
     }
     if frame.top {
-        let style = ("sans-serif", 13)
-            .into_font()
-            .color(&BLACK.mix(0.6))
-            .pos(Pos::new(HPos::Center, VPos::Top));
+        let style = words(13, &BLACK.mix(0.6), HPos::Center, VPos::Top);
         let wide =
             |&&(from, to, _): &&(f64, f64, usize)| to - from > 0.015 * (frame.to - frame.from);
         chart.draw_series(
@@ -85,14 +89,11 @@ pub(super) fn draw<'a>(area: &Area<'a>, panel: &Panel, frame: &Frame) -> Drawn<'
 
 /// Names of the curves, right of the panel.
 fn draw_names<'a>(area: &Area<'a>, panel: &Panel) -> Drawn<'a> {
-    let style = ("sans-serif", 13)
-        .into_font()
-        .color(&BLACK)
-        .pos(Pos::new(HPos::Left, VPos::Center));
-    let left = (WIDTH - NAMES) as i32 + 10;
+    let style = words(13, &BLACK, HPos::Left, VPos::Center);
+    let left = (WIDTH - NAMES) as i32 + px(10);
     for (line, curve) in panel.curves.iter().enumerate() {
-        let y = 16 + line as i32 * 19;
-        let colour = COLOURS[curve.colour % COLOURS.len()].stroke_width(2);
+        let y = px(16 + line as i32 * 19);
+        let colour = COLOURS[curve.colour % COLOURS.len()].stroke_width(2 * FINE);
         let dashes: &[(i32, i32)] = if curve.dashed {
             &[(0, 6), (9, 15), (18, 22)]
         } else {
@@ -100,13 +101,13 @@ fn draw_names<'a>(area: &Area<'a>, panel: &Panel) -> Drawn<'a> {
         };
         for (from, to) in dashes {
             area.draw(&PathElement::new(
-                vec![(left + from, y), (left + to, y)],
+                vec![(left + px(*from), y), (left + px(*to), y)],
                 colour,
             ))?;
         }
         area.draw(&Text::new(
             curve.name.clone(),
-            (left + 28, y),
+            (left + px(28), y),
             style.clone(),
         ))?;
     }
@@ -115,26 +116,23 @@ fn draw_names<'a>(area: &Area<'a>, panel: &Panel) -> Drawn<'a> {
 
 /// What the numbered tints mean.
 pub(super) fn draw_key<'a>(area: &Area<'a>, names: &[String], columns: usize) -> Drawn<'a> {
-    let style = ("sans-serif", 13)
-        .into_font()
-        .color(&BLACK)
-        .pos(Pos::new(HPos::Left, VPos::Center));
-    let width = (WIDTH as i32 - 28) / columns as i32;
+    let style = words(13, &BLACK, HPos::Left, VPos::Center);
+    let width = (WIDTH - 2 * MARGIN) as i32 / columns as i32;
     for (mode, name) in names.iter().enumerate() {
-        let x = 14 + (mode % columns) as i32 * width;
-        let y = (mode / columns) as i32 * KEY_LINE as i32 + 8;
+        let x = MARGIN as i32 + (mode % columns) as i32 * width;
+        let y = (mode / columns) as i32 * KEY_LINE as i32 + px(8);
         let tint = TINTS[mode % TINTS.len()];
         area.draw(&Rectangle::new(
-            [(x, y - 7), (x + 18, y + 7)],
+            [(x, y - px(7)), (x + px(18), y + px(7))],
             tint.filled(),
         ))?;
         area.draw(&Rectangle::new(
-            [(x, y - 7), (x + 18, y + 7)],
-            BLACK.mix(0.3).stroke_width(1),
+            [(x, y - px(7)), (x + px(18), y + px(7))],
+            BLACK.mix(0.3).stroke_width(FINE),
         ))?;
         area.draw(&Text::new(
             format!("{}  {name}", mode + 1),
-            (x + 26, y),
+            (x + px(26), y),
             style.clone(),
         ))?;
     }
@@ -160,5 +158,16 @@ fn range(panel: &Panel) -> (f64, f64) {
     } else {
         0.1 * high.abs().max(1.0)
     };
-    (low - room, high + 1.6 * room)
+    (low - room, high + 2.0 * room)
+}
+
+/// A number on an axis, without the digits that rounding adds.
+fn label(value: &f64) -> String {
+    let text = format!("{value:.9}");
+    let short = text.trim_end_matches('0').trim_end_matches('.');
+    if short == "-0" {
+        "0".to_owned()
+    } else {
+        short.to_owned()
+    }
 }
