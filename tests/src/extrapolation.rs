@@ -36,12 +36,11 @@ fn panel<const N: usize>(
         let mut value: [f64; N] =
             core::array::from_fn(|i| 0.5 * (present[i] + previous[i] + h * slope[i]));
         // Neville's scheme in h², from the newest entry down the row.
-        for column in 0..row {
+        for (column, entry) in table.iter_mut().enumerate() {
             let ratio = (parts as f64 / (2 * (row - column)) as f64).powi(2) - 1.0;
             let better: [f64; N] =
-                core::array::from_fn(|i| value[i] + (value[i] - table[column][i]) / ratio);
-            table[column] = value;
-            value = better;
+                core::array::from_fn(|i| value[i] + (value[i] - entry[i]) / ratio);
+            *entry = core::mem::replace(&mut value, better);
         }
         table.push(value);
     }
