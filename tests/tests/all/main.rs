@@ -2,7 +2,9 @@
 
 mod bowl;
 mod derived;
+mod diagnostics;
 mod errors;
+mod interpretation;
 mod recording;
 mod steppers;
 mod switches;
