@@ -85,6 +85,15 @@ pub enum Error {
         /// The mode.
         mode: String,
     },
+    /// The stages of an implicit method with fixed steps did not converge.
+    StepTooLarge {
+        /// Time, s.
+        time: f64,
+        /// Step, s.
+        step: f64,
+        /// The mode.
+        mode: String,
+    },
     /// Modes alternate without time advancing.
     NoProgress {
         /// Time, s.
@@ -204,6 +213,10 @@ impl fmt::Display for Error {
             Error::StepTooSmall { time, step, mode } => write!(
                 f,
                 "t = {time} ({mode}): the step fell to {step:.1e} s; the motion is singular here or the tolerance is too tight"
+            ),
+            Error::StepTooLarge { time, step, mode } => write!(
+                f,
+                "t = {time} ({mode}): the stages of a step of {step:.1e} s do not converge; choose a smaller step"
             ),
             Error::NoProgress { time, modes, item } => write!(
                 f,

@@ -1,6 +1,6 @@
 //! Storage of Taylor coefficients, slot by slot.
 
-use super::convolution::{convolution, convolution_ends_last};
+use super::convolution::{convolution, convolution_ends_last, convolution_square, weighted};
 use super::{Jet, Scalar};
 
 /// A slot of a coefficient table: the offset of its coefficient 0.
@@ -64,18 +64,6 @@ impl<T: Scalar> Coefficients<T> {
         &self.table[slot.0..slot.0 + self.stride]
     }
 
-    /// Σ_{j=1..k} xⱼ yₖ₋ⱼ: what coefficient k of a product takes from earlier coefficients of y.
-    #[inline(always)]
-    pub fn tail_product(&self, x: Slot, y: Slot, k: usize) -> T {
-        convolution(&self.table[x.0 + 1..=x.0 + k], &self.table[y.0..y.0 + k])
-    }
-
-    /// Coefficient `k` of the product of two slots.
-    #[inline(always)]
-    pub fn product(&self, x: Slot, y: Slot, k: usize) -> T {
-        convolution_ends_last(&self.table[x.0..=x.0 + k], &self.table[y.0..=y.0 + k])
-    }
-
     /// Coefficient `k` of a slot.
     #[inline(always)]
     pub fn get(&self, slot: Slot, k: usize) -> T {
@@ -88,10 +76,66 @@ impl<T: Scalar> Coefficients<T> {
         self.table[slot.0 + k] = value;
     }
 
+    /// Coefficient `k` of x y.
+    #[inline(always)]
+    pub fn product(&self, x: Slot, y: Slot, k: usize) -> T {
+        product(&self.table, x, y, k)
+    }
+
+    /// Σ_{j=1..k} xⱼ yₖ₋ⱼ: what coefficient `k` of x y takes from earlier coefficients of y.
+    #[inline(always)]
+    pub fn tail_product(&self, x: Slot, y: Slot, k: usize) -> T {
+        tail_product(&self.table, x, y, k)
+    }
+
     /// The arithmetic that appends coefficient `k`; its operations write the slots from `base` on.
     #[inline(always)]
     pub fn jet(&mut self, k: usize, base: usize) -> Jet<'_, T> {
         let base = base * self.stride;
         Jet::new(&mut self.table, &self.weights, self.stride, k, base)
     }
+}
+
+/// Coefficients `from..until` of a slot.
+#[inline(always)]
+fn part<T>(table: &[T], slot: Slot, from: usize, until: usize) -> &[T] {
+    &table[slot.0 + from..slot.0 + until]
+}
+
+/// Coefficient `k` of x y: Σ_{j=0..k} xⱼ yₖ₋ⱼ.
+#[inline(always)]
+pub(super) fn product<T: Scalar>(table: &[T], x: Slot, y: Slot, k: usize) -> T {
+    convolution_ends_last(part(table, x, 0, k + 1), part(table, y, 0, k + 1))
+}
+
+/// Σ_{j=1..k} xⱼ yₖ₋ⱼ
+#[inline(always)]
+pub(super) fn tail_product<T: Scalar>(table: &[T], x: Slot, y: Slot, k: usize) -> T {
+    convolution(part(table, x, 1, k + 1), part(table, y, 0, k))
+}
+
+/// Coefficient `k` of x²: Σ_{j=0..k} xⱼ xₖ₋ⱼ.
+#[inline(always)]
+pub(super) fn square<T: Scalar>(table: &[T], x: Slot, k: usize) -> T {
+    convolution_square(part(table, x, 0, k + 1))
+}
+
+/// Σ_{j=1..k−1} xⱼ xₖ₋ⱼ, for k > 0.
+#[inline(always)]
+pub(super) fn inner_square<T: Scalar>(table: &[T], x: Slot, k: usize) -> T {
+    convolution_square(part(table, x, 1, k))
+}
+
+/// Σ_{j=1..last} j xⱼ yₖ₋ⱼ, for 0 < k and last ≤ k.
+#[inline(always)]
+pub(super) fn weighted_product<T: Scalar>(
+    table: &[T],
+    weights: &[T],
+    x: Slot,
+    y: Slot,
+    k: usize,
+    last: usize,
+) -> T {
+    let (x, y) = (part(table, x, 1, last + 1), part(table, y, k - last, k));
+    weighted(&weights[1..=last], x, y)
 }

@@ -40,23 +40,8 @@ pub(crate) fn convolution_square<T: Scalar>(x: &[T]) -> T {
 }
 
 /// Σ wⱼ xⱼ yₙ₋₁₋ⱼ
-#[inline]
+#[inline(always)]
 pub(crate) fn weighted<T: Scalar>(w: &[T], x: &[T], y: &[T]) -> T {
-    let mut sums = [T::zero(); 2];
-    for (j, ((&w, &x), &y)) in w.iter().zip(x).zip(y.iter().rev()).enumerate() {
-        sums[j & 1] += w * x * y;
-    }
-    sums[0] + sums[1]
-}
-
-/// (Σ wⱼ xⱼ yₙ₋₁₋ⱼ, Σ wⱼ xⱼ zₙ₋₁₋ⱼ)
-#[inline]
-pub(crate) fn weighted_pair<T: Scalar>(w: &[T], x: &[T], y: &[T], z: &[T]) -> (T, T) {
-    let mut sums = (T::zero(), T::zero());
-    for (((&w, &x), &y), &z) in w.iter().zip(x).zip(y.iter().rev()).zip(z.iter().rev()) {
-        let wx = w * x;
-        sums.0 += wx * y;
-        sums.1 += wx * z;
-    }
-    sums
+    let terms = w.iter().zip(x).zip(y.iter().rev());
+    terms.fold(T::zero(), |sum, ((&w, &x), &y)| sum + w * x * y)
 }

@@ -12,9 +12,7 @@
 //! References: Jorba & Zou 2005, A software package for the numerical integration of ODEs by means of high-order
 //! Taylor methods, section 2; Griewank & Walther 2008, Evaluating Derivatives, chapter 13.
 
-use super::convolution::{
-    convolution, convolution_ends_last, convolution_square, weighted, weighted_pair,
-};
+use super::coefficients::{inner_square, product, square, tail_product, weighted_product};
 use super::{Arithmetic, Scalar, Slot};
 
 /// An operation whose Taylor series can fail to exist.
@@ -44,10 +42,11 @@ pub struct Singular {
     pub slot: usize,
 }
 
-/// Runs a tape on Taylor coefficients; made by [`Coefficients::jet`].
+/// Runs a tape on Taylor coefficients; made by [`super::Coefficients::jet`].
 #[derive(Debug)]
 pub struct Jet<'a, T> {
     table: &'a mut [T],
+    /// 0, 1, 2, … as scalars.
     weights: &'a [T],
     stride: usize,
     k: usize,
@@ -62,7 +61,7 @@ fn positive<T: Scalar>(x: T) -> bool {
 }
 
 impl<'a, T: Scalar> Jet<'a, T> {
-    /// Appends coefficient `k` of slots whose first begins at `base` in `table`.
+    /// Appends coefficient `k` of slots from the one at `base` on.
     #[inline(always)]
     pub(super) fn new(
         table: &'a mut [T],
@@ -81,6 +80,12 @@ impl<'a, T: Scalar> Jet<'a, T> {
         }
     }
 
+    /// The order k of the coefficients that this run appends.
+    #[inline(always)]
+    pub(super) fn coefficient(&self) -> usize {
+        self.k
+    }
+
     /// The first operation of this run that has no Taylor series here. Its coefficients are zeros, not NaN.
     #[inline(always)]
     pub fn singular(&self) -> Option<Singular> {
@@ -88,85 +93,104 @@ impl<'a, T: Scalar> Jet<'a, T> {
     }
 
     #[inline(always)]
-    fn to(&self, to: usize) -> usize {
-        self.base + to * self.stride
-    }
-
-    #[inline(always)]
-    fn at(&self, x: Slot) -> T {
-        self.table[x.0 + self.k]
+    fn to(&self, to: usize) -> Slot {
+        Slot(self.base + to * self.stride)
     }
 
     /// Coefficient k of a slot.
     #[inline(always)]
-    pub(crate) fn latest(&self, x: Slot) -> T {
-        self.at(x)
+    pub(super) fn at(&self, x: Slot) -> T {
+        self.table[x.0 + self.k]
+    }
+
+    /// Coefficient 0 of a slot.
+    #[inline(always)]
+    pub(super) fn start(&self, x: Slot) -> T {
+        self.table[x.0]
     }
 
     /// Sets coefficient k of slot `to`.
     #[inline(always)]
-    pub(crate) fn append(&mut self, to: usize, value: T) -> Slot {
-        self.put(to, value)
+    pub(super) fn put(&mut self, to: usize, value: T) -> Slot {
+        let slot = self.to(to);
+        self.table[slot.0 + self.k] = value;
+        slot
     }
 
+    /// Coefficient k of a constant.
     #[inline(always)]
-    fn put(&mut self, to: usize, value: T) -> Slot {
-        let offset = self.to(to);
-        self.table[offset + self.k] = value;
-        Slot(offset)
+    fn only_first(&self, c: T) -> T {
+        if self.k == 0 { c } else { T::zero() }
     }
 
-    /// Coefficients `from..until` of the series at `offset`.
+    /// The coefficient of z with z′ = x′ y: (1/k) Σ_{j=1..k} j xⱼ yₖ₋ⱼ.
     #[inline(always)]
-    fn part(&self, offset: usize, from: usize, until: usize) -> &[T] {
-        &self.table[offset + from..offset + until]
-    }
-
-    /// Σ_{j=1..k} j xⱼ yₖ₋ⱼ
-    #[inline(always)]
-    fn derivative_product(&self, x: usize, y: usize) -> T {
+    fn integral(&self, x: Slot, y: Slot) -> T {
         let k = self.k;
-        weighted(
-            &self.weights[1..=k],
-            self.part(x, 1, k + 1),
-            self.part(y, 0, k),
-        )
+        weighted_product(self.table, self.weights, x, y, k, k) / self.weights[k]
     }
 
-    /// Σ_{j=1..k−1} j zⱼ yₖ₋ⱼ
+    /// Σ_{j=1..k−1} j zⱼ yₖ₋ⱼ / k: what the coefficient of z with y z′ = … takes from earlier coefficients of z.
     #[inline(always)]
-    fn derivative_tail(&self, z: usize, y: usize) -> T {
+    fn earlier(&self, z: Slot, y: Slot) -> T {
         let k = self.k;
-        weighted(&self.weights[1..k], self.part(z, 1, k), self.part(y, 1, k))
-    }
-
-    #[inline(always)]
-    fn order(&self) -> T {
-        self.weights[self.k]
+        weighted_product(self.table, self.weights, z, y, k, k - 1) / self.weights[k]
     }
 
     #[cold]
     #[inline(never)]
     fn fail(&mut self, operation: Operation, to: usize) -> T {
-        let slot = self.to(to) / self.stride;
+        let slot = self.base / self.stride + to;
         self.singular.get_or_insert(Singular { operation, slot });
         T::zero()
     }
 
-    /// The coefficient, or zero and a flag where there is no series.
+    /// Writes the coefficient, or zero and a flag where there is no series.
     #[inline(always)]
-    fn unless(
+    fn put_unless(
         &mut self,
         bad: bool,
         operation: Operation,
         to: usize,
-        f: impl FnOnce(&Self) -> T,
-    ) -> T {
-        if bad {
+        coefficient: impl FnOnce(&Self, Slot) -> T,
+    ) -> Slot {
+        let value = if bad {
             self.fail(operation, to)
         } else {
-            f(self)
-        }
+            coefficient(self, self.to(to))
+        };
+        self.put(to, value)
+    }
+
+    /// x / y for a y that does not depend on time.
+    #[inline(always)]
+    pub(super) fn div_constant(&mut self, to: usize, x: Slot, y: Slot) -> Slot {
+        let y0 = self.start(y);
+        self.put_unless(y0.value() == 0.0, Operation::Division, to, |a, _| {
+            a.at(x) / y0
+        })
+    }
+
+    /// asin (sign +) or acos (sign −): u z′ = ±x′, u = √(1 − x²).
+    fn inverse_sine(&mut self, to: usize, x: Slot, first: fn(T) -> T, sign: T) -> Slot {
+        let (k, u) = (self.k, self.to(to + 1));
+        let x0 = self.start(x);
+        let cosine = (T::one() - x0) * (T::one() + x0);
+        let bad = !positive(cosine);
+        self.put_unless(bad, Operation::InverseSine, to + 1, |a, u| {
+            if k == 0 {
+                return cosine.sqrt();
+            }
+            let u0 = a.start(u);
+            -(square(a.table, x, k) + inner_square(a.table, u, k)) / (u0 + u0)
+        });
+        self.put_unless(bad, Operation::InverseSine, to, |a, z| {
+            if k == 0 {
+                first(x0)
+            } else {
+                (sign * a.at(x) - a.earlier(z, u)) / a.start(u)
+            }
+        })
     }
 }
 
@@ -181,8 +205,7 @@ impl<T: Scalar> Arithmetic for Jet<'_, T> {
 
     #[inline]
     fn constant(&mut self, to: usize, c: T) -> Slot {
-        let value = if self.k == 0 { c } else { T::zero() };
-        self.put(to, value)
+        self.put(to, self.only_first(c))
     }
 
     #[inline]
@@ -212,155 +235,118 @@ impl<T: Scalar> Arithmetic for Jet<'_, T> {
     }
 
     fn mul(&mut self, to: usize, x: Slot, y: Slot) -> Slot {
-        let n = self.k + 1;
-        let z = convolution_ends_last(self.part(x.0, 0, n), self.part(y.0, 0, n));
-        self.put(to, z)
+        self.put(to, product(self.table, x, y, self.k))
     }
 
     fn square(&mut self, to: usize, x: Slot) -> Slot {
-        let z = convolution_square(self.part(x.0, 0, self.k + 1));
-        self.put(to, z)
+        self.put(to, square(self.table, x, self.k))
     }
 
     fn div(&mut self, to: usize, x: Slot, y: Slot) -> Slot {
-        let (k, z) = (self.k, self.to(to));
-        let y0 = self.table[y.0];
-        let value = self.unless(y0.value() == 0.0, Operation::Division, to, |a| {
-            (a.at(x) - convolution(a.part(y.0, 1, k + 1), a.part(z, 0, k))) / y0
-        });
-        self.put(to, value)
+        let y0 = self.start(y);
+        self.put_unless(y0.value() == 0.0, Operation::Division, to, |a, z| {
+            (a.at(x) - tail_product(a.table, y, z, a.k)) / y0
+        })
     }
 
     fn ratio(&mut self, to: usize, c: T, x: Slot) -> Slot {
-        let (k, z) = (self.k, self.to(to));
-        let x0 = self.table[x.0];
-        let value = self.unless(x0.value() == 0.0, Operation::Division, to, |a| {
-            if k == 0 {
-                c / x0
-            } else {
-                -convolution(a.part(x.0, 1, k + 1), a.part(z, 0, k)) / x0
-            }
-        });
-        self.put(to, value)
+        let x0 = self.start(x);
+        self.put_unless(x0.value() == 0.0, Operation::Division, to, |a, z| {
+            (a.only_first(c) - tail_product(a.table, x, z, a.k)) / x0
+        })
     }
 
     fn sqrt(&mut self, to: usize, x: Slot) -> Slot {
-        let (k, z) = (self.k, self.to(to));
-        let x0 = self.table[x.0];
-        let value = self.unless(!positive(x0), Operation::SquareRoot, to, |a| {
-            if k == 0 {
-                x0.sqrt()
-            } else {
-                let z0 = a.table[z];
-                (a.at(x) - convolution_square(a.part(z, 1, k))) / (z0 + z0)
+        let x0 = self.start(x);
+        self.put_unless(!positive(x0), Operation::SquareRoot, to, |a, z| {
+            if a.k == 0 {
+                return x0.sqrt();
             }
-        });
-        self.put(to, value)
+            let z0 = a.start(z);
+            (a.at(x) - inner_square(a.table, z, a.k)) / (z0 + z0)
+        })
     }
 
     fn powf(&mut self, to: usize, x: Slot, c: f64) -> Slot {
-        let (k, z) = (self.k, self.to(to));
-        let x0 = self.table[x.0];
+        let x0 = self.start(x);
         // x z′ = c z x′
-        let value = self.unless(!positive(x0), Operation::Power, to, |a| {
-            if k == 0 {
-                x0.powf(c)
-            } else {
-                (T::from_f64(c) * a.derivative_product(x.0, z) - a.derivative_tail(z, x.0))
-                    / (a.order() * x0)
+        self.put_unless(!positive(x0), Operation::Power, to, |a, z| {
+            if a.k == 0 {
+                return x0.powf(c);
             }
-        });
-        self.put(to, value)
+            (T::from_f64(c) * a.integral(x, z) - a.earlier(z, x)) / x0
+        })
     }
 
     fn exp(&mut self, to: usize, x: Slot) -> Slot {
-        let z = self.to(to);
         let value = if self.k == 0 {
             self.at(x).exp()
         } else {
-            self.derivative_product(x.0, z) / self.order()
+            self.integral(x, self.to(to))
         };
         self.put(to, value)
     }
 
     fn ln(&mut self, to: usize, x: Slot) -> Slot {
-        let (k, z) = (self.k, self.to(to));
-        let x0 = self.table[x.0];
+        let x0 = self.start(x);
         // x z′ = x′
-        let value = self.unless(!positive(x0), Operation::Logarithm, to, |a| {
-            if k == 0 {
+        self.put_unless(!positive(x0), Operation::Logarithm, to, |a, z| {
+            if a.k == 0 {
                 x0.ln()
             } else {
-                (a.at(x) - a.derivative_tail(z, x.0) / a.order()) / x0
+                (a.at(x) - a.earlier(z, x)) / x0
             }
-        });
-        self.put(to, value)
+        })
     }
 
     fn sin_cos(&mut self, to: usize, x: Slot) -> (Slot, Slot) {
-        let (k, s, c) = (self.k, self.to(to), self.to(to + 1));
-        let (sin, cos) = if k == 0 {
+        let (s, c) = (self.to(to), self.to(to + 1));
+        let (sin, cos) = if self.k == 0 {
             self.at(x).sin_cos()
         } else {
-            let (weights, x) = (&self.weights[1..=k], self.part(x.0, 1, k + 1));
-            let (sin, cos) = weighted_pair(weights, x, self.part(c, 0, k), self.part(s, 0, k));
-            (sin / self.order(), -cos / self.order())
+            (self.integral(x, c), -self.integral(x, s))
         };
         (self.put(to, sin), self.put(to + 1, cos))
     }
 
     fn sinh_cosh(&mut self, to: usize, x: Slot) -> (Slot, Slot) {
-        let (k, s, c) = (self.k, self.to(to), self.to(to + 1));
-        let (sinh, cosh) = if k == 0 {
+        let (s, c) = (self.to(to), self.to(to + 1));
+        let (sinh, cosh) = if self.k == 0 {
             self.at(x).sinh_cosh()
         } else {
-            let (weights, x) = (&self.weights[1..=k], self.part(x.0, 1, k + 1));
-            let (sinh, cosh) = weighted_pair(weights, x, self.part(c, 0, k), self.part(s, 0, k));
-            (sinh / self.order(), cosh / self.order())
+            (self.integral(x, c), self.integral(x, s))
         };
         (self.put(to, sinh), self.put(to + 1, cosh))
     }
 
     fn tan(&mut self, to: usize, x: Slot) -> Slot {
-        let (z, u) = (self.to(to), self.to(to + 1));
         // z′ = u x′, u = 1 + z²
         let value = if self.k == 0 {
             self.at(x).tan()
         } else {
-            self.derivative_product(x.0, u) / self.order()
+            self.integral(x, self.to(to + 1))
         };
-        let slot = self.put(to, value);
-        let square = convolution_square(self.part(z, 0, self.k + 1));
+        let z = self.put(to, value);
         self.put(
             to + 1,
-            if self.k == 0 {
-                T::one() + square
-            } else {
-                square
-            },
+            self.only_first(T::one()) + square(self.table, z, self.k),
         );
-        slot
+        z
     }
 
     fn tanh(&mut self, to: usize, x: Slot) -> Slot {
-        let (z, u) = (self.to(to), self.to(to + 1));
         // z′ = u x′, u = 1 − z²
         let value = if self.k == 0 {
             self.at(x).tanh()
         } else {
-            self.derivative_product(x.0, u) / self.order()
+            self.integral(x, self.to(to + 1))
         };
-        let slot = self.put(to, value);
-        let square = convolution_square(self.part(z, 0, self.k + 1));
+        let z = self.put(to, value);
         self.put(
             to + 1,
-            if self.k == 0 {
-                T::one() - square
-            } else {
-                -square
-            },
+            self.only_first(T::one()) - square(self.table, z, self.k),
         );
-        slot
+        z
     }
 
     fn asin(&mut self, to: usize, x: Slot) -> Slot {
@@ -372,56 +358,31 @@ impl<T: Scalar> Arithmetic for Jet<'_, T> {
     }
 
     fn atan(&mut self, to: usize, x: Slot) -> Slot {
-        let (k, z, u) = (self.k, self.to(to), self.to(to + 1));
         // u z′ = x′, u = 1 + x²
-        let square = convolution_square(self.part(x.0, 0, k + 1));
-        self.put(to + 1, if k == 0 { T::one() + square } else { square });
-        let value = if k == 0 {
+        let u = self.put(
+            to + 1,
+            self.only_first(T::one()) + square(self.table, x, self.k),
+        );
+        let value = if self.k == 0 {
             self.at(x).atan()
         } else {
-            (self.at(x) - self.derivative_tail(z, u) / self.order()) / self.table[u]
+            (self.at(x) - self.earlier(self.to(to), u)) / self.start(u)
         };
         self.put(to, value)
     }
 
     fn atan2(&mut self, to: usize, y: Slot, x: Slot) -> Slot {
-        let (k, z, u) = (self.k, self.to(to), self.to(to + 1));
         // u z′ = x y′ − y x′, u = x² + y²
-        let square = convolution_square(self.part(x.0, 0, k + 1))
-            + convolution_square(self.part(y.0, 0, k + 1));
-        self.put(to + 1, square);
-        let u0 = self.table[u];
-        let value = self.unless(!positive(u0), Operation::Angle, to, |a| {
-            if k == 0 {
-                a.at(y).atan2(a.at(x))
-            } else {
-                let turn = a.derivative_product(y.0, x.0) - a.derivative_product(x.0, y.0);
-                (turn - a.derivative_tail(z, u)) / (a.order() * u0)
+        let u = self.put(
+            to + 1,
+            square(self.table, x, self.k) + square(self.table, y, self.k),
+        );
+        let u0 = self.start(u);
+        self.put_unless(!positive(u0), Operation::Angle, to, |a, z| {
+            if a.k == 0 {
+                return a.at(y).atan2(a.at(x));
             }
-        });
-        self.put(to, value)
-    }
-}
-
-impl<T: Scalar> Jet<'_, T> {
-    /// asin (sign +) or acos (sign −): u z′ = ±x′, u = √(1 − x²).
-    fn inverse_sine(&mut self, to: usize, x: Slot, start: fn(T) -> T, sign: T) -> Slot {
-        let (k, z, u) = (self.k, self.to(to), self.to(to + 1));
-        let x0 = self.table[x.0];
-        if !positive(T::one() - x0 * x0) {
-            let zero = self.fail(Operation::InverseSine, to);
-            self.put(to + 1, zero);
-            return self.put(to, zero);
-        }
-        if k == 0 {
-            self.put(to + 1, ((T::one() - x0) * (T::one() + x0)).sqrt());
-            return self.put(to, start(x0));
-        }
-        let u0 = self.table[u];
-        let square =
-            convolution_square(self.part(x.0, 0, k + 1)) + convolution_square(self.part(u, 1, k));
-        self.put(to + 1, -square / (u0 + u0));
-        let value = (sign * self.at(x) - self.derivative_tail(z, u) / self.order()) / u0;
-        self.put(to, value)
+            (a.integral(y, x) - a.integral(x, y) - a.earlier(z, u)) / u0
+        })
     }
 }

@@ -13,6 +13,7 @@ mod convolution;
 mod direct;
 mod dual;
 mod jet;
+mod record;
 mod scalar;
 #[cfg(test)]
 mod tests;
@@ -21,6 +22,7 @@ pub use coefficients::{Coefficients, Slot};
 pub use direct::{Derivative, Value};
 pub use dual::Dual;
 pub use jet::{Jet, Operation, Singular};
+pub use record::{Recorded, Recorder, Recording, Variation};
 
 use core::fmt::Debug;
 

@@ -53,6 +53,8 @@ pub struct Dynamics<S: System> {
     /// What the report tape is told: the effects' own needs and what was asked for.
     report_held: NeedSet,
     reports: bool,
+    /// Of the named energies.
+    energies: NeedSet,
     /// Inertia, Jacobians and residuals of the rows that act.
     row_needs: NeedSet,
     /// The system's own, then the plan's.
@@ -90,6 +92,7 @@ impl<S: System> Dynamics<S> {
             report_needs: NeedSet::new(d),
             report_held: NeedSet::new(d),
             reports: false,
+            energies: needs::of_energies(d),
             row_needs: NeedSet::new(d),
             constants: Vec::with_capacity(d.constants),
             plan: Plan::default(),
@@ -196,20 +199,41 @@ impl<S: System> Dynamics<S> {
     pub fn set_report_needs(&mut self, needs: &[u64]) {
         self.report_needs.clear();
         self.report_needs.extend(needs);
-        self.reports = needs
-            .iter()
-            .enumerate()
-            .any(|(i, &word)| if i == 0 { word & !1 != 0 } else { word != 0 });
         self.hold();
     }
 
+    /// What the tapes are told. A series recorded for other needs is out of date.
     fn hold(&mut self) {
-        self.held.clear();
-        self.held.extend(&self.motion_needs);
-        self.held.extend(&self.extra);
-        self.report_held.clear();
-        self.report_held.extend(&self.held);
-        self.report_held.extend(&self.report_needs);
+        let d = S::DESCRIPTION;
+        let motion = self.motion_needs.iter().zip(self.extra.iter());
+        let mut changed = self.held.assign(motion.map(|(a, b)| a | b));
+        // The named energies stand under their own needs also in the report, for the energy balance alone.
+        let balance =
+            self.report_needs.contains(d.energy.need) || self.report_needs.contains(d.momenta.need);
+        let left_out = |energies: u64| if balance { 0 } else { energies };
+        let report = self
+            .held
+            .iter()
+            .zip(self.report_needs.iter())
+            .zip(self.energies.iter());
+        changed |= self
+            .report_held
+            .assign(report.map(|((a, b), &e)| (a | b) & !left_out(e)));
+        let after_solve = d
+            .branches
+            .iter()
+            .any(|b| b.after_solve && self.held.contains(b.need));
+        let reports = after_solve
+            || self
+                .report_needs
+                .iter()
+                .enumerate()
+                .any(|(i, &w)| w & !u64::from(i == 0) != 0);
+        changed |= reports != self.reports;
+        self.reports = reports;
+        if changed {
+            self.table.outdate();
+        }
     }
 
     fn solve_error(&self, error: SolveError) -> EvaluationError {

@@ -54,6 +54,16 @@ impl NeedSet {
         }
     }
 
+    /// Replaces the words of the set; returns whether that changes it.
+    pub(super) fn assign(&mut self, words: impl Iterator<Item = u64>) -> bool {
+        let mut changed = false;
+        for (word, new) in self.words.iter_mut().zip(words) {
+            changed |= *word != new;
+            *word = new;
+        }
+        changed
+    }
+
     /// Leaves only need 0.
     pub fn clear(&mut self) {
         self.words.fill(0);
@@ -77,6 +87,16 @@ pub(crate) fn of_effects(description: &Description, effects: &Effects, needs: &m
             _ => {}
         }
     }
+    needs.insert(0);
+}
+
+/// The needs of the named energies, without need 0.
+pub(super) fn of_energies(description: &Description) -> NeedSet {
+    let mut needs = NeedSet::new(description);
+    let energies = description.kinetic.iter().chain(description.potential);
+    energies.for_each(|energy| needs.insert(energy.need));
+    needs.remove(0);
+    needs
 }
 
 /// What the equations of motion of a mode need: inertia, forces, the rows that act, sliding friction.

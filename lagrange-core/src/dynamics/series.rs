@@ -9,14 +9,18 @@
 //! one factorization whatever the order; the sum runs over those matrix elements that change with the state.
 //! Reference: Griewank & Walther 2008, Evaluating Derivatives, section 13.2 (implicit relations).
 
-use super::table::{Table, layout};
+use super::table::{Table, Tapes};
 use super::{Dynamics, EvaluationError};
-use crate::arithmetic::{Arithmetic, Jet, Scalar};
+use crate::arithmetic::{Coefficients, Recording, Scalar, Variation};
 use crate::system::{Held, Place, System};
+use num_traits::{One, Zero};
 
 impl<S: System> Dynamics<S> {
     /// Taylor coefficients 0…`order` in the time τ since `t` of positions, velocities, accelerations, forces and all outputs
     /// that are held. The arrays that the `…_series` functions return have `order + 1` elements.
+    ///
+    /// # Errors
+    /// Those of [`Self::value`], and [`EvaluationError::NoSeries`].
     pub fn series(
         &mut self,
         t: S::Scalar,
@@ -25,23 +29,17 @@ impl<S: System> Dynamics<S> {
         order: usize,
     ) -> Result<(), EvaluationError> {
         self.work.series += 1;
-        let n = S::DESCRIPTION.coordinates.len();
-        self.table
-            .prepare(S::DESCRIPTION, &self.constants, &self.plan, order);
-        let Table {
-            coefficients,
-            inputs,
-            ..
-        } = &mut self.table;
-        coefficients.put(inputs[0], 0, t);
-        for (&slot, &x) in inputs[1..1 + 2 * n].iter().zip(q.iter().chain(v)) {
-            coefficients.put(slot, 0, x);
-        }
+        self.work.coefficients += order + 1;
+        self.record(v, order);
+        self.begin(t, q, v);
         for k in 0..=order {
-            self.work.coefficients += 1;
-            self.append_motion(k)?;
+            let Table {
+                coefficients,
+                motion,
+                ..
+            } = &mut self.table;
+            append(motion, coefficients, k)?;
             if k == 0 {
-                self.table.resolve(S::DESCRIPTION, &self.plan);
                 self.factor_start()?;
             }
             self.gather(k);
@@ -50,9 +48,12 @@ impl<S: System> Dynamics<S> {
                 self.check_rows_aside()?;
             }
             self.scatter(k);
-            if self.reports {
-                self.append_report(k)?;
-            }
+            let Table {
+                coefficients,
+                report,
+                ..
+            } = &mut self.table;
+            append(report, coefficients, k)?;
             if k < order {
                 self.integrate(k);
             }
@@ -60,53 +61,46 @@ impl<S: System> Dynamics<S> {
         Ok(())
     }
 
-    fn append_motion(&mut self, k: usize) -> Result<(), EvaluationError> {
-        let d = S::DESCRIPTION;
-        let parts = layout(d);
-        let held = Held {
-            needs: &self.held,
-            branches: &self.mode.branches,
+    /// Records the tapes of the mode unless that has been done.
+    fn record(&mut self, v: &[S::Scalar], order: usize) {
+        let branches = &self.mode.branches[..];
+        let tapes = Tapes {
+            scene: &self.scene,
+            constants: &self.constants,
+            plan: &self.plan,
+            motion: Held {
+                needs: &self.held,
+                branches,
+            },
+            report: self.reports.then_some(Held {
+                needs: &self.report_held,
+                branches,
+            }),
         };
-        let Table {
-            coefficients,
-            inputs,
-            nodes,
-            ..
-        } = &mut self.table;
-        let inputs = &inputs[..1 + 2 * d.coordinates.len()];
-        let mut a = coefficients.jet(k, parts.motion);
-        self.scene.motion(
-            &mut a,
-            &held,
-            &self.constants,
-            inputs,
-            &mut nodes[..d.motion.outputs],
-        );
-        a.origin(parts.program);
-        self.plan.program.run(&mut a, &self.constants, nodes);
-        expandable(&a)
+        let at_rest = v
+            .iter()
+            .enumerate()
+            .all(|(j, v)| v.is_zero() || !self.plan.is_pinned(j));
+        self.table.prepare(&tapes, order, at_rest);
     }
 
-    fn append_report(&mut self, k: usize) -> Result<(), EvaluationError> {
-        let held = Held {
-            needs: &self.report_held,
-            branches: &self.mode.branches,
-        };
-        let Table {
-            coefficients,
-            inputs,
-            report_nodes,
-            ..
-        } = &mut self.table;
-        let mut a = coefficients.jet(k, layout(S::DESCRIPTION).report);
-        self.scene
-            .report(&mut a, &held, &self.constants, inputs, report_nodes);
-        expandable(&a)
+    /// Coefficients 0 of the state, and of time all.
+    fn begin(&mut self, t: S::Scalar, q: &[S::Scalar], v: &[S::Scalar]) {
+        let time = self.table.input(0);
+        self.table.coefficients.put(time, 0, t);
+        if self.table.order() > 0 {
+            // dt/dτ = 1
+            self.table.coefficients.put(time, 1, S::Scalar::one());
+        }
+        for (i, &x) in q.iter().chain(v).enumerate() {
+            let slot = self.table.input(1 + i);
+            self.table.coefficients.put(slot, 0, x);
+        }
     }
 
     fn factor_start(&mut self) -> Result<(), EvaluationError> {
         let table = core::mem::take(&mut self.table);
-        let outcome = self.factor(|node| table.coefficients.get(table.nodes[node], 0));
+        let outcome = self.factor(|node| table.coefficients.get(table.nodes[node].slot, 0));
         self.table = table;
         outcome
     }
@@ -151,85 +145,84 @@ impl<S: System> Dynamics<S> {
             table,
             ..
         } = self;
-        let Table {
-            coefficients,
-            inputs,
-            nodes,
-            kept,
-            force_parts,
-            ..
-        } = table;
         let n = S::DESCRIPTION.coordinates.len();
-        let (accelerations, forces) = inputs[1 + 2 * n..].split_at(n);
-        for (j, &slot) in accelerations.iter().enumerate() {
-            coefficients.put(slot, k, plan.elimination.acceleration(j, solution));
+        for j in 0..n {
+            let slot = table.input(1 + 2 * n + j);
+            table
+                .coefficients
+                .put(slot, k, plan.elimination.acceleration(j, solution));
         }
-        for (&slot, &x) in kept.iter().zip(&solution[plan.free()..]) {
-            coefficients.put(slot, k, -x);
+        for (&slot, &x) in table.kept.iter().zip(&solution[plan.free()..]) {
+            table.coefficients.put(slot, k, -x);
         }
+        let force = |row: usize| 1 + 3 * n + row;
         let constant_parts = plan.constant_forces(solution).zip(&right[plan.size()..]);
         for (&row, (part, &load)) in plan.eliminated.iter().zip(constant_parts) {
-            coefficients.put(forces[row], k, part - load);
+            let slot = table.input(force(row));
+            table.coefficients.put(slot, k, part - load);
         }
-        for part in force_parts.iter() {
-            let product = coefficients.product(part.element, part.unknown, k);
+        let coefficients = &mut table.coefficients;
+        for part in &table.force_parts {
+            let element = part.element.slot;
+            let product = match part.element.variation {
+                Variation::Varying => coefficients.product(element, part.unknown, k),
+                _ => coefficients.get(element, 0) * coefficients.get(part.unknown, k),
+            };
             let sum =
                 coefficients.get(part.force, k) + if part.subtract { -product } else { product };
             coefficients.put(part.force, k, sum);
         }
         for slide in &plan.slides {
-            let normal = slide.source.map(|source| forces[source]);
-            let force = match (slide.factor, normal) {
-                (Place::Zero, _) => S::Scalar::default(),
+            let normal = slide.source.map(|source| table.input(force(source)));
+            let coefficients = &mut table.coefficients;
+            let value = match (slide.factor, normal) {
+                (Place::Zero, _) => S::Scalar::zero(),
                 (Place::Constant(c), Some(normal)) => constants[c] * coefficients.get(normal, k),
                 (Place::Constant(c), None) if k == 0 => constants[c],
-                (Place::Constant(_), None) => S::Scalar::default(),
-                (Place::Node(node), Some(normal)) => coefficients.product(nodes[node], normal, k),
-                (Place::Node(node), None) => coefficients.get(nodes[node], k),
+                (Place::Constant(_), None) => S::Scalar::zero(),
+                (Place::Node(node), Some(normal)) => {
+                    coefficients.product(table.nodes[node].slot, normal, k)
+                }
+                (Place::Node(node), None) => coefficients.get(table.nodes[node].slot, k),
             };
-            coefficients.put(forces[slide.row], k, force);
+            let slot = table.input(force(slide.row));
+            table.coefficients.put(slot, k, value);
         }
     }
 
     /// Coefficient k + 1 of positions and velocities.
     fn integrate(&mut self, k: usize) {
-        let Table {
-            coefficients,
-            inputs,
-            ..
-        } = &mut self.table;
         let n = S::DESCRIPTION.coordinates.len();
         let next = S::Scalar::from_f64((k + 1) as f64);
-        for (&slot, &rate) in inputs[1..1 + 2 * n].iter().zip(&inputs[1 + n..]) {
-            let rate = coefficients.get(rate, k);
-            coefficients.put(slot, k + 1, rate / next);
+        for i in 1..1 + 2 * n {
+            let (slot, rate) = (self.table.input(i), self.table.input(i + n));
+            let rate = self.table.coefficients.get(rate, k);
+            self.table.coefficients.put(slot, k + 1, rate / next);
         }
     }
 
     /// Position coefficients of coordinate `i`.
     pub fn position_series(&self, i: usize) -> &[S::Scalar] {
-        self.table.coefficients.series(self.table.inputs[1 + i])
+        self.input_series(1 + i)
     }
 
     /// Velocity coefficients of coordinate `i`.
     pub fn velocity_series(&self, i: usize) -> &[S::Scalar] {
-        self.table
-            .coefficients
-            .series(self.table.inputs[1 + S::DESCRIPTION.coordinates.len() + i])
+        self.input_series(1 + S::DESCRIPTION.coordinates.len() + i)
     }
 
     /// Acceleration coefficients of coordinate `i`.
     pub fn acceleration_series(&self, i: usize) -> &[S::Scalar] {
-        self.table
-            .coefficients
-            .series(self.table.inputs[1 + 2 * S::DESCRIPTION.coordinates.len() + i])
+        self.input_series(1 + 2 * S::DESCRIPTION.coordinates.len() + i)
     }
 
     /// Force coefficients of a row; zeros where it does not act.
     pub fn force_series(&self, row: usize) -> &[S::Scalar] {
-        self.table
-            .coefficients
-            .series(self.table.inputs[1 + 3 * S::DESCRIPTION.coordinates.len() + row])
+        self.input_series(1 + 3 * S::DESCRIPTION.coordinates.len() + row)
+    }
+
+    fn input_series(&self, index: usize) -> &[S::Scalar] {
+        self.table.coefficients.series(self.table.input(index))
     }
 
     /// Coefficients of a number of the motion tape. Its need must have been held.
@@ -244,7 +237,14 @@ impl<S: System> Dynamics<S> {
     }
 }
 
-fn expandable<T: Scalar>(a: &Jet<'_, T>) -> Result<(), EvaluationError> {
+/// Appends coefficient `k` of everything in a recording.
+fn append<T: Scalar>(
+    recording: &Recording<T>,
+    coefficients: &mut Coefficients<T>,
+    k: usize,
+) -> Result<(), EvaluationError> {
+    let mut a = coefficients.jet(k, 0);
+    recording.run(&mut a);
     match a.singular() {
         None => Ok(()),
         Some(singular) => Err(EvaluationError::NoSeries {

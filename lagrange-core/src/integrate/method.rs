@@ -16,28 +16,49 @@ pub enum Method {
     DormandPrince54,
     /// Verner 9(8). `verner98`
     Verner98,
+    /// Radau IIA of order 5, implicit, for stiff systems. `radau5`
+    Radau5,
     /// The classical method of order 4. `rk4:0.001`
     RungeKutta4 {
         /// Its fixed step.
         step: f64,
     },
+    /// The Gauss method of order 6, implicit and symplectic, for long conservative runs. `gauss6:0.001`
+    Gauss6 {
+        /// Its fixed step.
+        step: f64,
+    },
 }
 
-/// Names without a step, in the order in which help texts list them.
-const NAMES: [(&str, Method); 4] = [
+/// Names of the methods that choose their steps, in the order in which help texts list them.
+const NAMES: [(&str, Method); 5] = [
     ("taylor", Method::Taylor),
     ("dop853", Method::DormandPrince853),
     ("dopri5", Method::DormandPrince54),
     ("verner98", Method::Verner98),
+    ("radau5", Method::Radau5),
+];
+
+/// From a step to a method.
+type WithStep = fn(f64) -> Method;
+
+/// Names of the methods with fixed steps.
+const FIXED: [(&str, WithStep); 2] = [
+    ("rk4", |step| Method::RungeKutta4 { step }),
+    ("gauss6", |step| Method::Gauss6 { step }),
 ];
 
 impl fmt::Display for Method {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        if let Self::RungeKutta4 { step } = self {
-            return write!(f, "rk4:{step}");
+        match self {
+            Self::RungeKutta4 { step } => write!(f, "rk4:{step}"),
+            Self::Gauss6 { step } => write!(f, "gauss6:{step}"),
+            Self::Taylor => f.write_str("taylor"),
+            Self::DormandPrince853 => f.write_str("dop853"),
+            Self::DormandPrince54 => f.write_str("dopri5"),
+            Self::Verner98 => f.write_str("verner98"),
+            Self::Radau5 => f.write_str("radau5"),
         }
-        let name = NAMES.iter().find(|(_, method)| method == self);
-        f.write_str(name.map_or("unnamed", |(name, _)| name))
     }
 }
 
@@ -72,7 +93,8 @@ impl fmt::Display for ParseMethodError {
                 for (name, _) in NAMES {
                     write!(f, "{name}, ")?;
                 }
-                f.write_str("rk4:STEP")
+                let [explicit, symplectic] = FIXED.map(|(name, _)| name);
+                write!(f, "{explicit}:STEP, {symplectic}:STEP")
             }
             Self::Step { name, step } if step.is_empty() => {
                 write!(f, "`{name}` has fixed steps: give one as {name}:0.001")
@@ -103,17 +125,15 @@ impl FromStr for Method {
             Some((name, step)) => (name, Some(step)),
             None => (text, None),
         };
-        if name == "rk4" {
+        if let Some((_, method)) = FIXED.iter().find(|(known, _)| *known == name) {
             let given = given.unwrap_or_default();
             let step = given
                 .parse()
                 .ok()
                 .filter(|step: &f64| *step > 0.0 && step.is_finite());
-            return step.map(|step| Self::RungeKutta4 { step }).ok_or_else(|| {
-                ParseMethodError::Step {
-                    name: name.into(),
-                    step: given.into(),
-                }
+            return step.map(method).ok_or_else(|| ParseMethodError::Step {
+                name: name.into(),
+                step: given.into(),
             });
         }
         match NAMES.iter().find(|(known, _)| *known == name) {

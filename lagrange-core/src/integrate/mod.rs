@@ -6,9 +6,13 @@
 pub mod control;
 mod dop853;
 mod dopri5;
+mod factors;
+mod gauss;
 mod hermite;
+mod integrator;
 mod method;
 mod polynomial;
+mod radau;
 mod rk4;
 mod runge_kutta;
 mod tableau;
@@ -20,8 +24,11 @@ mod verner98;
 use core::fmt;
 
 pub use control::Tolerance;
+pub use gauss::Gauss;
+pub use integrator::Integrator;
 pub use method::{Method, ParseMethodError};
 pub use polynomial::StepPolynomial;
+pub use radau::Radau;
 pub use runge_kutta::RungeKutta;
 
 /// v̇ = a(t, q, v): what Runge–Kutta methods integrate together with q̇ = v.
@@ -34,6 +41,22 @@ pub trait Acceleration<T> {
     /// # Errors
     /// Whatever keeps the system from having accelerations there.
     fn acceleration(&mut self, t: T, q: &[T], v: &[T], dv: &mut [T]) -> Result<(), Self::Error>;
+
+    /// Writes ∂a/∂q and ∂a/∂v, row-major squares, and returns true; false if they are to be found by differences.
+    ///
+    /// # Errors
+    /// Whatever keeps the system from having accelerations there.
+    fn jacobian(
+        &mut self,
+        t: T,
+        q: &[T],
+        v: &[T],
+        by_position: &mut [f64],
+        by_velocity: &mut [f64],
+    ) -> Result<bool, Self::Error> {
+        let _ = (t, q, v, by_position, by_velocity);
+        Ok(false)
+    }
 }
 
 /// A step that was taken, and what it cost.
@@ -62,6 +85,13 @@ pub enum StepError<E> {
         /// Its size.
         h: f64,
     },
+    /// The stages of an implicit method with fixed steps could not be found by iteration.
+    NoConvergence {
+        /// Start of the step.
+        time: f64,
+        /// Its size.
+        h: f64,
+    },
 }
 
 impl<E: fmt::Display> fmt::Display for StepError<E> {
@@ -72,6 +102,10 @@ impl<E: fmt::Display> fmt::Display for StepError<E> {
                 f,
                 "the step size has shrunk to {h:e} at t = {time}: the motion is singular there, or the tolerance is \
                  below rounding; ask for a larger tolerance"
+            ),
+            Self::NoConvergence { time, h } => write!(
+                f,
+                "the stages of the step of {h:e} at t = {time} do not converge: ask for a smaller step"
             ),
         }
     }

@@ -94,6 +94,18 @@ impl<T: Scalar> Plan<T> {
         self.free() + self.kept.len()
     }
 
+    /// Whether coordinate `j` cannot accelerate in this mode.
+    pub(crate) fn is_pinned(&self, j: usize) -> bool {
+        self.elimination.right.row(j).is_empty()
+    }
+
+    /// Whether a row has a force in this mode, as an equation or by sliding.
+    pub(crate) fn has_force(&self, row: usize) -> bool {
+        self.kept.contains(&row)
+            || self.eliminated.contains(&row)
+            || self.slides.iter().any(|slide| slide.row == row)
+    }
+
     /// Makes the plan of a mode. `constants` begins with the system's own and is extended.
     pub(crate) fn set(
         &mut self,

@@ -3,7 +3,7 @@
 //! What depends on parameters only is folded into constants when the mode is set; the rest runs after the motion tape,
 //! in the same arithmetic.
 
-use crate::arithmetic::{Arithmetic, Jet, Scalar, Slot, Value};
+use crate::arithmetic::{Arithmetic, Recorded, Recorder, Scalar, Value};
 use crate::system::Place;
 
 /// Arithmetics that sum many terms at once.
@@ -26,13 +26,12 @@ impl<T: Scalar> Sum for Value<T> {
     }
 }
 
-impl<T: Scalar> Sum for Jet<'_, T> {
-    #[inline(always)]
-    fn sum(&mut self, to: usize, terms: &[(T, usize)], nodes: &[Slot]) -> Slot {
-        let sum = terms.iter().fold(T::zero(), |sum, &(factor, node)| {
-            sum + factor * self.latest(nodes[node])
-        });
-        self.append(to, sum)
+impl<T: Scalar> Sum for Recorder<'_, T> {
+    fn sum(&mut self, to: usize, terms: &[(T, usize)], nodes: &[Recorded]) -> Recorded {
+        self.push_sum(
+            to,
+            terms.iter().map(|&(factor, node)| (factor, nodes[node])),
+        )
     }
 }
 

@@ -5,22 +5,22 @@ use super::hits::Hit;
 use crate::arithmetic::Scalar;
 use crate::error::Error;
 use crate::integrate::taylor::{self, DefectControl, Verdict};
-use crate::integrate::{Method, RungeKutta, StepError};
+use crate::integrate::{Integrator, Method, StepError};
 use crate::system::System;
 
 /// What makes the polynomials of a step.
 pub(super) enum Stepper<T> {
     /// Taylor series.
     Taylor(DefectControl),
-    /// A Runge–Kutta method and the step that it would like to take.
-    RungeKutta(Box<RungeKutta<T>>, Option<f64>),
+    /// Another method and the step that it would like to take.
+    Other(Box<Integrator<T>>, Option<f64>),
 }
 
 impl<T: Scalar> Stepper<T> {
     pub(super) fn new(method: Method, coordinates: usize) -> Self {
-        match RungeKutta::new(method, coordinates) {
+        match Integrator::new(method, coordinates) {
             None => Stepper::Taylor(DefectControl::default()),
-            Some(method) => Stepper::RungeKutta(Box::new(method), None),
+            Some(method) => Stepper::Other(Box::new(method), None),
         }
     }
 
@@ -28,7 +28,7 @@ impl<T: Scalar> Stepper<T> {
     pub(super) fn restart(&mut self) {
         match self {
             Stepper::Taylor(control) => *control = DefectControl::default(),
-            Stepper::RungeKutta(method, wanted) => {
+            Stepper::Other(method, wanted) => {
                 method.restart();
                 *wanted = None;
             }
@@ -41,7 +41,7 @@ impl<S: System> Run<'_, S> {
     pub(super) fn accepted_step(&mut self) -> Result<Hit, Error> {
         match &self.stepper {
             Stepper::Taylor(_) => self.taylor_step(),
-            Stepper::RungeKutta(..) => self.runge_kutta_step(),
+            Stepper::Other(..) => self.other_step(),
         }
     }
 
@@ -122,9 +122,9 @@ impl<S: System> Run<'_, S> {
         }
     }
 
-    fn runge_kutta_step(&mut self) -> Result<Hit, Error> {
+    fn other_step(&mut self) -> Result<Hit, Error> {
         let longest = self.end - self.t.value();
-        let Stepper::RungeKutta(method, wanted) = &mut self.stepper else {
+        let Stepper::Other(method, wanted) = &mut self.stepper else {
             return Ok(Hit::Nothing);
         };
         let (q, v) = (&self.state.q, &self.state.v);
@@ -151,6 +151,14 @@ impl<S: System> Run<'_, S> {
             }
             Err(StepError::Acceleration(e)) => return Err(self.error(e)),
             Err(StepError::TooSmall { h, .. }) => return Err(self.step_too_small(h)),
+            Err(StepError::NoConvergence { h, .. }) => {
+                let mode = self.mode.display(S::DESCRIPTION).to_string();
+                return Err(Error::StepTooLarge {
+                    time: self.t.value(),
+                    step: h,
+                    mode,
+                });
+            }
         }
         let mut curves = core::mem::take(&mut self.curves);
         let sampled = curves.sample(

@@ -25,6 +25,8 @@ fn check<S: System<Scalar = f64> + Default>(until: f64) {
         Method::DormandPrince853,
         Method::DormandPrince54,
         Method::Verner98,
+        Method::Radau5,
+        Method::Gauss6 { step: 0.005 },
     ] {
         let trajectory = run(method, 1e-11);
         assert_eq!(words(&trajectory), words(&reference), "{method}");

@@ -2,7 +2,8 @@
 
 use super::problems::{Falling, Harmonic, Kepler, Problem};
 use crate::integrate::{
-    Acceleration, Method, ParseMethodError, RungeKutta, StepError, StepPolynomial, Tolerance,
+    Acceleration, Integrator, Method, ParseMethodError, RungeKutta, StepError, StepPolynomial,
+    Tolerance,
 };
 
 const ADAPTIVE: [Method; 3] = [
@@ -13,7 +14,7 @@ const ADAPTIVE: [Method; 3] = [
 
 /// Integrates to `until`; the final state.
 pub fn run<P: Problem>(problem: &mut P, method: Method, tolerance: Tolerance, until: f64) -> Run {
-    let mut stepper = RungeKutta::new(method, P::COORDINATES).expect("an explicit method");
+    let mut stepper = Integrator::new(method, P::COORDINATES).expect("not the Taylor method");
     let mut step = StepPolynomial::new(P::COORDINATES, stepper.degree());
     let (mut q, mut v) = problem.solution(0.0);
     let mut t = 0.0;
@@ -231,14 +232,18 @@ fn an_error_of_the_system_is_handed_on_where_it_begins() {
 fn methods_have_names() {
     let methods = ADAPTIVE
         .into_iter()
-        .chain([Method::Taylor, Method::RungeKutta4 { step: 0.001 }]);
+        .chain([Method::Taylor, Method::Radau5])
+        .chain([
+            Method::RungeKutta4 { step: 0.001 },
+            Method::Gauss6 { step: 0.25 },
+        ]);
     for method in methods {
         assert_eq!(method.to_string().parse(), Ok(method));
     }
     let message = |text: &str| text.parse::<Method>().expect_err(text).to_string();
     assert_eq!(
         message("euler"),
-        "no method is called `euler`; there are taylor, dop853, dopri5, verner98, rk4:STEP"
+        "no method is called `euler`; there are taylor, dop853, dopri5, verner98, radau5, rk4:STEP, gauss6:STEP"
     );
     assert_eq!(
         message("rk4"),

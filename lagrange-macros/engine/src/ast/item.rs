@@ -289,6 +289,4 @@ pub enum Impacts {
     /// In one solution.
     #[default]
     Together,
-    /// One by one in order of declaration, until none approaches.
-    InTurn,
 }

@@ -177,7 +177,7 @@ fn all_forms_of_items_read() {
             force(i: r = 1), force(j: (1, 0) at (r, x[0])), force(k: 3*a along der(r)), force(l: x[3] = t),
             dissipation(m: der(r)^2), start(n), start(o: r = 1, der(r) = 2, x[k in 0..8] = k, der(x[0]) = 1,),
             observe(p = r, q[k in 0..2] = x[k], r), stop(u: r >= 1 and r <= 2 and closed(c[0])),
-            mark(v: r), mark(w: slips(f)), attitude(body: z), impacts = in_turn,
+            mark(v: r), mark(w: slips(f)), attitude(body: z), impacts = together,
         )]
         struct S { mass: f64, length: [f64; 3] }"#,
     )
@@ -234,6 +234,7 @@ fn mistakes_point_at_their_token() {
         ("start(a: x == 1)", "2:12 E001"),
         ("start(a: )", "2:10 E001"),
         ("impacts = sometimes", "2:11 E001"),
+        ("impacts = in_turn", "2:11 E019"),
         ("coordinates = x", "2:13 E001"),
         ("kinetic = \"text\"", "2:11 E008"),
         ("kinetic = 1 % 2", "2:13 E024"),

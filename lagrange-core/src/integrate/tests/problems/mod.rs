@@ -4,11 +4,13 @@ mod falling;
 mod harmonic;
 mod kepler;
 mod pendulum;
+mod prothero;
 
 pub use falling::Falling;
 pub use harmonic::Harmonic;
 pub use kepler::Kepler;
 pub use pendulum::Pendulum;
+pub use prothero::Prothero;
 
 use crate::integrate::{Acceleration, taylor};
 

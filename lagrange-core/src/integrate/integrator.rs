@@ -1,0 +1,97 @@
+//! Every method that integrates [`Acceleration`]s, behind one set of functions.
+
+use super::control::Tolerance;
+use super::{Acceleration, Accepted, Gauss, Method, Radau, RungeKutta, StepError, StepPolynomial};
+use crate::arithmetic::Scalar;
+
+/// A method other than Taylor's, and its memory.
+#[derive(Clone, Debug)]
+pub enum Integrator<T> {
+    /// Explicit.
+    RungeKutta(RungeKutta<T>),
+    /// Implicit, for stiff systems.
+    Radau(Box<Radau<T>>),
+    /// Symplectic.
+    Gauss(Gauss<T>),
+}
+
+impl<T: Scalar> Integrator<T> {
+    /// `method` for `coordinates` coordinates. `None` for the Taylor method, which needs series and not accelerations.
+    pub fn new(method: Method, coordinates: usize) -> Option<Self> {
+        match method {
+            Method::Radau5 => Some(Self::Radau(Box::new(Radau::new(coordinates)))),
+            Method::Gauss6 { step } => Some(Self::Gauss(Gauss::new(step, coordinates))),
+            explicit => RungeKutta::new(explicit, coordinates).map(Self::RungeKutta),
+        }
+    }
+
+    /// Degree of the polynomials that [`Self::step`] writes.
+    pub fn degree(&self) -> usize {
+        match self {
+            Self::RungeKutta(method) => method.degree(),
+            Self::Radau(_) => Radau::<T>::DEGREE,
+            Self::Gauss(_) => Gauss::<T>::DEGREE,
+        }
+    }
+
+    /// Order of the step's result.
+    pub fn order(&self) -> usize {
+        match self {
+            Self::RungeKutta(method) => method.order(),
+            Self::Radau(_) => Radau::<T>::ORDER,
+            Self::Gauss(_) => Gauss::<T>::ORDER,
+        }
+    }
+
+    /// Forgets earlier steps: the system or its state is another one from here on.
+    pub fn restart(&mut self) {
+        match self {
+            Self::RungeKutta(method) => method.restart(),
+            Self::Radau(method) => method.restart(),
+            Self::Gauss(method) => method.restart(),
+        }
+    }
+
+    /// A first step size, at most `h_max`.
+    ///
+    /// # Errors
+    /// Of the system at the start.
+    pub fn first_step<A: Acceleration<T>>(
+        &mut self,
+        system: &mut A,
+        t: T,
+        q: &[T],
+        v: &[T],
+        h_max: f64,
+        tolerance: Tolerance,
+    ) -> Result<f64, StepError<A::Error>> {
+        match self {
+            Self::RungeKutta(method) => method.first_step(system, t, q, v, h_max, tolerance),
+            Self::Radau(method) => method.first_step(system, t, q, v, h_max, tolerance),
+            Self::Gauss(_) => Ok(h_max),
+        }
+    }
+
+    /// One step from (`t`, `q`, `v`) of at most `h_try` > 0 within `tolerance` (which methods with fixed steps ignore), with
+    /// dense output into `out`. The step's result is what `out` has at s = 1.
+    ///
+    /// # Errors
+    /// See [`StepError`].
+    #[expect(clippy::too_many_arguments, reason = "a state and a request")]
+    pub fn step<A: Acceleration<T>>(
+        &mut self,
+        system: &mut A,
+        t: T,
+        q: &[T],
+        v: &[T],
+        h_try: f64,
+        tolerance: Tolerance,
+        out: &mut StepPolynomial<T>,
+    ) -> Result<Accepted, StepError<A::Error>> {
+        match self {
+            Self::RungeKutta(method) => method.step(system, t, q, v, h_try, tolerance, out),
+            Self::Radau(method) => method.step(system, t, q, v, h_try, tolerance, out),
+            Self::Gauss(method) => method.step(system, t, q, v, h_try, out),
+        }
+    }
+}
