@@ -2,12 +2,15 @@
 
 mod ball;
 mod block;
+mod cart_pole;
 mod chain;
 mod cradle;
+mod damped;
 mod hoop;
 mod kepler;
 mod pendulum;
 mod piecewise;
+mod skate;
 mod sling;
 
 use lagrange_core::prelude::*;

@@ -68,3 +68,111 @@ fn piecewise_forces_are_located() {
         1e-12,
     );
 }
+
+/// A mass between constant forces that turn with its side, said in four ways.
+macro_rules! relay {
+    ($name:ident $($energy:tt)*) => {
+        #[derive(Lagrangian, Clone, Debug)]
+        #[lagrange(
+            coordinates(x),
+            kinetic = mass/2 * der(x)^2,
+            $($energy)*
+        )]
+        struct $name {
+            mass: f64,
+            force: f64,
+        }
+    };
+}
+
+relay!(Absolute potential = force * abs(x),);
+relay!(Largest potential = force * max(x, -x),);
+relay!(Smallest potential = -force * min(x, -x),);
+relay!(Signed force(relay: x = -force * sign(x)),);
+relay!(Chosen force(relay: x = if(x >= 0, -force, force)),);
+
+/// Four falls of √(2 m x₀/F) make a period.
+fn check_relay<S: System<Scalar = f64>>(scene: &S) {
+    let name = S::DESCRIPTION.name;
+    let quarter = (2.0 * 2.0 * 0.7 / 3.0_f64).sqrt();
+    let trajectory = run(scene, state(&[0.7], &[0.0]), 20.5 * quarter);
+    let branches = trajectory.events().iter();
+    let times: Vec<f64> = branches
+        .filter(|e| e.kind == EventKind::Branches)
+        .map(|e| e.time)
+        .collect();
+    assert_eq!(times.len(), 10, "{name}: {times:?}");
+    for (k, time) in times.iter().enumerate() {
+        agree(name, *time, (2 * k + 1) as f64 * quarter, 1e-11);
+    }
+    // Half of a quarter from rest: a quarter of the way.
+    agree(name, trajectory.final_state().q[0], 0.75 * 0.7, 1e-11);
+    assert!(closure(&trajectory) < 1e-11, "{name}");
+}
+
+#[test]
+fn a_relay_said_in_five_ways_has_one_period() {
+    let (mass, force) = (2.0, 3.0);
+    check_relay(&Absolute { mass, force });
+    check_relay(&Largest { mass, force });
+    check_relay(&Smallest { mass, force });
+    check_relay(&Signed { mass, force });
+    check_relay(&Chosen { mass, force });
+}
+
+/// A spring that is softer to one side.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = mass/2 * der(x)^2,
+    potential = if(x >= 0, hard, soft)/2 * x^2,
+)]
+struct Bilinear {
+    mass: f64,
+    hard: f64,
+    soft: f64,
+}
+
+#[test]
+fn half_periods_of_a_bilinear_spring_add_up() {
+    let scene = Bilinear {
+        mass: 1.0,
+        hard: 100.0,
+        soft: 4.0,
+    };
+    let period = PI / 10.0 + PI / 2.0;
+    let trajectory = run(&scene, state(&[0.1], &[0.0]), 4.0 * period);
+    agree("x", trajectory.final_state().q[0], 0.1, 1e-11);
+    agree("v", trajectory.final_state().v[0], 0.0, 1e-10);
+    let mut sampler = trajectory.sampler();
+    let far = sampler.at(0.5 * period).expect("inside");
+    agree("on the soft side", far.q[0], -0.1 * 10.0 / 2.0, 1e-11);
+}
+
+/// Dry friction written with `sign`: it would have to switch infinitely fast.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = mass/2 * der(x)^2,
+    force(brake: x = -force * sign(der(x))),
+)]
+struct Chattering {
+    mass: f64,
+    force: f64,
+}
+
+#[test]
+fn a_sign_that_would_chatter_is_a_typed_error_at_its_time() {
+    let scene = Chattering {
+        mass: 2.0,
+        force: 3.0,
+    };
+    let failure = Simulation::new(&scene)
+        .tolerance(1e-12)
+        .run(state(&[0.0], &[1.5]), 0.0..5.0)
+        .expect_err("it cannot stop");
+    agree("until", failure.trajectory.last_time(), 1.0, 1e-12);
+    agree("x", failure.trajectory.final_state().q[0], 0.75, 1e-12);
+    let said = failure.to_string();
+    assert!(said.contains("friction"), "{said}");
+}
