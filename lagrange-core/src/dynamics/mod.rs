@@ -3,6 +3,7 @@
 //! A [`Dynamics`] owns all memory that this takes. It is told a [`Mode`] and from then on runs only what that mode needs.
 
 mod error;
+mod jacobian;
 mod matrices;
 mod needs;
 mod projection;
@@ -71,6 +72,10 @@ pub struct Dynamics<S: System> {
     right: Vec<S::Scalar>,
     solution: Vec<S::Scalar>,
     projection: projection::Scratch<S::Scalar>,
+    /// The solution of the value while its derivatives are computed.
+    known: Vec<S::Scalar>,
+    lane_inputs: Vec<jacobian::Lanes<S::Scalar>>,
+    lane_nodes: Vec<jacobian::Lanes<S::Scalar>>,
     table: Table<S::Scalar>,
     work: Work,
 }
@@ -104,6 +109,9 @@ impl<S: System> Dynamics<S> {
             right: Vec::with_capacity(n + rows),
             solution: Vec::with_capacity(n + rows),
             projection: projection::Scratch::new(n, rows),
+            known: Vec::new(),
+            lane_inputs: Vec::new(),
+            lane_nodes: Vec::new(),
             table: Table::default(),
             work: Work::default(),
         };

@@ -82,7 +82,7 @@ impl<S: System> Dynamics<S> {
     }
 
     /// Moves (q, v) onto the rows that act where a relative residual is above `tolerance` (0: wherever it is more than
-    /// rounding). Returns whether anything was moved.
+    /// rounding). Returns whether anything was moved; the rounding in the velocity of a pinned coordinate goes in any case.
     ///
     /// # Errors
     /// [`EvaluationError::Projection`] if no state nearby satisfies a row.
@@ -99,11 +99,28 @@ impl<S: System> Dynamics<S> {
         if moved {
             self.project_positions(t, q, v, &[])?;
         }
-        if moved || self.residual(Level::Velocity, v).relative > threshold {
+        let moved = moved || self.residual(Level::Velocity, v).relative > threshold;
+        if moved {
             self.project_velocities(t, q, v, &[])?;
-            return Ok(true);
         }
-        Ok(false)
+        self.settle_pinned(v, threshold);
+        Ok(moved)
+    }
+
+    /// Takes the rounding out of the velocities of coordinates that a row of their own pins: a coordinate that is exactly
+    /// at rest is constant in a Taylor expansion. The last tape was run at `v`.
+    fn settle_pinned(&self, v: &mut [S::Scalar], threshold: f64) {
+        for &row in &self.plan.acting {
+            let row = &S::DESCRIPTION.rows[row];
+            if let [(j, factor)] = *row.jacobian
+                && self.plan.is_pinned(j)
+            {
+                let excess = self.motion(row.velocity) / self.motion(factor);
+                if excess.value().abs() <= threshold * v[j].value().abs().max(1.0) {
+                    v[j] -= excess;
+                }
+            }
+        }
     }
 
     /// Moves positions, then velocities, with some of them held: `held_positions[j]` keeps qⱼ, `held_velocities[j]` keeps vⱼ

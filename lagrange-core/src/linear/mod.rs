@@ -18,6 +18,8 @@ mod lu;
 mod plan;
 mod program;
 mod solver;
+#[cfg(test)]
+mod tests;
 
 pub(crate) use collect::acts;
 pub(crate) use consistent::solve_consistent;

@@ -3,7 +3,7 @@
 //! What depends on parameters only is folded into constants when the mode is set; the rest runs after the motion tape,
 //! in the same arithmetic.
 
-use crate::arithmetic::{Arithmetic, Recorded, Recorder, Scalar, Value};
+use crate::arithmetic::{Arithmetic, Derivative, Dual, Recorded, Recorder, Scalar, Value};
 use crate::system::Place;
 
 /// Arithmetics that sum many terms at once.
@@ -23,6 +23,15 @@ impl<T: Scalar> Sum for Value<T> {
         terms
             .iter()
             .fold(T::zero(), |sum, &(factor, node)| sum + factor * nodes[node])
+    }
+}
+
+impl<T: Scalar, const N: usize> Sum for Derivative<T, N> {
+    fn sum(&mut self, _: usize, terms: &[(T, usize)], nodes: &[Dual<T, N>]) -> Dual<T, N> {
+        let scaled = terms
+            .iter()
+            .map(|&(factor, node)| Dual::constant(factor) * nodes[node]);
+        scaled.fold(Dual::default(), |sum, term| sum + term)
     }
 }
 

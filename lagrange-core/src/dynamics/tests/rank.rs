@@ -155,3 +155,13 @@ fn projection_follows_a_moving_constraint() {
     dynamics.project(0.5, &mut q, &mut v, 0.0).expect("near");
     close(q[1], -(1.25_f64.sqrt()), 1e-15);
 }
+
+#[test]
+fn a_pinned_coordinate_comes_to_rest_exactly() {
+    use super::wheel::{Wheel, stuck};
+    let mut dynamics = Dynamics::new(&Wheel::<f64>::example(), &Effects::all());
+    dynamics.set_mode(&stuck());
+    let (mut q, mut v) = ([0.3, 0.2, 1.1, 0.6], [0.55, 0.5, 3e-17, 0.5]);
+    assert!(!dynamics.project(0.0, &mut q, &mut v, 1e-12).expect("there"));
+    assert_eq!(v, [0.55, 0.5, 0.0, 0.5]);
+}

@@ -1,6 +1,7 @@
 //! Fixture: a mass on the rim of a rolling wheel, derived by hand. Coordinates x, φ, r, θ (θ from the vertical).
 
 use crate::arithmetic::{Arithmetic, Scalar};
+use crate::mode::{FrictionMode, Mode};
 use crate::system::*;
 
 #[derive(Clone, Debug)]
@@ -297,5 +298,14 @@ impl<T: Scalar> System for Wheel<T> {
             let turn = a.scale(5, c[INERTIA] * T::from_f64(0.5), vphi2);
             y[0] = a.add(6, part, turn);
         }
+    }
+}
+
+/// The mass at rest on the rim.
+pub fn stuck() -> Mode {
+    Mode {
+        contacts: vec![true],
+        frictions: vec![FrictionMode::Stick],
+        branches: vec![],
     }
 }

@@ -1,0 +1,96 @@
+//! The derivative reading: how the accelerations change with the state, for implicit methods.
+//!
+//! From K w = b, with w = (u̇, −λ) already known: K ∂w = ∂b − ∂K w, so the factors of the value serve every column.
+
+use super::{Dynamics, EvaluationError};
+use crate::arithmetic::{Derivative, Dual};
+use crate::system::{Held, System};
+
+/// Columns per run of the tape: two registers of derivatives beside the value.
+const LANES: usize = 4;
+
+/// Nodes of the derivative reading.
+pub(super) type Lanes<T> = Dual<T, LANES>;
+
+impl<S: System> Dynamics<S> {
+    /// ∂v̇/∂(q, v) at (t, q, v) in the present mode, written to `columns`: n columns for q, then n for v, of n elements
+    /// each. The values of the state are evaluated on the way ([`Self::value`]).
+    ///
+    /// # Errors
+    /// Those of [`Self::value`].
+    pub fn jacobian(
+        &mut self,
+        t: S::Scalar,
+        q: &[S::Scalar],
+        v: &[S::Scalar],
+        columns: &mut [S::Scalar],
+    ) -> Result<(), EvaluationError> {
+        self.value(t, q, v)?;
+        let n = S::DESCRIPTION.coordinates.len();
+        // What the differences of the right-hand side multiply is the solution of the value.
+        let mut known = core::mem::take(&mut self.known);
+        known.clear();
+        known.extend_from_slice(&self.solution);
+        let mut outcome = Ok(());
+        for first in (0..2 * n).step_by(LANES) {
+            self.run_derivative(first);
+            for lane in 0..LANES.min(2 * n - first) {
+                self.differentiate_right(lane, &known);
+                outcome = outcome.and(self.solve());
+                for (j, element) in columns[(first + lane) * n..].iter_mut().take(n).enumerate() {
+                    *element = self.plan.elimination.acceleration(j, &self.solution);
+                }
+            }
+        }
+        self.solution.copy_from_slice(&known);
+        self.known = known;
+        outcome
+    }
+
+    /// The motion tape and the plan's program with seeds on inputs `first`, `first` + 1, … of (q, v).
+    fn run_derivative(&mut self, first: usize) {
+        let d = S::DESCRIPTION;
+        let inputs = &self.inputs[..1 + 2 * d.coordinates.len()];
+        self.lane_inputs.clear();
+        self.lane_inputs
+            .extend(
+                inputs
+                    .iter()
+                    .enumerate()
+                    .map(|(i, &x)| match i.checked_sub(1 + first) {
+                        Some(lane) if lane < LANES => Dual::variable(x, lane),
+                        _ => Dual::constant(x),
+                    }),
+            );
+        self.lane_nodes.clear();
+        self.lane_nodes.resize(self.nodes.len(), Dual::default());
+        let held = Held {
+            needs: &self.held,
+            branches: &self.mode.branches,
+        };
+        let mut a = Derivative::new();
+        let outputs = &mut self.lane_nodes[..d.motion.outputs];
+        self.scene
+            .motion(&mut a, &held, &self.constants, &self.lane_inputs, outputs);
+        self.plan
+            .program
+            .run(&mut a, &self.constants, &mut self.lane_nodes);
+    }
+
+    /// ∂b − ∂K w
+    fn differentiate_right(&mut self, lane: usize, known: &[S::Scalar]) {
+        let Self {
+            plan,
+            right,
+            lane_nodes,
+            ..
+        } = self;
+        right.fill(S::Scalar::default());
+        for load in &plan.loads {
+            right[load.row] += load.factor * lane_nodes[load.node].derivative[lane];
+        }
+        for entry in &plan.entries {
+            right[entry.row] -= lane_nodes[entry.node].derivative[lane] * known[entry.column];
+        }
+    }
+}

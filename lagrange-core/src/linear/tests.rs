@@ -1,0 +1,437 @@
+//! Random systems: the planned solution against the whole system written out and solved by nalgebra.
+
+use super::{Inertia, Plan, Solver};
+use crate::arithmetic::Value;
+use crate::effects::Effects;
+use crate::mode::{Direction, FrictionMode, Mode, Sliding};
+use crate::system::*;
+use nalgebra::{DMatrix, DVector};
+
+/// Numbers in −1…1 from a seed.
+struct Random(u64);
+
+impl Random {
+    fn bits(&mut self) -> u64 {
+        // Marsaglia 2003, xorshift
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        self.0
+    }
+    fn number(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+    fn below(&mut self, n: usize) -> usize {
+        (self.bits() >> 33) as usize % n
+    }
+    fn one_in(&mut self, n: usize) -> bool {
+        self.below(n) == 0
+    }
+}
+
+/// A system under construction: its numbers, constant or not.
+struct Builder {
+    random: Random,
+    constants: Vec<f64>,
+    nodes: Vec<f64>,
+}
+
+impl Builder {
+    fn place(&mut self, value: f64, constant: bool) -> Place {
+        let (list, place): (_, fn(usize) -> Place) = if constant {
+            (&mut self.constants, Place::Constant)
+        } else {
+            (&mut self.nodes, Place::Node)
+        };
+        list.push(value);
+        place(list.len() - 1)
+    }
+
+    fn row(&mut self, n: usize, constant: bool, elements: Option<Vec<(usize, f64)>>) -> Row {
+        let elements = elements.unwrap_or_else(|| {
+            let count = 1 + self.random.below(n.min(3));
+            let mut columns: Vec<usize> = (0..n).collect();
+            (0..count)
+                .map(|_| {
+                    (
+                        columns.remove(self.random.below(columns.len())),
+                        self.random.number(),
+                    )
+                })
+                .collect()
+        });
+        let jacobian: Vec<(usize, Place)> = elements
+            .iter()
+            .map(|&(j, a)| (j, self.place(a, constant)))
+            .collect();
+        let bias = if constant {
+            Place::Zero
+        } else {
+            let x = self.random.number();
+            self.place(x, false)
+        };
+        let velocity = self.random.number();
+        Row {
+            jacobian: jacobian.leak(),
+            bias,
+            position: None,
+            velocity: self.place(velocity, false),
+            needs: RowNeeds {
+                jacobian: 0,
+                bias: 0,
+                position: 0,
+                velocity: 0,
+            },
+        }
+    }
+}
+
+/// A random description with its numbers: some rows constant, contacts with friction, a coupled force.
+fn random_system(seed: u64) -> (Description, Builder) {
+    let mut b = Builder {
+        random: Random(seed),
+        constants: Vec::new(),
+        nodes: Vec::new(),
+    };
+    let n = 3 + b.random.below(4);
+    // M = B Bᵀ + 1 with some elements constant
+    let factor = DMatrix::from_fn(n, n, |_, _| b.random.number());
+    let m = &factor * factor.transpose() + DMatrix::identity(n, n);
+    let mut mass = Vec::new();
+    for i in 0..n {
+        for j in 0..=i {
+            let constant = b.random.one_in(2);
+            mass.push((i, j, b.place(m[(i, j)], constant)));
+        }
+    }
+    let forcing: Vec<Place> = (0..n)
+        .map(|_| {
+            let (x, constant) = (b.random.number(), b.random.one_in(3));
+            if b.random.one_in(5) {
+                Place::Zero
+            } else {
+                b.place(x, constant)
+            }
+        })
+        .collect();
+    let mut rows = Vec::new();
+    for _ in 0..3 {
+        let constant = b.random.one_in(2);
+        rows.push(b.row(n, constant, None));
+    }
+    let constraint = Constraint {
+        name: "constraint",
+        row: 0,
+        while_contact: None,
+    };
+    let contact = |row| Contact {
+        name: "contact",
+        row,
+        normal_factor: None,
+        restitution: Restitution::Newton(Place::Zero),
+        restitution_need: 0,
+        region: None,
+    };
+    let mut contacts = vec![contact(1), contact(2)];
+    if b.random.one_in(2) {
+        let constant = b.random.one_in(2);
+        contacts[0].normal_factor = Some(b.place(1.3, constant));
+    }
+    let normals = {
+        let constant = b.random.one_in(2);
+        [
+            Normal::Contact(0),
+            Normal::Contact(1),
+            Normal::Constraint(0),
+            Normal::Given(b.place(0.8, constant)),
+        ]
+    };
+    let mut frictions = Vec::new();
+    for normal in normals {
+        let constant = b.random.one_in(2);
+        let components = 1 + b.random.below(2);
+        let first = rows.len();
+        for _ in 0..components {
+            rows.push(b.row(n, constant, None));
+        }
+        let constant = b.random.one_in(2);
+        frictions.push(Friction {
+            name: "friction",
+            row: first,
+            components,
+            normal,
+            static_coefficient: Place::Zero,
+            kinetic_coefficient: b.place(0.2, constant),
+            coefficients_need: 0,
+        });
+    }
+    let coupled = b.random.below(rows.len());
+    let coupling = Coupling {
+        coordinate: b.random.below(n),
+        row: coupled,
+        factor: b.place(0.15, seed.is_multiple_of(2)),
+        need: 0,
+    };
+    let description = Description {
+        name: "random",
+        documentation: "",
+        parameters: &[],
+        coordinates: vec![0; n]
+            .iter()
+            .map(|_| Coordinate {
+                name: "q",
+                unit: "",
+                cyclic: false,
+            })
+            .collect::<Vec<_>>()
+            .leak(),
+        needs: 1,
+        constants: b.constants.len(),
+        motion: TapeShape {
+            slots: 0,
+            outputs: b.nodes.len(),
+        },
+        report: TapeShape {
+            slots: 0,
+            outputs: 0,
+        },
+        mass: mass.leak(),
+        forcing: forcing.leak(),
+        rows: rows.leak(),
+        couplings: vec![coupling].leak(),
+        kinetic: &[],
+        potential: &[],
+        constraints: vec![constraint].leak(),
+        contacts: contacts.leak(),
+        frictions: frictions.leak(),
+        forces: &[],
+        dissipations: &[],
+        branches: &[],
+        energy: Energy {
+            kinetic: Place::Zero,
+            potential: Place::Zero,
+            jacobi: Place::Zero,
+            time_power: Place::Zero,
+            need: 0,
+        },
+        momenta: Momenta {
+            places: &[],
+            need: 0,
+        },
+        observes: &[],
+        stops: &[],
+        marks: &[],
+        starts: &[],
+    };
+    (description, b)
+}
+
+fn random_mode(d: &Description, random: &mut Random) -> Mode {
+    let mut mode = Mode::open(d);
+    for contact in &mut mode.contacts {
+        *contact = random.one_in(2);
+    }
+    for (i, friction) in d.frictions.iter().enumerate() {
+        let touching = match friction.normal {
+            Normal::Contact(contact) => mode.contacts[contact],
+            _ => true,
+        };
+        let angle: f64 = 3.0 * random.number();
+        let fixed = if friction.components == 1 {
+            [angle.signum(), 0.0]
+        } else {
+            [angle.cos(), angle.sin()]
+        };
+        let direction = if random.one_in(3) {
+            Direction::AlongSlip
+        } else {
+            Direction::Fixed(fixed)
+        };
+        mode.frictions[i] = match (touching, random.below(4)) {
+            (false, _) | (_, 0) => FrictionMode::Inactive,
+            (_, 1) => FrictionMode::Stick,
+            _ => FrictionMode::Slip(Sliding {
+                direction,
+                normal_sign: angle.signum(),
+            }),
+        };
+    }
+    mode
+}
+
+/// Accelerations and forces of all rows by the definition: one dense system with an equation per coordinate and row.
+fn by_definition(
+    d: &Description,
+    mode: &Mode,
+    read: &dyn Fn(Place) -> f64,
+) -> Option<(DVector<f64>, f64)> {
+    let (n, rows) = (d.coordinates.len(), d.rows.len());
+    let size = n + rows;
+    let mut k = DMatrix::zeros(size, size);
+    let mut right = DVector::zeros(size);
+    for &(i, j, place) in d.mass {
+        k[(i, j)] = read(place);
+        k[(j, i)] = read(place);
+    }
+    for (i, &place) in d.forcing.iter().enumerate() {
+        right[i] = read(place);
+    }
+    let mut acts = vec![false; rows];
+    acts[0] = true;
+    for (contact, &closed) in d.contacts.iter().zip(&mode.contacts) {
+        acts[contact.row] = closed;
+    }
+    let mut slides = vec![None; rows];
+    for (friction, state) in d.frictions.iter().zip(&mode.frictions) {
+        let mu = read(friction.kinetic_coefficient);
+        for component in 0..friction.components {
+            let row = friction.row + component;
+            match state {
+                FrictionMode::Inactive => {}
+                FrictionMode::Stick => acts[row] = true,
+                FrictionMode::Slip(sliding) => {
+                    let slip = |c: usize| read(d.rows[friction.row + c].velocity);
+                    let speed = (0..friction.components).map(slip).fold(0.0, f64::hypot);
+                    let direction = match sliding.direction {
+                        Direction::Fixed(direction) => direction[component],
+                        Direction::AlongSlip => slip(component) / speed,
+                    };
+                    slides[row] = Some(match friction.normal {
+                        Normal::Contact(c) => {
+                            let factor = d.contacts[c].normal_factor.map_or(1.0, read);
+                            (-mu * factor * direction, Some(d.contacts[c].row))
+                        }
+                        Normal::Constraint(c) => (
+                            -mu * sliding.normal_sign * direction,
+                            Some(d.constraints[c].row),
+                        ),
+                        Normal::Given(normal) => (-mu * read(normal) * direction, None),
+                    });
+                }
+            }
+        }
+    }
+    for (index, row) in d.rows.iter().enumerate() {
+        // Every multiplier has its column; what it equals is the row's own equation.
+        for &(j, place) in row.jacobian {
+            k[(j, n + index)] -= read(place);
+        }
+        if acts[index] {
+            for &(j, place) in row.jacobian {
+                k[(n + index, j)] += read(place);
+            }
+            right[n + index] = -read(row.bias);
+        } else {
+            k[(n + index, n + index)] = 1.0;
+            match slides[index] {
+                Some((factor, Some(source))) => k[(n + index, n + source)] = -factor,
+                Some((factor, None)) => right[n + index] = factor,
+                None => {}
+            }
+        }
+    }
+    for coupling in d.couplings {
+        k[(coupling.coordinate, n + coupling.row)] -= read(coupling.factor);
+    }
+    let singular = k.clone().svd(false, false).singular_values;
+    let condition = singular.max() / singular.min();
+    Some((k.lu().solve(&right)?, condition))
+}
+
+/// The same by the plan.
+fn by_plan(d: &Description, mode: &Mode, b: &Builder) -> Option<Vec<f64>> {
+    let (n, rows) = (d.coordinates.len(), d.rows.len());
+    let mut constants = b.constants.clone();
+    let mut plan = Plan::default();
+    plan.set(d, &Effects::all(), mode, &mut constants);
+    let mut nodes = b.nodes.clone();
+    nodes.resize(b.nodes.len() + plan.program.len(), f64::NAN);
+    plan.program.run(&mut Value::new(), &constants, &mut nodes);
+    let (free, size) = (plan.free(), plan.size());
+    let mut solver = Solver::default();
+    let matrix = solver.begin(free, size, &plan.constant[..size * size]);
+    for e in &plan.entries {
+        matrix[e.row * size + e.column] += nodes[e.node];
+    }
+    let inertia = if plan.elimination.symmetric {
+        Inertia::Symmetric
+    } else {
+        Inertia::General
+    };
+    solver.factor(inertia).ok()?;
+    let mut right = plan.constant_load.clone();
+    for load in &plan.loads {
+        right[load.row] += load.factor * nodes[load.node];
+    }
+    let mut w = right[..size].to_vec();
+    solver.solve(&mut w);
+    let mut x: Vec<f64> = (0..n)
+        .map(|j| plan.elimination.acceleration(j, &w))
+        .collect();
+    x.resize(n + rows, 0.0);
+    for (&row, force) in plan.kept.iter().zip(&w[free..]) {
+        x[n + row] = -force;
+    }
+    for (i, (&row, part)) in plan
+        .eliminated
+        .iter()
+        .zip(plan.constant_forces(&w))
+        .enumerate()
+    {
+        x[n + row] = part - right[size + i];
+    }
+    for e in &plan.force_entries {
+        x[n + plan.eliminated[e.row - size]] += nodes[e.node] * w[e.column];
+    }
+    for slide in &plan.slides {
+        let factor = match slide.factor {
+            Place::Zero => 0.0,
+            Place::Constant(i) => constants[i],
+            Place::Node(i) => nodes[i],
+        };
+        x[n + slide.row] = slide.source.map_or(factor, |source| factor * x[n + source]);
+    }
+    Some(x)
+}
+
+#[test]
+fn planned_solutions_agree_with_the_whole_system() {
+    let (mut compared, mut eliminated, mut oblique) = (0, 0, 0);
+    for seed in 1..=600 {
+        let (d, mut b) = random_system(seed * 7919);
+        for _ in 0..4 {
+            let mode = random_mode(&d, &mut b.random);
+            let read = |place| match place {
+                Place::Zero => 0.0,
+                Place::Constant(i) => b.constants[i],
+                Place::Node(i) => b.nodes[i],
+            };
+            let Some((expected, condition)) = by_definition(&d, &mode, &read) else {
+                continue;
+            };
+            if condition > 1e6 {
+                continue;
+            }
+            let found = by_plan(&d, &mode, &b)
+                .unwrap_or_else(|| panic!("seed {seed}, {mode:?}: no solution"));
+            let size = expected.amax();
+            for (i, (found, expected)) in found.iter().zip(expected.iter()).enumerate() {
+                let error = (found - expected).abs();
+                assert!(
+                    error <= 1e-14 * condition * size,
+                    "seed {seed}, {mode:?}: unknown {i} is off by {error:e}"
+                );
+            }
+            let mut plan = Plan::default();
+            plan.set(&d, &Effects::all(), &mode, &mut b.constants.clone());
+            compared += 1;
+            eliminated += usize::from(!plan.eliminated.is_empty());
+            oblique += usize::from(!plan.elimination.symmetric);
+        }
+    }
+    // The draw has met what it is for.
+    assert!(
+        compared > 1000 && eliminated > 300 && oblique > 100,
+        "{compared} {eliminated} {oblique}"
+    );
+}
