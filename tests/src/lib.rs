@@ -1,4 +1,10 @@
 //! Shared kit of the tests: seeded numbers, roots and quadrature for closed forms, and short ways to run a scene.
+//!
+//! Nothing here computes as the library does: what it is compared with is written again from the textbook.
+
+pub mod equations;
+pub mod extrapolation;
+pub mod modes;
 
 use lagrange_core::prelude::*;
 
@@ -12,14 +18,24 @@ impl Random {
         Self(seed)
     }
 
-    /// Uniform in [low, high).
-    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+    /// 64 random bits.
+    pub fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^= z >> 31;
+        z ^ (z >> 31)
+    }
+
+    /// Uniform in [low, high).
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        let z = self.bits();
         low + (high - low) * (z >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// +1 or −1.
+    pub fn sign(&mut self) -> f64 {
+        self.between(-1.0, 1.0).signum()
     }
 }
 
@@ -61,6 +77,14 @@ pub fn integral(f: impl Fn(f64) -> f64, a: f64, b: f64) -> f64 {
     sum * step * half
 }
 
+/// Arithmetic-geometric mean (Gauss 1799): the complete elliptic integral K(k) is π / (2 agm(1, √(1 − k²))).
+pub fn agm(mut a: f64, mut b: f64) -> f64 {
+    for _ in 0..40 {
+        (a, b) = (0.5 * (a + b), (a * b).sqrt());
+    }
+    a
+}
+
 /// |a − b| relative to the larger of |b| and 1.
 pub fn error(a: f64, b: f64) -> f64 {
     (a - b).abs() / b.abs().max(1.0)
@@ -74,6 +98,21 @@ pub fn agree(what: &str, a: f64, b: f64, tolerance: f64) {
         "{what}: {a} instead of {b}, error {:.1e}",
         error(a, b)
     );
+}
+
+/// [`agree`] for lists, relative to the largest of 1 and the second list.
+#[track_caller]
+pub fn all_agree(what: &str, a: &[f64], b: &[f64], tolerance: f64) {
+    assert_eq!(a.len(), b.len(), "{what}: length");
+    let size = b.iter().fold(1.0_f64, |m, x| m.max(x.abs()));
+    for (i, (a, b)) in a.iter().zip(b).enumerate() {
+        agree(
+            &format!("{what}[{i}] over {size}"),
+            a / size,
+            b / size,
+            tolerance,
+        );
+    }
 }
 
 /// Runs a scene from a state at tolerance 1e-12.

@@ -1,8 +1,10 @@
 //! All tests of the workspace's public behaviour, in one binary.
 
+mod bowl;
 mod derived;
+mod diagnostics;
 mod errors;
-mod oracle;
+mod interpretation;
 mod recording;
 mod steppers;
 mod switches;

@@ -7,6 +7,7 @@
 
 use lagrange_core::prelude::*;
 use lagrange_problems::scenes::MassOnWheel;
+use lagrange_tests::extrapolation::extrapolate;
 use lagrange_tests::{agree, closure, event, integral, root, run, words};
 
 fn wheel(mu_static: f64, mu_kinetic: f64) -> MassOnWheel {
@@ -116,6 +117,112 @@ fn slip_begins_where_the_energy_integral_says() {
         agree("θ slip", slips.state.q[3], angle, 1e-10);
         agree("t slip", slips.time, time, 1e-10);
         assert!(closure(&trajectory) < 1e-10);
+    }
+}
+
+/// d(θ̇², t, ẋ, x)/dθ while the mass slips forward over the rim: with k = sin θ − μ (1 + cos θ) and Λ = W + I/R²,
+/// Λ ẍ = −N k and N (1 + m k sin θ / Λ) = m g cos θ − m R θ̇².
+fn slipping(w: &MassOnWheel, th: f64, y: &[f64; 4]) -> [f64; 4] {
+    let (s, c) = th.sin_cos();
+    let k = s - w.mu_kinetic * (1.0 + c);
+    let lambda = w.wheel + w.inertia / (w.radius * w.radius);
+    let normal = w.mass * (w.gravity * c - w.radius * y[0]) / (1.0 + w.mass * k * s / lambda);
+    let wheel = -normal * k / lambda;
+    let angular = (w.gravity * s - w.mu_kinetic * normal / w.mass - wheel * c) / w.radius;
+    let rate = y[0].sqrt();
+    [2.0 * angular, 1.0 / rate, wheel / rate, y[2] / rate]
+}
+
+#[test]
+fn slipping_agrees_with_its_reduced_equation_integrated_apart() {
+    for (mu_static, mu_kinetic, start_angle, mass, radius, gravity) in [
+        (0.6, 0.5, 0.05, 0.2, 0.5, 9.81),
+        (0.6, 0.1, 0.3, 0.2, 0.5, 9.81),
+        (0.4, 0.3, 0.2, 1.5, 0.7, 3.7),
+        (0.9, 0.6, 0.6, 0.5, 2.0, 9.81),
+        (1.5, 0.4, 0.9, 0.1, 0.1, 25.0),
+        (1.2, 1.2, 0.01, 0.3, 0.5, 9.81),
+    ] {
+        let scene = MassOnWheel {
+            start_angle,
+            mass,
+            radius,
+            gravity,
+            inertia: 0.5 * radius * radius,
+            ..wheel(mu_static, mu_kinetic)
+        };
+        let onset = root(
+            |th| mu_static * stuck_forces(&scene, th).0 - stuck_forces(&scene, th).1.abs(),
+            start_angle,
+            1.5,
+        );
+        let u = stuck_speed_squared(&scene, onset - start_angle);
+        let time = integral(
+            |d| stuck_speed_squared(&scene, d).sqrt().recip(),
+            start_angle,
+            onset,
+        );
+        let turn = onset - start_angle;
+        let from = [u, time, radius * u.sqrt(), radius * turn];
+        let slide = |th: f64| extrapolate(|th, y| slipping(&scene, th, y), onset, th, from, 16);
+        let leave = root(|th| gravity * th.cos() - radius * slide(th)[0], onset, 1.57);
+        let [u, time, speed, place] = slide(leave);
+
+        let trajectory = run(&scene, scene.at(<MassOnWheel>::REST), 100.0);
+        assert_eq!(words(&trajectory)[..2], ["grip slips", "rim lost"]);
+        let lost = event(&trajectory, "rim", "lost");
+        let what = |name: &str| format!("{name} for {scene:?}");
+        agree(&what("θ leave"), lost.state.q[3], leave, 1e-10);
+        agree(&what("t leave"), lost.time, time, 1e-10);
+        agree(&what("ω leave"), lost.state.v[3], u.sqrt(), 1e-10);
+        agree(&what("ẋ leave"), lost.state.v[0], speed, 1e-10);
+        agree(&what("x leave"), lost.state.q[0], place, 1e-10);
+        agree(&what("φ leave"), lost.state.q[1], place / radius, 1e-10);
+        assert!(closure(&trajectory) < 1e-10);
+        // After that the wheel rolls on as it is.
+        let now = trajectory.sampler().at(lost.time + 1e-2).expect("flight");
+        agree("ẋ in flight", now.v[0], speed, 1e-10);
+        agree("rolling multiplier in flight", now.forces[0], 0.0, 1e-12);
+    }
+}
+
+/// The mass in the frame of the floor: place and velocity.
+fn mass(state: &State<f64>) -> [f64; 4] {
+    let (s, c) = state.q[3].sin_cos();
+    let (r, [vx, _, vr, w]) = (state.q[2], [state.v[0], 0.0, state.v[2], state.v[3]]);
+    [
+        state.q[0] + r * s,
+        r * c,
+        vx + vr * s + r * w * c,
+        vr * c - r * w * s,
+    ]
+}
+
+#[test]
+fn a_mass_that_is_too_fast_flies_a_parabola_until_it_meets_the_floor() {
+    let scene = wheel(0.6, 0.5);
+    for turn in [5.0, 8.0, -6.0] {
+        let start = State {
+            q: vec![0.0, 0.0, 0.5, 0.3],
+            v: vec![0.5 * turn, turn, 0.0, turn],
+        };
+        let trajectory = run(&scene, start.clone(), 100.0);
+        assert_eq!(words(&trajectory), ["rim lost", "floor stop"]);
+        assert_eq!(trajectory.events()[0].time, 0.0);
+        let ([x, y, vx, vy], t) = (mass(&start), trajectory.last_time());
+        let fall = (vy + (vy * vy + 2.0 * 9.81 * (y + 0.5)).sqrt()) / 9.81;
+        agree("time", t, fall, 1e-12);
+        let end = mass(trajectory.final_state());
+        agree("x", end[0], x + vx * t, 1e-11);
+        agree("y", end[1], -0.5, 1e-12);
+        agree("ẋ", end[2], vx, 1e-11);
+        agree("ẏ", end[3], vy - 9.81 * t, 1e-11);
+        agree(
+            "the wheel",
+            trajectory.final_state().q[0],
+            0.5 * turn * t,
+            1e-12,
+        );
     }
 }
 

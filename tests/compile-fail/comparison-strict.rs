@@ -1,0 +1,9 @@
+// Contacts are written with >=.
+#[lagrange(
+    coordinates(x, y),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2),
+    potential = mass * gravity * y,
+    contact(floor: y > 0),
+)]
+struct S { mass: f64, gravity: f64, length: f64 }
+//~ 6:22 E013 `>` is not used here; write `>=`: a switch happens where both sides are equal

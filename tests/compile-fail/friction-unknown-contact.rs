@@ -1,0 +1,9 @@
+// No contact at all to press.
+#[lagrange(
+    coordinates(x, y),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2),
+    potential = mass * gravity * y,
+    friction(grip on floor: slip = der(x), static = 1),
+)]
+struct S { mass: f64, gravity: f64, length: f64 }
+//~ 6:22 E201 `floor` is not known; declare it as a field of the struct, a coordinate, or with `define`

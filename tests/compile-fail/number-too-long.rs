@@ -1,0 +1,8 @@
+// A number that cannot be exact.
+#[lagrange(
+    coordinates(theta),
+    kinetic = mass/1e99 * length^2 * der(theta)^2,
+    potential = -mass * gravity * length * cos(theta),
+)]
+struct S { mass: f64, gravity: f64, length: f64 }
+//~ 4:20 E009 `1e99` cannot be kept exactly; numbers have at most 38 digits; pass it as a field of the struct

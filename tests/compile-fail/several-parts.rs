@@ -1,0 +1,9 @@
+// A mistake in the notation of one part does not hide those of others.
+#[lagrange(
+    coordinates(theta),
+    kinetic = mass/2 * length^2 * der(theta)**2,
+    potential = -mass * gravity * length * theta.cos(),
+)]
+struct S { mass: f64, gravity: f64, length: f64 }
+//~ 4:45 E004 `**` is not an operator here; a power is written with `^`: `x^2`
+//~ 5:50 E005 `.cos()` is Rust's notation; functions are written as in mathematics: `cos(theta)`

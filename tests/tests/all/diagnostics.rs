@@ -1,0 +1,105 @@
+//! Mistakes in declarations: every file of `compile-fail/` is a struct with mistakes, read in process, and ends with what must
+//! be said about it, one `//~ line:column code message; hint` for each mistake.
+//!
+//! `UPDATE_EXPECT=1 cargo test -p lagrange-tests` writes down what is said now.
+
+use lagrange_engine::diagnostics::Diagnostics;
+use proc_macro2::{TokenStream, TokenTree};
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Marks what is expected.
+const MARK: &str = "//~ ";
+
+fn cases() -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("compile-fail");
+    let mut files: Vec<PathBuf> = fs::read_dir(folder)
+        .expect("the folder of cases")
+        .map(|entry| entry.expect("an entry").path())
+        .collect();
+    files.sort();
+    files
+}
+
+fn mistakes(source: &str) -> Diagnostics {
+    let tokens: TokenStream = source.parse().expect("tokens");
+    match lagrange_engine::program(tokens) {
+        Ok(_) => Diagnostics::new(),
+        Err(mistakes) => mistakes,
+    }
+}
+
+#[test]
+fn every_mistake_is_told_at_its_token() {
+    let mut failures = Vec::new();
+    for file in cases() {
+        let text = fs::read_to_string(&file).expect("readable");
+        let source: String = text
+            .lines()
+            .filter(|line| !line.starts_with(MARK))
+            .map(|line| format!("{line}\n"))
+            .collect();
+        let said: String = mistakes(&source)
+            .iter()
+            .map(|mistake| format!("{MARK}{mistake}\n"))
+            .collect();
+        let name = file.file_stem().expect("a name").to_string_lossy();
+        if said.is_empty() {
+            failures.push(format!("{name}: accepted"));
+        } else if std::env::var_os("UPDATE_EXPECT").is_some() {
+            fs::write(&file, source + &said).expect("writable");
+        } else if text != source.clone() + &said {
+            failures.push(format!("{name}: now says\n{said}"));
+        }
+    }
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+/// Every position is that of a token of the struct.
+#[test]
+fn positions_are_those_of_tokens() {
+    fn starts(tokens: TokenStream, found: &mut BTreeSet<(usize, usize)>) {
+        for token in tokens {
+            let at = token.span().start();
+            found.insert((at.line, at.column));
+            if let TokenTree::Group(group) = token {
+                let close = group.span_close().start();
+                found.insert((close.line, close.column));
+                starts(group.stream(), found);
+            }
+        }
+    }
+    for file in cases() {
+        let source = fs::read_to_string(&file).expect("readable");
+        let mut tokens = BTreeSet::new();
+        starts(source.parse().expect("tokens"), &mut tokens);
+        for mistake in mistakes(&source).iter() {
+            let at = mistake.extent.start.start();
+            assert!(
+                tokens.contains(&(at.line, at.column)),
+                "{}: {mistake}",
+                file.display()
+            );
+        }
+    }
+}
+
+/// What a mistake expands to is Rust: one `compile_error!` for each, and an implementation that keeps the rest of the
+/// program quiet.
+#[test]
+fn mistakes_expand_to_rust() {
+    for file in cases() {
+        let source = fs::read_to_string(&file).expect("readable");
+        let expected = mistakes(&source).iter().count();
+        let expansion = lagrange_engine::expand(source.parse().expect("tokens"));
+        let rust = syn::parse2::<syn::File>(expansion)
+            .unwrap_or_else(|error| panic!("{}: {error}", file.display()));
+        let errors = rust
+            .items
+            .iter()
+            .filter(|item| matches!(item, syn::Item::Macro(m) if m.mac.path.segments.last().is_some_and(|s| s.ident == "compile_error")))
+            .count();
+        assert_eq!(errors, expected, "{}", file.display());
+    }
+}

@@ -1,0 +1,109 @@
+//! Balls on a line: impacts of several contacts at once.
+
+use super::state;
+use lagrange_core::prelude::*;
+use lagrange_tests::{Random, agree, closure, run};
+
+/// Two balls on a line, and a wall.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x[3]),
+    kinetic = sum(i in 0..3: mass[i]/2 * der(x[i])^2),
+    contact(pair[k in 0..2]: x[k+1] - x[k] >= 0, restitution = bounce),
+)]
+struct Cradle {
+    mass: [f64; 3],
+    bounce: f64,
+}
+
+#[test]
+fn three_balls_together_and_two_balls_alone() {
+    let cradle = Cradle {
+        mass: [1.0; 3],
+        bounce: 1.0,
+    };
+    // The second and third touch: Newton's law for both contacts at once (Glocker 2001).
+    let trajectory = run(&cradle, state(&[-1.0, 0.0, 0.0], &[1.0, 0.0, 0.0]), 2.0);
+    for (v, expected) in trajectory
+        .final_state()
+        .v
+        .iter()
+        .zip([-1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0])
+    {
+        agree("v", *v, expected, 1e-14);
+    }
+    // Apart, with different masses and e = 0.4: momentum and the law of restitution.
+    let pair = Cradle {
+        mass: [2.0, 3.0, 1.0],
+        bounce: 0.4,
+    };
+    let trajectory = run(&pair, state(&[-1.0, 0.0, 50.0], &[1.0, 0.2, 9.0]), 2.0);
+    let v = &trajectory.final_state().v;
+    agree("momentum", 2.0 * v[0] + 3.0 * v[1], 2.6, 1e-14);
+    agree("restitution", v[1] - v[0], 0.4 * 0.8, 1e-14);
+    assert_eq!(Cradle::PAIR[1], ContactId(1));
+}
+
+/// Balls at any distance, one collision after the other, by hand: free flight, and for each collision the law of restitution
+/// with conserved momentum.
+fn by_hand(
+    mass: [f64; 3],
+    bounce: f64,
+    mut x: [f64; 3],
+    mut v: [f64; 3],
+    until: f64,
+) -> ([f64; 3], [f64; 3], usize) {
+    let (mut t, mut collisions) = (0.0, 0);
+    loop {
+        let next = (0..2)
+            .filter(|&k| v[k] > v[k + 1] && x[k + 1] - x[k] > 1e-13)
+            .map(|k| ((x[k + 1] - x[k]) / (v[k] - v[k + 1]), k))
+            .min_by(|a, b| a.0.total_cmp(&b.0));
+        let Some((wait, k)) = next.filter(|(wait, _)| t + wait < until) else {
+            let rest = until - t;
+            return (core::array::from_fn(|i| x[i] + v[i] * rest), v, collisions);
+        };
+        t += wait;
+        for i in 0..3 {
+            x[i] += v[i] * wait;
+        }
+        let impulse = (1.0 + bounce) * (v[k] - v[k + 1]) / (1.0 / mass[k] + 1.0 / mass[k + 1]);
+        v[k] -= impulse / mass[k];
+        v[k + 1] += impulse / mass[k + 1];
+        collisions += 1;
+    }
+}
+
+#[test]
+fn collisions_one_after_the_other_agree_with_those_by_hand() {
+    let mut random = Random::new(31);
+    let mut most = 0;
+    for _ in 0..100 {
+        let mass = [(); 3].map(|()| random.between(0.1, 5.0));
+        let bounce = random.between(0.5, 1.0);
+        let x = [
+            random.between(-3.0, -1.0),
+            random.between(-0.5, 0.5),
+            random.between(1.0, 3.0),
+        ];
+        let v = [
+            random.between(1.0, 4.0),
+            random.between(-1.0, 1.0),
+            random.between(-4.0, -1.0),
+        ];
+        let (place, speed, collisions) = by_hand(mass, bounce, x, v, 4.0);
+        most = most.max(collisions);
+        let trajectory = run(&Cradle { mass, bounce }, state(&x, &v), 4.0);
+        let impacts = trajectory
+            .events()
+            .iter()
+            .filter(|e| e.kind == EventKind::Impact);
+        assert_eq!(impacts.count(), collisions);
+        for i in 0..3 {
+            agree("x", trajectory.final_state().q[i], place[i], 1e-10);
+            agree("v", trajectory.final_state().v[i], speed[i], 1e-10);
+        }
+        assert!(closure(&trajectory) < 1e-10);
+    }
+    assert!(most > 3);
+}

@@ -1,0 +1,25 @@
+//! Systems that are not in the library, declared here, each with something independent to compare with.
+
+mod ball;
+mod block;
+mod cart_pole;
+mod chain;
+mod cradle;
+mod damped;
+mod hoop;
+mod kepler;
+mod pendulum;
+mod piecewise;
+mod skate;
+mod sling;
+
+use lagrange_core::prelude::*;
+
+const PI: f64 = core::f64::consts::PI;
+
+fn state(q: &[f64], v: &[f64]) -> State<f64> {
+    State {
+        q: q.to_vec(),
+        v: v.to_vec(),
+    }
+}

@@ -1,0 +1,178 @@
+//! Forces with `abs`, `max`, `sign` and `if`: their switching is located.
+
+use super::{PI, state};
+use lagrange_core::prelude::*;
+use lagrange_tests::{agree, closure, run};
+
+/// A damped oscillator between two stops made with `max`.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = mass/2 * der(x)^2,
+    potential = stiffness/2 * max(abs(x) - clearance, 0)^2,
+    dissipation(oil: damping/2 * der(x)^2),
+)]
+struct Stops {
+    mass: f64,
+    stiffness: f64,
+    clearance: f64,
+    damping: f64,
+}
+
+#[test]
+fn piecewise_forces_are_located() {
+    let scene = Stops {
+        mass: 1.0,
+        stiffness: 400.0,
+        clearance: 0.5,
+        damping: 0.0,
+    };
+    let trajectory = run(&scene, state(&[0.0], &[2.0]), 3.0);
+    // Free for 0.5/2, half a period π/ω in the stop, free for 1/2, …
+    let (free, half) = (0.25, PI / 20.0);
+    let times: Vec<f64> = trajectory
+        .events()
+        .iter()
+        .filter(|e| e.kind == EventKind::Branches)
+        .map(|e| e.time)
+        .collect();
+    for expected in [
+        free,
+        free + half,
+        3.0 * free + half,
+        3.0 * free + 2.0 * half,
+    ] {
+        assert!(
+            times.iter().any(|t| (t - expected).abs() < 1e-11),
+            "{expected} not in {times:?}"
+        );
+    }
+    assert!(closure(&trajectory) < 1e-12);
+    // With oil: x and v decay as e^{−ct/m} in the gap.
+    let scene = Stops {
+        damping: 1.5,
+        ..scene
+    };
+    let trajectory = run(&scene, state(&[0.0], &[0.3]), 2.0);
+    agree(
+        "v",
+        trajectory.final_state().v[0],
+        0.3 * (-3.0_f64).exp(),
+        1e-12,
+    );
+    let ledger = trajectory.ledger().expect("sampled");
+    agree(
+        "oil",
+        ledger.work[0].work,
+        -0.045 * (1.0 - (-6.0_f64).exp()),
+        1e-12,
+    );
+}
+
+/// A mass between constant forces that turn with its side, said in four ways.
+macro_rules! relay {
+    ($name:ident $($energy:tt)*) => {
+        #[derive(Lagrangian, Clone, Debug)]
+        #[lagrange(
+            coordinates(x),
+            kinetic = mass/2 * der(x)^2,
+            $($energy)*
+        )]
+        struct $name {
+            mass: f64,
+            force: f64,
+        }
+    };
+}
+
+relay!(Absolute potential = force * abs(x),);
+relay!(Largest potential = force * max(x, -x),);
+relay!(Smallest potential = -force * min(x, -x),);
+relay!(Signed force(relay: x = -force * sign(x)),);
+relay!(Chosen force(relay: x = if(x >= 0, -force, force)),);
+
+/// Four falls of √(2 m x₀/F) make a period.
+fn check_relay<S: System<Scalar = f64>>(scene: &S) {
+    let name = S::DESCRIPTION.name;
+    let quarter = (2.0 * 2.0 * 0.7 / 3.0_f64).sqrt();
+    let trajectory = run(scene, state(&[0.7], &[0.0]), 20.5 * quarter);
+    let branches = trajectory.events().iter();
+    let times: Vec<f64> = branches
+        .filter(|e| e.kind == EventKind::Branches)
+        .map(|e| e.time)
+        .collect();
+    assert_eq!(times.len(), 10, "{name}: {times:?}");
+    for (k, time) in times.iter().enumerate() {
+        agree(name, *time, (2 * k + 1) as f64 * quarter, 1e-11);
+    }
+    // Half of a quarter from rest: a quarter of the way.
+    agree(name, trajectory.final_state().q[0], 0.75 * 0.7, 1e-11);
+    assert!(closure(&trajectory) < 1e-11, "{name}");
+}
+
+#[test]
+fn a_relay_said_in_five_ways_has_one_period() {
+    let (mass, force) = (2.0, 3.0);
+    check_relay(&Absolute { mass, force });
+    check_relay(&Largest { mass, force });
+    check_relay(&Smallest { mass, force });
+    check_relay(&Signed { mass, force });
+    check_relay(&Chosen { mass, force });
+}
+
+/// A spring that is softer to one side.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = mass/2 * der(x)^2,
+    potential = if(x >= 0, hard, soft)/2 * x^2,
+)]
+struct Bilinear {
+    mass: f64,
+    hard: f64,
+    soft: f64,
+}
+
+#[test]
+fn half_periods_of_a_bilinear_spring_add_up() {
+    let scene = Bilinear {
+        mass: 1.0,
+        hard: 100.0,
+        soft: 4.0,
+    };
+    let period = PI / 10.0 + PI / 2.0;
+    let trajectory = run(&scene, state(&[0.1], &[0.0]), 4.0 * period);
+    agree("x", trajectory.final_state().q[0], 0.1, 1e-11);
+    agree("v", trajectory.final_state().v[0], 0.0, 1e-10);
+    let mut sampler = trajectory.sampler();
+    let far = sampler.at(0.5 * period).expect("inside");
+    agree("on the soft side", far.q[0], -0.1 * 10.0 / 2.0, 1e-11);
+}
+
+/// Dry friction written with `sign`: it would have to switch infinitely fast.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = mass/2 * der(x)^2,
+    force(brake: x = -force * sign(der(x))),
+)]
+struct Chattering {
+    mass: f64,
+    force: f64,
+}
+
+#[test]
+fn a_sign_that_would_chatter_is_a_typed_error_at_its_time() {
+    let scene = Chattering {
+        mass: 2.0,
+        force: 3.0,
+    };
+    let failure = Simulation::new(&scene)
+        .tolerance(1e-12)
+        .run(state(&[0.0], &[1.5]), 0.0..5.0)
+        .expect_err("it cannot stop");
+    agree("until", failure.trajectory.last_time(), 1.0, 1e-12);
+    agree("x", failure.trajectory.final_state().q[0], 0.75, 1e-12);
+    let said = failure.to_string();
+    assert!(said.contains("friction"), "{said}");
+}
