@@ -3,6 +3,7 @@
 use super::Run;
 use super::curves::Curves;
 use crate::events::{Direction, RootList, deflate, first_root, roots};
+use crate::integrate::polynomial_sum as sum;
 use crate::mode::{FrictionMode, Mode};
 use crate::modes::guard::{Guard, LENGTH};
 use crate::system::{Condition, System, Watch};
@@ -72,8 +73,8 @@ impl<S: System> Run<S> {
         }
         let curve = deflate(curve, known);
         // A root that rounding has moved across the border between two steps shows as a negative start.
-        let size: f64 = curve.iter().map(|c| c.abs()).sum();
         if known == 0 && curve.first().is_some_and(|c| *c < 0.0) {
+            let size: f64 = curve.iter().map(|c| c.abs()).sum();
             let rises = curve[0] > -1e-13 * size && curve.get(1).is_some_and(|c| *c > 0.0);
             if !rises {
                 return Some((0.0, 0.0));
@@ -215,5 +216,9 @@ pub(super) fn holds(watch: &Watch, mode: &Mode) -> bool {
 }
 
 fn value(curve: &[f64], s: f64) -> f64 {
-    crate::trajectory::horner(curve, s)
+    if s == 1.0 {
+        sum(curve)
+    } else {
+        crate::trajectory::horner(curve, s)
+    }
 }

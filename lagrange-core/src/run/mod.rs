@@ -375,12 +375,16 @@ impl<S: System> Run<S> {
     /// Values at the present state in the present mode, with every row's Jacobian and rate.
     fn evaluate_all_rows(&mut self) -> Result<(), Error> {
         self.dynamics.set_extra_needs(&self.survey.needs);
-        self.evaluate()
+        self.evaluate()?;
+        self.valued = false;
+        Ok(())
     }
 
     fn evaluate(&mut self) -> Result<(), Error> {
         let outcome = self.dynamics.value(self.t, &self.state.q, &self.state.v);
-        outcome.map_err(|e| self.error(e))
+        outcome.map_err(|e| self.error(e))?;
+        self.valued = true;
+        Ok(())
     }
 
     /// Taylor series at the present state, unless they are there.
