@@ -83,7 +83,7 @@ fn step_from_sizes(sizes: &[f64], first: usize, strictness: f64) -> f64 {
     let mut root = f64::NEG_INFINITY;
     for (k, (log, &size)) in (first..).zip(logs.iter_mut().zip(sizes)) {
         *log = rough_log2(size);
-        root = root.max((*log - base) * RECIPROCALS[k]);
+        root = larger(root, (*log - base) * RECIPROCALS[k]);
     }
     if root == f64::NEG_INFINITY {
         return f64::INFINITY;
@@ -112,9 +112,14 @@ fn step_from_sizes(sizes: &[f64], first: usize, strictness: f64) -> f64 {
     // Each coefficient's prediction of the last one.
     let mut last = f64::NEG_INFINITY;
     for (k, log) in (first..).zip(logs.iter()) {
-        last = last.max(log + (order - k as f64) * (decay - BEND));
+        last = larger(last, log + (order - k as f64) * (decay - BEND));
     }
     ((LAST - last) / order).exp2()
+}
+
+/// The larger of two numbers that are not NaN, in one instruction.
+fn larger(x: f64, y: f64) -> f64 {
+    if x > y { x } else { y }
 }
 
 /// 1/k

@@ -214,7 +214,7 @@ impl<S: System> Run<S> {
             (self.valued, self.expanded) = (true, false);
         }
         self.log_marks(end);
-        self.remember_sides_at(end);
+        self.remember_sides(end);
         self.trajectory.push(&self.step, S::Scalar::from_f64(end));
         self.trajectory.work.steps += 1;
         if end > 0.0 {
@@ -286,7 +286,7 @@ impl<S: System> Run<S> {
             return;
         }
         let mut marks = core::mem::take(&mut self.marks);
-        self.marks_until(&self.curves, end, &mut marks);
+        self.marks_until(end, &mut marks);
         for &(mark, s) in &marks {
             let s = S::Scalar::from_f64(s);
             let mut state = core::mem::take(&mut self.scratch);
@@ -299,12 +299,6 @@ impl<S: System> Run<S> {
             self.scratch = state;
         }
         self.marks = marks;
-    }
-
-    fn remember_sides_at(&mut self, end: f64) {
-        let curves = core::mem::take(&mut self.curves);
-        self.remember_sides(&curves, end);
-        self.curves = curves;
     }
 
     /// Stops whose conditions the switch has just made true.
