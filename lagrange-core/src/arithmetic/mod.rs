@@ -8,21 +8,19 @@
 //!
 //! Operations that need auxiliary series (`tan`, `asin`, …) own the slots `to` and `to + 1`; so does a pair.
 
-mod coefficients;
-mod convolution;
 mod direct;
 mod dual;
-mod jet;
+mod expansion;
+mod instruction;
 mod record;
 mod scalar;
 #[cfg(test)]
 mod tests;
 
-pub use coefficients::{Coefficients, Slot};
 pub use direct::{Derivative, Value};
 pub use dual::Dual;
-pub use jet::{Jet, Operation, Singular};
-pub use record::{Recorded, Recorder, Recording, Variation};
+pub use expansion::{Expansion, MAX_ORDER, Operation};
+pub use record::{Recorded, Recorder, Recording, Slot, Variation};
 
 use core::fmt::Debug;
 

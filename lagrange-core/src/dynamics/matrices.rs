@@ -48,7 +48,8 @@ impl<S: System> Dynamics<S> {
     /// Whether rows that act depend on one another at the last [`Self::value`], so that single forces are not determined.
     /// [`Self::force`] then gives those of an independent subset.
     pub fn has_dependent_rows(&self) -> bool {
-        self.plan.has_dependent_rows() || self.solver.has_rows_aside()
+        let compiled = self.compiled();
+        compiled.plan.has_dependent_rows() || compiled.solver.has_rows_aside()
     }
 
     /// The forces of all rows at the last [`Self::value`], where they are not determined those of least norm; and whether
@@ -58,8 +59,8 @@ impl<S: System> Dynamics<S> {
         let n = d.coordinates.len();
         let acting = self.acting_rows();
         let mut columns = vec![S::Scalar::default(); n * acting.len()];
-        for (index, coordinate, place) in self.plan.columns() {
-            columns[index * n + coordinate] += self.motion(place);
+        for (index, coordinate, place) in self.compiled().plan.columns() {
+            columns[index * n + coordinate] += self.plan_number(place);
         }
         let mut acting_forces: Vec<S::Scalar> = acting.iter().map(|&row| self.force(row)).collect();
         let acting_determined = least_norm(&columns, n, &mut acting_forces);
@@ -69,9 +70,9 @@ impl<S: System> Dynamics<S> {
             forces[row] = acting_forces[i];
             determined[row] = acting_determined[i];
         }
-        for slide in &self.plan.slides {
+        for slide in &self.compiled().plan.slides {
             if let Some(source) = slide.source {
-                forces[slide.row] = self.motion(slide.factor) * forces[source];
+                forces[slide.row] = self.plan_number(slide.factor) * forces[source];
                 determined[slide.row] = determined[source];
             }
         }

@@ -8,7 +8,7 @@
 //! The rows are those that act in the mode; dependent ones follow from the others. Reference: Eich 1993, Convergence results
 //! for a coordinate projection method applied to mechanical systems with algebraic constraints, SIAM J. Numer. Anal. 30.
 
-use super::{Dynamics, EvaluationError};
+use super::{Compiled, Dynamics, EvaluationError};
 use crate::arithmetic::Scalar;
 use crate::linear::{Inertia, epsilon};
 use crate::system::{Place, System};
@@ -116,10 +116,11 @@ impl<S: System> Dynamics<S> {
     /// Takes the rounding out of the velocities of coordinates that a row of their own pins: a coordinate that is exactly
     /// at rest is constant in a Taylor expansion. The last tape was run at `v`.
     fn settle_pinned(&self, v: &mut [S::Scalar], threshold: f64) {
-        for &row in &self.plan.acting {
+        let plan = &self.compiled().plan;
+        for &row in &plan.acting {
             let row = &S::DESCRIPTION.rows[row];
             if let [(j, factor)] = *row.jacobian
-                && self.plan.is_pinned(j)
+                && plan.is_pinned(j)
             {
                 let excess = self.motion(row.velocity) / self.motion(factor);
                 if excess.value().abs() <= threshold * v[j].value().abs().max(1.0) {
@@ -224,9 +225,11 @@ impl<S: System> Dynamics<S> {
     /// The motion tape for inertia, Jacobians and residuals of the rows that act.
     fn run_rows(&mut self, t: S::Scalar, q: &[S::Scalar], v: &[S::Scalar]) {
         self.work.projections += 1;
-        core::mem::swap(&mut self.held, &mut self.row_needs);
+        let rows = &mut self.modes[self.current].row_needs;
+        core::mem::swap(&mut self.held, rows);
         self.tape(t, q, v);
-        core::mem::swap(&mut self.held, &mut self.row_needs);
+        let rows = &mut self.modes[self.current].row_needs;
+        core::mem::swap(&mut self.held, rows);
     }
 
     fn residual_place(row: usize, level: Level) -> Option<Place> {
@@ -239,7 +242,7 @@ impl<S: System> Dynamics<S> {
 
     fn residual(&self, level: Level, state: &[S::Scalar]) -> Residual {
         let mut worst = Residual::default();
-        for &row in &self.plan.acting {
+        for &row in self.acting_rows() {
             let Some(place) = Self::residual_place(row, level) else {
                 continue;
             };
@@ -271,22 +274,23 @@ impl<S: System> Dynamics<S> {
         let d = S::DESCRIPTION;
         let n = d.coordinates.len();
         let is_held = |j: usize| held.get(j).copied().unwrap_or(false);
-        let rows = self
-            .plan
+        let Compiled {
+            plan, constants, ..
+        } = &self.modes[self.current];
+        let rows = plan
             .acting
             .iter()
             .filter(|&&row| Self::residual_place(row, level).is_some())
             .count();
         let size = n + rows;
-        self.factored = false;
         for without_inertia in [false, true] {
             self.projection.right.clear();
             self.projection.right.resize(size, S::Scalar::zero());
             self.projection.blank.clear();
             self.projection.blank.resize(size * size, S::Scalar::zero());
-            let matrix = self.solver.begin(n, size, &self.projection.blank);
+            let matrix = self.projector.begin(n, size, &self.projection.blank);
             for &(i, j, place) in d.mass {
-                let value = read(place, &self.constants, &self.nodes);
+                let value = read(place, constants, &self.nodes);
                 if !is_held(i) && !is_held(j) {
                     matrix[i * size + j] = value;
                     matrix[j * size + i] = value;
@@ -305,26 +309,27 @@ impl<S: System> Dynamics<S> {
                 }
             }
             let mut index = n;
-            for &row in &self.plan.acting {
+            for &row in &plan.acting {
                 let Some(place) = Self::residual_place(row, level) else {
                     continue;
                 };
                 for &(j, place) in d.rows[row].jacobian {
                     if !is_held(j) {
-                        let value = read(place, &self.constants, &self.nodes);
+                        let value = read(place, constants, &self.nodes);
                         matrix[index * size + j] = value;
                         matrix[j * size + index] = value;
                     }
                 }
-                self.projection.right[index] = -read(place, &self.constants, &self.nodes);
+                self.projection.right[index] = -read(place, constants, &self.nodes);
                 index += 1;
             }
-            if self.solver.factor(Inertia::Symmetric).is_ok() {
+            self.work.factorizations += 1;
+            if self.projector.factor(Inertia::Symmetric).is_ok() {
                 self.projection.change.clear();
                 self.projection
                     .change
                     .extend_from_slice(&self.projection.right);
-                self.solver.solve(&mut self.projection.change);
+                self.projector.solve(&mut self.projection.change);
                 self.projection.change.truncate(n);
                 return self.projection.change.iter().all(|x| x.value().is_finite());
             }

@@ -15,8 +15,11 @@ impl<S: System> Acceleration<S::Scalar> for Dynamics<S> {
         v: &[S::Scalar],
         dv: &mut [S::Scalar],
     ) -> Result<(), EvaluationError> {
-        self.value(t, q, v)?;
-        dv.copy_from_slice(Dynamics::acceleration(self));
+        self.evaluate(t, q, v)?;
+        let n = dv.len();
+        if let Some(tape) = self.compiled().tape() {
+            dv.copy_from_slice(&tape.registers[2 + 2 * n..2 + 3 * n]);
+        }
         Ok(())
     }
 

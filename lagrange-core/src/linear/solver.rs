@@ -56,8 +56,6 @@ pub(crate) struct Solver<T> {
     /// Rows set aside because they depend on the others.
     aside: Vec<bool>,
     work: Vec<T>,
-    /// Number of factorizations so far.
-    pub factorizations: usize,
 }
 
 /// The power of two near 1/√x.
@@ -97,7 +95,6 @@ impl<T: Scalar> Solver<T> {
 
     /// Factors the matrix.
     pub(crate) fn factor(&mut self, inertia: Inertia) -> Result<(), SolveError> {
-        self.factorizations += 1;
         self.aside.clear();
         let leading = match inertia {
             Inertia::Symmetric => self.coordinates,

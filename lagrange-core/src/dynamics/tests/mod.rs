@@ -151,7 +151,6 @@ fn follow(dynamics: &mut Dynamics<Wheel>, v: [f64; 4]) {
             WHEEL.rows[GRIP].velocity,
             WHEEL.rows[RIM].velocity,
             gap,
-            WHEEL.mass[4].2,
         ] {
             close(
                 at(along.motion_series(place), tau),
