@@ -17,9 +17,10 @@
 //! methods, section 2; Griewank & Walther 2008, Evaluating Derivatives, chapter 13; the order of summation is that of relaxed
 //! multiplication, van der Hoeven 2002, Relax, but don't be too lazy, section 3.
 
-use super::instruction::{Instruction, Op};
-use super::record::{Recorded, Recording, Slot};
 use super::Scalar;
+use super::instruction::{Instruction, Op};
+use super::program::{Program, room, with_registers};
+use super::record::{Recorded, Slot};
 
 /// Coefficients of a row. Rows are added in fours, up to three elements past the last coefficient.
 const STRIDE: usize = 32;
@@ -51,138 +52,139 @@ pub enum Operation {
     Angle,
 }
 
-/// An instruction with the first of its sums.
+/// An instruction with the place of the first of its sums.
 #[derive(Clone, Copy, Debug)]
 struct Step {
     instruction: Instruction,
     sum: u32,
 }
 
-/// A number whose coefficients are kept, or j times coefficient j of it.
+/// sum += Σ xᵢ yⱼ, where the x may be weighted with i: registers and rows of x and y.
 #[derive(Clone, Copy, Debug)]
-struct Kept {
-    slot: u32,
-    weighted: bool,
+struct Product {
+    sum: u32,
+    x: Slot,
+    y: Slot,
+    x_row: u32,
+    y_row: u32,
 }
 
-/// sum += factor Σ xᵢ yⱼ, rows x and y.
-#[derive(Clone, Copy, Debug)]
-struct Product<T> {
-    sum: usize,
-    x: usize,
-    y: usize,
-    factor: T,
-}
-
-/// The Taylor coefficients of a recorded tape, order by order.
+/// The Taylor coefficients of a program, order by order.
 #[derive(Clone, Debug, Default)]
 pub struct Expansion<T> {
     parts: Vec<Vec<Step>>,
-    /// Operations that need a series to exist: where their argument is.
+    /// Operations that need a series to exist: where their arguments are.
     critical: Vec<(Operation, Slot, Slot)>,
-    /// Rows kept of varying numbers, then of constant ones.
-    kept: Vec<Kept>,
+    products: Vec<Product>,
+    weighted_products: Vec<Product>,
+    /// The registers whose coefficients are kept: varying ones, then constant ones.
+    kept: Vec<Slot>,
     varying: usize,
-    /// By register: the row of its coefficients, and the row of the weighted ones.
+    /// Registers of which j times coefficient j is kept, in the rows after.
+    weighted: Vec<Slot>,
+    /// By register: its row among those kept, and its row among the weighted ones.
     rows: Vec<[u32; 2]>,
-    products: Vec<Product<T>>,
     history: Vec<Row<T>>,
+    weighted_history: Vec<Row<T>>,
     sums: Vec<Row<T>>,
     /// Coefficient k of the registers.
     now: Vec<T>,
-    /// Coefficient k of the rows.
-    current: Vec<T>,
 }
 
 impl<T: Scalar> Expansion<T> {
-    /// Prepares the expansion of `recording`, as far as it is needed for `wanted`; of these the coefficients are kept.
+    /// Prepares the expansion of `program` with so many `registers`; the coefficients of `wanted` are kept.
     /// Sums 0…`own`−1 are the caller's: `products` lists what goes into them, sum += x y.
-    pub fn set(
-        &mut self,
-        recording: &Recording<T>,
-        parts: usize,
+    pub fn new(
+        program: &Program,
+        registers: usize,
         wanted: &[Recorded],
         own: usize,
         products: &[(usize, Slot, Slot)],
-    ) {
-        self.critical.clear();
-        self.kept.clear();
-        self.rows.clear();
-        self.rows.resize(recording.registers(), [NO_ROW; 2]);
-        self.products.clear();
-        let mut sums = own;
+    ) -> Self {
+        let mut expansion = Self {
+            rows: vec![[NO_ROW; 2]; registers],
+            now: vec![T::zero(); room(registers)],
+            ..Self::default()
+        };
         for &(sum, x, y) in products {
-            self.product(sum, T::one(), (x, false), (y, false));
+            expansion.product(sum, x, y);
         }
-        let live = live(recording, wanted, products);
-        self.parts.resize(parts, Vec::new());
-        for index in 0..parts {
-            let mut steps = core::mem::take(&mut self.parts[index]);
-            steps.clear();
-            let [fixed, varying] = recording.part(index);
-            for instruction in &recording.fixed[fixed] {
-                self.watch(instruction);
+        let mut sums = own;
+        for part in &program.parts {
+            let mut steps = Vec::with_capacity(part.varying.len());
+            part.fixed.iter().for_each(|i| expansion.watch(i));
+            for &instruction in &part.varying {
+                expansion.watch(&instruction);
+                let sum = (sums * STRIDE) as u32;
+                sums += expansion.sums_of(&instruction, sums);
+                steps.push(Step { instruction, sum });
             }
-            for &instruction in &recording.varying[varying] {
-                let second = instruction.is_pair() && live[instruction.to.index() + 1];
-                if !(live[instruction.to.index()] || second) {
-                    continue;
-                }
-                self.watch(&instruction);
-                steps.push(Step {
-                    instruction,
-                    sum: sums as u32,
-                });
-                sums += self.sums_of(&instruction, sums);
-            }
-            self.parts[index] = steps;
+            expansion.parts.push(steps);
         }
         for recorded in wanted.iter().filter(|r| r.varies()) {
-            self.row((recorded.slot, false));
+            expansion.row(recorded.slot);
         }
-        self.varying = self.kept.len();
-        self.row((Recorded::ZERO.slot, false));
+        expansion.varying = expansion.kept.len();
+        expansion.row(Recorded::ZERO.slot);
         for recorded in wanted.iter().filter(|r| !r.varies()) {
-            self.row((recorded.slot, false));
+            expansion.row(recorded.slot);
         }
-        self.history.clear();
-        self.history.resize(self.kept.len(), [T::zero(); STRIDE]);
-        self.sums.resize(sums, [T::zero(); STRIDE]);
-        self.now.clear();
-        self.now.resize(recording.registers(), T::zero());
-        self.current.clear();
-        self.current.resize(self.varying, T::zero());
+        let rows = |count: usize| vec![[T::zero(); STRIDE]; count];
+        expansion.history = rows(expansion.kept.len());
+        expansion.weighted_history = rows(expansion.weighted.len());
+        expansion.sums = rows(sums);
+        expansion
     }
 
-    fn row(&mut self, (slot, weighted): (Slot, bool)) -> usize {
-        let kept = Kept {
-            slot: slot.0,
-            weighted,
-        };
-        let row = &mut self.rows[slot.index()][usize::from(weighted)];
+    /// The row in which the coefficients of a register are kept.
+    fn row(&mut self, slot: Slot) -> u32 {
+        let row = &mut self.rows[slot.index()][0];
         if *row == NO_ROW {
             *row = self.kept.len() as u32;
-            self.kept.push(kept);
+            self.kept.push(slot);
         }
-        *row as usize
+        *row
     }
 
-    fn product(&mut self, sum: usize, factor: T, x: (Slot, bool), y: (Slot, bool)) {
-        let (x, y) = (self.row(x), self.row(y));
-        self.products.push(Product { sum, x, y, factor });
+    /// The same for j times coefficient j.
+    fn weighted_row(&mut self, slot: Slot) -> u32 {
+        let row = &mut self.rows[slot.index()][1];
+        if *row == NO_ROW {
+            *row = self.weighted.len() as u32;
+            self.weighted.push(slot);
+        }
+        *row
+    }
+
+    /// sum += Σ xᵢ yⱼ
+    fn product(&mut self, sum: usize, x: Slot, y: Slot) {
+        let (x_row, y_row) = (self.row(x), self.row(y));
+        let sum = sum as u32;
+        self.products.push(Product {
+            sum,
+            x,
+            y,
+            x_row,
+            y_row,
+        });
+    }
+
+    /// sum += Σ i xᵢ yⱼ
+    fn weighted_product(&mut self, sum: usize, x: Slot, y: Slot) {
+        let (x_row, y_row) = (self.weighted_row(x), self.row(y));
+        let sum = sum as u32;
+        self.weighted_products.push(Product {
+            sum,
+            x,
+            y,
+            x_row,
+            y_row,
+        });
     }
 
     /// The sums of an instruction, numbered from `sum` on; returns how many there are.
     fn sums_of(&mut self, i: &Instruction, sum: usize) -> usize {
-        let one = T::one();
-        let second = Slot(i.to.0 + 1);
-        let (x, y, z, u) = (
-            (i.x, false),
-            (i.y, false),
-            (i.to, false),
-            (second, false),
-        );
-        let (wx, wy, wz) = ((i.x, true), (i.y, true), (i.to, true));
+        let (x, y, z, u) = (i.x, i.y, i.to, Slot(i.to.0 + 1));
         match i.op {
             Op::Copy
             | Op::Add
@@ -191,47 +193,48 @@ impl<T: Scalar> Expansion<T> {
             | Op::Offset
             | Op::Scale
             | Op::DivConstant
-            | Op::Sum => return 0,
-            Op::Mul => self.product(sum, one, x, y),
-            Op::Square => self.product(sum, one, x, x),
-            Op::Div | Op::Ratio => self.product(sum, one, y, z),
-            Op::Sqrt => self.product(sum, one, z, z),
+            | Op::Sum
+            | Op::Sum2 => return 0,
+            Op::Mul => self.product(sum, x, y),
+            Op::Square => self.product(sum, x, x),
+            Op::Div | Op::Ratio => self.product(sum, y, z),
+            Op::Sqrt => self.product(sum, z, z),
+            Op::Exp => self.weighted_product(sum, x, z),
+            Op::Ln => self.weighted_product(sum, z, x),
             Op::Powf => {
-                // x z′ = c z x′; c is put in by the step.
-                self.product(sum, one, wz, x);
-                self.product(sum + 1, one, wx, z);
+                // x z′ = c z x′
+                self.weighted_product(sum, z, x);
+                self.weighted_product(sum + 1, x, z);
                 return 2;
             }
-            Op::Exp => self.product(sum, one, wx, z),
-            Op::Ln => self.product(sum, one, wz, x),
             Op::SinCos | Op::SinhCosh => {
-                self.product(sum, one, wx, u);
-                self.product(sum + 1, one, wx, z);
+                self.weighted_product(sum, x, u);
+                self.weighted_product(sum + 1, x, z);
                 return 2;
             }
             Op::Tan | Op::Tanh => {
-                self.product(sum, one, wx, u);
-                self.product(sum + 1, one, z, z);
+                self.weighted_product(sum, x, u);
+                self.product(sum + 1, z, z);
                 return 2;
             }
             Op::Asin | Op::Acos => {
-                self.product(sum, one, wz, u);
-                self.product(sum + 1, one, u, u);
-                self.product(sum + 1, one, x, x);
+                self.weighted_product(sum, z, u);
+                self.product(sum + 1, u, u);
+                self.product(sum + 1, x, x);
                 return 2;
             }
             Op::Atan => {
-                self.product(sum, one, wz, u);
-                self.product(sum + 1, one, x, x);
+                self.weighted_product(sum, z, u);
+                self.product(sum + 1, x, x);
                 return 2;
             }
             Op::Atan2 => {
-                self.product(sum, one, wz, u);
-                self.product(sum, -one, wx, y);
-                self.product(sum, one, wy, x);
-                self.product(sum + 1, one, x, x);
-                self.product(sum + 1, one, y, y);
-                return 2;
+                self.weighted_product(sum, z, u);
+                self.product(sum + 1, x, x);
+                self.product(sum + 1, y, y);
+                self.weighted_product(sum + 2, x, y);
+                self.weighted_product(sum + 3, y, x);
+                return 4;
             }
         }
         1
@@ -254,6 +257,7 @@ impl<T: Scalar> Expansion<T> {
     }
 
     /// The first operation that has no Taylor series where the registers hold the values `first`.
+    #[inline]
     pub fn singular(&self, first: &[T]) -> Option<Operation> {
         let at = |slot: Slot| first[slot.index()].value();
         let fails = |&&(operation, x, y): &&(Operation, Slot, Slot)| match operation {
@@ -262,109 +266,85 @@ impl<T: Scalar> Expansion<T> {
             Operation::Angle => at(x) == 0.0 && at(y) == 0.0,
             _ => !(at(x) > 0.0),
         };
-        self.critical.iter().find(fails).map(|&(operation, ..)| operation)
+        let found = self.critical.iter().find(fails);
+        found.map(|&(operation, ..)| operation)
     }
 
     /// Takes coefficients 0 from the registers.
     pub fn begin(&mut self, first: &[T]) {
-        self.history[..self.varying].fill([T::zero(); STRIDE]);
-        self.sums.fill([T::zero(); STRIDE]);
-        for (row, kept) in self.history.iter_mut().zip(&self.kept) {
-            if !kept.weighted {
-                row[0] = first[kept.slot as usize];
-            }
+        let zero = [T::zero(); STRIDE];
+        self.history[..self.varying].fill(zero);
+        self.weighted_history.fill(zero);
+        self.sums.fill(zero);
+        for (row, slot) in self.history.iter_mut().zip(&self.kept) {
+            row[0] = first[slot.index()];
         }
     }
 
-    /// Coefficient k of the numbers of part `index`, from those of its operands.
+    /// Coefficient k of the numbers of part `index`, from those of its operands. `first` holds the values.
     #[inline]
-    pub fn advance(&mut self, recording: &Recording<T>, index: usize, k: usize, first: &[T]) {
-        let order = T::from_f64(k as f64);
-        let (now, sums) = (&mut self.now[..], &self.sums[..]);
-        for &Step { instruction, sum } in &self.parts[index] {
-            let Instruction { op, to, x, y } = instruction;
-            let at = |slot: Slot| now[slot.index()];
-            let start = |slot: Slot| first[slot.index()];
-            let sum = |offset: usize| sums[sum as usize + offset][k];
-            let value = match op {
-                Op::Copy => at(x),
-                Op::Add => at(x) + at(y),
-                Op::Sub => at(x) - at(y),
-                Op::Neg => -at(x),
-                Op::Offset => at(y),
-                Op::Scale => start(x) * at(y),
-                Op::Mul => sum(0) + start(x) * at(y) + at(x) * start(y),
-                Op::Square => {
-                    let half = start(x) * at(x);
-                    sum(0) + (half + half)
-                }
-                Op::Div => (at(x) - start(to) * at(y) - sum(0)) / start(y),
-                Op::DivConstant => at(x) / start(y),
-                Op::Ratio => -(start(to) * at(y) + sum(0)) / start(y),
-                Op::Sqrt => (at(x) - sum(0)) / (start(to) + start(to)),
-                Op::Powf => {
-                    let earlier = start(y) * sum(1) - sum(0);
-                    (start(y) * at(x) * start(to) + earlier / order) / start(x)
-                }
-                Op::Exp => start(to) * at(x) + sum(0) / order,
-                Op::Ln => (at(x) - sum(0) / order) / start(x),
-                Op::Sum => {
-                    let terms = &recording.terms[x.index()..y.index()];
-                    terms
-                        .iter()
-                        .fold(T::zero(), |sum, &(factor, x)| sum + factor * at(x))
-                }
-                _ => {
-                    let second = Slot(to.0 + 1);
-                    let values = [start(x), start(y), start(to), start(second)];
-                    let sums = [sum(0), sum(1)];
-                    let (z, u) = pair(op, [at(x), at(y)], values, sums, order);
-                    now[second.index()] = u;
-                    z
-                }
-            };
-            now[to.index()] = value;
-        }
+    pub fn advance(&mut self, program: &Program, index: usize, k: usize, first: &mut [T]) {
+        let (steps, sums, now) = (&self.parts[index], self.sums.as_flattened(), &mut self.now);
+        let now: &mut [T] = now;
+        with_registers!(first, |first| {
+            advance(steps, &program.terms, sums, k, first, now);
+        });
     }
 
-    /// Ends coefficient k, when all parts have it, of `order`.
+    /// Ends coefficient k, when all parts have it, of `order`: what it gives with coefficients 1…k−1 to later sums.
     #[inline]
     pub fn keep(&mut self, k: usize, order: usize) {
+        // Additions go on in fours; the rows have room.
+        match (k - 1).min(order.saturating_sub(k)).div_ceil(4) {
+            0 => self.add_products::<0>(k, order),
+            1 => self.add_products::<1>(k, order),
+            2 => self.add_products::<2>(k, order),
+            3 => self.add_products::<3>(k, order),
+            _ => self.add_products::<4>(k, order),
+        }
+        let Some(k) = Some(k).filter(|k| *k < STRIDE) else {
+            return;
+        };
         let weight = T::from_f64(k as f64);
-        for (current, kept) in self.current.iter_mut().zip(&self.kept) {
-            let c = self.now[kept.slot as usize];
-            *current = if kept.weighted { weight * c } else { c };
+        let now = |slot: &Slot| self.now[slot.index()];
+        for (row, slot) in self.history[..self.varying].iter_mut().zip(&self.kept) {
+            row[k] = now(slot);
         }
-        // What coefficient k gives with coefficients 1…k−1 to the sums up to the order.
-        let chunks = (k - 1).min(order.saturating_sub(k)).div_ceil(4);
+        for (row, slot) in self.weighted_history.iter_mut().zip(&self.weighted) {
+            row[k] = weight * now(slot);
+        }
+    }
+
+    #[inline(always)]
+    fn add_products<const FOURS: usize>(&mut self, k: usize, order: usize) {
+        let twice_k = (2 * k <= order).then_some(2 * k);
+        let weight = T::from_f64(k as f64);
+        let (history, weighted, now) = (&self.history, &self.weighted_history, &self.now);
+        let mut add = |product: &Product, xk: T, xs: &Row<T>| {
+            let ys = &history[product.y_row as usize];
+            let yk = now[product.y.index()];
+            let sum = &mut self.sums[product.sum as usize];
+            if let Some(later) = sum.get_mut(k + 1..).map(|s| s.as_chunks_mut::<4>().0)
+                && let Some(later) = later.first_chunk_mut::<FOURS>()
+            {
+                let (xs, ys) = (fours::<T, FOURS>(xs), fours::<T, FOURS>(ys));
+                for (sum, (xs, ys)) in later.iter_mut().zip(xs.iter().zip(ys)) {
+                    for (sum, (&x, &y)) in sum.iter_mut().zip(xs.iter().zip(ys)) {
+                        *sum = xk.mul_add(y, yk.mul_add(x, *sum));
+                    }
+                }
+            }
+            if let Some(sum) = twice_k.and_then(|k| sum.get_mut(k)) {
+                *sum = xk.mul_add(yk, *sum);
+            }
+        };
         for product in &self.products {
-            let (xk, yk) = (self.current[product.x], self.current[product.y]);
-            let (xk, yk) = (product.factor * xk, product.factor * yk);
-            let sum = &mut self.sums[product.sum];
-            let (later, _) = sum[k + 1..].as_chunks_mut::<4>();
-            let (xs, _) = self.history[product.x][1..].as_chunks::<4>();
-            let (ys, _) = self.history[product.y][1..].as_chunks::<4>();
-            if product.x == product.y {
-                let twice = xk + xk;
-                for (sum, x) in later[..chunks].iter_mut().zip(&xs[..chunks]) {
-                    for (sum, &x) in sum.iter_mut().zip(x) {
-                        *sum += twice * x;
-                    }
-                }
-            } else {
-                let both = xs[..chunks].iter().zip(&ys[..chunks]);
-                for (sum, (x, y)) in later[..chunks].iter_mut().zip(both) {
-                    for (sum, (&x, &y)) in sum.iter_mut().zip(x.iter().zip(y)) {
-                        *sum += xk * y + yk * x;
-                    }
-                }
-            }
-            if 2 * k <= order {
-                sum[2 * k] += xk * self.current[product.y];
-            }
+            let xs = &history[product.x_row as usize];
+            add(product, now[product.x.index()], xs);
         }
-        for (row, &current) in self.history.iter_mut().zip(&self.current) {
-            row[k] = current;
+        for product in &self.weighted_products {
+            let xs = &weighted[product.x_row as usize];
+            add(product, weight * now[product.x.index()], xs);
         }
     }
 
@@ -398,40 +378,100 @@ impl<T: Scalar> Expansion<T> {
     }
 }
 
-/// Which registers `wanted` and the products depend on.
-fn live<T: Scalar>(
-    recording: &Recording<T>,
-    wanted: &[Recorded],
-    products: &[(usize, Slot, Slot)],
-) -> Vec<bool> {
-    let mut live = vec![false; recording.registers()];
-    for recorded in wanted {
-        live[recorded.slot.index()] = true;
+/// Coefficients 1, 2, … of a row, in fours.
+#[inline(always)]
+fn fours<T, const FOURS: usize>(row: &Row<T>) -> &[[T; 4]; FOURS] {
+    const { assert!(4 * FOURS < STRIDE) };
+    match row[1..].as_chunks::<4>().0.first_chunk() {
+        Some(fours) => fours,
+        None => unreachable!("a row holds that many"),
     }
-    for &(_, x, y) in products {
-        live[x.index()] = true;
-        live[y.index()] = true;
-    }
-    for instruction in recording.varying.iter().rev() {
-        let to = instruction.to.index();
-        if live[to] || (instruction.is_pair() && live[to + 1]) {
-            for operand in instruction.operands(&recording.terms) {
-                live[operand.index()] = true;
-            }
-        }
-    }
-    live
 }
 
-/// Coefficient k of the operations with two results, from those of x and y, values of x, y, z, u, and the sums.
+/// Coefficient k of a list of numbers.
 #[inline(always)]
-fn pair<T: Scalar>(op: Op, [x, y]: [T; 2], start: [T; 4], sums: [T; 2], order: T) -> (T, T) {
-    let [x0, y0, z0, u0] = start;
+fn advance<T: Scalar, const N: usize>(
+    steps: &[Step],
+    terms: &[(Slot, Slot)],
+    sums: &[T],
+    k: usize,
+    first: &[T; N],
+    now: &mut [T],
+) {
+    let Some(now) = now.first_chunk_mut::<N>() else {
+        return;
+    };
+    let order = T::from_f64(k as f64);
+    for &Step { instruction, sum } in steps {
+        let Instruction { op, to, x, y } = instruction;
+        let at = |slot: Slot| now[slot.index() & (N - 1)];
+        let start = |slot: Slot| first[slot.index() & (N - 1)];
+        let sum = |number: usize| sums[sum as usize + number * STRIDE + k];
+        let value = match op {
+            Op::Copy => at(x),
+            Op::Add => at(x) + at(y),
+            Op::Sub => at(x) - at(y),
+            Op::Neg => -at(x),
+            Op::Offset => at(y),
+            Op::Scale => start(x) * at(y),
+            Op::Mul => start(x).mul_add(at(y), at(x).mul_add(start(y), sum(0))),
+            Op::Square => {
+                let half = start(x) * at(x);
+                sum(0) + (half + half)
+            }
+            Op::Div => (at(x) - start(to).mul_add(at(y), sum(0))) / start(y),
+            Op::DivConstant => at(x) / start(y),
+            Op::Ratio => -start(to).mul_add(at(y), sum(0)) / start(y),
+            Op::Sqrt => (at(x) - sum(0)) / (start(to) + start(to)),
+            Op::Powf => {
+                let earlier = start(y) * sum(1) - sum(0);
+                (start(y) * at(x) * start(to) + earlier / order) / start(x)
+            }
+            Op::Exp => start(to) * at(x) + sum(0) / order,
+            Op::Ln => (at(x) - sum(0) / order) / start(x),
+            Op::Sum => {
+                let terms = &terms[x.index()..y.index()];
+                let add = |sum, &(factor, x): &(Slot, Slot)| start(factor).mul_add(at(x), sum);
+                terms.iter().fold(T::zero(), add)
+            }
+            Op::Sum2 => {
+                let [(f, x), (g, y)] = [terms[x.index()], terms[x.index() + 1]];
+                start(f).mul_add(at(x), start(g) * at(y))
+            }
+            Op::Atan2 => {
+                let earlier = (sum(0) - sum(2) + sum(3)) / order;
+                let turn = at(x) * start(y) - at(y) * start(x);
+                let half = start(x) * at(x) + start(y) * at(y);
+                let second = Slot(to.0 + 1);
+                now[second.index() & (N - 1)] = half + half + sum(1);
+                (turn - earlier) / start(second)
+            }
+            _ => {
+                let second = Slot(to.0 + 1);
+                let values = [start(x), start(to), start(second)];
+                let (z, u) = pair(op, at(x), values, [sum(0), sum(1)], order);
+                now[second.index() & (N - 1)] = u;
+                z
+            }
+        };
+        now[to.index() & (N - 1)] = value;
+    }
+}
+
+/// Coefficient k of the other operations with two results, from that of x, the values of x, z, u, and the sums.
+#[inline(always)]
+fn pair<T: Scalar>(op: Op, x: T, [x0, z0, u0]: [T; 3], sums: [T; 2], order: T) -> (T, T) {
     let earlier = sums[0] / order;
     let twice = |c: T| c + c;
     match op {
-        Op::SinCos => (u0 * x + earlier, -(z0 * x + sums[1] / order)),
-        Op::SinhCosh => (u0 * x + earlier, z0 * x + sums[1] / order),
+        Op::SinCos => (
+            u0.mul_add(x, earlier),
+            -z0.mul_add(x, sums[1] / order),
+        ),
+        Op::SinhCosh => (
+            u0.mul_add(x, earlier),
+            z0.mul_add(x, sums[1] / order),
+        ),
         Op::Tan => {
             let z = u0 * x + earlier;
             (z, twice(z0 * z) + sums[1])
@@ -440,19 +480,9 @@ fn pair<T: Scalar>(op: Op, [x, y]: [T; 2], start: [T; 4], sums: [T; 2], order: T
             let z = u0 * x + earlier;
             (z, -(twice(z0 * z) + sums[1]))
         }
-        Op::Asin => (
-            (x - earlier) / u0,
-            -(twice(x0 * x) + sums[1]) / twice(u0),
-        ),
-        Op::Acos => (
-            (-x - earlier) / u0,
-            -(twice(x0 * x) + sums[1]) / twice(u0),
-        ),
-        Op::Atan => ((x - earlier) / u0, twice(x0 * x) + sums[1]),
-        // The angle of (y, x) is that of x above y.
-        _ => (
-            (x * y0 - y * x0 - earlier) / u0,
-            twice(x0 * x + y0 * y) + sums[1],
-        ),
+        Op::Asin => ((x - earlier) / u0, -(twice(x0 * x) + sums[1]) / twice(u0)),
+        Op::Acos => ((-x - earlier) / u0, -(twice(x0 * x) + sums[1]) / twice(u0)),
+        // Atan
+        _ => ((x - earlier) / u0, twice(x0 * x) + sums[1]),
     }
 }

@@ -43,8 +43,10 @@ pub(super) enum Op {
     Atan,
     /// Angle of the point (y, x), and x² + y² in the next register
     Atan2,
-    /// Σ over terms x..y of the list of terms
+    /// Σ factor · number over terms x..y of the list of terms
     Sum,
+    /// The same over the two terms from x on
+    Sum2,
 }
 
 /// An operation, where its operands are, and where its result goes.
@@ -58,16 +60,32 @@ pub(super) struct Instruction {
 
 impl Instruction {
     /// The registers that it reads.
-    pub(super) fn operands<'a, T>(
+    pub(super) fn operands<'a>(
         &self,
-        terms: &'a [(T, Slot)],
-    ) -> impl Iterator<Item = Slot> + use<'a, T> {
+        terms: &'a [(Slot, Slot)],
+    ) -> impl Iterator<Item = Slot> + use<'a> {
         let (own, terms) = match self.op {
-            Op::Copy => ([self.x, self.x], &terms[..0]),
-            Op::Sum => ([Slot(0); 2], &terms[self.x.index()..self.y.index()]),
+            Op::Copy => ([self.x, Slot(0)], &terms[..0]),
+            Op::Sum | Op::Sum2 => ([Slot(0); 2], &terms[self.x.index()..self.y.index()]),
             _ => ([self.x, self.y], &terms[..0]),
         };
-        own.into_iter().chain(terms.iter().map(|&(_, slot)| slot))
+        let listed = terms.iter().flat_map(|&(factor, slot)| [factor, slot]);
+        own.into_iter().chain(listed).filter(|slot| slot.0 > 0)
+    }
+
+    /// Whether its coefficients are sums of its operands' with factors that do not depend on time.
+    pub(super) fn is_linear(&self) -> bool {
+        matches!(
+            self.op,
+            Op::Copy
+                | Op::Add
+                | Op::Sub
+                | Op::Neg
+                | Op::Offset
+                | Op::Scale
+                | Op::DivConstant
+                | Op::Sum
+        )
     }
 
     /// Whether the register after `to` is written as well.
@@ -86,11 +104,15 @@ impl Instruction {
     }
 }
 
-/// Runs a list for values.
-#[inline]
-pub(super) fn evaluate<T: Scalar>(list: &[Instruction], terms: &[(T, Slot)], r: &mut [T]) {
+/// Runs a list for values. The number of registers is a power of two, `N` if that many: then no index needs a check.
+#[inline(always)]
+pub(super) fn evaluate<T: Scalar, const N: usize>(
+    list: &[Instruction],
+    terms: &[(Slot, Slot)],
+    r: &mut [T; N],
+) {
     for &Instruction { op, to, x, y } in list {
-        let at = |slot: Slot| r[slot.index()];
+        let at = |slot: Slot| r[slot.index() & (N - 1)];
         let value = match op {
             Op::Copy => at(x),
             Op::Add | Op::Offset => at(x) + at(y),
@@ -107,15 +129,19 @@ pub(super) fn evaluate<T: Scalar>(list: &[Instruction], terms: &[(T, Slot)], r: 
                 let terms = &terms[x.index()..y.index()];
                 terms
                     .iter()
-                    .fold(T::zero(), |sum, &(factor, x)| sum + factor * at(x))
+                    .fold(T::zero(), |sum, &(factor, x)| sum + at(factor) * at(x))
+            }
+            Op::Sum2 => {
+                let [(f, x), (g, y)] = [terms[x.index()], terms[x.index() + 1]];
+                at(f) * at(x) + at(g) * at(y)
             }
             _ => {
                 let (first, second) = pair(op, at(x), at(y));
-                r[to.index() + 1] = second;
+                r[(to.index() + 1) & (N - 1)] = second;
                 first
             }
         };
-        r[to.index()] = value;
+        r[to.index() & (N - 1)] = value;
     }
 }
 

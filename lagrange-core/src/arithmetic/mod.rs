@@ -12,6 +12,7 @@ mod direct;
 mod dual;
 mod expansion;
 mod instruction;
+mod program;
 mod record;
 mod scalar;
 #[cfg(test)]
@@ -20,6 +21,7 @@ mod tests;
 pub use direct::{Derivative, Value};
 pub use dual::Dual;
 pub use expansion::{Expansion, MAX_ORDER, Operation};
+pub use program::Program;
 pub use record::{Recorded, Recorder, Recording, Slot, Variation};
 
 use core::fmt::Debug;
@@ -63,6 +65,11 @@ pub trait Scalar:
     fn tanh(self) -> Self;
     /// xᶜ for a real exponent.
     fn powf(self, c: f64) -> Self;
+    /// x y + z, rounded once where the processor can do that as fast.
+    #[inline(always)]
+    fn mul_add(self, y: Self, z: Self) -> Self {
+        self * y + z
+    }
 }
 
 /// A way to run a tape.

@@ -10,13 +10,10 @@ use super::{Arithmetic, Scalar};
 use std::collections::BTreeMap;
 
 /// A register of a recorded tape. Register 0 is zero.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Default)]
 pub struct Slot(pub(super) u32);
 
 impl Slot {
-    /// No register.
-    pub const NONE: Self = Slot(u32::MAX);
-
     /// Register number `index`.
     #[inline(always)]
     pub fn new(index: usize) -> Self {
@@ -79,34 +76,38 @@ impl Recorded {
 /// An operation and its operands, to be found again.
 type Key = (Op, u32, u32);
 
-/// A tape written down: what does not depend on time apart from what does, both in order.
+/// Part of a tape: what does not depend on time apart from what does, both in order.
 #[derive(Clone, Debug, Default)]
-pub struct Recording<T> {
+pub(super) struct Part {
     /// Runs once per series.
-    pub(super) fixed: Vec<Instruction>,
+    pub fixed: Vec<Instruction>,
     /// Runs for every coefficient.
-    pub(super) varying: Vec<Instruction>,
+    pub varying: Vec<Instruction>,
+}
+
+/// A tape written down, as it comes. [`super::Program`] makes it short.
+#[derive(Clone, Debug)]
+pub struct Recording<T> {
+    pub(super) parts: Vec<Part>,
     /// (factor, register) of the sums.
-    pub(super) terms: Vec<(T, Slot)>,
+    pub(super) terms: Vec<(Slot, Slot)>,
     /// Registers that hold numbers known when the tape was recorded.
     pub(super) constants: Vec<(Slot, T)>,
     /// Results by operation.
     known: BTreeMap<Key, Recorded>,
     registers: usize,
-    /// Where the present part begins in `fixed` and `varying`.
-    cuts: Vec<(usize, usize)>,
 }
 
 impl<T: Scalar> Recording<T> {
-    /// Forgets everything, but for the memory; registers from `registers` on are free for the recorder's own use.
-    pub fn clear(&mut self, registers: usize) {
-        self.fixed.clear();
-        self.varying.clear();
-        self.terms.clear();
-        self.constants.clear();
-        self.known.clear();
-        self.cuts.clear();
-        self.registers = registers;
+    /// An empty recording; registers from `registers` on are free for the recorder's own use.
+    pub fn new(registers: usize) -> Self {
+        Self {
+            parts: vec![Part::default()],
+            terms: Vec::new(),
+            constants: Vec::new(),
+            known: BTreeMap::new(),
+            registers,
+        }
     }
 
     /// The arithmetic that records a tape; slots are numbered from register `base` on.
@@ -117,43 +118,32 @@ impl<T: Scalar> Recording<T> {
         }
     }
 
-    /// Ends a part of the recording.
-    pub fn cut(&mut self) {
-        self.cuts.push((self.fixed.len(), self.varying.len()));
-    }
-
     /// Number of registers.
-    pub fn registers(&self) -> usize {
+    pub(super) fn registers(&self) -> usize {
         self.registers
     }
 
-    /// Bounds of part `index` in the two lists.
-    pub(super) fn part(&self, index: usize) -> [core::ops::Range<usize>; 2] {
-        let at = |cut: usize| {
-            self.cuts
-                .get(cut)
-                .copied()
-                .unwrap_or((self.fixed.len(), self.varying.len()))
-        };
-        let from = if index == 0 { (0, 0) } else { at(index - 1) };
-        let to = at(index);
-        [from.0..to.0, from.1..to.1]
+    /// A register of its own.
+    pub(super) fn fresh(&mut self) -> Slot {
+        self.registers += 1;
+        Slot::new(self.registers - 1)
     }
 
-    /// Values of part `index` from those of its operands.
-    pub fn evaluate(&self, index: usize, registers: &mut [T]) {
-        let [fixed, varying] = self.part(index);
-        super::instruction::evaluate(&self.fixed[fixed], &self.terms, registers);
-        super::instruction::evaluate(&self.varying[varying], &self.terms, registers);
-    }
-
-    /// Registers with the numbers that are known.
-    pub fn fill_constants(&self, registers: &mut Vec<T>) {
-        registers.clear();
-        registers.resize(self.registers, T::zero());
-        for &(slot, value) in &self.constants {
-            registers[slot.index()] = value;
+    /// A register with a known number.
+    pub(super) fn number(&mut self, value: T) -> Slot {
+        let known = self.constants.iter().find(|(_, known)| *known == value);
+        if let Some(&(slot, _)) = known {
+            return slot;
         }
+        let slot = self.fresh();
+        self.constants.push((slot, value));
+        slot
+    }
+
+    /// The number in a register, if it is known.
+    pub(super) fn known_number(&self, slot: Slot) -> Option<T> {
+        let found = self.constants.iter().find(|(known, _)| *known == slot);
+        found.map(|&(_, value)| value)
     }
 }
 
@@ -167,21 +157,18 @@ pub struct Recorder<'a, T> {
 impl<T: Scalar> Recorder<'_, T> {
     /// A register of its own.
     pub(crate) fn fresh(&mut self) -> Slot {
-        self.recording.registers += 1;
-        Slot::new(self.recording.registers - 1)
+        self.recording.fresh()
     }
 
     /// Ends a part of the recording.
     pub(crate) fn cut(&mut self) {
-        self.recording.cut();
+        self.recording.parts.push(Part::default());
     }
 
     /// A register with a known number.
     fn number(&mut self, value: T) -> Recorded {
-        let slot = self.fresh();
-        self.recording.constants.push((slot, value));
         Recorded {
-            slot,
+            slot: self.recording.number(value),
             variation: Variation::Constant,
         }
     }
@@ -196,12 +183,15 @@ impl<T: Scalar> Recorder<'_, T> {
         if let Some(&known) = self.recording.known.get(&key) {
             return known;
         }
-        let (list, variation) = if varies {
-            (&mut self.recording.varying, Variation::Varying)
-        } else {
-            (&mut self.recording.fixed, Variation::Constant)
-        };
         let (op, x, y) = key;
+        let Some(part) = self.recording.parts.last_mut() else {
+            return Recorded::ZERO;
+        };
+        let (list, variation) = if varies {
+            (&mut part.varying, Variation::Varying)
+        } else {
+            (&mut part.fixed, Variation::Constant)
+        };
         list.push(Instruction {
             op,
             to,
@@ -236,28 +226,26 @@ impl<T: Scalar> Recorder<'_, T> {
         terms: impl Iterator<Item = (T, Recorded)>,
     ) -> Recorded {
         let first = self.recording.terms.len();
-        let mut kind = Recorded::ZERO;
+        let mut varies = false;
+        let mut only = None;
         for (factor, x) in terms {
             if !x.is_zero() && !factor.is_zero() {
-                self.recording.terms.push((factor, x.slot));
-                kind = if kind.varies() { kind } else { x };
+                let number = self.recording.number(factor);
+                self.recording.terms.push((number, x.slot));
+                varies |= x.varies();
+                only = Some((factor, x));
             }
         }
-        match self.recording.terms[first..] {
-            [] => Recorded::ZERO,
-            [(factor, slot)] => {
+        let end = self.recording.terms.len();
+        match (end - first, only) {
+            (1, Some((factor, x))) => {
                 self.recording.terms.truncate(first);
-                self.scale(to, factor, Recorded { slot, ..kind })
+                self.scale(to, factor, x)
             }
-            [(one, x), (other, y)] if one == T::one() && other == T::one() => {
-                self.recording.terms.truncate(first);
-                let varies = kind.varies();
-                self.push_key(Slot::new(self.base + to), (Op::Add, x.0, y.0), varies)
-            }
+            (0, _) | (_, None) => Recorded::ZERO,
             _ => {
-                let end = self.recording.terms.len();
                 let key = (Op::Sum, first as u32, end as u32);
-                self.push_key(Slot::new(self.base + to), key, kind.varies())
+                self.push_key(Slot::new(self.base + to), key, varies)
             }
         }
     }

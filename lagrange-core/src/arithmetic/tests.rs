@@ -9,20 +9,18 @@ fn expand(
     inputs: &[&[f64]],
     f: impl Fn(&mut Recorder<'_, f64>, &[Recorded]) -> Recorded,
 ) -> Result<Vec<f64>, Operation> {
-    let mut recording = Recording::default();
-    recording.clear(100);
+    let mut recording = Recording::new(100);
     let slots: Vec<Recorded> = (0..inputs.len())
         .map(|i| Recorded::varying(Slot::new(90 + i)))
         .collect();
     let result = f(&mut recording.record(1), &slots);
-    let mut first = Vec::new();
-    recording.fill_constants(&mut first);
+    let program = Program::new(&mut recording, &[result.slot]);
+    let mut first = recording.registers_filled();
     for (slot, input) in slots.iter().zip(inputs) {
         first[slot.slot.index()] = input[0];
     }
-    recording.evaluate(0, &mut first);
-    let mut expansion = Expansion::default();
-    expansion.set(&recording, 1, &[result], 0, &[]);
+    program.evaluate(0, &mut first);
+    let mut expansion = Expansion::new(&program, first.len(), &[result], 0, &[]);
     if let Some(operation) = expansion.singular(&first) {
         return Err(operation);
     }
@@ -31,7 +29,7 @@ fn expand(
         for (slot, input) in slots.iter().zip(inputs) {
             expansion.put(slot.slot, input.get(k).copied().unwrap_or(0.0));
         }
-        expansion.advance(&recording, 0, k, &first);
+        expansion.advance(&program, 0, k, &mut first);
         expansion.keep(k, ORDER);
     }
     Ok(expansion.series(result, ORDER).to_vec())

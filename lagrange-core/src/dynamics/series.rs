@@ -43,7 +43,8 @@ impl<S: System> Dynamics<S> {
         let (_, solver, tape) = modes[*current].parts();
         let integrals = core::mem::take(&mut tape.integrals);
         let unsolved = tape.unsolved.take();
-        let (recording, first, expansion) = tape.expansion();
+        let (program, first, expansion) =
+            (&tape.program, &mut tape.registers[..], &mut tape.expansion);
         for k in 1..=order {
             // dt/dτ = 1
             let time = if k == 1 {
@@ -61,7 +62,7 @@ impl<S: System> Dynamics<S> {
                 };
                 expansion.put(slot, rate / divisor);
             }
-            expansion.advance(recording, MOTION, k, first);
+            expansion.advance(program, MOTION, k, first);
             if let Some(unsolved) = &unsolved {
                 right.clear();
                 let sides = unsolved.right.iter().enumerate();
@@ -81,8 +82,8 @@ impl<S: System> Dynamics<S> {
                     expansion.put(slot, x);
                 }
             }
-            expansion.advance(recording, FORCES, k, first);
-            expansion.advance(recording, REPORT, k, first);
+            expansion.advance(program, FORCES, k, first);
+            expansion.advance(program, REPORT, k, first);
             expansion.keep(k, order);
         }
         tape.integrals = integrals;
@@ -94,16 +95,13 @@ impl<S: System> Dynamics<S> {
     fn start_series(&mut self, order: usize) -> Result<(), EvaluationError> {
         let (_, _, tape) = self.modes[self.current].parts();
         tape.order = order;
-        tape.recording.evaluate(MOTION, &mut tape.registers);
-        self.solve_start()?;
+        self.run_values()?;
         let (_, _, tape) = self.modes[self.current].parts();
-        tape.recording.evaluate(FORCES, &mut tape.registers);
-        tape.recording.evaluate(REPORT, &mut tape.registers);
-        let (_, first, expansion) = tape.expansion();
-        match expansion.singular(first) {
+        tape.program.evaluate(REPORT, &mut tape.registers);
+        match tape.expansion.singular(&tape.registers) {
             Some(operation) => Err(EvaluationError::NoSeries { operation }),
             None => {
-                expansion.begin(first);
+                tape.expansion.begin(&tape.registers);
                 Ok(())
             }
         }

@@ -15,11 +15,7 @@ impl<S: System> Acceleration<S::Scalar> for Dynamics<S> {
         v: &[S::Scalar],
         dv: &mut [S::Scalar],
     ) -> Result<(), EvaluationError> {
-        self.evaluate(t, q, v)?;
-        let n = dv.len();
-        if let Some(tape) = self.compiled().tape() {
-            dv.copy_from_slice(&tape.registers[2 + 2 * n..2 + 3 * n]);
-        }
+        dv.copy_from_slice(self.run_accelerations(t, q, v)?);
         Ok(())
     }
 

@@ -4,7 +4,9 @@
 
 use super::compiled::{Asked, Compiled};
 use super::needs::NeedSet;
-use crate::arithmetic::{Arithmetic, Expansion, Recorded, Recorder, Recording, Scalar, Slot, Variation};
+use crate::arithmetic::{
+    Arithmetic, Expansion, Program, Recorded, Recorder, Recording, Scalar, Slot, Variation,
+};
 use crate::linear::Plan;
 use crate::system::{Description, Held, Place, System};
 
@@ -14,13 +16,6 @@ pub(super) const MOTION: usize = 0;
 pub(super) const FORCES: usize = 1;
 /// The report tape.
 pub(super) const REPORT: usize = 2;
-const PARTS: usize = 3;
-
-/// How a part of an output that was not written looks.
-const UNWRITTEN: Recorded = Recorded {
-    slot: Slot::NONE,
-    variation: Variation::Zero,
-};
 
 /// A linear system that the tape leaves to the solver.
 #[derive(Clone, Debug, Default)]
@@ -39,11 +34,12 @@ pub(super) struct Tape<T> {
     extra: NeedSet,
     report: Option<NeedSet>,
     at_rest: bool,
-    pub recording: Recording<T>,
+    /// Motion, forces and report.
+    pub program: Program,
+    /// Accelerations alone.
+    pub accelerations: Program,
     pub registers: Vec<T>,
-    /// Made when the first series is asked for.
-    expansion: Expansion<T>,
-    expands: bool,
+    pub expansion: Expansion<T>,
     /// Order of the series held.
     pub order: usize,
     /// t, q, v, v̇, λ of all rows.
@@ -51,15 +47,12 @@ pub(super) struct Tape<T> {
     /// Outputs of the motion tape, then results of the plan's program.
     pub nodes: Vec<Recorded>,
     report_nodes: Vec<Recorded>,
-    /// Outputs of the motion tape that are written.
-    pub written: Vec<(usize, Slot)>,
     /// Positions and velocities that may change, with their rates.
     pub integrals: Vec<(Slot, Slot)>,
     /// None: the tape solves for the accelerations itself.
     pub unsolved: Option<Unsolved>,
     /// What the tape divides by when it does: the only element of the matrix.
     pub divisor: Option<Recorded>,
-    wanted: Vec<Recorded>,
 }
 
 struct Layout {
@@ -104,78 +97,34 @@ impl<T: Scalar> Tape<T> {
         let d = S::DESCRIPTION;
         let plan = &compiled.plan;
         let parts = layout(d, plan.program.len());
-        let mut tape = Tape {
-            extra: asked.extra.clone(),
-            report: asked.report.cloned(),
-            at_rest: asked.at_rest,
-            recording: Recording::default(),
-            registers: Vec::new(),
-            expansion: Expansion::default(),
-            expands: false,
-            order: 0,
-            inputs: inputs(d, plan, asked.at_rest),
-            nodes: vec![UNWRITTEN; d.motion.outputs],
-            report_nodes: vec![Recorded::ZERO; d.report.outputs],
-            written: Vec::new(),
-            integrals: Vec::new(),
-            unsolved: None,
-            divisor: None,
-            wanted: Vec::new(),
-        };
+        let n = d.coordinates.len();
+        let mut recording = Recording::new(parts.end);
+        let mut inputs = inputs(d, plan, asked.at_rest);
+        let mut nodes = vec![Recorded::ZERO; d.motion.outputs];
+        let mut report_nodes = vec![Recorded::ZERO; d.report.outputs];
         let branches = &compiled.mode.branches[..];
         let held = Held {
             needs: asked.held,
             branches,
         };
-        tape.recording.clear(parts.end);
-        let mut a = tape.recording.record(parts.motion);
-        let state = &tape.inputs[..1 + 2 * d.coordinates.len()];
-        scene.motion(&mut a, &held, &compiled.constants, state, &mut tape.nodes);
-        for (index, node) in tape.nodes.iter_mut().enumerate() {
-            if *node == UNWRITTEN {
-                *node = Recorded::ZERO;
-            } else {
-                tape.written.push((index, node.slot));
-            }
-        }
-        tape.nodes
-            .resize(d.motion.outputs + plan.program.len(), Recorded::ZERO);
+        let mut a = recording.record(parts.motion);
+        let state = &inputs[..1 + 2 * n];
+        scene.motion(&mut a, &held, &compiled.constants, state, &mut nodes);
+        nodes.resize(d.motion.outputs + plan.program.len(), Recorded::ZERO);
         a.origin(parts.program);
-        plan.program
-            .run(&mut a, &compiled.constants, &mut tape.nodes);
+        plan.program.run(&mut a, &compiled.constants, &mut nodes);
         a.origin(0);
-        let right = right_hand_sides(&mut a, plan, &tape.nodes);
-        let unknowns = solve(
-            &mut a,
-            plan,
-            &tape.nodes,
-            &tape.inputs,
-            d.coordinates.len(),
-            &right,
-            &mut tape.divisor,
-        );
-        tape.unsolved = tape.divisor.is_none().then(|| Unsolved {
-            right: right[..plan.size()].to_vec(),
-            unknowns: unknowns.iter().map(|x| x.slot).collect(),
-            elements: plan
-                .entries
-                .iter()
-                .filter(|e| tape.nodes[e.node].varies())
-                .map(|e| (e.row, tape.nodes[e.node].slot, unknowns[e.column].slot))
-                .collect(),
-        });
-        if plan.size() == 0 {
-            tape.unsolved = None;
-        }
+        let right = right_hand_sides(&mut a, plan, &nodes);
+        let (unknowns, divisor) = solve(&mut a, plan, &nodes, &inputs, n, &right);
         a.cut();
         forces(
             &mut a,
             compiled,
-            d.coordinates.len(),
-            &tape.nodes,
+            n,
+            &nodes,
             &unknowns,
             &right,
-            &mut tape.inputs,
+            &mut inputs,
         );
         a.cut();
         if let Some(needs) = asked.report {
@@ -185,40 +134,73 @@ impl<T: Scalar> Tape<T> {
                 &mut a,
                 &held,
                 &compiled.constants,
-                &tape.inputs,
-                &mut tape.report_nodes,
+                &inputs,
+                &mut report_nodes,
             );
         }
-        a.cut();
-        let n = d.coordinates.len();
-        let changes = (1..1 + 2 * n).filter(|&i| !tape.inputs[i + n].is_zero());
-        tape.integrals
-            .extend(changes.map(|i| (tape.inputs[i].slot, tape.inputs[i + n].slot)));
-        tape.recording.fill_constants(&mut tape.registers);
-        tape.wanted.extend_from_slice(&tape.inputs);
+        let solved = divisor.is_some() || plan.size() == 0;
+        let unsolved = (!solved).then(|| Unsolved {
+            right: right[..plan.size()].to_vec(),
+            unknowns: unknowns.iter().map(|x| x.slot).collect(),
+            elements: plan
+                .entries
+                .iter()
+                .filter(|e| nodes[e.node].varies())
+                .map(|e| (e.row, nodes[e.node].slot, unknowns[e.column].slot))
+                .collect(),
+        });
+        // What is kept of a series.
+        let mut wanted = inputs.clone();
         asked_places(d, asked.extra, &mut |place| {
             if let Place::Node(node) = place {
-                tape.wanted.push(tape.nodes[node]);
+                wanted.push(nodes[node]);
             }
         });
-        tape.wanted.extend_from_slice(&tape.report_nodes);
-        tape
-    }
-
-    /// The registers and their expansion, made now if it is the first.
-    #[inline]
-    pub(super) fn expansion(&mut self) -> (&Recording<T>, &mut [T], &mut Expansion<T>) {
-        if !self.expands {
-            self.expands = true;
-            let (right, elements) = match &self.unsolved {
-                Some(unsolved) => (&unsolved.right[..], &unsolved.elements[..]),
-                None => (&[][..], &[][..]),
-            };
-            self.wanted.extend_from_slice(right);
-            self.expansion
-                .set(&self.recording, PARTS, &self.wanted, right.len(), elements);
+        wanted.extend_from_slice(&report_nodes);
+        let (sides, elements) = match &unsolved {
+            Some(unsolved) => (&unsolved.right[..], &unsolved.elements[..]),
+            None => (&[][..], &[][..]),
+        };
+        // What the solution needs besides.
+        let mut system: Vec<Slot> = sides.iter().chain(&divisor).map(|r| r.slot).collect();
+        let matrix = plan.entries.iter().map(|e| Place::Node(e.node));
+        for place in matrix.chain(plan.cancelling()) {
+            if let Place::Node(node) = place {
+                system.push(nodes[node].slot);
+            }
         }
-        (&self.recording, &mut self.registers, &mut self.expansion)
+        let slots = |list: &[Recorded]| list.iter().map(|r| r.slot).collect::<Vec<_>>();
+        let all = [slots(&wanted), system.clone()].concat();
+        let motion = [slots(&inputs[1 + 2 * n..1 + 3 * n]), system].concat();
+        let program = Program::new(&mut recording, &all);
+        let accelerations = Program::new(&mut recording, &motion);
+        let registers = recording.registers_filled();
+        let expansion = Expansion::new(
+            &program,
+            registers.len(),
+            &wanted,
+            sides.len(),
+            elements,
+        );
+        let changes = (1..1 + 2 * n).filter(|&i| !inputs[i + n].is_zero());
+        Tape {
+            extra: asked.extra.clone(),
+            report: asked.report.cloned(),
+            at_rest: asked.at_rest,
+            program,
+            accelerations,
+            registers,
+            expansion,
+            order: 0,
+            integrals: changes
+                .map(|i| (inputs[i].slot, inputs[i + n].slot))
+                .collect(),
+            inputs,
+            nodes,
+            report_nodes,
+            unsolved,
+            divisor,
+        }
     }
 
     /// Coefficients of t, q, v, v̇ or λ.
@@ -285,7 +267,7 @@ fn right_hand_sides<T: Scalar>(
         .collect()
 }
 
-/// The unknowns: solved for on the tape if there is one equation of motion, else left to the solver.
+/// The unknowns: solved for on the tape if there is one equation of motion, and by which element; else left to the solver.
 fn solve<T: Scalar>(
     a: &mut Recorder<'_, T>,
     plan: &Plan<T>,
@@ -293,8 +275,7 @@ fn solve<T: Scalar>(
     inputs: &[Recorded],
     n: usize,
     right: &[Recorded],
-    divisor: &mut Option<Recorded>,
-) -> Vec<Recorded> {
+) -> (Vec<Recorded>, Option<Recorded>) {
     if plan.size() == 1 && plan.free() == 1 {
         let to = a.fresh();
         let changing = plan.entries.iter().map(|e| (T::one(), nodes[e.node]));
@@ -302,18 +283,21 @@ fn solve<T: Scalar>(
         let to = a.fresh();
         let element = a.offset(to.index(), plan.constant[0], sum);
         if !element.is_zero() {
-            *divisor = Some(element);
             let to = inputs[1 + 2 * n + plan.elimination.free[0]].slot;
-            return vec![a.div(to.index(), right[0], element)];
+            let quotient = if right[0].is_zero() {
+                Recorded::ZERO
+            } else {
+                a.div(to.index(), right[0], element)
+            };
+            return (vec![quotient], Some(element));
         }
     }
-    (0..plan.size())
-        .map(|column| {
-            let free = plan.elimination.free.get(column);
-            let own = || a.fresh();
-            Recorded::varying(free.map_or_else(own, |&j| inputs[1 + 2 * n + j].slot))
-        })
-        .collect()
+    let unknowns = (0..plan.size()).map(|column| {
+        let free = plan.elimination.free.get(column);
+        let own = || a.fresh();
+        Recorded::varying(free.map_or_else(own, |&j| inputs[1 + 2 * n + j].slot))
+    });
+    (unknowns.collect(), None)
 }
 
 /// Accelerations and forces from the unknowns, into the inputs of the report.

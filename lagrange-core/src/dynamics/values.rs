@@ -21,41 +21,55 @@ impl<S: System> Dynamics<S> {
         q: &[S::Scalar],
         v: &[S::Scalar],
     ) -> Result<(), EvaluationError> {
-        self.evaluate(t, q, v)?;
-        let Self {
-            modes,
-            current,
-            inputs,
-            nodes,
-            ..
-        } = self;
-        if let Some(tape) = modes[*current].tape() {
-            let count = inputs.len();
-            inputs.copy_from_slice(&tape.registers[1..=count]);
-            for &(node, slot) in &tape.written {
-                nodes[node] = tape.registers[slot.index()];
-            }
-        }
+        self.work.values += 1;
+        self.select(v);
+        self.begin(t, q, v);
+        self.run_values()?;
+        self.check_accelerations()?;
+        let (_, _, tape) = self.modes[self.current].parts();
+        let count = self.inputs.len();
+        self.inputs.copy_from_slice(&tape.registers[1..=count]);
+        self.tape(t, q, v);
         Ok(())
     }
 
-    /// Runs motion and forces at (t, q, v); the numbers stay in the registers of the tape.
+    /// Motion and forces from the state in the registers.
+    pub(super) fn run_values(&mut self) -> Result<(), EvaluationError> {
+        let (_, _, tape) = self.modes[self.current].parts();
+        tape.program.evaluate(MOTION, &mut tape.registers);
+        self.solve_start()?;
+        let (_, _, tape) = self.modes[self.current].parts();
+        tape.program.evaluate(FORCES, &mut tape.registers);
+        Ok(())
+    }
+
+    /// Accelerations alone at (t, q, v); they stay in the registers.
     #[inline]
-    pub(super) fn evaluate(
+    pub(super) fn run_accelerations(
         &mut self,
         t: S::Scalar,
         q: &[S::Scalar],
         v: &[S::Scalar],
-    ) -> Result<(), EvaluationError> {
+    ) -> Result<&[S::Scalar], EvaluationError> {
         self.work.values += 1;
         self.select(v);
         self.begin(t, q, v);
         let (_, _, tape) = self.modes[self.current].parts();
-        tape.recording.evaluate(MOTION, &mut tape.registers);
+        tape.accelerations.evaluate(MOTION, &mut tape.registers);
         self.solve_start()?;
         let (_, _, tape) = self.modes[self.current].parts();
-        tape.recording.evaluate(FORCES, &mut tape.registers);
+        tape.accelerations.evaluate(FORCES, &mut tape.registers);
+        self.check_accelerations()?;
         let n = q.len();
+        let (_, _, tape) = self.modes[self.current].parts();
+        Ok(&tape.registers[2 + 2 * n..2 + 3 * n])
+    }
+
+    /// Whether all accelerations in the registers are finite.
+    #[inline]
+    fn check_accelerations(&mut self) -> Result<(), EvaluationError> {
+        let n = S::DESCRIPTION.coordinates.len();
+        let (_, _, tape) = self.modes[self.current].parts();
         // The sum of zeros is zero unless one of the factors is not finite.
         let poison = tape.registers[2 + 2 * n..2 + 3 * n]
             .iter()
@@ -154,18 +168,6 @@ impl<S: System> Dynamics<S> {
         };
         EvaluationError::NotFiniteAcceleration {
             coordinate: (0..n).find(bad).unwrap_or(0),
-        }
-    }
-
-    /// A number of the plan at the last [`Self::value`].
-    pub(super) fn plan_number(&self, place: Place) -> S::Scalar {
-        let compiled = self.compiled();
-        match place {
-            Place::Zero => S::Scalar::default(),
-            Place::Constant(i) => compiled.constants[i],
-            Place::Node(i) => compiled.tape().map_or(S::Scalar::default(), |tape| {
-                tape.registers[tape.nodes[i].slot.index()]
-            }),
         }
     }
 
