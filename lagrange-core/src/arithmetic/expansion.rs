@@ -19,10 +19,10 @@
 
 use super::Scalar;
 use super::instruction::{Instruction, Op};
-use super::program::{Program, room, with_registers};
+use super::program::{Program, with_registers};
 use super::record::{Recorded, Slot};
 
-/// Coefficients of a row. Rows are added in fours, up to three elements past the last coefficient.
+/// Coefficients of a row. Sums go on in fours, up to three elements past the last coefficient.
 const STRIDE: usize = 32;
 
 /// No row is kept.
@@ -52,138 +52,167 @@ pub enum Operation {
     Angle,
 }
 
-/// An instruction with the place of the first of its sums.
+/// An instruction with the number of the first of its products.
 #[derive(Clone, Copy, Debug)]
 struct Step {
     instruction: Instruction,
-    sum: u32,
+    product: u32,
 }
 
-/// sum += Σ xᵢ yⱼ, where the x may be weighted with i: registers and rows of x and y.
+/// Which numbers a product multiplies.
 #[derive(Clone, Copy, Debug)]
-struct Product {
-    sum: u32,
+struct Factors {
     x: Slot,
     y: Slot,
-    x_row: u32,
-    y_row: u32,
+    /// Whether xᵢ counts i times.
+    weighted: bool,
+}
+
+/// Σ xᵢ yⱼ over i, j ≥ 1, and the coefficients that it comes from. Of these the first is number 1.
+#[derive(Clone, Copy, Debug)]
+pub struct Product<T> {
+    sum: Row<T>,
+    x: [[T; 4]; STRIDE / 4],
+    y: [[T; 4]; STRIDE / 4],
+}
+
+impl<T: Scalar> Product<T> {
+    fn zero() -> Self {
+        Self {
+            sum: [T::zero(); STRIDE],
+            x: [[T::zero(); 4]; STRIDE / 4],
+            y: [[T::zero(); 4]; STRIDE / 4],
+        }
+    }
+
+    /// What coefficients 1…k−1 give to coefficient k.
+    #[inline(always)]
+    pub fn earlier(&self, k: usize) -> T {
+        self.sum[k % STRIDE]
+    }
+
+    /// Takes coefficient k: its products with coefficients 1…k−1, `FOURS` times four of them, go into later sums, and, if
+    /// there is a coefficient 2k, its own product.
+    #[inline(always)]
+    fn take<const FOURS: usize>(&mut self, k: usize, twice: Option<usize>, xk: T, yk: T) {
+        if let Some((later, _)) = self.sum.get_mut(k + 1..).map(|s| s.as_chunks_mut::<4>())
+            && let Some(later) = later.first_chunk_mut::<FOURS>()
+        {
+            let both = self.x.iter().zip(&self.y);
+            for (sum, (xs, ys)) in later.iter_mut().zip(both) {
+                for (sum, (&x, &y)) in sum.iter_mut().zip(xs.iter().zip(ys)) {
+                    *sum = xk.mul_add(y, yk.mul_add(x, *sum));
+                }
+            }
+        }
+        if let Some(twice) = twice {
+            let sum = &mut self.sum[twice % STRIDE];
+            *sum = xk.mul_add(yk, *sum);
+        }
+        self.x.as_flattened_mut()[(k - 1) % STRIDE] = xk;
+        self.y.as_flattened_mut()[(k - 1) % STRIDE] = yk;
+    }
 }
 
 /// The Taylor coefficients of a program, order by order.
 #[derive(Clone, Debug, Default)]
 pub struct Expansion<T> {
-    parts: Vec<Vec<Step>>,
+    /// What runs before the caller's own equations are solved, and after that.
+    before: Vec<Step>,
+    after: Vec<Step>,
+    /// Whether the caller solves equations.
+    solves: bool,
     /// Operations that need a series to exist: where their arguments are.
     critical: Vec<(Operation, Slot, Slot)>,
-    products: Vec<Product>,
-    weighted_products: Vec<Product>,
+    factors: Vec<Factors>,
+    products: Vec<Product<T>>,
     /// The registers whose coefficients are kept: varying ones, then constant ones.
     kept: Vec<Slot>,
     varying: usize,
-    /// Registers of which j times coefficient j is kept, in the rows after.
-    weighted: Vec<Slot>,
-    /// By register: its row among those kept, and its row among the weighted ones.
-    rows: Vec<[u32; 2]>,
+    /// By register: its row among those kept.
+    rows: Vec<u32>,
     history: Vec<Row<T>>,
-    weighted_history: Vec<Row<T>>,
-    sums: Vec<Row<T>>,
     /// Coefficient k of the registers.
     now: Vec<T>,
 }
 
 impl<T: Scalar> Expansion<T> {
-    /// Prepares the expansion of `program` with so many `registers`; the coefficients of `wanted` are kept.
-    /// Sums 0…`own`−1 are the caller's: `products` lists what goes into them, sum += x y.
+    /// Prepares the expansion of `program` with so many `registers`; the coefficients of `wanted` are kept. If the caller
+    /// solves equations, which happens after part 0, their `elements` (matrix element and unknown) are products 0, 1, ….
     pub fn new(
         program: &Program,
         registers: usize,
         wanted: &[Recorded],
-        own: usize,
-        products: &[(usize, Slot, Slot)],
+        elements: Option<&[(Slot, Slot)]>,
     ) -> Self {
         let mut expansion = Self {
-            rows: vec![[NO_ROW; 2]; registers],
-            now: vec![T::zero(); room(registers)],
+            rows: vec![NO_ROW; registers],
+            now: vec![T::zero(); registers],
+            solves: elements.is_some(),
             ..Self::default()
         };
-        for &(sum, x, y) in products {
-            expansion.product(sum, x, y);
+        for &(x, y) in elements.unwrap_or_default() {
+            expansion.product(x, y);
         }
-        let mut sums = own;
-        for part in &program.parts {
-            let mut steps = Vec::with_capacity(part.varying.len());
+        for (index, part) in program.parts.iter().enumerate() {
             part.fixed.iter().for_each(|i| expansion.watch(i));
             for &instruction in &part.varying {
                 expansion.watch(&instruction);
-                let sum = (sums * STRIDE) as u32;
-                sums += expansion.sums_of(&instruction, sums);
-                steps.push(Step { instruction, sum });
+                let product = expansion.factors.len() as u32;
+                expansion.products_of(&instruction);
+                let step = Step {
+                    instruction,
+                    product,
+                };
+                if index == 0 || elements.is_none() {
+                    expansion.before.push(step);
+                } else {
+                    expansion.after.push(step);
+                }
             }
-            expansion.parts.push(steps);
         }
         for recorded in wanted.iter().filter(|r| r.varies()) {
-            expansion.row(recorded.slot);
+            expansion.keep(recorded.slot);
         }
         expansion.varying = expansion.kept.len();
-        expansion.row(Recorded::ZERO.slot);
+        expansion.keep(Recorded::ZERO.slot);
         for recorded in wanted.iter().filter(|r| !r.varies()) {
-            expansion.row(recorded.slot);
+            expansion.keep(recorded.slot);
         }
-        let rows = |count: usize| vec![[T::zero(); STRIDE]; count];
-        expansion.history = rows(expansion.kept.len());
-        expansion.weighted_history = rows(expansion.weighted.len());
-        expansion.sums = rows(sums);
+        expansion.history = vec![[T::zero(); STRIDE]; expansion.kept.len()];
+        expansion.products = vec![Product::zero(); expansion.factors.len()];
         expansion
     }
 
-    /// The row in which the coefficients of a register are kept.
-    fn row(&mut self, slot: Slot) -> u32 {
-        let row = &mut self.rows[slot.index()][0];
+    /// Keeps the coefficients of a register.
+    fn keep(&mut self, slot: Slot) {
+        let row = &mut self.rows[slot.index()];
         if *row == NO_ROW {
             *row = self.kept.len() as u32;
             self.kept.push(slot);
         }
-        *row
     }
 
-    /// The same for j times coefficient j.
-    fn weighted_row(&mut self, slot: Slot) -> u32 {
-        let row = &mut self.rows[slot.index()][1];
-        if *row == NO_ROW {
-            *row = self.weighted.len() as u32;
-            self.weighted.push(slot);
-        }
-        *row
-    }
-
-    /// sum += Σ xᵢ yⱼ
-    fn product(&mut self, sum: usize, x: Slot, y: Slot) {
-        let (x_row, y_row) = (self.row(x), self.row(y));
-        let sum = sum as u32;
-        self.products.push(Product {
-            sum,
+    /// Σ xᵢ yⱼ
+    fn product(&mut self, x: Slot, y: Slot) {
+        self.factors.push(Factors {
             x,
             y,
-            x_row,
-            y_row,
+            weighted: false,
         });
     }
 
-    /// sum += Σ i xᵢ yⱼ
-    fn weighted_product(&mut self, sum: usize, x: Slot, y: Slot) {
-        let (x_row, y_row) = (self.weighted_row(x), self.row(y));
-        let sum = sum as u32;
-        self.weighted_products.push(Product {
-            sum,
+    /// Σ i xᵢ yⱼ
+    fn weighted(&mut self, x: Slot, y: Slot) {
+        self.factors.push(Factors {
             x,
             y,
-            x_row,
-            y_row,
+            weighted: true,
         });
     }
 
-    /// The sums of an instruction, numbered from `sum` on; returns how many there are.
-    fn sums_of(&mut self, i: &Instruction, sum: usize) -> usize {
+    /// The products of an instruction.
+    fn products_of(&mut self, i: &Instruction) {
         let (x, y, z, u) = (i.x, i.y, i.to, Slot(i.to.0 + 1));
         match i.op {
             Op::Copy
@@ -194,50 +223,43 @@ impl<T: Scalar> Expansion<T> {
             | Op::Scale
             | Op::DivConstant
             | Op::Sum
-            | Op::Sum2 => return 0,
-            Op::Mul => self.product(sum, x, y),
-            Op::Square => self.product(sum, x, x),
-            Op::Div | Op::Ratio => self.product(sum, y, z),
-            Op::Sqrt => self.product(sum, z, z),
-            Op::Exp => self.weighted_product(sum, x, z),
-            Op::Ln => self.weighted_product(sum, z, x),
+            | Op::Sum2 => {}
+            Op::Mul => self.product(x, y),
+            Op::Square => self.product(x, x),
+            Op::Div | Op::Ratio => self.product(y, z),
+            Op::Sqrt => self.product(z, z),
+            Op::Exp => self.weighted(x, z),
+            Op::Ln => self.weighted(z, x),
             Op::Powf => {
                 // x z′ = c z x′
-                self.weighted_product(sum, z, x);
-                self.weighted_product(sum + 1, x, z);
-                return 2;
+                self.weighted(z, x);
+                self.weighted(x, z);
             }
             Op::SinCos | Op::SinhCosh => {
-                self.weighted_product(sum, x, u);
-                self.weighted_product(sum + 1, x, z);
-                return 2;
+                self.weighted(x, u);
+                self.weighted(x, z);
             }
             Op::Tan | Op::Tanh => {
-                self.weighted_product(sum, x, u);
-                self.product(sum + 1, z, z);
-                return 2;
+                self.weighted(x, u);
+                self.product(z, z);
             }
             Op::Asin | Op::Acos => {
-                self.weighted_product(sum, z, u);
-                self.product(sum + 1, u, u);
-                self.product(sum + 1, x, x);
-                return 2;
+                self.weighted(z, u);
+                self.product(x, x);
+                self.product(u, u);
             }
             Op::Atan => {
-                self.weighted_product(sum, z, u);
-                self.product(sum + 1, x, x);
-                return 2;
+                self.weighted(z, u);
+                self.product(x, x);
             }
             Op::Atan2 => {
-                self.weighted_product(sum, z, u);
-                self.product(sum + 1, x, x);
-                self.product(sum + 1, y, y);
-                self.weighted_product(sum + 2, x, y);
-                self.weighted_product(sum + 3, y, x);
-                return 4;
+                self.weighted(z, u);
+                self.product(x, x);
+                self.product(y, y);
+                self.weighted(x, y);
+                self.weighted(y, x);
             }
         }
-        1
     }
 
     /// Notes an operation whose series can fail to exist.
@@ -270,121 +292,96 @@ impl<T: Scalar> Expansion<T> {
         found.map(|&(operation, ..)| operation)
     }
 
-    /// Takes coefficients 0 from the registers.
-    pub fn begin(&mut self, first: &[T]) {
-        let zero = [T::zero(); STRIDE];
-        self.history[..self.varying].fill(zero);
-        self.weighted_history.fill(zero);
-        self.sums.fill(zero);
+    /// Coefficients 1…`order` of everything, from values in the registers `first`. `integrals` are numbers with their rates;
+    /// register 1 is time. `solve` puts coefficient k of the caller's unknowns into the registers that it is given, from their
+    /// values and the products.
+    #[inline]
+    pub fn run(
+        &mut self,
+        program: &Program,
+        first: &mut [T],
+        order: usize,
+        integrals: &[(Slot, Slot)],
+        mut solve: impl FnMut(usize, &mut [T], &[T], &[Product<T>]),
+    ) {
+        let order = order.min(MAX_ORDER);
+        self.history[..self.varying].fill([T::zero(); STRIDE]);
+        self.products.fill(Product::zero());
         for (row, slot) in self.history.iter_mut().zip(&self.kept) {
             row[0] = first[slot.index()];
         }
+        with_registers!(first, |first| self
+            .coefficients(program, first, order, integrals, &mut solve));
     }
 
-    /// Coefficient k of the numbers of part `index`, from those of its operands. `first` holds the values.
-    #[inline]
-    pub fn advance(&mut self, program: &Program, index: usize, k: usize, first: &mut [T]) {
-        let (steps, sums, now) = (&self.parts[index], self.sums.as_flattened(), &mut self.now);
-        let now: &mut [T] = now;
-        with_registers!(first, |first| {
-            advance(steps, &program.terms, sums, k, first, now);
-        });
-    }
-
-    /// Ends coefficient k, when all parts have it, of `order`: what it gives with coefficients 1…k−1 to later sums.
-    #[inline]
-    pub fn keep(&mut self, k: usize, order: usize) {
-        // Additions go on in fours; the rows have room.
-        match (k - 1).min(order.saturating_sub(k)).div_ceil(4) {
-            0 => self.add_products::<0>(k, order),
-            1 => self.add_products::<1>(k, order),
-            2 => self.add_products::<2>(k, order),
-            3 => self.add_products::<3>(k, order),
-            _ => self.add_products::<4>(k, order),
-        }
-        let Some(k) = Some(k).filter(|k| *k < STRIDE) else {
+    #[inline(always)]
+    fn coefficients<const N: usize>(
+        &mut self,
+        program: &Program,
+        first: &[T; N],
+        order: usize,
+        integrals: &[(Slot, Slot)],
+        solve: &mut impl FnMut(usize, &mut [T], &[T], &[Product<T>]),
+    ) {
+        let mut now = core::mem::take(&mut self.now);
+        let Some(registers) = now.first_chunk_mut::<N>() else {
             return;
         };
-        let weight = T::from_f64(k as f64);
-        let now = |slot: &Slot| self.now[slot.index()];
-        for (row, slot) in self.history[..self.varying].iter_mut().zip(&self.kept) {
-            row[k] = now(slot);
-        }
-        for (row, slot) in self.weighted_history.iter_mut().zip(&self.weighted) {
-            row[k] = weight * now(slot);
-        }
-    }
-
-    #[inline(always)]
-    fn add_products<const FOURS: usize>(&mut self, k: usize, order: usize) {
-        let twice_k = (2 * k <= order).then_some(2 * k);
-        let weight = T::from_f64(k as f64);
-        let (history, weighted, now) = (&self.history, &self.weighted_history, &self.now);
-        let mut add = |product: &Product, xk: T, xs: &Row<T>| {
-            let ys = &history[product.y_row as usize];
-            let yk = now[product.y.index()];
-            let sum = &mut self.sums[product.sum as usize];
-            if let Some(later) = sum.get_mut(k + 1..).map(|s| s.as_chunks_mut::<4>().0)
-                && let Some(later) = later.first_chunk_mut::<FOURS>()
-            {
-                let (xs, ys) = (fours::<T, FOURS>(xs), fours::<T, FOURS>(ys));
-                for (sum, (xs, ys)) in later.iter_mut().zip(xs.iter().zip(ys)) {
-                    for (sum, (&x, &y)) in sum.iter_mut().zip(xs.iter().zip(ys)) {
-                        *sum = xk.mul_add(y, yk.mul_add(x, *sum));
-                    }
-                }
+        for k in 1..=order {
+            let weight = T::from_f64(k as f64);
+            // dt/dτ = 1
+            registers[1] = if k == 1 { T::one() } else { T::zero() };
+            for &(slot, rate) in integrals {
+                let rate = rate.index() & (N - 1);
+                let rate = if k == 1 { first[rate] } else { registers[rate] };
+                registers[slot.index() & (N - 1)] = rate / weight;
             }
-            if let Some(sum) = twice_k.and_then(|k| sum.get_mut(k)) {
-                *sum = xk.mul_add(yk, *sum);
+            advance(&self.before, program, &self.products, k, first, registers);
+            if self.solves {
+                solve(k, registers, first, &self.products);
+                advance(&self.after, program, &self.products, k, first, registers);
             }
-        };
-        for product in &self.products {
-            let xs = &history[product.x_row as usize];
-            add(product, now[product.x.index()], xs);
+            match (k - 1).min(order - k).div_ceil(4) {
+                0 => self.multiply::<N, 0>(k, order, registers),
+                1 => self.multiply::<N, 1>(k, order, registers),
+                2 => self.multiply::<N, 2>(k, order, registers),
+                3 => self.multiply::<N, 3>(k, order, registers),
+                _ => self.multiply::<N, 4>(k, order, registers),
+            }
+            for (row, slot) in self.history[..self.varying].iter_mut().zip(&self.kept) {
+                row[k % STRIDE] = registers[slot.index() & (N - 1)];
+            }
         }
-        for product in &self.weighted_products {
-            let xs = &weighted[product.x_row as usize];
-            add(product, weight * now[product.x.index()], xs);
+        self.now = now;
+    }
+
+    /// Coefficient k goes into the products.
+    #[inline(always)]
+    fn multiply<const N: usize, const FOURS: usize>(
+        &mut self,
+        k: usize,
+        order: usize,
+        now: &[T; N],
+    ) {
+        let twice = (2 * k <= order).then_some(2 * k);
+        let weights = [T::one(), T::from_f64(k as f64)];
+        let at = |slot: Slot| now[slot.index() & (N - 1)];
+        for (product, factors) in self.products.iter_mut().zip(&self.factors) {
+            let xk = weights[usize::from(factors.weighted)] * at(factors.x);
+            product.take::<FOURS>(k, twice, xk, at(factors.y));
         }
-    }
-
-    /// Coefficient k of a register, while it is computed.
-    #[inline(always)]
-    pub fn get(&self, slot: Slot) -> T {
-        self.now[slot.index()]
-    }
-
-    /// Sets coefficient k of a register.
-    #[inline(always)]
-    pub fn put(&mut self, slot: Slot, value: T) {
-        self.now[slot.index()] = value;
-    }
-
-    /// Sum number `index` of the caller's, for coefficient k.
-    #[inline(always)]
-    pub fn sum(&self, index: usize, k: usize) -> T {
-        self.sums[index][k]
     }
 
     /// Coefficients 0…`order` of a number that was wanted; of any other number, zeros.
     #[inline]
     pub fn series(&self, number: Recorded, order: usize) -> &[T] {
-        let row = self.rows.get(number.slot.index()).map_or(NO_ROW, |r| r[0]);
-        let zero = self.rows.first().map_or(NO_ROW, |r| r[0]);
-        let row = if row == NO_ROW { zero } else { row };
-        self.history
-            .get(row as usize)
-            .map_or(&[], |row| &row[..=order.min(MAX_ORDER)])
-    }
-}
-
-/// Coefficients 1, 2, … of a row, in fours.
-#[inline(always)]
-fn fours<T, const FOURS: usize>(row: &Row<T>) -> &[[T; 4]; FOURS] {
-    const { assert!(4 * FOURS < STRIDE) };
-    match row[1..].as_chunks::<4>().0.first_chunk() {
-        Some(fours) => fours,
-        None => unreachable!("a row holds that many"),
+        let row = |slot: Slot| self.rows.get(slot.index()).copied().unwrap_or(NO_ROW);
+        let found = match row(number.slot) {
+            NO_ROW => row(Recorded::ZERO.slot),
+            found => found,
+        };
+        let row = self.history.get(found as usize);
+        row.map_or(&[], |row| &row[..=order.min(MAX_ORDER)])
     }
 }
 
@@ -392,21 +389,23 @@ fn fours<T, const FOURS: usize>(row: &Row<T>) -> &[[T; 4]; FOURS] {
 #[inline(always)]
 fn advance<T: Scalar, const N: usize>(
     steps: &[Step],
-    terms: &[(Slot, Slot)],
-    sums: &[T],
+    program: &Program,
+    products: &[Product<T>],
     k: usize,
     first: &[T; N],
-    now: &mut [T],
+    now: &mut [T; N],
 ) {
-    let Some(now) = now.first_chunk_mut::<N>() else {
-        return;
-    };
+    let terms = &program.terms[..];
     let order = T::from_f64(k as f64);
-    for &Step { instruction, sum } in steps {
+    for &Step {
+        instruction,
+        product,
+    } in steps
+    {
         let Instruction { op, to, x, y } = instruction;
         let at = |slot: Slot| now[slot.index() & (N - 1)];
         let start = |slot: Slot| first[slot.index() & (N - 1)];
-        let sum = |number: usize| sums[sum as usize + number * STRIDE + k];
+        let sum = |number: usize| products[product as usize + number].earlier(k);
         let value = match op {
             Op::Copy => at(x),
             Op::Add => at(x) + at(y),
@@ -439,12 +438,19 @@ fn advance<T: Scalar, const N: usize>(
                 start(f).mul_add(at(x), start(g) * at(y))
             }
             Op::Atan2 => {
-                let earlier = (sum(0) - sum(2) + sum(3)) / order;
+                let earlier = (sum(0) - sum(3) + sum(4)) / order;
                 let turn = at(x) * start(y) - at(y) * start(x);
                 let half = start(x) * at(x) + start(y) * at(y);
                 let second = Slot(to.0 + 1);
-                now[second.index() & (N - 1)] = half + half + sum(1);
+                now[second.index() & (N - 1)] = half + half + sum(1) + sum(2);
                 (turn - earlier) / start(second)
+            }
+            Op::Asin | Op::Acos => {
+                let second = Slot(to.0 + 1);
+                let (half, u0) = (start(x) * at(x), start(second));
+                let x = if op == Op::Asin { at(x) } else { -at(x) };
+                now[second.index() & (N - 1)] = -(half + half + sum(1) + sum(2)) / (u0 + u0);
+                (x - sum(0) / order) / u0
             }
             _ => {
                 let second = Slot(to.0 + 1);
@@ -464,14 +470,8 @@ fn pair<T: Scalar>(op: Op, x: T, [x0, z0, u0]: [T; 3], sums: [T; 2], order: T) -
     let earlier = sums[0] / order;
     let twice = |c: T| c + c;
     match op {
-        Op::SinCos => (
-            u0.mul_add(x, earlier),
-            -z0.mul_add(x, sums[1] / order),
-        ),
-        Op::SinhCosh => (
-            u0.mul_add(x, earlier),
-            z0.mul_add(x, sums[1] / order),
-        ),
+        Op::SinCos => (u0.mul_add(x, earlier), -z0.mul_add(x, sums[1] / order)),
+        Op::SinhCosh => (u0.mul_add(x, earlier), z0.mul_add(x, sums[1] / order)),
         Op::Tan => {
             let z = u0 * x + earlier;
             (z, twice(z0 * z) + sums[1])
@@ -480,8 +480,6 @@ fn pair<T: Scalar>(op: Op, x: T, [x0, z0, u0]: [T; 3], sums: [T; 2], order: T) -
             let z = u0 * x + earlier;
             (z, -(twice(z0 * z) + sums[1]))
         }
-        Op::Asin => ((x - earlier) / u0, -(twice(x0 * x) + sums[1]) / twice(u0)),
-        Op::Acos => ((-x - earlier) / u0, -(twice(x0 * x) + sums[1]) / twice(u0)),
         // Atan
         _ => ((x - earlier) / u0, twice(x0 * x) + sums[1]),
     }

@@ -1,7 +1,7 @@
 //! The operations of a recorded tape, and their values.
 
-use super::record::Slot;
 use super::Scalar;
+use super::record::Slot;
 
 /// What an instruction computes from its operands x and y.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

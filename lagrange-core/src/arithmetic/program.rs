@@ -37,7 +37,7 @@ macro_rules! with_registers {
 pub(super) use with_registers;
 
 /// The smallest size that holds so many registers.
-pub(super) fn room(registers: usize) -> usize {
+fn room(registers: usize) -> usize {
     let sizes = [128, 512, 4096, 65536];
     let size = sizes.into_iter().find(|&size| registers <= size);
     size.unwrap_or(registers)
@@ -218,13 +218,7 @@ impl Shortening {
     }
 
     /// A number that does not depend on time.
-    fn fixed<T: Scalar>(
-        &mut self,
-        recording: &mut Recording<T>,
-        op: Op,
-        x: Slot,
-        y: Slot,
-    ) -> Slot {
+    fn fixed<T: Scalar>(&mut self, recording: &mut Recording<T>, op: Op, x: Slot, y: Slot) -> Slot {
         let key = if op == Op::Mul { (x, y) } else { (Slot(0), y) };
         if let Some(&known) = self.products.get(&key) {
             return known;

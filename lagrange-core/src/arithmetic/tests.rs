@@ -13,25 +13,25 @@ fn expand(
     let slots: Vec<Recorded> = (0..inputs.len())
         .map(|i| Recorded::varying(Slot::new(90 + i)))
         .collect();
-    let result = f(&mut recording.record(1), &slots);
+    let mut a = recording.record(2);
+    a.cut();
+    let result = f(&mut a, &slots);
     let program = Program::new(&mut recording, &[result.slot]);
     let mut first = recording.registers_filled();
     for (slot, input) in slots.iter().zip(inputs) {
         first[slot.slot.index()] = input[0];
     }
-    program.evaluate(0, &mut first);
-    let mut expansion = Expansion::new(&program, first.len(), &[result], 0, &[]);
+    program.evaluate(1, &mut first);
+    // The inputs come from outside, as solutions of equations do.
+    let mut expansion = Expansion::new(&program, first.len(), &[result], Some(&[]));
     if let Some(operation) = expansion.singular(&first) {
         return Err(operation);
     }
-    expansion.begin(&first);
-    for k in 1..=ORDER {
+    expansion.run(&program, &mut first, ORDER, &[], |k, now, _, _| {
         for (slot, input) in slots.iter().zip(inputs) {
-            expansion.put(slot.slot, input.get(k).copied().unwrap_or(0.0));
+            now[slot.slot.index()] = input.get(k).copied().unwrap_or(0.0);
         }
-        expansion.advance(&program, 0, k, &mut first);
-        expansion.keep(k, ORDER);
-    }
+    });
     Ok(expansion.series(result, ORDER).to_vec())
 }
 
@@ -192,8 +192,9 @@ fn identities_hold_in_every_coefficient() {
 fn where_there_is_no_series_a_flag_says_so() {
     let tau = [0.0, 1.0];
     let one = [1.0, 0.5];
-    let operation =
-        |x: &[f64], f: &dyn Fn(&mut Recorder<'_, f64>, &[Recorded]) -> Recorded| expand(&[x], f).unwrap_err();
+    let operation = |x: &[f64], f: &dyn Fn(&mut Recorder<'_, f64>, &[Recorded]) -> Recorded| {
+        expand(&[x], f).unwrap_err()
+    };
     assert_eq!(
         operation(&tau, &|a, x| a.sqrt(3, x[0])),
         Operation::SquareRoot
@@ -202,10 +203,7 @@ fn where_there_is_no_series_a_flag_says_so() {
         operation(&tau, &|a, x| a.powf(0, x[0], 1.5)),
         Operation::Power
     );
-    assert_eq!(
-        operation(&tau, &|a, x| a.ln(0, x[0])),
-        Operation::Logarithm
-    );
+    assert_eq!(operation(&tau, &|a, x| a.ln(0, x[0])), Operation::Logarithm);
     assert_eq!(
         operation(&tau, &|a, x| a.ratio(0, 2.0, x[0])),
         Operation::Division

@@ -89,11 +89,7 @@ impl<T: Scalar> Compiled<T> {
     /// The parts that an evaluation works with.
     #[inline]
     pub(super) fn parts(&mut self) -> (&Plan<T>, &mut Solver<T>, &mut Tape<T>) {
-        (
-            &self.plan,
-            &mut self.solver,
-            &mut self.tapes[self.current],
-        )
+        (&self.plan, &mut self.solver, &mut self.tapes[self.current])
     }
 
     /// Makes the tape for what is asked current, recording it if there is none.

@@ -88,8 +88,13 @@ impl<S: System> Dynamics<S> {
         };
         let mut a = Derivative::new();
         let outputs = &mut self.lane_nodes[..d.motion.outputs];
-        self.scene
-            .motion(&mut a, &held, &compiled.constants, &self.lane_inputs, outputs);
+        self.scene.motion(
+            &mut a,
+            &held,
+            &compiled.constants,
+            &self.lane_inputs,
+            outputs,
+        );
         compiled
             .plan
             .program

@@ -169,7 +169,10 @@ impl<S: System> Dynamics<S> {
         if *self.mode() == *mode {
             return;
         }
-        let known = self.modes.iter().position(|compiled| compiled.mode == *mode);
+        let known = self
+            .modes
+            .iter()
+            .position(|compiled| compiled.mode == *mode);
         self.current = known.unwrap_or_else(|| self.compile(mode));
         self.hold();
     }

@@ -9,11 +9,10 @@
 //! one factorization whatever the order; the sum runs over those matrix elements that change with the state.
 //! Reference: Griewank & Walther 2008, Evaluating Derivatives, section 13.2 (implicit relations).
 
-use super::tape::{FORCES, MOTION, REPORT};
+use super::tape::{REPORT, Tape};
 use super::{Dynamics, EvaluationError};
-use crate::arithmetic::{MAX_ORDER, Scalar, Slot};
+use crate::arithmetic::MAX_ORDER;
 use crate::system::{Place, System};
-use num_traits::{One, Zero};
 
 impl<S: System> Dynamics<S> {
     /// Taylor coefficients 0…`order` (at most 28) in the time τ since `t` of positions, velocities, accelerations, forces and all
@@ -41,53 +40,37 @@ impl<S: System> Dynamics<S> {
             ..
         } = self;
         let (_, solver, tape) = modes[*current].parts();
-        let integrals = core::mem::take(&mut tape.integrals);
-        let unsolved = tape.unsolved.take();
-        let (program, first, expansion) =
-            (&tape.program, &mut tape.registers[..], &mut tape.expansion);
-        for k in 1..=order {
-            // dt/dτ = 1
-            let time = if k == 1 {
-                S::Scalar::one()
-            } else {
-                S::Scalar::zero()
-            };
-            expansion.put(Slot::new(1), time);
-            let divisor = S::Scalar::from_f64(k as f64);
-            for &(slot, rate) in &integrals {
-                let rate = if k == 1 {
-                    first[rate.index()]
-                } else {
-                    expansion.get(rate)
+        let Tape {
+            program,
+            registers,
+            expansion,
+            integrals,
+            unsolved,
+            ..
+        } = tape;
+        expansion.run(
+            program,
+            registers,
+            order,
+            integrals,
+            |k, now, first, products| {
+                let Some(unsolved) = unsolved.as_ref() else {
+                    return;
                 };
-                expansion.put(slot, rate / divisor);
-            }
-            expansion.advance(program, MOTION, k, first);
-            if let Some(unsolved) = &unsolved {
                 right.clear();
-                let sides = unsolved.right.iter().enumerate();
-                right.extend(sides.map(|(i, r)| {
-                    let earlier = expansion.sum(i, k);
-                    if r.varies() {
-                        expansion.get(r.slot) - earlier
-                    } else {
-                        -earlier
-                    }
-                }));
-                for &(equation, element, unknown) in &unsolved.elements {
-                    right[equation] -= expansion.get(element) * first[unknown.index()];
+                let sides = unsolved.right.iter();
+                right.extend(sides.map(|r| now[r.slot.index()]));
+                let elements = unsolved.elements.iter().zip(products);
+                for (&(equation, element, unknown), product) in elements {
+                    right[equation] -=
+                        now[element.index()] * first[unknown.index()] + product.earlier(k);
                 }
                 solver.solve(right);
-                for (&slot, &x) in unsolved.unknowns.iter().zip(&*right) {
-                    expansion.put(slot, x);
+                for (slot, &x) in unsolved.unknowns.iter().zip(&*right) {
+                    now[slot.index()] = x;
                 }
-            }
-            expansion.advance(program, FORCES, k, first);
-            expansion.advance(program, REPORT, k, first);
-            expansion.keep(k, order);
-        }
-        tape.integrals = integrals;
-        tape.unsolved = unsolved;
+            },
+        );
         Ok(())
     }
 
@@ -100,10 +83,7 @@ impl<S: System> Dynamics<S> {
         tape.program.evaluate(REPORT, &mut tape.registers);
         match tape.expansion.singular(&tape.registers) {
             Some(operation) => Err(EvaluationError::NoSeries { operation }),
-            None => {
-                tape.expansion.begin(&tape.registers);
-                Ok(())
-            }
+            None => Ok(()),
         }
     }
 
@@ -128,7 +108,9 @@ impl<S: System> Dynamics<S> {
     }
 
     fn input_series(&self, index: usize) -> &[S::Scalar] {
-        self.compiled().tape().map_or(&[], |t| t.input_series(index))
+        self.compiled()
+            .tape()
+            .map_or(&[], |t| t.input_series(index))
     }
 
     /// Coefficients of a number of the motion tape that depends on the state. Its need must have been asked for by

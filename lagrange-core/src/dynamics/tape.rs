@@ -117,15 +117,7 @@ impl<T: Scalar> Tape<T> {
         let right = right_hand_sides(&mut a, plan, &nodes);
         let (unknowns, divisor) = solve(&mut a, plan, &nodes, &inputs, n, &right);
         a.cut();
-        forces(
-            &mut a,
-            compiled,
-            n,
-            &nodes,
-            &unknowns,
-            &right,
-            &mut inputs,
-        );
+        forces(&mut a, compiled, n, &nodes, &unknowns, &right, &mut inputs);
         a.cut();
         if let Some(needs) = asked.report {
             a.origin(parts.report);
@@ -175,13 +167,9 @@ impl<T: Scalar> Tape<T> {
         let program = Program::new(&mut recording, &all);
         let accelerations = Program::new(&mut recording, &motion);
         let registers = recording.registers_filled();
-        let expansion = Expansion::new(
-            &program,
-            registers.len(),
-            &wanted,
-            sides.len(),
-            elements,
-        );
+        let products: Vec<_> = elements.iter().map(|&(_, e, u)| (e, u)).collect();
+        let products = unsolved.is_some().then_some(&products[..]);
+        let expansion = Expansion::new(&program, registers.len(), &wanted, products);
         let changes = (1..1 + 2 * n).filter(|&i| !inputs[i + n].is_zero());
         Tape {
             extra: asked.extra.clone(),

@@ -135,7 +135,10 @@ impl<S: System> Dynamics<S> {
         let (_, _, tape) = self.modes[self.current].parts();
         self.right.clear();
         if let Some(unsolved) = &tape.unsolved {
-            let values = unsolved.right.iter().map(|r| tape.registers[r.slot.index()]);
+            let values = unsolved
+                .right
+                .iter()
+                .map(|r| tape.registers[r.slot.index()]);
             self.right.extend(values);
         }
     }
