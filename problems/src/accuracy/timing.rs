@@ -5,7 +5,7 @@ use super::{Row, Setting};
 /// Rounds, if the user does not say.
 const ROUNDS: usize = 15;
 /// Time that a row may take before it sits out the other rounds, s; if the user does not say how many.
-const SHARE: f64 = 0.25;
+const SHARE: f64 = 0.1;
 /// Length of a burst, s: short runs are timed many at a time, long enough for clocks and caches.
 const BURST: f64 = 4e-4;
 
@@ -32,10 +32,13 @@ pub(super) fn fill(rows: &mut [Row], repeat: Option<usize>, run: impl Fn(Setting
                 continue;
             }
             // The first run of a burst meets the caches that another method has left, and tells how long the burst is.
-            let warming = run(row.setting, 1);
-            let runs = (BURST / warming.max(1e-9)).clamp(1.0, 1000.0) as usize;
-            let each = run(row.setting, runs);
-            spent[index] += warming + each * runs as f64;
+            let first = run(row.setting, 1);
+            let runs = (BURST / first.max(1e-9)).min(1000.0) as usize;
+            let each = match runs {
+                0 => first,
+                _ => run(row.setting, runs),
+            };
+            spent[index] += first + each * runs as f64;
             samples[index].push(each);
         }
     }

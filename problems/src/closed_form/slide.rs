@@ -47,9 +47,10 @@ impl Hill {
         let turning = (2.0 * self.share * self.gravity / self.radius * fall).sqrt();
         let small = (from / 2.0).sin();
         // sin²(θ/2) − sin²(θ₀/2) = (cos θ₀ − cos θ)/2
-        let psi = (fall / 2.0).sqrt().atan2((theta / 2.0).cos() * small);
+        let (opposite, adjacent) = ((fall / 2.0).sqrt(), (theta / 2.0).cos() * small);
+        let slant = opposite.hypot(adjacent);
         let slow = (self.radius / (self.share * self.gravity)).sqrt();
-        let time = slow * first_kind(psi.sin(), psi.cos(), small * small);
+        let time = slow * first_kind(opposite / slant, adjacent / slant, small * small);
 
         let (x, y) = (self.radius * theta.sin(), self.radius * cos);
         let speed = self.radius * turning;

@@ -60,7 +60,11 @@ fn numbers(accuracy: &Accuracy, measured: &Measured) -> Vec<String> {
         true => format!("<{floor:.0e}"),
         false => format!("{value:.1e}"),
     };
-    let drift = |value: Option<f64>| value.map_or(String::new(), |v| format!("{v:.1e}"));
+    let drift = |value: Option<f64>| match value {
+        None => String::new(),
+        Some(0.0) => "0".to_owned(),
+        Some(value) => format!("{value:.1e}"),
+    };
     let ratio = accuracy.ratio(measured);
     vec![
         error(measured.state_error),
