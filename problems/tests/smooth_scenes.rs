@@ -43,12 +43,12 @@ fn double_pendulum() {
     let end = trajectory.final_state();
     close(
         &end.q,
-        &[8.191_078_459_414_502_7, 0.015_016_920_586_249_179],
+        &[8.191_078_459_414_502, 0.015_016_920_586_249_179],
         1e-11,
     );
     close(
         &end.v,
-        &[2.561_275_215_857_095_6, 5.931_712_937_022_134_8],
+        &[2.561_275_215_857_095_6, 5.931_712_937_022_135],
         1e-11,
     );
     energy_is_conserved(&trajectory, 1e-13);
@@ -116,10 +116,12 @@ fn cartesian_pendulum() {
     );
     close(
         &end.v,
-        &[-4.319_536_780_534_632_5, -0.797_297_927_855_360_4],
+        &[-4.319_536_780_534_633, -0.797_297_927_855_360_4],
         1e-10,
     );
-    assert!((end.q[0].hypot(end.q[1]) - 1.0).abs() < 1e-15);
+    // On its circle to rounding, after a hundred seconds.
+    let off = end.q[0].hypot(end.q[1]) - 1.0;
+    assert!(off.abs() < 4e-15, "{off:e}");
     energy_is_conserved(&trajectory, 1e-12);
 }
 
@@ -246,14 +248,11 @@ fn what_leaves_a_shell_does_so_as_quadrature_says() {
         &[2.175_600_372_851_527_7, 2.587_031_734_131_304_4],
         1e-15,
     );
+    let theta = f64::atan2(1.607_273_275_448_320_2, -1.0);
     close(
         &known.state.q,
-        &[
-            1.892_967_876_634_564_5,
-            2.127_441_085_2,
-            11.004_985_663_341_148,
-        ],
-        1e-9,
+        &[1.892_967_876_634_564_5, theta, 11.004_985_663_341_148],
+        1e-15,
     );
     assert_eq!(shell.closed_form(&shell.at(MassOnShell::REST), 2.0), None);
 }
