@@ -165,8 +165,7 @@ fn middle<S: System<Scalar = f64>>(system: &S, phase: usize) -> (Mode, f64, Stat
     let phases = trajectory.phases();
     let phase = &phases[phase];
     let time = 0.5 * (phase.from + phase.to);
-    let instant = trajectory.sampler();
-    let mut sampler = instant;
+    let mut sampler = trajectory.sampler();
     let instant = sampler.at(time).expect("a time of the run");
     let state = State {
         q: instant.q.clone(),

@@ -5,7 +5,10 @@ use std::time::{Duration, Instant};
 /// Runs every contestant in turn until `budget` is spent, but five times at least; the shortest time of each.
 ///
 /// The minimum is what the work itself takes: anything that disturbs a run makes it longer.
-pub fn shortest(contestants: &mut [&mut dyn FnMut() -> Duration], budget: Duration) -> Vec<Duration> {
+pub fn shortest(
+    contestants: &mut [&mut dyn FnMut() -> Duration],
+    budget: Duration,
+) -> Vec<Duration> {
     const LEAST: usize = 5;
     let mut times = vec![Duration::MAX; contestants.len()];
     let begin = Instant::now();

@@ -122,13 +122,13 @@ pub fn chain(y: &[f64; 10], d: &mut [f64; 10]) {
     for j in 0..N {
         for k in 0..j {
             let factor = l[j][k] * l[k][k];
-            for i in j..N {
-                l[i][j] -= l[i][k] * factor;
+            for row in &mut l[j..] {
+                row[j] -= row[k] * factor;
             }
         }
         let inverse = 1.0 / l[j][j];
-        for i in j + 1..N {
-            l[i][j] *= inverse;
+        for row in &mut l[j + 1..] {
+            row[j] *= inverse;
         }
     }
     for i in 0..N {

@@ -175,7 +175,9 @@ fn print(scene: &str, candidates: &[Candidate]) {
             })
         };
         let name = |c: Option<&Candidate>| {
-            c.map_or("–".to_owned(), |c| format!("{} ({:.0e})", c.name, c.error))
+            c.map_or("–".to_owned(), |c| {
+                format!("{} ({:.0e})", c.name, c.error)
+            })
         };
         let (peer, ours) = (best(false), best(true));
         let ratio = match (peer, ours) {

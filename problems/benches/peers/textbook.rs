@@ -50,8 +50,7 @@ impl Scene for Slide {
     fn by_hand<P: Peer>(peer: P, tolerance: f64) -> Option<Vec<f64>> {
         let pressed = |y: &[f64; 2]| G * y[0].cos() - y[1] * y[1];
         let slope = hand::on_shell(G);
-        let (lost, [theta, turn]) =
-            peer.until_zero(slope, pressed, [0.01, 0.0], 0.0, tolerance)?;
+        let (lost, [theta, turn]) = peer.until_zero(slope, pressed, [0.01, 0.0], 0.0, tolerance)?;
         let (end, y) = fly(peer, lost, [1.0, theta, 0.0, turn], 1.0, tolerance)?;
         let [x, vx, vy] = cartesian(y[0], y[1], y[2], y[3]);
         Some(vec![lost, theta, turn, end, x, vx, vy])
@@ -85,8 +84,7 @@ impl Scene for Roll {
     fn by_hand<P: Peer>(peer: P, tolerance: f64) -> Option<Vec<f64>> {
         let pressed = |y: &[f64; 2]| sphere_pressed(y[0], y[1]);
         let slope = hand::on_shell(5.0 / 7.0 * G / sphere::REACH);
-        let (lost, [theta, turn]) =
-            peer.until_zero(slope, pressed, [0.01, 0.0], 0.0, tolerance)?;
+        let (lost, [theta, turn]) = peer.until_zero(slope, pressed, [0.01, 0.0], 0.0, tolerance)?;
         let start = [sphere::REACH, theta, 0.0, turn];
         let (end, y) = fly(peer, lost, start, 1.0, tolerance)?;
         let [x, vx, vy] = cartesian(y[0], y[1], y[2], y[3]);
