@@ -46,6 +46,7 @@ impl<S: System> Dynamics<S> {
             self.solve()?;
             if k == 0 {
                 self.check_rows_aside()?;
+                self.refine();
             }
             self.scatter(k);
             let Table {
@@ -103,6 +104,15 @@ impl<S: System> Dynamics<S> {
         let outcome = self.factor(|node| table.coefficients.get(table.nodes[node].slot, 0));
         self.table = table;
         outcome
+    }
+
+    /// Takes out of the first forces what rounding leaves in them step after step.
+    fn refine(&mut self) {
+        let (free, size) = (self.plan.free(), self.plan.size());
+        if size > free {
+            self.solver
+                .refine(&mut self.solution, &mut self.right[..size]);
+        }
     }
 
     /// Right-hand sides: bₖ − Σ_{j=1..k} Kⱼ xₖ₋ⱼ.
