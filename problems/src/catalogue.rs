@@ -3,6 +3,7 @@
 use crate::outcome::Outcome;
 use crate::request::{Refusal, Request};
 use crate::scenes::*;
+use core::f64::consts::PI;
 use core::marker::PhantomData;
 use lagrange_core::prelude::*;
 use lagrange_core::system::Description;
@@ -14,6 +15,11 @@ pub static SCENES: &[&dyn Scene] = &[
     &Entry::<RollingSlippingSphere>::new("rolling-slipping-sphere", 20.0),
     &Entry::<MassOnWheel>::new("mass-on-wheel", 20.0),
     &Entry::<SphereInBowl>::new("sphere-in-bowl", 10.0),
+    &Entry::<DoublePendulum>::new("double-pendulum", 5.0),
+    &Entry::<FiveLinkChain>::new("five-link-chain", 2.0),
+    &Entry::<CartesianPendulum>::new("cartesian-pendulum", 100.0),
+    &Entry::<Kepler>::new("kepler", 200.0 * PI),
+    &Entry::<StiffSpringPendulum>::new("stiff-spring-pendulum", 10.0),
 ];
 
 /// A scene whose type has been forgotten: what the program can do with it.

@@ -4,6 +4,7 @@
 //! numbers that the derive macro puts in [`lagrange_core::system::Description`], so it never has to be touched.
 
 pub mod catalogue;
+pub mod closed_form;
 pub mod names;
 pub mod outcome;
 pub mod report;
