@@ -8,11 +8,8 @@
 //! Rounding errors that are independent of each other add up to √steps times one of them; errors with a direction add up
 //! to steps times one. The last column is the energy error in units of 2⁻⁵³ √steps.
 
-#[path = "kit/smooth.rs"]
-mod smooth;
-
 use lagrange_core::prelude::*;
-use smooth::CartesianPendulum;
+use lagrange_problems::scenes::CartesianPendulum;
 use std::time::Instant;
 
 /// Swing from rest, rad from the downward vertical.
@@ -29,7 +26,7 @@ fn main() {
     let tolerance = numbers.get(1).copied().unwrap_or(1e-16);
 
     let scene = CartesianPendulum::default();
-    let (g, l) = (scene.gravity, scene.l);
+    let (g, l) = (scene.gravity, scene.length);
     let period = std::f64::consts::TAU * (l / g).sqrt() / agm(1.0, (0.5 * START).cos());
     let mut state = State {
         q: vec![l * START.sin(), -l * START.cos()],

@@ -10,15 +10,12 @@
 mod clock;
 #[path = "kit/hand.rs"]
 mod hand;
-#[path = "kit/smooth.rs"]
-mod smooth;
 
 use criterion::Criterion;
 use lagrange_core::dynamics::Dynamics;
 use lagrange_core::mode::Mode;
 use lagrange_core::prelude::*;
 use lagrange_problems::scenes::*;
-use smooth::*;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
@@ -57,11 +54,17 @@ impl Bench {
         self.mode(&wheel, "flight", 2, [2, 3], hand::flight);
         let double = DoublePendulum::default();
         self.mode(&double, "", 0, [0, 1], hand::double_pendulum);
-        self.mode(&Chain::default(), "", 0, [0, 1, 2, 3, 4], hand::chain);
+        self.mode(
+            &FiveLinkChain::default(),
+            "",
+            0,
+            [0, 1, 2, 3, 4],
+            hand::chain,
+        );
         let pendulum = CartesianPendulum::default();
         self.mode(&pendulum, "", 0, [0, 1], hand::cartesian_pendulum);
         self.mode(&Kepler::default(), "", 0, [0, 1], hand::kepler);
-        let spring = SpringPendulum::default();
+        let spring = StiffSpringPendulum::default();
         self.mode(&spring, "", 0, [0, 1], hand::spring_pendulum);
     }
 

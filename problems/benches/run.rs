@@ -3,13 +3,9 @@
 //! `run/<scene>/<tolerance>`, by the Taylor method. For other methods see `lagrange accuracy`, for other integrators the
 //! bench `peers`.
 
-#[path = "kit/smooth.rs"]
-mod smooth;
-
 use criterion::{BenchmarkId, Criterion};
 use lagrange_core::prelude::*;
 use lagrange_problems::scenes::*;
-use smooth::*;
 
 fn main() {
     let mut criterion = Criterion::default().configure_from_args();
@@ -19,10 +15,10 @@ fn main() {
     scene::<MassOnWheel>(&mut criterion, 20.0);
     scene::<SphereInBowl>(&mut criterion, 10.0);
     scene::<DoublePendulum>(&mut criterion, 5.0);
-    scene::<Chain>(&mut criterion, 2.0);
+    scene::<FiveLinkChain>(&mut criterion, 2.0);
     scene::<CartesianPendulum>(&mut criterion, 100.0);
     scene::<Kepler>(&mut criterion, 200.0 * std::f64::consts::PI);
-    scene::<SpringPendulum>(&mut criterion, 10.0);
+    scene::<StiffSpringPendulum>(&mut criterion, 10.0);
     criterion.final_summary();
 }
 

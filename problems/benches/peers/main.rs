@@ -20,8 +20,6 @@ mod hand;
 mod ours;
 mod references;
 mod scenes;
-#[path = "../kit/smooth.rs"]
-mod smooth;
 mod textbook;
 
 use crates::{DifferentialEquations, Diffsol, OdeSolvers, Peer};

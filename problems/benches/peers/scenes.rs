@@ -4,8 +4,10 @@ use crate::crates::Peer;
 use crate::hand;
 use crate::ours;
 use crate::references as exact;
-use crate::smooth::*;
 use lagrange_core::prelude::Method;
+use lagrange_problems::scenes::{
+    CartesianPendulum, DoublePendulum, FiveLinkChain, Kepler, StiffSpringPendulum,
+};
 use std::f64::consts::PI;
 
 /// A scene that both sides can run.
@@ -48,7 +50,7 @@ impl Scene for FiveLinks {
     const REFERENCE: &'static [f64] = &exact::CHAIN;
 
     fn ours(method: Method, tolerance: f64) -> Option<Vec<f64>> {
-        ours::end(&Chain::default(), method, tolerance, 2.0)
+        ours::end(&FiveLinkChain::default(), method, tolerance, 2.0)
     }
 
     fn by_hand<P: Peer>(peer: P, tolerance: f64) -> Option<Vec<f64>> {
@@ -102,7 +104,7 @@ impl Scene for Spring {
     const REFERENCE: &'static [f64] = &exact::SPRING_PENDULUM;
 
     fn ours(method: Method, tolerance: f64) -> Option<Vec<f64>> {
-        ours::end(&SpringPendulum::default(), method, tolerance, 10.0)
+        ours::end(&StiffSpringPendulum::default(), method, tolerance, 10.0)
     }
 
     fn by_hand<P: Peer>(peer: P, tolerance: f64) -> Option<Vec<f64>> {

@@ -40,10 +40,7 @@ pub(crate) fn swing(
         let period = quarter_period(complement) * of(4.0);
         let phase = half.sin().atan2(turning / (2.0 * slow));
         let from = argument(phase, complement.value(), period.value() / 4.0);
-        let phi = amplitude(
-            from + (rate * of(until)).reduced(period).value(),
-            m.value(),
-        );
+        let phi = amplitude(from + (rate * of(until)).reduced(period).value(), m.value());
         let sin = k * phi.sin();
         (sin, (1.0 - sin * sin).sqrt(), 2.0 * slow * k * phi.cos())
     } else {
