@@ -78,7 +78,7 @@ impl<S: System> Dynamics<S> {
     fn start_series(&mut self, order: usize) -> Result<(), EvaluationError> {
         let (_, _, tape) = self.modes[self.current].parts();
         tape.order = order;
-        self.run_values()?;
+        self.run_values(true)?;
         let (_, _, tape) = self.modes[self.current].parts();
         tape.program.evaluate(REPORT, &mut tape.registers);
         match tape.expansion.singular(&tape.registers) {

@@ -24,7 +24,7 @@ impl<S: System> Dynamics<S> {
         self.work.values += 1;
         self.select(v);
         self.begin(t, q, v);
-        self.run_values()?;
+        self.run_values(false)?;
         self.check_accelerations()?;
         let (_, _, tape) = self.modes[self.current].parts();
         let count = self.inputs.len();
@@ -34,10 +34,10 @@ impl<S: System> Dynamics<S> {
     }
 
     /// Motion and forces from the state in the registers.
-    pub(super) fn run_values(&mut self) -> Result<(), EvaluationError> {
+    pub(super) fn run_values(&mut self, refined: bool) -> Result<(), EvaluationError> {
         let (_, _, tape) = self.modes[self.current].parts();
         tape.program.evaluate(MOTION, &mut tape.registers);
-        self.solve_start()?;
+        self.solve_start(refined)?;
         let (_, _, tape) = self.modes[self.current].parts();
         tape.program.evaluate(FORCES, &mut tape.registers);
         Ok(())
@@ -56,7 +56,7 @@ impl<S: System> Dynamics<S> {
         self.begin(t, q, v);
         let (_, _, tape) = self.modes[self.current].parts();
         tape.accelerations.evaluate(MOTION, &mut tape.registers);
-        self.solve_start()?;
+        self.solve_start(false)?;
         let (_, _, tape) = self.modes[self.current].parts();
         tape.accelerations.evaluate(FORCES, &mut tape.registers);
         self.check_accelerations()?;
@@ -91,9 +91,10 @@ impl<S: System> Dynamics<S> {
         tape.registers[2 + n..2 + 2 * n].copy_from_slice(v);
     }
 
-    /// Solves for the unknowns, from values in the registers, unless the tape does.
+    /// Solves for the unknowns, from values in the registers, unless the tape does. `refined`: what rounding leaves in the
+    /// forces step after step is taken out.
     #[inline]
-    pub(super) fn solve_start(&mut self) -> Result<(), EvaluationError> {
+    pub(super) fn solve_start(&mut self, refined: bool) -> Result<(), EvaluationError> {
         let (_, _, tape) = self.modes[self.current].parts();
         if tape.unsolved.is_none() {
             return match tape.divisor {
@@ -116,6 +117,10 @@ impl<S: System> Dynamics<S> {
         solution.clear();
         solution.extend_from_slice(&right[..plan.size()]);
         solver.solve(solution);
+        let outcome = solver.check_rows_aside(solution, right);
+        if outcome.is_ok() && refined && plan.size() > plan.free() {
+            solver.refine(solution, &mut right[..plan.size()]);
+        }
         if let Some(unsolved) = &tape.unsolved {
             for (slot, &x) in unsolved.unknowns.iter().zip(&*solution) {
                 tape.registers[slot.index()] = x;
@@ -124,10 +129,7 @@ impl<S: System> Dynamics<S> {
         if let Some(unknown) = solution.iter().position(|x| !x.value().is_finite()) {
             return Err(self.not_finite(unknown));
         }
-        let Compiled { solver, .. } = self.compiled();
-        solver
-            .check_rows_aside(&self.solution, &self.right)
-            .map_err(|e| self.solve_error(e))
+        outcome.map_err(|e| self.solve_error(e))
     }
 
     /// Right-hand sides from the registers.
