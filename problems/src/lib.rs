@@ -6,6 +6,8 @@
 pub mod catalogue;
 pub mod names;
 pub mod outcome;
+pub mod reference;
 pub mod report;
 pub mod request;
 pub mod scenes;
+pub mod stability;

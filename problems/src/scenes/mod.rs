@@ -4,6 +4,7 @@
 //! `x = r sin θ`, `y = r cos θ`. The bowl measures it from the **downward** vertical, counter-clockwise, so that
 //! its rest position is θ = 0. A body's own rotation φ turns the same way as θ.
 
+pub mod hard;
 mod mass_on_shell;
 mod mass_on_wheel;
 mod rolling_slipping_sphere;
