@@ -22,11 +22,11 @@ pub fn bouncing_ball(_: Extent) -> Result<Vec<Figure>, Surprise> {
             relative(rest.time, limit),
             1e-12,
         ));
-        let end = trajectory.final_state();
+        let (then, end) = (&rest.state_after, trajectory.final_state());
         figures.push(Figure::new(
-            format!("moves after it, e = {bounce}, m"),
-            end.q[0].abs().max(end.v[0].abs()),
-            0.0,
+            format!("creep at rest, e = {bounce}, m/s"),
+            distance(end.q[0], then.q[0]) / (0.1 * limit),
+            1e-14,
         ));
     }
     Ok(figures)

@@ -66,7 +66,8 @@ pub fn spherical_pendulum(_: Extent) -> Result<Vec<Figure>, Surprise> {
             1e-9,
         ),
         Figure::new("azimuth", relative(end.q[1], SWINGS * 2.0 * advance), 1e-9),
-        Figure::new("angular momentum", relative(found, momentum), 1e-9),
+        // φ̇ far from the pole is itself no larger than 1e-6 rad/s.
+        Figure::new("angular momentum, rad/s", distance(found, momentum), 1e-12),
     ])
 }
 
@@ -81,9 +82,9 @@ pub fn polar_particle(_: Extent) -> Result<Vec<Figure>, Surprise> {
         Figure::new("place along the line, m", distance(x, 1.0), 1e-9),
         Figure::new("place across it, m", distance(y, scene.distance), 1e-9),
         Figure::new(
-            "angular momentum",
-            relative(momentum, -scene.speed * scene.distance),
-            1e-9,
+            "angular momentum, m²/s",
+            distance(momentum, -scene.speed * scene.distance),
+            1e-12,
         ),
     ])
 }
@@ -111,7 +112,7 @@ fn product(p: [f64; 4], q: [f64; 4]) -> [f64; 4] {
 }
 
 pub fn tumbling_body(_: Extent) -> Result<Vec<Figure>, Surprise> {
-    const PERIODS: u32 = 3;
+    const PERIODS: u32 = 2;
     let scene = TumblingBody::default();
     let TumblingBody {
         inertia: [a, b, c],

@@ -146,7 +146,8 @@ pub fn coulomb_oscillator(_: Extent) -> Result<Vec<Figure>, Surprise> {
     let place = (amplitude - lost * f64::from(swings)) * if swings % 2 == 0 { 1.0 } else { -1.0 };
     let time = f64::from(swings) * PI / (stiffness / mass).sqrt();
     let trajectory = run(&scene, CoulombOscillator::STRETCHED, time + 100.0)?;
-    let mut expected = vec!["grip reverses"; swings as usize - 1];
+    let mut expected = vec!["grip reverses"; swings as usize];
+    expected[0] = "grip slips";
     expected.push("grip sticks");
     story(&trajectory, &expected)?;
     let stops = event(&trajectory, "grip", "sticks", 0)?;

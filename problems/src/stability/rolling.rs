@@ -166,7 +166,7 @@ fn rattleback_equations(body: &Rattleback, y: &[f64; 6]) -> [f64; 6] {
 
 pub fn rattleback(_: Extent) -> Result<Vec<Figure>, Surprise> {
     let scene = Rattleback::default();
-    let until = 4.0;
+    let until = 7.0;
     let trajectory = run(&scene, Rattleback::SPUN, until)?;
     let start = [0.0, 0.0, 1.0, scene.rock, 0.0, scene.spin];
     let expected = extrapolate(

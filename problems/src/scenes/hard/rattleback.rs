@@ -65,7 +65,7 @@ impl Default for Rattleback {
             height: 0.01,
             gravity: 9.81,
             spin: -5.0,
-            rock: 0.1,
+            rock: 1.0,
         }
     }
 }
