@@ -28,7 +28,7 @@ impl Hit {
     }
 }
 
-impl<S: System> Run<'_, S> {
+impl<S: System> Run<S> {
     /// Finds what happens first within the step whose guards are `curves`.
     pub(super) fn first_hit(&mut self, curves: &Curves) -> Hit {
         self.falls.clear();
@@ -116,15 +116,15 @@ impl<S: System> Run<'_, S> {
     }
 
     /// Marks up to part `end` of the step, in order.
-    pub(super) fn marks_until(&self, curves: &Curves, end: f64) -> Vec<(usize, f64)> {
+    pub(super) fn marks_until(&self, curves: &Curves, end: f64, list: &mut Vec<(usize, f64)>) {
         let d = S::DESCRIPTION;
-        let mut list = Vec::new();
+        list.clear();
         for (i, watch) in d.marks.iter().enumerate() {
             if watch.zeros {
                 let mut all = RootList::new();
                 roots(curves.mark_term(i, 0), &mut all);
                 let below = self.mark_below[i][0];
-                let start = curves.mark_term(i, 0).first().copied().unwrap_or(0.0);
+                let start = curves.mark_term(i, 0)[0];
                 if (below && start > 0.0) || (!below && start < 0.0) {
                     list.push((i, 0.0));
                 }
@@ -146,7 +146,6 @@ impl<S: System> Run<'_, S> {
             }
         }
         list.sort_by(|a, b| a.1.total_cmp(&b.1));
-        list
     }
 
     /// Remembers on which side the terms of stops and marks are at part `end` of the step.
@@ -189,13 +188,17 @@ fn becomes_true<'c>(
         if was_below(k) && curve.first().is_some_and(|c| *c >= 0.0) {
             consider(0.0);
         }
-        let mut all = RootList::new();
-        roots(curve, &mut all);
-        for root in all
-            .iter()
-            .filter(|r| r.direction == Direction::Rising && !r.grazing)
+        let mut from = 0.0;
+        while let Some(root) = first_root(curve, from)
+            && root.s <= end
         {
-            consider(root.s);
+            if root.direction == Direction::Rising && !root.grazing {
+                consider(root.s);
+            }
+            from = root.s;
+            if from >= 1.0 {
+                break;
+            }
         }
     }
     best
