@@ -226,8 +226,8 @@ impl Decider {
                 continue;
             }
             // Stick is preferred to slip without being ambiguous (μs > μk allows both).
-            if best.is_some_and(|best: usize| unique || slips(&candidates[best]) < slips(mode)) {
-                break;
+            if best.is_some_and(|best: usize| unique || sticks(&candidates[best]) > sticks(mode)) {
+                continue;
             }
             // What is found of the last one serves the coming step.
             let last = best.is_none() && index + 1 == candidates.len();
@@ -378,6 +378,13 @@ fn slips(mode: &Mode) -> usize {
     mode.frictions
         .iter()
         .filter(|f| matches!(f, FrictionMode::Slip(_)))
+        .count()
+}
+
+fn sticks(mode: &Mode) -> usize {
+    mode.frictions
+        .iter()
+        .filter(|f| matches!(f, FrictionMode::Stick))
         .count()
 }
 

@@ -69,7 +69,12 @@ impl<S: System> Run<S> {
             // Evaluated here, the end of the step also serves the event log.
             let defect = if self.evaluate_end(end).is_ok() {
                 let accelerations = self.dynamics.acceleration();
-                taylor::defect(&self.step, end, accelerations, self.tolerance)
+                let motion = taylor::defect(&self.step, end, accelerations, self.tolerance);
+                let (guards, tolerance) = (&self.guards, self.tolerance.relative);
+                let curves = &self.curves;
+                let guards = curves.defect(&mut self.dynamics, &self.mode, guards, end, tolerance);
+                // Not the larger of a number and a NaN, which would be the number.
+                if guards <= motion { motion } else { guards }
             } else {
                 f64::INFINITY
             };

@@ -7,6 +7,7 @@ mod errors;
 mod interpretation;
 mod recording;
 mod runner;
+mod stability;
 mod steppers;
 mod switches;
 mod systems;
