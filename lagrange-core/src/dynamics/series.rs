@@ -53,17 +53,16 @@ impl<S: System> Dynamics<S> {
             registers,
             order,
             integrals,
-            |k, now, first, products| {
+            |_, now, first, earlier| {
                 let Some(unsolved) = unsolved.as_ref() else {
                     return;
                 };
                 right.clear();
                 let sides = unsolved.right.iter();
                 right.extend(sides.map(|r| now[r.slot.index()]));
-                let elements = unsolved.elements.iter().zip(products);
-                for (&(equation, element, unknown), product) in elements {
-                    right[equation] -=
-                        now[element.index()] * first[unknown.index()] + product.earlier(k);
+                let elements = unsolved.elements.iter().zip(earlier);
+                for (&(equation, element, unknown), &earlier) in elements {
+                    right[equation] -= now[element.index()] * first[unknown.index()] + earlier;
                 }
                 solver.solve(right);
                 for (slot, &x) in unsolved.unknowns.iter().zip(&*right) {
