@@ -35,6 +35,8 @@ pub struct Known {
     pub jumped: bool,
     /// Guards of the present mode that have just been located as roots: the present mode cannot go on.
     pub located: Vec<Guard>,
+    /// What evaluation leaves of the forces that have been located as zero, relative to the terms that they are made of.
+    pub residue: f64,
 }
 
 impl Known {
@@ -50,6 +52,7 @@ impl Known {
         self.balanced.resize(d.branches.len(), false);
         self.jumped = false;
         self.located.clear();
+        self.residue = 0.0;
     }
 }
 
@@ -62,6 +65,8 @@ pub struct Decision {
     pub zeros: Vec<(Guard, usize)>,
     /// Whether another mode with another motion was feasible too.
     pub ambiguous: bool,
+    /// Whether the dynamics hold the series of this mode at the moment, for the needs of its guards.
+    pub expanded: bool,
 }
 
 /// The instant at which a mode is looked for.
@@ -77,6 +82,13 @@ pub struct Moment<'a, T> {
     pub order: usize,
     /// Error that the state may have.
     pub tolerance: f64,
+}
+
+impl<T> Moment<'_, T> {
+    /// How far forces located as zero, and what follows from them, are from it, relative to what they are made of.
+    fn blur(&self, known: &Known) -> f64 {
+        self.tolerance.max(1e-14).max(4.0 * known.residue)
+    }
 }
 
 /// Memory of decisions, and the last one.
@@ -107,6 +119,7 @@ impl Decider {
                 mode: Mode::open(description),
                 zeros: Vec::new(),
                 ambiguous: false,
+                expanded: false,
             },
             candidates: Pool::default(),
             questions: Vec::new(),
@@ -168,6 +181,29 @@ impl Decider {
         outcome
     }
 
+    /// See [`Known::residue`]; `dynamics` holds the values of the moment in the mode that ends.
+    pub fn residue<S: System>(
+        &mut self,
+        dynamics: &Dynamics<S>,
+        mode: &Mode,
+        located: &[Guard],
+    ) -> f64 {
+        self.sizes.take(dynamics);
+        let reading = Reading::Values(dynamics);
+        let relative = |&guard: &Guard| match guard {
+            Guard::Normal(_)
+            | Guard::StickUpper(_)
+            | Guard::StickLower(_)
+            | Guard::StickCone(_)
+            | Guard::Bearing(_) => {
+                let size = self.sizes.of(guard, dynamics);
+                guard::value(guard, mode, &reading).abs() / size.max(f64::MIN_POSITIVE)
+            }
+            _ => 0.0,
+        };
+        located.iter().map(relative).fold(0.0, f64::max)
+    }
+
     /// The feasible candidate to be preferred, and the last that could not be evaluated.
     fn best<S: System>(
         &mut self,
@@ -193,7 +229,10 @@ impl Decider {
             if best.is_some_and(|best: usize| unique || sticks(&candidates[best]) > sticks(mode)) {
                 continue;
             }
-            match self.examine(dynamics, table, moment, mode, known) {
+            // What is found of the last one serves the coming step.
+            let last = best.is_none() && index + 1 == candidates.len();
+            self.decision.expanded = false;
+            match self.examine(dynamics, table, moment, mode, known, last) {
                 Ok(true) if best.is_none() => {
                     best = Some(index);
                     self.decision.ambiguous = false;
@@ -220,35 +259,62 @@ impl Decider {
         moment: Moment<'_, S::Scalar>,
         mode: &Mode,
         known: &Known,
+        last: bool,
     ) -> Result<bool, EvaluationError> {
         let Moment { t, q, v, .. } = moment;
         dynamics.set_mode(mode);
         let watched = table.of(dynamics);
         dynamics.set_extra_needs(&watched.deciding);
+        let serves = watched.deciding == watched.needs;
         list_questions::<S>(mode, known, &watched.deciding, &mut self.questions);
         // Most candidates are refused, and many accepted, by their values already.
         dynamics.value(t, q, v)?;
         self.sizes.take(dynamics);
         let mut refused = false;
-        let sizes = &self.sizes;
-        self.questions.retain(|&(guard, order_known)| {
-            if order_known > 0 || concerns(guard, known) {
-                return true;
+        let Self {
+            sizes,
+            questions,
+            zeros,
+            ..
+        } = self;
+        zeros.clear();
+        questions.retain(|&(guard, order_known)| {
+            if matches!((guard, order_known), (Guard::Gap(_), 1)) {
+                // It parts: that is known.
+                zeros.push((guard, 1));
+                return false;
             }
-            let value = guard::value(guard, mode, &Reading::Values(dynamics));
-            let clear = 1e-6 * sizes.of(guard, dynamics);
+            let Some(value) = leading(guard, order_known, mode, dynamics) else {
+                return true;
+            };
+            let noise = if concerns(guard, known) {
+                1e3 * moment.blur(known)
+            } else {
+                1e-6
+            };
+            let clear = noise.max(1e-6) * sizes.of(guard, dynamics);
             refused |= value < -clear;
-            !(clear > 0.0 && value > clear)
+            let settled = clear > 0.0 && value > clear;
+            if settled && order_known > 0 {
+                zeros.push((guard, order_known));
+            }
+            !settled
         });
-        self.zeros.clear();
-        if refused || self.questions.is_empty() {
+        if refused || questions.is_empty() {
             return Ok(!refused);
         }
-        for order in [LOW_ORDER.min(moment.order), moment.order] {
+        let settled = zeros.len();
+        let low = if last {
+            moment.order
+        } else {
+            LOW_ORDER.min(moment.order)
+        };
+        for order in [low, moment.order] {
             dynamics.series(t, q, v, order)?;
+            self.decision.expanded = serves && order == moment.order;
             match self.judge(dynamics, moment, mode, known, order) {
                 Some(feasible) => return Ok(feasible),
-                None => self.zeros.clear(),
+                None => self.zeros.truncate(settled),
             }
         }
         Ok(true)
@@ -285,7 +351,7 @@ impl Decider {
             // The residue of a located root, and what follows from it, has the size of the integration error.
             let blurred = concerns(guard, known);
             let (relative, absolute) = if blurred {
-                ((100.0 * tolerance).clamp(1e-11, 1e-3), tolerance.max(1e-14))
+                ((100.0 * tolerance).clamp(1e-11, 1e-3), moment.blur(known))
             } else {
                 (1e-13, 1e-14)
             };
@@ -505,6 +571,36 @@ fn changes(a: &Mode, b: &Mode) -> usize {
         .filter(|(x, y)| x != y)
         .count();
     contacts + frictions
+}
+
+/// The first coefficient of a guard that is not known to vanish, times its factorial, as far as values tell.
+fn leading<S: System>(
+    guard: Guard,
+    order_known: usize,
+    mode: &Mode,
+    dynamics: &Dynamics<S>,
+) -> Option<f64> {
+    let d = S::DESCRIPTION;
+    let acceleration = |row: usize| {
+        let row = &d.rows[row];
+        let products = row.jacobian.iter().map(|&(j, place)| {
+            let a = dynamics.motion(place) * dynamics.acceleration()[j];
+            a.value()
+        });
+        dynamics.motion(row.bias).value() + products.sum::<f64>()
+    };
+    match (guard, order_known) {
+        (_, 0) => Some(guard::value(guard, mode, &Reading::Values(dynamics))),
+        (Guard::Gap(c), 2) => Some(acceleration(d.contacts[c].row)),
+        (Guard::Slip(f), 1) => match mode.frictions[f] {
+            FrictionMode::Slip(Sliding {
+                direction: Direction::Fixed([sign, 0.0]),
+                ..
+            }) => Some(sign * acceleration(d.frictions[f].row)),
+            _ => None,
+        },
+        _ => None,
+    }
 }
 
 /// The guards that can be violated just after the instant, with the number of coefficients known to vanish; `held` are

@@ -168,10 +168,19 @@ pub fn value<S: System>(guard: Guard, mode: &Mode, reading: &Reading<'_, S>) -> 
 
 /// Adds μs N.
 fn limit<S: System>(f: usize, mode: &Mode, reading: &Reading<'_, S>, out: &mut [f64]) {
+    let d = S::DESCRIPTION;
+    let friction = &d.frictions[f];
+    if let Terms::One(coefficient) = reading.motion(friction.static_coefficient)
+        && let Normal::Contact(c) = friction.normal
+        && d.contacts[c].normal_factor.is_none()
+    {
+        let multiplier = reading.force(d.contacts[c].row);
+        return add(out, coefficient.value(), multiplier);
+    }
     let mut normal = [0.0; LENGTH];
     let normal = &mut normal[..out.len()];
     normal_force(f, mode, reading, normal);
-    match reading.motion(S::DESCRIPTION.frictions[f].static_coefficient) {
+    match reading.motion(friction.static_coefficient) {
         Terms::One(coefficient) => {
             for (c, x) in out.iter_mut().zip(normal) {
                 *c += coefficient.value() * *x;

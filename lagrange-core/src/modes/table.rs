@@ -17,7 +17,7 @@ pub struct Watched {
     pub guards: Vec<Guard>,
     /// Needs of the motion, the guards and the report.
     pub needs: NeedSet,
-    /// The same and the Jacobians of all contacts and frictions, as far as they change.
+    /// The same and what the accelerations of all gaps and slips are made of, as far as it changes.
     pub deciding: NeedSet,
     /// Whether a step can leave the rows that act by more than rounding: one of them is not linear with constant coefficients.
     pub drifts: bool,
@@ -64,6 +64,9 @@ fn watched<S: System>(dynamics: &Dynamics<S>) -> Watched {
     for row in rows.map(|row| &d.rows[row]) {
         if !is_constant(row) {
             deciding.insert(row.needs.jacobian);
+        }
+        if matches!(row.bias, Place::Node(_)) {
+            deciding.insert(row.needs.bias);
         }
     }
     let acting = dynamics.acting_rows().iter().map(|&row| &d.rows[row]);

@@ -214,7 +214,7 @@ impl<S: System> Run<S> {
             (self.valued, self.expanded) = (true, false);
         }
         self.log_marks(end);
-        self.remember_sides_at(end);
+        self.remember_sides(end);
         self.trajectory.push(&self.step, S::Scalar::from_f64(end));
         self.trajectory.work.steps += 1;
         if end > 0.0 {
@@ -286,7 +286,7 @@ impl<S: System> Run<S> {
             return;
         }
         let mut marks = core::mem::take(&mut self.marks);
-        self.marks_until(&self.curves, end, &mut marks);
+        self.marks_until(end, &mut marks);
         for &(mark, s) in &marks {
             let s = S::Scalar::from_f64(s);
             let mut state = core::mem::take(&mut self.scratch);
@@ -299,12 +299,6 @@ impl<S: System> Run<S> {
             self.scratch = state;
         }
         self.marks = marks;
-    }
-
-    fn remember_sides_at(&mut self, end: f64) {
-        let curves = core::mem::take(&mut self.curves);
-        self.remember_sides(&curves, end);
-        self.curves = curves;
     }
 
     /// Stops whose conditions the switch has just made true.
@@ -375,12 +369,16 @@ impl<S: System> Run<S> {
     /// Values at the present state in the present mode, with every row's Jacobian and rate.
     fn evaluate_all_rows(&mut self) -> Result<(), Error> {
         self.dynamics.set_extra_needs(&self.survey.needs);
-        self.evaluate()
+        self.evaluate()?;
+        self.valued = false;
+        Ok(())
     }
 
     fn evaluate(&mut self) -> Result<(), Error> {
         let outcome = self.dynamics.value(self.t, &self.state.q, &self.state.v);
-        outcome.map_err(|e| self.error(e))
+        outcome.map_err(|e| self.error(e))?;
+        self.valued = true;
+        Ok(())
     }
 
     /// Taylor series at the present state, unless they are there.

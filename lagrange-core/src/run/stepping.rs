@@ -59,10 +59,9 @@ impl<S: System> Run<S> {
                 return Err(self.step_too_small(h));
             }
             self.write_polynomial(h);
-            let mut curves = core::mem::take(&mut self.curves);
-            curves.take_series(&self.dynamics, &self.mode, &self.guards, &self.powers);
-            let hit = self.first_hit(&curves);
-            self.curves = curves;
+            self.curves
+                .take_series(&self.dynamics, &self.mode, &self.guards, &self.powers);
+            let hit = self.first_hit();
             let end = hit.end();
             if end == 0.0 {
                 return Ok(hit);
@@ -160,8 +159,7 @@ impl<S: System> Run<S> {
                 });
             }
         }
-        let mut curves = core::mem::take(&mut self.curves);
-        let sampled = curves.sample(
+        let sampled = self.curves.sample(
             &mut self.dynamics,
             &self.mode,
             &self.guards,
@@ -169,9 +167,8 @@ impl<S: System> Run<S> {
             &mut self.scratch.q,
             &mut self.scratch.v,
         );
-        let hit = sampled.map(|()| self.first_hit(&curves));
-        self.curves = curves;
-        let hit = hit.map_err(|e| self.error(e))?;
+        sampled.map_err(|e| self.error(e))?;
+        let hit = self.first_hit();
         if hit.end() > 0.0 {
             self.evaluate_end(hit.end()).map_err(|e| self.error(e))?;
         }

@@ -15,8 +15,14 @@ impl<S: System> Run<S> {
     /// Leaves the present mode because the guards in `self.fallen` fell through zero.
     pub(super) fn switch(&mut self) -> Result<(), Error> {
         let d = S::DESCRIPTION;
+        if !self.valued {
+            self.evaluate()?;
+        }
         let known = &mut self.survey.known;
         known.clear(d);
+        known.residue = self
+            .decider
+            .residue(&self.dynamics, &self.mode, &self.fallen);
         known.touching.copy_from_slice(&self.mode.contacts);
         for (resting, friction) in known.resting.iter_mut().zip(&self.mode.frictions) {
             *resting = *friction == FrictionMode::Stick;
@@ -70,6 +76,7 @@ impl<S: System> Run<S> {
         )?;
         self.zeros.clone_from(&self.decider.decision.zeros);
         self.set_mode_decided();
+        self.expanded = self.decider.decision.expanded;
         if impact.is_some() || self.rows_have_joined() {
             self.project(true)?;
         }
