@@ -1,9 +1,11 @@
-//! All scenes that the program knows. A new scene is one line in [`SCENES`].
+//! All scenes that the program knows. A new scene is one line in [`SCENES`] or, with a case of
+//! [`stability`](crate::stability), in [`HARD`].
 
 use crate::accuracy::{self, Accuracy, Course, Study};
 use crate::closed_form::ClosedForm;
 use crate::outcome::Outcome;
 use crate::request::{Refusal, Request};
+use crate::scenes::hard::*;
 use crate::scenes::*;
 use core::f64::consts::PI;
 use core::marker::PhantomData;
@@ -24,6 +26,37 @@ pub static SCENES: &[&dyn Scene] = &[
     &Entry::<Kepler>::new("kepler", 200.0 * PI).known(Kepler::closed_form),
     &Entry::<StiffSpringPendulum>::new("stiff-spring-pendulum", 10.0),
 ];
+
+/// The hard cases, in the order of `lagrange list`.
+pub static HARD: &[&dyn Scene] = &[
+    &Entry::<BouncingBall>::new("bouncing-ball", 10.0),
+    &Entry::<ThrownBall>::new("thrown-ball", 3.0),
+    &Entry::<Ladder>::new("ladder", 5.0),
+    &Entry::<BackspinBall>::new("backspin-ball", 3.0),
+    &Entry::<BeltOscillator>::new("belt-oscillator", 20.0),
+    &Entry::<CoulombOscillator>::new("coulomb-oscillator", 10.0),
+    &Entry::<Cradle>::new("cradle", 1.0),
+    &Entry::<RodOnSupports>::new("rod-on-supports", 10.0),
+    &Entry::<RockingBlock>::new("rocking-block", 10.0),
+    &Entry::<PainleveRod>::new("painleve-rod", 1.0),
+    &Entry::<StringPendulum>::new("string-pendulum", 3.0),
+    &Entry::<SphericalPendulum>::new("spherical-pendulum", 5.0),
+    &Entry::<PolarParticle>::new("polar-particle", 2.0),
+    &Entry::<Parallelogram>::new("parallelogram", 2.0),
+    &Entry::<SliderCrank>::new("slider-crank", 2.0),
+    &Entry::<RollingDisk>::new("rolling-disk", 5.0),
+    &Entry::<Rattleback>::new("rattleback", 5.0),
+    &Entry::<Turntable>::new("turntable", 10.0),
+    &Entry::<SpringPendulum>::new("spring-pendulum", 0.1),
+    &Entry::<UnequalPendulum>::new("unequal-pendulum", 5.0),
+    &Entry::<TumblingBody>::new("tumbling-body", 30.0),
+    &Entry::<LongPendulum>::new("long-pendulum", 10.0),
+];
+
+/// All scenes: the textbook's, then the hard cases.
+pub fn scenes() -> impl Iterator<Item = &'static dyn Scene> {
+    SCENES.iter().chain(HARD).copied()
+}
 
 /// A scene whose type has been forgotten: what the program can do with it.
 pub trait Scene: Sync {
@@ -150,9 +183,7 @@ impl<S: System<Scalar = f64> + Default> Scene for Entry<S> {
 
 /// The scene called `name`, or a refusal that names the nearest one.
 pub fn find(name: &str) -> Result<&'static dyn Scene, Refusal> {
-    SCENES
-        .iter()
-        .copied()
+    scenes()
         .find(|scene| scene.name() == name)
-        .ok_or_else(|| Refusal::unknown("scene", name, SCENES.iter().map(|scene| scene.name())))
+        .ok_or_else(|| Refusal::unknown("scene", name, scenes().map(|scene| scene.name())))
 }

@@ -8,6 +8,8 @@ pub mod catalogue;
 pub mod closed_form;
 pub mod names;
 pub mod outcome;
+pub mod reference;
 pub mod report;
 pub mod request;
 pub mod scenes;
+pub mod stability;

@@ -3,10 +3,10 @@
 //! Nothing here computes as the library does: what it is compared with is written again from the textbook.
 
 pub mod equations;
-pub mod extrapolation;
 pub mod modes;
 
 use lagrange_core::prelude::*;
+pub use lagrange_problems::reference::{agm, extrapolate, integral, root};
 
 /// Seeded random numbers (splitmix64, Steele, Lea & Flood 2014).
 #[derive(Clone, Debug)]
@@ -37,52 +37,6 @@ impl Random {
     pub fn sign(&mut self) -> f64 {
         self.between(-1.0, 1.0).signum()
     }
-}
-
-/// The root of `f` in [low, high], which must change sign, to the last bit by bisection.
-pub fn root(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
-    let rising = f(low) < 0.0;
-    assert_ne!(
-        rising,
-        f(high) < 0.0,
-        "no change of sign in [{low}, {high}]"
-    );
-    for _ in 0..200 {
-        let middle = 0.5 * (low + high);
-        if (f(middle) < 0.0) == rising {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    0.5 * (low + high)
-}
-
-/// ∫ f over [a, b] by the tanh–sinh rule (Takahasi & Mori 1974); `f` is given the distance from `a` and may have an
-/// integrable singularity there.
-pub fn integral(f: impl Fn(f64) -> f64, a: f64, b: f64) -> f64 {
-    let (half, step) = (0.5 * (b - a), 1.0 / 64.0);
-    let mut sum = 0.0;
-    for k in -260..=260 {
-        let u = f64::from(k) * step;
-        let w = core::f64::consts::FRAC_PI_2 * u.sinh();
-        // 1 + tanh w without cancellation.
-        let from_a = half * 2.0 / (1.0 + (-2.0 * w).exp());
-        let weight = core::f64::consts::FRAC_PI_2 * u.cosh() / w.cosh().powi(2);
-        let value = f(from_a);
-        if value.is_finite() && weight > 0.0 {
-            sum += weight * value;
-        }
-    }
-    sum * step * half
-}
-
-/// Arithmetic-geometric mean (Gauss 1799): the complete elliptic integral K(k) is π / (2 agm(1, √(1 − k²))).
-pub fn agm(mut a: f64, mut b: f64) -> f64 {
-    for _ in 0..40 {
-        (a, b) = (0.5 * (a + b), (a * b).sqrt());
-    }
-    a
 }
 
 /// |a − b| relative to the larger of |b| and 1.

@@ -89,7 +89,8 @@ pub fn decide<S: System>(
                     }
                     // Stick is preferred to slip without being ambiguous (μs > μk allows both).
                     Some(first)
-                        if slips(&first.mode) >= slips(&mode) && differ(&best_motion, &motion) =>
+                        if sticks(&first.mode) <= sticks(&mode)
+                            && differ(&best_motion, &motion) =>
                     {
                         first.ambiguous = true;
                     }
@@ -124,6 +125,13 @@ fn slips(mode: &Mode) -> usize {
     mode.frictions
         .iter()
         .filter(|f| matches!(f, FrictionMode::Slip(_)))
+        .count()
+}
+
+fn sticks(mode: &Mode) -> usize {
+    mode.frictions
+        .iter()
+        .filter(|f| matches!(f, FrictionMode::Stick))
         .count()
 }
 

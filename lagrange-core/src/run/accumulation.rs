@@ -11,9 +11,11 @@ use crate::system::{Place, System};
 
 /// Shrinking is believed after this many intervals.
 const FEWEST: usize = 3;
+/// Intervals that are remembered.
+const REMEMBERED: usize = 128;
 
 /// The impacts of one contact.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Impacts {
     /// Number of impacts with shrinking intervals.
     count: usize,
@@ -23,6 +25,20 @@ pub(super) struct Impacts {
     interval: f64,
     /// Ratio of the last two intervals.
     ratio: f64,
+    /// The intervals before the last `REMEMBERED` of the `count` impacts, in a ring.
+    intervals: [f64; REMEMBERED],
+}
+
+impl Default for Impacts {
+    fn default() -> Self {
+        Impacts {
+            count: 0,
+            last: 0.0,
+            interval: 0.0,
+            ratio: 0.0,
+            intervals: [0.0; REMEMBERED],
+        }
+    }
 }
 
 impl Impacts {
@@ -32,17 +48,32 @@ impl Impacts {
         let ratio = interval / self.interval;
         let shrinking = self.count > 0 && ratio < 1.0;
         let steady = shrinking && (ratio - self.ratio).abs() < 0.1 * (1.0 - ratio);
-        *self = Impacts {
-            count: if shrinking || self.count < 2 {
-                self.count + 1
-            } else {
-                1
-            },
-            last: time,
-            interval,
-            ratio,
+        self.count = if shrinking || self.count < 2 {
+            self.count + 1
+        } else {
+            1
         };
-        (steady && self.count >= FEWEST).then(|| interval * ratio / (1.0 - ratio))
+        (self.last, self.interval, self.ratio) = (time, interval, ratio);
+        self.intervals[self.count % REMEMBERED] = interval;
+        (steady && self.count >= FEWEST).then(|| {
+            let ratio = self.mean_ratio();
+            interval * ratio / (1.0 - ratio)
+        })
+    }
+
+    /// Mean ratio of the intervals since they were about e times as long: where they shrink slowly, the resolution of time
+    /// blurs the ratio of two by more than its distance from 1 bears.
+    fn mean_ratio(&self) -> f64 {
+        let back = (1.0 / (1.0 - self.ratio)) as usize;
+        // The interval before the first impact of a series is not one of it.
+        let back = back.clamp(1, (self.count.saturating_sub(3)).clamp(1, REMEMBERED - 1));
+        let earlier = self.intervals[(self.count - back) % REMEMBERED];
+        let mean = (self.interval / earlier).powf(1.0 / back as f64);
+        if (mean - self.ratio).abs() < 0.1 * (1.0 - self.ratio) {
+            mean
+        } else {
+            self.ratio
+        }
     }
 }
 

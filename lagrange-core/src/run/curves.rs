@@ -82,6 +82,55 @@ impl Curves {
         }
     }
 
+    /// How far the polynomials are off at part `s` of the step, in units of what is allowed; `dynamics` holds the values of
+    /// the state there.
+    ///
+    /// The step is chosen for the coordinates, but a guard is a function of them whose series may converge no further than
+    /// a part of it: in free flight the coordinates are polynomials, the distance √(x² + y²) is not.
+    pub(super) fn defect<S: System>(
+        &self,
+        dynamics: &mut Dynamics<S>,
+        mode: &Mode,
+        guards: &[Guard],
+        s: f64,
+        tolerance: f64,
+    ) -> f64 {
+        if !self.watches.is_empty() {
+            dynamics.report_value();
+        }
+        let reading = Reading::Values(dynamics);
+        let all = guards.iter().chain(&self.watches);
+        let curves = self.guards.iter().chain(&self.stops).chain(&self.marks);
+        let mut worst = 0.0;
+        for (curve, &g) in curves.zip(all) {
+            let curve = curve.as_slice();
+            let value = guard::series(g, mode, &reading, 1.0);
+            let value = value.as_slice().first().copied().unwrap_or(0.0);
+            let (mut found, mut size) = (0.0, 0.0);
+            for c in curve.iter().rev() {
+                found = found * s + c;
+                size = size * s + c.abs();
+            }
+            // Forces are second derivatives, and the worse for it.
+            let (share, floor) = match g {
+                Guard::Normal(_)
+                | Guard::StickUpper(_)
+                | Guard::StickLower(_)
+                | Guard::StickCone(_)
+                | Guard::Bearing(_) => (1e4, 1e-10),
+                _ => (10.0, 1e-13),
+            };
+            let allowed = (share * tolerance).max(floor) * (size + value.abs());
+            let ratio = (found - value).abs() / (allowed + 64.0 * f64::EPSILON);
+            worst = if ratio > worst || ratio.is_nan() {
+                ratio
+            } else {
+                worst
+            };
+        }
+        worst
+    }
+
     /// Samples the guards along the dense output of a step and interpolates them.
     ///
     /// # Errors

@@ -79,12 +79,23 @@ impl<S: System> Run<'_, S> {
                     .dynamics
                     .value(self.step.time(s), &self.scratch.q, &self.scratch.v)
                 {
-                    Ok(()) => taylor::defect(
-                        &self.step,
-                        end,
-                        self.dynamics.acceleration(),
-                        self.tolerance,
-                    ),
+                    Ok(()) => {
+                        let motion = taylor::defect(
+                            &self.step,
+                            end,
+                            self.dynamics.acceleration(),
+                            self.tolerance,
+                        );
+                        let guards = self.curves.defect(
+                            &mut self.dynamics,
+                            &self.mode,
+                            &self.guards,
+                            end,
+                            self.simulation.tolerance,
+                        );
+                        // Not the larger of a number and a NaN, which would be the number.
+                        if guards <= motion { motion } else { guards }
+                    }
                     Err(_) => f64::INFINITY,
                 };
             let Stepper::Taylor(control) = &mut self.stepper else {

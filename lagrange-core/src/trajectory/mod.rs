@@ -189,6 +189,11 @@ impl<S: System> Trajectory<S> {
         phases
     }
 
+    /// Where the accepted steps begin, s, in order.
+    pub fn step_times(&self) -> impl Iterator<Item = f64> + '_ {
+        self.segments.iter().map(|segment| segment.t.value())
+    }
+
     /// Evaluates the trajectory at any time.
     pub fn sampler(&self) -> Sampler<'_, S> {
         Sampler::new(self)

@@ -2,7 +2,7 @@
 
 use super::{Trouble, print};
 use clap::Args;
-use lagrange_problems::catalogue::{SCENES, Scene, find};
+use lagrange_problems::catalogue::{HARD, SCENES, Scene, find, scenes};
 use std::io::{self, Write};
 
 /// List the scenes, or everything that one of them can be given.
@@ -25,15 +25,14 @@ impl List {
 }
 
 fn all(out: &mut dyn Write) -> io::Result<()> {
-    let width = SCENES
-        .iter()
-        .map(|scene| scene.name().len())
-        .max()
-        .unwrap_or(0);
-    for scene in SCENES {
-        writeln!(out, "{:width$}  {}", scene.name(), scene.summary())?;
-    }
-    Ok(())
+    let width = scenes().map(|scene| scene.name().len()).max().unwrap_or(0);
+    let mut lines = |scenes: &[&dyn Scene]| {
+        let line =
+            |scene: &&dyn Scene| writeln!(out, "{:width$}  {}", scene.name(), scene.summary());
+        scenes.iter().try_for_each(line)
+    };
+    lines(SCENES)?;
+    lines(HARD)
 }
 
 fn one(scene: &dyn Scene, out: &mut dyn Write) -> io::Result<()> {

@@ -9,6 +9,7 @@
 mod cartesian_pendulum;
 mod double_pendulum;
 mod five_link_chain;
+pub mod hard;
 mod kepler;
 mod mass_on_shell;
 mod mass_on_wheel;

@@ -7,7 +7,7 @@
 
 use lagrange_core::prelude::*;
 use lagrange_problems::scenes::MassOnWheel;
-use lagrange_tests::extrapolation::extrapolate;
+use lagrange_tests::extrapolate;
 use lagrange_tests::{agree, closure, event, integral, root, run, words};
 
 fn wheel(mu_static: f64, mu_kinetic: f64) -> MassOnWheel {

@@ -2,7 +2,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::extrapolation::extrapolate;
+use lagrange_tests::extrapolate;
 use lagrange_tests::{agree, closure, run};
 
 /// A pendulum in a viscous medium.

@@ -1,0 +1,51 @@
+//! A block on a moving belt, held by a spring: it sticks and slips for ever.
+
+use lagrange_core::prelude::*;
+
+/// A block rides on a belt until its spring is stronger than static friction, slides back, and is caught again.
+///
+/// What to expect, with ω² = k/m, the stretches at slip s₁ = μₛ m g/k and s̄ = μₖ m g/k, and belt speed v: it slides for
+///
+/// ```text
+/// τ = 2 (π − atan(ω (s₁ − s̄)/v))/ω        from s₁ to 2 s̄ − s₁, then rides for 2 (s₁ − s̄)/v
+/// ```
+///
+/// (den Hartog, Mechanical Vibrations, 1956, section 7.6). The error of every catch and every slip adds up in the
+/// time of the last one.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(s, n),
+    kinetic   = mass/2 * (der(s)^2 + der(n)^2),
+    potential(weight: mass * gravity * n),
+    potential(spring: stiffness/2 * s^2),
+    contact(belt: n >= 0),
+    friction(grip on belt: slip = der(s) - speed, static = mu_static, kinetic = mu_kinetic),
+    start(riding: der(s) = speed),
+)]
+pub struct BeltOscillator<T = f64> {
+    /// Mass, kg.
+    pub mass: T,
+    /// Gravitational acceleration, m/s².
+    pub gravity: T,
+    /// Stiffness k of the spring, N/m.
+    pub stiffness: T,
+    /// Speed of the belt, m/s.
+    pub speed: T,
+    /// Coefficient of static friction.
+    pub mu_static: T,
+    /// Coefficient of kinetic friction.
+    pub mu_kinetic: T,
+}
+
+impl Default for BeltOscillator {
+    fn default() -> Self {
+        Self {
+            mass: 1.5,
+            gravity: 9.81,
+            stiffness: 40.0,
+            speed: 0.2,
+            mu_static: 0.5,
+            mu_kinetic: 0.3,
+        }
+    }
+}

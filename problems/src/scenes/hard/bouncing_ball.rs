@@ -1,0 +1,44 @@
+//! A ball that bounces infinitely often in finite time.
+
+use lagrange_core::prelude::*;
+
+/// A ball falls, bounces ever lower, and comes to rest.
+///
+/// Each impact leaves the share e of the speed, so the times between impacts shrink like eᵏ: there are infinitely
+/// many before the ball rests (Brogliato 2016, section 1.3). A program that follows them one by one never gets
+/// there; one that stops at a smallest interval stops too early.
+///
+/// What to expect, dropped from h:
+///
+/// ```text
+/// first impact t₁ = √(2h/g)        at rest at t₁ (1 + e)/(1 − e)
+/// ```
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(y),
+    kinetic   = mass/2 * der(y)^2,
+    potential = mass * gravity * y,
+    contact(floor: y >= 0, restitution = bounce),
+    start(dropped: y = height),
+)]
+pub struct BouncingBall<T = f64> {
+    /// Mass, kg.
+    pub mass: T,
+    /// Gravitational acceleration, m/s².
+    pub gravity: T,
+    /// Restitution e: speed after an impact over speed before.
+    pub bounce: T,
+    /// Height at the start, m.
+    pub height: T,
+}
+
+impl Default for BouncingBall {
+    fn default() -> Self {
+        Self {
+            mass: 1.0,
+            gravity: 9.81,
+            bounce: 0.9,
+            height: 1.0,
+        }
+    }
+}

@@ -1,0 +1,39 @@
+//! A free particle in polar coordinates passes close to their origin.
+
+use lagrange_core::prelude::*;
+
+/// Nothing acts on a particle; it moves straight past the origin at a tiny distance d.
+///
+/// In polar coordinates almost half a turn happens while it covers a few d. Both r̈ and φ̈ are then large, and cancel
+/// almost everywhere else.
+///
+/// What to expect: x = v t − 1, y = d.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(r, phi),
+    define(x = r * cos(phi), y = r * sin(phi)),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2),
+    start(passing:
+        r = sqrt(1 + distance^2), phi = pi - atan(distance),
+        der(r) = -speed / sqrt(1 + distance^2), der(phi) = -speed * distance / (1 + distance^2)),
+    start(origin: r = 0, der(r) = speed),
+    observe(x, y),
+)]
+pub struct PolarParticle<T = f64> {
+    /// Mass, kg.
+    pub mass: T,
+    /// Speed, m/s.
+    pub speed: T,
+    /// Distance d at which the particle passes the origin, m.
+    pub distance: T,
+}
+
+impl Default for PolarParticle {
+    fn default() -> Self {
+        Self {
+            mass: 1.0,
+            speed: 1.0,
+            distance: 1e-6,
+        }
+    }
+}

@@ -1,0 +1,46 @@
+//! A spherical pendulum passes its pole, where its coordinates fail.
+
+use lagrange_core::prelude::*;
+
+/// A pendulum on a sphere, by θ from the bottom and the azimuth φ, swings past the bottom at a tiny distance.
+///
+/// The angular momentum is conserved, so φ̇ is large near the pole: half a turn within a microsecond. What is lost there
+/// is lost for good.
+///
+/// What to expect: each swing passes the bottom at the angle `nearest` and comes back to `amplitude`; its time and the
+/// advance of the azimuth are elliptic integrals (Whittaker 1904, section 55).
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(theta, phi),
+    kinetic   = mass/2 * length^2 * (der(theta)^2 + sin(theta)^2 * der(phi)^2),
+    potential = -mass * gravity * length * cos(theta),
+    start(turning:
+        theta = amplitude,
+        der(phi) = sin(nearest) / sin(amplitude) * sqrt(2 * gravity / length * (cos(nearest) - cos(amplitude))
+            / (sin(amplitude)^2 - sin(nearest)^2))),
+    start(pole: theta = 0, der(theta) = 1),
+)]
+pub struct SphericalPendulum<T = f64> {
+    /// Mass, kg.
+    pub mass: T,
+    /// Length, m.
+    pub length: T,
+    /// Gravitational acceleration, m/s².
+    pub gravity: T,
+    /// Largest θ, rad.
+    pub amplitude: T,
+    /// Smallest θ, rad.
+    pub nearest: T,
+}
+
+impl Default for SphericalPendulum {
+    fn default() -> Self {
+        Self {
+            mass: 1.0,
+            length: 1.0,
+            gravity: 9.81,
+            amplitude: 1.0,
+            nearest: 1e-6,
+        }
+    }
+}

@@ -1,0 +1,41 @@
+//! A pendulum on a very stiff spring: two time scales ten thousand apart.
+
+use lagrange_core::prelude::*;
+
+/// A mass swings on a spring so stiff that it hardly stretches, and rings at √(k/m).
+///
+/// The slow swing has to come out right through thousands of periods of the fast one.
+///
+/// What to expect: energy is conserved; the swing is that of a rigid pendulum but for terms of the order m g/(k l).
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(r, theta),
+    kinetic   = mass/2 * (der(r)^2 + r^2 * der(theta)^2),
+    potential(weight: -mass * gravity * r * cos(theta)),
+    potential(spring: stiffness/2 * (r - length)^2),
+    start(held: r = length, theta = start_angle),
+)]
+pub struct SpringPendulum<T = f64> {
+    /// Mass, kg.
+    pub mass: T,
+    /// Length l of the relaxed spring, m.
+    pub length: T,
+    /// Gravitational acceleration, m/s².
+    pub gravity: T,
+    /// Stiffness k, N/m.
+    pub stiffness: T,
+    /// θ at the start, rad from the bottom.
+    pub start_angle: T,
+}
+
+impl Default for SpringPendulum {
+    fn default() -> Self {
+        Self {
+            mass: 1.0,
+            length: 1.0,
+            gravity: 9.81,
+            stiffness: 1e8,
+            start_angle: 1.0,
+        }
+    }
+}

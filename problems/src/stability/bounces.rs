@@ -1,0 +1,226 @@
+//! Impacts: one after the other, at once, infinitely many.
+
+use super::kit::{closure, distance, event, relative, run, story, violation};
+use super::{Extent, Figure, Surprise};
+use crate::reference::integral;
+use crate::scenes::hard::{BouncingBall, Cradle, RockingBlock, StringPendulum, ThrownBall};
+use core::f64::consts::FRAC_PI_2;
+
+pub fn bouncing_ball(_: Extent) -> Result<Vec<Figure>, Surprise> {
+    let mut figures = Vec::new();
+    for bounce in [0.5, 0.9, 0.99] {
+        let scene = BouncingBall {
+            bounce,
+            ..BouncingBall::default()
+        };
+        let fall = (2.0 * scene.height / scene.gravity).sqrt();
+        let limit = fall * (1.0 + bounce) / (1.0 - bounce);
+        let trajectory = run(&scene, BouncingBall::DROPPED, 1.1 * limit)?;
+        let rest = event(&trajectory, "floor", "accumulates", 0)?;
+        figures.push(Figure::new(
+            format!("time of rest, e = {bounce}"),
+            relative(rest.time, limit),
+            1e-12,
+        ));
+        let (then, end) = (&rest.state_after, trajectory.final_state());
+        figures.push(Figure::new(
+            format!("creep at rest, e = {bounce}, m/s"),
+            distance(end.q[0], then.q[0]) / (0.1 * limit),
+            1e-14,
+        ));
+    }
+    Ok(figures)
+}
+
+/// Place, speed and slip at `until`, bounce by bounce.
+fn bounce_by_bounce(ball: &ThrownBall, until: f64) -> (f64, f64, f64) {
+    let ThrownBall {
+        gravity,
+        bounce,
+        mu,
+        ..
+    } = *ball;
+    let mut arrival = (2.0 * gravity * ball.height).sqrt();
+    let (mut x, mut v, mut slip) = (0.0, ball.speed, ball.speed);
+    let mut flight = arrival / gravity;
+    // Σ eᵏ to rounding.
+    for _ in 0..60 {
+        x += v * flight;
+        let most = 3.5 * mu * (1.0 + bounce) * arrival;
+        let taken = slip.min(most);
+        slip -= taken;
+        v -= taken / 3.5;
+        arrival *= bounce;
+        flight = 2.0 * arrival / gravity;
+    }
+    let landed = (2.0 * ball.height / gravity).sqrt() * (1.0 + bounce) / (1.0 - bounce);
+    let slide = slip / (3.5 * mu * gravity);
+    x += v * slide - 0.5 * mu * gravity * slide * slide;
+    v -= mu * gravity * slide;
+    (x + v * (until - landed - slide), v, 0.0)
+}
+
+pub fn thrown_ball(_: Extent) -> Result<Vec<Figure>, Surprise> {
+    let mut figures = Vec::new();
+    for (what, speed) in [
+        ("grips in a bounce", 4.0),
+        ("slides on after the last", 6.0),
+    ] {
+        let scene = ThrownBall {
+            speed,
+            ..ThrownBall::default()
+        };
+        let trajectory = run(&scene, ThrownBall::THROWN, 3.0)?;
+        let (x, v, _) = bounce_by_bounce(&scene, 3.0);
+        let end = trajectory.final_state();
+        figures.push(Figure::new(
+            format!("{what}: 5/7 of the speed"),
+            relative(end.v[0], 5.0 / 7.0 * speed),
+            1e-11,
+        ));
+        figures.push(Figure::new(
+            format!("{what}: speed bounce by bounce"),
+            relative(end.v[0], v),
+            1e-11,
+        ));
+        figures.push(Figure::new(
+            format!("{what}: place"),
+            relative(end.q[0], x),
+            1e-11,
+        ));
+        figures.push(Figure::new(
+            format!("{what}: ledger"),
+            closure(&trajectory)?,
+            1e-11,
+        ));
+    }
+    Ok(figures)
+}
+
+pub fn cradle(_: Extent) -> Result<Vec<Figure>, Surprise> {
+    let scene = Cradle::default();
+    let trajectory = run(&scene, Cradle::STRUCK, 1.0)?;
+    story(&trajectory, &["pair[0] impact"])?;
+    let expected = [-1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0];
+    let speeds = trajectory.final_state().v.iter().zip(expected);
+    let worst = speeds.map(|(v, e)| relative(*v, e)).fold(0.0, f64::max);
+    Ok(vec![
+        Figure::new("together: −1/3, 2/3, 2/3", worst, 1e-14),
+        Figure::new("together: ledger", closure(&trajectory)?, 1e-14),
+    ])
+}
+
+pub fn rocking_block(_: Extent) -> Result<Vec<Figure>, Surprise> {
+    let scene = RockingBlock::default();
+    let radius = scene.half_width.hypot(scene.half_height);
+    let alpha = (scene.half_width / scene.half_height).atan();
+    let p = (0.75 * scene.gravity / radius).sqrt();
+    let kept = 1.0 - 1.5 * alpha.sin().powi(2);
+    // From rest at θ₀ down to 0: θ̇² = 4p² sin(α − θ₀ + ½u) sin ½u at θ = θ₀ − u.
+    let quarter = |top: f64| {
+        integral(
+            |u| 0.5 / (p * ((alpha - top + 0.5 * u).sin() * (0.5 * u).sin()).sqrt()),
+            0.0,
+            top,
+        )
+    };
+    // The next top keeps the share `kept`² of sin(α − ½θ) sin ½θ.
+    let height = |top: f64| (alpha - 0.5 * top).sin() * (0.5 * top).sin();
+    let next = |top: f64| {
+        let wanted = kept * kept * height(top);
+        let slope = |x: f64| 0.5 * (alpha - x).sin();
+        (0..50).fold(kept * kept * top, |x, _| {
+            x - (height(x) - wanted) / slope(x)
+        })
+    };
+    let mut time = quarter(scene.start_angle);
+    let mut impacts = vec![time];
+    let mut top = next(scene.start_angle);
+    while quarter(top) > 1e-17 * time {
+        time += 2.0 * quarter(top);
+        impacts.push(time);
+        top = next(top);
+    }
+    let trajectory = run(&scene, RockingBlock::TILTED, 1.2 * time)?;
+    let mut worst: f64 = 0.0;
+    let hits: Vec<f64> = trajectory
+        .events()
+        .iter()
+        .filter(|e| e.kind.word() == "impact")
+        .map(|e| e.time)
+        .collect();
+    for (found, expected) in hits.iter().zip(&impacts) {
+        worst = worst.max(relative(*found, *expected));
+    }
+    let rest = trajectory
+        .events()
+        .iter()
+        .find(|e| e.kind.word() == "accumulates")
+        .ok_or_else(|| Surprise::Missing {
+            event: "accumulates".to_owned(),
+        })?;
+    let end = trajectory.final_state();
+    Ok(vec![
+        Figure::new(format!("times of {} impacts", hits.len()), worst, 1e-10),
+        Figure::new("time of rest", relative(rest.time, time), 1e-10),
+        Figure::new("tilt at rest", end.q[2].abs().max(end.v[2].abs()), 1e-14),
+        Figure::new("walked, m", distance(end.q[0], scene.half_width), 1e-12),
+        Figure::new("penetration, m", violation(&trajectory)?, 1e-12),
+    ])
+}
+
+pub fn string_pendulum(_: Extent) -> Result<Vec<Figure>, Surprise> {
+    let scene = StringPendulum::default();
+    let StringPendulum {
+        length: l,
+        gravity: g,
+        speed,
+        ..
+    } = scene;
+    let alpha = ((speed * speed / (g * l) - 2.0) / 3.0).asin();
+    let (s, c) = alpha.sin_cos();
+    let v = (g * l * s).sqrt();
+    // From the bottom: β̇² = v₀²/l² − 2(g/l)(1 − cos β).
+    let rate = |b: f64| (speed * speed / (l * l) - 4.0 * g / l * (0.5 * b).sin().powi(2)).sqrt();
+    let slack = integral(|b| 1.0 / rate(b), 0.0, FRAC_PI_2 + alpha);
+    let flight = 4.0 * v * c / g;
+    let caught = [
+        l * c - v * s * flight,
+        l * s + v * c * flight - 0.5 * g * flight * flight,
+    ];
+    let arriving = [-v * s, v * c - g * flight];
+    // What is left is the speed across the string.
+    let across = (caught[0] * arriving[1] - caught[1] * arriving[0]) / l;
+    let trajectory = run(&scene, StringPendulum::KICKED, slack + flight + 0.5)?;
+    story(
+        &trajectory,
+        &["string lost", "string impact", "string closed"],
+    )?;
+    let lost = event(&trajectory, "string", "lost", 0)?;
+    let hit = event(&trajectory, "string", "impact", 0)?;
+    let after = &hit.state_after;
+    Ok(vec![
+        Figure::new(
+            "height where it goes slack",
+            relative(lost.state.q[1], l * s),
+            1e-11,
+        ),
+        Figure::new("time of it", relative(lost.time, slack), 1e-11),
+        Figure::new("flight", relative(hit.time - lost.time, flight), 1e-11),
+        Figure::new(
+            "place of the catch, m",
+            distance(hit.state.q[0], caught[0]).max(distance(hit.state.q[1], caught[1])),
+            1e-11,
+        ),
+        Figure::new(
+            "speed after it",
+            relative(
+                (after.q[0] * after.v[1] - after.q[1] * after.v[0]) / l,
+                across,
+            ),
+            1e-11,
+        ),
+        Figure::new("length, m", violation(&trajectory)?, 1e-12),
+        Figure::new("ledger", closure(&trajectory)?, 1e-11),
+    ])
+}

@@ -1,0 +1,158 @@
+//! Short ways to run a scene and to look at what it did.
+
+use core::fmt;
+use lagrange_core::dynamics::{Dynamics, NeedSet};
+use lagrange_core::prelude::*;
+use lagrange_core::system::Place;
+
+/// Why a case could not be measured.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Surprise {
+    /// The run failed.
+    Failed(Error),
+    /// It should have failed, with an error that is described.
+    NotRefused {
+        /// What was expected.
+        expected: &'static str,
+        /// The error that came instead, if any.
+        found: Option<Error>,
+    },
+    /// Other things happened.
+    Story {
+        /// Events found, `floor impact`.
+        found: Vec<String>,
+        /// Events expected.
+        expected: Vec<String>,
+    },
+    /// An event did not happen.
+    Missing {
+        /// `item kind`.
+        event: String,
+    },
+}
+
+impl fmt::Display for Surprise {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Surprise::Failed(error) => error.fmt(f),
+            Surprise::NotRefused {
+                expected,
+                found: None,
+            } => write!(f, "no error, instead of: {expected}"),
+            Surprise::NotRefused {
+                expected,
+                found: Some(error),
+            } => write!(f, "`{error}` instead of: {expected}"),
+            Surprise::Story { found, expected } => write!(
+                f,
+                "what happened: {}; expected: {}",
+                found.join(", "),
+                expected.join(", ")
+            ),
+            Surprise::Missing { event } => write!(f, "`{event}` did not happen"),
+        }
+    }
+}
+
+impl core::error::Error for Surprise {}
+
+impl From<Error> for Surprise {
+    fn from(error: Error) -> Self {
+        Surprise::Failed(error)
+    }
+}
+
+impl<S: System> From<Failure<S>> for Surprise {
+    fn from(failure: Failure<S>) -> Self {
+        Surprise::Failed(failure.error)
+    }
+}
+
+/// The tolerance of every case.
+pub const TOLERANCE: f64 = 1e-12;
+
+/// Runs a scene from a named start at time 0.
+pub fn run<S: System<Scalar = f64>>(
+    scene: &S,
+    start: StartId,
+    until: f64,
+) -> Result<Trajectory<S>, Surprise> {
+    let simulation = Simulation::new(scene).tolerance(TOLERANCE);
+    Ok(simulation.run(scene.at(start), 0.0..until)?)
+}
+
+/// |found − expected| over |expected|.
+pub fn relative(found: f64, expected: f64) -> f64 {
+    ((found - expected) / expected).abs()
+}
+
+/// |found − expected|
+pub fn distance(found: f64, expected: f64) -> f64 {
+    (found - expected).abs()
+}
+
+/// The `n`-th event (from 0) of an item and kind.
+pub fn event<'a, S: System>(
+    trajectory: &'a Trajectory<S>,
+    item: &str,
+    kind: &str,
+    n: usize,
+) -> Result<&'a Event<S::Scalar>, Surprise> {
+    let mut events = trajectory.events().iter();
+    let is =
+        |e: &&Event<S::Scalar>| e.subject.name(S::DESCRIPTION) == item && e.kind.word() == kind;
+    events
+        .by_ref()
+        .filter(is)
+        .nth(n)
+        .ok_or_else(|| Surprise::Missing {
+            event: format!("{item} {kind}"),
+        })
+}
+
+/// Demands that exactly these events happened, in this order.
+pub fn story<S: System>(trajectory: &Trajectory<S>, expected: &[&str]) -> Result<(), Surprise> {
+    let tell = |e: &Event<S::Scalar>| format!("{} {}", e.subject.name(S::DESCRIPTION), e.kind);
+    let found: Vec<String> = trajectory.events().iter().map(tell).collect();
+    if found == expected {
+        return Ok(());
+    }
+    Err(Surprise::Story {
+        found,
+        expected: expected.iter().map(|e| (*e).to_owned()).collect(),
+    })
+}
+
+/// Closure of the energy ledger relative to its scale.
+pub fn closure<S: System>(trajectory: &Trajectory<S>) -> Result<f64, Surprise> {
+    let ledger = trajectory.ledger()?;
+    Ok(ledger.closure.abs() / ledger.scale)
+}
+
+/// The largest residual of an equation of positions, and the deepest penetration, at the beginning of every step; in the
+/// unit of the scene.
+pub fn violation<S: System<Scalar = f64>>(trajectory: &Trajectory<S>) -> Result<f64, Surprise> {
+    let d = S::DESCRIPTION;
+    let mut needs = NeedSet::new(d);
+    for row in d.rows {
+        needs.insert(row.needs.position);
+    }
+    let mut dynamics = Dynamics::new(trajectory.scene(), trajectory.effects());
+    dynamics.set_extra_needs(&needs);
+    let mut sampler = trajectory.sampler();
+    let mut worst: f64 = 0.0;
+    for t in trajectory.step_times().chain([trajectory.last_time()]) {
+        let now = sampler.at(t)?;
+        dynamics.tape(t, &now.q, &now.v);
+        let position = |row: usize| dynamics.motion(d.rows[row].position.unwrap_or(Place::Zero));
+        let equations = d.constraints.iter().map(|c| position(c.row).abs());
+        let contacts = d.contacts.iter().zip(&now.mode.contacts);
+        let gaps = contacts.map(|(c, closed)| {
+            let gap = position(c.row);
+            if *closed { gap.abs() } else { -gap }
+        });
+        worst = equations.chain(gaps).fold(worst, f64::max);
+    }
+    Ok(worst)
+}

@@ -1,0 +1,228 @@
+//! Hard cases: what breaks other programs, with an answer known by other means, and how far from it a run ends.
+//!
+//! A [`Case`] runs its scene (in [`scenes::hard`](crate::scenes::hard), whose documentation has the answer and its source)
+//! at tolerance 1e-12 and gives [`Figure`]s: errors, relative unless a unit is named, each with the bound that it must keep.
+//! Bounds are 1e-9 or better; where one is larger, the case says why nothing better can be had.
+
+mod bounces;
+mod constraints;
+mod coordinates;
+mod frictions;
+mod kit;
+mod rolling;
+mod scales;
+
+pub use kit::Surprise;
+
+/// How long the long cases run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extent {
+    /// A few seconds in all.
+    Short,
+    /// A hundred thousand periods where the question is endurance.
+    Long,
+}
+
+/// One measured number and the bound that it must keep.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    /// What was measured; an error is relative unless it names a unit.
+    pub what: String,
+    /// The number found, ≥ 0.
+    pub value: f64,
+    /// Largest that will do.
+    pub bound: f64,
+}
+
+impl Figure {
+    fn new(what: impl Into<String>, value: f64, bound: f64) -> Self {
+        let what = what.into();
+        Self { what, value, bound }
+    }
+
+    /// Whether it keeps its bound; what is not a number does not.
+    pub fn holds(&self) -> bool {
+        self.value <= self.bound
+    }
+}
+
+type Measure = fn(Extent) -> Result<Vec<Figure>, Surprise>;
+
+/// A hard case.
+pub struct Case {
+    /// Name, for `--only`.
+    pub name: &'static str,
+    /// Scene in the catalogue.
+    pub scene: &'static str,
+    /// What usually goes wrong.
+    pub trouble: &'static str,
+    measure: Measure,
+}
+
+/// What a case came to.
+pub struct Report {
+    /// The case.
+    pub case: &'static Case,
+    /// Its figures; empty if it could not be measured.
+    pub figures: Vec<Figure>,
+    /// Why it could not be measured.
+    pub surprise: Option<Surprise>,
+}
+
+impl Report {
+    /// Whether everything was measured and keeps its bound.
+    pub fn holds(&self) -> bool {
+        self.surprise.is_none() && self.figures.iter().all(Figure::holds)
+    }
+}
+
+impl Case {
+    /// Runs it.
+    pub fn run(&'static self, extent: Extent) -> Report {
+        let (figures, surprise) = match (self.measure)(extent) {
+            Ok(figures) => (figures, None),
+            Err(surprise) => (Vec::new(), Some(surprise)),
+        };
+        Report {
+            case: self,
+            figures,
+            surprise,
+        }
+    }
+}
+
+/// Every case, in the order of the table.
+pub static CASES: &[Case] = &[
+    Case {
+        name: "bouncing-ball",
+        scene: "bouncing-ball",
+        trouble: "infinitely many impacts: never ends, or stops too early",
+        measure: bounces::bouncing_ball,
+    },
+    Case {
+        name: "thrown-ball",
+        scene: "thrown-ball",
+        trouble: "bounces end while it still moves sideways and slips",
+        measure: bounces::thrown_ball,
+    },
+    Case {
+        name: "cradle",
+        scene: "cradle",
+        trouble: "two impacts at once: order of the list decides",
+        measure: bounces::cradle,
+    },
+    Case {
+        name: "rocking-block",
+        scene: "rocking-block",
+        trouble: "impacts alternate between corners, ever faster",
+        measure: bounces::rocking_block,
+    },
+    Case {
+        name: "string-pendulum",
+        scene: "string-pendulum",
+        trouble: "the string pushes, or snaps back softly",
+        measure: bounces::string_pendulum,
+    },
+    Case {
+        name: "ladder",
+        scene: "ladder",
+        trouble: "the wall pulls where it should let go",
+        measure: frictions::ladder,
+    },
+    Case {
+        name: "backspin-ball",
+        scene: "backspin-ball",
+        trouble: "force jumps where rolling begins: chatter, creep",
+        measure: frictions::backspin_ball,
+    },
+    Case {
+        name: "belt-oscillator",
+        scene: "belt-oscillator",
+        trouble: "stick and slip for ever: errors add up",
+        measure: frictions::belt_oscillator,
+    },
+    Case {
+        name: "coulomb-oscillator",
+        scene: "coulomb-oscillator",
+        trouble: "creeps out of its dead band",
+        measure: frictions::coulomb_oscillator,
+    },
+    Case {
+        name: "rod-on-supports",
+        scene: "rod-on-supports",
+        trouble: "undetermined friction forces decide when it slips",
+        measure: frictions::rod_on_supports,
+    },
+    Case {
+        name: "painleve-rod",
+        scene: "painleve-rod",
+        trouble: "no answer, or two: silently wrong",
+        measure: frictions::painleve_rod,
+    },
+    Case {
+        name: "parallelogram",
+        scene: "parallelogram",
+        trouble: "one condition too many, two at dead positions",
+        measure: constraints::parallelogram,
+    },
+    Case {
+        name: "slider-crank",
+        scene: "slider-crank",
+        trouble: "a condition without gradient: stuck, or wrong branch",
+        measure: constraints::slider_crank,
+    },
+    Case {
+        name: "long-pendulum",
+        scene: "long-pendulum",
+        trouble: "conditions and energy drift",
+        measure: constraints::long_pendulum,
+    },
+    Case {
+        name: "spherical-pendulum",
+        scene: "spherical-pendulum",
+        trouble: "angular momentum is lost at the pole",
+        measure: coordinates::spherical_pendulum,
+    },
+    Case {
+        name: "polar-particle",
+        scene: "polar-particle",
+        trouble: "a straight line bends near the origin",
+        measure: coordinates::polar_particle,
+    },
+    Case {
+        name: "tumbling-body",
+        scene: "tumbling-body",
+        trouble: "angles lock; quaternions drift, singular masses",
+        measure: coordinates::tumbling_body,
+    },
+    Case {
+        name: "rolling-disk",
+        scene: "rolling-disk",
+        trouble: "rolling drifts; stiff turns close to the floor",
+        measure: rolling::rolling_disk,
+    },
+    Case {
+        name: "rattleback",
+        scene: "rattleback",
+        trouble: "spin does not reverse, or energy appears",
+        measure: rolling::rattleback,
+    },
+    Case {
+        name: "turntable",
+        scene: "turntable",
+        trouble: "spirals off its circle",
+        measure: rolling::turntable,
+    },
+    Case {
+        name: "spring-pendulum",
+        scene: "spring-pendulum",
+        trouble: "k = 1e8 N/m: damped away, or blows up",
+        measure: scales::spring_pendulum,
+    },
+    Case {
+        name: "unequal-pendulum",
+        scene: "unequal-pendulum",
+        trouble: "masses 1 : 1e8: digits lost in the mass matrix",
+        measure: scales::unequal_pendulum,
+    },
+];
