@@ -40,13 +40,13 @@ fn list_has_every_scene_with_a_summary() {
         "kepler",
         "stiff-spring-pendulum",
     ];
-    assert_eq!(list.lines().count(), names.len());
     for (line, name) in list.lines().zip(names) {
-        assert!(
-            line.starts_with(name) && line.len() > name.len() + 20,
-            "{line}"
-        );
+        assert!(line.starts_with(name), "{line}");
     }
+    // The hard cases follow. A line is a name and what it is.
+    assert!(list.lines().count() > names.len());
+    let words = |line: &str| line.split_whitespace().count();
+    assert!(list.lines().all(|line| words(line) > 4), "{list}");
     let details = says(&["list", "mass-on-wheel"]);
     for word in ["mu_static", "0.6", "theta", "rest", "rim", "grip", "floor"] {
         assert!(details.contains(word), "{word} is missing in\n{details}");
