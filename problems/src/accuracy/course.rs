@@ -63,13 +63,24 @@ pub(super) struct Finish {
     pub state: State<f64>,
 }
 
+/// Of impacts that accumulate only the accumulation: how many are followed one by one depends on the tolerance.
 pub(super) fn finish<S: System<Scalar = f64>>(trajectory: &Trajectory<S>) -> Finish {
+    let mut events: Vec<&Event<f64>> = Vec::new();
+    for event in trajectory.events() {
+        if matches!(event.kind, EventKind::Accumulates { .. }) {
+            let leads = |e: &&Event<f64>| e.kind == EventKind::Impact && e.subject == event.subject;
+            while events.last().is_some_and(leads) {
+                events.pop();
+            }
+        }
+        events.push(event);
+    }
     let label = |event: &Event<f64>| {
         let item = event.subject.name(S::DESCRIPTION);
         (format!("{item} {}", event.kind), event.time)
     };
     Finish {
-        events: trajectory.events().iter().map(label).collect(),
+        events: events.into_iter().map(label).collect(),
         time: trajectory.last_time(),
         state: trajectory.final_state().clone(),
     }

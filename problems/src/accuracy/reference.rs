@@ -9,23 +9,37 @@ use crate::closed_form::ClosedForm;
 use crate::request::Refusal;
 use lagrange_core::prelude::*;
 
-/// The tightest run: Taylor series of the highest order.
-const TIGHTEST: Setting = Setting {
-    method: Method::Taylor,
-    tolerance: 1e-16,
-};
+/// The tightest run: Taylor series, at the first of these tolerances that gets to the end.
+const TIGHTEST: [Setting; 4] = [taylor(1e-16), taylor(1e-15), taylor(1e-14), taylor(1e-13)];
 
-/// The runs that check it, by methods that have nothing in common with it.
-const CHECKS: [Setting; 2] = [
-    Setting {
-        method: Method::Verner98,
-        tolerance: 1e-15,
-    },
-    Setting {
-        method: Method::DormandPrince853,
-        tolerance: 1e-15,
-    },
+/// Groups of runs that check it; of the first group with one that gets to the end, the one that agrees best. Other
+/// methods, as tight as they can be; where none gets there, the same one with series of another order.
+const CHECKS: [&[Setting]; 4] = [
+    &explicit(1e-15),
+    &explicit(1e-13),
+    &explicit(1e-11),
+    &[taylor(1e-12)],
 ];
+
+const fn taylor(tolerance: f64) -> Setting {
+    Setting {
+        method: Method::Taylor,
+        tolerance,
+    }
+}
+
+const fn explicit(tolerance: f64) -> [Setting; 2] {
+    [
+        Setting {
+            method: Method::Verner98,
+            tolerance,
+        },
+        Setting {
+            method: Method::DormandPrince853,
+            tolerance,
+        },
+    ]
+}
 
 /// Steps of the Taylor method are the radius of convergence over e² (Jorba & Zou 2005).
 const RADIUS_PER_STEP: f64 = 7.389_056_098_930_65;
@@ -60,14 +74,10 @@ impl Reference {
         };
         let (happened, expected) = (labels(&found.events), labels(&self.events));
         if happened != expected {
-            let list = |labels: Vec<String>| match labels.is_empty() {
-                true => "nothing".to_owned(),
-                false => labels.join(", "),
-            };
             return Err(format!(
                 "other events: {} instead of {}",
-                list(happened),
-                list(expected)
+                list(&happened),
+                list(&expected)
             ));
         }
         let values =
@@ -80,6 +90,19 @@ impl Reference {
     fn difference(&self, found: &Finish) -> Result<f64, String> {
         let (state, events) = self.errors(found)?;
         Ok(state.max(events.unwrap_or(0.0)))
+    }
+}
+
+/// `rim impact ×3, rim closed`
+fn list(labels: &[String]) -> String {
+    let runs = labels.chunk_by(|a, b| a == b).map(|run| match run {
+        [one] => one.clone(),
+        many => format!("{} ×{}", many[0], many.len()),
+    });
+    let runs: Vec<String> = runs.collect();
+    match runs.is_empty() {
+        true => "nothing".to_owned(),
+        false => runs.join(", "),
     }
 }
 
@@ -96,24 +119,46 @@ pub(super) fn reference<S: System<Scalar = f64>>(
     course: &Course<S>,
     closed_form: Option<ClosedForm>,
 ) -> Result<(Reference, f64), Refusal> {
-    let tightest = course.run(TIGHTEST).map_err(|error| Refusal::Reference {
-        by: TIGHTEST.to_string(),
-        reason: error.to_string(),
-    })?;
+    let (setting, tightest) = tightest(course)?;
     let steps = tightest.work().steps.max(1);
     let scale = RADIUS_PER_STEP * (tightest.last_time() - tightest.first_time()) / steps as f64;
+    let finish = finish(&tightest);
     let reference = match closed_form {
-        Some(known) => from_closed_form(known, finish(&tightest)),
-        None => from_runs(course, finish(&tightest)),
+        Some(known) => from_closed_form(known, setting, &finish),
+        None => from_runs(course, setting, finish),
     };
     Ok((reference?, scale))
 }
 
-fn from_closed_form(known: ClosedForm, run: Finish) -> Result<Reference, Refusal> {
+fn tightest<S: System<Scalar = f64>>(
+    course: &Course<S>,
+) -> Result<(Setting, Trajectory<S>), Refusal> {
+    let mut refused = None;
+    for setting in TIGHTEST {
+        match course.run(setting) {
+            Ok(run) => return Ok((setting, run)),
+            Err(error) => refused = refused.or(Some(refusal(setting, error.to_string()))),
+        }
+    }
+    Err(refused.unwrap_or_else(|| refusal(TIGHTEST[0], "nothing was run".to_owned())))
+}
+
+fn refusal(setting: Setting, reason: String) -> Refusal {
+    Refusal::Reference {
+        by: setting.to_string(),
+        reason,
+    }
+}
+
+fn from_closed_form(
+    known: ClosedForm,
+    checked_by: Setting,
+    run: &Finish,
+) -> Result<Reference, Refusal> {
     let events = known.events.into_iter();
     let reference = Reference {
         by: format!("the closed form ({})", known.by),
-        checked_by: TIGHTEST.to_string(),
+        checked_by: checked_by.to_string(),
         difference: 0.0,
         floor: known.rounding,
         events: events
@@ -122,25 +167,21 @@ fn from_closed_form(known: ClosedForm, run: Finish) -> Result<Reference, Refusal
         time: known.time,
         state: known.state,
     };
-    let difference = reference
-        .difference(&run)
-        .map_err(|reason| Refusal::Reference {
-            by: TIGHTEST.to_string(),
-            reason,
-        })?;
+    let difference = reference.difference(run);
     Ok(Reference {
-        difference,
+        difference: difference.map_err(|reason| refusal(checked_by, reason))?,
         ..reference
     })
 }
 
-/// The tightest run, with the one of the checks that agrees best.
+/// The tightest run, with the check that agrees best.
 fn from_runs<S: System<Scalar = f64>>(
     course: &Course<S>,
+    by: Setting,
     tightest: Finish,
 ) -> Result<Reference, Refusal> {
     let reference = Reference {
-        by: TIGHTEST.to_string(),
+        by: by.to_string(),
         checked_by: String::new(),
         difference: f64::INFINITY,
         floor: f64::INFINITY,
@@ -148,32 +189,39 @@ fn from_runs<S: System<Scalar = f64>>(
         time: tightest.time,
         state: tightest.state,
     };
-    let check = |setting: Setting| -> Result<f64, Refusal> {
-        let run = course.run(setting).map_err(|error| error.to_string());
-        run.and_then(|run| reference.difference(&finish(&run)))
-            .map_err(|reason| Refusal::Reference {
-                by: setting.to_string(),
-                reason,
-            })
-    };
-    let checks = CHECKS.map(|setting| check(setting).map(|difference| (setting, difference)));
-    let best = checks
-        .iter()
-        .flatten()
-        .min_by(|(_, a), (_, b)| a.total_cmp(b));
-    match best {
-        Some(&(setting, difference)) => Ok(Reference {
-            checked_by: setting.to_string(),
-            difference,
-            floor: difference.max(f64::EPSILON),
-            ..reference
-        }),
-        None => {
-            let [first, _] = checks;
-            Err(first.err().unwrap_or(Refusal::Reference {
-                by: reference.by,
-                reason: "nothing to check it by".to_owned(),
-            }))
+    let mut refused = None;
+    for group in CHECKS {
+        let mut best: Option<(Setting, f64)> = None;
+        for &setting in group {
+            let run = course.run(setting).map_err(|error| error.to_string());
+            match run.and_then(|run| reference.difference(&finish(&run))) {
+                Ok(difference) if best.is_none_or(|(_, least)| difference < least) => {
+                    best = Some((setting, difference));
+                }
+                Ok(_) => {}
+                Err(reason) => refused = refused.or(Some(refusal(setting, reason))),
+            }
         }
+        if let Some((setting, difference)) = best {
+            return Ok(Reference {
+                checked_by: setting.to_string(),
+                difference,
+                floor: difference.max(f64::EPSILON),
+                ..reference
+            });
+        }
+    }
+    Err(refused.unwrap_or_else(|| refusal(by, "nothing to check it by".to_owned())))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::list;
+
+    #[test]
+    fn events_in_a_row_are_counted() {
+        let labels = ["a hit", "a hit", "b lost", "a hit"].map(str::to_owned);
+        assert_eq!(list(&labels), "a hit ×2, b lost, a hit");
+        assert_eq!(list(&[]), "nothing");
     }
 }
