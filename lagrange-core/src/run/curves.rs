@@ -161,6 +161,9 @@ impl Curves {
         self.prepare(m);
         self.shape(guards.len(), m);
         self.coefficients.fill(0.0);
+        if self.coefficients.is_empty() {
+            return Ok(());
+        }
         for j in 0..m {
             let s = self.nodes[j];
             step.state_into(S::Scalar::from_f64(s), q, v);

@@ -3,6 +3,7 @@
 mod bowl;
 mod derived;
 mod diagnostics;
+mod efficiency;
 mod errors;
 mod interpretation;
 mod recording;
