@@ -5,7 +5,8 @@
 //! $ cargo bench -p lagrange-problems --features peers --bench peers -- wheel     # those whose name has `wheel`
 //! ```
 //!
-//! Ours runs from the declaration: all coordinates, all forces, all modes. The others know neither constraints nor
+//! Ours runs from the declaration: all coordinates, all forces, all modes; without ledger and record, which the others do
+//! not have. The others know neither constraints nor
 //! modes: they are given the hand-reduced equations of [`hand`], hand-derived event functions and hand-written switching.
 //! An error is the largest of all compared numbers (event times, states at events, end of the run), relative to the
 //! larger of 1 and the reference. A table has, per threshold, the shortest time of all runs whose error is below.
@@ -107,7 +108,7 @@ fn candidates<S: Scene>() -> Vec<Candidate> {
         }
         for method in methods {
             let name = format!("{method} {tolerance:.0e}");
-            add::<S>(&mut list, name, true, move || S::ours(method, tolerance));
+            add::<S>(&mut list, name, true, ours::runs::<S>(method, tolerance));
         }
     }
     fn peer<S: Scene, P: Peer>(list: &mut Vec<Candidate>, peer: P, tolerance: f64) {

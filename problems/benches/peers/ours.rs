@@ -1,34 +1,28 @@
 //! Running a scene from its declaration.
 
+use crate::scenes::Scene;
 use lagrange_core::prelude::*;
 
-/// The run from the first start. None if it fails, or has another number of events than `events`.
-pub fn run<S: System<Scalar = f64>>(
-    scene: &S,
-    method: Method,
-    tolerance: f64,
-    until: f64,
-    events: usize,
-) -> Option<Trajectory<S>> {
-    let n = S::DESCRIPTION.coordinates.len();
+/// A way to run the scene from its first start again and again, without a record of the motion in between: what is
+/// made ready once per mode is kept, as the others keep their compiled equations.
+pub fn runs<S: Scene>(method: Method, tolerance: f64) -> impl FnMut() -> Option<Vec<f64>> {
+    let scene = S::Declared::default();
+    let n = <S::Declared as System>::DESCRIPTION.coordinates.len();
     let mut start = State {
         q: vec![0.0; n],
         v: vec![0.0; n],
     };
     scene.start(0, 0.0, &mut start.q, &mut start.v);
-    let simulation = Simulation::new(scene).method(method).tolerance(tolerance);
-    let trajectory = simulation.run(start, 0.0..until).ok()?;
-    (trajectory.events().len() == events).then_some(trajectory)
+    let simulation = Simulation::new(&scene).method(method).tolerance(tolerance);
+    let mut runner = simulation.record(false).runner();
+    move || S::seen(runner.run(&start, 0.0..S::UNTIL).ok()?)
 }
 
 /// Positions, then velocities, at the end of a run without events.
-pub fn end<S: System<Scalar = f64>>(
-    scene: &S,
-    method: Method,
-    tolerance: f64,
-    until: f64,
-) -> Option<Vec<f64>> {
-    let trajectory = run(scene, method, tolerance, until, 0)?;
+pub fn end<S: System<Scalar = f64>>(trajectory: &Trajectory<S>) -> Option<Vec<f64>> {
     let end = trajectory.final_state();
-    Some([&end.q[..], &end.v].concat())
+    trajectory
+        .events()
+        .is_empty()
+        .then(|| [&end.q[..], &end.v].concat())
 }

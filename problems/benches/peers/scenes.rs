@@ -4,21 +4,26 @@ use crate::crates::Peer;
 use crate::hand;
 use crate::ours;
 use crate::references as exact;
-use lagrange_core::prelude::Method;
+use lagrange_core::prelude::*;
 use lagrange_problems::scenes::{
     CartesianPendulum, DoublePendulum, FiveLinkChain, Kepler, StiffSpringPendulum,
 };
 use std::f64::consts::PI;
 
 /// A scene that both sides can run.
-pub trait Scene {
+pub trait Scene: 'static {
     /// Its name in the table.
     const NAME: &'static str;
     /// What is compared, exactly.
     const REFERENCE: &'static [f64];
 
-    /// By the declaration.
-    fn ours(method: Method, tolerance: f64) -> Option<Vec<f64>>;
+    /// Longest run, s.
+    const UNTIL: f64;
+    /// What declares it.
+    type Declared: System<Scalar = f64> + Default + 'static;
+
+    /// What is compared, in a run of the declaration.
+    fn seen(trajectory: &Trajectory<Self::Declared>) -> Option<Vec<f64>>;
 
     /// By hand-reduced equations in another integrator.
     fn by_hand<P: Peer>(peer: P, tolerance: f64) -> Option<Vec<f64>>;
@@ -30,9 +35,11 @@ pub struct Double;
 impl Scene for Double {
     const NAME: &'static str = "double pendulum, 5 s";
     const REFERENCE: &'static [f64] = &exact::DOUBLE_PENDULUM;
+    const UNTIL: f64 = 5.0;
+    type Declared = DoublePendulum;
 
-    fn ours(method: Method, tolerance: f64) -> Option<Vec<f64>> {
-        ours::end(&DoublePendulum::default(), method, tolerance, 5.0)
+    fn seen(trajectory: &Trajectory<DoublePendulum>) -> Option<Vec<f64>> {
+        ours::end(trajectory)
     }
 
     fn by_hand<P: Peer>(peer: P, tolerance: f64) -> Option<Vec<f64>> {
@@ -48,9 +55,11 @@ pub struct FiveLinks;
 impl Scene for FiveLinks {
     const NAME: &'static str = "chain of 5 links, 2 s";
     const REFERENCE: &'static [f64] = &exact::CHAIN;
+    const UNTIL: f64 = 2.0;
+    type Declared = FiveLinkChain;
 
-    fn ours(method: Method, tolerance: f64) -> Option<Vec<f64>> {
-        ours::end(&FiveLinkChain::default(), method, tolerance, 2.0)
+    fn seen(trajectory: &Trajectory<FiveLinkChain>) -> Option<Vec<f64>> {
+        ours::end(trajectory)
     }
 
     fn by_hand<P: Peer>(peer: P, tolerance: f64) -> Option<Vec<f64>> {
@@ -66,9 +75,11 @@ pub struct Rod;
 impl Scene for Rod {
     const NAME: &'static str = "Cartesian pendulum, 100 s";
     const REFERENCE: &'static [f64] = &exact::CARTESIAN_PENDULUM;
+    const UNTIL: f64 = 100.0;
+    type Declared = CartesianPendulum;
 
-    fn ours(method: Method, tolerance: f64) -> Option<Vec<f64>> {
-        ours::end(&CartesianPendulum::default(), method, tolerance, 100.0)
+    fn seen(trajectory: &Trajectory<CartesianPendulum>) -> Option<Vec<f64>> {
+        ours::end(trajectory)
     }
 
     fn by_hand<P: Peer>(peer: P, tolerance: f64) -> Option<Vec<f64>> {
@@ -84,9 +95,11 @@ pub struct Orbit;
 impl Scene for Orbit {
     const NAME: &'static str = "Kepler e = 0.9, 100 orbits";
     const REFERENCE: &'static [f64] = &exact::KEPLER;
+    const UNTIL: f64 = 200.0 * PI;
+    type Declared = Kepler;
 
-    fn ours(method: Method, tolerance: f64) -> Option<Vec<f64>> {
-        ours::end(&Kepler::default(), method, tolerance, 200.0 * PI)
+    fn seen(trajectory: &Trajectory<Kepler>) -> Option<Vec<f64>> {
+        ours::end(trajectory)
     }
 
     fn by_hand<P: Peer>(peer: P, tolerance: f64) -> Option<Vec<f64>> {
@@ -102,9 +115,11 @@ pub struct Spring;
 impl Scene for Spring {
     const NAME: &'static str = "stiff spring pendulum, 10 s";
     const REFERENCE: &'static [f64] = &exact::SPRING_PENDULUM;
+    const UNTIL: f64 = 10.0;
+    type Declared = StiffSpringPendulum;
 
-    fn ours(method: Method, tolerance: f64) -> Option<Vec<f64>> {
-        ours::end(&StiffSpringPendulum::default(), method, tolerance, 10.0)
+    fn seen(trajectory: &Trajectory<StiffSpringPendulum>) -> Option<Vec<f64>> {
+        ours::end(trajectory)
     }
 
     fn by_hand<P: Peer>(peer: P, tolerance: f64) -> Option<Vec<f64>> {

@@ -2,7 +2,6 @@
 
 use crate::crates::Peer;
 use crate::hand::{self, G, sphere, wheel};
-use crate::ours;
 use crate::references as exact;
 use crate::scenes::Scene;
 use lagrange_core::prelude::*;
@@ -36,9 +35,13 @@ pub struct Slide;
 impl Scene for Slide {
     const NAME: &'static str = "1 mass on shell";
     const REFERENCE: &'static [f64] = &exact::MASS_ON_SHELL;
+    const UNTIL: f64 = LONGEST;
+    type Declared = MassOnShell;
 
-    fn ours(method: Method, tolerance: f64) -> Option<Vec<f64>> {
-        let trajectory = ours::run(&MassOnShell::default(), method, tolerance, LONGEST, 2)?;
+    fn seen(trajectory: &Trajectory<MassOnShell>) -> Option<Vec<f64>> {
+        if trajectory.events().len() != 2 {
+            return None;
+        }
         let lost = &trajectory.events()[0];
         let State { q, v } = trajectory.final_state();
         let [x, vx, vy] = cartesian(q[0], q[1], v[0], v[1]);
@@ -70,9 +73,13 @@ fn sphere_pressed(theta: f64, turn: f64) -> f64 {
 impl Scene for Roll {
     const NAME: &'static str = "2 rolling sphere";
     const REFERENCE: &'static [f64] = &exact::ROLLING_SPHERE;
+    const UNTIL: f64 = LONGEST;
+    type Declared = RollingSphere;
 
-    fn ours(method: Method, tolerance: f64) -> Option<Vec<f64>> {
-        let trajectory = ours::run(&RollingSphere::default(), method, tolerance, LONGEST, 2)?;
+    fn seen(trajectory: &Trajectory<RollingSphere>) -> Option<Vec<f64>> {
+        if trajectory.events().len() != 2 {
+            return None;
+        }
         let lost = &trajectory.events()[0];
         let State { q, v } = trajectory.final_state();
         let [x, vx, vy] = cartesian(q[0], q[1], v[0], v[1]);
@@ -100,11 +107,16 @@ pub struct Slip;
 impl Scene for Slip {
     const NAME: &'static str = "3 sphere that rolls, then slips";
     const REFERENCE: &'static [f64] = &exact::SLIPPING_SPHERE;
+    const UNTIL: f64 = LONGEST;
+    type Declared = RollingSlippingSphere;
 
-    fn ours(method: Method, tolerance: f64) -> Option<Vec<f64>> {
-        let scene = RollingSlippingSphere::default();
-        let trajectory = ours::run(&scene, method, tolerance, LONGEST, 3)?;
-        let events = &trajectory.events()[..2];
+    fn seen(trajectory: &Trajectory<RollingSlippingSphere>) -> Option<Vec<f64>> {
+        if trajectory.events().len() != 3 {
+            return None;
+        }
+        let [events @ .., _] = trajectory.events() else {
+            return None;
+        };
         let seen = events
             .iter()
             .flat_map(|e| [e.time, e.state.q[1], e.state.v[1]]);
@@ -136,9 +148,13 @@ pub struct Wheel;
 impl Scene for Wheel {
     const NAME: &'static str = "4 mass on wheel";
     const REFERENCE: &'static [f64] = &exact::MASS_ON_WHEEL;
+    const UNTIL: f64 = LONGEST;
+    type Declared = MassOnWheel;
 
-    fn ours(method: Method, tolerance: f64) -> Option<Vec<f64>> {
-        let trajectory = ours::run(&MassOnWheel::default(), method, tolerance, LONGEST, 3)?;
+    fn seen(trajectory: &Trajectory<MassOnWheel>) -> Option<Vec<f64>> {
+        if trajectory.events().len() != 3 {
+            return None;
+        }
         let [slips, lost, _] = trajectory.events() else {
             return None;
         };
