@@ -9,20 +9,19 @@
 //! z = eˣ      zₖ = z₀ xₖ + Aₖ / k                   A = Σ i xᵢ zⱼ     (z′ = x′ z, and so for every such equation)
 //! ```
 //!
-//! So a series takes two alternating passes. One runs the tape on numbers, like a value. The other adds, for each of the few
-//! products, what the new coefficients contribute to all later sums A: long additions of a scaled row to a row, which
-//! a processor does several at a time, and with no sum to wait for.
+//! So a series takes two alternating passes. One forms the sums A of all products, four of them at a time: they lie side by
+//! side, so that a processor adds four terms at once, and in each only as many terms as the order. The other runs the tape
+//! on numbers, like a value.
 //!
 //! References: Jorba & Zou 2005, A software package for the numerical integration of ODEs by means of high-order Taylor
-//! methods, section 2; Griewank & Walther 2008, Evaluating Derivatives, chapter 13; the order of summation is that of relaxed
-//! multiplication, van der Hoeven 2002, Relax, but don't be too lazy, section 3.
+//! methods, section 2; Griewank & Walther 2008, Evaluating Derivatives, chapter 13.
 
 use super::Scalar;
 use super::instruction::{Instruction, Op};
 use super::program::{Program, with_registers};
 use super::record::{Recorded, Slot};
 
-/// Coefficients of a row. Sums go on in fours, up to three elements past the last coefficient.
+/// Coefficients of a row, a power of two.
 const STRIDE: usize = 32;
 
 /// No row is kept.
@@ -59,58 +58,57 @@ struct Step {
     product: u32,
 }
 
-/// Which numbers a product multiplies.
-#[derive(Clone, Copy, Debug)]
-struct Factors {
-    x: Slot,
-    y: Slot,
-    /// Whether xᵢ counts i times.
-    weighted: bool,
+/// Products that are summed together.
+const LANES: usize = 4;
+
+/// Σ xᵢ yⱼ over i, j ≥ 1 for four products, side by side.
+#[derive(Clone, Debug)]
+struct Products<T> {
+    /// Which numbers they multiply.
+    x_slots: [Slot; LANES],
+    y_slots: [Slot; LANES],
+    /// One where xᵢ counts i times, else zero.
+    weighted: [T; LANES],
+    /// Coefficients 1, 2, ….
+    x: [[T; LANES]; STRIDE],
+    y: [[T; LANES]; STRIDE],
 }
 
-/// Σ xᵢ yⱼ over i, j ≥ 1, and the coefficients that it comes from. Of these the first is number 1.
-#[derive(Clone, Copy, Debug)]
-pub struct Product<T> {
-    sum: Row<T>,
-    x: [[T; 4]; STRIDE / 4],
-    y: [[T; 4]; STRIDE / 4],
-}
-
-impl<T: Scalar> Product<T> {
-    fn zero() -> Self {
+impl<T: Scalar> Products<T> {
+    /// Products of zeros.
+    fn new() -> Self {
         Self {
-            sum: [T::zero(); STRIDE],
-            x: [[T::zero(); 4]; STRIDE / 4],
-            y: [[T::zero(); 4]; STRIDE / 4],
+            x_slots: [Recorded::ZERO.slot; LANES],
+            y_slots: [Recorded::ZERO.slot; LANES],
+            weighted: [T::zero(); LANES],
+            x: [[T::zero(); LANES]; STRIDE],
+            y: [[T::zero(); LANES]; STRIDE],
         }
     }
 
     /// What coefficients 1…k−1 give to coefficient k.
     #[inline(always)]
-    pub fn earlier(&self, k: usize) -> T {
-        self.sum[k % STRIDE]
-    }
-
-    /// Takes coefficient k: its products with coefficients 1…k−1, `FOURS` times four of them, go into later sums, and, if
-    /// there is a coefficient 2k, its own product.
-    #[inline(always)]
-    fn take<const FOURS: usize>(&mut self, k: usize, twice: Option<usize>, xk: T, yk: T) {
-        if let Some((later, _)) = self.sum.get_mut(k + 1..).map(|s| s.as_chunks_mut::<4>())
-            && let Some(later) = later.first_chunk_mut::<FOURS>()
-        {
-            let both = self.x.iter().zip(&self.y);
-            for (sum, (xs, ys)) in later.iter_mut().zip(both) {
-                for (sum, (&x, &y)) in sum.iter_mut().zip(xs.iter().zip(ys)) {
-                    *sum = xk.mul_add(y, yk.mul_add(x, *sum));
-                }
+    fn earlier(&self, k: usize) -> [T; LANES] {
+        let mut sum = [T::zero(); LANES];
+        let known = (k - 1) % STRIDE;
+        for (x, y) in self.x[..known].iter().zip(self.y[..known].iter().rev()) {
+            for lane in 0..LANES {
+                sum[lane] = x[lane].mul_add(y[lane], sum[lane]);
             }
         }
-        if let Some(twice) = twice {
-            let sum = &mut self.sum[twice % STRIDE];
-            *sum = xk.mul_add(yk, *sum);
+        sum
+    }
+
+    /// Takes coefficient k of the numbers.
+    #[inline(always)]
+    fn take<const N: usize>(&mut self, k: usize, now: &[T; N]) {
+        let extra = T::from_f64((k - 1) as f64);
+        let (x, y) = (&mut self.x[(k - 1) % STRIDE], &mut self.y[(k - 1) % STRIDE]);
+        for lane in 0..LANES {
+            let weight = T::one() + self.weighted[lane] * extra;
+            x[lane] = weight * now[self.x_slots[lane].index() & (N - 1)];
+            y[lane] = now[self.y_slots[lane].index() & (N - 1)];
         }
-        self.x.as_flattened_mut()[(k - 1) % STRIDE] = xk;
-        self.y.as_flattened_mut()[(k - 1) % STRIDE] = yk;
     }
 }
 
@@ -124,8 +122,11 @@ pub struct Expansion<T> {
     solves: bool,
     /// Operations that need a series to exist: where their arguments are.
     critical: Vec<(Operation, Slot, Slot)>,
-    factors: Vec<Factors>,
-    products: Vec<Product<T>>,
+    /// Number of products.
+    count: usize,
+    products: Vec<Products<T>>,
+    /// Of coefficient k, what earlier ones give to it, one by one.
+    sums: Vec<T>,
     /// The registers whose coefficients are kept: varying ones, then constant ones.
     kept: Vec<Slot>,
     varying: usize,
@@ -158,7 +159,7 @@ impl<T: Scalar> Expansion<T> {
             part.fixed.iter().for_each(|i| expansion.watch(i));
             for &instruction in &part.varying {
                 expansion.watch(&instruction);
-                let product = expansion.factors.len() as u32;
+                let product = expansion.count as u32;
                 expansion.products_of(&instruction);
                 let step = Step {
                     instruction,
@@ -180,7 +181,7 @@ impl<T: Scalar> Expansion<T> {
             expansion.keep(recorded.slot);
         }
         expansion.history = vec![[T::zero(); STRIDE]; expansion.kept.len()];
-        expansion.products = vec![Product::zero(); expansion.factors.len()];
+        expansion.sums = vec![T::zero(); expansion.products.len() * LANES];
         expansion
     }
 
@@ -195,20 +196,24 @@ impl<T: Scalar> Expansion<T> {
 
     /// Σ xᵢ yⱼ
     fn product(&mut self, x: Slot, y: Slot) {
-        self.factors.push(Factors {
-            x,
-            y,
-            weighted: false,
-        });
+        self.push_product(x, y, T::zero());
     }
 
     /// Σ i xᵢ yⱼ
     fn weighted(&mut self, x: Slot, y: Slot) {
-        self.factors.push(Factors {
-            x,
-            y,
-            weighted: true,
-        });
+        self.push_product(x, y, T::one());
+    }
+
+    fn push_product(&mut self, x: Slot, y: Slot, weighted: T) {
+        let lane = self.count % LANES;
+        if lane == 0 {
+            self.products.push(Products::new());
+        }
+        self.count += 1;
+        if let Some(last) = self.products.last_mut() {
+            (last.x_slots[lane], last.y_slots[lane]) = (x, y);
+            last.weighted[lane] = weighted;
+        }
     }
 
     /// The products of an instruction.
@@ -293,8 +298,8 @@ impl<T: Scalar> Expansion<T> {
     }
 
     /// Coefficients 1…`order` of everything, from values in the registers `first`. `integrals` are numbers with their rates;
-    /// register 1 is time. `solve` puts coefficient k of the caller's unknowns into the registers that it is given, from their
-    /// values and the products.
+    /// register 1 is time. `solve` puts coefficient k of the caller's unknowns into the registers that it is given; it gets
+    /// the values of all registers, and of each product what earlier coefficients give to coefficient k.
     #[inline]
     pub fn run(
         &mut self,
@@ -302,11 +307,9 @@ impl<T: Scalar> Expansion<T> {
         first: &mut [T],
         order: usize,
         integrals: &[(Slot, Slot)],
-        mut solve: impl FnMut(usize, &mut [T], &[T], &[Product<T>]),
+        mut solve: impl FnMut(usize, &mut [T], &[T], &[T]),
     ) {
         let order = order.min(MAX_ORDER);
-        self.history[..self.varying].fill([T::zero(); STRIDE]);
-        self.products.fill(Product::zero());
         for (row, slot) in self.history.iter_mut().zip(&self.kept) {
             row[0] = first[slot.index()];
         }
@@ -321,7 +324,7 @@ impl<T: Scalar> Expansion<T> {
         first: &[T; N],
         order: usize,
         integrals: &[(Slot, Slot)],
-        solve: &mut impl FnMut(usize, &mut [T], &[T], &[Product<T>]),
+        solve: &mut impl FnMut(usize, &mut [T], &[T], &[T]),
     ) {
         let mut now = core::mem::take(&mut self.now);
         let Some(registers) = now.first_chunk_mut::<N>() else {
@@ -336,40 +339,23 @@ impl<T: Scalar> Expansion<T> {
                 let rate = if k == 1 { first[rate] } else { registers[rate] };
                 registers[slot.index() & (N - 1)] = rate / weight;
             }
-            advance(&self.before, program, &self.products, k, first, registers);
-            if self.solves {
-                solve(k, registers, first, &self.products);
-                advance(&self.after, program, &self.products, k, first, registers);
+            let (sums, _) = self.sums.as_chunks_mut::<LANES>();
+            for (sums, products) in sums.iter_mut().zip(&self.products) {
+                *sums = products.earlier(k);
             }
-            match (k - 1).min(order - k).div_ceil(4) {
-                0 => self.multiply::<N, 0>(k, order, registers),
-                1 => self.multiply::<N, 1>(k, order, registers),
-                2 => self.multiply::<N, 2>(k, order, registers),
-                3 => self.multiply::<N, 3>(k, order, registers),
-                _ => self.multiply::<N, 4>(k, order, registers),
+            advance(&self.before, program, &self.sums, k, first, registers);
+            if self.solves {
+                solve(k, registers, first, &self.sums);
+                advance(&self.after, program, &self.sums, k, first, registers);
+            }
+            for products in &mut self.products {
+                products.take(k, registers);
             }
             for (row, slot) in self.history[..self.varying].iter_mut().zip(&self.kept) {
                 row[k % STRIDE] = registers[slot.index() & (N - 1)];
             }
         }
         self.now = now;
-    }
-
-    /// Coefficient k goes into the products.
-    #[inline(always)]
-    fn multiply<const N: usize, const FOURS: usize>(
-        &mut self,
-        k: usize,
-        order: usize,
-        now: &[T; N],
-    ) {
-        let twice = (2 * k <= order).then_some(2 * k);
-        let weights = [T::one(), T::from_f64(k as f64)];
-        let at = |slot: Slot| now[slot.index() & (N - 1)];
-        for (product, factors) in self.products.iter_mut().zip(&self.factors) {
-            let xk = weights[usize::from(factors.weighted)] * at(factors.x);
-            product.take::<FOURS>(k, twice, xk, at(factors.y));
-        }
     }
 
     /// Coefficients 0…`order` of a number that was wanted; of any other number, zeros.
@@ -390,7 +376,7 @@ impl<T: Scalar> Expansion<T> {
 fn advance<T: Scalar, const N: usize>(
     steps: &[Step],
     program: &Program,
-    products: &[Product<T>],
+    sums: &[T],
     k: usize,
     first: &[T; N],
     now: &mut [T; N],
@@ -405,7 +391,7 @@ fn advance<T: Scalar, const N: usize>(
         let Instruction { op, to, x, y } = instruction;
         let at = |slot: Slot| now[slot.index() & (N - 1)];
         let start = |slot: Slot| first[slot.index() & (N - 1)];
-        let sum = |number: usize| products[product as usize + number].earlier(k);
+        let sum = |number: usize| sums[product as usize + number];
         let value = match op {
             Op::Copy => at(x),
             Op::Add => at(x) + at(y),

@@ -20,7 +20,7 @@ mod tests;
 
 pub use direct::{Derivative, Value};
 pub use dual::Dual;
-pub use expansion::{Expansion, MAX_ORDER, Operation, Product};
+pub use expansion::{Expansion, MAX_ORDER, Operation};
 pub use program::Program;
 pub use record::{Recorded, Recorder, Recording, Slot, Variation};
 

@@ -26,6 +26,8 @@ pub(super) struct Compiled<T> {
     pub solver: Solver<T>,
     /// Whether the solver holds the factors of this plan.
     pub factored: bool,
+    /// Whether a tape may solve small systems itself.
+    pub on_tape: bool,
     /// Coordinates that cannot accelerate.
     pub pinned: Vec<usize>,
     tapes: Vec<Tape<T>>,
@@ -75,6 +77,7 @@ impl<T: Scalar> Compiled<T> {
             plan,
             solver,
             factored: false,
+            on_tape: true,
             tapes: Vec::new(),
             current: 0,
         }
@@ -90,6 +93,12 @@ impl<T: Scalar> Compiled<T> {
     #[inline]
     pub(super) fn parts(&mut self) -> (&Plan<T>, &mut Solver<T>, &mut Tape<T>) {
         (&self.plan, &mut self.solver, &mut self.tapes[self.current])
+    }
+
+    /// Leaves all systems to the solver from now on.
+    pub(super) fn leave_to_solver(&mut self) {
+        self.on_tape = false;
+        self.tapes.clear();
     }
 
     /// Makes the tape for what is asked current, recording it if there is none.

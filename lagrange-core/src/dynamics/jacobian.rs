@@ -52,7 +52,7 @@ impl<S: System> Dynamics<S> {
     fn known_solution(&mut self) -> Result<Vec<S::Scalar>, EvaluationError> {
         let n = S::DESCRIPTION.coordinates.len();
         let compiled = &self.modes[self.current];
-        let divides = compiled.tape().is_some_and(|tape| tape.divisor.is_some());
+        let divides = compiled.tape().is_some_and(|tape| tape.unsolved.is_none());
         let mut known = core::mem::take(&mut self.solution);
         if divides {
             let free = compiled.plan.elimination.free.iter();

@@ -10,8 +10,9 @@
 //! Reference: Griewank & Walther 2008, Evaluating Derivatives, section 13.2 (implicit relations).
 
 use super::tape::{REPORT, Tape};
+use super::values::Extent;
 use super::{Dynamics, EvaluationError};
-use crate::arithmetic::MAX_ORDER;
+use crate::arithmetic::{MAX_ORDER, Scalar};
 use crate::system::{Place, System};
 
 impl<S: System> Dynamics<S> {
@@ -30,8 +31,7 @@ impl<S: System> Dynamics<S> {
         let order = order.min(MAX_ORDER);
         self.work.series += 1;
         self.work.coefficients += order + 1;
-        self.select(v);
-        self.begin(t, q, v);
+        self.run(t, q, v, Extent::Everything, true)?;
         self.start_series(order)?;
         let Self {
             modes,
@@ -41,7 +41,7 @@ impl<S: System> Dynamics<S> {
         } = self;
         let (_, solver, tape) = modes[*current].parts();
         let Tape {
-            program,
+            everything: program,
             registers,
             expansion,
             integrals,
@@ -53,17 +53,16 @@ impl<S: System> Dynamics<S> {
             registers,
             order,
             integrals,
-            |k, now, first, products| {
+            |_, now, first, earlier| {
                 let Some(unsolved) = unsolved.as_ref() else {
                     return;
                 };
                 right.clear();
                 let sides = unsolved.right.iter();
                 right.extend(sides.map(|r| now[r.slot.index()]));
-                let elements = unsolved.elements.iter().zip(products);
-                for (&(equation, element, unknown), product) in elements {
-                    right[equation] -=
-                        now[element.index()] * first[unknown.index()] + product.earlier(k);
+                let elements = unsolved.elements.iter().zip(earlier);
+                for (&(equation, element, unknown), &earlier) in elements {
+                    right[equation] -= now[element.index()] * first[unknown.index()] + earlier;
                 }
                 solver.solve(right);
                 for (slot, &x) in unsolved.unknowns.iter().zip(&*right) {
@@ -78,9 +77,7 @@ impl<S: System> Dynamics<S> {
     fn start_series(&mut self, order: usize) -> Result<(), EvaluationError> {
         let (_, _, tape) = self.modes[self.current].parts();
         tape.order = order;
-        self.run_values(true)?;
-        let (_, _, tape) = self.modes[self.current].parts();
-        tape.program.evaluate(REPORT, &mut tape.registers);
+        tape.everything.evaluate(REPORT, &mut tape.registers);
         match tape.expansion.singular(&tape.registers) {
             Some(operation) => Err(EvaluationError::NoSeries { operation }),
             None => Ok(()),
@@ -97,9 +94,12 @@ impl<S: System> Dynamics<S> {
         self.input_series(1 + S::DESCRIPTION.coordinates.len() + i)
     }
 
-    /// Acceleration coefficients of coordinate `i`.
-    pub fn acceleration_series(&self, i: usize) -> &[S::Scalar] {
-        self.input_series(1 + 2 * S::DESCRIPTION.coordinates.len() + i)
+    /// Acceleration coefficients of coordinate `i`: one fewer.
+    pub fn acceleration_series(&self, i: usize) -> Vec<S::Scalar> {
+        let velocity = self.velocity_series(i).iter().enumerate().skip(1);
+        velocity
+            .map(|(k, &c)| S::Scalar::from_f64(k as f64) * c)
+            .collect()
     }
 
     /// Force coefficients of a row; zeros where it does not act.

@@ -4,10 +4,11 @@
 
 use super::compiled::{Asked, Compiled};
 use super::needs::NeedSet;
+use super::values::Extent;
 use crate::arithmetic::{
     Arithmetic, Expansion, Program, Recorded, Recorder, Recording, Scalar, Slot, Variation,
 };
-use crate::linear::Plan;
+use crate::linear::{Plan, positive_definite};
 use crate::system::{Description, Held, Place, System};
 
 /// Parts of the recording.
@@ -28,6 +29,32 @@ pub(super) struct Unsolved {
     pub elements: Vec<(usize, Slot, Slot)>,
 }
 
+/// A number that the tape divides by to solve the equations. Where it is not safe to do so the solver must.
+#[derive(Clone, Debug)]
+pub(super) struct Pivot {
+    element: Slot,
+    /// Elements that it must not be small against.
+    against: Vec<Slot>,
+    share: f64,
+    /// Whether it must be positive.
+    positive: bool,
+}
+
+impl Pivot {
+    /// Whether dividing by it is safe.
+    #[inline]
+    pub(super) fn is_safe<T: Scalar>(&self, registers: &[T]) -> bool {
+        let at = |slot: &Slot| registers[slot.index()].value();
+        let size = self
+            .against
+            .iter()
+            .fold(0.0, |size, slot| at(slot).abs().max(size));
+        let pivot = at(&self.element);
+        let pivot = if self.positive { pivot } else { pivot.abs() };
+        pivot > self.share * size && size > 0.0
+    }
+}
+
 /// The recorded equations of a mode, and their registers.
 #[derive(Clone, Debug)]
 pub(super) struct Tape<T> {
@@ -35,9 +62,9 @@ pub(super) struct Tape<T> {
     report: Option<NeedSet>,
     at_rest: bool,
     /// Motion, forces and report.
-    pub program: Program,
+    pub everything: Program,
     /// Accelerations alone.
-    pub accelerations: Program,
+    accelerations: Program,
     pub registers: Vec<T>,
     pub expansion: Expansion<T>,
     /// Order of the series held.
@@ -51,8 +78,8 @@ pub(super) struct Tape<T> {
     pub integrals: Vec<(Slot, Slot)>,
     /// None: the tape solves for the accelerations itself.
     pub unsolved: Option<Unsolved>,
-    /// What the tape divides by when it does: the only element of the matrix.
-    pub divisor: Option<Recorded>,
+    /// What it divides by when it does.
+    pub pivots: Vec<Pivot>,
 }
 
 struct Layout {
@@ -88,6 +115,16 @@ impl<T: Scalar> Tape<T> {
         self.at_rest
     }
 
+    /// Runs a part for values.
+    #[inline(always)]
+    pub(super) fn evaluate(&mut self, extent: Extent, part: usize) {
+        let program = match extent {
+            Extent::Everything => &self.everything,
+            Extent::Accelerations => &self.accelerations,
+        };
+        program.evaluate(part, &mut self.registers);
+    }
+
     /// Records the equations of a mode.
     pub(super) fn record<S: System<Scalar = T>>(
         scene: &S,
@@ -115,7 +152,7 @@ impl<T: Scalar> Tape<T> {
         plan.program.run(&mut a, &compiled.constants, &mut nodes);
         a.origin(0);
         let right = right_hand_sides(&mut a, plan, &nodes);
-        let (unknowns, divisor) = solve(&mut a, plan, &nodes, &inputs, n, &right);
+        let (unknowns, pivots) = solve(&mut a, compiled, &nodes, &inputs, n, &right);
         a.cut();
         forces(&mut a, compiled, n, &nodes, &unknowns, &right, &mut inputs);
         a.cut();
@@ -130,7 +167,7 @@ impl<T: Scalar> Tape<T> {
                 &mut report_nodes,
             );
         }
-        let solved = divisor.is_some() || plan.size() == 0;
+        let solved = !pivots.is_empty() || plan.size() == 0;
         let unsolved = (!solved).then(|| Unsolved {
             right: right[..plan.size()].to_vec(),
             unknowns: unknowns.iter().map(|x| x.slot).collect(),
@@ -141,8 +178,8 @@ impl<T: Scalar> Tape<T> {
                 .map(|e| (e.row, nodes[e.node].slot, unknowns[e.column].slot))
                 .collect(),
         });
-        // What is kept of a series.
-        let mut wanted = inputs.clone();
+        // What is kept of a series: accelerations are in the velocities.
+        let mut wanted = [&inputs[1..1 + 2 * n], &inputs[1 + 3 * n..]].concat();
         asked_places(d, asked.extra, &mut |place| {
             if let Place::Node(node) = place {
                 wanted.push(nodes[node]);
@@ -154,7 +191,11 @@ impl<T: Scalar> Tape<T> {
             None => (&[][..], &[][..]),
         };
         // What the solution needs besides.
-        let mut system: Vec<Slot> = sides.iter().chain(&divisor).map(|r| r.slot).collect();
+        let mut system: Vec<Slot> = sides.iter().map(|r| r.slot).collect();
+        for pivot in &pivots {
+            system.push(pivot.element);
+            system.extend_from_slice(&pivot.against);
+        }
         let matrix = plan.entries.iter().map(|e| Place::Node(e.node));
         for place in matrix.chain(plan.cancelling()) {
             if let Place::Node(node) = place {
@@ -162,10 +203,10 @@ impl<T: Scalar> Tape<T> {
             }
         }
         let slots = |list: &[Recorded]| list.iter().map(|r| r.slot).collect::<Vec<_>>();
-        let all = [slots(&wanted), system.clone()].concat();
-        let motion = [slots(&inputs[1 + 2 * n..1 + 3 * n]), system].concat();
+        let accelerations = [slots(&inputs[1 + 2 * n..1 + 3 * n]), system].concat();
+        let all = [&slots(&wanted)[..], &accelerations].concat();
         let program = Program::new(&mut recording, &all);
-        let accelerations = Program::new(&mut recording, &motion);
+        let accelerations = Program::new(&mut recording, &accelerations);
         let registers = recording.registers_filled();
         let products: Vec<_> = elements.iter().map(|&(_, e, u)| (e, u)).collect();
         let products = unsolved.is_some().then_some(&products[..]);
@@ -175,7 +216,7 @@ impl<T: Scalar> Tape<T> {
             extra: asked.extra.clone(),
             report: asked.report.cloned(),
             at_rest: asked.at_rest,
-            program,
+            everything: program,
             accelerations,
             registers,
             expansion,
@@ -187,7 +228,7 @@ impl<T: Scalar> Tape<T> {
             nodes,
             report_nodes,
             unsolved,
-            divisor,
+            pivots,
         }
     }
 
@@ -255,37 +296,135 @@ fn right_hand_sides<T: Scalar>(
         .collect()
 }
 
-/// The unknowns: solved for on the tape if there is one equation of motion, and by which element; else left to the solver.
+/// Largest system that a tape solves.
+const MOST_ON_TAPE: usize = 3;
+
+/// The unknowns: solved for on the tape, by which pivots, if there are only a few accelerations; else left to the solver.
 fn solve<T: Scalar>(
     a: &mut Recorder<'_, T>,
-    plan: &Plan<T>,
+    compiled: &Compiled<T>,
     nodes: &[Recorded],
     inputs: &[Recorded],
     n: usize,
     right: &[Recorded],
-) -> (Vec<Recorded>, Option<Recorded>) {
-    if plan.size() == 1 && plan.free() == 1 {
-        let to = a.fresh();
-        let changing = plan.entries.iter().map(|e| (T::one(), nodes[e.node]));
-        let sum = a.push_sum(to.index(), changing);
-        let to = a.fresh();
-        let element = a.offset(to.index(), plan.constant[0], sum);
-        if !element.is_zero() {
-            let to = inputs[1 + 2 * n + plan.elimination.free[0]].slot;
-            let quotient = if right[0].is_zero() {
-                Recorded::ZERO
-            } else {
-                a.div(to.index(), right[0], element)
-            };
-            return (vec![quotient], Some(element));
-        }
+) -> (Vec<Recorded>, Vec<Pivot>) {
+    let plan = &compiled.plan;
+    let size = plan.size();
+    if compiled.on_tape && plan.kept.is_empty() && (1..=MOST_ON_TAPE).contains(&size) {
+        return eliminate(a, plan, nodes, 2 + 2 * n, right);
     }
-    let unknowns = (0..plan.size()).map(|column| {
+    let unknowns = (0..size).map(|column| {
         let free = plan.elimination.free.get(column);
         let own = || a.fresh();
         Recorded::varying(free.map_or_else(own, |&j| inputs[1 + 2 * n + j].slot))
     });
-    (unknowns.collect(), None)
+    (unknowns.collect(), Vec::new())
+}
+
+/// Gaussian elimination without row exchanges, on the tape; accelerations begin at that register.
+fn eliminate<T: Scalar>(
+    a: &mut Recorder<'_, T>,
+    plan: &Plan<T>,
+    nodes: &[Recorded],
+    accelerations: usize,
+    right: &[Recorded],
+) -> (Vec<Recorded>, Vec<Pivot>) {
+    let size = plan.size();
+    let mut matrix = vec![vec![Recorded::ZERO; size]; size];
+    for (i, row) in matrix.iter_mut().enumerate() {
+        for (j, element) in row.iter_mut().enumerate() {
+            let entries = plan.entries.iter().filter(|e| (e.row, e.column) == (i, j));
+            let to = a.fresh();
+            let changing = a.push_sum(to.index(), entries.map(|e| (T::one(), nodes[e.node])));
+            let to = a.fresh();
+            *element = a.offset(to.index(), plan.constant[i * size + j], changing);
+        }
+    }
+    // Rows with few elements first: they leave the others as they are. The order holds for rows and columns alike.
+    let mut order: Vec<usize> = (0..size).collect();
+    order.sort_by_key(|&i| {
+        let others = (0..size).filter(|&j| j != i);
+        let count = others.filter(|&j| !(matrix[i][j].is_zero() && matrix[j][i].is_zero()));
+        (count.count(), matrix[i][i].varies(), i)
+    });
+    let mut b = right[..size].to_vec();
+    let mut pivots = Vec::new();
+    let diagonal: Vec<Recorded> = (0..size).map(|i| matrix[i][i]).collect();
+    for (step, &p) in order.iter().enumerate() {
+        let rest = &order[step + 1..];
+        pivots.push(pivot(plan, &matrix, diagonal[p], p, rest));
+        for &i in rest
+            .iter()
+            .filter(|&&i| !matrix[i][p].is_zero())
+            .collect::<Vec<_>>()
+        {
+            let to = a.fresh();
+            let factor = a.div(to.index(), matrix[i][p], matrix[p][p]);
+            for &j in rest {
+                let mirrored = plan.elimination.symmetric && j < i && !matrix[j][p].is_zero();
+                if mirrored && rest.iter().position(|&x| x == j) < rest.iter().position(|&x| x == i)
+                {
+                    matrix[i][j] = matrix[j][i];
+                    continue;
+                }
+                matrix[i][j] = subtract(a, matrix[i][j], factor, matrix[p][j]);
+            }
+            b[i] = subtract(a, b[i], factor, b[p]);
+        }
+    }
+    let mut x = vec![Recorded::ZERO; size];
+    for (step, &p) in order.iter().enumerate().rev() {
+        let mut sum = b[p];
+        for &j in &order[step + 1..] {
+            sum = subtract(a, sum, matrix[p][j], x[j]);
+        }
+        if !sum.is_zero() {
+            let to = accelerations + plan.elimination.free[p];
+            x[p] = a.div(to, sum, matrix[p][p]);
+        }
+    }
+    (x, pivots)
+}
+
+/// What makes it safe to divide by element p of the diagonal, which was `original` before the elimination.
+fn pivot<T: Scalar>(
+    plan: &Plan<T>,
+    matrix: &[Vec<Recorded>],
+    original: Recorded,
+    p: usize,
+    rest: &[usize],
+) -> Pivot {
+    /// Factors up to this size lose two digits.
+    const SMALLEST: f64 = 0.01;
+    let element = matrix[p][p].slot;
+    if plan.elimination.symmetric {
+        return Pivot {
+            element,
+            against: vec![original.slot],
+            share: positive_definite::<T>(),
+            positive: true,
+        };
+    }
+    let below = rest.iter().map(|&i| matrix[i][p]).filter(|e| !e.is_zero());
+    Pivot {
+        element,
+        against: core::iter::once(element)
+            .chain(below.map(|e| e.slot))
+            .collect(),
+        share: SMALLEST,
+        positive: false,
+    }
+}
+
+/// x − y z
+fn subtract<T: Scalar>(a: &mut Recorder<'_, T>, x: Recorded, y: Recorded, z: Recorded) -> Recorded {
+    if y.is_zero() || z.is_zero() {
+        return x;
+    }
+    let to = a.fresh();
+    let product = a.mul(to.index(), y, z);
+    let to = a.fresh();
+    a.sub(to.index(), x, product)
 }
 
 /// Accelerations and forces from the unknowns, into the inputs of the report.

@@ -6,7 +6,15 @@ use super::{Dynamics, EvaluationError};
 use crate::arithmetic::{Scalar, Value};
 use crate::linear::{Inertia, SolveError, epsilon};
 use crate::system::{Held, Place, System};
-use num_traits::Zero;
+
+/// How much of a tape runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Extent {
+    /// Everything that was asked for.
+    Everything,
+    /// What the accelerations need.
+    Accelerations,
+}
 
 impl<S: System> Dynamics<S> {
     /// Accelerations and forces at (t, q, v): then read [`Self::acceleration`], [`Self::force`], [`Self::motion`].
@@ -22,9 +30,7 @@ impl<S: System> Dynamics<S> {
         v: &[S::Scalar],
     ) -> Result<(), EvaluationError> {
         self.work.values += 1;
-        self.select(v);
-        self.begin(t, q, v);
-        self.run_values(false)?;
+        self.run(t, q, v, Extent::Everything, false)?;
         self.check_accelerations()?;
         let (_, _, tape) = self.modes[self.current].parts();
         let count = self.inputs.len();
@@ -33,13 +39,37 @@ impl<S: System> Dynamics<S> {
         Ok(())
     }
 
-    /// Motion and forces from the state in the registers.
-    pub(super) fn run_values(&mut self, refined: bool) -> Result<(), EvaluationError> {
+    /// Motion and forces at (t, q, v), into the registers. `refined`: what rounding leaves in the forces step after step is
+    /// taken out.
+    #[inline]
+    pub(super) fn run(
+        &mut self,
+        t: S::Scalar,
+        q: &[S::Scalar],
+        v: &[S::Scalar],
+        extent: Extent,
+        refined: bool,
+    ) -> Result<(), EvaluationError> {
+        self.select(v);
         let (_, _, tape) = self.modes[self.current].parts();
-        tape.program.evaluate(MOTION, &mut tape.registers);
-        self.solve_start(refined)?;
+        let n = q.len();
+        tape.registers[1] = t;
+        tape.registers[2..2 + n].copy_from_slice(q);
+        tape.registers[2 + n..2 + 2 * n].copy_from_slice(v);
+        tape.evaluate(extent, MOTION);
+        if tape.unsolved.is_some() {
+            self.solve_start(refined)?;
+        } else if !tape
+            .pivots
+            .iter()
+            .all(|pivot| pivot.is_safe(&tape.registers))
+        {
+            self.modes[self.current].leave_to_solver();
+            self.selected = false;
+            return self.run(t, q, v, extent, refined);
+        }
         let (_, _, tape) = self.modes[self.current].parts();
-        tape.program.evaluate(FORCES, &mut tape.registers);
+        tape.evaluate(extent, FORCES);
         Ok(())
     }
 
@@ -52,13 +82,7 @@ impl<S: System> Dynamics<S> {
         v: &[S::Scalar],
     ) -> Result<&[S::Scalar], EvaluationError> {
         self.work.values += 1;
-        self.select(v);
-        self.begin(t, q, v);
-        let (_, _, tape) = self.modes[self.current].parts();
-        tape.accelerations.evaluate(MOTION, &mut tape.registers);
-        self.solve_start(false)?;
-        let (_, _, tape) = self.modes[self.current].parts();
-        tape.accelerations.evaluate(FORCES, &mut tape.registers);
+        self.run(t, q, v, Extent::Accelerations, false)?;
         self.check_accelerations()?;
         let n = q.len();
         let (_, _, tape) = self.modes[self.current].parts();
@@ -81,29 +105,8 @@ impl<S: System> Dynamics<S> {
         }
     }
 
-    /// The state into the registers.
-    #[inline]
-    pub(super) fn begin(&mut self, t: S::Scalar, q: &[S::Scalar], v: &[S::Scalar]) {
-        let (_, _, tape) = self.modes[self.current].parts();
-        let n = q.len();
-        tape.registers[1] = t;
-        tape.registers[2..2 + n].copy_from_slice(q);
-        tape.registers[2 + n..2 + 2 * n].copy_from_slice(v);
-    }
-
-    /// Solves for the unknowns, from values in the registers, unless the tape does. `refined`: what rounding leaves in the
-    /// forces step after step is taken out.
-    #[inline]
-    pub(super) fn solve_start(&mut self, refined: bool) -> Result<(), EvaluationError> {
-        let (_, _, tape) = self.modes[self.current].parts();
-        if tape.unsolved.is_none() {
-            return match tape.divisor {
-                Some(x) if tape.registers[x.slot.index()].is_zero() => {
-                    Err(self.solve_error(SolveError::Undetermined { unknown: 0 }))
-                }
-                _ => Ok(()),
-            };
-        }
+    /// Solves for the unknowns, from values in the registers.
+    fn solve_start(&mut self, refined: bool) -> Result<(), EvaluationError> {
         self.factor()?;
         self.fill_right();
         let Self {

@@ -11,7 +11,7 @@ use crate::arithmetic::Scalar;
 
 /// A pivot of M below this share of its diagonal element has lost 10 of 16 digits: M is not safely positive definite.
 #[inline(always)]
-fn safe<T: Scalar>() -> f64 {
+pub(crate) fn positive_definite<T: Scalar>() -> f64 {
     524_288.0 * epsilon::<T>()
 }
 
@@ -57,7 +57,7 @@ impl<T: Scalar> Direct<T> {
         for step in 0..leading {
             let diagonal = matrix[step * size + step].value();
             // Not "<=": a NaN is not safe either.
-            if !(self.factors[step * size + step].value() > safe::<T>() * diagonal
+            if !(self.factors[step * size + step].value() > positive_definite::<T>() * diagonal
                 && diagonal > 0.0)
             {
                 return false;

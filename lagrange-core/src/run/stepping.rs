@@ -3,12 +3,15 @@
 use super::Run;
 use super::hits::Hit;
 use crate::arithmetic::Scalar;
+use crate::dynamics::EvaluationError;
 use crate::error::Error;
 use crate::integrate::taylor::{self, DefectControl, Verdict};
 use crate::integrate::{Integrator, Method, StepError};
 use crate::system::System;
+use crate::trajectory::State;
 
 /// What makes the polynomials of a step.
+#[derive(Debug)]
 pub(super) enum Stepper<T> {
     /// Taylor series.
     Taylor(DefectControl),
@@ -36,7 +39,7 @@ impl<T: Scalar> Stepper<T> {
     }
 }
 
-impl<S: System> Run<'_, S> {
+impl<S: System> Run<S> {
     /// Makes a step from the present state and finds what happens first in it.
     pub(super) fn accepted_step(&mut self) -> Result<Hit, Error> {
         match &self.stepper {
@@ -46,13 +49,7 @@ impl<S: System> Run<'_, S> {
     }
 
     fn taylor_step(&mut self) -> Result<Hit, Error> {
-        if !self.expanded {
-            let outcome = self
-                .dynamics
-                .series(self.t, &self.state.q, &self.state.v, self.order);
-            outcome.map_err(|e| self.error(e))?;
-            self.expanded = true;
-        }
+        self.expand()?;
         let longest = self.end - self.t.value();
         let mut h = taylor::step_size(&self.dynamics, self.order, self.tolerance)
             .ok_or_else(|| self.not_finite("a Taylor coefficient"))?
@@ -62,42 +59,25 @@ impl<S: System> Run<'_, S> {
                 return Err(self.step_too_small(h));
             }
             self.write_polynomial(h);
-            let mut curves = core::mem::take(&mut self.curves);
-            curves.take_series(&self.dynamics, &self.mode, &self.guards, h);
-            let hit = self.first_hit(&curves);
-            self.curves = curves;
+            self.curves
+                .take_series(&self.dynamics, &self.mode, &self.guards, &self.powers);
+            let hit = self.first_hit();
             let end = hit.end();
             if end == 0.0 {
                 return Ok(hit);
             }
-            // The next step's own first evaluation would do; made here, it also serves the event log.
-            let s = S::Scalar::from_f64(end);
-            self.step
-                .state_into(s, &mut self.scratch.q, &mut self.scratch.v);
-            let defect =
-                match self
-                    .dynamics
-                    .value(self.step.time(s), &self.scratch.q, &self.scratch.v)
-                {
-                    Ok(()) => {
-                        let motion = taylor::defect(
-                            &self.step,
-                            end,
-                            self.dynamics.acceleration(),
-                            self.tolerance,
-                        );
-                        let guards = self.curves.defect(
-                            &mut self.dynamics,
-                            &self.mode,
-                            &self.guards,
-                            end,
-                            self.simulation.tolerance,
-                        );
-                        // Not the larger of a number and a NaN, which would be the number.
-                        if guards <= motion { motion } else { guards }
-                    }
-                    Err(_) => f64::INFINITY,
-                };
+            // Evaluated here, the end of the step also serves the event log.
+            let defect = if self.evaluate_end(end).is_ok() {
+                let accelerations = self.dynamics.acceleration();
+                let motion = taylor::defect(&self.step, end, accelerations, self.tolerance);
+                let (guards, tolerance) = (&self.guards, self.tolerance.relative);
+                let curves = &self.curves;
+                let guards = curves.defect(&mut self.dynamics, &self.mode, guards, end, tolerance);
+                // Not the larger of a number and a NaN, which would be the number.
+                if guards <= motion { motion } else { guards }
+            } else {
+                f64::INFINITY
+            };
             let Stepper::Taylor(control) = &mut self.stepper else {
                 return Ok(hit);
             };
@@ -111,24 +91,32 @@ impl<S: System> Run<'_, S> {
         }
     }
 
+    /// The state at part `end` of the step, in `scratch`, and the equations of motion there.
+    fn evaluate_end(&mut self, end: f64) -> Result<(), EvaluationError> {
+        let s = S::Scalar::from_f64(end);
+        let State { q, v } = &mut self.scratch;
+        self.step.state_into(s, q, v);
+        self.dynamics.value(self.step.time(s), q, v)
+    }
+
     /// Scales the series onto a step of length `h`.
     fn write_polynomial(&mut self, h: f64) {
         self.step.set_degree(self.order);
         self.step.t = self.t;
         self.step.h = S::Scalar::from_f64(h);
-        let h = S::Scalar::from_f64(h);
+        self.powers.clear();
+        let powers = core::iter::successors(Some(1.0), |power| Some(power * h));
+        self.powers.extend(powers.take(self.order + 1));
         for i in 0..S::DESCRIPTION.coordinates.len() {
             let (q, v) = self.step.rows_mut(i);
-            let mut power = num_traits::one::<S::Scalar>();
-            let series = self
-                .dynamics
-                .position_series(i)
-                .iter()
-                .zip(self.dynamics.velocity_series(i));
-            for ((q, v), (x, y)) in q.iter_mut().zip(v).zip(series) {
-                *q = *x * power;
-                *v = *y * power;
-                power *= h;
+            let series = [
+                (q, self.dynamics.position_series(i)),
+                (v, self.dynamics.velocity_series(i)),
+            ];
+            for (row, series) in series {
+                for ((scaled, &c), &power) in row.iter_mut().zip(series).zip(&self.powers) {
+                    *scaled = c * S::Scalar::from_f64(power);
+                }
             }
         }
     }
@@ -171,8 +159,7 @@ impl<S: System> Run<'_, S> {
                 });
             }
         }
-        let mut curves = core::mem::take(&mut self.curves);
-        let sampled = curves.sample(
+        let sampled = self.curves.sample(
             &mut self.dynamics,
             &self.mode,
             &self.guards,
@@ -180,9 +167,12 @@ impl<S: System> Run<'_, S> {
             &mut self.scratch.q,
             &mut self.scratch.v,
         );
-        let hit = sampled.map(|()| self.first_hit(&curves));
-        self.curves = curves;
-        hit.map_err(|e| self.error(e))
+        sampled.map_err(|e| self.error(e))?;
+        let hit = self.first_hit();
+        if hit.end() > 0.0 {
+            self.evaluate_end(hit.end()).map_err(|e| self.error(e))?;
+        }
+        Ok(hit)
     }
 
     fn step_too_small(&self, step: f64) -> Error {
@@ -205,7 +195,7 @@ impl<S: System> Run<'_, S> {
 
     /// Moves the state back onto the constraints of the mode where its residual calls for it (`always`: in any case).
     pub(super) fn project(&mut self, always: bool) -> Result<(), Error> {
-        let tolerance = 1e-2 * self.simulation.tolerance.max(1e-14);
+        let tolerance = 1e-2 * self.settings.tolerance.max(1e-14);
         let outcome = self.dynamics.project(
             self.t,
             &mut self.state.q,
@@ -215,6 +205,8 @@ impl<S: System> Run<'_, S> {
         match outcome {
             Ok(changed) => {
                 self.trajectory.work.projections += usize::from(changed);
+                self.valued &= !changed;
+                self.expanded &= !changed;
                 Ok(())
             }
             Err(e) => Err(self.error(e)),

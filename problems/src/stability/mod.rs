@@ -112,12 +112,6 @@ pub static CASES: &[Case] = &[
         measure: bounces::cradle,
     },
     Case {
-        name: "rocking-block",
-        scene: "rocking-block",
-        trouble: "impacts alternate between corners, ever faster",
-        measure: bounces::rocking_block,
-    },
-    Case {
         name: "string-pendulum",
         scene: "string-pendulum",
         trouble: "the string pushes, or snaps back softly",
@@ -148,27 +142,15 @@ pub static CASES: &[Case] = &[
         measure: frictions::coulomb_oscillator,
     },
     Case {
-        name: "rod-on-supports",
-        scene: "rod-on-supports",
-        trouble: "undetermined friction forces decide when it slips",
-        measure: frictions::rod_on_supports,
-    },
-    Case {
         name: "painleve-rod",
         scene: "painleve-rod",
         trouble: "no answer, or two: silently wrong",
         measure: frictions::painleve_rod,
     },
     Case {
-        name: "parallelogram",
-        scene: "parallelogram",
-        trouble: "one condition too many, two at dead positions",
-        measure: constraints::parallelogram,
-    },
-    Case {
         name: "slider-crank",
         scene: "slider-crank",
-        trouble: "a condition without gradient: stuck, or wrong branch",
+        trouble: "the slider stands still while the crank turns: stuck",
         measure: constraints::slider_crank,
     },
     Case {
