@@ -173,6 +173,7 @@ impl<S: System<Scalar = f64> + Default> Scene for Entry<S> {
             system: &system,
             start,
             until,
+            max_steps: 400_000,
         };
         accuracy::measure(self.name, &course, study, closed_form)
     }

@@ -85,7 +85,8 @@ impl<S: System> Run<S> {
             if root.direction == Direction::Falling && !root.grazing {
                 return Some((root.s, 0.5 * root.width));
             }
-            from = root.s;
+            // A root that rounding puts at 0 must not be found again.
+            from = root.s.max(f64::MIN_POSITIVE);
             if from >= 1.0 {
                 break;
             }

@@ -6,8 +6,8 @@ use lagrange_core::dynamics::Dynamics;
 use lagrange_core::prelude::*;
 use std::time::Instant;
 
-/// Most steps of a run: what needs more is no choice for this scene.
-const MAX_STEPS: usize = 400_000;
+/// Most events of a run: what has more goes in circles.
+const MAX_EVENTS: usize = 10_000;
 
 /// A system, and the run of it that a study is about.
 pub(crate) struct Course<'a, S> {
@@ -17,6 +17,8 @@ pub(crate) struct Course<'a, S> {
     pub start: State<f64>,
     /// Last time, s.
     pub until: f64,
+    /// Most steps of a run: what needs more is no choice for this scene.
+    pub max_steps: usize,
 }
 
 impl<S: System<Scalar = f64>> Course<'_, S> {
@@ -24,7 +26,8 @@ impl<S: System<Scalar = f64>> Course<'_, S> {
         Simulation::new(self.system)
             .method(setting.method)
             .tolerance(setting.tolerance)
-            .max_steps(MAX_STEPS)
+            .max_steps(self.max_steps)
+            .max_events(MAX_EVENTS)
     }
 
     /// Runs it.
