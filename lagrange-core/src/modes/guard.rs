@@ -70,6 +70,11 @@ impl Series {
         self.coefficients[..order].fill(0.0);
     }
 
+    /// Leaves out the coefficients above `degree`.
+    pub fn truncate(&mut self, degree: usize) {
+        self.length = self.length.min(degree + 1);
+    }
+
     /// Adds `factor` times a series.
     fn add<T: Scalar>(&mut self, factor: f64, terms: Terms<T>) {
         let series = terms.as_slice();

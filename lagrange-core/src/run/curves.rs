@@ -82,6 +82,12 @@ impl Curves {
         }
     }
 
+    /// Leaves out what is above `degree`.
+    pub(super) fn truncate(&mut self, degree: usize) {
+        let all = self.guards.iter_mut().chain(&mut self.stops);
+        all.chain(&mut self.marks).for_each(|curve| curve.truncate(degree));
+    }
+
     /// How far the polynomials are off at part `s` of the step, in units of what is allowed; `dynamics` holds the values of
     /// the state there.
     ///

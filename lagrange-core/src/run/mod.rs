@@ -3,6 +3,7 @@
 mod accumulation;
 mod curves;
 mod hits;
+mod singular;
 mod stepping;
 mod switch;
 #[cfg(test)]
@@ -22,10 +23,14 @@ use accumulation::Impacts;
 use core::ops::Range;
 use curves::Curves;
 use hits::Hit;
+use singular::Rank;
 use stepping::Stepper;
 
 /// This many events without any progress in time are a livelock.
 const MOST_EVENTS_AT_ONCE: usize = 40;
+
+/// Nearer than this to a loss of rank what is left of a residual is amplified: it is taken away to the last bit.
+const NEAR: f64 = 0.7;
 
 /// The state of a run.
 pub(crate) struct Run<'a, S: System> {
@@ -57,6 +62,10 @@ pub(crate) struct Run<'a, S: System> {
     scratch: State<S::Scalar>,
     /// Per contact: its impacts so far.
     impacts: Vec<Impacts>,
+    /// Watches for positions where constraints lose rank.
+    rank: Rank,
+    /// Distance from such a position at the start of the coming step.
+    distance: f64,
     /// Modes of the switches since time last advanced.
     stuck: Vec<Mode>,
     finished: bool,
@@ -109,6 +118,8 @@ impl<'a, S: System> Run<'a, S> {
             step: StepPolynomial::new(d.coordinates.len(), 1),
             curves: Curves::new::<S>(),
             impacts: vec![Impacts::default(); d.contacts.len()],
+            rank: Rank::new::<S>(),
+            distance: 1.0,
             stuck: Vec::new(),
             finished: false,
             trajectory,
@@ -172,7 +183,7 @@ impl<'a, S: System> Run<'a, S> {
             self.stuck.clear();
             self.zeros.clear();
             self.expanded = false;
-            self.project(false)?;
+            self.project(self.distance < NEAR)?;
         }
         match hit {
             Hit::Nothing => Ok(()),

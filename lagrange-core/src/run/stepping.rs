@@ -8,6 +8,19 @@ use crate::integrate::taylor::{self, DefectControl, Verdict};
 use crate::integrate::{Integrator, Method, StepError};
 use crate::system::System;
 
+/// A step may come nearer to a position where the constraints lose rank, or to its other side, by this factor.
+const NEARER: f64 = 0.35;
+/// Else it is tried this much longer, over that position,
+const LEAP: f64 = 1.5;
+/// if the error is no more than so many times what is allowed for a step,
+const MOST_DEFECT: f64 = 30.0;
+/// with any degree from this on,
+const LEAST_DEGREE: usize = 6;
+/// and then this much shorter,
+const RETREAT: f64 = 0.75;
+/// so many times.
+const MOST_RETREATS: usize = 5;
+
 /// What makes the polynomials of a step.
 pub(super) enum Stepper<T> {
     /// Taylor series.
@@ -57,11 +70,12 @@ impl<S: System> Run<'_, S> {
         let mut h = taylor::step_size(&self.dynamics, self.order, self.tolerance)
             .ok_or_else(|| self.not_finite("a Taylor coefficient"))?
             .min(longest);
+        let mut closer = 0;
         loop {
             if self.t.value() + h <= self.t.value() {
                 return Err(self.step_too_small(h));
             }
-            self.write_polynomial(h);
+            self.write_polynomial(h, self.order);
             let mut curves = core::mem::take(&mut self.curves);
             curves.take_series(&self.dynamics, &self.mode, &self.guards, h);
             let hit = self.first_hit(&curves);
@@ -101,8 +115,22 @@ impl<S: System> Run<'_, S> {
             let Stepper::Taylor(control) = &mut self.stepper else {
                 return Ok(hit);
             };
+            // A step must not end where the constraints lose rank.
+            let distance = self.rank.distance(&self.dynamics);
+            if distance < NEARER * self.distance && closer < MOST_RETREATS {
+                if closer == 0 && self.leap(LEAP * h)? {
+                    return Ok(Hit::Nothing);
+                }
+                closer += 1;
+                self.trajectory.work.rejected += 1;
+                h *= RETREAT;
+                continue;
+            }
             match control.judge(h, defect, self.order) {
-                Verdict::Accept => return Ok(hit),
+                Verdict::Accept => {
+                    self.distance = distance;
+                    return Ok(hit);
+                }
                 Verdict::Redo { h: smaller } => {
                     self.trajectory.work.rejected += 1;
                     h = smaller;
@@ -111,9 +139,61 @@ impl<S: System> Run<'_, S> {
         }
     }
 
-    /// Scales the series onto a step of length `h`.
-    fn write_polynomial(&mut self, h: f64) {
-        self.step.set_degree(self.order);
+    /// Tries a step of length `h` over a position where the constraints lose rank.
+    ///
+    /// Rounding enters the equations amplified and grows through the coefficients as if the solution had a pole there; the
+    /// truncation error falls with the order. The order with the least defect beyond is the best compromise. False if none
+    /// is good enough.
+    fn leap(&mut self, h: f64) -> Result<bool, Error> {
+        if h > self.end - self.t.value() {
+            return Ok(false);
+        }
+        let mut best = (MOST_DEFECT, None);
+        for degree in LEAST_DEGREE..=self.order {
+            if let Some((defect, distance)) = self.beyond(h, degree)
+                && defect < best.0
+                && distance >= NEARER * NEARER * self.distance
+            {
+                best = (defect, Some(degree));
+            }
+        }
+        let Some(degree) = best.1 else {
+            return Ok(false);
+        };
+        match self.beyond(h, degree) {
+            Some((_, distance)) => self.distance = distance,
+            None => return Ok(false),
+        }
+        Ok(true)
+    }
+
+    /// Defect and distance from a loss of rank at the end of a step of length `h` with a polynomial of this degree; nothing
+    /// if it cannot be evaluated there or something happens on the way.
+    fn beyond(&mut self, h: f64, degree: usize) -> Option<(f64, f64)> {
+        self.write_polynomial(h, degree);
+        let mut curves = core::mem::take(&mut self.curves);
+        curves.take_series(&self.dynamics, &self.mode, &self.guards, h);
+        curves.truncate(degree);
+        let hit = self.first_hit(&curves);
+        self.curves = curves;
+        let one = S::Scalar::from_f64(1.0);
+        self.step
+            .state_into(one, &mut self.scratch.q, &mut self.scratch.v);
+        let time = self.step.time(one);
+        let outcome = self
+            .dynamics
+            .value(time, &self.scratch.q, &self.scratch.v);
+        if hit != Hit::Nothing || outcome.is_err() {
+            return None;
+        }
+        let acceleration = self.dynamics.acceleration();
+        let defect = taylor::defect(&self.step, 1.0, acceleration, self.tolerance);
+        Some((defect, self.rank.distance(&self.dynamics)))
+    }
+
+    /// Scales the series, up to `degree`, onto a step of length `h`.
+    fn write_polynomial(&mut self, h: f64, degree: usize) {
+        self.step.set_degree(degree);
         self.step.t = self.t;
         self.step.h = S::Scalar::from_f64(h);
         let h = S::Scalar::from_f64(h);
