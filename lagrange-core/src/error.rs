@@ -121,6 +121,8 @@ pub enum Error {
         /// Last time, s.
         last: f64,
     },
+    /// Something was asked of the motion between the events of a run that did not record it.
+    NotRecorded,
     /// The scene has something that this version of the core, or the chosen method, cannot do.
     Unsupported {
         /// What.
@@ -231,6 +233,9 @@ impl fmt::Display for Error {
             }
             Error::OutsideTrajectory { time, first, last } => {
                 write!(f, "t = {time} is outside the trajectory [{first}, {last}]")
+            }
+            Error::NotRecorded => {
+                write!(f, "the run kept its events only; leave `record(false)` out")
             }
             Error::Unsupported {
                 what,

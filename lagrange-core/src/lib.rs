@@ -13,6 +13,7 @@ pub mod integrate;
 mod linear;
 pub mod mode;
 mod modes;
+mod pool;
 pub mod prelude;
 mod run;
 pub mod simulation;
@@ -22,4 +23,5 @@ pub mod trajectory;
 pub use error::Error;
 #[cfg(feature = "derive")]
 pub use lagrange_macros::Lagrangian;
+pub use run::Runner;
 pub use simulation::{Failure, Held, Simulation};

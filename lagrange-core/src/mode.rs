@@ -45,7 +45,7 @@ impl Sliding {
 }
 
 /// The mode of a system. Lengths are those of the description's lists.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub struct Mode {
     /// Which contacts are closed.
     pub contacts: Vec<bool>,
@@ -53,6 +53,23 @@ pub struct Mode {
     pub frictions: Vec<FrictionMode>,
     /// Bit `i`: branch `i` is on its `then` side.
     pub branches: Vec<u64>,
+}
+
+impl Clone for Mode {
+    fn clone(&self) -> Self {
+        Self {
+            contacts: self.contacts.clone(),
+            frictions: self.frictions.clone(),
+            branches: self.branches.clone(),
+        }
+    }
+
+    // A run changes its mode without allocating.
+    fn clone_from(&mut self, source: &Self) {
+        self.contacts.clone_from(&source.contacts);
+        self.frictions.clone_from(&source.frictions);
+        self.branches.clone_from(&source.branches);
+    }
 }
 
 impl Mode {
@@ -63,6 +80,13 @@ impl Mode {
             frictions: vec![FrictionMode::Inactive; description.frictions.len()],
             branches: vec![0; description.branches.len().div_ceil(64)],
         }
+    }
+
+    /// Back to [`Self::open`].
+    pub(crate) fn clear(&mut self) {
+        self.contacts.fill(false);
+        self.frictions.fill(FrictionMode::Inactive);
+        self.branches.fill(0);
     }
 
     /// Whether branch `index` is on its `then` side.

@@ -5,7 +5,7 @@ use crate::effects::Effects;
 use crate::error::Error;
 use crate::integrate::Method;
 use crate::modes::start;
-use crate::run::Run;
+use crate::run::Runner;
 use crate::system::System;
 use crate::trajectory::{State, Trajectory};
 use core::fmt;
@@ -14,13 +14,20 @@ use core::ops::Range;
 /// How to run a system. Build it, set what differs from the defaults, call [`Simulation::run`].
 #[derive(Clone, Debug)]
 pub struct Simulation<'a, S: System> {
-    pub(crate) scene: &'a S,
-    pub(crate) effects: Effects,
-    pub(crate) tolerance: f64,
-    pub(crate) method: Method,
-    pub(crate) project_start: bool,
-    pub(crate) max_events: usize,
-    pub(crate) max_steps: usize,
+    scene: &'a S,
+    settings: Settings,
+}
+
+/// Everything about a run but the system.
+#[derive(Clone, Debug)]
+pub(crate) struct Settings {
+    pub effects: Effects,
+    pub tolerance: f64,
+    pub method: Method,
+    pub project_start: bool,
+    pub record: bool,
+    pub max_events: usize,
+    pub max_steps: usize,
 }
 
 /// A run that ended early, with everything up to there.
@@ -58,54 +65,65 @@ impl<'a, S: System> Simulation<'a, S> {
     pub fn new(scene: &'a S) -> Self {
         Self {
             scene,
-            effects: Effects::all(),
-            tolerance: 1e-9,
-            method: Method::Taylor,
-            project_start: false,
-            max_events: 100_000,
-            max_steps: 100_000_000,
+            settings: Settings {
+                effects: Effects::all(),
+                tolerance: 1e-9,
+                method: Method::Taylor,
+                project_start: false,
+                record: true,
+                max_events: 100_000,
+                max_steps: 100_000_000,
+            },
         }
     }
 
     /// Local error per step, relative and absolute (in the units of the coordinates); from 1e-17 to 0.1.
     #[must_use]
     pub fn tolerance(mut self, tolerance: f64) -> Self {
-        self.tolerance = tolerance;
+        self.settings.tolerance = tolerance;
         self
     }
 
     /// The integration method.
     #[must_use]
     pub fn method(mut self, method: Method) -> Self {
-        self.method = method;
+        self.settings.method = method;
         self
     }
 
     /// Which effects take part.
     #[must_use]
     pub fn effects(mut self, effects: Effects) -> Self {
-        self.effects = effects;
+        self.settings.effects = effects;
         self
     }
 
     /// Whether a start that violates a constraint is moved onto it instead of refused.
     #[must_use]
     pub fn project_start(mut self, yes: bool) -> Self {
-        self.project_start = yes;
+        self.settings.project_start = yes;
+        self
+    }
+
+    /// Whether the motion between the events is kept (it is unless this says no). Without it a trajectory has its events, its
+    /// phases and its final state; sampling it and its ledger are [`Error::NotRecorded`].
+    #[must_use]
+    pub fn record(mut self, yes: bool) -> Self {
+        self.settings.record = yes;
         self
     }
 
     /// Most events before the run ends with [`Error::Limit`].
     #[must_use]
     pub fn max_events(mut self, limit: usize) -> Self {
-        self.max_events = limit;
+        self.settings.max_events = limit;
         self
     }
 
     /// Most steps before the run ends with [`Error::Limit`].
     #[must_use]
     pub fn max_steps(mut self, limit: usize) -> Self {
-        self.max_steps = limit;
+        self.settings.max_steps = limit;
         self
     }
 
@@ -118,7 +136,21 @@ impl<'a, S: System> Simulation<'a, S> {
         start: State<S::Scalar>,
         span: Range<f64>,
     ) -> Result<Trajectory<S>, Failure<S>> {
-        Run::execute(self, start, span)
+        let mut runner = self.runner();
+        let outcome = runner.run(&start, span).map(|_| ());
+        let trajectory = runner.into_trajectory();
+        match outcome {
+            Ok(()) => Ok(trajectory),
+            Err(error) => Err(Failure {
+                error,
+                trajectory: Box::new(trajectory),
+            }),
+        }
+    }
+
+    /// Everything that a run works with, made ready once for many runs.
+    pub fn runner(&self) -> Runner<S> {
+        Runner::new(self.scene, &self.settings)
     }
 
     /// The state nearest to `wanted` (in the mass metric) that satisfies all constraints, with the values in `held`
@@ -133,12 +165,20 @@ impl<'a, S: System> Simulation<'a, S> {
         wanted: &State<S::Scalar>,
         held: &Held,
     ) -> Result<State<S::Scalar>, Error> {
-        let mut dynamics = Dynamics::new(self.scene, &self.effects);
-        start::consistent(&mut dynamics, time, self.tolerance, reference, wanted, held)
+        let mut dynamics = Dynamics::new(self.scene, &self.settings.effects);
+        let tolerance = self.settings.tolerance;
+        start::consistent(&mut dynamics, time, tolerance, reference, wanted, held)
     }
+}
 
+impl Settings {
     /// Checks what the caller set.
-    pub(crate) fn check(&self, start: &State<S::Scalar>, span: &Range<f64>) -> Result<(), Error> {
+    pub(crate) fn check<S: System>(
+        &self,
+        scene: &S,
+        start: &State<S::Scalar>,
+        span: &Range<f64>,
+    ) -> Result<(), Error> {
         use crate::arithmetic::Scalar;
         let n = S::DESCRIPTION.coordinates.len();
         if !(1e-17..=0.1).contains(&self.tolerance) {
@@ -189,7 +229,7 @@ impl<'a, S: System> Simulation<'a, S> {
             }
         }
         for (i, parameter) in S::DESCRIPTION.parameters.iter().enumerate() {
-            let value = self.scene.parameter(i).value();
+            let value = scene.parameter(i).value();
             if !value.is_finite() {
                 return Err(Error::Argument {
                     what: parameter.name,
@@ -198,11 +238,11 @@ impl<'a, S: System> Simulation<'a, S> {
                 });
             }
         }
-        self.supported()
+        self.supported::<S>()
     }
 
     /// Refuses what the declaration may say but this version cannot run.
-    fn supported(&self) -> Result<(), Error> {
+    fn supported<S: System>(&self) -> Result<(), Error> {
         use crate::effects::Item;
         use crate::system::{Normal, Restitution};
         let d = S::DESCRIPTION;

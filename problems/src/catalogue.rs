@@ -1,21 +1,30 @@
 //! All scenes that the program knows. A new scene is one line in [`SCENES`] or, with a case of
 //! [`stability`](crate::stability), in [`HARD`].
 
+use crate::accuracy::{self, Accuracy, Course, Study};
+use crate::closed_form::ClosedForm;
 use crate::outcome::Outcome;
 use crate::request::{Refusal, Request};
 use crate::scenes::hard::*;
 use crate::scenes::*;
+use core::f64::consts::PI;
 use core::marker::PhantomData;
 use lagrange_core::prelude::*;
 use lagrange_core::system::Description;
 
 /// Every scene, in the order of `lagrange list`.
 pub static SCENES: &[&dyn Scene] = &[
-    &Entry::<MassOnShell>::new("mass-on-shell", 20.0),
-    &Entry::<RollingSphere>::new("rolling-sphere", 20.0),
+    &Entry::<MassOnShell>::new("mass-on-shell", 20.0).known(MassOnShell::closed_form),
+    &Entry::<RollingSphere>::new("rolling-sphere", 20.0).known(RollingSphere::closed_form),
     &Entry::<RollingSlippingSphere>::new("rolling-slipping-sphere", 20.0),
     &Entry::<MassOnWheel>::new("mass-on-wheel", 20.0),
     &Entry::<SphereInBowl>::new("sphere-in-bowl", 10.0),
+    &Entry::<DoublePendulum>::new("double-pendulum", 5.0),
+    &Entry::<FiveLinkChain>::new("five-link-chain", 2.0),
+    &Entry::<CartesianPendulum>::new("cartesian-pendulum", 100.0)
+        .known(CartesianPendulum::closed_form),
+    &Entry::<Kepler>::new("kepler", 200.0 * PI).known(Kepler::closed_form),
+    &Entry::<StiffSpringPendulum>::new("stiff-spring-pendulum", 10.0),
 ];
 
 /// The hard cases, in the order of `lagrange list`.
@@ -67,6 +76,12 @@ pub trait Scene: Sync {
     /// sense, or a start that does not exist, is refused.
     fn run(&self, request: &Request) -> Result<Outcome, Refusal>;
 
+    /// Measures what accuracy costs.
+    ///
+    /// # Errors
+    /// The request makes no sense, the start does not exist, or there is nothing to measure errors against.
+    fn accuracy(&self, study: &Study) -> Result<Accuracy, Refusal>;
+
     /// First sentence of the documentation.
     fn summary(&self) -> &'static str {
         let text = self.description().documentation.trim();
@@ -78,8 +93,12 @@ pub trait Scene: Sync {
 pub struct Entry<S> {
     name: &'static str,
     until: f64,
+    closed_form: Option<Solution<S>>,
     system: PhantomData<fn() -> S>,
 }
+
+/// Where the motion from a start at time 0 to a last time ends, if that is known in closed form.
+pub type Solution<S> = fn(&S, &State<f64>, f64) -> Option<ClosedForm>;
 
 impl<S> Entry<S> {
     /// A scene called `name` that runs for `until` seconds unless asked otherwise.
@@ -87,7 +106,16 @@ impl<S> Entry<S> {
         Self {
             name,
             until,
+            closed_form: None,
             system: PhantomData,
+        }
+    }
+
+    /// The same with a closed form, for [`Scene::accuracy`] to measure errors against.
+    pub const fn known(self, closed_form: Solution<S>) -> Self {
+        Self {
+            closed_form: Some(closed_form),
+            ..self
         }
     }
 }
@@ -113,10 +141,7 @@ impl<S: System<Scalar = f64> + Default> Scene for Entry<S> {
     }
 
     fn run(&self, request: &Request) -> Result<Outcome, Refusal> {
-        let mut system = S::default();
-        for (name, value) in &request.parameters {
-            system.set_parameter(request.parameter(S::DESCRIPTION, name)?, *value);
-        }
+        let system: S = request.system()?;
         let simulation = Simulation::new(&system)
             .tolerance(request.tolerance)
             .method(request.method)
@@ -134,6 +159,25 @@ impl<S: System<Scalar = f64> + Default> Scene for Entry<S> {
             failure,
             request.samples,
         ))
+    }
+
+    fn accuracy(&self, study: &Study) -> Result<Accuracy, Refusal> {
+        let request = &study.request;
+        let system: S = request.system()?;
+        let start = request.start(
+            &system,
+            &Simulation::new(&system).tolerance(request.tolerance),
+        )?;
+        let until = request.until.unwrap_or(self.until);
+        let closed_form = self
+            .closed_form
+            .and_then(|known| known(&system, &start, until));
+        let course = Course {
+            system: &system,
+            start,
+            until,
+        };
+        accuracy::measure(self.name, &course, study, closed_form)
     }
 }
 

@@ -3,7 +3,9 @@
 //! A scene is one file in [`scenes`] and one line in [`catalogue`]. Everything else here works on the names and
 //! numbers that the derive macro puts in [`lagrange_core::system::Description`], so it never has to be touched.
 
+pub mod accuracy;
 pub mod catalogue;
+pub mod closed_form;
 pub mod names;
 pub mod outcome;
 pub mod reference;

@@ -63,6 +63,13 @@ pub enum Refusal {
     },
     /// No consistent state with the values that are to be held.
     Start(Error),
+    /// No reference to measure errors against.
+    Reference {
+        /// The run that failed, or disagreed.
+        by: String,
+        /// Why, or how.
+        reason: String,
+    },
 }
 
 impl Refusal {
@@ -100,6 +107,9 @@ impl fmt::Display for Refusal {
             }
             Refusal::Repeated { name } => write!(f, "`{name}` is given twice; give it once"),
             Refusal::Start(error) => write!(f, "no such start: {error}"),
+            Refusal::Reference { by, reason } => {
+                write!(f, "no reference to measure errors against: {by}: {reason}")
+            }
         }
     }
 }
@@ -107,12 +117,17 @@ impl fmt::Display for Refusal {
 impl core::error::Error for Refusal {}
 
 impl Request {
+    /// The default system with the parameters of the request.
+    pub(crate) fn system<S: System<Scalar = f64> + Default>(&self) -> Result<S, Refusal> {
+        let mut system = S::default();
+        for (name, value) in &self.parameters {
+            system.set_parameter(self.parameter(S::DESCRIPTION, name)?, *value);
+        }
+        Ok(system)
+    }
+
     /// Index of the parameter called `name`.
-    pub(crate) fn parameter(
-        &self,
-        description: &'static Description,
-        name: &str,
-    ) -> Result<usize, Refusal> {
+    fn parameter(&self, description: &'static Description, name: &str) -> Result<usize, Refusal> {
         if self
             .parameters
             .iter()

@@ -8,21 +8,21 @@
 //!
 //! Operations that need auxiliary series (`tan`, `asin`, …) own the slots `to` and `to + 1`; so does a pair.
 
-mod coefficients;
-mod convolution;
 mod direct;
 mod dual;
-mod jet;
+mod expansion;
+mod instruction;
+mod program;
 mod record;
 mod scalar;
 #[cfg(test)]
 mod tests;
 
-pub use coefficients::{Coefficients, Slot};
 pub use direct::{Derivative, Value};
 pub use dual::Dual;
-pub use jet::{Jet, Operation, Singular};
-pub use record::{Recorded, Recorder, Recording, Variation};
+pub use expansion::{Expansion, MAX_ORDER, Operation};
+pub use program::Program;
+pub use record::{Recorded, Recorder, Recording, Slot, Variation};
 
 use core::fmt::Debug;
 
@@ -65,6 +65,11 @@ pub trait Scalar:
     fn tanh(self) -> Self;
     /// xᶜ for a real exponent.
     fn powf(self, c: f64) -> Self;
+    /// x y + z, rounded once where the processor can do that as fast.
+    #[inline(always)]
+    fn mul_add(self, y: Self, z: Self) -> Self {
+        self * y + z
+    }
 }
 
 /// A way to run a tape.

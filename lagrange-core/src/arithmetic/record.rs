@@ -1,12 +1,31 @@
-//! A tape written down once per mode, to be run for k = 0, 1, … as data.
+//! A tape written down once per mode, to be run as data: for values, and for Taylor coefficients k = 1, 2, ….
 //!
 //! A tape asks at every operation what is held, and knows nothing of the mode. Written down, it is a plain list of what
 //! really runs: what is zero in the mode (the velocity of a pinned coordinate, the force of an open contact) disappears,
-//! what is constant is computed for k = 0 only, and a product with a constant is no convolution. The size of the
-//! tape does not matter: its Taylor coefficients run in one loop over the list, whoever wrote the tape.
+//! what does not depend on time is computed once per series, and equal operations run once. The size of the tape
+//! does not matter: it runs in one loop over the list, whoever wrote the tape.
 
-use super::{Arithmetic, Jet, Scalar, Slot};
+use super::instruction::{Instruction, Op};
+use super::{Arithmetic, Scalar};
 use std::collections::BTreeMap;
+
+/// A register of a recorded tape. Register 0 is zero.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Default)]
+pub struct Slot(pub(super) u32);
+
+impl Slot {
+    /// Register number `index`.
+    #[inline(always)]
+    pub fn new(index: usize) -> Self {
+        Slot(index as u32)
+    }
+
+    /// Its number.
+    #[inline(always)]
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
 
 /// How a number of a recorded tape depends on time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,7 +41,7 @@ pub enum Variation {
 /// A number of a recorded tape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Recorded {
-    /// Where its coefficients are. Slot 0 of the table is zero.
+    /// Where it is.
     pub slot: Slot,
     /// How it depends on time.
     pub variation: Variation,
@@ -43,175 +62,88 @@ impl Recorded {
         }
     }
 
-    /// A number that does not depend on time.
-    pub fn constant(slot: Slot) -> Self {
-        Self {
-            slot,
-            variation: Variation::Constant,
-        }
-    }
-
-    fn is_zero(self) -> bool {
+    /// Whether it is zero.
+    pub fn is_zero(self) -> bool {
         self.variation == Variation::Zero
     }
 
-    fn varies(self) -> bool {
+    /// Whether it may depend on time.
+    pub fn varies(self) -> bool {
         self.variation == Variation::Varying
     }
 }
 
-/// An operation with its operands.
-#[derive(Clone, Copy, Debug)]
-enum Op<T> {
-    Constant(T),
-    Add(Slot, Slot),
-    Sub(Slot, Slot),
-    Neg(Slot),
-    Offset(T, Slot),
-    Scale(T, Slot),
-    Mul(Slot, Slot),
-    /// By a number that does not depend on time.
-    MulConstant(Slot, Slot),
-    Square(Slot),
-    Div(Slot, Slot),
-    /// By a number that does not depend on time.
-    DivConstant(Slot, Slot),
-    Ratio(T, Slot),
-    Sqrt(Slot),
-    Powf(Slot, f64),
-    Exp(Slot),
-    Ln(Slot),
-    SinCos(Slot),
-    SinhCosh(Slot),
-    Tan(Slot),
-    Tanh(Slot),
-    Asin(Slot),
-    Acos(Slot),
-    Atan(Slot),
-    Atan2(Slot, Slot),
-    /// Σ over a range of the terms.
-    Sum(usize, usize),
-}
+/// An operation and its operands, to be found again.
+type Key = (Op, u32, u32);
 
-/// An operation without its constant, to be found again: its kind, its operands, its real exponent.
-type Key = (u8, [usize; 2], u64);
-
-impl<T: Scalar> Op<T> {
-    /// None for operations with a constant of the scalar type: scalars have no order.
-    fn key(&self) -> Option<Key> {
-        let one = |kind, x: Slot| Some((kind, [x.0, 0], 0));
-        let two = |kind, x: Slot, y: Slot| Some((kind, [x.0, y.0], 0));
-        match *self {
-            Op::Constant(_) | Op::Offset(..) | Op::Scale(..) | Op::Ratio(..) | Op::Sum(..) => None,
-            Op::Powf(x, c) => Some((0, [x.0, 0], c.to_bits())),
-            Op::Add(x, y) => two(1, x, y),
-            Op::Sub(x, y) => two(2, x, y),
-            Op::Mul(x, y) => two(3, x, y),
-            Op::MulConstant(x, y) => two(4, x, y),
-            Op::Div(x, y) => two(5, x, y),
-            Op::DivConstant(x, y) => two(6, x, y),
-            Op::Atan2(y, x) => two(7, y, x),
-            Op::Neg(x) => one(8, x),
-            Op::Square(x) => one(9, x),
-            Op::Sqrt(x) => one(10, x),
-            Op::Exp(x) => one(11, x),
-            Op::Ln(x) => one(12, x),
-            Op::SinCos(x) => one(13, x),
-            Op::SinhCosh(x) => one(14, x),
-            Op::Tan(x) => one(15, x),
-            Op::Tanh(x) => one(16, x),
-            Op::Asin(x) => one(17, x),
-            Op::Acos(x) => one(18, x),
-            Op::Atan(x) => one(19, x),
-        }
-    }
-}
-
-/// A tape written down: operations with the slot that they write.
+/// Part of a tape: what does not depend on time apart from what does, both in order.
 #[derive(Clone, Debug, Default)]
+pub(super) struct Part {
+    /// Runs once per series.
+    pub fixed: Vec<Instruction>,
+    /// Runs for every coefficient.
+    pub varying: Vec<Instruction>,
+}
+
+/// A tape written down, as it comes. [`super::Program`] makes it short.
+#[derive(Clone, Debug)]
 pub struct Recording<T> {
-    /// What does not depend on time; needs nothing of what does.
-    constant: Vec<(usize, Op<T>)>,
-    varying: Vec<(usize, Op<T>)>,
-    /// (factor, number) of the sums.
-    terms: Vec<(T, Slot)>,
+    pub(super) parts: Vec<Part>,
+    /// (factor, register) of the sums.
+    pub(super) terms: Vec<(Slot, Slot)>,
+    /// Registers that hold numbers known when the tape was recorded.
+    pub(super) constants: Vec<(Slot, T)>,
     /// Results by operation.
     known: BTreeMap<Key, Recorded>,
+    registers: usize,
 }
 
 impl<T: Scalar> Recording<T> {
-    /// Forgets everything, but for the memory.
-    pub fn clear(&mut self) {
-        self.constant.clear();
-        self.varying.clear();
-        self.terms.clear();
-        self.known.clear();
+    /// An empty recording; registers from `registers` on are free for the recorder's own use.
+    pub fn new(registers: usize) -> Self {
+        Self {
+            parts: vec![Part::default()],
+            terms: Vec::new(),
+            constants: Vec::new(),
+            known: BTreeMap::new(),
+            registers,
+        }
     }
 
-    /// Takes memory for so many operations.
-    pub fn reserve(&mut self, operations: usize) {
-        self.constant.reserve(operations);
-        self.varying.reserve(operations);
-    }
-
-    /// The arithmetic that records a tape whose slots begin at `base`, in a table with `stride` coefficients per slot. What
-    /// the recording `before` has computed, which runs first, is not computed again.
-    pub fn record<'a>(
-        &'a mut self,
-        base: usize,
-        stride: usize,
-        before: Option<&'a Self>,
-    ) -> Recorder<'a, T> {
+    /// The arithmetic that records a tape; slots are numbered from register `base` on.
+    pub fn record(&mut self, base: usize) -> Recorder<'_, T> {
         Recorder {
             recording: self,
-            before,
             base,
-            stride,
         }
     }
 
-    /// Appends the next coefficient of every number. `a` counts slots from the start of the table.
-    pub fn run(&self, a: &mut Jet<'_, T>) {
-        if a.coefficient() == 0 {
-            self.run_list(a, &self.constant);
-        }
-        self.run_list(a, &self.varying);
+    /// Number of registers.
+    pub(super) fn registers(&self) -> usize {
+        self.registers
     }
 
-    fn run_list(&self, a: &mut Jet<'_, T>, list: &[(usize, Op<T>)]) {
-        for &(to, op) in list {
-            match op {
-                Op::Constant(c) => a.constant(to, c),
-                Op::Add(x, y) => a.add(to, x, y),
-                Op::Sub(x, y) => a.sub(to, x, y),
-                Op::Neg(x) => a.neg(to, x),
-                Op::Offset(c, x) => a.offset(to, c, x),
-                Op::Scale(c, x) => a.scale(to, c, x),
-                Op::Mul(x, y) => a.mul(to, x, y),
-                Op::MulConstant(x, y) => a.scale(to, a.start(x), y),
-                Op::Square(x) => a.square(to, x),
-                Op::Div(x, y) => a.div(to, x, y),
-                Op::DivConstant(x, y) => a.div_constant(to, x, y),
-                Op::Ratio(c, x) => a.ratio(to, c, x),
-                Op::Sqrt(x) => a.sqrt(to, x),
-                Op::Powf(x, c) => a.powf(to, x, c),
-                Op::Exp(x) => a.exp(to, x),
-                Op::Ln(x) => a.ln(to, x),
-                Op::SinCos(x) => a.sin_cos(to, x).0,
-                Op::SinhCosh(x) => a.sinh_cosh(to, x).0,
-                Op::Tan(x) => a.tan(to, x),
-                Op::Tanh(x) => a.tanh(to, x),
-                Op::Asin(x) => a.asin(to, x),
-                Op::Acos(x) => a.acos(to, x),
-                Op::Atan(x) => a.atan(to, x),
-                Op::Atan2(y, x) => a.atan2(to, y, x),
-                Op::Sum(first, end) => {
-                    let terms = self.terms[first..end].iter();
-                    let sum = terms.fold(T::zero(), |sum, &(factor, x)| sum + factor * a.at(x));
-                    a.put(to, sum)
-                }
-            };
+    /// A register of its own.
+    pub(super) fn fresh(&mut self) -> Slot {
+        self.registers += 1;
+        Slot::new(self.registers - 1)
+    }
+
+    /// A register with a known number.
+    pub(super) fn number(&mut self, value: T) -> Slot {
+        let known = self.constants.iter().find(|(_, known)| *known == value);
+        if let Some(&(slot, _)) = known {
+            return slot;
         }
+        let slot = self.fresh();
+        self.constants.push((slot, value));
+        slot
+    }
+
+    /// The number in a register, if it is known.
+    pub(super) fn known_number(&self, slot: Slot) -> Option<T> {
+        let found = self.constants.iter().find(|(known, _)| *known == slot);
+        found.map(|&(_, value)| value)
     }
 }
 
@@ -219,40 +151,65 @@ impl<T: Scalar> Recording<T> {
 #[derive(Debug)]
 pub struct Recorder<'a, T> {
     recording: &'a mut Recording<T>,
-    before: Option<&'a Recording<T>>,
     base: usize,
-    stride: usize,
 }
 
 impl<T: Scalar> Recorder<'_, T> {
-    fn push(&mut self, to: usize, op: Op<T>, operands: &[Recorded]) -> Recorded {
-        let key = op.key();
-        if let Some(known) = key.and_then(|key| self.find(&key)) {
+    /// A register of its own.
+    pub(crate) fn fresh(&mut self) -> Slot {
+        self.recording.fresh()
+    }
+
+    /// Ends a part of the recording.
+    pub(crate) fn cut(&mut self) {
+        self.recording.parts.push(Part::default());
+    }
+
+    /// A register with a known number.
+    fn number(&mut self, value: T) -> Recorded {
+        Recorded {
+            slot: self.recording.number(value),
+            variation: Variation::Constant,
+        }
+    }
+
+    fn push(&mut self, to: usize, op: Op, x: Recorded, y: Recorded) -> Recorded {
+        let key = (op, x.slot.0, y.slot.0);
+        let to = Slot::new(self.base + to);
+        self.push_key(to, key, x.varies() || y.varies())
+    }
+
+    fn push_key(&mut self, to: Slot, key: Key, varies: bool) -> Recorded {
+        if let Some(&known) = self.recording.known.get(&key) {
             return known;
         }
-        let to = self.base + to;
-        let slot = Slot::new(to, self.stride);
-        let (list, result) = if operands.iter().any(|x| x.varies()) {
-            (&mut self.recording.varying, Recorded::varying(slot))
-        } else {
-            (&mut self.recording.constant, Recorded::constant(slot))
+        let (op, x, y) = key;
+        let Some(part) = self.recording.parts.last_mut() else {
+            return Recorded::ZERO;
         };
-        list.push((to, op));
-        if let Some(key) = key {
-            self.recording.known.insert(key, result);
-        }
+        let (list, variation) = if varies {
+            (&mut part.varying, Variation::Varying)
+        } else {
+            (&mut part.fixed, Variation::Constant)
+        };
+        list.push(Instruction {
+            op,
+            to,
+            x: Slot(x),
+            y: Slot(y),
+        });
+        let result = Recorded {
+            slot: to,
+            variation,
+        };
+        self.recording.known.insert(key, result);
         result
     }
 
-    fn find(&self, key: &Key) -> Option<Recorded> {
-        let before = self.before.and_then(|before| before.known.get(key));
-        before.or_else(|| self.recording.known.get(key)).copied()
-    }
-
-    /// A function with a second result in the slot after the first.
-    fn push_pair(&mut self, to: usize, op: Op<T>, x: Recorded) -> (Recorded, Recorded) {
-        let first = self.push(to, op, &[x]);
-        let second = Slot(first.slot.0 + self.stride);
+    /// A function with a second result in the register after the first.
+    fn push_pair(&mut self, to: usize, op: Op, x: Recorded) -> (Recorded, Recorded) {
+        let first = self.push(to, op, x, Recorded::ZERO);
+        let second = Slot(first.slot.0 + 1);
         (
             first,
             Recorded {
@@ -269,21 +226,36 @@ impl<T: Scalar> Recorder<'_, T> {
         terms: impl Iterator<Item = (T, Recorded)>,
     ) -> Recorded {
         let first = self.recording.terms.len();
-        let mut varies = Recorded::ZERO;
+        let mut varies = false;
+        let mut only = None;
         for (factor, x) in terms {
-            if !x.is_zero() {
-                self.recording.terms.push((factor, x.slot));
-                varies = if varies.varies() { varies } else { x };
+            if !x.is_zero() && !factor.is_zero() {
+                let number = self.recording.number(factor);
+                self.recording.terms.push((number, x.slot));
+                varies |= x.varies();
+                only = Some((factor, x));
             }
         }
-        match self.recording.terms[first..] {
-            [] => Recorded::ZERO,
-            [(factor, slot)] => {
+        let end = self.recording.terms.len();
+        match (end - first, only) {
+            (1, Some((factor, x))) => {
                 self.recording.terms.truncate(first);
-                self.scale(to, factor, Recorded { slot, ..varies })
+                self.scale(to, factor, x)
             }
-            _ => self.push(to, Op::Sum(first, self.recording.terms.len()), &[varies]),
+            (0, _) | (_, None) => Recorded::ZERO,
+            _ => {
+                let key = (Op::Sum, first as u32, end as u32);
+                self.push_key(Slot::new(self.base + to), key, varies)
+            }
         }
+    }
+
+    /// The same number in a register of choice.
+    pub(crate) fn assign(&mut self, to: Slot, x: Recorded) -> Recorded {
+        if x.is_zero() || x.slot == to {
+            return x;
+        }
+        self.push_key(to, (Op::Copy, x.slot.0, to.0), x.varies())
     }
 }
 
@@ -295,11 +267,11 @@ impl<T: Scalar> Arithmetic for Recorder<'_, T> {
         self.base = base;
     }
 
-    fn constant(&mut self, to: usize, c: T) -> Recorded {
+    fn constant(&mut self, _: usize, c: T) -> Recorded {
         if c.is_zero() {
             Recorded::ZERO
         } else {
-            self.push(to, Op::Constant(c), &[])
+            self.number(c)
         }
     }
 
@@ -307,7 +279,7 @@ impl<T: Scalar> Arithmetic for Recorder<'_, T> {
         match (x.is_zero(), y.is_zero()) {
             (true, _) => y,
             (_, true) => x,
-            _ => self.push(to, Op::Add(x.slot, y.slot), &[x, y]),
+            _ => self.push(to, Op::Add, x, y),
         }
     }
 
@@ -315,7 +287,7 @@ impl<T: Scalar> Arithmetic for Recorder<'_, T> {
         match (x.is_zero(), y.is_zero()) {
             (_, true) => x,
             (true, _) => self.neg(to, y),
-            _ => self.push(to, Op::Sub(x.slot, y.slot), &[x, y]),
+            _ => self.push(to, Op::Sub, x, y),
         }
     }
 
@@ -323,25 +295,27 @@ impl<T: Scalar> Arithmetic for Recorder<'_, T> {
         if x.is_zero() {
             x
         } else {
-            self.push(to, Op::Neg(x.slot), &[x])
+            self.push(to, Op::Neg, x, Recorded::ZERO)
         }
     }
 
     fn offset(&mut self, to: usize, c: T, x: Recorded) -> Recorded {
-        if x.is_zero() {
-            self.constant(to, c)
+        let c = self.constant(to, c);
+        if x.varies() && !c.is_zero() {
+            self.push(to, Op::Offset, c, x)
         } else {
-            self.push(to, Op::Offset(c, x.slot), &[x])
+            self.add(to, c, x)
         }
     }
 
     fn scale(&mut self, to: usize, c: T, x: Recorded) -> Recorded {
-        if x.is_zero() || c.is_zero() {
-            Recorded::ZERO
-        } else if c == T::one() {
+        if x.is_zero() || c == T::one() {
             x
+        } else if c == -T::one() {
+            self.neg(to, x)
         } else {
-            self.push(to, Op::Scale(c, x.slot), &[x])
+            let c = self.constant(to, c);
+            self.mul(to, c, x)
         }
     }
 
@@ -349,80 +323,81 @@ impl<T: Scalar> Arithmetic for Recorder<'_, T> {
         if x.is_zero() || y.is_zero() {
             return Recorded::ZERO;
         }
-        let op = match (x.varies(), y.varies()) {
-            (false, _) => Op::MulConstant(x.slot, y.slot),
-            (_, false) => Op::MulConstant(y.slot, x.slot),
-            _ => Op::Mul(x.slot, y.slot),
-        };
-        self.push(to, op, &[x, y])
+        match (x.varies(), y.varies()) {
+            (false, _) => self.push(to, Op::Scale, x, y),
+            (_, false) => self.push(to, Op::Scale, y, x),
+            _ => self.push(to, Op::Mul, x, y),
+        }
     }
 
     fn square(&mut self, to: usize, x: Recorded) -> Recorded {
         if x.is_zero() {
             x
         } else {
-            self.push(to, Op::Square(x.slot), &[x])
+            self.push(to, Op::Square, x, Recorded::ZERO)
         }
     }
 
     fn div(&mut self, to: usize, x: Recorded, y: Recorded) -> Recorded {
-        let op = if y.varies() {
-            Op::Div(x.slot, y.slot)
-        } else {
-            Op::DivConstant(x.slot, y.slot)
+        let op = match (x.varies(), y.varies()) {
+            (_, false) => Op::DivConstant,
+            (false, _) => Op::Ratio,
+            _ => Op::Div,
         };
-        self.push(to, op, &[x, y])
+        self.push(to, op, x, y)
     }
 
     fn ratio(&mut self, to: usize, c: T, x: Recorded) -> Recorded {
-        self.push(to, Op::Ratio(c, x.slot), &[x])
+        let c = self.constant(to, c);
+        self.div(to, c, x)
     }
 
     fn sqrt(&mut self, to: usize, x: Recorded) -> Recorded {
-        self.push(to, Op::Sqrt(x.slot), &[x])
+        self.push(to, Op::Sqrt, x, Recorded::ZERO)
     }
 
     fn powf(&mut self, to: usize, x: Recorded, c: f64) -> Recorded {
-        self.push(to, Op::Powf(x.slot, c), &[x])
+        let exponent = self.number(T::from_f64(c));
+        self.push(to, Op::Powf, x, exponent)
     }
 
     fn exp(&mut self, to: usize, x: Recorded) -> Recorded {
-        self.push(to, Op::Exp(x.slot), &[x])
+        self.push(to, Op::Exp, x, Recorded::ZERO)
     }
 
     fn ln(&mut self, to: usize, x: Recorded) -> Recorded {
-        self.push(to, Op::Ln(x.slot), &[x])
+        self.push(to, Op::Ln, x, Recorded::ZERO)
     }
 
     fn sin_cos(&mut self, to: usize, x: Recorded) -> (Recorded, Recorded) {
-        self.push_pair(to, Op::SinCos(x.slot), x)
+        self.push_pair(to, Op::SinCos, x)
     }
 
     fn sinh_cosh(&mut self, to: usize, x: Recorded) -> (Recorded, Recorded) {
-        self.push_pair(to, Op::SinhCosh(x.slot), x)
+        self.push_pair(to, Op::SinhCosh, x)
     }
 
     fn tan(&mut self, to: usize, x: Recorded) -> Recorded {
-        self.push(to, Op::Tan(x.slot), &[x])
+        self.push(to, Op::Tan, x, Recorded::ZERO)
     }
 
     fn tanh(&mut self, to: usize, x: Recorded) -> Recorded {
-        self.push(to, Op::Tanh(x.slot), &[x])
+        self.push(to, Op::Tanh, x, Recorded::ZERO)
     }
 
     fn asin(&mut self, to: usize, x: Recorded) -> Recorded {
-        self.push(to, Op::Asin(x.slot), &[x])
+        self.push(to, Op::Asin, x, Recorded::ZERO)
     }
 
     fn acos(&mut self, to: usize, x: Recorded) -> Recorded {
-        self.push(to, Op::Acos(x.slot), &[x])
+        self.push(to, Op::Acos, x, Recorded::ZERO)
     }
 
     fn atan(&mut self, to: usize, x: Recorded) -> Recorded {
-        self.push(to, Op::Atan(x.slot), &[x])
+        self.push(to, Op::Atan, x, Recorded::ZERO)
     }
 
     fn atan2(&mut self, to: usize, y: Recorded, x: Recorded) -> Recorded {
-        self.push(to, Op::Atan2(y.slot, x.slot), &[x, y])
+        self.push(to, Op::Atan2, y, x)
     }
 }

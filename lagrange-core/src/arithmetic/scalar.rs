@@ -61,6 +61,14 @@ macro_rules! machine_number {
             fn powf(self, c: f64) -> Self {
                 $type::powf(self, c as $type)
             }
+            #[inline(always)]
+            fn mul_add(self, y: Self, z: Self) -> Self {
+                if cfg!(target_feature = "fma") {
+                    $type::mul_add(self, y, z)
+                } else {
+                    self * y + z
+                }
+            }
         }
     };
 }

@@ -3,7 +3,7 @@
 //! From K w = b, with w = (u̇, −λ) already known: K ∂w = ∂b − ∂K w, so the factors of the value serve every column.
 
 use super::{Dynamics, EvaluationError};
-use crate::arithmetic::{Derivative, Dual};
+use crate::arithmetic::{Derivative, Dual, Scalar};
 use crate::system::{Held, System};
 
 /// Columns per run of the tape: two registers of derivatives beside the value.
@@ -27,24 +27,40 @@ impl<S: System> Dynamics<S> {
     ) -> Result<(), EvaluationError> {
         self.value(t, q, v)?;
         let n = S::DESCRIPTION.coordinates.len();
-        // What the differences of the right-hand side multiply is the solution of the value.
-        let mut known = core::mem::take(&mut self.known);
-        known.clear();
-        known.extend_from_slice(&self.solution);
+        let known = self.known_solution()?;
         let mut outcome = Ok(());
         for first in (0..2 * n).step_by(LANES) {
             self.run_derivative(first);
             for lane in 0..LANES.min(2 * n - first) {
                 self.differentiate_right(lane, &known);
-                outcome = outcome.and(self.solve());
+                let compiled = &mut self.modes[self.current];
+                compiled.solver.solve(&mut self.right);
+                if let Some(unknown) = self.right.iter().position(|x| !x.value().is_finite()) {
+                    outcome = outcome.and(Err(self.not_finite(unknown)));
+                }
+                let elimination = &self.compiled().plan.elimination;
                 for (j, element) in columns[(first + lane) * n..].iter_mut().take(n).enumerate() {
-                    *element = self.plan.elimination.acceleration(j, &self.solution);
+                    *element = elimination.acceleration(j, &self.right);
                 }
             }
         }
-        self.solution.copy_from_slice(&known);
-        self.known = known;
+        self.solution = known;
         outcome
+    }
+
+    /// What the differences of the matrix multiply: the solution of the value. Its factors are made if the tape solved alone.
+    fn known_solution(&mut self) -> Result<Vec<S::Scalar>, EvaluationError> {
+        let n = S::DESCRIPTION.coordinates.len();
+        let compiled = &self.modes[self.current];
+        let divides = compiled.tape().is_some_and(|tape| tape.unsolved.is_none());
+        let mut known = core::mem::take(&mut self.solution);
+        if divides {
+            let free = compiled.plan.elimination.free.iter();
+            known.clear();
+            known.extend(free.map(|&j| self.inputs[1 + 2 * n + j]));
+            self.factor()?;
+        }
+        Ok(known)
     }
 
     /// The motion tape and the plan's program with seeds on inputs `first`, `first` + 1, … of (q, v).
@@ -63,30 +79,42 @@ impl<S: System> Dynamics<S> {
                     }),
             );
         self.lane_nodes.clear();
-        self.lane_nodes.resize(self.nodes.len(), Dual::default());
+        let compiled = &self.modes[self.current];
+        let nodes = d.motion.outputs + compiled.plan.program.len();
+        self.lane_nodes.resize(nodes, Dual::default());
         let held = Held {
             needs: &self.held,
-            branches: &self.mode.branches,
+            branches: &compiled.mode.branches,
         };
         let mut a = Derivative::new();
         let outputs = &mut self.lane_nodes[..d.motion.outputs];
-        self.scene
-            .motion(&mut a, &held, &self.constants, &self.lane_inputs, outputs);
-        self.plan
+        self.scene.motion(
+            &mut a,
+            &held,
+            &compiled.constants,
+            &self.lane_inputs,
+            outputs,
+        );
+        compiled
+            .plan
             .program
-            .run(&mut a, &self.constants, &mut self.lane_nodes);
+            .run(&mut a, &compiled.constants, &mut self.lane_nodes);
     }
 
     /// ∂b − ∂K w
     fn differentiate_right(&mut self, lane: usize, known: &[S::Scalar]) {
         let Self {
-            plan,
+            modes,
+            current,
             right,
             lane_nodes,
             ..
         } = self;
-        right.fill(S::Scalar::default());
-        for load in &plan.loads {
+        let plan = &modes[*current].plan;
+        right.clear();
+        right.resize(plan.size(), S::Scalar::default());
+        // Loads and elements beyond are those of eliminated forces.
+        for load in plan.loads.iter().filter(|load| load.row < plan.size()) {
             right[load.row] += load.factor * lane_nodes[load.node].derivative[lane];
         }
         for entry in &plan.entries {

@@ -1,8 +1,9 @@
 //! The equations of a mode as matrices, to look at and to compare with a derivation by hand.
 
-use super::Dynamics;
+use super::{Compiled, Dynamics};
+use crate::arithmetic::Value;
 use crate::linear::least_norm;
-use crate::system::System;
+use crate::system::{Place, System};
 use nalgebra::{DMatrix, DVector};
 
 impl<S: System> Dynamics<S> {
@@ -48,7 +49,8 @@ impl<S: System> Dynamics<S> {
     /// Whether rows that act depend on one another at the last [`Self::value`], so that single forces are not determined.
     /// [`Self::force`] then gives those of an independent subset.
     pub fn has_dependent_rows(&self) -> bool {
-        self.plan.has_dependent_rows() || self.solver.has_rows_aside()
+        let compiled = self.compiled();
+        compiled.plan.has_dependent_rows() || compiled.solver.has_rows_aside()
     }
 
     /// The forces of all rows at the last [`Self::value`], where they are not determined those of least norm; and whether
@@ -57,9 +59,20 @@ impl<S: System> Dynamics<S> {
         let d = S::DESCRIPTION;
         let n = d.coordinates.len();
         let acting = self.acting_rows();
+        let Compiled {
+            plan, constants, ..
+        } = self.compiled();
+        let mut nodes = self.nodes.clone();
+        nodes.resize(nodes.len() + plan.program.len(), S::Scalar::default());
+        plan.program.run(&mut Value::new(), constants, &mut nodes);
+        let number = |place: Place| match place {
+            Place::Zero => S::Scalar::default(),
+            Place::Constant(i) => constants[i],
+            Place::Node(i) => nodes[i],
+        };
         let mut columns = vec![S::Scalar::default(); n * acting.len()];
-        for (index, coordinate, place) in self.plan.columns() {
-            columns[index * n + coordinate] += self.motion(place);
+        for (index, coordinate, place) in plan.columns() {
+            columns[index * n + coordinate] += number(place);
         }
         let mut acting_forces: Vec<S::Scalar> = acting.iter().map(|&row| self.force(row)).collect();
         let acting_determined = least_norm(&columns, n, &mut acting_forces);
@@ -69,9 +82,9 @@ impl<S: System> Dynamics<S> {
             forces[row] = acting_forces[i];
             determined[row] = acting_determined[i];
         }
-        for slide in &self.plan.slides {
+        for slide in &plan.slides {
             if let Some(source) = slide.source {
-                forces[slide.row] = self.motion(slide.factor) * forces[source];
+                forces[slide.row] = number(slide.factor) * forces[source];
                 determined[slide.row] = determined[source];
             }
         }

@@ -2,6 +2,7 @@
 //!
 //! A [`Dynamics`] owns all memory that this takes. It is told a [`Mode`] and from then on runs only what that mode needs.
 
+mod compiled;
 mod error;
 mod jacobian;
 mod matrices;
@@ -9,7 +10,7 @@ mod needs;
 mod projection;
 mod series;
 mod stepping;
-mod table;
+mod tape;
 #[cfg(test)]
 pub(crate) mod tests;
 mod values;
@@ -19,10 +20,14 @@ pub use needs::{NeedSet, add_branch_guards, add_guards};
 pub use projection::Residual;
 
 use crate::effects::Effects;
-use crate::linear::{Plan, SolveError, Solver};
+use crate::linear::{SolveError, Solver};
 use crate::mode::Mode;
-use crate::system::{Description, Held, Place, System};
-use table::Table;
+use crate::system::{Description, Place, System};
+use compiled::{Asked, Compiled};
+use num_traits::Zero;
+
+/// Modes kept ready; beyond that the oldest goes.
+const MOST_MODES: usize = 64;
 
 /// Work done so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -44,10 +49,12 @@ pub struct Work {
 pub struct Dynamics<S: System> {
     scene: S,
     effects: Effects,
-    mode: Mode,
-    /// Of the equations of motion in this mode.
-    motion_needs: NeedSet,
-    /// The same and what was asked for beside.
+    /// Modes met so far, and which is the present one.
+    modes: Vec<Compiled<S::Scalar>>,
+    current: usize,
+    /// The next of them to go.
+    oldest: usize,
+    /// The equations of motion of this mode and what was asked for beside.
     held: NeedSet,
     extra: NeedSet,
     report_needs: NeedSet,
@@ -56,71 +63,58 @@ pub struct Dynamics<S: System> {
     reports: bool,
     /// Of the named energies.
     energies: NeedSet,
-    /// Inertia, Jacobians and residuals of the rows that act.
-    row_needs: NeedSet,
-    /// The system's own, then the plan's.
-    constants: Vec<S::Scalar>,
-    plan: Plan<S::Scalar>,
-    solver: Solver<S::Scalar>,
-    /// Whether the solver holds the factors of this plan.
-    factored: bool,
-    /// t, q, v, v̇, λ of all rows.
+    /// Whether the tape in use is that of the present mode and needs.
+    selected: bool,
+    /// t, q, v, v̇, λ of all rows at the last value.
     inputs: Vec<S::Scalar>,
-    /// Outputs of the motion tape, then results of the plan's program.
+    /// Outputs of the motion tape at the last value.
     nodes: Vec<S::Scalar>,
     report_nodes: Vec<S::Scalar>,
     right: Vec<S::Scalar>,
     solution: Vec<S::Scalar>,
+    projector: Solver<S::Scalar>,
     projection: projection::Scratch<S::Scalar>,
-    /// The solution of the value while its derivatives are computed.
-    known: Vec<S::Scalar>,
     /// Columns of a Jacobian, for a stepper that wants rows.
     columns: Vec<S::Scalar>,
     lane_inputs: Vec<jacobian::Lanes<S::Scalar>>,
     lane_nodes: Vec<jacobian::Lanes<S::Scalar>>,
-    table: Table<S::Scalar>,
     work: Work,
 }
 
 impl<S: System> Dynamics<S> {
-    /// Takes a copy of the scene and memory for every mode; the mode is "everything open" until
-    /// [`Self::set_mode`].
+    /// The equations of a scene with all contacts open.
     pub fn new(scene: &S, effects: &Effects) -> Self {
         let d = S::DESCRIPTION;
         let (n, rows) = (d.coordinates.len(), d.rows.len());
         let zero = S::Scalar::default();
+        let mut projector = Solver::default();
+        projector.reserve(n, rows);
         let mut dynamics = Self {
             scene: scene.clone(),
             effects: effects.clone(),
-            mode: Mode::open(d),
-            motion_needs: NeedSet::new(d),
+            modes: vec![Compiled::new(scene, effects, &Mode::open(d))],
+            current: 0,
+            oldest: 0,
             held: NeedSet::new(d),
             extra: NeedSet::new(d),
             report_needs: NeedSet::new(d),
             report_held: NeedSet::new(d),
             reports: false,
             energies: needs::of_energies(d),
-            row_needs: NeedSet::new(d),
-            constants: Vec::with_capacity(d.constants),
-            plan: Plan::default(),
-            solver: Solver::default(),
-            factored: false,
+            selected: false,
             inputs: vec![zero; 1 + 3 * n + rows],
             nodes: vec![zero; d.motion.outputs],
             report_nodes: vec![zero; d.report.outputs],
             right: Vec::with_capacity(n + rows),
             solution: Vec::with_capacity(n + rows),
+            projector,
             projection: projection::Scratch::new(n, rows),
-            known: Vec::new(),
             columns: Vec::new(),
             lane_inputs: Vec::new(),
             lane_nodes: Vec::new(),
-            table: Table::default(),
             work: Work::default(),
         };
-        dynamics.solver.reserve(n, rows);
-        let open = dynamics.mode.clone();
-        dynamics.set_mode(&open);
+        dynamics.hold();
         dynamics
     }
 
@@ -141,12 +135,12 @@ impl<S: System> Dynamics<S> {
 
     /// The present mode.
     pub fn mode(&self) -> &Mode {
-        &self.mode
+        &self.compiled().mode
     }
 
     /// What the equations of motion of this mode need.
     pub fn motion_needs(&self) -> &NeedSet {
-        &self.motion_needs
+        &self.compiled().motion_needs
     }
 
     /// What was asked of the report tape.
@@ -156,68 +150,90 @@ impl<S: System> Dynamics<S> {
 
     /// Work done so far.
     pub fn work(&self) -> Work {
-        Work {
-            factorizations: self.solver.factorizations,
-            ..self.work
-        }
+        self.work
     }
 
     /// The rows that act as equations in this mode, ascending.
     pub fn acting_rows(&self) -> &[usize] {
-        &self.plan.acting
+        &self.compiled().plan.acting
     }
 
-    /// Changes the mode: parameter-only numbers and the plan of the linear system are made anew. What was asked for
-    /// beside the motion stays asked for.
+    #[inline(always)]
+    fn compiled(&self) -> &Compiled<S::Scalar> {
+        &self.modes[self.current]
+    }
+
+    /// Changes the mode. The first time in a mode parameter-only numbers and the plan of the linear system are made; they are
+    /// kept. What was asked for beside the motion stays asked for.
     pub fn set_mode(&mut self, mode: &Mode) {
-        let d = S::DESCRIPTION;
-        self.mode.clone_from(mode);
-        needs::of_motion(d, &self.effects, mode, &mut self.motion_needs);
-        needs::of_rows(d, &self.effects, mode, &mut self.row_needs);
-        needs::of_effects(d, &self.effects, &mut self.held);
-        self.constants.clear();
-        self.constants.resize(d.constants, S::Scalar::default());
-        let held = Held {
-            needs: &self.held,
-            branches: &self.mode.branches,
-        };
-        self.scene.constants(&held, &mut self.constants);
-        self.plan.set(d, &self.effects, mode, &mut self.constants);
-        self.nodes.resize(
-            d.motion.outputs + self.plan.program.len(),
-            S::Scalar::default(),
-        );
-        let forces = 1 + 3 * d.coordinates.len();
-        self.inputs[forces..].fill(S::Scalar::default());
-        self.table.outdate();
-        self.right
-            .resize(self.plan.constant_load.len(), S::Scalar::default());
-        self.solution.resize(self.plan.size(), S::Scalar::default());
-        self.factored = false;
+        if *self.mode() == *mode {
+            return;
+        }
+        let known = self
+            .modes
+            .iter()
+            .position(|compiled| compiled.mode == *mode);
+        self.current = known.unwrap_or_else(|| self.compile(mode));
         self.hold();
+    }
+
+    /// Makes a mode ready; returns its place.
+    #[cold]
+    fn compile(&mut self, mode: &Mode) -> usize {
+        let compiled = Compiled::new(&self.scene, &self.effects, mode);
+        if self.modes.len() < MOST_MODES {
+            self.modes.push(compiled);
+            return self.modes.len() - 1;
+        }
+        self.oldest = (self.oldest + 1) % MOST_MODES;
+        self.modes[self.oldest] = compiled;
+        self.oldest
+    }
+
+    /// Makes the tape for the present mode and needs current, at a state with velocities `v`.
+    #[inline]
+    fn select(&mut self, v: &[S::Scalar]) {
+        let compiled = &mut self.modes[self.current];
+        let at_rest = compiled.pinned.iter().all(|&j| v[j].is_zero());
+        if self.selected && compiled.tape().is_some_and(|t| t.is_at_rest() == at_rest) {
+            return;
+        }
+        let asked = Asked {
+            held: &self.held,
+            extra: &self.extra,
+            report: self.reports.then_some(&self.report_held),
+            at_rest,
+        };
+        compiled.select(&self.scene, &asked);
+        self.selected = true;
     }
 
     /// Asks the motion tape for more than the equations of motion: gaps, slips, coefficients, branch guards.
     /// Replaces what was asked for before.
     pub fn set_extra_needs(&mut self, needs: &[u64]) {
-        self.extra.clear();
-        self.extra.extend(needs);
-        self.hold();
+        if self.extra[..] != *needs {
+            self.extra.clear();
+            self.extra.extend(needs);
+            self.hold();
+        }
     }
 
     /// Asks for outputs of the report tape, of [`Self::report_value`] and of every [`Self::series`]. Replaces what was
     /// asked for before; need 0 alone asks for nothing.
     pub fn set_report_needs(&mut self, needs: &[u64]) {
-        self.report_needs.clear();
-        self.report_needs.extend(needs);
-        self.hold();
+        if self.report_needs[..] != *needs {
+            self.report_needs.clear();
+            self.report_needs.extend(needs);
+            self.hold();
+        }
     }
 
     /// What the tapes are told. A series recorded for other needs is out of date.
     fn hold(&mut self) {
         let d = S::DESCRIPTION;
-        let motion = self.motion_needs.iter().zip(self.extra.iter());
-        let mut changed = self.held.assign(motion.map(|(a, b)| a | b));
+        let motion = self.modes[self.current].motion_needs.iter();
+        self.held
+            .assign(motion.zip(self.extra.iter()).map(|(a, b)| a | b));
         // The named energies stand under their own needs also in the report, for the energy balance alone.
         let balance =
             self.report_needs.contains(d.energy.need) || self.report_needs.contains(d.momenta.need);
@@ -227,38 +243,34 @@ impl<S: System> Dynamics<S> {
             .iter()
             .zip(self.report_needs.iter())
             .zip(self.energies.iter());
-        changed |= self
-            .report_held
+        self.report_held
             .assign(report.map(|((a, b), &e)| (a | b) & !left_out(e)));
         let after_solve = d
             .branches
             .iter()
             .any(|b| b.after_solve && self.held.contains(b.need));
-        let reports = after_solve
+        self.reports = after_solve
             || self
                 .report_needs
                 .iter()
                 .enumerate()
                 .any(|(i, &w)| w & !u64::from(i == 0) != 0);
-        changed |= reports != self.reports;
-        self.reports = reports;
-        if changed {
-            self.table.outdate();
-        }
+        self.selected = false;
     }
 
     fn solve_error(&self, error: SolveError) -> EvaluationError {
-        let free = self.plan.free();
+        let plan = &self.compiled().plan;
+        let free = plan.free();
         match error {
             SolveError::NotFinite { equation } => self.not_finite(equation),
             SolveError::Undetermined { unknown } if unknown < free => EvaluationError::NoInertia {
-                coordinate: self.plan.elimination.free[unknown],
+                coordinate: plan.elimination.free[unknown],
             },
             SolveError::Undetermined { unknown } => EvaluationError::Undetermined {
-                row: self.plan.kept[unknown - free],
+                row: plan.kept[unknown - free],
             },
             SolveError::Inconsistent { row, residual } => EvaluationError::Inconsistent {
-                row: self.plan.kept[row],
+                row: plan.kept[row],
                 residual,
             },
         }
@@ -266,14 +278,15 @@ impl<S: System> Dynamics<S> {
 
     /// The acceleration or force that is not finite, given a solution with such a number.
     fn not_finite(&self, unknown: usize) -> EvaluationError {
-        let free = self.plan.free();
+        let plan = &self.compiled().plan;
+        let free = plan.free();
         if unknown < free {
             EvaluationError::NotFiniteAcceleration {
-                coordinate: self.plan.elimination.free[unknown],
+                coordinate: plan.elimination.free[unknown],
             }
         } else {
             EvaluationError::NotFiniteForce {
-                row: self.plan.kept[unknown - free],
+                row: plan.kept[unknown - free],
             }
         }
     }
@@ -283,7 +296,7 @@ impl<S: System> Dynamics<S> {
     pub fn motion(&self, place: Place) -> S::Scalar {
         match place {
             Place::Zero => S::Scalar::default(),
-            Place::Constant(i) => self.constants[i],
+            Place::Constant(i) => self.compiled().constants[i],
             Place::Node(i) => self.nodes[i],
         }
     }
@@ -293,7 +306,7 @@ impl<S: System> Dynamics<S> {
     pub fn report(&self, place: Place) -> S::Scalar {
         match place {
             Place::Zero => S::Scalar::default(),
-            Place::Constant(i) => self.constants[i],
+            Place::Constant(i) => self.compiled().constants[i],
             Place::Node(i) => self.report_nodes[i],
         }
     }

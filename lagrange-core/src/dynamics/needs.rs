@@ -54,14 +54,11 @@ impl NeedSet {
         }
     }
 
-    /// Replaces the words of the set; returns whether that changes it.
-    pub(super) fn assign(&mut self, words: impl Iterator<Item = u64>) -> bool {
-        let mut changed = false;
+    /// Replaces the words of the set.
+    pub(super) fn assign(&mut self, words: impl Iterator<Item = u64>) {
         for (word, new) in self.words.iter_mut().zip(words) {
-            changed |= *word != new;
             *word = new;
         }
-        changed
     }
 
     /// Leaves only need 0.

@@ -9,15 +9,15 @@
 //! one factorization whatever the order; the sum runs over those matrix elements that change with the state.
 //! Reference: Griewank & Walther 2008, Evaluating Derivatives, section 13.2 (implicit relations).
 
-use super::table::{Table, Tapes};
+use super::tape::{REPORT, Tape};
+use super::values::Extent;
 use super::{Dynamics, EvaluationError};
-use crate::arithmetic::{Coefficients, Recording, Scalar, Variation};
-use crate::system::{Held, Place, System};
-use num_traits::{One, Zero};
+use crate::arithmetic::{MAX_ORDER, Scalar};
+use crate::system::{Place, System};
 
 impl<S: System> Dynamics<S> {
-    /// Taylor coefficients 0…`order` in the time τ since `t` of positions, velocities, accelerations, forces and all outputs
-    /// that are held. The arrays that the `…_series` functions return have `order + 1` elements.
+    /// Taylor coefficients 0…`order` (at most 28) in the time τ since `t` of positions, velocities, accelerations, forces and all
+    /// outputs that were asked for. The arrays that the `…_series` functions return have `order + 1` elements.
     ///
     /// # Errors
     /// Those of [`Self::value`], and [`EvaluationError::NoSeries`].
@@ -28,178 +28,59 @@ impl<S: System> Dynamics<S> {
         v: &[S::Scalar],
         order: usize,
     ) -> Result<(), EvaluationError> {
+        let order = order.min(MAX_ORDER);
         self.work.series += 1;
         self.work.coefficients += order + 1;
-        self.record(v, order);
-        self.begin(t, q, v);
-        for k in 0..=order {
-            let Table {
-                coefficients,
-                motion,
-                ..
-            } = &mut self.table;
-            append(motion, coefficients, k)?;
-            if k == 0 {
-                self.factor_start()?;
-            }
-            self.gather(k);
-            self.solve()?;
-            if k == 0 {
-                self.check_rows_aside()?;
-            }
-            self.scatter(k);
-            let Table {
-                coefficients,
-                report,
-                ..
-            } = &mut self.table;
-            append(report, coefficients, k)?;
-            if k < order {
-                self.integrate(k);
-            }
-        }
+        self.run(t, q, v, Extent::Everything, true)?;
+        self.start_series(order)?;
+        let Self {
+            modes,
+            current,
+            right,
+            ..
+        } = self;
+        let (_, solver, tape) = modes[*current].parts();
+        let Tape {
+            everything: program,
+            registers,
+            expansion,
+            integrals,
+            unsolved,
+            ..
+        } = tape;
+        expansion.run(
+            program,
+            registers,
+            order,
+            integrals,
+            |_, now, first, earlier| {
+                let Some(unsolved) = unsolved.as_ref() else {
+                    return;
+                };
+                right.clear();
+                let sides = unsolved.right.iter();
+                right.extend(sides.map(|r| now[r.slot.index()]));
+                let elements = unsolved.elements.iter().zip(earlier);
+                for (&(equation, element, unknown), &earlier) in elements {
+                    right[equation] -= now[element.index()] * first[unknown.index()] + earlier;
+                }
+                solver.solve(right);
+                for (slot, &x) in unsolved.unknowns.iter().zip(&*right) {
+                    now[slot.index()] = x;
+                }
+            },
+        );
         Ok(())
     }
 
-    /// Records the tapes of the mode unless that has been done.
-    fn record(&mut self, v: &[S::Scalar], order: usize) {
-        let branches = &self.mode.branches[..];
-        let tapes = Tapes {
-            scene: &self.scene,
-            constants: &self.constants,
-            plan: &self.plan,
-            motion: Held {
-                needs: &self.held,
-                branches,
-            },
-            report: self.reports.then_some(Held {
-                needs: &self.report_held,
-                branches,
-            }),
-        };
-        let at_rest = v
-            .iter()
-            .enumerate()
-            .all(|(j, v)| v.is_zero() || !self.plan.is_pinned(j));
-        self.table.prepare(&tapes, order, at_rest);
-    }
-
-    /// Coefficients 0 of the state, and of time all.
-    fn begin(&mut self, t: S::Scalar, q: &[S::Scalar], v: &[S::Scalar]) {
-        let time = self.table.input(0);
-        self.table.coefficients.put(time, 0, t);
-        if self.table.order() > 0 {
-            // dt/dτ = 1
-            self.table.coefficients.put(time, 1, S::Scalar::one());
-        }
-        for (i, &x) in q.iter().chain(v).enumerate() {
-            let slot = self.table.input(1 + i);
-            self.table.coefficients.put(slot, 0, x);
-        }
-    }
-
-    fn factor_start(&mut self) -> Result<(), EvaluationError> {
-        let table = core::mem::take(&mut self.table);
-        let outcome = self.factor(|node| table.coefficients.get(table.nodes[node].slot, 0));
-        self.table = table;
-        outcome
-    }
-
-    /// Right-hand sides: bₖ − Σ_{j=1..k} Kⱼ xₖ₋ⱼ.
-    fn gather(&mut self, k: usize) {
-        let Self {
-            plan, right, table, ..
-        } = self;
-        let Table {
-            coefficients,
-            loads,
-            with_accelerations,
-            with_forces,
-            ..
-        } = table;
-        if k == 0 {
-            right.copy_from_slice(&plan.constant_load);
-        } else {
-            right.fill(S::Scalar::default());
-            for product in with_accelerations.iter() {
-                right[product.row] -=
-                    coefficients.tail_product(product.element, product.unknown, k);
-            }
-            for product in with_forces.iter() {
-                right[product.row] +=
-                    coefficients.tail_product(product.element, product.unknown, k);
-            }
-        }
-        for &(row, factor, node) in loads.iter() {
-            right[row] += factor * coefficients.get(node, k);
-        }
-    }
-
-    /// Coefficient k of all accelerations and forces from the solution.
-    fn scatter(&mut self, k: usize) {
-        let Self {
-            plan,
-            right,
-            solution,
-            constants,
-            table,
-            ..
-        } = self;
-        let n = S::DESCRIPTION.coordinates.len();
-        for &(j, slot) in &table.accelerations {
-            table
-                .coefficients
-                .put(slot, k, plan.elimination.acceleration(j, solution));
-        }
-        for (&slot, &x) in table.kept.iter().zip(&solution[plan.free()..]) {
-            table.coefficients.put(slot, k, -x);
-        }
-        let force = |row: usize| 1 + 3 * n + row;
-        let constant_parts = plan.constant_forces(solution).zip(&right[plan.size()..]);
-        for (&row, (part, &load)) in plan.eliminated.iter().zip(constant_parts) {
-            let slot = table.input(force(row));
-            table.coefficients.put(slot, k, part - load);
-        }
-        let coefficients = &mut table.coefficients;
-        for part in &table.force_parts {
-            let element = part.element.slot;
-            let product = match part.element.variation {
-                Variation::Varying => coefficients.product(element, part.unknown, k),
-                _ => coefficients.get(element, 0) * coefficients.get(part.unknown, k),
-            };
-            let sum =
-                coefficients.get(part.force, k) + if part.subtract { -product } else { product };
-            coefficients.put(part.force, k, sum);
-        }
-        for slide in &plan.slides {
-            let normal = slide.source.map(|source| table.input(force(source)));
-            let coefficients = &mut table.coefficients;
-            let value = match (slide.factor, normal) {
-                (Place::Zero, _) => S::Scalar::zero(),
-                (Place::Constant(c), Some(normal)) => constants[c] * coefficients.get(normal, k),
-                (Place::Constant(c), None) if k == 0 => constants[c],
-                (Place::Constant(_), None) => S::Scalar::zero(),
-                (Place::Node(node), Some(normal)) => {
-                    coefficients.product(table.nodes[node].slot, normal, k)
-                }
-                (Place::Node(node), None) => coefficients.get(table.nodes[node].slot, k),
-            };
-            let slot = table.input(force(slide.row));
-            table.coefficients.put(slot, k, value);
-        }
-    }
-
-    /// Coefficient k + 1 of positions and velocities.
-    fn integrate(&mut self, k: usize) {
-        let Table {
-            coefficients,
-            integrals,
-            ..
-        } = &mut self.table;
-        let next = S::Scalar::from_f64((k + 1) as f64);
-        for &(slot, rate) in integrals.iter() {
-            let rate = coefficients.get(rate, k);
-            coefficients.put(slot, k + 1, rate / next);
+    /// Coefficients 0 of everything.
+    fn start_series(&mut self, order: usize) -> Result<(), EvaluationError> {
+        let (_, _, tape) = self.modes[self.current].parts();
+        tape.order = order;
+        tape.everything.evaluate(REPORT, &mut tape.registers);
+        match tape.expansion.singular(&tape.registers) {
+            Some(operation) => Err(EvaluationError::NoSeries { operation }),
+            None => Ok(()),
         }
     }
 
@@ -213,9 +94,12 @@ impl<S: System> Dynamics<S> {
         self.input_series(1 + S::DESCRIPTION.coordinates.len() + i)
     }
 
-    /// Acceleration coefficients of coordinate `i`.
-    pub fn acceleration_series(&self, i: usize) -> &[S::Scalar] {
-        self.input_series(1 + 2 * S::DESCRIPTION.coordinates.len() + i)
+    /// Acceleration coefficients of coordinate `i`: one fewer.
+    pub fn acceleration_series(&self, i: usize) -> Vec<S::Scalar> {
+        let velocity = self.velocity_series(i).iter().enumerate().skip(1);
+        velocity
+            .map(|(k, &c)| S::Scalar::from_f64(k as f64) * c)
+            .collect()
     }
 
     /// Force coefficients of a row; zeros where it does not act.
@@ -224,33 +108,28 @@ impl<S: System> Dynamics<S> {
     }
 
     fn input_series(&self, index: usize) -> &[S::Scalar] {
-        self.table.coefficients.series(self.table.input(index))
+        self.compiled()
+            .tape()
+            .map_or(&[], |t| t.input_series(index))
     }
 
-    /// Coefficients of a number of the motion tape. Its need must have been held.
+    /// Coefficients of a number of the motion tape that depends on the state. Its need must have been asked for by
+    /// [`Self::set_extra_needs`]; of other numbers, zeros.
     pub fn motion_series(&self, place: Place) -> &[S::Scalar] {
-        self.table.series(S::DESCRIPTION, place, &self.table.nodes)
+        let tape = self.compiled().tape();
+        tape.map_or(&[], |tape| match place {
+            Place::Node(node) => tape.node_series(node),
+            Place::Zero | Place::Constant(_) => tape.zero_series(),
+        })
     }
 
-    /// Coefficients of a number of the report tape. Its need must have been held.
+    /// Coefficients of a number of the report tape that depends on the state. Its need must have been asked for by
+    /// [`Self::set_report_needs`]; of other numbers, zeros.
     pub fn report_series(&self, place: Place) -> &[S::Scalar] {
-        self.table
-            .series(S::DESCRIPTION, place, &self.table.report_nodes)
-    }
-}
-
-/// Appends coefficient `k` of everything in a recording.
-fn append<T: Scalar>(
-    recording: &Recording<T>,
-    coefficients: &mut Coefficients<T>,
-    k: usize,
-) -> Result<(), EvaluationError> {
-    let mut a = coefficients.jet(k, 0);
-    recording.run(&mut a);
-    match a.singular() {
-        None => Ok(()),
-        Some(singular) => Err(EvaluationError::NoSeries {
-            operation: singular.operation,
-        }),
+        let tape = self.compiled().tape();
+        tape.map_or(&[], |tape| match place {
+            Place::Node(node) => tape.report_series(node),
+            Place::Zero | Place::Constant(_) => tape.zero_series(),
+        })
     }
 }

@@ -15,8 +15,7 @@ impl<S: System> Acceleration<S::Scalar> for Dynamics<S> {
         v: &[S::Scalar],
         dv: &mut [S::Scalar],
     ) -> Result<(), EvaluationError> {
-        self.value(t, q, v)?;
-        dv.copy_from_slice(Dynamics::acceleration(self));
+        dv.copy_from_slice(self.run_accelerations(t, q, v)?);
         Ok(())
     }
 

@@ -1,14 +1,28 @@
 //! The value reading: accelerations and forces at one state.
 
+use super::compiled::Compiled;
+use super::tape::{FORCES, MOTION, Tape};
 use super::{Dynamics, EvaluationError};
 use crate::arithmetic::{Scalar, Value};
-use crate::linear::{Inertia, epsilon};
+use crate::linear::{Inertia, SolveError, epsilon};
 use crate::system::{Held, Place, System};
+
+/// How much of a tape runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Extent {
+    /// Everything that was asked for.
+    Everything,
+    /// What the accelerations need.
+    Accelerations,
+}
 
 impl<S: System> Dynamics<S> {
     /// Accelerations and forces at (t, q, v): then read [`Self::acceleration`], [`Self::force`], [`Self::motion`].
     ///
     /// `q` and `v` have one element per coordinate.
+    ///
+    /// # Errors
+    /// The system is singular there, or a number is not finite.
     pub fn value(
         &mut self,
         t: S::Scalar,
@@ -16,83 +30,153 @@ impl<S: System> Dynamics<S> {
         v: &[S::Scalar],
     ) -> Result<(), EvaluationError> {
         self.work.values += 1;
+        self.run(t, q, v, Extent::Everything, false)?;
+        self.check_accelerations()?;
+        let (_, _, tape) = self.modes[self.current].parts();
+        let count = self.inputs.len();
+        self.inputs.copy_from_slice(&tape.registers[1..=count]);
         self.tape(t, q, v);
-        self.plan
-            .program
-            .run(&mut Value::new(), &self.constants, &mut self.nodes);
-        let nodes = core::mem::take(&mut self.nodes);
-        let outcome = self.factor(|node| nodes[node]);
-        self.nodes = nodes;
-        outcome?;
-        self.right.copy_from_slice(&self.plan.constant_load);
-        for load in &self.plan.loads {
-            self.right[load.row] += load.factor * self.nodes[load.node];
-        }
-        self.solve()?;
-        self.check_rows_aside()?;
-        self.store();
         Ok(())
     }
 
-    /// Factors the system whose changing numbers are `node(index)`.
-    pub(super) fn factor(
+    /// Motion and forces at (t, q, v), into the registers. `refined`: what rounding leaves in the forces step after step is
+    /// taken out.
+    #[inline]
+    pub(super) fn run(
         &mut self,
-        node: impl Fn(usize) -> S::Scalar,
+        t: S::Scalar,
+        q: &[S::Scalar],
+        v: &[S::Scalar],
+        extent: Extent,
+        refined: bool,
     ) -> Result<(), EvaluationError> {
-        if self.factored && self.plan.entries.is_empty() {
-            return Ok(());
+        self.select(v);
+        let (_, _, tape) = self.modes[self.current].parts();
+        let n = q.len();
+        tape.registers[1] = t;
+        tape.registers[2..2 + n].copy_from_slice(q);
+        tape.registers[2 + n..2 + 2 * n].copy_from_slice(v);
+        tape.evaluate(extent, MOTION);
+        if tape.unsolved.is_some() {
+            self.solve_start(refined)?;
+        } else if !tape
+            .pivots
+            .iter()
+            .all(|pivot| pivot.is_safe(&tape.registers))
+        {
+            self.modes[self.current].leave_to_solver();
+            self.selected = false;
+            return self.run(t, q, v, extent, refined);
         }
-        let (free, size) = (self.plan.free(), self.plan.size());
-        let matrix = self
-            .solver
-            .begin(free, size, &self.plan.constant[..size * size]);
-        for entry in &self.plan.entries {
-            matrix[entry.row * size + entry.column] += node(entry.node);
+        let (_, _, tape) = self.modes[self.current].parts();
+        tape.evaluate(extent, FORCES);
+        Ok(())
+    }
+
+    /// Accelerations alone at (t, q, v); they stay in the registers.
+    #[inline]
+    pub(super) fn run_accelerations(
+        &mut self,
+        t: S::Scalar,
+        q: &[S::Scalar],
+        v: &[S::Scalar],
+    ) -> Result<&[S::Scalar], EvaluationError> {
+        self.work.values += 1;
+        self.run(t, q, v, Extent::Accelerations, false)?;
+        self.check_accelerations()?;
+        let n = q.len();
+        let (_, _, tape) = self.modes[self.current].parts();
+        Ok(&tape.registers[2 + 2 * n..2 + 3 * n])
+    }
+
+    /// Whether all accelerations in the registers are finite.
+    #[inline]
+    fn check_accelerations(&mut self) -> Result<(), EvaluationError> {
+        let n = S::DESCRIPTION.coordinates.len();
+        let (_, _, tape) = self.modes[self.current].parts();
+        // The sum of zeros is zero unless one of the factors is not finite.
+        let poison = tape.registers[2 + 2 * n..2 + 3 * n]
+            .iter()
+            .fold(0.0, |sum, x| sum + 0.0 * x.value());
+        if poison == 0.0 {
+            Ok(())
+        } else {
+            Err(self.not_finite_register())
         }
-        // A kept row that follows from the eliminated ones leaves rounding behind: that is a zero.
-        let constants = &self.constants;
-        let read = |place: Place| match place {
-            Place::Zero => S::Scalar::default(),
-            Place::Constant(i) => constants[i],
-            Place::Node(i) => node(i),
-        };
-        let rounding = 512.0 * epsilon::<S::Scalar>();
-        for (row, terms) in self.plan.cancelled(read) {
-            let row = &mut matrix[row * size..row * size + free];
-            if row.iter().all(|x| x.value().abs() <= rounding * terms) {
-                row.fill(S::Scalar::default());
+    }
+
+    /// Solves for the unknowns, from values in the registers.
+    fn solve_start(&mut self, refined: bool) -> Result<(), EvaluationError> {
+        self.factor()?;
+        self.fill_right();
+        let Self {
+            modes,
+            current,
+            right,
+            solution,
+            ..
+        } = self;
+        let (plan, solver, tape) = modes[*current].parts();
+        solution.clear();
+        solution.extend_from_slice(&right[..plan.size()]);
+        solver.solve(solution);
+        let outcome = solver.check_rows_aside(solution, right);
+        if outcome.is_ok() && refined && plan.size() > plan.free() {
+            solver.refine(solution, &mut right[..plan.size()]);
+        }
+        if let Some(unsolved) = &tape.unsolved {
+            for (slot, &x) in unsolved.unknowns.iter().zip(&*solution) {
+                tape.registers[slot.index()] = x;
             }
         }
-        let inertia = if self.plan.elimination.symmetric {
-            Inertia::Symmetric
-        } else {
-            Inertia::General
-        };
-        self.factored = false;
-        self.solver
-            .factor(inertia)
-            .map_err(|e| self.solve_error(e))?;
-        self.factored = true;
-        Ok(())
+        if let Some(unknown) = solution.iter().position(|x| !x.value().is_finite()) {
+            return Err(self.not_finite(unknown));
+        }
+        outcome.map_err(|e| self.solve_error(e))
     }
 
-    /// The solution of the equations with the right-hand side `right`.
-    #[inline]
-    pub(super) fn solve(&mut self) -> Result<(), EvaluationError> {
-        let equations = &self.right[..self.plan.size()];
-        self.solution.copy_from_slice(equations);
-        self.solver.solve(&mut self.solution);
-        match self.solution.iter().position(|x| !x.value().is_finite()) {
-            Some(unknown) => Err(self.not_finite(unknown)),
-            None => Ok(()),
+    /// Right-hand sides from the registers.
+    fn fill_right(&mut self) {
+        let (_, _, tape) = self.modes[self.current].parts();
+        self.right.clear();
+        if let Some(unsolved) = &tape.unsolved {
+            let values = unsolved
+                .right
+                .iter()
+                .map(|r| tape.registers[r.slot.index()]);
+            self.right.extend(values);
         }
     }
 
-    /// Whether dependent rows agree with the solution.
-    pub(super) fn check_rows_aside(&self) -> Result<(), EvaluationError> {
-        self.solver
-            .check_rows_aside(&self.solution, &self.right)
-            .map_err(|e| self.solve_error(e))
+    /// Factors the system whose changing numbers are in the registers.
+    pub(super) fn factor(&mut self) -> Result<(), EvaluationError> {
+        let compiled = &mut self.modes[self.current];
+        if compiled.factored && compiled.plan.entries.is_empty() {
+            return Ok(());
+        }
+        compiled.factored = false;
+        self.work.factorizations += 1;
+        match factor(compiled) {
+            Ok(()) => {
+                compiled.factored = true;
+                Ok(())
+            }
+            Err(e) => Err(self.solve_error(e)),
+        }
+    }
+
+    /// The acceleration or force in the registers that is not finite.
+    #[cold]
+    fn not_finite_register(&self) -> EvaluationError {
+        let n = S::DESCRIPTION.coordinates.len();
+        let compiled = self.compiled();
+        let bad = |j: &usize| {
+            let tape: Option<&Tape<_>> = compiled.tape();
+            tape.is_some_and(|tape| !tape.registers[2 + 2 * n + j].value().is_finite())
+        };
+        EvaluationError::NotFiniteAcceleration {
+            coordinate: (0..n).find(bad).unwrap_or(0),
+        }
     }
 
     /// Runs only the motion tape at (t, q, v), for the needs held: then read [`Self::motion`].
@@ -101,72 +185,67 @@ impl<S: System> Dynamics<S> {
         self.inputs[0] = t;
         self.inputs[1..1 + n].copy_from_slice(q);
         self.inputs[1 + n..1 + 2 * n].copy_from_slice(v);
+        let compiled = &self.modes[self.current];
         let held = Held {
             needs: &self.held,
-            branches: &self.mode.branches,
+            branches: &compiled.mode.branches,
         };
-        let mut a = Value::new();
-        let outputs = S::DESCRIPTION.motion.outputs;
         self.scene.motion(
-            &mut a,
+            &mut Value::new(),
             &held,
-            &self.constants,
+            &compiled.constants,
             &self.inputs[..1 + 2 * n],
-            &mut self.nodes[..outputs],
+            &mut self.nodes,
         );
-    }
-
-    /// The solution as inputs of the report.
-    fn store(&mut self) {
-        let Self {
-            plan,
-            inputs,
-            nodes,
-            solution,
-            right,
-            ..
-        } = self;
-        let n = S::DESCRIPTION.coordinates.len();
-        let (accelerations, forces) = inputs[1 + 2 * n..].split_at_mut(n);
-        for (j, acceleration) in accelerations.iter_mut().enumerate() {
-            *acceleration = plan.elimination.acceleration(j, solution);
-        }
-        for (&row, &x) in plan.kept.iter().zip(&solution[plan.free()..]) {
-            forces[row] = -x;
-        }
-        let size = plan.size();
-        let constant_parts = plan.constant_forces(solution).zip(&right[size..]);
-        for (&row, (part, &load)) in plan.eliminated.iter().zip(constant_parts) {
-            forces[row] = part - load;
-        }
-        for entry in &plan.force_entries {
-            forces[plan.eliminated[entry.row - size]] += nodes[entry.node] * solution[entry.column];
-        }
-        for slide in &self.plan.slides {
-            let factor = match slide.factor {
-                Place::Zero => S::Scalar::default(),
-                Place::Constant(i) => self.constants[i],
-                Place::Node(i) => nodes[i],
-            };
-            forces[slide.row] = slide
-                .source
-                .map_or(factor, |source| factor * forces[source]);
-        }
     }
 
     /// Runs the report tape at the state of the last [`Self::value`], for the needs given to
     /// [`Self::set_report_needs`]: then read [`Self::report`].
     pub fn report_value(&mut self) {
+        let compiled = &self.modes[self.current];
         let held = Held {
             needs: &self.report_held,
-            branches: &self.mode.branches,
+            branches: &compiled.mode.branches,
         };
         self.scene.report(
             &mut Value::new(),
             &held,
-            &self.constants,
+            &compiled.constants,
             &self.inputs,
             &mut self.report_nodes,
         );
     }
+}
+
+/// Factors the linear system of a mode.
+fn factor<T: Scalar>(compiled: &mut Compiled<T>) -> Result<(), SolveError> {
+    let constants = core::mem::take(&mut compiled.constants);
+    let (plan, solver, tape) = compiled.parts();
+    let number = |node: usize| tape.registers[tape.nodes[node].slot.index()];
+    let (free, size) = (plan.free(), plan.size());
+    let matrix = solver.begin(free, size, &plan.constant[..size * size]);
+    for entry in &plan.entries {
+        matrix[entry.row * size + entry.column] += number(entry.node);
+    }
+    // A kept row that follows from the eliminated ones leaves rounding behind: that is a zero.
+    let read = |place: Place| match place {
+        Place::Zero => T::default(),
+        Place::Constant(i) => constants[i],
+        Place::Node(i) => number(i),
+    };
+    let rounding = 512.0 * epsilon::<T>();
+    for (row, terms) in plan.cancelled(read) {
+        let row = &mut matrix[row * size..row * size + free];
+        if row.iter().all(|x| x.value().abs() <= rounding * terms) {
+            row.fill(T::default());
+        }
+    }
+    let inertia = if plan.elimination.symmetric {
+        Inertia::Symmetric
+    } else {
+        Inertia::General
+    };
+    let outcome = solver.factor(inertia);
+    compiled.constants = constants;
+    outcome
 }

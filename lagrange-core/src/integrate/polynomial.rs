@@ -90,6 +90,14 @@ impl<T: Scalar> StepPolynomial<T> {
     /// Positions and velocities of all coordinates at `s`.
     pub fn state_into(&self, s: T, q: &mut [T], v: &mut [T]) {
         let width = self.degree + 1;
+        if s.is_one() {
+            for (rows, out) in [(&self.q, q), (&self.v, v)] {
+                for (x, row) in out.iter_mut().zip(rows.chunks_exact(width)) {
+                    *x = sum(row);
+                }
+            }
+            return;
+        }
         for (q, row) in q.iter_mut().zip(self.q.chunks_exact(width)) {
             *q = horner(row, s);
         }
@@ -104,10 +112,26 @@ impl<T: Scalar> StepPolynomial<T> {
         let width = self.degree + 1;
         for (rows, end) in [(&mut self.q, q), (&mut self.v, v)] {
             for (row, &end) in rows.chunks_exact_mut(width).zip(end) {
-                row[1] += end - horner(row, T::one());
+                row[1] += end - sum(row);
             }
         }
     }
+}
+
+/// Σ cₖ, the first two last; the others in four chains, so that no addition waits for the one before.
+pub(crate) fn sum<T: Scalar>(c: &[T]) -> T {
+    let (first, rest) = c.split_at(c.len().min(2));
+    let chunks = rest.chunks_exact(4);
+    let end = chunks.remainder();
+    let sums = chunks.rev().fold([T::zero(); 4], |mut sums, four| {
+        for (sum, &c) in sums.iter_mut().zip(four) {
+            *sum += c;
+        }
+        sums
+    });
+    let end = end.iter().rev().fold(T::zero(), |sum, &c| sum + c);
+    let rest = (sums[0] + sums[2]) + (sums[1] + sums[3]) + end;
+    first.iter().rev().fold(rest, |sum, &c| sum + c)
 }
 
 /// Σ cₖ sᵏ; the small terms are added first, so that at s = 1 the sum is accurate to rounding for series that decay.

@@ -37,6 +37,7 @@ pub(crate) fn epsilon<T: Scalar>() -> f64 {
 
 pub(crate) use collect::acts;
 pub(crate) use consistent::solve_consistent;
+pub(crate) use direct::positive_definite;
 pub(crate) use least_norm::least_norm;
-pub(crate) use plan::{Entry, Plan};
+pub(crate) use plan::Plan;
 pub(crate) use solver::{Inertia, SolveError, Solver};

@@ -110,13 +110,6 @@ impl<T: Scalar> Plan<T> {
         self.elimination.right.row(j).is_empty()
     }
 
-    /// Whether a row has a force in this mode, as an equation or by sliding.
-    pub(crate) fn has_force(&self, row: usize) -> bool {
-        self.kept.contains(&row)
-            || self.eliminated.contains(&row)
-            || self.slides.iter().any(|slide| slide.row == row)
-    }
-
     /// Makes the plan of a mode. `constants` begins with the system's own and is extended.
     pub(crate) fn set(
         &mut self,
@@ -368,16 +361,9 @@ impl<T: Scalar> Plan<T> {
         self.first_force = self.entries.partition_point(|e| e.column < free);
     }
 
-    /// What the constant elements give of each eliminated force, for a solution.
-    #[inline]
-    pub(crate) fn constant_forces<'a>(&'a self, solution: &'a [T]) -> impl Iterator<Item = T> + 'a {
-        let size = self.size();
-        (0..self.eliminated.len()).map(move |i| {
-            let row = &self.constant[(size + i) * size..(size + i + 1) * size];
-            row.iter()
-                .zip(solution)
-                .fold(T::zero(), |sum, (&k, &x)| sum + k * x)
-        })
+    /// The numbers that [`Self::cancelled`] reads.
+    pub(crate) fn cancelling(&self) -> impl Iterator<Item = Place> + '_ {
+        self.cancelling.iter().map(|&(_, place)| place)
     }
 
     /// The size of the terms of each kept row that elimination may cancel: (row, largest term).

@@ -4,7 +4,7 @@
 //! Scaling is symmetric, K → D K D, by powers of two (exact): 1/√Mⱼⱼ for coordinates, so that inertia is about 1, then
 //! each row of A to about 1. Pivots are then comparable with 1 whatever the units.
 
-use super::direct::Direct;
+use super::direct::{Direct, dot};
 use super::epsilon;
 use super::lu::Lu;
 use crate::arithmetic::Scalar;
@@ -56,8 +56,6 @@ pub(crate) struct Solver<T> {
     /// Rows set aside because they depend on the others.
     aside: Vec<bool>,
     work: Vec<T>,
-    /// Number of factorizations so far.
-    pub factorizations: usize,
 }
 
 /// The power of two near 1/√x.
@@ -97,7 +95,6 @@ impl<T: Scalar> Solver<T> {
 
     /// Factors the matrix.
     pub(crate) fn factor(&mut self, inertia: Inertia) -> Result<(), SolveError> {
-        self.factorizations += 1;
         self.aside.clear();
         let leading = match inertia {
             Inertia::Symmetric => self.coordinates,
@@ -214,6 +211,21 @@ impl<T: Scalar> Solver<T> {
         self.lu.solve(b);
         for (x, &scale) in b.iter_mut().zip(&self.scale) {
             *x *= T::from_f64(scale);
+        }
+    }
+
+    /// One step of iterative refinement (Skeel 1980) of the solution `x`; of its right-hand side `b` remains the correction.
+    ///
+    /// The factors hold reciprocals of the pivots. A pivot that the motion keeps constant (the l² of a rod) has the same
+    /// rounding error in all of them, and over very many steps a force that is always too large by half a unit in the last
+    /// place shows. The rounding errors of the residual have no direction.
+    pub(crate) fn refine(&mut self, x: &mut [T], b: &mut [T]) {
+        for (b, row) in b.iter_mut().zip(self.matrix.chunks_exact(self.size.max(1))) {
+            *b -= dot(row, x);
+        }
+        self.solve(b);
+        for (x, &correction) in x.iter_mut().zip(&*b) {
+            *x += correction;
         }
     }
 

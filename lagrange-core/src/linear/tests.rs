@@ -372,12 +372,9 @@ fn by_plan(d: &Description, mode: &Mode, b: &Builder) -> Option<Vec<f64>> {
     for (&row, force) in plan.kept.iter().zip(&w[free..]) {
         x[n + row] = -force;
     }
-    for (i, (&row, part)) in plan
-        .eliminated
-        .iter()
-        .zip(plan.constant_forces(&w))
-        .enumerate()
-    {
+    for (i, &row) in plan.eliminated.iter().enumerate() {
+        let elements = &plan.constant[(size + i) * size..(size + i + 1) * size];
+        let part: f64 = elements.iter().zip(&w).map(|(k, x)| k * x).sum();
         x[n + row] = part - right[size + i];
     }
     for e in &plan.force_entries {

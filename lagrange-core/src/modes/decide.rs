@@ -10,11 +10,13 @@ use crate::dynamics::{Dynamics, EvaluationError, NeedSet};
 use crate::effects::Item;
 use crate::error::Error;
 use crate::integrate::{Tolerance, taylor};
-use crate::mode::{FrictionMode, Mode, Sliding};
+use crate::mode::{Direction, FrictionMode, Mode, Sliding};
 use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
-use crate::modes::scale::scale;
-use crate::system::{Normal, System};
+use crate::modes::scale::Sizes;
+use crate::modes::table::Table;
+use crate::pool::Pool;
+use crate::system::{Description, Normal, System};
 
 /// What is known exactly at the instant.
 #[derive(Clone, Debug, Default)]
@@ -29,8 +31,29 @@ pub struct Known {
     pub resting: Vec<bool>,
     /// Per branch: its guard vanishes.
     pub balanced: Vec<bool>,
+    /// Velocities have just jumped.
+    pub jumped: bool,
     /// Guards of the present mode that have just been located as roots: the present mode cannot go on.
     pub located: Vec<Guard>,
+    /// What evaluation leaves of the forces that have been located as zero, relative to the terms that they are made of.
+    pub residue: f64,
+}
+
+impl Known {
+    /// Nothing is known.
+    pub fn clear(&mut self, d: &Description) {
+        for flags in [&mut self.touching, &mut self.arriving, &mut self.parting] {
+            flags.clear();
+            flags.resize(d.contacts.len(), false);
+        }
+        self.resting.clear();
+        self.resting.resize(d.frictions.len(), false);
+        self.balanced.clear();
+        self.balanced.resize(d.branches.len(), false);
+        self.jumped = false;
+        self.located.clear();
+        self.residue = 0.0;
+    }
 }
 
 /// The mode that goes on.
@@ -42,82 +65,312 @@ pub struct Decision {
     pub zeros: Vec<(Guard, usize)>,
     /// Whether another mode with another motion was feasible too.
     pub ambiguous: bool,
+    /// Whether the dynamics hold the series of this mode at the moment, for the needs of its guards.
+    pub expanded: bool,
+}
+
+/// The instant at which a mode is looked for.
+#[derive(Clone, Copy, Debug)]
+pub struct Moment<'a, T> {
+    /// Time, s.
+    pub t: T,
+    /// Positions.
+    pub q: &'a [T],
+    /// Velocities.
+    pub v: &'a [T],
+    /// Order of the series that decide what values do not.
+    pub order: usize,
+    /// Error that the state may have.
+    pub tolerance: f64,
+}
+
+impl<T> Moment<'_, T> {
+    /// How far forces located as zero, and what follows from them, are from it, relative to what they are made of.
+    fn blur(&self, known: &Known) -> f64 {
+        self.tolerance.max(1e-14).max(4.0 * known.residue)
+    }
+}
+
+/// Memory of decisions, and the last one.
+#[derive(Clone, Debug)]
+pub struct Decider {
+    /// What was found last.
+    pub decision: Decision,
+    candidates: Pool<Mode>,
+    questions: Vec<(Guard, usize)>,
+    zeros: Vec<(Guard, usize)>,
+    motion: Vec<f64>,
+    sizes: Sizes,
+    /// Needs of everything about every row.
+    rows: NeedSet,
 }
 
 /// More candidates than this are not enumerated.
 const MOST_CANDIDATES: usize = 20_000;
 
-/// Finds the mode in which the motion goes on from (t, q, v).
-///
-/// On success `dynamics` is left in that mode. The order of preference among feasible modes is: stick before slip,
-/// then the present mode, then the fewest changes.
-///
-/// # Errors
-/// [`Error::NoMode`] if no candidate is feasible (Painlevé's paradox).
-#[allow(clippy::too_many_arguments)]
-pub fn decide<S: System>(
-    dynamics: &mut Dynamics<S>,
-    t: S::Scalar,
-    q: &[S::Scalar],
-    v: &[S::Scalar],
-    present: &Mode,
-    known: &Known,
-    order: usize,
-    tolerance: f64,
-) -> Result<Decision, Error> {
-    let candidates = candidates::<S>(dynamics, q, v, t, present, known)?;
-    let tried = candidates.len();
-    let mut best: Option<Decision> = None;
-    let mut best_motion: Vec<f64> = Vec::new();
-    let mut failure = None;
-    for mode in candidates {
-        // A root of the present mode falls through zero: that mode is over.
-        if mode == *present && !known.located.is_empty() {
-            continue;
-        }
-        match examine(dynamics, t, q, v, &mode, known, order, tolerance) {
-            Ok(Some(zeros)) => {
-                let motion: Vec<f64> = dynamics.acceleration().iter().map(|a| a.value()).collect();
-                match &mut best {
-                    None => {
-                        best = Some(Decision {
-                            mode,
-                            zeros,
-                            ambiguous: false,
-                        });
-                        best_motion = motion;
-                    }
-                    // Stick is preferred to slip without being ambiguous (μs > μk allows both).
-                    Some(first)
-                        if sticks(&first.mode) <= sticks(&mode)
-                            && differ(&best_motion, &motion) =>
-                    {
-                        first.ambiguous = true;
-                    }
-                    Some(_) => {}
-                }
-            }
-            Ok(None) => {}
-            Err(error) => failure = Some((mode, error)),
+/// Order of the series that are looked at first. Leading coefficients beyond it vanish rarely.
+const LOW_ORDER: usize = 4;
+
+impl Decider {
+    /// Memory for a system.
+    pub fn new(description: &Description) -> Self {
+        Self {
+            decision: Decision {
+                mode: Mode::open(description),
+                zeros: Vec::new(),
+                ambiguous: false,
+                expanded: false,
+            },
+            candidates: Pool::default(),
+            questions: Vec::new(),
+            zeros: Vec::new(),
+            motion: Vec::new(),
+            sizes: Sizes::default(),
+            rows: guard::all_row_needs(description, &NeedSet::new(description)),
         }
     }
-    match (best, failure) {
-        (Some(decision), _) => {
-            dynamics.set_mode(&decision.mode);
-            Ok(decision)
+
+    /// Finds the mode in which the motion goes on from a moment, into [`Self::decision`].
+    ///
+    /// On success `dynamics` is left in that mode. The order of preference among feasible modes is: stick before slip,
+    /// then the present mode, then the fewest changes.
+    ///
+    /// # Errors
+    /// [`Error::NoMode`] if no candidate is feasible (Painlevé's paradox).
+    pub fn decide<S: System>(
+        &mut self,
+        dynamics: &mut Dynamics<S>,
+        table: &mut Table,
+        moment: Moment<'_, S::Scalar>,
+        present: &Mode,
+        known: &Known,
+    ) -> Result<(), Error> {
+        let d = S::DESCRIPTION;
+        let mut candidates = core::mem::take(&mut self.candidates);
+        let scratch = &mut self.decision.mode;
+        let listed = list_candidates(
+            dynamics,
+            moment,
+            present,
+            known,
+            &self.rows,
+            scratch,
+            &mut candidates,
+        );
+        let outcome = listed.and_then(|()| {
+            let (best, failure) = self.best(dynamics, table, moment, present, known, &candidates);
+            match (best, failure) {
+                (Some(best), _) => {
+                    self.decision.mode.clone_from(&candidates[best]);
+                    dynamics.set_mode(&candidates[best]);
+                    Ok(())
+                }
+                (None, Some((mode, error))) => {
+                    let time = moment.t.value();
+                    Err(Error::from_evaluation(error, time, &candidates[mode], d))
+                }
+                (None, None) => Err(Error::NoMode {
+                    time: moment.t.value(),
+                    mode: present.display(d).to_string(),
+                    item: concerned::<S>(known),
+                    tried: candidates.len(),
+                }),
+            }
+        });
+        self.candidates = candidates;
+        outcome
+    }
+
+    /// See [`Known::residue`]; `dynamics` holds the values of the moment in the mode that ends.
+    pub fn residue<S: System>(
+        &mut self,
+        dynamics: &Dynamics<S>,
+        mode: &Mode,
+        located: &[Guard],
+    ) -> f64 {
+        self.sizes.take(dynamics);
+        let reading = Reading::Values(dynamics);
+        let relative = |&guard: &Guard| match guard {
+            Guard::Normal(_)
+            | Guard::StickUpper(_)
+            | Guard::StickLower(_)
+            | Guard::StickCone(_)
+            | Guard::Bearing(_) => {
+                let size = self.sizes.of(guard, dynamics);
+                guard::value(guard, mode, &reading).abs() / size.max(f64::MIN_POSITIVE)
+            }
+            _ => 0.0,
+        };
+        located.iter().map(relative).fold(0.0, f64::max)
+    }
+
+    /// The feasible candidate to be preferred, and the last that could not be evaluated.
+    fn best<S: System>(
+        &mut self,
+        dynamics: &mut Dynamics<S>,
+        table: &mut Table,
+        moment: Moment<'_, S::Scalar>,
+        present: &Mode,
+        known: &Known,
+        candidates: &[Mode],
+    ) -> (Option<usize>, Option<(usize, EvaluationError)>) {
+        let (mut best, mut failure) = (None, None);
+        // Without friction the accelerations are the only ones that Gauss's principle allows: no other mode has others.
+        let idle = |mode: &Mode| mode.frictions.iter().all(|f| *f == FrictionMode::Inactive);
+        let unique = S::DESCRIPTION.couplings.is_empty()
+            && !known.balanced.contains(&true)
+            && candidates.iter().all(idle);
+        for (index, mode) in candidates.iter().enumerate() {
+            // A root of the present mode falls through zero: that mode is over.
+            if *mode == *present && !known.located.is_empty() {
+                continue;
+            }
+            // Stick is preferred to slip without being ambiguous (μs > μk allows both).
+            if best.is_some_and(|best: usize| unique || sticks(&candidates[best]) > sticks(mode)) {
+                continue;
+            }
+            // What is found of the last one serves the coming step.
+            let last = best.is_none() && index + 1 == candidates.len();
+            self.decision.expanded = false;
+            match self.examine(dynamics, table, moment, mode, known, last) {
+                Ok(true) if best.is_none() => {
+                    best = Some(index);
+                    self.decision.ambiguous = false;
+                    core::mem::swap(&mut self.decision.zeros, &mut self.zeros);
+                    self.motion.clear();
+                    let motion = dynamics.acceleration().iter().map(|a| a.value());
+                    self.motion.extend(motion);
+                }
+                Ok(true) => {
+                    self.decision.ambiguous |= differ(&self.motion, dynamics.acceleration())
+                }
+                Ok(false) => {}
+                Err(error) => failure = Some((index, error)),
+            }
         }
-        (None, Some((mode, error))) => Err(Error::from_evaluation(
-            error,
-            t.value(),
-            &mode,
-            S::DESCRIPTION,
-        )),
-        (None, None) => Err(Error::NoMode {
-            time: t.value(),
-            mode: present.display(S::DESCRIPTION).to_string(),
-            item: concerned::<S>(known),
-            tried,
-        }),
+        (best, failure)
+    }
+
+    /// Whether `mode` is feasible; if so, `zeros` says which guards begin with how many vanishing coefficients.
+    fn examine<S: System>(
+        &mut self,
+        dynamics: &mut Dynamics<S>,
+        table: &mut Table,
+        moment: Moment<'_, S::Scalar>,
+        mode: &Mode,
+        known: &Known,
+        last: bool,
+    ) -> Result<bool, EvaluationError> {
+        let Moment { t, q, v, .. } = moment;
+        dynamics.set_mode(mode);
+        let watched = table.of(dynamics);
+        dynamics.set_extra_needs(&watched.deciding);
+        let serves = watched.deciding == watched.needs;
+        list_questions::<S>(mode, known, &watched.deciding, &mut self.questions);
+        // Most candidates are refused, and many accepted, by their values already.
+        dynamics.value(t, q, v)?;
+        self.sizes.take(dynamics);
+        let mut refused = false;
+        let Self {
+            sizes,
+            questions,
+            zeros,
+            ..
+        } = self;
+        zeros.clear();
+        questions.retain(|&(guard, order_known)| {
+            if matches!((guard, order_known), (Guard::Gap(_), 1)) {
+                // It parts: that is known.
+                zeros.push((guard, 1));
+                return false;
+            }
+            let Some(value) = leading(guard, order_known, mode, dynamics) else {
+                return true;
+            };
+            let noise = if concerns(guard, known) {
+                1e3 * moment.blur(known)
+            } else {
+                1e-6
+            };
+            let clear = noise.max(1e-6) * sizes.of(guard, dynamics);
+            refused |= value < -clear;
+            let settled = clear > 0.0 && value > clear;
+            if settled && order_known > 0 {
+                zeros.push((guard, order_known));
+            }
+            !settled
+        });
+        if refused || questions.is_empty() {
+            return Ok(!refused);
+        }
+        let settled = zeros.len();
+        let low = if last {
+            moment.order
+        } else {
+            LOW_ORDER.min(moment.order)
+        };
+        for order in [low, moment.order] {
+            dynamics.series(t, q, v, order)?;
+            self.decision.expanded = serves && order == moment.order;
+            match self.judge(dynamics, moment, mode, known, order) {
+                Some(feasible) => return Ok(feasible),
+                None => self.zeros.truncate(settled),
+            }
+        }
+        Ok(true)
+    }
+
+    /// Looks at the guards in question just after the moment. `None`: one of them vanishes to this order, and more is to
+    /// be had.
+    fn judge<S: System>(
+        &mut self,
+        dynamics: &Dynamics<S>,
+        moment: Moment<'_, S::Scalar>,
+        mode: &Mode,
+        known: &Known,
+        order: usize,
+    ) -> Option<bool> {
+        let Moment { tolerance, .. } = moment;
+        let last = order == moment.order;
+        // A low order's last coefficient is small enough at the same step for a loose tolerance only.
+        let allowed = Tolerance::both(if last { tolerance } else { 1e-3 });
+        let step = taylor::step_size(dynamics, order, allowed);
+        let h = step.filter(|h| h.is_finite()).unwrap_or(1.0);
+        let mut series = [0.0; guard::LENGTH];
+        let series = &mut series[..=order];
+        let mut unclear = false;
+        for &(guard, order_known) in &self.questions {
+            guard::series(guard, mode, &Reading::Series(dynamics), series);
+            let mut power = 1.0;
+            let mut size = 0.0_f64;
+            for (k, c) in series.iter_mut().enumerate() {
+                *c = if k < order_known { 0.0 } else { *c * power };
+                power *= h;
+                size = size.max(c.abs());
+            }
+            // The residue of a located root, and what follows from it, has the size of the integration error.
+            let blurred = concerns(guard, known);
+            let (relative, absolute) = if blurred {
+                ((100.0 * tolerance).clamp(1e-11, 1e-3), moment.blur(known))
+            } else {
+                (1e-13, 1e-14)
+            };
+            let cancelling = self.sizes.of(guard, dynamics) * unit_of_order(guard, h);
+            let noise = (relative * size).max(absolute * cancelling);
+            match series.iter().position(|c| c.abs() > noise) {
+                None if !last => unclear = true,
+                // Identically zero: the boundary is not left.
+                None => {
+                    if order_known > 0 || series.iter().all(|c| *c <= 0.0) || blurred {
+                        self.zeros.push((guard, guard::LENGTH));
+                    }
+                }
+                Some(k) if series[k] < 0.0 => return Some(false),
+                Some(0) => {}
+                Some(k) => self.zeros.push((guard, k)),
+            }
+        }
+        (!unclear).then_some(true)
     }
 }
 
@@ -135,9 +388,11 @@ fn sticks(mode: &Mode) -> usize {
         .count()
 }
 
-fn differ(a: &[f64], b: &[f64]) -> bool {
-    let size = a.iter().chain(b).fold(0.0_f64, |m, x| m.max(x.abs()));
-    a.iter().zip(b).any(|(x, y)| (x - y).abs() > 1e-9 * size)
+fn differ<T: Scalar>(a: &[f64], b: &[T]) -> bool {
+    let sizes = a.iter().copied().chain(b.iter().map(|x| x.value()));
+    let size = sizes.fold(0.0_f64, |m, x| m.max(x.abs()));
+    let mut pairs = a.iter().zip(b);
+    pairs.any(|(x, y)| (x - y.value()).abs() > 1e-9 * size)
 }
 
 fn concerned<S: System>(known: &Known) -> &'static str {
@@ -166,89 +421,133 @@ fn concerned<S: System>(known: &Known) -> &'static str {
 }
 
 /// All modes that the known facts allow, in order of preference.
-fn candidates<S: System>(
+fn list_candidates<S: System>(
     dynamics: &mut Dynamics<S>,
-    q: &[S::Scalar],
-    v: &[S::Scalar],
-    t: S::Scalar,
+    moment: Moment<'_, S::Scalar>,
     present: &Mode,
     known: &Known,
-) -> Result<Vec<Mode>, Error> {
+    rows: &NeedSet,
+    scratch: &mut Mode,
+    out: &mut Pool<Mode>,
+) -> Result<(), Error> {
     let d = S::DESCRIPTION;
-    let mut modes = vec![present.clone()];
-    let multiply =
-        |modes: &mut Vec<Mode>, change: &dyn Fn(&Mode) -> Vec<Mode>| -> Result<(), Error> {
-            *modes = modes.iter().flat_map(change).collect();
-            if modes.len() > MOST_CANDIDATES {
-                return Err(Error::Limit {
-                    time: t.value(),
-                    what: "candidate modes",
-                    limit: MOST_CANDIDATES,
-                });
-            }
-            Ok(())
+    let slides_unknown = |f: usize| {
+        let closes = match d.frictions[f].normal {
+            Normal::Contact(c) => known.touching[c],
+            Normal::Constraint(_) | Normal::Given(_) => true,
         };
-    for c in 0..d.contacts.len() {
-        let touching = known.touching[c];
-        multiply(&mut modes, &|mode| {
-            let mut closed = mode.clone();
-            closed.contacts[c] = true;
-            let mut open = mode.clone();
-            open.contacts[c] = false;
-            if touching {
-                vec![closed, open]
-            } else {
-                vec![open]
-            }
-        })?;
+        closes
+            && !known.resting[f]
+            && dynamics.effects().includes(d, Item::Friction(f))
+            && slip_sign(f, present, known).is_none()
+    };
+    if (0..d.frictions.len()).any(slides_unknown) {
+        dynamics.set_extra_needs(rows);
+        dynamics.tape(moment.t, moment.q, moment.v);
     }
-    let all = guard::all_row_needs(d, &NeedSet::new(d));
-    dynamics.set_extra_needs(&all);
-    dynamics.tape(t, q, v);
-    for (f, friction) in d.frictions.iter().enumerate() {
-        let rests = known.resting[f];
-        let slip = dynamics.motion(d.rows[friction.row].velocity).value();
-        let sign = if slip < 0.0 { -1.0 } else { 1.0 };
-        let left_out = !dynamics.effects().includes(d, Item::Friction(f));
-        multiply(&mut modes, &|mode| {
-            let idle =
-                left_out || matches!(friction.normal, Normal::Contact(c) if !mode.contacts[c]);
-            let with = |state| {
-                let mut m = mode.clone();
-                m.frictions[f] = state;
-                m
-            };
-            let bearings: &[f64] = if let Normal::Constraint(_) = friction.normal {
-                &[1.0, -1.0]
-            } else {
-                &[1.0]
-            };
-            if idle {
-                vec![with(FrictionMode::Inactive)]
-            } else if rests {
-                let slides = bearings
-                    .iter()
-                    .flat_map(|&b| [slide(1.0, b), slide(-1.0, b)]);
-                core::iter::once(FrictionMode::Stick)
-                    .chain(slides)
-                    .map(with)
-                    .collect()
-            } else {
-                bearings.iter().map(|&b| with(slide(sign, b))).collect()
-            }
-        })?;
+    out.clear();
+    let mut listing = Listing {
+        dynamics,
+        present,
+        known,
+        out,
+    };
+    scratch.clone_from(present);
+    listing.contacts(scratch, 0);
+    if out.len() > MOST_CANDIDATES {
+        return Err(Error::Limit {
+            time: moment.t.value(),
+            what: "candidate modes",
+            limit: MOST_CANDIDATES,
+        });
     }
-    for b in 0..d.branches.len() {
-        if known.balanced[b] {
-            multiply(&mut modes, &|mode| {
-                let mut other = mode.clone();
-                other.set_branch(b, !mode.branch(b));
-                vec![mode.clone(), other]
-            })?;
+    out.sort_by_key(|m| (slips(m), m != present, changes(m, present)));
+    Ok(())
+}
+
+/// The way friction `f` has been sliding, if nothing has changed that.
+fn slip_sign(f: usize, present: &Mode, known: &Known) -> Option<f64> {
+    match present.frictions[f] {
+        FrictionMode::Slip(Sliding {
+            direction: Direction::Fixed([sign, 0.0]),
+            ..
+        }) if !known.jumped => Some(sign),
+        _ => None,
+    }
+}
+
+/// Writes down modes, choice after choice.
+struct Listing<'a, S: System> {
+    dynamics: &'a Dynamics<S>,
+    present: &'a Mode,
+    known: &'a Known,
+    out: &'a mut Pool<Mode>,
+}
+
+impl<S: System> Listing<'_, S> {
+    fn contacts(&mut self, mode: &mut Mode, c: usize) {
+        if c == mode.contacts.len() {
+            return self.frictions(mode, 0);
+        }
+        if self.known.touching[c] {
+            mode.contacts[c] = true;
+            self.contacts(mode, c + 1);
+        }
+        mode.contacts[c] = false;
+        self.contacts(mode, c + 1);
+    }
+
+    fn frictions(&mut self, mode: &mut Mode, f: usize) {
+        let d = S::DESCRIPTION;
+        let Some(friction) = d.frictions.get(f) else {
+            return self.branches(mode, 0);
+        };
+        let idle = matches!(friction.normal, Normal::Contact(c) if !mode.contacts[c]);
+        if idle || !self.dynamics.effects().includes(d, Item::Friction(f)) {
+            return self.friction(mode, f, FrictionMode::Inactive);
+        }
+        let bearings: &[f64] = if let Normal::Constraint(_) = friction.normal {
+            &[1.0, -1.0]
+        } else {
+            &[1.0]
+        };
+        if self.known.resting[f] {
+            self.friction(mode, f, FrictionMode::Stick);
+            for &bearing in bearings {
+                self.friction(mode, f, slide(1.0, bearing));
+                self.friction(mode, f, slide(-1.0, bearing));
+            }
+        } else {
+            let sign = slip_sign(f, self.present, self.known).unwrap_or_else(|| {
+                let slip = self.dynamics.motion(d.rows[friction.row].velocity);
+                if slip.value() < 0.0 { -1.0 } else { 1.0 }
+            });
+            for &bearing in bearings {
+                self.friction(mode, f, slide(sign, bearing));
+            }
         }
     }
-    modes.sort_by_key(|m| (slips(m), m != present, changes(m, present)));
-    Ok(modes)
+
+    fn friction(&mut self, mode: &mut Mode, f: usize, state: FrictionMode) {
+        mode.frictions[f] = state;
+        self.frictions(mode, f + 1);
+    }
+
+    fn branches(&mut self, mode: &mut Mode, b: usize) {
+        if self.out.len() > MOST_CANDIDATES {
+            return;
+        }
+        if b == S::DESCRIPTION.branches.len() {
+            return self.out.push(mode);
+        }
+        self.branches(mode, b + 1);
+        if self.known.balanced[b] {
+            let side = mode.branch(b);
+            mode.set_branch(b, !side);
+            self.branches(mode, b + 1);
+            mode.set_branch(b, side);
+        }
+    }
 }
 
 fn slide(sign: f64, normal_sign: f64) -> FrictionMode {
@@ -274,74 +573,46 @@ fn changes(a: &Mode, b: &Mode) -> usize {
     contacts + frictions
 }
 
-/// Whether `mode` is feasible; if so, which guards begin with how many vanishing coefficients.
-#[allow(clippy::too_many_arguments)]
-fn examine<S: System>(
-    dynamics: &mut Dynamics<S>,
-    t: S::Scalar,
-    q: &[S::Scalar],
-    v: &[S::Scalar],
+/// The first coefficient of a guard that is not known to vanish, times its factorial, as far as values tell.
+fn leading<S: System>(
+    guard: Guard,
+    order_known: usize,
     mode: &Mode,
-    known: &Known,
-    order: usize,
-    tolerance: f64,
-) -> Result<Option<Vec<(Guard, usize)>>, EvaluationError> {
-    dynamics.set_mode(mode);
-    let questions = questions::<S>(mode, known);
-    // Most candidates are refused by their values already.
-    dynamics.value(t, q, v)?;
-    for &(guard, order_known) in &questions {
-        if order_known == 0 {
-            let series = guard::series(guard, mode, &Reading::Values(dynamics), 1.0);
-            let value = series.as_slice().first().copied().unwrap_or(0.0);
-            let scale = scale(guard, dynamics);
-            if value < -1e-6 * scale && !known.located.contains(&guard) {
-                return Ok(None);
-            }
-        }
+    dynamics: &Dynamics<S>,
+) -> Option<f64> {
+    let d = S::DESCRIPTION;
+    let acceleration = |row: usize| {
+        let row = &d.rows[row];
+        let products = row.jacobian.iter().map(|&(j, place)| {
+            let a = dynamics.motion(place) * dynamics.acceleration()[j];
+            a.value()
+        });
+        dynamics.motion(row.bias).value() + products.sum::<f64>()
+    };
+    match (guard, order_known) {
+        (_, 0) => Some(guard::value(guard, mode, &Reading::Values(dynamics))),
+        (Guard::Gap(c), 2) => Some(acceleration(d.contacts[c].row)),
+        (Guard::Slip(f), 1) => match mode.frictions[f] {
+            FrictionMode::Slip(Sliding {
+                direction: Direction::Fixed([sign, 0.0]),
+                ..
+            }) => Some(sign * acceleration(d.frictions[f].row)),
+            _ => None,
+        },
+        _ => None,
     }
-    dynamics.series(t, q, v, order)?;
-    let step = taylor::step_size(dynamics, order, Tolerance::both(tolerance));
-    let h = step.filter(|h| h.is_finite()).unwrap_or(1.0);
-    let mut zeros = Vec::new();
-    for &(guard, order_known) in &questions {
-        let mut series = guard::series(guard, mode, &Reading::Series(dynamics), h);
-        series.clear(order_known);
-        let size = series
-            .as_slice()
-            .iter()
-            .fold(0.0_f64, |m, c| m.max(c.abs()));
-        // The residue of a located root, and what follows from it, has the size of the integration error.
-        let blurred = concerns(guard, known);
-        let (relative, absolute) = if blurred {
-            ((100.0 * tolerance).clamp(1e-11, 1e-3), tolerance.max(1e-14))
-        } else {
-            (1e-13, 1e-14)
-        };
-        let cancelling = scale(guard, dynamics) * unit_of_order(guard, h);
-        let noise = (relative * size).max(absolute * cancelling);
-        match series.as_slice().iter().position(|c| c.abs() > noise) {
-            // Identically zero: the boundary is not left.
-            None => {
-                if order_known > 0 || series.as_slice().iter().all(|c| *c <= 0.0) || blurred {
-                    zeros.push((guard, guard::LENGTH));
-                }
-            }
-            Some(k) if series.as_slice()[k] < 0.0 => return Ok(None),
-            Some(k) => {
-                if k > 0 {
-                    zeros.push((guard, k));
-                }
-            }
-        }
-    }
-    Ok(Some(zeros))
 }
 
-/// The guards that can be violated just after the instant, with the number of coefficients known to vanish.
-fn questions<S: System>(mode: &Mode, known: &Known) -> Vec<(Guard, usize)> {
+/// The guards that can be violated just after the instant, with the number of coefficients known to vanish; `held` are
+/// the needs that are evaluated.
+fn list_questions<S: System>(
+    mode: &Mode,
+    known: &Known,
+    held: &NeedSet,
+    list: &mut Vec<(Guard, usize)>,
+) {
     let d = S::DESCRIPTION;
-    let mut list = Vec::new();
+    list.clear();
     for c in 0..d.contacts.len() {
         if mode.contacts[c] {
             list.push((Guard::Normal(c), 0));
@@ -368,11 +639,11 @@ fn questions<S: System>(mode: &Mode, known: &Known) -> Vec<(Guard, usize)> {
         }
     }
     for b in 0..d.branches.len() {
-        if known.balanced[b] {
+        // What nothing in this mode uses decides nothing.
+        if known.balanced[b] && held.contains(d.branches[b].need) {
             list.push((Guard::Branch(b), 1));
         }
     }
-    list
 }
 
 /// Whether a guard's leading coefficients carry the error of a located root: it is that root, or belongs to the

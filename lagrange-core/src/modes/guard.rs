@@ -45,86 +45,26 @@ pub enum Guard {
     Mark(usize, usize),
 }
 
-/// Coefficients of a guard in powers of the scaled time s = τ/h.
-#[derive(Clone, Copy, Debug)]
-pub struct Series {
-    coefficients: [f64; LENGTH],
-    length: usize,
+/// Adds `factor` times a series.
+fn add<T: Scalar>(out: &mut [f64], factor: f64, terms: Terms<T>) {
+    for (c, x) in out.iter_mut().zip(terms.as_slice()) {
+        *c += factor * x.value();
+    }
 }
 
-impl Series {
-    /// The zero series.
-    pub const ZERO: Series = Series {
-        coefficients: [0.0; LENGTH],
-        length: 0,
-    };
-
-    /// The coefficients, lowest order first.
-    pub fn as_slice(&self) -> &[f64] {
-        &self.coefficients[..self.length]
+/// Adds `factor` times the product of two series.
+fn add_product(out: &mut [f64], factor: f64, x: &[f64], y: &[f64]) {
+    for (k, c) in out.iter_mut().enumerate() {
+        let products = x[..=k].iter().zip(y[..=k].iter().rev());
+        *c += factor * products.map(|(x, y)| x * y).sum::<f64>();
     }
+}
 
-    /// Sets the first `order` coefficients, which are known to vanish, to zero.
-    pub fn clear(&mut self, order: usize) {
-        let order = order.min(self.length);
-        self.coefficients[..order].fill(0.0);
-    }
-
-    /// Leaves out the coefficients above `degree`.
-    pub fn truncate(&mut self, degree: usize) {
-        self.length = self.length.min(degree + 1);
-    }
-
-    /// Adds `factor` times a series.
-    fn add<T: Scalar>(&mut self, factor: f64, terms: Terms<T>) {
-        let series = terms.as_slice();
-        self.length = self.length.max(series.len().min(LENGTH));
-        for (c, x) in self.coefficients.iter_mut().zip(series) {
-            *c += factor * x.value();
-        }
-    }
-
-    /// Adds `factor` times the product of two series, as long as both are known (a single coefficient is a constant).
-    fn add_product(&mut self, factor: f64, x: &Series, y: &Series) {
-        let length = match (x.length, y.length) {
-            (0, _) | (_, 0) => return,
-            (1, n) | (n, 1) => n,
-            (m, n) => m.min(n),
-        };
-        self.length = self.length.max(length);
-        for k in 0..length {
-            let low = k.saturating_sub(y.length - 1);
-            let high = k.min(x.length - 1);
-            let mut sum = 0.0;
-            for j in low..=high {
-                sum += x.coefficients[j] * y.coefficients[k - j];
-            }
-            self.coefficients[k] += factor * sum;
-        }
-    }
-
-    /// Adds `term(k)` to each of the first `length` coefficients.
-    pub fn accumulate(&mut self, length: usize, term: impl Fn(usize) -> f64) {
-        self.length = length.min(LENGTH);
-        for (k, c) in self.coefficients[..self.length].iter_mut().enumerate() {
-            *c += term(k);
-        }
-    }
-
-    /// Multiplies the k-th coefficient by hᵏ.
-    fn scale(&mut self, h: f64) {
-        let mut power = 1.0;
-        for c in &mut self.coefficients[..self.length] {
-            *c *= power;
-            power *= h;
-        }
-    }
-
-    fn of<T: Scalar>(terms: Terms<T>) -> Series {
-        let mut s = Series::ZERO;
-        s.add(1.0, terms);
-        s
-    }
+/// A series as numbers.
+fn numbers<T: Scalar>(terms: Terms<T>) -> [f64; LENGTH] {
+    let mut out = [0.0; LENGTH];
+    add(&mut out, 1.0, terms);
+    out
 }
 
 /// Lists the guards of a mode (not those of stops and marks) into `out`; `needs` are held.
@@ -173,19 +113,24 @@ pub fn stick_guards(f: usize, friction: &Friction) -> impl Iterator<Item = Guard
         .chain(pair.into_iter().filter(move |_| !cone))
 }
 
-/// Coefficients of a guard over a step of length h.
-pub fn series<S: System>(guard: Guard, mode: &Mode, reading: &Reading<'_, S>, h: f64) -> Series {
+/// Coefficients of a guard in powers of the time since the start of the reading, at most [`LENGTH`]; what a reading does not
+/// have is 0.
+pub fn series<S: System>(guard: Guard, mode: &Mode, reading: &Reading<'_, S>, out: &mut [f64]) {
     let d = S::DESCRIPTION;
-    let mut out = Series::ZERO;
+    out.fill(0.0);
     match guard {
         Guard::Gap(c) => {
             let row = &d.rows[d.contacts[c].row];
-            out.add(1.0, reading.motion(row.position.unwrap_or(Place::Zero)));
+            add(
+                out,
+                1.0,
+                reading.motion(row.position.unwrap_or(Place::Zero)),
+            );
         }
-        Guard::Normal(c) => out.add(1.0, reading.force(d.contacts[c].row)),
-        Guard::StickUpper(f) => stick(f, -1.0, mode, reading, &mut out),
-        Guard::StickLower(f) => stick(f, 1.0, mode, reading, &mut out),
-        Guard::StickCone(f) => stick_cone(f, mode, reading, &mut out),
+        Guard::Normal(c) => add(out, 1.0, reading.force(d.contacts[c].row)),
+        Guard::StickUpper(f) => stick(f, -1.0, mode, reading, out),
+        Guard::StickLower(f) => stick(f, 1.0, mode, reading, out),
+        Guard::StickCone(f) => stick_cone(f, mode, reading, out),
         Guard::Slip(f) => {
             let friction = &d.frictions[f];
             if let FrictionMode::Slip(Sliding {
@@ -194,11 +139,11 @@ pub fn series<S: System>(guard: Guard, mode: &Mode, reading: &Reading<'_, S>, h:
             }) = mode.frictions[f]
             {
                 for (k, &part) in along.iter().enumerate().take(friction.components) {
-                    out.add(part, reading.motion(d.rows[friction.row + k].velocity));
+                    add(out, part, reading.motion(d.rows[friction.row + k].velocity));
                 }
             }
         }
-        Guard::Bearing(f) => normal_force(f, mode, reading, &mut out),
+        Guard::Bearing(f) => normal_force(f, mode, reading, out),
         Guard::Branch(b) => {
             let branch = &d.branches[b];
             let sign = if mode.branch(b) { 1.0 } else { -1.0 };
@@ -207,56 +152,73 @@ pub fn series<S: System>(guard: Guard, mode: &Mode, reading: &Reading<'_, S>, h:
             } else {
                 reading.motion(branch.guard)
             };
-            out.add(sign, series);
+            add(out, sign, series);
         }
-        Guard::Stop(i, k) => out.add(1.0, reading.report(d.stops[i].terms[k])),
-        Guard::Mark(i, k) => out.add(1.0, reading.report(d.marks[i].terms[k])),
+        Guard::Stop(i, k) => add(out, 1.0, reading.report(d.stops[i].terms[k])),
+        Guard::Mark(i, k) => add(out, 1.0, reading.report(d.marks[i].terms[k])),
     }
-    out.scale(h);
-    out
+}
+
+/// The guard itself, at the start of the reading.
+pub fn value<S: System>(guard: Guard, mode: &Mode, reading: &Reading<'_, S>) -> f64 {
+    let mut value = [0.0];
+    series(guard, mode, reading, &mut value);
+    value[0]
+}
+
+/// Adds μs N.
+fn limit<S: System>(f: usize, mode: &Mode, reading: &Reading<'_, S>, out: &mut [f64]) {
+    let d = S::DESCRIPTION;
+    let friction = &d.frictions[f];
+    if let Terms::One(coefficient) = reading.motion(friction.static_coefficient)
+        && let Normal::Contact(c) = friction.normal
+        && d.contacts[c].normal_factor.is_none()
+    {
+        let multiplier = reading.force(d.contacts[c].row);
+        return add(out, coefficient.value(), multiplier);
+    }
+    let mut normal = [0.0; LENGTH];
+    let normal = &mut normal[..out.len()];
+    normal_force(f, mode, reading, normal);
+    match reading.motion(friction.static_coefficient) {
+        Terms::One(coefficient) => {
+            for (c, x) in out.iter_mut().zip(normal) {
+                *c += coefficient.value() * *x;
+            }
+        }
+        coefficient => add_product(out, 1.0, &numbers(coefficient), normal),
+    }
 }
 
 /// μs N ± F.
-fn stick<S: System>(f: usize, sign: f64, mode: &Mode, reading: &Reading<'_, S>, out: &mut Series) {
-    let friction = &S::DESCRIPTION.frictions[f];
-    let mut normal = Series::ZERO;
-    normal_force(f, mode, reading, &mut normal);
-    let coefficient = Series::of(reading.motion(friction.static_coefficient));
-    out.add_product(1.0, &coefficient, &normal);
-    out.add(sign, reading.force(friction.row));
+fn stick<S: System>(f: usize, sign: f64, mode: &Mode, reading: &Reading<'_, S>, out: &mut [f64]) {
+    limit(f, mode, reading, out);
+    add(out, sign, reading.force(S::DESCRIPTION.frictions[f].row));
 }
 
 /// (μs N)² − Σ F².
-fn stick_cone<S: System>(f: usize, mode: &Mode, reading: &Reading<'_, S>, out: &mut Series) {
+fn stick_cone<S: System>(f: usize, mode: &Mode, reading: &Reading<'_, S>, out: &mut [f64]) {
     let friction = &S::DESCRIPTION.frictions[f];
-    let mut normal = Series::ZERO;
-    normal_force(f, mode, reading, &mut normal);
-    let coefficient = Series::of(reading.motion(friction.static_coefficient));
-    let mut limit = Series::ZERO;
-    limit.add_product(1.0, &coefficient, &normal);
-    out.add_product(1.0, &limit, &limit);
+    let mut greatest = [0.0; LENGTH];
+    limit(f, mode, reading, &mut greatest[..out.len()]);
+    add_product(out, 1.0, &greatest, &greatest);
     for k in 0..friction.components {
-        let force = Series::of(reading.force(friction.row + k));
-        out.add_product(-1.0, &force, &force);
+        let force = numbers(reading.force(friction.row + k));
+        add_product(out, -1.0, &force, &force);
     }
 }
 
-/// The normal force N of friction `f`.
-pub fn normal_force<S: System>(f: usize, mode: &Mode, reading: &Reading<'_, S>, out: &mut Series) {
+/// Adds the normal force N of friction `f`.
+pub fn normal_force<S: System>(f: usize, mode: &Mode, reading: &Reading<'_, S>, out: &mut [f64]) {
     let d = S::DESCRIPTION;
     match d.frictions[f].normal {
         Normal::Contact(c) => {
             let contact = &d.contacts[c];
             let multiplier = reading.force(contact.row);
-            match contact.normal_factor {
-                None => out.add(1.0, multiplier),
-                Some(factor) => {
-                    out.add_product(
-                        1.0,
-                        &Series::of(reading.motion(factor)),
-                        &Series::of(multiplier),
-                    );
-                }
+            match contact.normal_factor.map(|factor| reading.motion(factor)) {
+                None => add(out, 1.0, multiplier),
+                Some(Terms::One(factor)) => add(out, factor.value(), multiplier),
+                Some(factor) => add_product(out, 1.0, &numbers(factor), &numbers(multiplier)),
             }
         }
         Normal::Constraint(i) => {
@@ -264,28 +226,10 @@ pub fn normal_force<S: System>(f: usize, mode: &Mode, reading: &Reading<'_, S>, 
                 FrictionMode::Slip(sliding) => sliding.normal_sign,
                 _ => 1.0,
             };
-            out.add(sign, reading.force(d.constraints[i].row));
+            add(out, sign, reading.force(d.constraints[i].row));
         }
-        Normal::Given(place) => out.add(1.0, reading.motion(place)),
+        Normal::Given(place) => add(out, 1.0, reading.motion(place)),
     }
-}
-
-/// First coefficient of each guard, at the start of the series that `dynamics` holds.
-pub fn first_values<S: System>(
-    dynamics: &Dynamics<S>,
-    mode: &Mode,
-    guards: impl Iterator<Item = Guard>,
-) -> Vec<f64> {
-    let reading = Reading::Series(dynamics);
-    guards
-        .map(|g| {
-            series(g, mode, &reading, 1.0)
-                .as_slice()
-                .first()
-                .copied()
-                .unwrap_or(0.0)
-        })
-        .collect()
 }
 
 /// `needs` and everything about every row: Jacobian, residuals, coefficients, restitution, branch guards.

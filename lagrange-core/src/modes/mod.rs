@@ -9,3 +9,4 @@ pub(crate) mod impact;
 pub(crate) mod reading;
 pub(crate) mod scale;
 pub(crate) mod start;
+pub(crate) mod table;

@@ -9,52 +9,56 @@ use crate::dynamics::Dynamics;
 use crate::modes::guard::Guard;
 use crate::system::{Normal, Place, System};
 
-/// Size of the terms that make a guard: an acceleration for gaps and slips, a force for the others.
-pub fn scale<S: System>(guard: Guard, dynamics: &Dynamics<S>) -> f64 {
-    let d = S::DESCRIPTION;
-    match guard {
-        Guard::Gap(c) => Row::of(d.contacts[c].row, dynamics).acceleration,
-        Guard::Normal(c) => Row::of(d.contacts[c].row, dynamics).force,
-        Guard::Slip(f) => {
-            let row = Row::of(d.frictions[f].row, dynamics);
-            row.acceleration
-                + row.compliance * friction(f, d.frictions[f].kinetic_coefficient, dynamics)
-        }
-        Guard::StickUpper(f) | Guard::StickLower(f) => limit(f, dynamics),
-        Guard::StickCone(f) => limit(f, dynamics).powi(2),
-        Guard::Bearing(f) => normal(f, dynamics),
-        Guard::Branch(_) | Guard::Stop(..) | Guard::Mark(..) => 0.0,
-    }
+/// What all guards of a state share.
+#[derive(Clone, Debug, Default)]
+pub struct Sizes {
+    /// 1/mⱼ, 0 where a coordinate has no inertia of its own.
+    mobility: Vec<f64>,
+    /// Σfⱼ²/mⱼ
+    drive: f64,
 }
 
-/// Sizes along one row.
-struct Row {
-    acceleration: f64,
-    compliance: f64,
-    force: f64,
-}
-
-impl Row {
-    fn of<S: System>(row: usize, dynamics: &Dynamics<S>) -> Row {
+impl Sizes {
+    /// Takes mass and forcing from the last value.
+    pub fn take<S: System>(&mut self, dynamics: &Dynamics<S>) {
         let d = S::DESCRIPTION;
         let number = |place: Place| dynamics.motion(place).value();
-        let mass = |j: usize| {
-            let diagonal = d.mass.iter().find(|(r, c, _)| *r == j && *c == j);
-            diagonal.map_or(0.0, |(_, _, place)| number(*place))
-        };
-        let jacobian = d.rows[row]
-            .jacobian
-            .iter()
-            .map(|&(j, place)| (j, number(place)));
+        self.mobility.clear();
+        self.mobility.resize(d.coordinates.len(), 0.0);
+        for &(i, j, place) in d.mass {
+            let mass = if i == j { number(place) } else { 0.0 };
+            if mass > 0.0 {
+                self.mobility[i] = 1.0 / mass;
+            }
+        }
+        let forcing = self.mobility.iter().zip(d.forcing);
+        self.drive = forcing.map(|(m, &f)| m * number(f).powi(2)).sum();
+    }
+
+    /// Size of the terms that make a guard: an acceleration for gaps and slips, a force for the others.
+    pub fn of<S: System>(&self, guard: Guard, dynamics: &Dynamics<S>) -> f64 {
+        let d = S::DESCRIPTION;
+        match guard {
+            Guard::Gap(c) => self.row(d.contacts[c].row, dynamics).acceleration,
+            Guard::Normal(c) => self.row(d.contacts[c].row, dynamics).force,
+            Guard::Slip(f) => {
+                let row = self.row(d.frictions[f].row, dynamics);
+                let coefficient = d.frictions[f].kinetic_coefficient;
+                row.acceleration + row.compliance * self.friction(f, coefficient, dynamics)
+            }
+            Guard::StickUpper(f) | Guard::StickLower(f) => self.limit(f, dynamics),
+            Guard::StickCone(f) => self.limit(f, dynamics).powi(2),
+            Guard::Bearing(f) => self.normal(f, dynamics),
+            Guard::Branch(_) | Guard::Stop(..) | Guard::Mark(..) => 0.0,
+        }
+    }
+
+    fn row<S: System>(&self, row: usize, dynamics: &Dynamics<S>) -> Row {
+        let jacobian = S::DESCRIPTION.rows[row].jacobian.iter();
         let compliance: f64 = jacobian
-            .filter(|(j, _)| mass(*j) > 0.0)
-            .map(|(j, a)| a * a / mass(j))
+            .map(|&(j, place)| dynamics.motion(place).value().powi(2) * self.mobility[j])
             .sum();
-        let coordinates = (0..d.coordinates.len()).filter(|j| mass(*j) > 0.0);
-        let drive: f64 = coordinates
-            .map(|j| number(d.forcing[j]).powi(2) / mass(j))
-            .sum();
-        let acceleration = (compliance * drive).sqrt();
+        let acceleration = (compliance * self.drive).sqrt();
         let needed = if compliance > 0.0 {
             acceleration / compliance
         } else {
@@ -66,28 +70,36 @@ impl Row {
             force: needed.max(dynamics.force(row).value().abs()),
         }
     }
-}
 
-/// Size of the normal force of friction `f`.
-fn normal<S: System>(f: usize, dynamics: &Dynamics<S>) -> f64 {
-    let d = S::DESCRIPTION;
-    match d.frictions[f].normal {
-        Normal::Contact(c) => {
-            let factor = d.contacts[c]
-                .normal_factor
-                .map_or(1.0, |place| dynamics.motion(place).value());
-            Row::of(d.contacts[c].row, dynamics).force * factor
+    /// Size of the normal force of friction `f`.
+    fn normal<S: System>(&self, f: usize, dynamics: &Dynamics<S>) -> f64 {
+        let d = S::DESCRIPTION;
+        match d.frictions[f].normal {
+            Normal::Contact(c) => {
+                let factor = d.contacts[c]
+                    .normal_factor
+                    .map_or(1.0, |place| dynamics.motion(place).value());
+                self.row(d.contacts[c].row, dynamics).force * factor
+            }
+            Normal::Constraint(i) => self.row(d.constraints[i].row, dynamics).force,
+            Normal::Given(place) => dynamics.motion(place).value().abs(),
         }
-        Normal::Constraint(i) => Row::of(d.constraints[i].row, dynamics).force,
-        Normal::Given(place) => dynamics.motion(place).value().abs(),
+    }
+
+    fn friction<S: System>(&self, f: usize, coefficient: Place, dynamics: &Dynamics<S>) -> f64 {
+        dynamics.motion(coefficient).value().abs() * self.normal(f, dynamics)
+    }
+
+    fn limit<S: System>(&self, f: usize, dynamics: &Dynamics<S>) -> f64 {
+        let friction = &S::DESCRIPTION.frictions[f];
+        self.row(friction.row, dynamics).force
+            + self.friction(f, friction.static_coefficient, dynamics)
     }
 }
 
-fn friction<S: System>(f: usize, coefficient: Place, dynamics: &Dynamics<S>) -> f64 {
-    dynamics.motion(coefficient).value().abs() * normal(f, dynamics)
-}
-
-fn limit<S: System>(f: usize, dynamics: &Dynamics<S>) -> f64 {
-    let friction_of = &S::DESCRIPTION.frictions[f];
-    Row::of(friction_of.row, dynamics).force + friction(f, friction_of.static_coefficient, dynamics)
+/// Sizes along one row.
+struct Row {
+    acceleration: f64,
+    compliance: f64,
+    force: f64,
 }

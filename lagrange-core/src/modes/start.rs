@@ -1,14 +1,14 @@
 //! The beginning of a run: which contacts touch, which frictions rest, and states that satisfy the constraints.
 
 use crate::arithmetic::Scalar;
-use crate::dynamics::{Dynamics, EvaluationError, NeedSet};
+use crate::dynamics::{Dynamics, NeedSet};
 use crate::effects::Item;
 use crate::error::{Error, Level};
 use crate::mode::{FrictionMode, Mode, Sliding};
 use crate::modes::decide::Known;
 use crate::modes::guard;
 use crate::simulation::Held;
-use crate::system::{Normal, Place, System};
+use crate::system::{Description, Normal, Place, System};
 use crate::trajectory::State;
 
 /// What is accepted as zero in a start, relative to the size of the state: a start is typed or computed by a user.
@@ -17,7 +17,7 @@ fn slack(tolerance: f64) -> f64 {
 }
 
 /// Looks at a start: leaves `dynamics` in the mode with every touching contact closed and every vanishing slip at
-/// rest, and says what is known.
+/// rest, and says in `survey` what is known.
 ///
 /// # Errors
 /// [`Error::Start`] where a constraint is violated (unless `project`) or a contact is penetrated.
@@ -27,19 +27,21 @@ pub fn begin<S: System>(
     state: &mut State<S::Scalar>,
     tolerance: f64,
     project: bool,
-) -> Result<Known, Error> {
-    let mut found = survey(dynamics, t, state, tolerance)?;
+    survey: &mut Survey,
+) -> Result<(), Error> {
+    survey.look(dynamics, t, state, tolerance);
     if !project {
-        refuse_violations(dynamics, &found, slack(tolerance))?;
+        refuse_violations(dynamics, survey, slack(tolerance))?;
     }
-    dynamics.set_mode(&found.mode);
-    let before = state.clone();
-    project_onto(dynamics, t, state)?;
-    if *state != before {
-        found = survey(dynamics, t, state, tolerance)?;
-        dynamics.set_mode(&found.mode);
+    dynamics.set_mode(&survey.mode);
+    let moved = dynamics.project(t, &mut state.q, &mut state.v, 0.0);
+    let moved =
+        moved.map_err(|e| Error::from_evaluation(e, t.value(), &survey.mode, S::DESCRIPTION))?;
+    if moved {
+        survey.look(dynamics, t, state, tolerance);
+        dynamics.set_mode(&survey.mode);
     }
-    Ok(found.known)
+    Ok(())
 }
 
 /// See [`crate::Simulation::consistent`].
@@ -52,7 +54,8 @@ pub fn consistent<S: System>(
     held: &Held,
 ) -> Result<State<S::Scalar>, Error> {
     let t = S::Scalar::from_f64(time);
-    let found = survey(dynamics, t, reference, tolerance)?;
+    let mut found = Survey::new(S::DESCRIPTION);
+    found.look(dynamics, t, reference, tolerance);
     dynamics.set_mode(&found.mode);
     let mut state = wanted.clone();
     let outcome = dynamics.project_holding(
@@ -66,108 +69,123 @@ pub fn consistent<S: System>(
     Ok(state)
 }
 
-struct Survey {
-    mode: Mode,
-    known: Known,
+/// What a state is like.
+#[derive(Clone, Debug)]
+pub struct Survey {
+    /// Every touching contact closed, every vanishing slip at rest.
+    pub mode: Mode,
+    /// What vanishes.
+    pub known: Known,
     /// (row, level, residual, size) of every constraint.
     residuals: Vec<(usize, Level, f64, f64)>,
     /// (contact, gap, size) of every contact.
     gaps: Vec<(usize, f64, f64)>,
+    /// Needs of everything that is looked at.
+    pub needs: NeedSet,
 }
 
-/// Evaluates every gap, slip and residual of a state.
-fn survey<S: System>(
-    dynamics: &mut Dynamics<S>,
-    t: S::Scalar,
-    state: &State<S::Scalar>,
-    tolerance: f64,
-) -> Result<Survey, Error> {
-    let d = S::DESCRIPTION;
-    let near = slack(tolerance);
-    let mut mode = Mode::open(d);
-    let mut known = Known {
-        touching: vec![false; d.contacts.len()],
-        arriving: vec![false; d.contacts.len()],
-        parting: vec![false; d.contacts.len()],
-        resting: vec![false; d.frictions.len()],
-        balanced: vec![false; d.branches.len()],
-        located: Vec::new(),
-    };
-    branches(dynamics, t, state, &mut mode, &mut known)?;
-    let number = |dynamics: &Dynamics<S>, place: Place| dynamics.motion(place).value();
-    let extent = state.q.iter().fold(1.0_f64, |m, x| m.max(x.value().abs()));
-    let speed = |dynamics: &Dynamics<S>, row: usize| {
-        let terms = d.rows[row].jacobian.iter();
-        terms
-            .map(|&(j, p)| (number(dynamics, p) * state.v[j].value()).abs())
-            .fold(1.0_f64, f64::max)
-    };
-    let mut gaps = Vec::new();
-    for (c, contact) in d.contacts.iter().enumerate() {
-        if !dynamics.effects().includes(d, Item::Contact(c)) {
-            continue;
+impl Survey {
+    /// Memory for a system.
+    pub fn new(description: &Description) -> Self {
+        Self {
+            mode: Mode::open(description),
+            known: Known::default(),
+            residuals: Vec::new(),
+            gaps: Vec::new(),
+            needs: guard::all_row_needs(description, &NeedSet::new(description)),
         }
-        let row = &d.rows[contact.row];
-        let gap = number(dynamics, row.position.unwrap_or(Place::Zero));
-        gaps.push((c, gap, extent));
-        if gap.abs() <= near * extent {
-            let rate = number(dynamics, row.velocity);
-            let size = speed(dynamics, contact.row);
-            if rate > near * size {
-                known.parting[c] = true;
-            } else {
-                known.touching[c] = true;
-                known.arriving[c] = rate < -near * size;
-                mode.contacts[c] = !known.arriving[c];
+    }
+
+    /// Evaluates every gap, slip and residual of a state.
+    fn look<S: System>(
+        &mut self,
+        dynamics: &mut Dynamics<S>,
+        t: S::Scalar,
+        state: &State<S::Scalar>,
+        tolerance: f64,
+    ) {
+        let d = S::DESCRIPTION;
+        let near = slack(tolerance);
+        self.mode.clear();
+        self.known.clear(d);
+        self.residuals.clear();
+        self.gaps.clear();
+        branches(
+            dynamics,
+            t,
+            state,
+            &self.needs,
+            &mut self.mode,
+            &mut self.known,
+        );
+        let Self { mode, known, .. } = self;
+        let number = |dynamics: &Dynamics<S>, place: Place| dynamics.motion(place).value();
+        let extent = state.q.iter().fold(1.0_f64, |m, x| m.max(x.value().abs()));
+        let speed = |dynamics: &Dynamics<S>, row: usize| {
+            let terms = d.rows[row].jacobian.iter();
+            terms
+                .map(|&(j, p)| (number(dynamics, p) * state.v[j].value()).abs())
+                .fold(1.0_f64, f64::max)
+        };
+        for (c, contact) in d.contacts.iter().enumerate() {
+            if !dynamics.effects().includes(d, Item::Contact(c)) {
+                continue;
+            }
+            let row = &d.rows[contact.row];
+            let gap = number(dynamics, row.position.unwrap_or(Place::Zero));
+            self.gaps.push((c, gap, extent));
+            if gap.abs() <= near * extent {
+                let rate = number(dynamics, row.velocity);
+                let size = speed(dynamics, contact.row);
+                if rate > near * size {
+                    known.parting[c] = true;
+                } else {
+                    known.touching[c] = true;
+                    known.arriving[c] = rate < -near * size;
+                    mode.contacts[c] = !known.arriving[c];
+                }
             }
         }
-    }
-    for (f, friction) in d.frictions.iter().enumerate() {
-        if !dynamics.effects().includes(d, Item::Friction(f)) {
-            continue;
+        for (f, friction) in d.frictions.iter().enumerate() {
+            if !dynamics.effects().includes(d, Item::Friction(f)) {
+                continue;
+            }
+            if let Normal::Contact(c) = friction.normal
+                && !mode.contacts[c]
+            {
+                continue;
+            }
+            let slip = number(dynamics, d.rows[friction.row].velocity);
+            if slip.abs() <= near * speed(dynamics, friction.row) {
+                known.resting[f] = true;
+                mode.frictions[f] = FrictionMode::Stick;
+            } else {
+                mode.frictions[f] = FrictionMode::Slip(Sliding::sign(slip.signum()));
+            }
         }
-        if let Normal::Contact(c) = friction.normal
-            && !mode.contacts[c]
-        {
-            continue;
-        }
-        let slip = number(dynamics, d.rows[friction.row].velocity);
-        if slip.abs() <= near * speed(dynamics, friction.row) {
-            known.resting[f] = true;
-            mode.frictions[f] = FrictionMode::Stick;
-        } else {
-            mode.frictions[f] = FrictionMode::Slip(Sliding::sign(slip.signum()));
-        }
-    }
-    let mut residuals = Vec::new();
-    for (i, constraint) in d.constraints.iter().enumerate() {
-        let waits = constraint.while_contact.is_some_and(|c| !mode.contacts[c]);
-        if waits || !dynamics.effects().includes(d, Item::Constraint(i)) {
-            continue;
-        }
-        let row = &d.rows[constraint.row];
-        if let Some(place) = row.position {
-            residuals.push((
+        for (i, constraint) in d.constraints.iter().enumerate() {
+            let waits = constraint.while_contact.is_some_and(|c| !mode.contacts[c]);
+            if waits || !dynamics.effects().includes(d, Item::Constraint(i)) {
+                continue;
+            }
+            let row = &d.rows[constraint.row];
+            if let Some(place) = row.position {
+                self.residuals.push((
+                    constraint.row,
+                    Level::Position,
+                    number(dynamics, place),
+                    extent,
+                ));
+            }
+            let rate = number(dynamics, row.velocity);
+            self.residuals.push((
                 constraint.row,
-                Level::Position,
-                number(dynamics, place),
-                extent,
+                Level::Velocity,
+                rate,
+                speed(dynamics, constraint.row),
             ));
         }
-        let rate = number(dynamics, row.velocity);
-        residuals.push((
-            constraint.row,
-            Level::Velocity,
-            rate,
-            speed(dynamics, constraint.row),
-        ));
     }
-    Ok(Survey {
-        mode,
-        known,
-        residuals,
-        gaps,
-    })
 }
 
 /// Puts every branch on its side; the guard of one may depend on the side of another.
@@ -175,13 +193,14 @@ fn branches<S: System>(
     dynamics: &mut Dynamics<S>,
     t: S::Scalar,
     state: &State<S::Scalar>,
+    needs: &NeedSet,
     mode: &mut Mode,
     known: &mut Known,
-) -> Result<(), Error> {
+) {
     let d = S::DESCRIPTION;
     let evaluate = |dynamics: &mut Dynamics<S>, mode: &Mode| {
         dynamics.set_mode(mode);
-        dynamics.set_extra_needs(&guard::all_row_needs(d, &NeedSet::new(d)));
+        dynamics.set_extra_needs(needs);
         dynamics.tape(t, &state.q, &state.v);
     };
     evaluate(dynamics, mode);
@@ -205,7 +224,6 @@ fn branches<S: System>(
         }
         evaluate(dynamics, mode);
     }
-    Ok(())
 }
 
 fn refuse_violations<S: System>(
@@ -237,17 +255,4 @@ fn refuse_violations<S: System>(
         }
     }
     Ok(())
-}
-
-fn project_onto<S: System>(
-    dynamics: &mut Dynamics<S>,
-    t: S::Scalar,
-    state: &mut State<S::Scalar>,
-) -> Result<(), Error> {
-    let mode = dynamics.mode().clone();
-    let outcome: Result<bool, EvaluationError> =
-        dynamics.project(t, &mut state.q, &mut state.v, 0.0);
-    outcome
-        .map(|_| ())
-        .map_err(|e| Error::from_evaluation(e, t.value(), &mode, S::DESCRIPTION))
 }

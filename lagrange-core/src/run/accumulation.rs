@@ -77,12 +77,12 @@ impl Impacts {
     }
 }
 
-impl<S: System> Run<'_, S> {
+impl<S: System> Run<S> {
     /// After an impact of contact `c` that bounced: closes it if the bounces to come are below the tolerance. Returns
     /// the number of impacts that led here.
     pub(super) fn accumulate(&mut self, c: usize, known: &mut Known) -> Option<usize> {
         let remaining = self.impacts[c].book(self.t.value())?;
-        let tolerance = self.simulation.tolerance;
+        let tolerance = self.settings.tolerance;
         let moves = |(q, v): (&S::Scalar, &S::Scalar)| {
             v.value().abs() * remaining > tolerance * q.value().abs().max(1.0)
         };

@@ -7,16 +7,19 @@ use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError};
 use crate::integrate::StepPolynomial;
 use crate::mode::Mode;
-use crate::modes::guard::{self, Guard, Series};
+use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
 use crate::system::System;
 
 /// The polynomials of all guards of a step.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Curves {
-    guards: Vec<Series>,
-    stops: Vec<Series>,
-    marks: Vec<Series>,
+    /// One after the other, each of `width` coefficients: guards of the mode, stops, marks.
+    coefficients: Vec<f64>,
+    width: usize,
+    /// Number of guards of the mode.
+    guards: usize,
+    /// Terms of stops and marks before the first of each.
     first_stop: Vec<usize>,
     first_mark: Vec<usize>,
     watches: Vec<Guard>,
@@ -31,61 +34,62 @@ impl Curves {
         let d = S::DESCRIPTION;
         let mut curves = Curves::default();
         for (i, stop) in d.stops.iter().enumerate() {
-            curves.first_stop.push(curves.stops.len());
-            for k in 0..stop.terms.len() {
-                curves.stops.push(Series::ZERO);
-                curves.watches.push(Guard::Stop(i, k));
-            }
+            curves.first_stop.push(curves.watches.len());
+            let terms = (0..stop.terms.len()).map(|k| Guard::Stop(i, k));
+            curves.watches.extend(terms);
         }
         for (i, mark) in d.marks.iter().enumerate() {
-            curves.first_mark.push(curves.marks.len());
-            for k in 0..mark.terms.len() {
-                curves.marks.push(Series::ZERO);
-                curves.watches.push(Guard::Mark(i, k));
-            }
+            curves.first_mark.push(curves.watches.len());
+            let terms = (0..mark.terms.len()).map(|k| Guard::Mark(i, k));
+            curves.watches.extend(terms);
         }
         curves
     }
 
+    fn curve(&self, index: usize) -> &[f64] {
+        &self.coefficients[index * self.width..][..self.width]
+    }
+
     /// Guard `k` of the mode.
     pub(super) fn mode_guard(&self, k: usize) -> &[f64] {
-        self.guards[k].as_slice()
+        self.curve(k)
     }
 
     /// Term `k` of stop `i`.
     pub(super) fn stop_term(&self, i: usize, k: usize) -> &[f64] {
-        self.stops[self.first_stop[i] + k].as_slice()
+        self.curve(self.guards + self.first_stop[i] + k)
     }
 
     /// Term `k` of mark `i`.
     pub(super) fn mark_term(&self, i: usize, k: usize) -> &[f64] {
-        self.marks[self.first_mark[i] + k].as_slice()
+        self.curve(self.guards + self.first_mark[i] + k)
     }
 
-    /// Takes the guards from the series that `dynamics` holds, over a step of length `h`.
+    /// Makes room for curves of `width` coefficients.
+    fn shape(&mut self, guards: usize, width: usize) {
+        (self.guards, self.width) = (guards, width);
+        let size = (guards + self.watches.len()) * width;
+        self.coefficients.resize(size, 0.0);
+    }
+
+    /// Takes the guards from the series that `dynamics` holds; `powers` are those of the length of the step.
     pub(super) fn take_series<S: System>(
         &mut self,
         dynamics: &Dynamics<S>,
         mode: &Mode,
         guards: &[Guard],
-        h: f64,
+        powers: &[f64],
     ) {
         let reading = Reading::Series(dynamics);
-        self.guards.clear();
-        self.guards
-            .extend(guards.iter().map(|&g| guard::series(g, mode, &reading, h)));
-        let stops = self.stops.len();
-        let curves = self.stops.iter_mut().chain(&mut self.marks);
-        debug_assert!(stops <= self.watches.len());
-        for (curve, &g) in curves.zip(&self.watches) {
-            *curve = guard::series(g, mode, &reading, h);
+        self.shape(guards.len(), powers.len());
+        let all = guards.iter().chain(&self.watches);
+        let curves = self.coefficients.chunks_exact_mut(self.width);
+        for (curve, &g) in curves.zip(all) {
+            guard::series(g, mode, &reading, curve);
+            for (c, power) in curve.iter_mut().zip(powers) {
+                *c *= power;
+            }
         }
-    }
-
-    /// Leaves out what is above `degree`.
-    pub(super) fn truncate(&mut self, degree: usize) {
-        let all = self.guards.iter_mut().chain(&mut self.stops);
-        all.chain(&mut self.marks).for_each(|curve| curve.truncate(degree));
     }
 
     /// How far the polynomials are off at part `s` of the step, in units of what is allowed; `dynamics` holds the values of
@@ -101,22 +105,11 @@ impl Curves {
         s: f64,
         tolerance: f64,
     ) -> f64 {
-        if !self.watches.is_empty() {
-            dynamics.report_value();
-        }
-        let reading = Reading::Values(dynamics);
         let all = guards.iter().chain(&self.watches);
-        let curves = self.guards.iter().chain(&self.stops).chain(&self.marks);
+        let curves = self.coefficients.chunks_exact(self.width);
         let mut worst = 0.0;
+        let mut reported = false;
         for (curve, &g) in curves.zip(all) {
-            let curve = curve.as_slice();
-            let value = guard::series(g, mode, &reading, 1.0);
-            let value = value.as_slice().first().copied().unwrap_or(0.0);
-            let (mut found, mut size) = (0.0, 0.0);
-            for c in curve.iter().rev() {
-                found = found * s + c;
-                size = size * s + c.abs();
-            }
             // Forces are second derivatives, and the worse for it.
             let (share, floor) = match g {
                 Guard::Normal(_)
@@ -126,7 +119,21 @@ impl Curves {
                 | Guard::Bearing(_) => (1e4, 1e-10),
                 _ => (10.0, 1e-13),
             };
-            let allowed = (share * tolerance).max(floor) * (size + value.abs());
+            let share = (share * tolerance).max(floor);
+            if ends_below(curve, share) {
+                continue;
+            }
+            if !reported && !self.watches.is_empty() {
+                dynamics.report_value();
+                reported = true;
+            }
+            let value = guard::value(g, mode, &Reading::Values(dynamics));
+            let (mut found, mut size) = (0.0, 0.0);
+            for c in curve.iter().rev() {
+                found = found * s + c;
+                size = size * s + c.abs();
+            }
+            let allowed = share * (size + value.abs());
             let ratio = (found - value).abs() / (allowed + 64.0 * f64::EPSILON);
             worst = if ratio > worst || ratio.is_nan() {
                 ratio
@@ -150,12 +157,10 @@ impl Curves {
         q: &mut [S::Scalar],
         v: &mut [S::Scalar],
     ) -> Result<(), EvaluationError> {
-        self.prepare(step.degree + 1);
-        let m = self.nodes.len();
-        self.guards.clear();
-        self.guards.resize(guards.len(), Series::ZERO);
-        let stops_and_marks = self.stops.iter_mut().chain(&mut self.marks);
-        stops_and_marks.for_each(|curve| *curve = Series::ZERO);
+        let m = step.degree + 1;
+        self.prepare(m);
+        self.shape(guards.len(), m);
+        self.coefficients.fill(0.0);
         for j in 0..m {
             let s = self.nodes[j];
             step.state_into(S::Scalar::from_f64(s), q, v);
@@ -163,20 +168,13 @@ impl Curves {
             // Stops and marks read the tape after the solve.
             dynamics.report_value();
             let reading = Reading::Values(dynamics);
-            let column = |k: usize| self.matrix[k * m + j];
             let all = guards.iter().chain(&self.watches);
-            let curves = self
-                .guards
-                .iter_mut()
-                .chain(&mut self.stops)
-                .chain(&mut self.marks);
+            let curves = self.coefficients.chunks_exact_mut(m);
             for (curve, &g) in curves.zip(all) {
-                let sample = guard::series(g, mode, &reading, 1.0)
-                    .as_slice()
-                    .first()
-                    .copied()
-                    .unwrap_or(0.0);
-                curve.accumulate(m, |k| column(k) * sample);
+                let sample = guard::value(g, mode, &reading);
+                for (c, row) in curve.iter_mut().zip(self.matrix.chunks_exact(m)) {
+                    *c += row[j] * sample;
+                }
             }
         }
         Ok(())
@@ -210,4 +208,19 @@ impl Curves {
             }
         }
     }
+}
+
+/// Whether the coefficients decay so fast that those left out cannot matter: between groups of four, too many to vanish
+/// together by symmetry, by a factor that makes the next group, and all that follow, less than `share` of Σ|cₖ|.
+fn ends_below(curve: &[f64], share: f64) -> bool {
+    const SAFETY: f64 = 8.0;
+    const SLOWEST: f64 = 0.25;
+    let (rest, [.., before, last]) = curve.as_rchunks::<4>() else {
+        return false;
+    };
+    let size = |c: &[f64; 4]| (c[0].abs() + c[1].abs()) + (c[2].abs() + c[3].abs());
+    let (before, last) = (size(before), size(last));
+    let all = curve[rest.len()..].as_chunks::<4>().0;
+    let first = rest.first().map_or(0.0, |c| c.abs()) + size(&all[0]);
+    last <= SLOWEST * before && SAFETY * last * last <= share * before * first
 }

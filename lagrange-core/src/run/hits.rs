@@ -1,8 +1,8 @@
 //! What ends a step early: the earliest root among the guards of the mode and the stops.
 
 use super::Run;
-use super::curves::Curves;
 use crate::events::{Direction, RootList, deflate, first_root, roots};
+use crate::integrate::polynomial_sum as sum;
 use crate::mode::{FrictionMode, Mode};
 use crate::modes::guard::{Guard, LENGTH};
 use crate::system::{Condition, System, Watch};
@@ -28,13 +28,14 @@ impl Hit {
     }
 }
 
-impl<S: System> Run<'_, S> {
-    /// Finds what happens first within the step whose guards are `curves`.
-    pub(super) fn first_hit(&mut self, curves: &Curves) -> Hit {
+impl<S: System> Run<S> {
+    /// Finds what happens first within the step.
+    pub(super) fn first_hit(&mut self) -> Hit {
         self.falls.clear();
         let mut first = f64::INFINITY;
-        for (k, &guard) in self.guards.iter().enumerate() {
-            if let Some((s, width)) = self.fall(guard, curves.mode_guard(k)) {
+        for k in 0..self.guards.len() {
+            let guard = self.guards[k];
+            if let Some((s, width)) = self.fall(guard, self.curves.mode_guard(k)) {
                 self.falls.push((guard, s, width));
                 first = first.min(s + width);
             }
@@ -54,7 +55,7 @@ impl<S: System> Run<'_, S> {
             Hit::Guards(at)
         };
         // A stop at the instant of an impact ends the run before it; rounding may see it a little later.
-        match self.first_stop(curves, (guards.end() * (1.0 + 1e-13)).min(1.0)) {
+        match self.first_stop((guards.end() * (1.0 + 1e-13)).min(1.0)) {
             Some((stop, s)) => Hit::Stop(stop, s),
             None => guards,
         }
@@ -72,8 +73,8 @@ impl<S: System> Run<'_, S> {
         }
         let curve = deflate(curve, known);
         // A root that rounding has moved across the border between two steps shows as a negative start.
-        let size: f64 = curve.iter().map(|c| c.abs()).sum();
         if known == 0 && curve.first().is_some_and(|c| *c < 0.0) {
+            let size: f64 = curve.iter().map(|c| c.abs()).sum();
             let rises = curve[0] > -1e-13 * size && curve.get(1).is_some_and(|c| *c > 0.0);
             if !rises {
                 return Some((0.0, 0.0));
@@ -93,8 +94,9 @@ impl<S: System> Run<'_, S> {
     }
 
     /// The earliest stop up to part `end` of the step.
-    fn first_stop(&mut self, curves: &Curves, end: f64) -> Option<(usize, f64)> {
+    fn first_stop(&self, end: f64) -> Option<(usize, f64)> {
         let d = S::DESCRIPTION;
+        let curves = &self.curves;
         let mut best: Option<(usize, f64)> = None;
         for (i, watch) in d.stops.iter().enumerate() {
             let mode = &self.mode;
@@ -116,15 +118,16 @@ impl<S: System> Run<'_, S> {
     }
 
     /// Marks up to part `end` of the step, in order.
-    pub(super) fn marks_until(&self, curves: &Curves, end: f64) -> Vec<(usize, f64)> {
+    pub(super) fn marks_until(&self, end: f64, list: &mut Vec<(usize, f64)>) {
         let d = S::DESCRIPTION;
-        let mut list = Vec::new();
+        let curves = &self.curves;
+        list.clear();
         for (i, watch) in d.marks.iter().enumerate() {
             if watch.zeros {
                 let mut all = RootList::new();
                 roots(curves.mark_term(i, 0), &mut all);
                 let below = self.mark_below[i][0];
-                let start = curves.mark_term(i, 0).first().copied().unwrap_or(0.0);
+                let start = curves.mark_term(i, 0)[0];
                 if (below && start > 0.0) || (!below && start < 0.0) {
                     list.push((i, 0.0));
                 }
@@ -146,12 +149,12 @@ impl<S: System> Run<'_, S> {
             }
         }
         list.sort_by(|a, b| a.1.total_cmp(&b.1));
-        list
     }
 
     /// Remembers on which side the terms of stops and marks are at part `end` of the step.
-    pub(super) fn remember_sides(&mut self, curves: &Curves, end: f64) {
+    pub(super) fn remember_sides(&mut self, end: f64) {
         let d = S::DESCRIPTION;
+        let curves = &self.curves;
         let below = |curve: &[f64]| value(curve, end) < 0.0;
         for (i, watch) in d.stops.iter().enumerate() {
             for k in 0..watch.terms.len() {
@@ -189,13 +192,17 @@ fn becomes_true<'c>(
         if was_below(k) && curve.first().is_some_and(|c| *c >= 0.0) {
             consider(0.0);
         }
-        let mut all = RootList::new();
-        roots(curve, &mut all);
-        for root in all
-            .iter()
-            .filter(|r| r.direction == Direction::Rising && !r.grazing)
+        let mut from = 0.0;
+        while let Some(root) = first_root(curve, from)
+            && root.s <= end
         {
-            consider(root.s);
+            if root.direction == Direction::Rising && !root.grazing {
+                consider(root.s);
+            }
+            from = root.s;
+            if from >= 1.0 {
+                break;
+            }
         }
     }
     best
@@ -212,5 +219,9 @@ pub(super) fn holds(watch: &Watch, mode: &Mode) -> bool {
 }
 
 fn value(curve: &[f64], s: f64) -> f64 {
-    crate::trajectory::horner(curve, s)
+    if s == 1.0 {
+        sum(curve)
+    } else {
+        crate::trajectory::horner(curve, s)
+    }
 }

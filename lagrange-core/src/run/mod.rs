@@ -3,6 +3,8 @@
 mod accumulation;
 mod curves;
 mod hits;
+mod log;
+mod runner;
 mod singular;
 mod stepping;
 mod switch;
@@ -10,19 +12,25 @@ mod switch;
 mod tests;
 
 use crate::arithmetic::Scalar;
-use crate::dynamics::{Dynamics, EvaluationError, NeedSet, add_guards};
+use crate::dynamics::{Dynamics, EvaluationError, NeedSet};
 use crate::error::Error;
 use crate::integrate::{StepPolynomial, Tolerance};
 use crate::mode::Mode;
+use crate::modes::decide::Decider;
 use crate::modes::guard::{self, Guard};
-use crate::modes::start;
-use crate::simulation::{Failure, Simulation};
-use crate::system::System;
+use crate::modes::reading::Reading;
+use crate::modes::start::{self, Survey};
+use crate::modes::table::Table;
+use crate::pool::Pool;
+use crate::simulation::Settings;
+use crate::system::{System, Watch};
 use crate::trajectory::{EventKind, State, Subject, Trajectory, Work};
 use accumulation::Impacts;
 use core::ops::Range;
 use curves::Curves;
 use hits::Hit;
+use log::Before;
+pub use runner::Runner;
 use singular::Rank;
 use stepping::Stepper;
 
@@ -32,9 +40,13 @@ const MOST_EVENTS_AT_ONCE: usize = 40;
 /// Nearer than this to a loss of rank what is left of a residual is amplified: it is taken away to the last bit.
 const NEAR: f64 = 0.7;
 
-/// The state of a run.
-pub(crate) struct Run<'a, S: System> {
-    simulation: &'a Simulation<'a, S>,
+/// Steps between two looks at rows that a step does not leave by more than rounding.
+const STEPS_OF_ROUNDING: usize = 16;
+
+/// The state of a run, and everything that it works with.
+#[derive(Debug)]
+pub(crate) struct Run<S: System> {
+    settings: Settings,
     dynamics: Dynamics<S>,
     stepper: Stepper<S::Scalar>,
     tolerance: Tolerance,
@@ -44,22 +56,32 @@ pub(crate) struct Run<'a, S: System> {
     end: f64,
     state: State<S::Scalar>,
     mode: Mode,
+    table: Table,
     /// Guards of the mode.
     guards: Vec<Guard>,
+    /// Whether a step can leave the rows of the mode.
+    drifts: bool,
     /// Guards whose leading coefficients vanish at the start of the coming step.
     zeros: Vec<(Guard, usize)>,
-    /// Needs of the guards, stops and marks.
-    needs: NeedSet,
     /// Whether `dynamics` holds the Taylor series at the present state.
     expanded: bool,
+    /// Whether `dynamics` holds the values of the present state, for the needs of the mode.
+    valued: bool,
     /// Falling guards found in the present step: (guard, part of the step, half width).
     falls: Vec<(Guard, f64, f64)>,
     fallen: Vec<Guard>,
     stop_below: Vec<Vec<bool>>,
     mark_below: Vec<Vec<bool>>,
+    marks: Vec<(usize, f64)>,
     step: StepPolynomial<S::Scalar>,
+    /// Of the length of the step.
+    powers: Vec<f64>,
     curves: Curves,
     scratch: State<S::Scalar>,
+    survey: Survey,
+    decider: Decider,
+    before: Before<S::Scalar>,
+    forces_after: Vec<S::Scalar>,
     /// Per contact: its impacts so far.
     impacts: Vec<Impacts>,
     /// Watches for positions where constraints lose rank.
@@ -67,91 +89,128 @@ pub(crate) struct Run<'a, S: System> {
     /// Distance from such a position at the start of the coming step.
     distance: f64,
     /// Modes of the switches since time last advanced.
-    stuck: Vec<Mode>,
+    stuck: Pool<Mode>,
     finished: bool,
+    /// What earlier runs cost.
+    work_before: crate::dynamics::Work,
     trajectory: Trajectory<S>,
 }
 
-impl<'a, S: System> Run<'a, S> {
-    /// Runs a simulation.
-    pub(crate) fn execute(
-        simulation: &'a Simulation<'a, S>,
-        start: State<S::Scalar>,
-        span: Range<f64>,
-    ) -> Result<Trajectory<S>, Failure<S>> {
+impl<S: System> Run<S> {
+    /// Makes everything ready.
+    pub(crate) fn new(scene: &S, settings: &Settings) -> Self {
         let d = S::DESCRIPTION;
-        let t = S::Scalar::from_f64(span.start);
+        let (n, rows) = (d.coordinates.len(), d.rows.len());
+        let zero = S::Scalar::default();
+        let state = State {
+            q: vec![zero; n],
+            v: vec![zero; n],
+        };
         let mode = Mode::open(d);
-        let trajectory = Trajectory::new(
-            simulation.scene,
-            &simulation.effects,
-            t,
-            start.clone(),
-            mode.clone(),
-        );
-        if let Err(error) = simulation.check(&start, &span) {
-            return Err(Failure {
-                error,
-                trajectory: Box::new(trajectory),
-            });
-        }
-        let tolerance = Tolerance::both(simulation.tolerance);
+        let tolerance = Tolerance::both(settings.tolerance);
         let mut run = Run {
-            simulation,
-            dynamics: Dynamics::new(simulation.scene, &simulation.effects),
-            stepper: Stepper::new(simulation.method, d.coordinates.len()),
+            settings: settings.clone(),
+            dynamics: Dynamics::new(scene, &settings.effects),
+            stepper: Stepper::new(settings.method, n),
             tolerance,
             order: crate::integrate::taylor::order(tolerance),
-            t,
-            end: span.end,
-            scratch: start.clone(),
-            state: start,
-            mode,
+            t: zero,
+            end: 0.0,
+            scratch: state.clone(),
+            before: Before {
+                mode: mode.clone(),
+                state: state.clone(),
+                forces: vec![zero; rows],
+            },
+            forces_after: vec![zero; rows],
+            table: Table::default(),
             guards: Vec::new(),
+            drifts: true,
             zeros: Vec::new(),
-            needs: NeedSet::new(d),
             expanded: false,
+            valued: false,
             falls: Vec::new(),
             fallen: Vec::new(),
             stop_below: d.stops.iter().map(|w| vec![false; w.terms.len()]).collect(),
             mark_below: d.marks.iter().map(|w| vec![false; w.terms.len()]).collect(),
-            step: StepPolynomial::new(d.coordinates.len(), 1),
+            marks: Vec::new(),
+            step: StepPolynomial::new(n, 1),
+            powers: Vec::new(),
             curves: Curves::new::<S>(),
+            survey: Survey::new(d),
+            decider: Decider::new(d),
             impacts: vec![Impacts::default(); d.contacts.len()],
             rank: Rank::new::<S>(),
             distance: 1.0,
-            stuck: Vec::new(),
+            stuck: Pool::default(),
             finished: false,
-            trajectory,
+            work_before: crate::dynamics::Work::default(),
+            trajectory: Trajectory::new(scene, &settings.effects, settings.record),
+            state,
+            mode,
         };
-        let outcome = run.go();
-        run.close();
-        match outcome {
-            Ok(()) => Ok(run.trajectory),
-            Err(error) => Err(Failure {
-                error,
-                trajectory: Box::new(run.trajectory),
-            }),
-        }
+        run.trajectory.begin(zero, &run.state, &run.mode);
+        run.watch();
+        run
+    }
+
+    /// Takes another system of the same kind.
+    pub(crate) fn set_scene(&mut self, scene: &S) {
+        self.dynamics = Dynamics::new(scene, &self.settings.effects);
+        self.work_before = self.dynamics.work();
+        self.trajectory.scene.clone_from(scene);
+        self.watch();
+    }
+
+    /// Runs from `start` over `span`.
+    pub(crate) fn execute(
+        &mut self,
+        start: &State<S::Scalar>,
+        span: Range<f64>,
+    ) -> Result<(), Error> {
+        let t = S::Scalar::from_f64(span.start);
+        self.mode.clear();
+        self.trajectory.begin(t, start, &self.mode);
+        self.settings.check(self.dynamics.scene(), start, &span)?;
+        (self.t, self.end) = (t, span.end);
+        self.state.clone_from(start);
+        self.work_before = self.dynamics.work();
+        self.stepper.restart();
+        self.stop_below
+            .iter_mut()
+            .for_each(|terms| terms.fill(false));
+        self.mark_below
+            .iter_mut()
+            .for_each(|terms| terms.fill(false));
+        self.impacts.fill(Impacts::default());
+        self.rank.restart();
+        self.distance = 1.0;
+        self.stuck.clear();
+        self.finished = false;
+        let outcome = self.go();
+        self.close();
+        outcome
     }
 
     fn go(&mut self) -> Result<(), Error> {
-        self.watch();
-        let known = start::begin(
+        start::begin(
             &mut self.dynamics,
             self.t,
             &mut self.state,
-            self.simulation.tolerance,
-            self.simulation.project_start,
+            self.settings.tolerance,
+            self.settings.project_start,
+            &mut self.survey,
         )?;
         self.trajectory.start.clone_from(&self.state);
-        let mode = self.dynamics.mode().clone();
-        self.trajectory.modes[0].clone_from(&mode);
-        self.set_mode(mode);
-        self.settle(known)?;
+        (self.expanded, self.valued) = (false, false);
+        self.mode.clone_from(&self.survey.mode);
+        self.trajectory.modes.clear();
+        self.trajectory.modes.push(&self.mode);
+        self.hold_guards();
+        self.settle()?;
         while !self.finished && self.t.value() < self.end {
-            if self.trajectory.work.steps >= self.simulation.max_steps {
-                return Err(self.limit("steps", self.simulation.max_steps));
+            if self.trajectory.work.steps >= self.settings.max_steps {
+                return Err(self.limit("steps", self.settings.max_steps));
             }
             self.advance()?;
         }
@@ -162,8 +221,13 @@ impl<'a, S: System> Run<'a, S> {
     fn advance(&mut self) -> Result<(), Error> {
         let hit = self.accepted_step()?;
         let end = hit.end();
+        if end > 0.0 {
+            // The step left there the state at its end, evaluated.
+            core::mem::swap(&mut self.state, &mut self.scratch);
+            (self.valued, self.expanded) = (true, false);
+        }
         self.log_marks(end);
-        self.remember_sides_at(end);
+        self.remember_sides(end);
         self.trajectory.push(&self.step, S::Scalar::from_f64(end));
         self.trajectory.work.steps += 1;
         if end > 0.0 {
@@ -175,21 +239,23 @@ impl<'a, S: System> Run<'a, S> {
             {
                 self.t = S::Scalar::from_f64(self.end);
             }
-            self.step.state_into(
-                S::Scalar::from_f64(end),
-                &mut self.state.q,
-                &mut self.state.v,
-            );
             self.stuck.clear();
             self.zeros.clear();
-            self.expanded = false;
-            self.project(self.distance < NEAR)?;
+            let steps = self.trajectory.work.steps;
+            let exact = matches!(self.stepper, Stepper::Taylor(_)) && !self.drifts;
+            let near = self.distance < NEAR;
+            if near || !exact || steps.is_multiple_of(STEPS_OF_ROUNDING) {
+                self.project(near)?;
+            }
         }
         match hit {
             Hit::Nothing => Ok(()),
             Hit::Stop(stop, _) => {
-                self.evaluate()?;
-                self.finish(stop)
+                if !self.valued {
+                    self.evaluate()?;
+                }
+                self.finish(stop);
+                Ok(())
             }
             Hit::Guards(_) => {
                 self.count_switch()?;
@@ -201,10 +267,10 @@ impl<'a, S: System> Run<'a, S> {
 
     /// Counts a switch; too many at one time, or in all, end the run.
     fn count_switch(&mut self) -> Result<(), Error> {
-        if self.trajectory.events.len() >= self.simulation.max_events {
-            return Err(self.limit("events", self.simulation.max_events));
+        if self.trajectory.events.len() >= self.settings.max_events {
+            return Err(self.limit("events", self.settings.max_events));
         }
-        self.stuck.push(self.mode.clone());
+        self.stuck.push(&self.mode);
         if self.stuck.len() < MOST_EVENTS_AT_ONCE {
             return Ok(());
         }
@@ -222,87 +288,78 @@ impl<'a, S: System> Run<'a, S> {
     }
 
     /// Ends the run at a stop.
-    fn finish(&mut self, stop: usize) -> Result<(), Error> {
-        let state = self.state.clone();
-        self.log_watch(Subject::Stop(stop), EventKind::Stop, self.t, state);
+    fn finish(&mut self, stop: usize) {
+        let state = core::mem::take(&mut self.state);
+        self.log_watch(Subject::Stop(stop), EventKind::Stop, self.t, &state);
+        self.state = state;
         self.finished = true;
-        Ok(())
     }
 
     fn log_marks(&mut self, end: f64) {
-        for (mark, s) in self.marks_until(&self.curves, end) {
-            let s = S::Scalar::from_f64(s);
-            let mut state = self.state.clone();
-            self.step.state_into(s, &mut state.q, &mut state.v);
-            let time = self.step.t + self.step.h * s;
-            if self.dynamics.value(time, &state.q, &state.v).is_ok() {
-                self.log_watch(Subject::Mark(mark), EventKind::Mark, time, state);
-            }
+        if S::DESCRIPTION.marks.is_empty() {
+            return;
         }
-    }
-
-    fn remember_sides_at(&mut self, end: f64) {
-        let curves = core::mem::take(&mut self.curves);
-        self.remember_sides(&curves, end);
-        self.curves = curves;
+        let mut marks = core::mem::take(&mut self.marks);
+        self.marks_until(end, &mut marks);
+        for &(mark, s) in &marks {
+            let s = S::Scalar::from_f64(s);
+            let mut state = core::mem::take(&mut self.scratch);
+            self.step.state_into(s, &mut state.q, &mut state.v);
+            let time = self.step.time(s);
+            self.valued = false;
+            if self.dynamics.value(time, &state.q, &state.v).is_ok() {
+                self.log_watch(Subject::Mark(mark), EventKind::Mark, time, &state);
+            }
+            self.scratch = state;
+        }
+        self.marks = marks;
     }
 
     /// Stops whose conditions the switch has just made true.
-    fn stops_of_the_mode(&mut self, before: &Mode) -> Result<(), Error> {
+    fn stops_of_the_mode(&mut self) -> Result<(), Error> {
         let d = S::DESCRIPTION;
         for (i, watch) in d.stops.iter().enumerate() {
-            if watch.conditions.is_empty()
-                || hits::holds(watch, before)
-                || !hits::holds(watch, &self.mode)
-            {
-                continue;
-            }
-            let reading = guard::first_values(
-                &self.dynamics,
-                &self.mode,
-                (0..watch.terms.len()).map(|k| Guard::Stop(i, k)),
-            );
-            if reading.iter().all(|x| *x >= 0.0) {
-                return self.finish(i);
+            if self.has_become_true(watch, |k| Guard::Stop(i, k)) {
+                self.evaluate()?;
+                self.finish(i);
+                return Ok(());
             }
         }
         for (i, watch) in d.marks.iter().enumerate() {
-            if watch.conditions.is_empty()
-                || hits::holds(watch, before)
-                || !hits::holds(watch, &self.mode)
-            {
-                continue;
-            }
-            let reading = guard::first_values(
-                &self.dynamics,
-                &self.mode,
-                (0..watch.terms.len()).map(|k| Guard::Mark(i, k)),
-            );
-            if reading.iter().all(|x| *x >= 0.0) {
-                let state = self.state.clone();
-                self.log_watch(Subject::Mark(i), EventKind::Mark, self.t, state);
+            if self.has_become_true(watch, |k| Guard::Mark(i, k)) {
+                self.evaluate()?;
+                let state = core::mem::take(&mut self.state);
+                self.log_watch(Subject::Mark(i), EventKind::Mark, self.t, &state);
+                self.state = state;
             }
         }
         Ok(())
     }
 
-    /// Enters a mode: its guards, its needs.
-    fn set_mode(&mut self, mode: Mode) {
-        self.dynamics.set_mode(&mode);
-        self.mode = mode;
+    /// Whether the switch has made the conditions of a watch hold while its terms do.
+    fn has_become_true(&self, watch: &Watch, term: impl Fn(usize) -> Guard) -> bool {
+        let reading = Reading::Series(&self.dynamics);
+        let value = |k| guard::value(term(k), &self.mode, &reading);
+        !watch.conditions.is_empty()
+            && !hits::holds(watch, &self.before.mode)
+            && hits::holds(watch, &self.mode)
+            && (0..watch.terms.len()).all(|k| value(k) >= 0.0)
+    }
+
+    /// Enters the mode that the decider has found.
+    fn set_mode_decided(&mut self) {
+        self.mode.clone_from(&self.decider.decision.mode);
         self.trajectory.enter(&self.mode);
-        self.expanded = false;
+        (self.expanded, self.valued) = (false, false);
         self.hold_guards();
     }
 
-    /// Holds what the guards of the mode need.
+    /// Holds what the guards of the mode, which `dynamics` is in, need.
     fn hold_guards(&mut self) {
-        let d = S::DESCRIPTION;
-        self.needs.clone_from(self.dynamics.motion_needs());
-        self.needs.extend(self.dynamics.report_needs());
-        add_guards(d, self.dynamics.effects(), &self.mode, &mut self.needs);
-        guard::guards_of_mode(&self.mode, &self.dynamics, &self.needs, &mut self.guards);
-        self.dynamics.set_extra_needs(&self.needs);
+        let watched = self.table.of(&self.dynamics);
+        self.guards.clone_from(&watched.guards);
+        self.drifts = watched.drifts;
+        self.dynamics.set_extra_needs(&watched.needs);
     }
 
     /// Asks for the stops and marks that take part.
@@ -311,12 +368,12 @@ impl<'a, S: System> Run<'a, S> {
         let d = S::DESCRIPTION;
         let mut needs = NeedSet::new(d);
         for (i, stop) in d.stops.iter().enumerate() {
-            if self.simulation.effects.includes(d, Item::Stop(i)) {
+            if self.settings.effects.includes(d, Item::Stop(i)) {
                 needs.insert(stop.need);
             }
         }
         for (i, mark) in d.marks.iter().enumerate() {
-            if self.simulation.effects.includes(d, Item::Mark(i)) {
+            if self.settings.effects.includes(d, Item::Mark(i)) {
                 needs.insert(mark.need);
             }
         }
@@ -325,46 +382,28 @@ impl<'a, S: System> Run<'a, S> {
 
     /// Values at the present state in the present mode, with every row's Jacobian and rate.
     fn evaluate_all_rows(&mut self) -> Result<(), Error> {
-        self.dynamics
-            .set_extra_needs(&guard::all_row_needs(S::DESCRIPTION, &self.needs));
+        self.dynamics.set_extra_needs(&self.survey.needs);
         self.evaluate()?;
+        self.valued = false;
         Ok(())
     }
 
     fn evaluate(&mut self) -> Result<(), Error> {
         let outcome = self.dynamics.value(self.t, &self.state.q, &self.state.v);
-        outcome.map_err(|e| self.error(e))
-    }
-
-    /// Taylor series at the present state.
-    fn refresh(&mut self) -> Result<(), Error> {
-        self.hold_guards();
-        let outcome = self
-            .dynamics
-            .series(self.t, &self.state.q, &self.state.v, self.order);
         outcome.map_err(|e| self.error(e))?;
-        self.expanded = true;
+        self.valued = true;
         Ok(())
     }
 
-    /// λ of every row at the last value.
-    fn forces(&self) -> Vec<S::Scalar> {
-        (0..S::DESCRIPTION.rows.len())
-            .map(|row| self.dynamics.force(row))
-            .collect()
-    }
-
-    /// λ of every row at the start of the series.
-    fn forces_from_series(&self) -> Vec<S::Scalar> {
-        let rows = 0..S::DESCRIPTION.rows.len();
-        rows.map(|row| {
-            self.dynamics
-                .force_series(row)
-                .first()
-                .copied()
-                .unwrap_or_default()
-        })
-        .collect()
+    /// Taylor series at the present state, unless they are there.
+    fn expand(&mut self) -> Result<(), Error> {
+        if !self.expanded {
+            let State { q, v } = &self.state;
+            let outcome = self.dynamics.series(self.t, q, v, self.order);
+            outcome.map_err(|e| self.error(e))?;
+            self.expanded = true;
+        }
+        Ok(())
     }
 
     fn limit(&self, what: &'static str, limit: usize) -> Error {
@@ -385,9 +424,9 @@ impl<'a, S: System> Run<'a, S> {
         self.trajectory.last.clone_from(&self.state);
         let work = self.dynamics.work();
         self.trajectory.work = Work {
-            evaluations: work.values,
-            series: work.series,
-            factorizations: work.factorizations,
+            evaluations: work.values - self.work_before.values,
+            series: work.series - self.work_before.series,
+            factorizations: work.factorizations - self.work_before.factorizations,
             ..self.trajectory.work
         };
     }

@@ -8,15 +8,35 @@
 //! Cholesky's factorization with complete pivoting: the smallest of them that is not always zero, over its largest value
 //! so far, is the square of a distance.
 
+use super::Run;
+use super::hits::Hit;
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
+use crate::integrate::taylor;
 use crate::system::{Place, System};
+
+/// A step may come nearer to a loss of rank, or to its other side, by this factor.
+pub(super) const NEARER: f64 = 0.35;
+/// Else it is tried this much longer, over that position,
+const LEAP: f64 = 1.5;
+/// with any degree from this on,
+const LEAST_DEGREE: usize = 6;
+/// and then this much shorter,
+pub(super) const RETREAT: f64 = 0.75;
+/// so many times.
+pub(super) const MOST_RETREATS: usize = 5;
+/// Error of a leap in units of what is allowed for a step,
+const GOOD: f64 = 30.0;
+/// and where nothing better can be had any more.
+const BEARABLE: f64 = 1e4;
+/// Nearer than this truncation is no longer what makes a leap inexact.
+const CLOSE: f64 = 0.2;
 
 /// A pivot below this share of the first has always been zero: its row depends on others everywhere.
 const DEPENDENT: f64 = 1e-10;
 
 /// Watches the rank of the constraints along a run.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(super) struct Rank {
     /// Rows that may lose rank; none: nothing to watch.
     rows: Vec<usize>,
@@ -52,6 +72,11 @@ impl Rank {
             scaled: vec![0.0; m * n],
             rows,
         }
+    }
+
+    /// Forgets earlier runs.
+    pub(super) fn restart(&mut self) {
+        self.largest.fill(0.0);
     }
 
     /// Distance of the state that `dynamics` has evaluated from a loss of rank, 1 at the farthest so far.
@@ -126,5 +151,48 @@ impl Rank {
                 }
             }
         }
+    }
+}
+
+impl<S: System> Run<S> {
+    /// Tries a step over the loss of rank that one of length `h` comes too close to.
+    ///
+    /// Rounding enters the equations amplified and grows through the coefficients as if the solution had a pole there; the
+    /// truncation error falls with the order. The order with the least defect beyond is the best compromise. False if none
+    /// is good enough; else the step is made and its end evaluated.
+    pub(super) fn leap(&mut self, h: f64) -> bool {
+        let h = LEAP * h;
+        if h > self.end - self.t.value() {
+            return false;
+        }
+        let mut least = if self.distance < CLOSE { BEARABLE } else { GOOD };
+        let mut best = None;
+        for degree in LEAST_DEGREE..=self.order {
+            if let Some((defect, distance)) = self.beyond(h, degree)
+                && defect < least
+                && distance >= NEARER * NEARER * self.distance
+            {
+                (least, best) = (defect, Some((degree, distance)));
+            }
+        }
+        let Some((degree, distance)) = best else {
+            return false;
+        };
+        self.distance = distance;
+        self.beyond(h, degree).is_some()
+    }
+
+    /// Defect and distance from a loss of rank at the end of a step of length `h` with a polynomial of this degree; nothing
+    /// if it cannot be evaluated there or something happens on the way.
+    fn beyond(&mut self, h: f64, degree: usize) -> Option<(f64, f64)> {
+        self.write_polynomial(h, degree);
+        self.curves
+            .take_series(&self.dynamics, &self.mode, &self.guards, &self.powers);
+        if self.first_hit() != Hit::Nothing || self.evaluate_end(1.0).is_err() {
+            return None;
+        }
+        let acceleration = self.dynamics.acceleration();
+        let defect = taylor::defect(&self.step, 1.0, acceleration, self.tolerance);
+        Some((defect, self.rank.distance(&self.dynamics)))
     }
 }

@@ -4,80 +4,117 @@ use super::Run;
 use crate::arithmetic::Scalar;
 use crate::effects::Item;
 use crate::error::Error;
-use crate::mode::{FrictionMode, Mode};
-use crate::modes::decide::{Known, decide};
+use crate::mode::FrictionMode;
+use crate::modes::decide::{Known, Moment};
 use crate::modes::guard::Guard;
 use crate::modes::impact::{Impact, impact};
 use crate::system::{Normal, System};
-use crate::trajectory::{Event, EventKind, State, Subject};
+use crate::trajectory::{EventKind, Subject};
 
-impl<S: System> Run<'_, S> {
+impl<S: System> Run<S> {
     /// Leaves the present mode because the guards in `self.fallen` fell through zero.
     pub(super) fn switch(&mut self) -> Result<(), Error> {
         let d = S::DESCRIPTION;
-        let known = Known {
-            touching: (0..d.contacts.len())
-                .map(|c| self.mode.contacts[c] || self.fallen.contains(&Guard::Gap(c)))
-                .collect(),
-            arriving: (0..d.contacts.len())
-                .map(|c| self.fallen.contains(&Guard::Gap(c)))
-                .collect(),
-            parting: vec![false; d.contacts.len()],
-            resting: (0..d.frictions.len())
-                .map(|f| {
-                    self.mode.frictions[f] == FrictionMode::Stick
-                        || self.fallen.contains(&Guard::Slip(f))
-                })
-                .collect(),
-            balanced: (0..d.branches.len())
-                .map(|b| self.fallen.contains(&Guard::Branch(b)))
-                .collect(),
-            located: self.fallen.clone(),
-        };
-        self.settle(known)
+        if !self.valued {
+            self.evaluate()?;
+        }
+        let known = &mut self.survey.known;
+        known.clear(d);
+        known.residue = self
+            .decider
+            .residue(&self.dynamics, &self.mode, &self.fallen);
+        known.touching.copy_from_slice(&self.mode.contacts);
+        for (resting, friction) in known.resting.iter_mut().zip(&self.mode.frictions) {
+            *resting = *friction == FrictionMode::Stick;
+        }
+        for &guard in &self.fallen {
+            match guard {
+                Guard::Gap(c) => (known.touching[c], known.arriving[c]) = (true, true),
+                Guard::Slip(f) => known.resting[f] = true,
+                Guard::Branch(b) => known.balanced[b] = true,
+                _ => {}
+            }
+        }
+        known.located.extend_from_slice(&self.fallen);
+        self.settle()
     }
 
-    /// Impact if needed, then the next mode; logs what changed. `known` says what vanishes at this instant.
-    pub(super) fn settle(&mut self, mut known: Known) -> Result<(), Error> {
+    /// Impact if needed, then the next mode; logs what changed. `self.survey.known` says what vanishes at this instant.
+    pub(super) fn settle(&mut self) -> Result<(), Error> {
+        let mut known = core::mem::take(&mut self.survey.known);
+        let outcome = self.settle_knowing(&mut known);
+        self.survey.known = known;
+        outcome
+    }
+
+    fn settle_knowing(&mut self, known: &mut Known) -> Result<(), Error> {
+        if !self.valued {
+            self.evaluate()?;
+        }
+        self.remember_before();
+        let impact = if known.arriving.contains(&true) {
+            self.hit(known)?
+        } else {
+            None
+        };
+        if impact.is_none() {
+            self.rest_where_slip_vanishes(known)?;
+        }
+        let moment = Moment {
+            t: self.t,
+            q: &self.state.q,
+            v: &self.state.v,
+            order: self.order,
+            tolerance: self.settings.tolerance,
+        };
+        self.decider.decide(
+            &mut self.dynamics,
+            &mut self.table,
+            moment,
+            &self.mode,
+            known,
+        )?;
+        self.zeros.clone_from(&self.decider.decision.zeros);
+        self.set_mode_decided();
+        self.expanded = self.decider.decision.expanded;
+        if impact.is_some() || self.rows_have_joined() {
+            self.project(true)?;
+        }
+        self.expand()?;
+        let impulses = impact.map(|outcome| outcome.impulses).unwrap_or_default();
+        self.log_changes(&impulses, self.decider.decision.ambiguous);
+        self.stops_of_the_mode()
+    }
+
+    /// The impact of the contacts whose gaps close.
+    fn hit(&mut self, known: &mut Known) -> Result<Option<Impact<S::Scalar>>, Error> {
         let d = S::DESCRIPTION;
-        let before = self.mode.clone();
-        let state = self.state.clone();
         self.evaluate_all_rows()?;
-        let forces = self.forces();
         let hit: Vec<usize> = (0..d.contacts.len())
             .filter(|&c| known.arriving[c] && self.approaching(c))
             .collect();
-        let mut struck = None;
-        if !hit.is_empty() {
-            let near: Vec<usize> = (0..d.contacts.len())
-                .filter(|&c| known.touching[c])
-                .collect();
-            let outcome = impact(&self.dynamics, self.t.value(), &self.state.v, &near)?;
-            self.state.v.copy_from_slice(&outcome.v);
-            self.log_impacts(&outcome, &hit, &before, &state, &forces);
-            self.after_impact(&outcome, &near, &mut known);
-            self.close_accumulated(&outcome, &mut known)?;
-            struck = Some(outcome);
-        } else {
-            self.rest_where_slip_vanishes(&mut known);
+        if hit.is_empty() {
+            return Ok(None);
         }
-        let decision = decide(
-            &mut self.dynamics,
-            self.t,
-            &self.state.q,
-            &self.state.v,
-            &self.mode,
-            &known,
-            self.order,
-            self.simulation.tolerance,
-        )?;
-        self.set_mode(decision.mode);
-        self.zeros = decision.zeros;
-        self.project(true)?;
-        self.refresh()?;
-        let impulses = struck.map(|s| s.impulses).unwrap_or_default();
-        self.log_changes(&before, &state, &forces, &impulses, decision.ambiguous);
-        self.stops_of_the_mode(&before)
+        let near: Vec<usize> = (0..d.contacts.len())
+            .filter(|&c| known.touching[c])
+            .collect();
+        let outcome = impact(&self.dynamics, self.t.value(), &self.state.v, &near)?;
+        self.state.v.copy_from_slice(&outcome.v);
+        self.log_impacts(&outcome, &hit);
+        self.after_impact(&outcome, &near, known);
+        self.close_accumulated(&outcome, known)?;
+        Ok(Some(outcome))
+    }
+
+    /// Whether the switch has brought rows that the state need not satisfy to rounding.
+    fn rows_have_joined(&self) -> bool {
+        let (before, after) = (&self.before.mode, &self.mode);
+        let mut contacts = before.contacts.iter().zip(&after.contacts);
+        let mut frictions = before.frictions.iter().zip(&after.frictions);
+        contacts.any(|(before, after)| !before & after)
+            || frictions.any(|(before, after)| before != after && *after == FrictionMode::Stick)
+            || before.branches != after.branches
     }
 
     /// Whether the gap of contact `c` closes at the present state.
@@ -118,13 +155,10 @@ impl<S: System> Run<'_, S> {
                     known.resting[f] = slip.abs() <= 1e-13 * size;
                 }
             }
-            let state = self.state.clone();
-            self.log_watch(
-                Subject::Contact(c),
-                EventKind::Accumulates { impacts: count },
-                self.t,
-                state,
-            );
+            let state = core::mem::take(&mut self.state);
+            let kind = EventKind::Accumulates { impacts: count };
+            self.log_watch(Subject::Contact(c), kind, self.t, &state);
+            self.state = state;
         }
         Ok(())
     }
@@ -144,20 +178,34 @@ impl<S: System> Run<'_, S> {
             }
         }
         // Velocities have jumped: what was located for the old ones says nothing about the new.
+        known.jumped = true;
         known.located.clear();
     }
 
     /// A contact that closes without impact carries frictions whose slip nobody has looked at.
-    fn rest_where_slip_vanishes(&mut self, known: &mut Known) {
+    fn rest_where_slip_vanishes(&mut self, known: &mut Known) -> Result<(), Error> {
         let d = S::DESCRIPTION;
-        for (f, friction) in d.frictions.iter().enumerate() {
-            let active = self.mode.frictions[f] != FrictionMode::Inactive;
-            if active || known.resting[f] {
-                continue;
-            }
-            let (slip, size) = self.slip(friction.row);
-            known.resting[f] = slip.abs() <= 1e-13 * size;
+        let wakes = |run: &Self, known: &Known, f: usize| {
+            let closes = match d.frictions[f].normal {
+                Normal::Contact(c) => known.touching[c],
+                Normal::Constraint(_) | Normal::Given(_) => true,
+            };
+            closes
+                && !known.resting[f]
+                && run.mode.frictions[f] == FrictionMode::Inactive
+                && run.dynamics.effects().includes(d, Item::Friction(f))
+        };
+        if !(0..d.frictions.len()).any(|f| wakes(self, known, f)) {
+            return Ok(());
         }
+        self.evaluate_all_rows()?;
+        for (f, friction) in d.frictions.iter().enumerate() {
+            if wakes(self, known, f) {
+                let (slip, size) = self.slip(friction.row);
+                known.resting[f] = slip.abs() <= 1e-13 * size;
+            }
+        }
+        Ok(())
     }
 
     /// Slip of a friction row and the size of the terms that make it.
@@ -170,118 +218,5 @@ impl<S: System> Run<'_, S> {
             .map(|&(j, place)| (number(place) * self.state.v[j].value()).abs())
             .sum();
         (number(row.velocity), size)
-    }
-
-    fn log_impacts(
-        &mut self,
-        outcome: &Impact<S::Scalar>,
-        hit: &[usize],
-        before: &Mode,
-        state: &State<S::Scalar>,
-        forces: &[S::Scalar],
-    ) {
-        for &c in hit.iter().filter(|c| outcome.struck[**c]) {
-            self.trajectory.events.push(Event {
-                time: self.t,
-                subject: Subject::Contact(c),
-                kind: EventKind::Impact,
-                before: before.clone(),
-                after: before.clone(),
-                state: state.clone(),
-                state_after: self.state.clone(),
-                forces: forces.to_vec(),
-                forces_after: forces.to_vec(),
-                impulses: outcome.impulses.clone(),
-                restitution_lowered: outcome.lowered,
-                ambiguous: false,
-            });
-        }
-    }
-
-    /// One entry per item whose state changed; frictions that come and go with their contact are not told apart.
-    fn log_changes(
-        &mut self,
-        before: &Mode,
-        state: &State<S::Scalar>,
-        forces: &[S::Scalar],
-        impulses: &[S::Scalar],
-        ambiguous: bool,
-    ) {
-        let d = S::DESCRIPTION;
-        let after = self.mode.clone();
-        let mut list: Vec<(Subject, EventKind)> = Vec::new();
-        for c in 0..d.contacts.len() {
-            match (before.contacts[c], after.contacts[c]) {
-                (true, false) => list.push((Subject::Contact(c), EventKind::Lost)),
-                (false, true) => list.push((Subject::Contact(c), EventKind::Closed)),
-                _ => {}
-            }
-        }
-        for f in 0..d.frictions.len() {
-            let kind = match (before.frictions[f], after.frictions[f]) {
-                (FrictionMode::Stick, FrictionMode::Slip(_)) => EventKind::Slips,
-                (FrictionMode::Slip(_), FrictionMode::Stick) => EventKind::Sticks,
-                (FrictionMode::Slip(a), FrictionMode::Slip(b)) if a.direction != b.direction => {
-                    EventKind::Reverses
-                }
-                _ => continue,
-            };
-            list.push((Subject::Friction(f), kind));
-        }
-        for b in 0..d.branches.len() {
-            if before.branch(b) != after.branch(b) {
-                list.push((Subject::Branch(b), EventKind::Branches));
-            }
-        }
-        // The impacts of this instant end in the mode that has now been found.
-        let forces_after = self.forces_from_series();
-        for event in self.trajectory.events.iter_mut().rev() {
-            if event.kind != EventKind::Impact || event.time != self.t {
-                break;
-            }
-            event.after = after.clone();
-            event.forces_after.clone_from(&forces_after);
-        }
-        for (subject, kind) in list {
-            self.trajectory.events.push(Event {
-                time: self.t,
-                subject,
-                kind,
-                before: before.clone(),
-                after: after.clone(),
-                state: state.clone(),
-                state_after: self.state.clone(),
-                forces: forces.to_vec(),
-                forces_after: forces_after.clone(),
-                impulses: impulses.to_vec(),
-                restitution_lowered: false,
-                ambiguous,
-            });
-        }
-    }
-
-    /// Logs a stop or a mark at the present instant.
-    pub(super) fn log_watch(
-        &mut self,
-        subject: Subject,
-        kind: EventKind,
-        time: S::Scalar,
-        state: State<S::Scalar>,
-    ) {
-        let forces = self.forces();
-        self.trajectory.events.push(Event {
-            time,
-            subject,
-            kind,
-            before: self.mode.clone(),
-            after: self.mode.clone(),
-            state_after: state.clone(),
-            state,
-            forces_after: forces.clone(),
-            forces,
-            impulses: Vec::new(),
-            restitution_lowered: false,
-            ambiguous: false,
-        });
     }
 }

@@ -6,12 +6,27 @@ use crate::system::{Description, System};
 use core::fmt;
 
 /// Positions and velocities.
-#[derive(Clone, Debug, PartialEq, Default)]
+#[derive(Debug, PartialEq, Default)]
 pub struct State<T> {
     /// q, one per coordinate.
     pub q: Vec<T>,
     /// v = dq/dt.
     pub v: Vec<T>,
+}
+
+impl<T: Clone> Clone for State<T> {
+    fn clone(&self) -> Self {
+        Self {
+            q: self.q.clone(),
+            v: self.v.clone(),
+        }
+    }
+
+    // Into memory that is there already.
+    fn clone_from(&mut self, source: &Self) {
+        self.q.clone_from(&source.q);
+        self.v.clone_from(&source.v);
+    }
 }
 
 /// Named starts as states.
@@ -135,7 +150,59 @@ pub struct Event<T> {
     pub ambiguous: bool,
 }
 
+/// What an event says beside its subject, kind and instant.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Around<'a, T> {
+    pub before: &'a Mode,
+    pub after: &'a Mode,
+    pub state: &'a State<T>,
+    pub state_after: &'a State<T>,
+    pub forces: &'a [T],
+    pub forces_after: &'a [T],
+    pub impulses: &'a [T],
+}
+
 impl<T: crate::arithmetic::Scalar> Event<T> {
+    /// An entry to be written over.
+    pub(crate) fn blank(description: &Description) -> Self {
+        let state = State {
+            q: Vec::new(),
+            v: Vec::new(),
+        };
+        Self {
+            time: T::default(),
+            subject: Subject::Stop(0),
+            kind: EventKind::Stop,
+            before: Mode::open(description),
+            after: Mode::open(description),
+            state: state.clone(),
+            state_after: state,
+            forces: Vec::new(),
+            forces_after: Vec::new(),
+            impulses: Vec::new(),
+            restitution_lowered: false,
+            ambiguous: false,
+        }
+    }
+
+    /// Writes over an entry, in its memory.
+    pub(crate) fn write(&mut self, time: T, subject: Subject, kind: EventKind, a: Around<'_, T>) {
+        let copy = |to: &mut Vec<T>, from: &[T]| {
+            to.clear();
+            to.extend_from_slice(from);
+        };
+        (self.time, self.subject, self.kind) = (time, subject, kind);
+        self.before.clone_from(a.before);
+        self.after.clone_from(a.after);
+        self.state.clone_from(a.state);
+        self.state_after.clone_from(a.state_after);
+        copy(&mut self.forces, a.forces);
+        copy(&mut self.forces_after, a.forces_after);
+        copy(&mut self.impulses, a.impulses);
+        self.restitution_lowered = false;
+        self.ambiguous = false;
+    }
+
     /// The event as a sentence, `t = 2.461759150: grip slips (0.62385 …)`.
     pub fn sentence(&self, description: &'static Description) -> String {
         let name = self.subject.name(description);

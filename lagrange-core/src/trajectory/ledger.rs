@@ -63,8 +63,9 @@ impl<S: System> Trajectory<S> {
     /// Books the energy of the whole trajectory.
     ///
     /// # Errors
-    /// The equations of motion could not be evaluated somewhere on the way.
+    /// [`Error::NotRecorded`]; or the equations of motion could not be evaluated somewhere on the way.
     pub fn ledger(&self) -> Result<Ledger, Error> {
+        self.check_recorded()?;
         let d = S::DESCRIPTION;
         let mut sampler = self.sampler();
         let loads = d.forces.len() + d.dissipations.len();

@@ -4,14 +4,17 @@ mod event;
 mod ledger;
 mod sampler;
 
+pub(crate) use event::Around;
 pub use event::{Event, EventKind, Starts, State, Subject};
 pub use ledger::{Energies, Entry, Ledger};
 pub use sampler::{Instant, Sampler};
 
 use crate::arithmetic::Scalar;
 use crate::effects::Effects;
+use crate::error::Error;
 use crate::integrate::StepPolynomial;
 use crate::mode::Mode;
+use crate::pool::Pool;
 use crate::system::{Description, System};
 
 /// What a run cost.
@@ -64,42 +67,68 @@ pub(crate) struct Segment<T> {
 pub struct Trajectory<S: System> {
     pub(crate) scene: S,
     pub(crate) effects: Effects,
+    /// Whether the polynomials of the steps are kept; if not, a segment is a whole phase.
+    pub(crate) recorded: bool,
     pub(crate) first_time: S::Scalar,
     pub(crate) last_time: S::Scalar,
     pub(crate) start: State<S::Scalar>,
     pub(crate) last: State<S::Scalar>,
-    pub(crate) modes: Vec<Mode>,
+    pub(crate) modes: Pool<Mode>,
     pub(crate) segments: Vec<Segment<S::Scalar>>,
     pub(crate) coefficients: Vec<S::Scalar>,
-    pub(crate) events: Vec<Event<S::Scalar>>,
+    pub(crate) events: Pool<Event<S::Scalar>>,
     pub(crate) work: Work,
 }
 
 impl<S: System> Trajectory<S> {
-    pub(crate) fn new(
-        scene: &S,
-        effects: &Effects,
-        time: S::Scalar,
-        start: State<S::Scalar>,
-        mode: Mode,
-    ) -> Self {
+    pub(crate) fn new(scene: &S, effects: &Effects, recorded: bool) -> Self {
+        let (time, state) = (S::Scalar::default(), State::default());
         Self {
             scene: scene.clone(),
             effects: effects.clone(),
+            recorded,
             first_time: time,
             last_time: time,
-            last: start.clone(),
-            start,
-            modes: vec![mode],
+            last: state.clone(),
+            start: state,
+            modes: Pool::default(),
             segments: Vec::new(),
             coefficients: Vec::new(),
-            events: Vec::new(),
+            events: Pool::default(),
             work: Work::default(),
         }
     }
 
+    /// Begins anew.
+    pub(crate) fn begin(&mut self, time: S::Scalar, start: &State<S::Scalar>, mode: &Mode) {
+        self.first_time = time;
+        self.last_time = time;
+        self.start.clone_from(start);
+        self.last.clone_from(start);
+        self.modes.clear();
+        self.modes.push(mode);
+        self.segments.clear();
+        self.coefficients.clear();
+        self.events.clear();
+        self.work = Work::default();
+    }
+
     /// Appends a step, valid up to `end` of its length.
     pub(crate) fn push(&mut self, step: &StepPolynomial<S::Scalar>, end: S::Scalar) {
+        let mode = self.modes.len() - 1;
+        if !self.recorded {
+            let last = self.segments.pop_if(|last| last.mode == mode);
+            let t = last.map_or(step.t, |last| last.t);
+            self.segments.push(Segment {
+                t,
+                h: step.time(end) - t,
+                end: num_traits::one(),
+                degree: 0,
+                offset: 0,
+                mode,
+            });
+            return;
+        }
         let offset = self.coefficients.len();
         self.coefficients.extend_from_slice(step.q.as_slice());
         self.coefficients.extend_from_slice(step.v.as_slice());
@@ -109,14 +138,23 @@ impl<S: System> Trajectory<S> {
             end,
             degree: step.degree,
             offset,
-            mode: self.modes.len() - 1,
+            mode,
         });
     }
 
     /// Enters a mode, if it is another one.
     pub(crate) fn enter(&mut self, mode: &Mode) {
         if self.modes.last() != Some(mode) {
-            self.modes.push(mode.clone());
+            self.modes.push(mode);
+        }
+    }
+
+    /// Whether the motion between the events is known.
+    pub(crate) fn check_recorded(&self) -> Result<(), Error> {
+        if self.recorded {
+            Ok(())
+        } else {
+            Err(Error::NotRecorded)
         }
     }
 

@@ -70,9 +70,10 @@ impl<'a, S: System> Sampler<'a, S> {
     /// The motion at time `t`, s. At the instant of a switch: just after it.
     ///
     /// # Errors
-    /// [`Error::OutsideTrajectory`]; or the equations of motion could not be evaluated there.
+    /// [`Error::OutsideTrajectory`], [`Error::NotRecorded`]; or the equations of motion could not be evaluated there.
     pub fn at(&mut self, t: f64) -> Result<Instant<S::Scalar>, Error> {
         let trajectory = self.trajectory;
+        trajectory.check_recorded()?;
         let (first, last) = (trajectory.first_time(), trajectory.last_time());
         if !(first..=last).contains(&t) {
             return Err(Error::OutsideTrajectory {

@@ -3,12 +3,16 @@
 //! Exit codes: 0 all went well; 1 the run failed (what there is of it is still printed) or a file could not be
 //! written; 2 the request makes no sense.
 
+mod accuracy;
+mod course;
 mod list;
+mod output;
 mod run;
 mod values;
 
 use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
+use lagrange_problems::request::Refusal;
 use std::fmt::Display;
 use std::process::ExitCode;
 
@@ -24,6 +28,7 @@ struct Arguments {
 enum Command {
     List(list::List),
     Run(run::Run),
+    Accuracy(accuracy::Measure),
 }
 
 /// What went wrong, and with it the exit code.
@@ -42,6 +47,14 @@ impl Trouble {
     fn failed(reason: impl Display) -> Self {
         Trouble::Failed(reason.to_string())
     }
+
+    /// A name that is not known makes no sense; a start or a reference that does not exist was tried.
+    fn refused(refusal: Refusal) -> Self {
+        match refusal {
+            Refusal::Start(_) | Refusal::Reference { .. } => Trouble::failed(refusal),
+            _ => Trouble::usage(refusal),
+        }
+    }
 }
 
 /// Runs the program with the arguments of the process.
@@ -58,6 +71,7 @@ pub(crate) fn main() -> ExitCode {
     let result = match arguments.command {
         Command::List(list) => list.execute(),
         Command::Run(run) => run.execute(),
+        Command::Accuracy(accuracy) => accuracy.execute(),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -29,6 +29,28 @@ pub(super) fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
+/// One tolerance, or every power of ten from one to another (`1e-3..1e-15`), loosest first.
+pub(super) fn tolerances(text: &str) -> Result<Vec<f64>, String> {
+    let one = |text: &str| match positive(text)? {
+        tolerance if (1e-17..=0.1).contains(&tolerance) => Ok(tolerance),
+        _ => Err("a tolerance is between 1e-17 and 0.1".to_owned()),
+    };
+    let Some((from, to)) = text.split_once("..") else {
+        return Ok(vec![one(text)?]);
+    };
+    let power = |text: &str| -> Result<i32, String> {
+        let power = one(text)?.log10();
+        match (power - power.round()).abs() < 1e-9 {
+            true => Ok(power.round() as i32),
+            false => Err("a range is between powers of ten, as 1e-3..1e-15".to_owned()),
+        }
+    };
+    let (from, to) = (power(from)?, power(to)?);
+    // Read from text: 10 to a power by multiplication is not the nearest double.
+    let powers = (from.min(to)..=from.max(to)).rev();
+    powers.map(|power| finite(&format!("1e{power}"))).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -52,5 +74,16 @@ mod tests {
             assert!(named(wrong).is_err(), "{wrong}");
         }
         assert!(positive("0").is_err() && positive("-1").is_err() && positive("1e-12").is_ok());
+    }
+
+    #[test]
+    fn tolerances_alone_and_in_ranges() {
+        assert_eq!(tolerances("1e-9"), Ok(vec![1e-9]));
+        let three = Ok(vec![1e-3, 1e-4, 1e-5]);
+        assert_eq!(tolerances("1e-3..1e-5"), three);
+        assert_eq!(tolerances("1e-5..0.001"), three);
+        for wrong in ["2", "1e-18", "3e-4..1e-5", "1e-3..", "..", "x"] {
+            assert!(tolerances(wrong).is_err(), "{wrong}");
+        }
     }
 }

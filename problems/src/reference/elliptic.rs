@@ -13,7 +13,7 @@ pub fn jacobi(u: f64, complement: f64) -> (f64, f64, f64) {
     let modulus = ((1.0 - complement) * (1.0 + complement)).sqrt();
     let (mut a, mut b, mut c) = (1.0, complement, modulus);
     let mut ratios = Vec::new();
-    while c > 1e-17 * a && ratios.len() < 40 {
+    while c > f64::EPSILON * a && ratios.len() < 30 {
         (a, b, c) = (0.5 * (a + b), (a * b).sqrt(), 0.5 * (a - b));
         ratios.push(c / a);
     }

@@ -91,7 +91,7 @@ struct Counts {
 }
 
 /// A JSON object that keeps its order.
-struct Numbers(Vec<(String, f64)>);
+pub(super) struct Numbers(pub Vec<(String, f64)>);
 
 impl Serialize for Numbers {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -145,7 +145,7 @@ fn happening(description: &'static Description, event: &Event<f64>) -> Happening
     }
 }
 
-fn state(description: &Description, state: &State<f64>) -> Numbers {
+pub(super) fn state(description: &Description, state: &State<f64>) -> Numbers {
     Numbers(named_state(description, &state.q, &state.v))
 }
 

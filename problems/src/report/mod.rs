@@ -1,5 +1,7 @@
-//! Printers of an [`Outcome`](crate::outcome::Outcome): a table to read, JSON and CSV to compute with, a plot to look at.
+//! Printers of an [`Outcome`](crate::outcome::Outcome): a table to read, JSON and CSV to compute with, a plot to look at;
+//! in [`accuracy`] the same of an [`Accuracy`](crate::accuracy::Accuracy).
 
+pub mod accuracy;
 pub mod csv;
 pub mod json;
 pub mod plot;

@@ -254,7 +254,7 @@ fn work(outcome: &Outcome) -> String {
     )
 }
 
-fn page() -> Table {
+pub(super) fn page() -> Table {
     let rule = LineStyle::none().fill('─').junction('─');
     let mut table = Table::new();
     table

@@ -1,5 +1,6 @@
 //! Where does a mass that slides down a smooth sphere leave it?
 
+use crate::closed_form::{ClosedForm, slide};
 use lagrange_core::prelude::*;
 
 /// A point mass slides without friction down a fixed spherical shell, leaves it and falls.
@@ -48,5 +49,29 @@ impl Default for MassOnShell {
             gravity: 9.81,
             start_angle: 0.01,
         }
+    }
+}
+
+impl MassOnShell {
+    /// The run from rest on the shell to the floor; none for other starts and for runs that end before.
+    pub fn closed_form(&self, start: &State<f64>, until: f64) -> Option<ClosedForm> {
+        let hill = slide::Hill {
+            radius: self.radius,
+            gravity: self.gravity,
+            share: 1.0,
+            leaving: 2.0 / 3.0,
+            ground: -self.radius,
+        };
+        let [r, theta] = start.q[..].try_into().ok()?;
+        if r != self.radius || start.v != [0.0; 2] {
+            return None;
+        }
+        let moments = hill.descent(theta)?;
+        let land = &moments[1];
+        let state = State {
+            q: vec![land.r, land.theta],
+            v: vec![land.rising, land.turning],
+        };
+        slide::landing(&moments, until, "shell lost", state)
     }
 }

@@ -1,5 +1,6 @@
 //! A ball rolls down a sphere: where does it leave?
 
+use crate::closed_form::{ClosedForm, slide};
 use lagrange_core::prelude::*;
 
 /// A solid sphere rolls without slipping down a fixed spherical shell, leaves it and falls, still spinning.
@@ -56,5 +57,33 @@ impl Default for RollingSphere {
             gravity: 9.81,
             start_angle: 0.01,
         }
+    }
+}
+
+impl RollingSphere {
+    /// The run from rest on the shell to the floor; none for other starts and for runs that end before.
+    pub fn closed_form(&self, start: &State<f64>, until: f64) -> Option<ClosedForm> {
+        let hill = slide::Hill {
+            radius: self.radius + self.sphere_radius,
+            gravity: self.gravity,
+            share: 5.0 / 7.0,
+            leaving: 10.0 / 17.0,
+            ground: -self.radius,
+        };
+        let [r, theta, phi] = start.q[..].try_into().ok()?;
+        if r != hill.radius || start.v != [0.0; 3] {
+            return None;
+        }
+        let moments = hill.descent(theta)?;
+        let [leave, land] = &moments;
+        // While it rolls a φ = (R + a) θ, but for a constant; in flight it spins on.
+        let gear = hill.radius / self.sphere_radius;
+        let spin = gear * leave.turning;
+        let turned = phi + gear * (leave.theta - theta) + spin * (land.time - leave.time);
+        let state = State {
+            q: vec![land.r, land.theta, turned],
+            v: vec![land.rising, land.turning, spin],
+        };
+        slide::landing(&moments, until, "shell lost", state)
     }
 }

@@ -6,6 +6,7 @@ mod diagnostics;
 mod errors;
 mod interpretation;
 mod recording;
+mod runner;
 mod stability;
 mod steppers;
 mod switches;

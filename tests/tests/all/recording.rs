@@ -1,7 +1,7 @@
 //! Steps do not allocate: what a longer run allocates more is the doubling of its recording.
 
 use lagrange_core::prelude::*;
-use lagrange_problems::scenes::SphereInBowl;
+use lagrange_problems::scenes::*;
 use std::alloc::{GlobalAlloc, Layout, System as Heap};
 use std::cell::Cell;
 
@@ -64,4 +64,30 @@ fn a_step_does_not_allocate() {
             "{method}: {short} allocations in {few} steps, {long} in {many}"
         );
     }
+}
+
+/// All modes of the textbook's scenes, events and recording included.
+#[test]
+fn a_second_run_does_not_allocate() {
+    fn check<S: System<Scalar = f64>>(scene: &S) {
+        let n = S::DESCRIPTION.coordinates.len();
+        let mut start = State {
+            q: vec![0.0; n],
+            v: vec![0.0; n],
+        };
+        scene.start(0, 0.0, &mut start.q, &mut start.v);
+        for record in [true, false] {
+            let mut runner = Simulation::new(scene).record(record).runner();
+            runner.run(&start, 0.0..20.0).expect("runs");
+            let before = ALLOCATIONS.get();
+            runner.run(&start, 0.0..20.0).expect("runs");
+            let allocations = ALLOCATIONS.get() - before;
+            assert_eq!(allocations, 0, "{}", S::DESCRIPTION.name);
+        }
+    }
+    check(&MassOnShell::default());
+    check(&RollingSphere::default());
+    check(&RollingSlippingSphere::default());
+    check(&MassOnWheel::default());
+    check(&SphereInBowl::default());
 }

@@ -19,9 +19,9 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 /// Subdivision of a pixel. The drawing library knows whole numbers only, so the picture is drawn this much larger
 /// and scaled down by its view box.
-const FINE: u32 = 10;
+pub(super) const FINE: u32 = 10;
 
-const WIDTH: u32 = 900 * FINE;
+pub(super) const WIDTH: u32 = 900 * FINE;
 const TITLE: u32 = 34 * FINE;
 const PANEL: u32 = 210 * FINE;
 const AXIS: u32 = 38 * FINE;
@@ -32,7 +32,7 @@ const NAMES: u32 = 150 * FINE;
 const MARGIN: u32 = 14 * FINE;
 
 /// Colours that colour-blind readers can tell apart (Okabe & Ito 2008).
-const COLOURS: [RGBColor; 7] = [
+pub(super) const COLOURS: [RGBColor; 7] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),
@@ -113,12 +113,17 @@ fn key_columns(names: &[String]) -> usize {
 }
 
 /// Text of a height in pixels.
-fn words<'a>(height: u32, colour: &impl Color, horizontal: HPos, vertical: VPos) -> TextStyle<'a> {
+pub(super) fn words<'a>(
+    height: u32,
+    colour: &impl Color,
+    horizontal: HPos,
+    vertical: VPos,
+) -> TextStyle<'a> {
     let font = ("sans-serif", height * FINE).into_font();
     font.color(colour).pos(Pos::new(horizontal, vertical))
 }
 
 /// A length in pixels.
-fn px(length: i32) -> i32 {
+pub(super) fn px(length: i32) -> i32 {
     length * FINE as i32
 }

@@ -1,0 +1,116 @@
+//! The equations of one mode, made ready once and kept: numbers that depend on parameters, the plan of the linear system,
+//! and the tapes recorded for what has been asked for.
+
+use super::needs::{self, NeedSet};
+use super::tape::Tape;
+use crate::arithmetic::Scalar;
+use crate::effects::Effects;
+use crate::linear::{Plan, Solver};
+use crate::mode::Mode;
+use crate::system::{Held, System};
+
+/// Tapes kept per mode: what is asked for beside the motion changes between stepping and switching.
+const MOST_TAPES: usize = 8;
+
+/// The equations of one mode.
+#[derive(Clone, Debug)]
+pub(super) struct Compiled<T> {
+    pub mode: Mode,
+    /// Of the equations of motion.
+    pub motion_needs: NeedSet,
+    /// Inertia, Jacobians and residuals of the rows that act.
+    pub row_needs: NeedSet,
+    /// The system's own, then the plan's.
+    pub constants: Vec<T>,
+    pub plan: Plan<T>,
+    pub solver: Solver<T>,
+    /// Whether the solver holds the factors of this plan.
+    pub factored: bool,
+    /// Whether a tape may solve small systems itself.
+    pub on_tape: bool,
+    /// Coordinates that cannot accelerate.
+    pub pinned: Vec<usize>,
+    tapes: Vec<Tape<T>>,
+    current: usize,
+}
+
+/// What a tape is recorded for.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Asked<'a> {
+    /// Everything that the motion tape is told.
+    pub held: &'a NeedSet,
+    /// Of this, what is asked for beside the motion.
+    pub extra: &'a NeedSet,
+    /// What the report tape is told; none if nothing is asked of it.
+    pub report: Option<&'a NeedSet>,
+    /// Whether the coordinates that cannot accelerate are at rest.
+    pub at_rest: bool,
+}
+
+impl<T: Scalar> Compiled<T> {
+    pub(super) fn new<S: System<Scalar = T>>(scene: &S, effects: &Effects, mode: &Mode) -> Self {
+        let d = S::DESCRIPTION;
+        let mut motion_needs = NeedSet::new(d);
+        let mut row_needs = NeedSet::new(d);
+        let mut held = NeedSet::new(d);
+        needs::of_motion(d, effects, mode, &mut motion_needs);
+        needs::of_rows(d, effects, mode, &mut row_needs);
+        needs::of_effects(d, effects, &mut held);
+        let mut constants = vec![T::default(); d.constants];
+        let held = Held {
+            needs: &held,
+            branches: &mode.branches,
+        };
+        scene.constants(&held, &mut constants);
+        let mut plan = Plan::default();
+        plan.set(d, effects, mode, &mut constants);
+        let mut solver = Solver::default();
+        solver.reserve(plan.free(), plan.kept.len());
+        Self {
+            mode: mode.clone(),
+            motion_needs,
+            row_needs,
+            pinned: (0..d.coordinates.len())
+                .filter(|&j| plan.is_pinned(j))
+                .collect(),
+            constants,
+            plan,
+            solver,
+            factored: false,
+            on_tape: true,
+            tapes: Vec::new(),
+            current: 0,
+        }
+    }
+
+    /// The tape in use, if one has been recorded.
+    #[inline]
+    pub(super) fn tape(&self) -> Option<&Tape<T>> {
+        self.tapes.get(self.current)
+    }
+
+    /// The parts that an evaluation works with.
+    #[inline]
+    pub(super) fn parts(&mut self) -> (&Plan<T>, &mut Solver<T>, &mut Tape<T>) {
+        (&self.plan, &mut self.solver, &mut self.tapes[self.current])
+    }
+
+    /// Leaves all systems to the solver from now on.
+    pub(super) fn leave_to_solver(&mut self) {
+        self.on_tape = false;
+        self.tapes.clear();
+    }
+
+    /// Makes the tape for what is asked current, recording it if there is none.
+    pub(super) fn select<S: System<Scalar = T>>(&mut self, scene: &S, asked: &Asked) {
+        if let Some(index) = self.tapes.iter().position(|tape| tape.is_for(asked)) {
+            self.current = index;
+            return;
+        }
+        if self.tapes.len() == MOST_TAPES {
+            self.tapes.remove(0);
+        }
+        self.tapes.push(Tape::record(scene, self, asked));
+        self.current = self.tapes.len() - 1;
+    }
+}

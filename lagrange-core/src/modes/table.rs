@@ -1,0 +1,88 @@
+//! What a run knows of every mode that it has met: the guards, and what they ask of the tapes.
+
+use crate::dynamics::{Dynamics, NeedSet, add_guards};
+use crate::effects::Item;
+use crate::mode::Mode;
+use crate::modes::guard::{self, Guard};
+use crate::system::{Place, Row, System};
+
+/// More modes than this are not kept.
+const MOST_MODES: usize = 64;
+
+/// One mode as a run sees it.
+#[derive(Clone, Debug)]
+pub struct Watched {
+    mode: Mode,
+    /// Its guards, without those of stops and marks.
+    pub guards: Vec<Guard>,
+    /// Needs of the motion, the guards and the report.
+    pub needs: NeedSet,
+    /// The same and what the accelerations of all gaps and slips are made of, as far as it changes.
+    pub deciding: NeedSet,
+    /// Whether a step can leave the rows that act by more than rounding: one of them is not linear with constant coefficients.
+    pub drifts: bool,
+}
+
+/// The modes met so far.
+#[derive(Clone, Debug, Default)]
+pub struct Table {
+    known: Vec<Watched>,
+}
+
+impl Table {
+    /// The present mode of `dynamics`.
+    pub fn of<S: System>(&mut self, dynamics: &Dynamics<S>) -> &Watched {
+        let known = self.known.iter().position(|w| w.mode == *dynamics.mode());
+        let index = known.unwrap_or_else(|| {
+            if self.known.len() == MOST_MODES {
+                self.known.remove(0);
+            }
+            self.known.push(watched(dynamics));
+            self.known.len() - 1
+        });
+        &self.known[index]
+    }
+}
+
+fn watched<S: System>(dynamics: &Dynamics<S>) -> Watched {
+    let d = S::DESCRIPTION;
+    let (mode, effects) = (dynamics.mode(), dynamics.effects());
+    let mut needs = dynamics.motion_needs().clone();
+    needs.extend(dynamics.report_needs());
+    add_guards(d, effects, mode, &mut needs);
+    let mut guards = Vec::new();
+    guard::guards_of_mode(mode, dynamics, &needs, &mut guards);
+    let mut deciding = needs.clone();
+    let contacts = d.contacts.iter().enumerate();
+    let contacts = contacts.filter(|(c, _)| effects.includes(d, Item::Contact(*c)));
+    let frictions = d.frictions.iter().enumerate();
+    let frictions = frictions.filter(|(f, _)| effects.includes(d, Item::Friction(*f)));
+    let rows = contacts
+        .map(|(_, contact)| contact.row..contact.row + 1)
+        .chain(frictions.map(|(_, friction)| friction.row..friction.row + friction.components))
+        .flatten();
+    for row in rows.map(|row| &d.rows[row]) {
+        if !is_constant(row) {
+            deciding.insert(row.needs.jacobian);
+        }
+        if matches!(row.bias, Place::Node(_)) {
+            deciding.insert(row.needs.bias);
+        }
+    }
+    let acting = dynamics.acting_rows().iter().map(|&row| &d.rows[row]);
+    let drifts = acting
+        .into_iter()
+        .any(|row| !is_constant(row) || row.bias != Place::Zero);
+    Watched {
+        mode: mode.clone(),
+        guards,
+        needs,
+        deciding,
+        drifts,
+    }
+}
+
+fn is_constant(row: &Row) -> bool {
+    let places = row.jacobian.iter().map(|(_, place)| place);
+    !places.into_iter().any(|p| matches!(p, Place::Node(_)))
+}

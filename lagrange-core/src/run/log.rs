@@ -1,0 +1,132 @@
+//! The event log: one entry per item that changed.
+
+use super::Run;
+use crate::arithmetic::Scalar;
+use crate::mode::{FrictionMode, Mode};
+use crate::modes::impact::Impact;
+use crate::system::System;
+use crate::trajectory::{Around, Event, EventKind, State, Subject};
+
+/// What was just before a switch.
+#[derive(Clone, Debug)]
+pub(super) struct Before<T> {
+    pub mode: Mode,
+    pub state: State<T>,
+    pub forces: Vec<T>,
+}
+
+impl<S: System> Run<S> {
+    pub(super) fn log_impacts(&mut self, outcome: &Impact<S::Scalar>, hit: &[usize]) {
+        let before = &self.before;
+        for &c in hit.iter().filter(|c| outcome.struck[**c]) {
+            let event = self
+                .trajectory
+                .events
+                .reuse(|| Event::blank(S::DESCRIPTION));
+            let around = Around {
+                before: &before.mode,
+                after: &before.mode,
+                state: &before.state,
+                state_after: &self.state,
+                forces: &before.forces,
+                forces_after: &before.forces,
+                impulses: &outcome.impulses,
+            };
+            event.write(self.t, Subject::Contact(c), EventKind::Impact, around);
+            event.restitution_lowered = outcome.lowered;
+        }
+    }
+
+    /// One entry per item whose state changed; frictions that come and go with their contact are not told apart.
+    pub(super) fn log_changes(&mut self, impulses: &[S::Scalar], ambiguous: bool) {
+        let d = S::DESCRIPTION;
+        write_forces(&mut self.forces_after, |row| {
+            let series = self.dynamics.force_series(row);
+            series.first().copied().unwrap_or_default()
+        });
+        let (before, after) = (&self.before.mode, &self.mode);
+        // The impacts of this instant end in the mode that has now been found.
+        for event in self.trajectory.events.iter_mut().rev() {
+            if event.kind != EventKind::Impact || event.time != self.t {
+                break;
+            }
+            event.after.clone_from(after);
+            event.forces_after.clone_from(&self.forces_after);
+        }
+        let contacts =
+            (0..d.contacts.len()).filter_map(|c| match (before.contacts[c], after.contacts[c]) {
+                (true, false) => Some((Subject::Contact(c), EventKind::Lost)),
+                (false, true) => Some((Subject::Contact(c), EventKind::Closed)),
+                _ => None,
+            });
+        let frictions = (0..d.frictions.len()).filter_map(|f| {
+            let kind = match (before.frictions[f], after.frictions[f]) {
+                (FrictionMode::Stick, FrictionMode::Slip(_)) => EventKind::Slips,
+                (FrictionMode::Slip(_), FrictionMode::Stick) => EventKind::Sticks,
+                (FrictionMode::Slip(a), FrictionMode::Slip(b)) if a.direction != b.direction => {
+                    EventKind::Reverses
+                }
+                _ => return None,
+            };
+            Some((Subject::Friction(f), kind))
+        });
+        let branches = (0..d.branches.len())
+            .filter(|&b| before.branch(b) != after.branch(b))
+            .map(|b| (Subject::Branch(b), EventKind::Branches));
+        let around = Around {
+            before,
+            after,
+            state: &self.before.state,
+            state_after: &self.state,
+            forces: &self.before.forces,
+            forces_after: &self.forces_after,
+            impulses,
+        };
+        for (subject, kind) in contacts.chain(frictions).chain(branches) {
+            let event = self.trajectory.events.reuse(|| Event::blank(d));
+            event.write(self.t, subject, kind, around);
+            event.ambiguous = ambiguous;
+        }
+    }
+
+    /// Logs a stop, a mark or an accumulation: the mode and the `state` of the last value go on.
+    pub(super) fn log_watch(
+        &mut self,
+        subject: Subject,
+        kind: EventKind,
+        time: S::Scalar,
+        state: &State<S::Scalar>,
+    ) {
+        let mut forces = core::mem::take(&mut self.forces_after);
+        write_forces(&mut forces, |row| self.dynamics.force(row));
+        let around = Around {
+            before: &self.mode,
+            after: &self.mode,
+            state,
+            state_after: state,
+            forces: &forces,
+            forces_after: &forces,
+            impulses: &[],
+        };
+        let event = self
+            .trajectory
+            .events
+            .reuse(|| Event::blank(S::DESCRIPTION));
+        event.write(time, subject, kind, around);
+        self.forces_after = forces;
+    }
+
+    /// Mode, state and forces of the last value, before they change.
+    pub(super) fn remember_before(&mut self) {
+        self.before.mode.clone_from(&self.mode);
+        self.before.state.clone_from(&self.state);
+        write_forces(&mut self.before.forces, |row| self.dynamics.force(row));
+    }
+}
+
+/// One number per row.
+fn write_forces<T: Scalar>(out: &mut [T], force: impl Fn(usize) -> T) {
+    for (row, out) in out.iter_mut().enumerate() {
+        *out = force(row);
+    }
+}

@@ -1,0 +1,115 @@
+//! Smooth scenes: one mode, no events; compared is the state at the end.
+
+use crate::crates::Peer;
+use crate::hand;
+use crate::ours;
+use crate::references as exact;
+use lagrange_core::prelude::Method;
+use lagrange_problems::scenes::{
+    CartesianPendulum, DoublePendulum, FiveLinkChain, Kepler, StiffSpringPendulum,
+};
+use std::f64::consts::PI;
+
+/// A scene that both sides can run.
+pub trait Scene {
+    /// Its name in the table.
+    const NAME: &'static str;
+    /// What is compared, exactly.
+    const REFERENCE: &'static [f64];
+
+    /// By the declaration.
+    fn ours(method: Method, tolerance: f64) -> Option<Vec<f64>>;
+
+    /// By hand-reduced equations in another integrator.
+    fn by_hand<P: Peer>(peer: P, tolerance: f64) -> Option<Vec<f64>>;
+}
+
+/// The double pendulum.
+pub struct Double;
+
+impl Scene for Double {
+    const NAME: &'static str = "double pendulum, 5 s";
+    const REFERENCE: &'static [f64] = &exact::DOUBLE_PENDULUM;
+
+    fn ours(method: Method, tolerance: f64) -> Option<Vec<f64>> {
+        ours::end(&DoublePendulum::default(), method, tolerance, 5.0)
+    }
+
+    fn by_hand<P: Peer>(peer: P, tolerance: f64) -> Option<Vec<f64>> {
+        let start = [2.0, 2.5, 0.0, 0.0];
+        let end = peer.until(hand::double_pendulum, start, 0.0..5.0, tolerance)?;
+        Some(end.into())
+    }
+}
+
+/// The chain of five links.
+pub struct FiveLinks;
+
+impl Scene for FiveLinks {
+    const NAME: &'static str = "chain of 5 links, 2 s";
+    const REFERENCE: &'static [f64] = &exact::CHAIN;
+
+    fn ours(method: Method, tolerance: f64) -> Option<Vec<f64>> {
+        ours::end(&FiveLinkChain::default(), method, tolerance, 2.0)
+    }
+
+    fn by_hand<P: Peer>(peer: P, tolerance: f64) -> Option<Vec<f64>> {
+        let start = [0.5, 0.7, 0.9, 1.1, 1.3, 0.0, 0.0, 0.0, 0.0, 0.0];
+        let end = peer.until(hand::chain, start, 0.0..2.0, tolerance)?;
+        Some(end.into())
+    }
+}
+
+/// The pendulum in Cartesian coordinates; by hand, its constraint differentiated twice and never projected onto.
+pub struct Rod;
+
+impl Scene for Rod {
+    const NAME: &'static str = "Cartesian pendulum, 100 s";
+    const REFERENCE: &'static [f64] = &exact::CARTESIAN_PENDULUM;
+
+    fn ours(method: Method, tolerance: f64) -> Option<Vec<f64>> {
+        ours::end(&CartesianPendulum::default(), method, tolerance, 100.0)
+    }
+
+    fn by_hand<P: Peer>(peer: P, tolerance: f64) -> Option<Vec<f64>> {
+        let start = [1.0, 0.0, 0.0, 0.0];
+        let end = peer.until(hand::cartesian_pendulum, start, 0.0..100.0, tolerance)?;
+        Some(end.into())
+    }
+}
+
+/// Kepler's problem.
+pub struct Orbit;
+
+impl Scene for Orbit {
+    const NAME: &'static str = "Kepler e = 0.9, 100 orbits";
+    const REFERENCE: &'static [f64] = &exact::KEPLER;
+
+    fn ours(method: Method, tolerance: f64) -> Option<Vec<f64>> {
+        ours::end(&Kepler::default(), method, tolerance, 200.0 * PI)
+    }
+
+    fn by_hand<P: Peer>(peer: P, tolerance: f64) -> Option<Vec<f64>> {
+        let start = [0.1, 0.0, 0.0, 19f64.sqrt()];
+        let end = peer.until(hand::kepler, start, 0.0..200.0 * PI, tolerance)?;
+        Some(end.into())
+    }
+}
+
+/// The stiff spring pendulum.
+pub struct Spring;
+
+impl Scene for Spring {
+    const NAME: &'static str = "stiff spring pendulum, 10 s";
+    const REFERENCE: &'static [f64] = &exact::SPRING_PENDULUM;
+
+    fn ours(method: Method, tolerance: f64) -> Option<Vec<f64>> {
+        ours::end(&StiffSpringPendulum::default(), method, tolerance, 10.0)
+    }
+
+    fn by_hand<P: Peer>(peer: P, tolerance: f64) -> Option<Vec<f64>> {
+        let start = [1.0, 1.0, 0.0, 0.0];
+        let end = peer.until(hand::spring_pendulum, start, 0.0..10.0, tolerance)?;
+        Some(end.into())
+    }
+}

@@ -1,0 +1,117 @@
+//! One run, again and again with other methods; and what is read from a run.
+
+use super::Setting;
+use core::hint::black_box;
+use lagrange_core::dynamics::Dynamics;
+use lagrange_core::prelude::*;
+use std::time::Instant;
+
+/// Most steps of a run: what needs more is no choice for this scene.
+const MAX_STEPS: usize = 400_000;
+
+/// A system, and the run of it that a study is about.
+pub(crate) struct Course<'a, S> {
+    /// The system.
+    pub system: &'a S,
+    /// State at time 0.
+    pub start: State<f64>,
+    /// Last time, s.
+    pub until: f64,
+}
+
+impl<S: System<Scalar = f64>> Course<'_, S> {
+    fn simulation(&self, setting: Setting) -> Simulation<'_, S> {
+        Simulation::new(self.system)
+            .method(setting.method)
+            .tolerance(setting.tolerance)
+            .max_steps(MAX_STEPS)
+    }
+
+    /// Runs it.
+    pub(super) fn run(&self, setting: Setting) -> Result<Trajectory<S>, Error> {
+        self.simulation(setting)
+            .run(self.start.clone(), 0.0..self.until)
+            .map_err(|stopped| stopped.error)
+    }
+
+    /// Seconds that one of `runs` runs in a row takes.
+    pub(super) fn time(&self, setting: Setting, runs: usize) -> f64 {
+        let simulation = self.simulation(setting);
+        let begin = Instant::now();
+        for _ in 0..runs {
+            let _ = black_box(simulation.run(black_box(self.start.clone()), 0.0..self.until));
+        }
+        begin.elapsed().as_secs_f64() / runs as f64
+    }
+
+    /// Value of every parameter.
+    pub(super) fn parameters(&self) -> Vec<f64> {
+        (0..S::DESCRIPTION.parameters.len())
+            .map(|i| self.system.parameter(i))
+            .collect()
+    }
+}
+
+/// What is compared of two runs.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Finish {
+    /// Events in order: `rim lost` and its time.
+    pub events: Vec<(String, f64)>,
+    /// Time of the end, s.
+    pub time: f64,
+    /// State at the end.
+    pub state: State<f64>,
+}
+
+/// Of impacts that accumulate only the accumulation: how many are followed one by one depends on the tolerance.
+pub(super) fn finish<S: System<Scalar = f64>>(trajectory: &Trajectory<S>) -> Finish {
+    let mut events: Vec<&Event<f64>> = Vec::new();
+    for event in trajectory.events() {
+        if matches!(event.kind, EventKind::Accumulates { .. }) {
+            let leads = |e: &&Event<f64>| e.kind == EventKind::Impact && e.subject == event.subject;
+            while events.last().is_some_and(leads) {
+                events.pop();
+            }
+        }
+        events.push(event);
+    }
+    let label = |event: &Event<f64>| {
+        let item = event.subject.name(S::DESCRIPTION);
+        (format!("{item} {}", event.kind), event.time)
+    };
+    Finish {
+        events: events.into_iter().map(label).collect(),
+        time: trajectory.last_time(),
+        state: trajectory.final_state().clone(),
+    }
+}
+
+/// What the energy book leaves unexplained, over the scale of the energies.
+pub(super) fn energy_drift<S: System<Scalar = f64>>(trajectory: &Trajectory<S>) -> Option<f64> {
+    let ledger = trajectory.ledger().ok()?;
+    Some(ledger.closure.abs() / ledger.scale.max(f64::MIN_POSITIVE))
+}
+
+/// Largest relative residual of the rows that act, just before each event and at the end; `None` if none ever acts.
+pub(super) fn constraint_drift<S: System<Scalar = f64>>(trajectory: &Trajectory<S>) -> Option<f64> {
+    let mut dynamics = Dynamics::new(trajectory.scene(), trajectory.effects());
+    let mut residual = |time: f64, mode: &Mode, state: &State<f64>| {
+        dynamics.set_mode(mode);
+        if dynamics.acting_rows().is_empty() {
+            return None;
+        }
+        let (position, velocity) = dynamics.residuals(time, &state.q, &state.v);
+        Some(position.relative.max(velocity.relative))
+    };
+    let events = trajectory.events();
+    let before: Vec<Option<f64>> = events
+        .iter()
+        .map(|event| residual(event.time, &event.before, &event.state))
+        .collect();
+    let last = residual(
+        trajectory.last_time(),
+        trajectory.final_mode(),
+        trajectory.final_state(),
+    );
+    before.into_iter().chain([last]).flatten().reduce(f64::max)
+}

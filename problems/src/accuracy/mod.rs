@@ -1,0 +1,186 @@
+//! What accuracy costs: methods × tolerances, measured in one process against a reference.
+//!
+//! ```text
+//! Study → reference → settings → rows (error, drift, work) → rows with times → Accuracy
+//! ```
+//!
+//! An error is the largest |found − reference| / max(1, |reference|) of what it is about: the final state, or the times
+//! of the events. All settings are timed in turn, again and again, so that whatever else the machine does falls on all.
+
+mod course;
+mod family;
+mod reference;
+mod timing;
+
+pub use family::{Family, ParseFamilyError, Setting};
+pub use reference::Reference;
+pub use timing::Timing;
+
+pub(crate) use course::Course;
+
+use crate::closed_form::ClosedForm;
+use crate::request::{Refusal, Request};
+use lagrange_core::prelude::*;
+use lagrange_core::system::Description;
+
+/// What is to be measured.
+#[derive(Clone, Debug)]
+pub struct Study {
+    /// Parameters, start and end of the runs.
+    pub request: Request,
+    /// Methods.
+    pub methods: Vec<Family>,
+    /// Tolerances.
+    pub tolerances: Vec<f64>,
+    /// How often each setting is timed; if `None`, often enough, and less often what takes long.
+    pub repeat: Option<usize>,
+}
+
+/// What accuracy costs in a scene.
+#[derive(Clone, Debug)]
+pub struct Accuracy {
+    /// Name of the scene.
+    pub scene: &'static str,
+    /// Its names.
+    pub description: &'static Description,
+    /// Value of every parameter.
+    pub parameters: Vec<f64>,
+    /// What errors are measured against.
+    pub reference: Reference,
+    /// One row per method and tolerance, in the order of the study.
+    pub rows: Vec<Row>,
+}
+
+/// One method at one tolerance.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// Method and tolerance.
+    pub setting: Setting,
+    /// What it achieved and cost, or why there is nothing to compare.
+    pub result: Result<Measured, String>,
+}
+
+/// What a setting achieves and costs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured {
+    /// Error of the final state.
+    pub state_error: f64,
+    /// Largest error of an event's time; `None` if nothing happens.
+    pub event_error: Option<f64>,
+    /// What the energy book does not explain, over the scale of the energies; `None` if it could not be drawn up.
+    pub energy_drift: Option<f64>,
+    /// Largest residual of what has to hold (constraints, closed contacts, slips that stick), on position and velocity
+    /// level, at the events and at the end, relative to the state; `None` if nothing has to hold there.
+    pub constraint_drift: Option<f64>,
+    /// Work counts.
+    pub work: Work,
+    /// Time of a run.
+    pub time: Timing,
+}
+
+impl Measured {
+    /// The larger of the errors.
+    pub fn error(&self) -> f64 {
+        self.state_error.max(self.event_error.unwrap_or(0.0))
+    }
+}
+
+/// Measures `study` on a scene. What fails half-way is a row that says why.
+///
+/// # Errors
+/// Nothing to measure against: no run gets to the end, or two do not agree about what happens.
+pub(crate) fn measure<S: System<Scalar = f64>>(
+    scene: &'static str,
+    course: &Course<S>,
+    study: &Study,
+    closed_form: Option<ClosedForm>,
+) -> Result<Accuracy, Refusal> {
+    let (reference, scale) = reference::reference(course, closed_form)?;
+    let settings = family::settings(&study.methods, &study.tolerances, scale);
+    let mut rows: Vec<Row> = settings
+        .into_iter()
+        .map(|setting| Row {
+            setting,
+            result: judge(course, setting, &reference),
+        })
+        .collect();
+    let run = |setting: Setting, runs| course.time(setting, runs);
+    timing::fill(&mut rows, study.repeat, run);
+    Ok(Accuracy {
+        scene,
+        description: S::DESCRIPTION,
+        parameters: course.parameters(),
+        reference,
+        rows,
+    })
+}
+
+/// Everything about a setting but its time.
+fn judge<S: System<Scalar = f64>>(
+    course: &Course<S>,
+    setting: Setting,
+    reference: &Reference,
+) -> Result<Measured, String> {
+    let trajectory = course.run(setting).map_err(|error| error.to_string())?;
+    let finish = course::finish(&trajectory);
+    let (state_error, event_error) = reference.errors(&finish)?;
+    Ok(Measured {
+        state_error,
+        event_error,
+        energy_drift: course::energy_drift(&trajectory),
+        constraint_drift: course::constraint_drift(&trajectory),
+        work: trajectory.work(),
+        time: Timing::default(),
+    })
+}
+
+impl Accuracy {
+    /// The error of a row as far as it can be told: not below the floor of the reference.
+    pub fn resolved(&self, measured: &Measured) -> f64 {
+        measured.error().max(self.reference.floor)
+    }
+
+    /// Time of a row over that of the fastest one that is at least as exact.
+    pub fn ratio(&self, measured: &Measured) -> f64 {
+        let as_exact = self.fastest(self.resolved(measured));
+        as_exact.map_or(1.0, |(_, best)| measured.time.best / best.time.best)
+    }
+
+    /// The fastest setting with an error of at most `target`.
+    pub fn fastest(&self, target: f64) -> Option<(Setting, &Measured)> {
+        self.reaching(target)
+            .min_by(|(_, a), (_, b)| a.time.best.total_cmp(&b.time.best))
+    }
+
+    /// The fastest setting of each method with an error of at most `target`, fastest first.
+    pub fn fastest_of_each(&self, target: f64) -> Vec<(Setting, &Measured)> {
+        let mut all: Vec<_> = self.reaching(target).collect();
+        all.sort_by(|(_, a), (_, b)| a.time.best.total_cmp(&b.time.best));
+        let mut fastest: Vec<(Setting, &Measured)> = Vec::new();
+        for (setting, measured) in all {
+            if fastest
+                .iter()
+                .all(|(known, _)| known.name() != setting.name())
+            {
+                fastest.push((setting, measured));
+            }
+        }
+        fastest
+    }
+
+    /// The setting with the smallest error, as far as it can be told; the fastest of several.
+    pub fn most_exact(&self) -> Option<(Setting, &Measured)> {
+        let least = self
+            .reaching(f64::INFINITY)
+            .map(|(_, measured)| self.resolved(measured))
+            .min_by(f64::total_cmp)?;
+        self.fastest(least)
+    }
+
+    fn reaching(&self, target: f64) -> impl Iterator<Item = (Setting, &Measured)> {
+        self.rows.iter().filter_map(move |row| {
+            let measured = row.result.as_ref().ok()?;
+            (self.resolved(measured) <= target).then_some((row.setting, measured))
+        })
+    }
+}

@@ -1,0 +1,88 @@
+//! `lagrange accuracy`: what accuracy costs in a scene, method by method.
+
+use super::Trouble;
+use super::course::Course;
+use super::output::{Format, Output, patiently, to_file};
+use super::values::{positive, tolerances};
+use clap::Args;
+use lagrange_problems::accuracy::{Accuracy, Family, Study};
+use lagrange_problems::catalogue::find;
+use lagrange_problems::report::accuracy::{answer, csv, json, plot, table};
+use lagrange_problems::request::Request;
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+/// Measure what accuracy costs: methods at tolerances, in time and work, against a reference that is made on the spot.
+#[derive(Args)]
+pub(super) struct Measure {
+    /// The scene; `lagrange list` shows them.
+    scene: String,
+    #[command(flatten)]
+    course: Course,
+    /// Methods; rk4 and gauss6 get steps that suit the tolerances, or have one of their own (rk4:0.001)
+    /// [default: all].
+    #[arg(long, value_name = "M,…", value_delimiter = ',')]
+    methods: Vec<Family>,
+    /// Tolerances; 1e-3..1e-15 stands for every power of ten from one to the other.
+    #[arg(long, value_name = "X,…", value_delimiter = ',', value_parser = tolerances,
+          default_value = "1e-3,1e-5,1e-7,1e-9,1e-11,1e-13,1e-15", allow_hyphen_values = true)]
+    tolerances: Vec<Vec<f64>>,
+    /// Times that everything is measured [default: 15, less often what takes long].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    repeat: Option<u32>,
+    /// Answer only which method and tolerance reach this error in the shortest time.
+    #[arg(long, value_name = "X", value_parser = positive, allow_hyphen_values = true)]
+    target: Option<f64>,
+    #[command(flatten)]
+    output: Output,
+    /// Draw time over error.
+    #[arg(long, value_name = "FILE.svg")]
+    plot: Option<PathBuf>,
+}
+
+impl Measure {
+    pub(super) fn execute(self) -> Result<(), Trouble> {
+        let scene = find(&self.scene).map_err(Trouble::usage)?;
+        let study = Study {
+            request: Request {
+                tolerance: 1e-15,
+                ..self.course.request()
+            },
+            methods: match self.methods.is_empty() {
+                true => Family::ALL.to_vec(),
+                false => self.methods,
+            },
+            tolerances: self.tolerances.concat(),
+            repeat: self.repeat.map(|n| n as usize),
+        };
+        let accuracy = patiently(&format!("measuring {}", self.scene), || {
+            scene.accuracy(&study)
+        })
+        .map_err(Trouble::refused)?;
+        let (format, target) = (self.output.format, self.target);
+        self.output
+            .write(|out| write(&accuracy, format, target, out))?;
+        if let Some(path) = &self.plot {
+            let picture = plot::svg(&accuracy).map_err(Trouble::failed)?;
+            to_file(path, |out| out.write_all(picture.as_bytes()))?;
+        }
+        match self.target {
+            Some(target) => answer::reached(&accuracy, target).map_err(Trouble::failed),
+            None => Ok(()),
+        }
+    }
+}
+
+fn write(
+    accuracy: &Accuracy,
+    format: Format,
+    target: Option<f64>,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    match (format, target) {
+        (Format::Table, None) => table::write(accuracy, out),
+        (Format::Table, Some(target)) => answer::write(accuracy, target, out),
+        (Format::Json, _) => json::write(accuracy, target, out),
+        (Format::Csv, _) => csv::write(accuracy, target, out),
+    }
+}

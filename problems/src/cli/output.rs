@@ -1,0 +1,76 @@
+//! Where results go, and signs of life while they are being made.
+
+use super::Trouble;
+use clap::{Args, ValueEnum};
+use indicatif::{ProgressBar, ProgressStyle};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::time::Duration;
+
+/// What to print, and where to.
+#[derive(Args)]
+pub(super) struct Output {
+    /// What to print.
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    pub format: Format,
+    /// Write the result to a file instead of stdout.
+    #[arg(long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Format {
+    /// To read.
+    Table,
+    /// Every number in full precision.
+    Json,
+    /// One line per sample (and event), or per method and tolerance.
+    Csv,
+}
+
+impl Output {
+    /// Writes where the user wants it.
+    pub(super) fn write(
+        &self,
+        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), Trouble> {
+        match &self.output {
+            None => super::print(write),
+            Some(path) => to_file(path, write),
+        }
+    }
+}
+
+/// Writes a file, at once when all of it is there.
+pub(super) fn to_file(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), Trouble> {
+    let mut text = Vec::new();
+    write(&mut text)
+        .and_then(|()| std::fs::write(path, text))
+        .map_err(|error| Trouble::failed(format_args!("cannot write {}: {error}", path.display())))
+}
+
+/// Does `work`; if it takes longer than a second, shows on stderr that it is alive.
+pub(super) fn patiently<T>(what: &str, work: impl FnOnce() -> T) -> T {
+    let (done, waiting) = channel::<()>();
+    std::thread::scope(|scope| {
+        scope.spawn(move || {
+            if waiting.recv_timeout(Duration::from_secs(1)) != Err(RecvTimeoutError::Timeout) {
+                return;
+            }
+            let spinner = ProgressBar::new_spinner().with_message(what.to_owned());
+            if let Ok(style) = ProgressStyle::with_template("{spinner} {msg}, {elapsed}") {
+                spinner.set_style(style);
+            }
+            spinner.enable_steady_tick(Duration::from_millis(100));
+            let _ = waiting.recv();
+            spinner.finish_and_clear();
+        });
+        let result = work();
+        drop(done);
+        result
+    })
+}

@@ -1,0 +1,72 @@
+//! Accuracy → which method and tolerance reach an error in the shortest time.
+
+use super::{duration, reference};
+use crate::accuracy::{Accuracy, Setting};
+use std::io::{self, Write};
+
+/// Writes the answer, and how much longer the other methods take; nothing if nothing reaches it.
+pub fn write(accuracy: &Accuracy, target: f64, mut out: impl Write) -> io::Result<()> {
+    let fastest = accuracy.fastest_of_each(target);
+    let Some((setting, best)) = fastest.first() else {
+        return Ok(());
+    };
+    writeln!(
+        out,
+        "{setting} is the fastest way to errors below {target:e}: {}, {} steps, error {:.1e}.",
+        duration(best.time.best),
+        best.work.steps,
+        accuracy.resolved(best)
+    )?;
+    for (setting, measured) in &fastest[1..] {
+        writeln!(
+            out,
+            "{setting} takes {:.2} times as long: {}, {} steps, error {:.1e}.",
+            measured.time.best / best.time.best,
+            duration(measured.time.best),
+            measured.work.steps,
+            accuracy.resolved(measured)
+        )?;
+    }
+    writeln!(out, "{}", reference(accuracy))?;
+    writeln!(
+        out,
+        "\nlagrange run {} {}",
+        accuracy.scene,
+        options(*setting)
+    )
+}
+
+/// The options of `lagrange run` that mean a setting.
+fn options(setting: Setting) -> String {
+    match setting.step() {
+        None => format!(
+            "--method {} --tolerance {:e}",
+            setting.method, setting.tolerance
+        ),
+        Some(_) => format!("--method {}", setting.method),
+    }
+}
+
+/// Whether something reaches `target`.
+///
+/// # Errors
+/// What to try, if nothing does.
+pub fn reached(accuracy: &Accuracy, target: f64) -> Result<(), String> {
+    if accuracy.fastest(target).is_some() {
+        return Ok(());
+    }
+    let floor = accuracy.reference.floor;
+    if target < floor {
+        return Err(format!(
+            "errors below {floor:.1e} cannot be told apart in this run ({}; {} differs by {:.1e}); ask for more than that",
+            accuracy.reference.by, accuracy.reference.checked_by, accuracy.reference.difference
+        ));
+    }
+    Err(match accuracy.most_exact() {
+        None => "no method gets to the end; the table says why".to_owned(),
+        Some((setting, measured)) => format!(
+            "nothing reaches {target:e}; the best is {setting} with {:.1e}: allow more methods or smaller tolerances",
+            accuracy.resolved(measured)
+        ),
+    })
+}

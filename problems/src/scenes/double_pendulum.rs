@@ -1,0 +1,55 @@
+//! Two rods, one hung from the other: smooth, and chaotic.
+
+use lagrange_core::prelude::*;
+
+/// A double pendulum swings in a plane: two point masses on massless rods.
+///
+/// Both angles are counted from the downward vertical, counter-clockwise. Nothing happens in this scene but motion:
+/// it is here to measure what accuracy costs, with `lagrange accuracy double-pendulum`.
+///
+/// What to expect: energy is conserved, and for large swings nothing else. Neighbouring motions part quickly: until
+/// t = 5 s an error grows about a thousand times, so that double precision cannot give better than some 1e-13.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(theta1, theta2),
+    define(
+        x1 = upper_length * sin(theta1),
+        y1 = -upper_length * cos(theta1),
+        x2 = x1 + lower_length * sin(theta2),
+        y2 = y1 - lower_length * cos(theta2),
+    ),
+    kinetic   = upper_mass/2 * (der(x1)^2 + der(y1)^2) + lower_mass/2 * (der(x2)^2 + der(y2)^2),
+    potential = gravity * (upper_mass * y1 + lower_mass * y2),
+    start(rest: theta1 = upper_angle, theta2 = lower_angle),
+    observe(x1, y1, x2, y2),
+)]
+pub struct DoublePendulum<T = f64> {
+    /// The mass between the rods, kg.
+    pub upper_mass: T,
+    /// The mass at the end, kg.
+    pub lower_mass: T,
+    /// Length of the upper rod, m.
+    pub upper_length: T,
+    /// Length of the lower rod, m.
+    pub lower_length: T,
+    /// Gravitational acceleration, m/s².
+    pub gravity: T,
+    /// θ₁ at the start, rad from the downward vertical.
+    pub upper_angle: T,
+    /// θ₂ at the start, rad from the downward vertical.
+    pub lower_angle: T,
+}
+
+impl Default for DoublePendulum {
+    fn default() -> Self {
+        Self {
+            upper_mass: 1.0,
+            lower_mass: 1.0,
+            upper_length: 1.0,
+            lower_length: 1.0,
+            gravity: 9.81,
+            upper_angle: 2.0,
+            lower_angle: 2.5,
+        }
+    }
+}

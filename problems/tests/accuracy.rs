@@ -1,0 +1,292 @@
+//! `lagrange accuracy` as a user meets it: the table, the answer, the files, and what is refused.
+
+mod program;
+
+use program::{lagrange, refuses, says, text};
+use serde_json::Value;
+
+fn accuracy(scene: &str, arguments: &[&str]) -> Vec<String> {
+    let all = ["accuracy", scene, "--repeat", "1"];
+    let all = all.iter().chain(arguments);
+    all.map(|argument| (*argument).to_owned()).collect()
+}
+
+fn table(scene: &str, arguments: &[&str]) -> String {
+    let all = accuracy(scene, arguments);
+    says(&all.iter().map(String::as_str).collect::<Vec<_>>())
+}
+
+fn json(scene: &str, arguments: &[&str]) -> Value {
+    let all = [arguments, &["--format", "json"]].concat();
+    serde_json::from_str(&table(scene, &all)).expect("output is JSON")
+}
+
+fn rows(report: &Value) -> &Vec<Value> {
+    report["rows"].as_array().expect("rows is a list")
+}
+
+fn number(row: &Value, key: &str) -> f64 {
+    row[key]
+        .as_f64()
+        .unwrap_or_else(|| panic!("no {key} in {row}"))
+}
+
+#[test]
+fn errors_follow_the_tolerance_and_something_is_fastest() {
+    let report = json(
+        "mass-on-wheel",
+        &[
+            "--methods",
+            "taylor,verner98",
+            "--tolerances",
+            "1e-4,1e-8,1e-12",
+        ],
+    );
+    assert_eq!(report["reference"]["checked_by"], "verner98 at 1e-15");
+    let floor = number(&report["reference"], "floor");
+    assert!(floor < 1e-14, "{floor:e}");
+    let rows = rows(&report);
+    assert_eq!(rows.len(), 6);
+    for row in rows {
+        let (tolerance, error) = (number(row, "tolerance"), number(row, "error"));
+        assert!(error < 30.0 * tolerance, "{row}");
+        assert_eq!(
+            error,
+            number(row, "state_error").max(number(row, "event_error"))
+        );
+        assert!(number(row, "energy_drift") < 30.0 * tolerance, "{row}");
+        assert!(number(row, "constraint_drift") < 1e-12, "{row}");
+        assert!(number(row, "time") > 0.0 && number(row, "ratio") >= 1.0);
+        assert!(row["steps"].as_u64() > Some(0) && row["series"].as_u64() > Some(0));
+    }
+    assert!(rows.iter().any(|row| number(row, "ratio") == 1.0));
+}
+
+#[test]
+fn events_are_compared_by_name_and_time() {
+    let report = json(
+        "mass-on-shell",
+        &["--methods", "dop853", "--tolerances", "1e-10"],
+    );
+    let events = &report["reference"]["events"];
+    assert_eq!(events[0]["event"], "shell lost");
+    assert_eq!(events[1]["event"], "floor stop");
+    // 32 digits by quadrature of the closed form, for R = 1, g = 9.81, θ₀ = 0.01.
+    let left = number(&events[0], "time") - 1.641_132_327_593_929_8;
+    let landed = number(&events[1], "time") - 2.061_265_815_602_948_4;
+    assert!(
+        left.abs() < 1e-15 && landed.abs() < 1e-15,
+        "{left:e}, {landed:e}"
+    );
+    assert!(number(&report["reference"], "difference") < 4e-15);
+}
+
+#[test]
+fn without_events_or_constraints_there_is_nothing_to_say_of_them() {
+    let report = json(
+        "double-pendulum",
+        &[
+            "--methods",
+            "taylor",
+            "--tolerances",
+            "1e-9",
+            "--until",
+            "1",
+        ],
+    );
+    let row = &rows(&report)[0];
+    assert!(row["event_error"].is_null() && row["constraint_drift"].is_null());
+    assert_eq!(report["reference"]["time"], 1.0);
+}
+
+#[test]
+fn fixed_steps_follow_the_tolerance_or_the_user() {
+    let report = json(
+        "rolling-sphere",
+        &["--methods", "rk4,rk4:0.001", "--tolerances", "1e-4,1e-8"],
+    );
+    let steps: Vec<f64> = rows(&report)
+        .iter()
+        .map(|row| number(row, "step"))
+        .collect();
+    assert_eq!(steps.len(), 3);
+    assert!(
+        (steps[0] / steps[1] - 10.0).abs() < 0.1,
+        "10⁻⁴ in a method of order 4 is a tenth of the step"
+    );
+    assert_eq!(steps[2], 0.001);
+    assert!(rows(&report).iter().all(|row| row["tolerance"].is_null()));
+}
+
+#[test]
+fn a_method_that_fails_is_a_line_that_says_why() {
+    let arguments = ["--methods", "taylor,gauss6:5", "--tolerances", "1e-6"];
+    let report = json(
+        "cartesian-pendulum",
+        &[&arguments[..], &["--until", "10"]].concat(),
+    );
+    let failure = rows(&report)[1]["failure"].as_str().expect("a reason");
+    assert!(failure.contains("do not converge"), "{failure}");
+    let printed = table(
+        "cartesian-pendulum",
+        &[&arguments[..], &["--until", "10"]].concat(),
+    );
+    assert!(
+        printed.contains("gauss6 with steps of 5 s: t = 0"),
+        "{printed}"
+    );
+    assert!(
+        printed.contains("Reference: the closed form (Jacobi's elliptic functions)"),
+        "{printed}"
+    );
+}
+
+#[test]
+fn a_target_is_answered_with_a_command() {
+    let arguments = [
+        "--methods",
+        "taylor,dopri5",
+        "--tolerances",
+        "1e-3..1e-12",
+        "--target",
+        "1e-9",
+    ];
+    let answer = table("mass-on-shell", &arguments);
+    assert!(
+        answer.contains("is the fastest way to errors below 1e-9"),
+        "{answer}"
+    );
+    assert!(answer.contains("times as long"), "{answer}");
+    let command = answer.lines().last().expect("a command");
+    let command: Vec<&str> = command.split(' ').skip(1).collect();
+    assert_eq!(command[..2], ["run", "mass-on-shell"]);
+    assert!(says(&command).contains("floor stop"));
+
+    let report = json("mass-on-shell", &arguments);
+    let fastest = report["target"]["fastest"].as_array().expect("a list");
+    assert!(!fastest.is_empty());
+    for row in fastest {
+        assert!(number(row, "error") <= 1e-9);
+    }
+}
+
+#[test]
+fn what_cannot_be_reached_is_said() {
+    let arguments = |target: &'static str| {
+        [
+            "accuracy",
+            "mass-on-shell",
+            "--methods",
+            "dopri5",
+            "--tolerances",
+            "1e-4",
+            "--repeat",
+            "1",
+            "--target",
+            target,
+        ]
+    };
+    refuses(
+        &arguments("1e-9"),
+        1,
+        "nothing reaches 1e-9; the best is dopri5 at 1e-4 with",
+    );
+    refuses(&arguments("1e-30"), 1, "cannot be told apart");
+}
+
+#[test]
+fn csv_has_a_line_per_setting() {
+    let arguments = [
+        "--methods",
+        "taylor,rk4:9",
+        "--tolerances",
+        "1e-5,1e-7",
+        "--format",
+        "csv",
+    ];
+    let printed = table("kepler", &[&arguments[..], &["--until", "3"]].concat());
+    let mut reader = csv::Reader::from_reader(printed.as_bytes());
+    let header = reader.headers().expect("a header").clone();
+    let column = |name: &str| header.iter().position(|h| h == name).expect("a column");
+    let (method, error, failure) = (column("method"), column("state_error"), column("failure"));
+    let lines: Vec<_> = reader.records().map(|line| line.expect("a line")).collect();
+    assert_eq!(lines.len(), 3);
+    for line in &lines {
+        assert!(
+            line[error].is_empty() != line[failure].is_empty(),
+            "{line:?}"
+        );
+    }
+    assert_eq!(&lines[0][method], "taylor");
+}
+
+#[test]
+fn the_picture_has_every_method() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let picture = folder.join("accuracy.svg");
+    let picture = picture.to_str().expect("a plain path");
+    let arguments = [
+        "--methods",
+        "taylor,dop853,rk4",
+        "--tolerances",
+        "1e-4,1e-8",
+        "--plot",
+        picture,
+    ];
+    table("rolling-sphere", &arguments);
+    let drawn = std::fs::read_to_string(picture).expect("the picture");
+    for word in [
+        "<svg",
+        "rolling-sphere",
+        "taylor",
+        "dop853",
+        "rk4",
+        "time of one run",
+        "error",
+        "10⁻⁸",
+        "floor",
+    ] {
+        assert!(drawn.contains(word), "{word} is missing");
+    }
+    // Nothing but errors above 1: nothing to draw.
+    let useless = lagrange(&[
+        "accuracy",
+        "mass-on-wheel",
+        "--methods",
+        "gauss6:3",
+        "--repeat",
+        "1",
+        "--plot",
+        picture,
+    ]);
+    assert_eq!(useless.status.code(), Some(1));
+    assert!(text(&useless.stderr).contains("nothing to plot"));
+}
+
+#[test]
+fn requests_without_sense_are_refused_in_one_line() {
+    let refused = |arguments: &[&str], reason: &str| {
+        refuses(
+            &[&["accuracy", "mass-on-shell"], arguments].concat(),
+            2,
+            reason,
+        );
+    };
+    refuses(&["accuracy"], 2, "<SCENE>");
+    refuses(&["accuracy", "keppler"], 2, "did you mean `kepler`?");
+    refused(&["--methods", "euler"], "no method is called `euler`");
+    refused(&["--methods", "rk4:0"], "no step size");
+    refused(&["--tolerances", "1"], "between 1e-17 and 0.1");
+    refused(&["--tolerances", "2e-3..1e-9"], "powers of ten");
+    refused(&["--target", "-1"], "must be above 0");
+    refused(&["--repeat", "0"], "1..=10000");
+    refused(&["--set", "mas=1"], "did you mean `mass`?");
+    refused(&["--from", "rset"], "did you mean `rest`?");
+    // No reference: the motion itself has no answer (Painlevé).
+    let paradox = ["accuracy", "mass-on-wheel", "--set", "mu_kinetic=7"];
+    refuses(
+        &paradox,
+        1,
+        "no reference to measure errors against: taylor at 1e-16: t = 2.46",
+    );
+}

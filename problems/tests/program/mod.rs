@@ -1,0 +1,32 @@
+//! The program, called from tests.
+
+use std::process::{Command, Output};
+
+pub fn lagrange(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_lagrange"))
+        .args(arguments)
+        .output()
+        .expect("the program starts")
+}
+
+pub fn text(bytes: &[u8]) -> &str {
+    core::str::from_utf8(bytes).expect("output is UTF-8")
+}
+
+/// Runs it, expects success and silence on stderr, gives stdout.
+pub fn says(arguments: &[&str]) -> String {
+    let output = lagrange(arguments);
+    assert_eq!(text(&output.stderr), "", "{arguments:?}");
+    assert_eq!(output.status.code(), Some(0), "{arguments:?}");
+    text(&output.stdout).to_owned()
+}
+
+/// Runs it, expects a refusal: exit code, one line on stderr that contains `reason`, nothing on stdout.
+pub fn refuses(arguments: &[&str], code: i32, reason: &str) {
+    let output = lagrange(arguments);
+    let said = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {said}");
+    assert_eq!(text(&output.stdout), "", "{arguments:?}");
+    assert_eq!(said.lines().count(), 1, "{arguments:?}: {said}");
+    assert!(said.contains(reason), "{arguments:?}: {said}");
+}

@@ -1,0 +1,124 @@
+//! A runner gives what single runs give, run after run; without recording the events stay.
+
+use lagrange_core::prelude::*;
+use lagrange_problems::scenes::*;
+
+/// Runs a scene from its first start in a new simulation.
+fn single<S: System<Scalar = f64>>(scene: &S, tolerance: f64, until: f64) -> Trajectory<S> {
+    let run = Simulation::new(scene)
+        .tolerance(tolerance)
+        .run(start(scene), 0.0..until);
+    match run {
+        Ok(trajectory) => trajectory,
+        Err(failure) => panic!("{failure}"),
+    }
+}
+
+fn start<S: System<Scalar = f64>>(scene: &S) -> State<f64> {
+    let n = S::DESCRIPTION.coordinates.len();
+    let mut state = State {
+        q: vec![0.0; n],
+        v: vec![0.0; n],
+    };
+    scene.start(0, 0.0, &mut state.q, &mut state.v);
+    state
+}
+
+fn assert_same<S: System<Scalar = f64>>(one: &Trajectory<S>, other: &Trajectory<S>) {
+    assert_eq!(one.events(), other.events());
+    assert_eq!(one.final_state(), other.final_state());
+    assert_eq!(one.last_time(), other.last_time());
+    assert_eq!(one.work().steps, other.work().steps);
+    assert_eq!(one.phases().len(), other.phases().len());
+    for (one, other) in one.phases().iter().zip(&other.phases()) {
+        assert_eq!(one.mode, other.mode);
+        assert!((one.from - other.from).abs() + (one.to - other.to).abs() < 1e-14);
+    }
+}
+
+fn check<S: System<Scalar = f64>>(scene: &S) {
+    let long = single(scene, 1e-9, 20.0);
+    let short = single(scene, 1e-9, 1.0);
+    let simulation = Simulation::new(scene).tolerance(1e-9);
+    for record in [true, false] {
+        let mut runner = simulation.clone().record(record).runner();
+        for (until, expected) in [(20.0, &long), (1.0, &short), (20.0, &long)] {
+            let trajectory = runner.run(&start(scene), 0.0..until).expect("runs");
+            assert_same(trajectory, expected);
+        }
+    }
+}
+
+#[test]
+fn every_run_of_a_runner_is_that_of_a_new_simulation() {
+    check(&MassOnShell::default());
+    check(&RollingSphere::default());
+    check(&RollingSlippingSphere::default());
+    check(&MassOnWheel::default());
+    check(&SphereInBowl::default());
+}
+
+#[test]
+fn another_scene_in_the_same_runner_is_that_scene() {
+    let mut scene = RollingSlippingSphere::default();
+    let mut runner = Simulation::new(&scene).tolerance(1e-9).runner();
+    for mu in [0.4, 0.6, 0.9, 0.4] {
+        scene.mu_static = mu;
+        runner.set_scene(&scene);
+        assert_eq!(runner.scene().mu_static, mu);
+        let trajectory = runner.run(&start(&scene), 0.0..20.0).expect("runs");
+        assert_same(trajectory, &single(&scene, 1e-9, 20.0));
+    }
+}
+
+#[test]
+fn what_was_not_recorded_is_refused() {
+    let scene = MassOnShell::default();
+    let run = Simulation::new(&scene)
+        .record(false)
+        .run(start(&scene), 0.0..20.0);
+    let trajectory = run.expect("runs");
+    assert!(matches!(
+        trajectory.sampler().at(0.5),
+        Err(Error::NotRecorded)
+    ));
+    assert!(matches!(trajectory.ledger(), Err(Error::NotRecorded)));
+    assert_eq!(
+        Error::NotRecorded.to_string(),
+        "the run kept its events only; leave `record(false)` out"
+    );
+}
+
+#[test]
+fn an_error_leaves_the_motion_until_then() {
+    let scene = MassOnShell::default();
+    let mut runner = Simulation::new(&scene).max_steps(3).runner();
+    let outcome = runner.run(&start(&scene), 0.0..20.0).map(|_| ());
+    assert!(matches!(outcome, Err(Error::Limit { what: "steps", .. })));
+    assert_eq!(runner.trajectory().work().steps, 3);
+    assert!(runner.trajectory().last_time() > 0.0);
+    assert!(runner.trajectory().sampler().at(0.01).is_ok());
+}
+
+/// Events stay the same ones, however loose the tolerance that they can be told apart at.
+#[test]
+fn loose_tolerances_find_the_same_events() {
+    fn names<S: System<Scalar = f64>>(scene: &S, tolerance: f64) -> Vec<(&'static str, EventKind)> {
+        let trajectory = single(scene, tolerance, 20.0);
+        let events = trajectory.events().iter();
+        events
+            .map(|e| (e.subject.name(S::DESCRIPTION), e.kind))
+            .collect()
+    }
+    fn check<S: System<Scalar = f64>>(scene: &S) {
+        let expected = names(scene, 1e-12);
+        for k in 0..24 {
+            let tolerance = 10f64.powf(-1.5 - 0.125 * f64::from(k));
+            assert_eq!(names(scene, tolerance), expected, "at {tolerance:e}");
+        }
+    }
+    check(&MassOnShell::default());
+    check(&RollingSphere::default());
+    check(&RollingSlippingSphere::default());
+    check(&MassOnWheel::default());
+}
