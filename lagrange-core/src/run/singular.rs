@@ -4,8 +4,8 @@
 //! amplified by the inverse of the distance. A Taylor polynomial from some way before it is good beyond it: a step must
 //! only not *end* close to it.
 //!
-//! How close is read from the pivots of G = A D⁻¹ Aᵀ (A the rows of constraints, D the diagonal of the mass matrix) in
-//! Cholesky's factorization with complete pivoting: the smallest of them that is not always zero, over its largest value
+//! How close is read from the pivots of G = A D⁻¹ Aᵀ (A the rows of constraints, D the diagonal of the mass matrix, each
+//! element at its largest so far) in Cholesky's factorization with complete pivoting: the smallest of them that is not always zero, over its largest value
 //! so far, is the square of a distance.
 
 use super::Run;
@@ -16,7 +16,9 @@ use crate::integrate::taylor;
 use crate::system::{Place, System};
 
 /// A step may come nearer to a loss of rank, or to its other side, by this factor.
-pub(super) const NEARER: f64 = 0.35;
+const NEARER: f64 = 0.35;
+/// Farther away than this from one it may end anywhere.
+const CLOSE: f64 = 0.2;
 /// Else it is tried this much longer, over that position,
 const LEAP: f64 = 1.5;
 /// with any degree from this on,
@@ -29,8 +31,6 @@ pub(super) const MOST_RETREATS: usize = 5;
 const GOOD: f64 = 30.0;
 /// and where nothing better can be had any more.
 const BEARABLE: f64 = 1e4;
-/// Nearer than this truncation is no longer what makes a leap inexact.
-const CLOSE: f64 = 0.2;
 
 /// A pivot below this share of the first has always been zero: its row depends on others everywhere.
 const DEPENDENT: f64 = 1e-10;
@@ -44,7 +44,8 @@ pub(super) struct Rank {
     pivots: Vec<f64>,
     /// Largest value of each pivot so far.
     largest: Vec<f64>,
-    weights: Vec<f64>,
+    /// Largest diagonal elements of the mass matrix so far.
+    masses: Vec<f64>,
     scaled: Vec<f64>,
 }
 
@@ -55,7 +56,9 @@ impl Rank {
         let n = d.coordinates.len();
         let changes = |row: usize| {
             let jacobian = d.rows[row].jacobian.iter();
-            jacobian.clone().any(|(_, place)| matches!(place, Place::Node(_)))
+            jacobian
+                .clone()
+                .any(|(_, place)| matches!(place, Place::Node(_)))
         };
         let constraints = d.constraints.iter().filter(|c| c.while_contact.is_none());
         let mut rows: Vec<usize> = constraints.map(|c| c.row).collect();
@@ -68,7 +71,7 @@ impl Rank {
             gram: vec![0.0; m * m],
             pivots: vec![0.0; m],
             largest: vec![0.0; m],
-            weights: vec![1.0; n],
+            masses: vec![0.0; n],
             scaled: vec![0.0; m * n],
             rows,
         }
@@ -77,6 +80,7 @@ impl Rank {
     /// Forgets earlier runs.
     pub(super) fn restart(&mut self) {
         self.largest.fill(0.0);
+        self.masses.fill(0.0);
     }
 
     /// Distance of the state that `dynamics` has evaluated from a loss of rank, 1 at the farthest so far.
@@ -105,15 +109,17 @@ impl Rank {
         let number = |place: Place| dynamics.motion(place).value();
         for &(i, j, place) in d.mass {
             let mass = number(place);
-            if i == j && mass > 0.0 {
-                self.weights[i] = 1.0 / mass.sqrt();
+            if i == j {
+                self.masses[i] = self.masses[i].max(mass);
             }
         }
+        let masses = &self.masses;
+        let mass = |j: usize| if masses[j] > 0.0 { masses[j] } else { 1.0 };
         self.scaled.fill(0.0);
         let m = self.rows.len();
         for (k, &row) in self.rows.iter().enumerate() {
             for &(j, place) in d.rows[row].jacobian {
-                self.scaled[k * n + j] = number(place) * self.weights[j];
+                self.scaled[k * n + j] = number(place) / mass(j).sqrt();
             }
         }
         for i in 0..m {
@@ -129,9 +135,8 @@ impl Rank {
         let m = self.rows.len();
         self.pivots.fill(0.0);
         for step in 0..m {
-            let best = (step..m).max_by(|&a, &b| {
-                self.gram[a * m + a].total_cmp(&self.gram[b * m + b])
-            });
+            let best =
+                (step..m).max_by(|&a, &b| self.gram[a * m + a].total_cmp(&self.gram[b * m + b]));
             let best = best.unwrap_or(step);
             for k in 0..m {
                 self.gram.swap(step * m + k, best * m + k);
@@ -155,6 +160,11 @@ impl Rank {
 }
 
 impl<S: System> Run<S> {
+    /// Whether a step that ends at this distance from a loss of rank ends too close to it.
+    pub(super) fn ends_close(&self, distance: f64) -> bool {
+        distance < CLOSE && distance < NEARER * self.distance
+    }
+
     /// Tries a step over the loss of rank that one of length `h` comes too close to.
     ///
     /// Rounding enters the equations amplified and grows through the coefficients as if the solution had a pole there; the
@@ -165,7 +175,11 @@ impl<S: System> Run<S> {
         if h > self.end - self.t.value() {
             return false;
         }
-        let mut least = if self.distance < CLOSE { BEARABLE } else { GOOD };
+        let mut least = if self.distance < CLOSE {
+            BEARABLE
+        } else {
+            GOOD
+        };
         let mut best = None;
         for degree in LEAST_DEGREE..=self.order {
             if let Some((defect, distance)) = self.beyond(h, degree)

@@ -2,7 +2,7 @@
 
 use super::Run;
 use super::hits::Hit;
-use super::singular::{MOST_RETREATS, NEARER, RETREAT};
+use super::singular::{MOST_RETREATS, RETREAT};
 use crate::arithmetic::Scalar;
 use crate::dynamics::EvaluationError;
 use crate::error::Error;
@@ -80,12 +80,9 @@ impl<S: System> Run<S> {
             } else {
                 f64::INFINITY
             };
-            let Stepper::Taylor(control) = &mut self.stepper else {
-                return Ok(hit);
-            };
             // A step must not end where the constraints lose rank.
             let distance = self.rank.distance(&self.dynamics);
-            if distance < NEARER * self.distance && closer < MOST_RETREATS {
+            if self.ends_close(distance) && closer < MOST_RETREATS {
                 if self.leap(h) {
                     return Ok(Hit::Nothing);
                 }
@@ -94,6 +91,9 @@ impl<S: System> Run<S> {
                 h *= RETREAT;
                 continue;
             }
+            let Stepper::Taylor(control) = &mut self.stepper else {
+                return Ok(hit);
+            };
             match control.judge(h, defect, self.order) {
                 Verdict::Accept => {
                     self.distance = distance;

@@ -157,8 +157,9 @@ pub fn tumbling_body(_: Extent) -> Result<Vec<Figure>, Surprise> {
     let q = &trajectory.final_state().q;
     let difference = product([q[0], -q[1], -q[2], -q[3]], expected);
     let off = 2.0 * difference[1].hypot(difference[2]).hypot(difference[3]);
+    // Near the unstable axis an error grows by 1/k′, some 200, before each flip, and shrinks only in what is not seen.
     Ok(vec![
-        Figure::new(format!("rates over {PERIODS} periods"), worst, 1e-9),
+        Figure::new(format!("rates over {PERIODS} periods"), worst, 1e-8),
         Figure::new("attitude after them, rad", off, 1e-9),
         Figure::new("length of the quaternion", violation(&trajectory)?, 1e-12),
     ])
