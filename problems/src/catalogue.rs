@@ -36,8 +36,6 @@ pub static HARD: &[&dyn Scene] = &[
     &Entry::<BeltOscillator>::new("belt-oscillator", 20.0),
     &Entry::<CoulombOscillator>::new("coulomb-oscillator", 10.0),
     &Entry::<Cradle>::new("cradle", 1.0),
-    &Entry::<RodOnSupports>::new("rod-on-supports", 10.0),
-    &Entry::<RockingBlock>::new("rocking-block", 10.0),
     &Entry::<PainleveRod>::new("painleve-rod", 1.0),
     &Entry::<StringPendulum>::new("string-pendulum", 3.0),
     &Entry::<SphericalPendulum>::new("spherical-pendulum", 5.0),

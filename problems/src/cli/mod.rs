@@ -8,6 +8,7 @@ mod course;
 mod list;
 mod output;
 mod run;
+mod stability;
 mod values;
 
 use clap::error::ErrorKind;
@@ -29,6 +30,7 @@ enum Command {
     List(list::List),
     Run(run::Run),
     Accuracy(accuracy::Measure),
+    Stability(stability::Stability),
 }
 
 /// What went wrong, and with it the exit code.
@@ -72,6 +74,7 @@ pub(crate) fn main() -> ExitCode {
         Command::List(list) => list.execute(),
         Command::Run(run) => run.execute(),
         Command::Accuracy(accuracy) => accuracy.execute(),
+        Command::Stability(stability) => stability.execute(),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -5,6 +5,7 @@ pub mod accuracy;
 pub mod csv;
 pub mod json;
 pub mod plot;
+pub mod stability;
 pub mod table;
 
 use lagrange_core::system::{Coordinate, Description};

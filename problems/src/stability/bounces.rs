@@ -3,7 +3,7 @@
 use super::kit::{closure, distance, event, relative, run, story, violation};
 use super::{Extent, Figure, Surprise};
 use crate::reference::integral;
-use crate::scenes::hard::{BouncingBall, Cradle, RockingBlock, StringPendulum, ThrownBall};
+use crate::scenes::hard::{BouncingBall, Cradle, StringPendulum, ThrownBall};
 use core::f64::consts::FRAC_PI_2;
 
 pub fn bouncing_ball(_: Extent) -> Result<Vec<Figure>, Surprise> {
@@ -107,65 +107,6 @@ pub fn cradle(_: Extent) -> Result<Vec<Figure>, Surprise> {
     Ok(vec![
         Figure::new("together: −1/3, 2/3, 2/3", worst, 1e-14),
         Figure::new("together: ledger", closure(&trajectory)?, 1e-14),
-    ])
-}
-
-pub fn rocking_block(_: Extent) -> Result<Vec<Figure>, Surprise> {
-    let scene = RockingBlock::default();
-    let radius = scene.half_width.hypot(scene.half_height);
-    let alpha = (scene.half_width / scene.half_height).atan();
-    let p = (0.75 * scene.gravity / radius).sqrt();
-    let kept = 1.0 - 1.5 * alpha.sin().powi(2);
-    // From rest at θ₀ down to 0: θ̇² = 4p² sin(α − θ₀ + ½u) sin ½u at θ = θ₀ − u.
-    let quarter = |top: f64| {
-        integral(
-            |u| 0.5 / (p * ((alpha - top + 0.5 * u).sin() * (0.5 * u).sin()).sqrt()),
-            0.0,
-            top,
-        )
-    };
-    // The next top keeps the share `kept`² of sin(α − ½θ) sin ½θ.
-    let height = |top: f64| (alpha - 0.5 * top).sin() * (0.5 * top).sin();
-    let next = |top: f64| {
-        let wanted = kept * kept * height(top);
-        let slope = |x: f64| 0.5 * (alpha - x).sin();
-        (0..50).fold(kept * kept * top, |x, _| {
-            x - (height(x) - wanted) / slope(x)
-        })
-    };
-    let mut time = quarter(scene.start_angle);
-    let mut impacts = vec![time];
-    let mut top = next(scene.start_angle);
-    while quarter(top) > 1e-17 * time {
-        time += 2.0 * quarter(top);
-        impacts.push(time);
-        top = next(top);
-    }
-    let trajectory = run(&scene, RockingBlock::TILTED, 1.2 * time)?;
-    let mut worst: f64 = 0.0;
-    let hits: Vec<f64> = trajectory
-        .events()
-        .iter()
-        .filter(|e| e.kind.word() == "impact")
-        .map(|e| e.time)
-        .collect();
-    for (found, expected) in hits.iter().zip(&impacts) {
-        worst = worst.max(relative(*found, *expected));
-    }
-    let rest = trajectory
-        .events()
-        .iter()
-        .find(|e| e.kind.word() == "accumulates")
-        .ok_or_else(|| Surprise::Missing {
-            event: "accumulates".to_owned(),
-        })?;
-    let end = trajectory.final_state();
-    Ok(vec![
-        Figure::new(format!("times of {} impacts", hits.len()), worst, 1e-10),
-        Figure::new("time of rest", relative(rest.time, time), 1e-10),
-        Figure::new("tilt at rest", end.q[2].abs().max(end.v[2].abs()), 1e-14),
-        Figure::new("walked, m", distance(end.q[0], scene.half_width), 1e-12),
-        Figure::new("penetration, m", violation(&trajectory)?, 1e-12),
     ])
 }
 

@@ -2,10 +2,8 @@
 
 use super::kit::{TOLERANCE, closure, distance, event, relative, run, story, violation};
 use super::{Extent, Figure, Surprise};
-use crate::reference::{integral, root};
-use crate::scenes::hard::{
-    BackspinBall, BeltOscillator, CoulombOscillator, Ladder, PainleveRod, RodOnSupports,
-};
+use crate::reference::integral;
+use crate::scenes::hard::{BackspinBall, BeltOscillator, CoulombOscillator, Ladder, PainleveRod};
 use core::f64::consts::PI;
 use lagrange_core::prelude::*;
 
@@ -164,46 +162,6 @@ pub fn coulomb_oscillator(_: Extent) -> Result<Vec<Figure>, Surprise> {
             distance(end.q[0], stops.state_after.q[0]) / 100.0,
             1e-14,
         ),
-    ])
-}
-
-pub fn rod_on_supports(_: Extent) -> Result<Vec<Figure>, Surprise> {
-    let scene = RodOnSupports::default();
-    let RodOnSupports {
-        mass,
-        gravity,
-        back,
-        front,
-        rate,
-        mu_static,
-        mu_kinetic,
-        ..
-    } = scene;
-    let weight = mass * gravity;
-    let starts = mu_static * weight / rate;
-    let place = |t: f64| {
-        let wait = t - starts;
-        rate / (6.0 * mass) * wait * wait * (t + 2.0 * starts)
-            - 0.5 * mu_kinetic * gravity * wait * wait
-    };
-    let tips = root(|t| place(t) - front, starts, starts + 10.0);
-    let trajectory = run(&scene, RodOnSupports::RESTING, 10.0)?;
-    let slips = event(&trajectory, "left_grip", "slips", 0)?;
-    let other = event(&trajectory, "right_grip", "slips", 0)?;
-    let lost = event(&trajectory, "left", "lost", 0)?;
-    let normal = |c: usize| slips.forces[trajectory.description().contacts[c].row];
-    let worst = relative(normal(0), weight * front / (back + front))
-        .max(relative(normal(1), weight * back / (back + front)));
-    Ok(vec![
-        Figure::new(
-            "both grips slip at F = μ m g",
-            relative(slips.time, starts).max(relative(other.time, starts)),
-            1e-12,
-        ),
-        Figure::new("normal forces there", worst, 1e-12),
-        Figure::new("time where it tips", relative(lost.time, tips), 1e-11),
-        Figure::new("penetration, m", violation(&trajectory)?, 1e-12),
-        Figure::new("ledger", closure(&trajectory)?, 1e-11),
     ])
 }
 

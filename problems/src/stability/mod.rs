@@ -112,12 +112,6 @@ pub static CASES: &[Case] = &[
         measure: bounces::cradle,
     },
     Case {
-        name: "rocking-block",
-        scene: "rocking-block",
-        trouble: "impacts alternate between corners, ever faster",
-        measure: bounces::rocking_block,
-    },
-    Case {
         name: "string-pendulum",
         scene: "string-pendulum",
         trouble: "the string pushes, or snaps back softly",
@@ -146,12 +140,6 @@ pub static CASES: &[Case] = &[
         scene: "coulomb-oscillator",
         trouble: "creeps out of its dead band",
         measure: frictions::coulomb_oscillator,
-    },
-    Case {
-        name: "rod-on-supports",
-        scene: "rod-on-supports",
-        trouble: "undetermined friction forces decide when it slips",
-        measure: frictions::rod_on_supports,
     },
     Case {
         name: "painleve-rod",

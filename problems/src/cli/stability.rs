@@ -1,0 +1,67 @@
+//! `lagrange stability`: hard cases, each against an answer known by other means.
+
+use super::Trouble;
+use super::output::{Format, Output, patiently};
+use clap::Args;
+use lagrange_problems::report::stability as report;
+use lagrange_problems::stability::{CASES, Case, Extent, Report};
+use std::io::{self, Write};
+
+/// Run the hard cases: what breaks other programs, how far from the known answer each ends, and whether it keeps its bound.
+#[derive(Args)]
+pub(super) struct Stability {
+    /// Only these cases.
+    #[arg(long, value_name = "CASE,…", value_delimiter = ',')]
+    only: Vec<String>,
+    /// Run the endurance cases ten times as long: a hundred thousand periods.
+    #[arg(long)]
+    long: bool,
+    #[command(flatten)]
+    output: Output,
+}
+
+impl Stability {
+    pub(super) fn execute(self) -> Result<(), Trouble> {
+        let cases = self.cases()?;
+        let extent = match self.long {
+            true => Extent::Long,
+            false => Extent::Short,
+        };
+        let reports: Vec<Report> = patiently("running the hard cases", || {
+            cases.into_iter().map(|case| case.run(extent)).collect()
+        });
+        let format = self.output.format;
+        self.output.write(|out| write(&reports, format, out))?;
+        let failing = reports.iter().filter(|report| !report.holds());
+        let names: Vec<&str> = failing.map(|report| report.case.name).collect();
+        match names[..] {
+            [] => Ok(()),
+            _ => Err(Trouble::failed(format_args!(
+                "outside its bounds: {}",
+                names.join(", ")
+            ))),
+        }
+    }
+
+    /// The cases asked for, in the order of the table.
+    fn cases(&self) -> Result<Vec<&'static Case>, Trouble> {
+        let known = |name: &String| CASES.iter().any(|case| case.name == name);
+        if let Some(name) = self.only.iter().find(|name| !known(name)) {
+            let names: Vec<&str> = CASES.iter().map(|case| case.name).collect();
+            return Err(Trouble::usage(format_args!(
+                "there is no case `{name}`; there are {}",
+                names.join(", ")
+            )));
+        }
+        let asked = |case: &&Case| self.only.is_empty() || self.only.iter().any(|n| n == case.name);
+        Ok(CASES.iter().filter(asked).collect())
+    }
+}
+
+fn write(reports: &[Report], format: Format, out: &mut dyn Write) -> io::Result<()> {
+    match format {
+        Format::Table => report::table(reports, out),
+        Format::Json => report::json(reports, out),
+        Format::Csv => report::csv(reports, out),
+    }
+}
