@@ -40,6 +40,7 @@ pub static HARD: &[&dyn Scene] = &[
     &Entry::<StringPendulum>::new("string-pendulum", 3.0),
     &Entry::<SphericalPendulum>::new("spherical-pendulum", 5.0),
     &Entry::<PolarParticle>::new("polar-particle", 2.0),
+    &Entry::<Parallelogram>::new("parallelogram", 2.0),
     &Entry::<SliderCrank>::new("slider-crank", 2.0),
     &Entry::<RollingDisk>::new("rolling-disk", 5.0),
     &Entry::<Rattleback>::new("rattleback", 5.0),

@@ -5,6 +5,7 @@ mod curves;
 mod hits;
 mod log;
 mod runner;
+mod singular;
 mod stepping;
 mod switch;
 #[cfg(test)]
@@ -30,10 +31,14 @@ use curves::Curves;
 use hits::Hit;
 use log::Before;
 pub use runner::Runner;
+use singular::Rank;
 use stepping::Stepper;
 
 /// This many events without any progress in time are a livelock.
 const MOST_EVENTS_AT_ONCE: usize = 40;
+
+/// Nearer than this to a loss of rank what is left of a residual is amplified: it is taken away to the last bit.
+const NEAR: f64 = 0.7;
 
 /// Steps between two looks at rows that a step does not leave by more than rounding.
 const STEPS_OF_ROUNDING: usize = 16;
@@ -79,6 +84,10 @@ pub(crate) struct Run<S: System> {
     forces_after: Vec<S::Scalar>,
     /// Per contact: its impacts so far.
     impacts: Vec<Impacts>,
+    /// Watches for positions where constraints lose rank.
+    rank: Rank,
+    /// Distance from such a position at the start of the coming step.
+    distance: f64,
     /// Modes of the switches since time last advanced.
     stuck: Pool<Mode>,
     finished: bool,
@@ -131,6 +140,8 @@ impl<S: System> Run<S> {
             survey: Survey::new(d),
             decider: Decider::new(d),
             impacts: vec![Impacts::default(); d.contacts.len()],
+            rank: Rank::new::<S>(),
+            distance: 1.0,
             stuck: Pool::default(),
             finished: false,
             work_before: crate::dynamics::Work::default(),
@@ -172,6 +183,8 @@ impl<S: System> Run<S> {
             .iter_mut()
             .for_each(|terms| terms.fill(false));
         self.impacts.fill(Impacts::default());
+        self.rank.restart();
+        self.distance = 1.0;
         self.stuck.clear();
         self.finished = false;
         let outcome = self.go();
@@ -230,8 +243,9 @@ impl<S: System> Run<S> {
             self.zeros.clear();
             let steps = self.trajectory.work.steps;
             let exact = matches!(self.stepper, Stepper::Taylor(_)) && !self.drifts;
-            if !exact || steps.is_multiple_of(STEPS_OF_ROUNDING) {
-                self.project(false)?;
+            let near = self.distance < NEAR;
+            if near || !exact || steps.is_multiple_of(STEPS_OF_ROUNDING) {
+                self.project(near)?;
             }
         }
         match hit {

@@ -2,6 +2,7 @@
 
 use super::Run;
 use super::hits::Hit;
+use super::singular::{MOST_RETREATS, RETREAT};
 use crate::arithmetic::Scalar;
 use crate::dynamics::EvaluationError;
 use crate::error::Error;
@@ -54,11 +55,12 @@ impl<S: System> Run<S> {
         let mut h = taylor::step_size(&self.dynamics, self.order, self.tolerance)
             .ok_or_else(|| self.not_finite("a Taylor coefficient"))?
             .min(longest);
+        let mut closer = 0;
         loop {
             if self.t.value() + h <= self.t.value() {
                 return Err(self.step_too_small(h));
             }
-            self.write_polynomial(h);
+            self.write_polynomial(h, self.order);
             self.curves
                 .take_series(&self.dynamics, &self.mode, &self.guards, &self.powers);
             let hit = self.first_hit();
@@ -78,11 +80,25 @@ impl<S: System> Run<S> {
             } else {
                 f64::INFINITY
             };
+            // A step must not end where the constraints lose rank.
+            let distance = self.rank.distance(&self.dynamics);
+            if self.ends_close(distance) && closer < MOST_RETREATS {
+                if self.leap(h) {
+                    return Ok(Hit::Nothing);
+                }
+                closer += 1;
+                self.trajectory.work.rejected += 1;
+                h *= RETREAT;
+                continue;
+            }
             let Stepper::Taylor(control) = &mut self.stepper else {
                 return Ok(hit);
             };
             match control.judge(h, defect, self.order) {
-                Verdict::Accept => return Ok(hit),
+                Verdict::Accept => {
+                    self.distance = distance;
+                    return Ok(hit);
+                }
                 Verdict::Redo { h: smaller } => {
                     self.trajectory.work.rejected += 1;
                     h = smaller;
@@ -92,21 +108,21 @@ impl<S: System> Run<S> {
     }
 
     /// The state at part `end` of the step, in `scratch`, and the equations of motion there.
-    fn evaluate_end(&mut self, end: f64) -> Result<(), EvaluationError> {
+    pub(super) fn evaluate_end(&mut self, end: f64) -> Result<(), EvaluationError> {
         let s = S::Scalar::from_f64(end);
         let State { q, v } = &mut self.scratch;
         self.step.state_into(s, q, v);
         self.dynamics.value(self.step.time(s), q, v)
     }
 
-    /// Scales the series onto a step of length `h`.
-    fn write_polynomial(&mut self, h: f64) {
-        self.step.set_degree(self.order);
+    /// Scales the series, up to `degree`, onto a step of length `h`.
+    pub(super) fn write_polynomial(&mut self, h: f64, degree: usize) {
+        self.step.set_degree(degree);
         self.step.t = self.t;
         self.step.h = S::Scalar::from_f64(h);
         self.powers.clear();
         let powers = core::iter::successors(Some(1.0), |power| Some(power * h));
-        self.powers.extend(powers.take(self.order + 1));
+        self.powers.extend(powers.take(degree + 1));
         for i in 0..S::DESCRIPTION.coordinates.len() {
             let (q, v) = self.step.rows_mut(i);
             let series = [

@@ -1,36 +1,85 @@
 //! Equations that are redundant, lose their gradient, or have to hold for long.
 
-use super::kit::{TOLERANCE, relative, run, violation};
+use super::kit::{TOLERANCE, closure, relative, run, violation};
 use super::{Extent, Figure, Surprise};
 use crate::reference::{agm, over_a_turn};
-use crate::scenes::hard::{LongPendulum, SliderCrank};
+use crate::scenes::hard::{LongPendulum, Parallelogram, SliderCrank};
 use core::f64::consts::TAU;
 use lagrange_core::prelude::*;
 
+pub fn parallelogram(_: Extent) -> Result<Vec<Figure>, Surprise> {
+    const TURNS: f64 = 20.0;
+    let scene = Parallelogram::default();
+    let Parallelogram {
+        length,
+        gravity,
+        speed,
+        ..
+    } = scene;
+    // A pendulum that goes round (Abramowitz & Stegun 16.1): T = 4 K(k)/ω₀, k = 2√(g/l)/ω₀.
+    let (rate, k) = (speed / length, 2.0 * (gravity * length).sqrt() / speed);
+    let turn = TAU / (rate * agm(1.0, ((1.0 - k) * (1.0 + k)).sqrt()));
+    let trajectory = run(&scene, Parallelogram::SPUN, TURNS * turn)?;
+    let end = trajectory.final_state();
+    let angle = end.q[0].atan2(-end.q[1]);
+    // Each passage of a dead position costs some 1e-11 of the speed: rounding over the distance at which it is crossed.
+    Ok(vec![
+        Figure::new(
+            format!("angle after {TURNS} turns"),
+            angle.abs() / (TURNS * TAU),
+            1e-9,
+        ),
+        Figure::new("the beam turns, rad", end.q[2].abs(), 1e-11),
+        Figure::new("length of the cranks, m²", violation(&trajectory)?, 1e-12),
+        Figure::new("ledger", closure(&trajectory)?, 1e-9),
+    ])
+}
+
 pub fn slider_crank(_: Extent) -> Result<Vec<Figure>, Surprise> {
     const TURNS: f64 = 100.0;
-    let scene = SliderCrank::default();
-    let SliderCrank {
-        inertia,
-        mass,
-        crank: r,
-        rod_length: l,
-        rate,
-    } = scene;
-    // x′(θ)
-    let slope = |th: f64| {
-        let (s, c) = th.sin_cos();
-        -r * s - r * r * s * c / (l * l - r * r * s * s).sqrt()
+    let mut figures = Vec::new();
+    let unequal = SliderCrank::default();
+    let equal = SliderCrank {
+        rod_length: unequal.crank,
+        ..unequal.clone()
     };
-    let turn = over_a_turn(|th| (1.0 + mass / inertia * slope(th).powi(2)).sqrt()) / rate;
-    let trajectory = run(&scene, SliderCrank::SPUN, TURNS * turn)?;
-    let end = trajectory.final_state();
-    let angle = relative(end.q[0], TURNS * TAU);
-    Ok(vec![
-        Figure::new(format!("angle after {TURNS} turns"), angle, 1e-11),
-        Figure::new("slider, m", (end.q[1] - r - l).abs(), 1e-11),
-        Figure::new("length of the rod, m²", violation(&trajectory)?, 1e-12),
-    ])
+    for (what, scene) in [("dead centres", &unequal), ("equal lengths", &equal)] {
+        let SliderCrank {
+            inertia,
+            mass,
+            crank: r,
+            rod_length: l,
+            rate,
+        } = *scene;
+        // x′(θ); where the lengths are equal the root is r cos θ with its sign, which goes through zero.
+        let slope = |th: f64| {
+            let (s, c) = th.sin_cos();
+            if r == l {
+                -2.0 * r * s
+            } else {
+                -r * s - r * r * s * c / (l * l - r * r * s * s).sqrt()
+            }
+        };
+        let turn = over_a_turn(|th| (1.0 + mass / inertia * slope(th).powi(2)).sqrt()) / rate;
+        let trajectory = run(scene, SliderCrank::SPUN, TURNS * turn)?;
+        let end = trajectory.final_state();
+        figures.push(Figure::new(
+            format!("{what}: angle after {TURNS} turns"),
+            relative(end.q[0], TURNS * TAU),
+            if l == r { 1e-9 } else { 1e-11 },
+        ));
+        figures.push(Figure::new(
+            format!("{what}: slider, m"),
+            (end.q[1] - r - l).abs(),
+            1e-11,
+        ));
+        figures.push(Figure::new(
+            format!("{what}: length of the rod, m²"),
+            violation(&trajectory)?,
+            1e-12,
+        ));
+    }
+    Ok(figures)
 }
 
 /// In pieces, so that no more than a thousand periods are kept in memory.

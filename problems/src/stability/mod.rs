@@ -148,9 +148,15 @@ pub static CASES: &[Case] = &[
         measure: frictions::painleve_rod,
     },
     Case {
+        name: "parallelogram",
+        scene: "parallelogram",
+        trouble: "one condition too many, two at dead positions",
+        measure: constraints::parallelogram,
+    },
+    Case {
         name: "slider-crank",
         scene: "slider-crank",
-        trouble: "the slider stands still while the crank turns: stuck",
+        trouble: "a condition without gradient: stuck, or wrong branch",
         measure: constraints::slider_crank,
     },
     Case {

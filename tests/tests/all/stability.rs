@@ -47,6 +47,7 @@ cases! {
     belt_oscillator "belt-oscillator"
     coulomb_oscillator "coulomb-oscillator"
     painleve_rod "painleve-rod"
+    parallelogram "parallelogram"
     slider_crank "slider-crank"
     long_pendulum "long-pendulum"
     spherical_pendulum "spherical-pendulum"

@@ -1,12 +1,15 @@
-//! A slider-crank runs through its dead centres.
+//! A slider-crank runs through its dead centres; with equal crank and rod, also through its branching point.
 
 use lagrange_core::prelude::*;
 
 /// A crank with a flywheel drives a slider through a massless rod.
 ///
-/// At the dead centres (θ = 0, π) the slider stands while the crank turns.
+/// At the dead centres (θ = 0, π) the slider stands while the crank turns. With rod and crank of equal length there is
+/// more: where the slider passes the crank's axle the linkage could fold, and the condition's gradient vanishes there. The
+/// motion goes straight through.
 ///
-/// What to expect: without gravity ½ (J + m x′(θ)²) θ̇² is constant, and the time of a turn is a quadrature.
+/// What to expect: without gravity ½ (J + m x′(θ)²) θ̇² is constant, and the time of a turn is a quadrature; with equal
+/// lengths x = 2 r cos θ.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
     coordinates(theta, x),

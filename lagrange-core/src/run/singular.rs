@@ -1,0 +1,212 @@
+//! Isolated positions where constraints lose rank: a linkage in its dead position.
+//!
+//! The motion goes smoothly through such a position, but the equations cannot be solved there, and close to it rounding is
+//! amplified by the inverse of the distance. A Taylor polynomial from some way before it is good beyond it: a step must
+//! only not *end* close to it.
+//!
+//! How close is read from the pivots of G = A D⁻¹ Aᵀ (A the rows of constraints, D the diagonal of the mass matrix, each
+//! element at its largest so far) in Cholesky's factorization with complete pivoting: the smallest of them that is not always zero, over its largest value
+//! so far, is the square of a distance.
+
+use super::Run;
+use super::hits::Hit;
+use crate::arithmetic::Scalar;
+use crate::dynamics::Dynamics;
+use crate::integrate::taylor;
+use crate::system::{Place, System};
+
+/// A step may come nearer to a loss of rank, or to its other side, by this factor.
+const NEARER: f64 = 0.35;
+/// Farther away than this from one it may end anywhere.
+const CLOSE: f64 = 0.2;
+/// Else it is tried this much longer, over that position,
+const LEAP: f64 = 1.5;
+/// with any degree from this on,
+const LEAST_DEGREE: usize = 6;
+/// and then this much shorter,
+pub(super) const RETREAT: f64 = 0.75;
+/// so many times.
+pub(super) const MOST_RETREATS: usize = 5;
+/// Error of a leap in units of what is allowed for a step,
+const GOOD: f64 = 30.0;
+/// and where nothing better can be had any more.
+const BEARABLE: f64 = 1e4;
+
+/// A pivot below this share of the first has always been zero: its row depends on others everywhere.
+const DEPENDENT: f64 = 1e-10;
+
+/// Watches the rank of the constraints along a run.
+#[derive(Clone, Debug)]
+pub(super) struct Rank {
+    /// Rows that may lose rank; none: nothing to watch.
+    rows: Vec<usize>,
+    gram: Vec<f64>,
+    pivots: Vec<f64>,
+    /// Largest value of each pivot so far.
+    largest: Vec<f64>,
+    /// Largest diagonal elements of the mass matrix so far.
+    masses: Vec<f64>,
+    scaled: Vec<f64>,
+}
+
+impl Rank {
+    /// Watches the constraints whose Jacobian depends on the state and that act at all times.
+    pub(super) fn new<S: System>() -> Self {
+        let d = S::DESCRIPTION;
+        let n = d.coordinates.len();
+        let changes = |row: usize| {
+            let jacobian = d.rows[row].jacobian.iter();
+            jacobian
+                .clone()
+                .any(|(_, place)| matches!(place, Place::Node(_)))
+        };
+        let constraints = d.constraints.iter().filter(|c| c.while_contact.is_none());
+        let mut rows: Vec<usize> = constraints.map(|c| c.row).collect();
+        // A row that is constant cannot lose rank alone, but one that is not may come to depend on it.
+        if !rows.iter().any(|&row| changes(row)) {
+            rows.clear();
+        }
+        let m = rows.len();
+        Rank {
+            gram: vec![0.0; m * m],
+            pivots: vec![0.0; m],
+            largest: vec![0.0; m],
+            masses: vec![0.0; n],
+            scaled: vec![0.0; m * n],
+            rows,
+        }
+    }
+
+    /// Forgets earlier runs.
+    pub(super) fn restart(&mut self) {
+        self.largest.fill(0.0);
+        self.masses.fill(0.0);
+    }
+
+    /// Distance of the state that `dynamics` has evaluated from a loss of rank, 1 at the farthest so far.
+    pub(super) fn distance<S: System>(&mut self, dynamics: &Dynamics<S>) -> f64 {
+        if self.rows.is_empty() {
+            return 1.0;
+        }
+        self.fill(dynamics);
+        self.eliminate();
+        let mut nearest: f64 = 1.0;
+        for (largest, pivot) in self.largest.iter_mut().zip(&self.pivots) {
+            *largest = largest.max(*pivot);
+        }
+        let first = self.largest[0];
+        for (largest, pivot) in self.largest.iter().zip(&self.pivots) {
+            if *largest > DEPENDENT * first {
+                nearest = nearest.min((pivot / largest).max(0.0).sqrt());
+            }
+        }
+        nearest
+    }
+
+    fn fill<S: System>(&mut self, dynamics: &Dynamics<S>) {
+        let d = S::DESCRIPTION;
+        let n = d.coordinates.len();
+        let number = |place: Place| dynamics.motion(place).value();
+        for &(i, j, place) in d.mass {
+            let mass = number(place);
+            if i == j {
+                self.masses[i] = self.masses[i].max(mass);
+            }
+        }
+        let masses = &self.masses;
+        let mass = |j: usize| if masses[j] > 0.0 { masses[j] } else { 1.0 };
+        self.scaled.fill(0.0);
+        let m = self.rows.len();
+        for (k, &row) in self.rows.iter().enumerate() {
+            for &(j, place) in d.rows[row].jacobian {
+                self.scaled[k * n + j] = number(place) / mass(j).sqrt();
+            }
+        }
+        for i in 0..m {
+            for j in 0..m {
+                let pair = (0..n).map(|k| self.scaled[i * n + k] * self.scaled[j * n + k]);
+                self.gram[i * m + j] = pair.sum();
+            }
+        }
+    }
+
+    /// Pivots of the Gram matrix, descending.
+    fn eliminate(&mut self) {
+        let m = self.rows.len();
+        self.pivots.fill(0.0);
+        for step in 0..m {
+            let best =
+                (step..m).max_by(|&a, &b| self.gram[a * m + a].total_cmp(&self.gram[b * m + b]));
+            let best = best.unwrap_or(step);
+            for k in 0..m {
+                self.gram.swap(step * m + k, best * m + k);
+            }
+            for k in 0..m {
+                self.gram.swap(k * m + step, k * m + best);
+            }
+            let pivot = self.gram[step * m + step];
+            if !(pivot > 0.0) {
+                break;
+            }
+            self.pivots[step] = pivot;
+            for i in step + 1..m {
+                let factor = self.gram[i * m + step] / pivot;
+                for j in step + 1..m {
+                    self.gram[i * m + j] -= factor * self.gram[step * m + j];
+                }
+            }
+        }
+    }
+}
+
+impl<S: System> Run<S> {
+    /// Whether a step that ends at this distance from a loss of rank ends too close to it.
+    pub(super) fn ends_close(&self, distance: f64) -> bool {
+        distance < CLOSE && distance < NEARER * self.distance
+    }
+
+    /// Tries a step over the loss of rank that one of length `h` comes too close to.
+    ///
+    /// Rounding enters the equations amplified and grows through the coefficients as if the solution had a pole there; the
+    /// truncation error falls with the order. The order with the least defect beyond is the best compromise. False if none
+    /// is good enough; else the step is made and its end evaluated.
+    pub(super) fn leap(&mut self, h: f64) -> bool {
+        let h = LEAP * h;
+        if h > self.end - self.t.value() {
+            return false;
+        }
+        let mut least = if self.distance < CLOSE {
+            BEARABLE
+        } else {
+            GOOD
+        };
+        let mut best = None;
+        for degree in LEAST_DEGREE..=self.order {
+            if let Some((defect, distance)) = self.beyond(h, degree)
+                && defect < least
+                && distance >= NEARER * NEARER * self.distance
+            {
+                (least, best) = (defect, Some((degree, distance)));
+            }
+        }
+        let Some((degree, distance)) = best else {
+            return false;
+        };
+        self.distance = distance;
+        self.beyond(h, degree).is_some()
+    }
+
+    /// Defect and distance from a loss of rank at the end of a step of length `h` with a polynomial of this degree; nothing
+    /// if it cannot be evaluated there or something happens on the way.
+    fn beyond(&mut self, h: f64, degree: usize) -> Option<(f64, f64)> {
+        self.write_polynomial(h, degree);
+        self.curves
+            .take_series(&self.dynamics, &self.mode, &self.guards, &self.powers);
+        if self.first_hit() != Hit::Nothing || self.evaluate_end(1.0).is_err() {
+            return None;
+        }
+        let acceleration = self.dynamics.acceleration();
+        let defect = taylor::defect(&self.step, 1.0, acceleration, self.tolerance);
+        Some((defect, self.rank.distance(&self.dynamics)))
+    }
+}
