@@ -104,8 +104,7 @@ pub(crate) fn measure<S: System<Scalar = f64>>(
             result: judge(course, setting, &reference),
         })
         .collect();
-    let run = |setting: Setting, runs| course.time(setting, runs);
-    timing::fill(&mut rows, study.repeat, run);
+    timing::fill(&mut rows, study.repeat, |setting| course.clock(setting));
     Ok(Accuracy {
         scene,
         description: S::DESCRIPTION,

@@ -41,6 +41,9 @@ const fn explicit(tolerance: f64) -> [Setting; 2] {
     ]
 }
 
+/// Runs that differ by more have not found the same motion.
+const SAME: f64 = 1e-3;
+
 /// Steps of the Taylor method are the radius of convergence over e² (Jorba & Zou 2005).
 const RADIUS_PER_STEP: f64 = 7.389_056_098_930_65;
 
@@ -90,6 +93,14 @@ impl Reference {
     fn difference(&self, found: &Finish) -> Result<f64, String> {
         let (state, events) = self.errors(found)?;
         Ok(state.max(events.unwrap_or(0.0)))
+    }
+}
+
+/// The difference, if it is one between two accounts of the same motion.
+fn agreement(difference: f64) -> Result<f64, String> {
+    match difference < SAME {
+        true => Ok(difference),
+        false => Err(format!("ends elsewhere, by {difference:.1e}")),
     }
 }
 
@@ -175,7 +186,7 @@ fn from_closed_form(
         time: known.time,
         state: known.state,
     };
-    let difference = reference.difference(run);
+    let difference = reference.difference(run).and_then(agreement);
     Ok(Reference {
         difference: difference.map_err(|reason| refusal(checked_by, reason))?,
         ..reference
@@ -202,7 +213,8 @@ fn from_runs<S: System<Scalar = f64>>(
         let mut best: Option<(Setting, f64)> = None;
         for &setting in group {
             let run = course.run(setting).map_err(|error| error.to_string());
-            match run.and_then(|run| reference.difference(&finish(&run))) {
+            let difference = run.and_then(|run| reference.difference(&finish(&run)));
+            match difference.and_then(agreement) {
                 Ok(difference) if best.is_none_or(|(_, least)| difference < least) => {
                     best = Some((setting, difference));
                 }

@@ -1,6 +1,6 @@
 //! Times of all rows, taken in turn.
 
-use super::{Row, Setting};
+use super::{Measured, Row, Setting};
 
 /// Rounds, if the user does not say.
 const ROUNDS: usize = 15;
@@ -20,32 +20,46 @@ pub struct Timing {
     pub rounds: usize,
 }
 
-/// Times every row that has a result: `repeat` rounds, or a number that does not take too long. `run` gives the seconds
+/// Times every row that has a result: `repeat` rounds, or a number that does not take too long. A clock gives the seconds
 /// that one of a number of runs takes.
-pub(super) fn fill(rows: &mut [Row], repeat: Option<usize>, run: impl Fn(Setting, usize) -> f64) {
-    let mut samples: Vec<Vec<f64>> = vec![Vec::new(); rows.len()];
-    let mut spent = vec![0.0; rows.len()];
+pub(super) fn fill<C: FnMut(usize) -> f64>(
+    rows: &mut [Row],
+    repeat: Option<usize>,
+    clock: impl Fn(Setting) -> C,
+) {
+    struct Timed<'r, C> {
+        measured: &'r mut Measured,
+        clock: C,
+        samples: Vec<f64>,
+        spent: f64,
+    }
+    let timed = rows.iter_mut().filter_map(|row| {
+        Some(Timed {
+            measured: row.result.as_mut().ok()?,
+            clock: clock(row.setting),
+            samples: Vec::new(),
+            spent: 0.0,
+        })
+    });
+    let mut timed: Vec<Timed<C>> = timed.collect();
     for _ in 0..repeat.unwrap_or(ROUNDS) {
-        for (index, row) in rows.iter().enumerate() {
-            let over = repeat.is_none() && spent[index] > SHARE;
-            if row.result.is_err() || over {
+        for row in &mut timed {
+            if repeat.is_none() && row.spent > SHARE {
                 continue;
             }
             // The first run of a burst meets the caches that another method has left, and tells how long the burst is.
-            let first = run(row.setting, 1);
+            let first = (row.clock)(1);
             let runs = (BURST / first.max(1e-9)).min(1000.0) as usize;
             let each = match runs {
                 0 => first,
-                _ => run(row.setting, runs),
+                _ => (row.clock)(runs),
             };
-            spent[index] += first + each * runs as f64;
-            samples[index].push(each);
+            row.spent += first + each * runs as f64;
+            row.samples.push(each);
         }
     }
-    for (row, samples) in rows.iter_mut().zip(samples) {
-        if let Ok(measured) = &mut row.result {
-            measured.time = Timing::of(samples);
-        }
+    for row in timed {
+        row.measured.time = Timing::of(row.samples);
     }
 }
 

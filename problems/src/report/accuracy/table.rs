@@ -49,7 +49,7 @@ pub fn write(accuracy: &Accuracy, mut out: impl Write) -> io::Result<()> {
     writeln!(out, "{}", reference(accuracy))?;
     writeln!(
         out,
-        "Time: the best of up to {} rounds; over that of the fastest line that is at least as exact.",
+        "Time: the best of up to {} rounds, nothing recorded; over that of the fastest line that is at least as exact.",
         rounds(accuracy)
     )
 }
