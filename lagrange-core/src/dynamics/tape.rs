@@ -66,6 +66,8 @@ pub(super) struct Tape<T> {
     /// Accelerations alone.
     accelerations: Program,
     pub registers: Vec<T>,
+    /// Whether the registers hold everything at the state in them.
+    pub evaluated: bool,
     pub expansion: Expansion<T>,
     /// Order of the series held.
     pub order: usize,
@@ -219,6 +221,7 @@ impl<T: Scalar> Tape<T> {
             everything: program,
             accelerations,
             registers,
+            evaluated: false,
             expansion,
             order: 0,
             integrals: changes

@@ -53,6 +53,17 @@ impl<S: System> Dynamics<S> {
         self.select(v);
         let (_, _, tape) = self.modes[self.current].parts();
         let n = q.len();
+        // A step ends with a value and the next begins with a series; where there is nothing to refine that is the same.
+        let known = &tape.registers[1..2 + 2 * n];
+        if tape.evaluated
+            && tape.unsolved.is_none()
+            && known[0] == t
+            && known[1..=n] == *q
+            && known[1 + n..] == *v
+        {
+            return Ok(());
+        }
+        tape.evaluated = false;
         tape.registers[1] = t;
         tape.registers[2..2 + n].copy_from_slice(q);
         tape.registers[2 + n..2 + 2 * n].copy_from_slice(v);
@@ -70,6 +81,7 @@ impl<S: System> Dynamics<S> {
         }
         let (_, _, tape) = self.modes[self.current].parts();
         tape.evaluate(extent, FORCES);
+        tape.evaluated = extent == Extent::Everything;
         Ok(())
     }
 
