@@ -1,4 +1,4 @@
-//! Printers of an [`Accuracy`](crate::accuracy::Accuracy).
+//! Printers of an [`Accuracy`].
 
 pub mod answer;
 pub mod csv;
