@@ -1,6 +1,6 @@
 //! Dual numbers x + Σ xᵢ εᵢ with εᵢ εⱼ = 0: a value and its derivatives in N directions.
 //!
-//! They are [`Scalar`]s over any scalar, so they nest (second derivatives) and sit under jets (sensitivities of
+//! They are [`Scalar`]s over any scalar, so they nest (second derivatives) and sit under series (sensitivities of
 //! Taylor coefficients). Reference: Griewank & Walther 2008, Evaluating Derivatives, section 3.1.
 
 use super::Scalar;

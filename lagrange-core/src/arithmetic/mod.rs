@@ -3,10 +3,10 @@
 //! A tape is a function generic over [`Arithmetic`]. Each operation names the slot `to` that it writes:
 //! * **value**: a node is the number itself, slots are ignored, the tape compiles to plain arithmetic;
 //! * **derivative**: a node is a dual number;
-//! * **jet**: a node is a slot of a coefficient table. The tape is run for k = 0, 1, … and each run appends
-//!   the k-th Taylor coefficient of every node (Jorba & Zou 2005, section 2; Griewank & Walther 2008, chapter 13).
+//! * **recording**: a node is a register. The tape is written down once per mode ([`Recording`]), made short ([`Program`]), and
+//!   from then on runs as data: for values, and for Taylor coefficients k = 1, 2, … ([`Expansion`]).
 //!
-//! Operations that need auxiliary series (`tan`, `asin`, …) own the slots `to` and `to + 1`; so does a pair.
+//! Operations with a second result or an auxiliary series (`sin_cos`, `tan`, `asin`, …) own the slots `to` and `to + 1`.
 
 mod direct;
 mod dual;

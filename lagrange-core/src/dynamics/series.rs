@@ -1,4 +1,4 @@
-//! The jet reading: Taylor coefficients of the motion, its forces and all outputs.
+//! Taylor coefficients of the motion, its forces and all outputs.
 //!
 //! With K x = b and x = (v̇, −λ),
 //!
