@@ -1,7 +1,8 @@
 //! The equations of motion of a scene in one mode at a time: evaluated, expanded in Taylor series, projected.
 //!
-//! A [`Dynamics`] owns all memory that this takes. It is told a [`Mode`] and from then on runs only what that mode needs: the tapes are
-//! recorded for it once, together with the elimination of constant rows and, where it is small, the solution.
+//! A [`Dynamics`] owns all memory that this takes. It is told a [`Mode`] and from then on runs only what that mode needs:
+//! the tapes are recorded for it once, together with the elimination of constant rows and, where it is small, the
+//! solution.
 
 mod compiled;
 mod error;
