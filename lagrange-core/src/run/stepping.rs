@@ -56,13 +56,15 @@ impl<S: System> Run<S> {
             .ok_or_else(|| self.not_finite("a Taylor coefficient"))?
             .min(longest);
         let mut closer = 0;
+        let mut corrections = 0;
         loop {
             if self.t.value() + h <= self.t.value() {
                 return Err(self.step_too_small(h));
             }
             self.write_polynomial(h, self.order);
+            let guards = (&self.guards[..], &self.joints[..]);
             self.curves
-                .take_series(&self.dynamics, &self.mode, &self.guards, &self.powers);
+                .take_series(&self.dynamics, &self.mode, guards, &self.powers);
             let hit = self.first_hit();
             let end = hit.end();
             if end == 0.0 {
@@ -72,7 +74,8 @@ impl<S: System> Run<S> {
             let defect = if self.evaluate_end(end).is_ok() {
                 let accelerations = self.dynamics.acceleration();
                 let motion = taylor::defect(&self.step, end, accelerations, self.tolerance);
-                let (guards, tolerance) = (&self.guards, self.tolerance.relative);
+                let guards = (&self.guards[..], &self.joints[..]);
+                let tolerance = self.tolerance.relative;
                 let curves = &self.curves;
                 let guards = curves.defect(&mut self.dynamics, &self.mode, guards, end, tolerance);
                 // Not the larger of a number and a NaN, which would be the number.
@@ -96,6 +99,9 @@ impl<S: System> Run<S> {
             };
             match control.judge(h, defect, self.order) {
                 Verdict::Accept => {
+                    if self.corrects_joints(&hit, &mut corrections) {
+                        continue;
+                    }
                     self.distance = distance;
                     return Ok(hit);
                 }
@@ -175,20 +181,26 @@ impl<S: System> Run<S> {
                 });
             }
         }
-        let sampled = self.curves.sample(
-            &mut self.dynamics,
-            &self.mode,
-            &self.guards,
-            &self.step,
-            &mut self.scratch.q,
-            &mut self.scratch.v,
-        );
-        sampled.map_err(|e| self.error(e))?;
-        let hit = self.first_hit();
-        if hit.end() > 0.0 {
+        let mut corrections = 0;
+        loop {
+            let sampled = self.curves.sample(
+                &mut self.dynamics,
+                &self.mode,
+                (&self.guards, &self.joints),
+                &self.step,
+                &mut self.scratch.q,
+                &mut self.scratch.v,
+            );
+            sampled.map_err(|e| self.error(e))?;
+            let hit = self.first_hit();
+            if hit.end() == 0.0 {
+                return Ok(hit);
+            }
             self.evaluate_end(hit.end()).map_err(|e| self.error(e))?;
+            if !self.corrects_joints(&hit, &mut corrections) {
+                return Ok(hit);
+            }
         }
-        Ok(hit)
     }
 
     fn step_too_small(&self, step: f64) -> Error {

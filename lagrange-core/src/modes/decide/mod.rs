@@ -19,6 +19,7 @@ use crate::mode::{FrictionMode, Mode};
 use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
 use crate::modes::scale::Sizes;
+use crate::modes::sharing::{Joint, Sharing};
 use crate::modes::table::Table;
 use crate::pool::Pool;
 use crate::system::{Description, System};
@@ -34,24 +35,30 @@ pub struct Decision {
     pub zeros: Vec<(Guard, usize)>,
     /// Whether another mode with another motion was feasible too.
     pub ambiguous: bool,
+    /// Joint guards that are at their border, or near it.
+    pub joints: Vec<Joint>,
     /// Whether the dynamics hold the series of this mode at the moment, for the needs of its guards.
     pub expanded: bool,
 }
 /// Memory of decisions, and the last one.
 #[derive(Clone, Debug)]
-pub struct Decider {
+pub struct Decider<T> {
     /// What was found last.
     pub decision: Decision,
     candidates: Pool<Mode>,
     questions: Vec<(Guard, usize)>,
     zeros: Vec<(Guard, usize)>,
+    /// What forbids the candidate examined last.
+    violated: Vec<Guard>,
+    sharing: Sharing<T>,
+    joints: Vec<Joint>,
     motion: Vec<f64>,
     sizes: Sizes,
     /// Needs of everything about every row.
     rows: NeedSet,
 }
 
-impl Decider {
+impl<T: Scalar> Decider<T> {
     /// Memory for a system.
     pub fn new(description: &Description) -> Self {
         Self {
@@ -59,11 +66,15 @@ impl Decider {
                 mode: Mode::open(description),
                 zeros: Vec::new(),
                 ambiguous: false,
+                joints: Vec::new(),
                 expanded: false,
             },
             candidates: Pool::default(),
             questions: Vec::new(),
             zeros: Vec::new(),
+            violated: Vec::new(),
+            sharing: Sharing::default(),
+            joints: Vec::new(),
             motion: Vec::new(),
             sizes: Sizes::default(),
             rows: guard::all_row_needs(description, &NeedSet::new(description)),
@@ -77,7 +88,7 @@ impl Decider {
     ///
     /// # Errors
     /// [`Error::NoMode`] if no candidate is feasible (Painlevé's paradox).
-    pub fn decide<S: System>(
+    pub fn decide<S: System<Scalar = T>>(
         &mut self,
         dynamics: &mut Dynamics<S>,
         table: &mut Table,
@@ -122,7 +133,7 @@ impl Decider {
     }
 
     /// See [`Known::residue`]; `dynamics` holds the values of the moment in the mode that ends.
-    pub fn residue<S: System>(
+    pub fn residue<S: System<Scalar = T>>(
         &mut self,
         dynamics: &Dynamics<S>,
         mode: &Mode,
@@ -145,7 +156,7 @@ impl Decider {
     }
 
     /// The feasible candidate to be preferred, and the last that could not be evaluated.
-    fn best<S: System>(
+    fn best<S: System<Scalar = T>>(
         &mut self,
         dynamics: &mut Dynamics<S>,
         table: &mut Table,
@@ -177,6 +188,7 @@ impl Decider {
                     best = Some(index);
                     self.decision.ambiguous = false;
                     core::mem::swap(&mut self.decision.zeros, &mut self.zeros);
+                    self.decision.joints.clone_from(&self.joints);
                     self.motion.clear();
                     let motion = dynamics.acceleration().iter().map(|a| a.value());
                     self.motion.extend(motion);
@@ -223,7 +235,7 @@ fn concerned<S: System>(known: &Known) -> &'static str {
         | Guard::Slip(f)
         | Guard::Bearing(f) => Some(d.frictions[f].name),
         Guard::Branch(b) => Some(d.branches[b].text),
-        Guard::Stop(..) | Guard::Mark(..) => None,
+        Guard::Stop(..) | Guard::Mark(..) | Guard::Joint(_) => None,
     });
     let resting = known
         .resting
