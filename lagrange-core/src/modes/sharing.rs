@@ -86,7 +86,7 @@ pub struct Sharing<T> {
 }
 
 /// What rounding leaves of a bound, relative to its size.
-const ROUNDING: f64 = 1e-12;
+const ROUNDING: f64 = 1e-10;
 
 impl<T: Scalar> Sharing<T> {
     /// Forgets everything: all forces are determined.
@@ -242,11 +242,15 @@ impl<T: Scalar> Sharing<T> {
             let rows = 0..S::DESCRIPTION.rows.len();
             return rows.map(|row| dynamics.force(row)).collect();
         }
-        self.q.clear();
-        let values = self.bounds.iter().map(|bound| bound.value + ROUNDING);
-        self.q.extend(values);
         let mut forces = self.least.clone();
-        if self.lemke.solve(&self.matrix, &self.q) == Outcome::Solved {
+        // At its border a mode allows one share only, and rounding may take that away.
+        let solved = [0.0, ROUNDING].into_iter().any(|slack| {
+            self.q.clear();
+            let values = self.bounds.iter().map(|bound| bound.value + slack);
+            self.q.extend(values);
+            self.lemke.solve(&self.matrix, &self.q) == Outcome::Solved
+        });
+        if solved {
             for (bound, &w) in self.bounds.iter().zip(self.lemke.z()) {
                 for &(i, factor) in bound.terms.iter().filter(|_| w > 0.0) {
                     let change = self.freedom.row(i);

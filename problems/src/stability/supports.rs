@@ -3,7 +3,6 @@
 use super::kit::{closure, event, relative, run, violation};
 use super::{Extent, Figure, Surprise};
 use crate::scenes::hard::{BeamOnSupports, RodOnSupports, Sled};
-use lagrange_core::prelude::*;
 
 /// 1 unless `flags` are those expected.
 fn wrongly_flagged(flags: &[bool], expected: &[bool]) -> f64 {

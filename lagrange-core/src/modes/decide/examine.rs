@@ -179,13 +179,7 @@ impl<T: Scalar> Decider<T> {
                 Leading::Rises(0) => {}
                 Leading::Rises(k) => self.zeros.push((guard, k)),
                 Leading::Stays if !last => unclear = true,
-                // What cannot slip because others stick, sticks.
-                Leading::Stays
-                    if matches!(guard, Guard::Slip(f)
-                        if dynamics.follows(S::DESCRIPTION.frictions[f].row)) =>
-                {
-                    self.violated.push(guard);
-                }
+                Leading::Stays if is_held::<S>(guard, dynamics) => self.violated.push(guard),
                 Leading::Stays => {
                     let blurred = concerns(guard, &self.joints, known);
                     if order_known > 0 || series.iter().all(|c| *c <= 0.0) || blurred {
@@ -274,6 +268,17 @@ impl<T: Scalar> Decider<T> {
             Some(k) if series[k] < 0.0 => Leading::Falls,
             Some(k) => Leading::Rises(k),
         }
+    }
+}
+
+/// Whether a contact cannot open because others are closed, or a friction cannot slip because others stick: then the mode
+/// in which it is closed, or sticks, has the same motion, and more forces to choose from.
+fn is_held<S: System>(guard: Guard, dynamics: &Dynamics<S>) -> bool {
+    let d = S::DESCRIPTION;
+    match guard {
+        Guard::Gap(c) => dynamics.follows(d.contacts[c].row),
+        Guard::Slip(f) => dynamics.follows(d.frictions[f].row),
+        _ => false,
     }
 }
 
