@@ -54,6 +54,8 @@ enum Op {
     Sqrt { x: usize },
     Ratio { constant: usize, x: usize },
     Sum { first: usize, end: usize },
+    /// What is in the node already.
+    Given,
 }
 
 /// Operations in order; the result of operation `i` is node `first + i`.
@@ -113,6 +115,12 @@ impl<T: Scalar> Program<T> {
             }
             (Place::Node(x), Place::Node(y)) => self.push(Op::Mul { x, y }),
         }
+    }
+
+    /// A number that is put into its node before the program runs: the node, and the operation that stands for it.
+    pub(crate) fn given(&mut self) -> (usize, usize) {
+        self.ops.push(Op::Given);
+        (self.first + self.ops.len() - 1, self.ops.len() - 1)
     }
 
     /// c x
@@ -196,6 +204,7 @@ impl<T: Scalar> Program<T> {
                 Op::Sqrt { x } => a.sqrt(to, nodes[x]),
                 Op::Sum { first, end } => a.sum(to, &self.terms[first..end], nodes),
                 Op::Ratio { constant, x } => a.ratio(to, constants[constant], nodes[x]),
+                Op::Given => continue,
             };
         }
     }
