@@ -1,0 +1,4 @@
+//! Units.
+
+mod dimension;
+mod grammar;
