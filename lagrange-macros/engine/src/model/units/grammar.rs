@@ -224,10 +224,7 @@ impl Reader {
                 &format!("`{symbol}` has no place in a unit"),
                 "write units like `kg m^2/s^2`",
             ),
-            None => form(
-                "the unit ends too early",
-                "write units like `kg m^2/s^2`",
-            ),
+            None => form("the unit ends too early", "write units like `kg m^2/s^2`"),
         }
     }
 
@@ -248,7 +245,10 @@ impl Reader {
                 Some('*' | '.' | '\u{b7}' | '\u{22c5}') => {
                     self.at += 1;
                     if self.peek() == Some('*') {
-                        return Err(form("`**` is not used in units", "a power is written `m^2`"));
+                        return Err(form(
+                            "`**` is not used in units",
+                            "a power is written `m^2`",
+                        ));
                     }
                     self.blanks();
                     self.text.push(' ');
@@ -288,7 +288,11 @@ impl Reader {
             }
             Some(digit) if digit.is_ascii_digit() => {
                 self.at += 1;
-                if digit != '1' || self.peek().is_some_and(|next| next.is_ascii_digit() || next == '.') {
+                if digit != '1'
+                    || self
+                        .peek()
+                        .is_some_and(|next| next.is_ascii_digit() || next == '.')
+                {
                     let hint = "numbers are not converted: write the unit alone, and put the number into the value";
                     return Err(form("a unit has no number in it", hint));
                 }
@@ -361,7 +365,11 @@ impl Reader {
             self.at += 1;
         }
         let digits: String = self.symbols[start..self.at].iter().collect();
-        let fraction = self.peek() == Some('.') && self.symbols.get(self.at + 1).is_some_and(char::is_ascii_digit);
+        let fraction = self.peek() == Some('.')
+            && self
+                .symbols
+                .get(self.at + 1)
+                .is_some_and(char::is_ascii_digit);
         digits
             .replace('\u{2212}', "-")
             .parse()
@@ -377,7 +385,8 @@ fn is_letter(symbol: char) -> bool {
 
 /// `²` as `2`.
 fn small_digit(symbol: char) -> Option<char> {
-    const SMALL: &str = "\u{2070}\u{b9}\u{b2}\u{b3}\u{2074}\u{2075}\u{2076}\u{2077}\u{2078}\u{2079}";
+    const SMALL: &str =
+        "\u{2070}\u{b9}\u{b2}\u{b3}\u{2074}\u{2075}\u{2076}\u{2077}\u{2078}\u{2079}";
     if symbol == '\u{207b}' {
         return Some('-');
     }
@@ -419,10 +428,13 @@ fn meant(symbol: &str) -> String {
     if let Some((_, unit)) = word {
         return format!("write `{unit}`");
     }
-    let mut cuts = symbol.char_indices().skip(1).map(|(at, _)| symbol.split_at(at));
-    if let Some((first, second)) = cuts.find(|(first, second)| {
-        UNITS.iter().any(|(unit, ..)| unit == first) && is_known(second)
-    }) {
+    let mut cuts = symbol
+        .char_indices()
+        .skip(1)
+        .map(|(at, _)| symbol.split_at(at));
+    if let Some((first, second)) = cuts
+        .find(|(first, second)| UNITS.iter().any(|(unit, ..)| unit == first) && is_known(second))
+    {
         return format!("a product is written with a blank: `{first} {second}`");
     }
     let units = UNITS.iter().map(|(unit, ..)| *unit).chain(["kg"]);
@@ -439,15 +451,34 @@ mod tests {
     #[test]
     fn ways_of_writing_one_unit() {
         let energy = [
-            "J", "N m", "N.m", "N*m", "N\u{b7}m", "kg m^2/s^2", "kg m\u{b2} s\u{207b}\u{b2}", "kg*m^2*s^-2", "kg (m/s)^2",
-            "W s", "kN mm", "V A s", " J ", "kg^(1/2) kg^(1/2) m^2/s/s", "1 J", "C V", "Pa m^3", "MPa cm^3",
+            "J",
+            "N m",
+            "N.m",
+            "N*m",
+            "N\u{b7}m",
+            "kg m^2/s^2",
+            "kg m\u{b2} s\u{207b}\u{b2}",
+            "kg*m^2*s^-2",
+            "kg (m/s)^2",
+            "W s",
+            "kN mm",
+            "V A s",
+            " J ",
+            "kg^(1/2) kg^(1/2) m^2/s/s",
+            "1 J",
+            "C V",
+            "Pa m^3",
+            "MPa cm^3",
         ];
         for text in energy {
             let read = unit(text).unwrap_or_else(|refusal| panic!("{text}: {refusal:?}"));
             assert_eq!(read.dimension, Dimension::ENERGY, "{text}");
         }
         for text in ["1", "rad", "sr", "m/m", "N s^2/(kg m)"] {
-            assert!(unit(text).is_ok_and(|read| read.dimension.is_one()), "{text}");
+            assert!(
+                unit(text).is_ok_and(|read| read.dimension.is_one()),
+                "{text}"
+            );
         }
         assert_eq!(unit("kg m^2/s^2").unwrap().text, "kg m\u{b2}/s\u{b2}");
         assert_eq!(unit("N.m").unwrap().text, "N m");
@@ -456,12 +487,33 @@ mod tests {
 
     #[test]
     fn texts_of_dimensions_read_back() {
-        let texts = ["J", "N", "m/s", "kg m/s", "1/s", "kg/s\u{b2}", "m^(1/2)", "1/(K m)", "\u{3a9}", "kg m\u{b2}"];
+        let texts = [
+            "J",
+            "N",
+            "m/s",
+            "kg m/s",
+            "1/s",
+            "kg/s\u{b2}",
+            "m^(1/2)",
+            "1/(K m)",
+            "\u{3a9}",
+            "kg m\u{b2}",
+        ];
         for text in texts {
             let dimension = unit(text).unwrap().dimension;
-            assert_eq!(unit(&dimension.text()).unwrap().dimension, dimension, "{text}");
+            assert_eq!(
+                unit(&dimension.text()).unwrap().dimension,
+                dimension,
+                "{text}"
+            );
         }
-        for (text, force) in [("J", "N m"), ("kg/s^2", "N/m"), ("N", "N"), ("kg m/s", "kg m/s"), ("J m", "N m\u{b2}")] {
+        for (text, force) in [
+            ("J", "N m"),
+            ("kg/s^2", "N/m"),
+            ("N", "N"),
+            ("kg m/s", "kg m/s"),
+            ("J m", "N m\u{b2}"),
+        ] {
             assert_eq!(unit(text).unwrap().dimension.as_force(), force);
         }
     }
@@ -469,10 +521,21 @@ mod tests {
     #[test]
     fn multiples_are_told_with_their_coherent_unit() {
         let multiples = [
-            ("mm", "m"), ("g", "kg"), ("deg", "rad"), ("min", "s"), ("km/h", "m/s"), ("kN", "N"), ("rpm", "1/s"), ("mrad", "rad"),
+            ("mm", "m"),
+            ("g", "kg"),
+            ("deg", "rad"),
+            ("min", "s"),
+            ("km/h", "m/s"),
+            ("kN", "N"),
+            ("rpm", "1/s"),
+            ("mrad", "rad"),
         ];
         for (text, coherent) in multiples {
-            assert_eq!(unit(text), Err(Refusal::Multiple(coherent.to_string())), "{text}");
+            assert_eq!(
+                unit(text),
+                Err(Refusal::Multiple(coherent.to_string())),
+                "{text}"
+            );
         }
     }
 
@@ -485,11 +548,27 @@ mod tests {
         assert_eq!(hint("Nm"), "a product is written with a blank: `N m`");
         assert_eq!(hint("meter"), "write `m`");
         assert_eq!(hint("KG"), "did you mean `kg`?");
-        assert_eq!(hint("furlong"), "units are those of the SI: `kg m^2/s^2`, `N m`, `rad`");
+        assert_eq!(
+            hint("furlong"),
+            "units are those of the SI: `kg m^2/s^2`, `N m`, `rad`"
+        );
         assert_eq!(hint("J/kg K"), "use parentheses: `J/(kg K)`");
         assert_eq!(hint("m2"), "write `m^2`, or `m\u{b2}`");
         assert!(hint("9.81 m/s^2").starts_with("numbers are not converted"));
-        for text in ["", "m^", "m/", "m^1/2", "(m", "m)", "m + s", "m^(1/0)", "m^0.5", "m^99999999999999999999", "\u{1F600}", "m^9223372036854775807 m^9223372036854775807 m^9223372036854775807"] {
+        for text in [
+            "",
+            "m^",
+            "m/",
+            "m^1/2",
+            "(m",
+            "m)",
+            "m + s",
+            "m^(1/0)",
+            "m^0.5",
+            "m^99999999999999999999",
+            "\u{1F600}",
+            "m^9223372036854775807 m^9223372036854775807 m^9223372036854775807",
+        ] {
             assert!(unit(text).is_err() || text.starts_with("m^9"), "{text}");
         }
     }
