@@ -9,7 +9,7 @@
 //! ```
 
 use super::dimension::Dimension;
-use super::infer::Shape;
+use super::infer::{Role, Shape};
 use super::quantity::{Quantity, Unknowns};
 use crate::ast::{
     self, Action, Clause, Declaration, Expr, FrictionLaw, Head, ItemKind, Observe, Order,
@@ -67,6 +67,8 @@ pub(super) struct Checker<'a, 'b> {
     pub unknowns: Unknowns,
     /// Of fields, coordinates and definitions; `None` after a mistake.
     pub names: BTreeMap<String, Option<Shape>>,
+    /// Of fields and coordinates without a unit.
+    pub inferred: BTreeMap<String, Quantity>,
     /// E
     pub energy: Quantity,
     pub forces: Forces,
@@ -252,7 +254,7 @@ impl Checker<'_, '_> {
         for other in &forces {
             let (one, another) = (self.unknowns.read(force)?, self.unknowns.read(other)?);
             if self.unknowns.equate(&one, &another).is_err() {
-                let (one, another) = (self.phrase(&one), self.phrase(&another));
+                let (one, another) = (self.phrase(&one, true), self.phrase(&another, true));
                 let hint = "both components of a slip are velocities, in m/s";
                 self.mistake(
                     Code::UnitExpected,
@@ -283,9 +285,17 @@ impl Checker<'_, '_> {
         match &friction.law {
             FrictionLaw::Limit(limit) => match &limit.kind {
                 ast::ExprKind::List(limits) => limits.iter().try_for_each(|limit| {
-                    self.expect(limit, force, "the friction force along this slip")
+                    self.expect(
+                        limit,
+                        force,
+                        Role::force("the friction force along this slip"),
+                    )
                 }),
-                _ => self.expect(limit, force, "the friction force along this slip"),
+                _ => self.expect(
+                    limit,
+                    force,
+                    Role::force("the friction force along this slip"),
+                ),
             },
             FrictionLaw::Coefficients {
                 normal,
@@ -298,7 +308,7 @@ impl Checker<'_, '_> {
                     .as_ref()
                     .map_or(Some(()), |slide| self.plain(slide, what));
                 let normal = normal.as_ref().map_or(Some(()), |normal| {
-                    self.expect(normal, force, "the normal force for this slip")
+                    self.expect(normal, force, Role::force("the normal force for this slip"))
                 });
                 stick.and(slide).and(normal)
             }
@@ -322,7 +332,7 @@ impl Checker<'_, '_> {
             }
             _ => "write both sides of the constraint as distances, in m, or as velocities, in m/s",
         };
-        let (force, newton) = (self.phrase(&force), self.phrase(&newton));
+        let (force, newton) = (self.phrase(&force, true), self.phrase(&newton, true));
         self.mistake(
             Code::PressedBy,
             &on.name,
@@ -342,13 +352,13 @@ impl Checker<'_, '_> {
                 let unit = per(self, &energy, &coordinate);
                 let what = format!("a force along `{}`", reference.name.text);
                 self.forces.forces.insert(element, unit.clone());
-                return self.expect(value, &unit, &what);
+                return self.expect(value, &unit, Role::force(&what));
             }
             Action::Along(value, speed) => {
                 let speed = self.one(speed, None)?;
                 let power = self.times_time(&energy, -1);
                 let unit = per(self, &power, &speed);
-                self.expect(value, &unit, "a force along this velocity")?;
+                self.expect(value, &unit, Role::force("a force along this velocity"))?;
                 unit
             }
             Action::At(value, point) => {
@@ -361,7 +371,7 @@ impl Checker<'_, '_> {
                     .iter()
                     .map(|point| per(self, &energy, point))
                     .collect();
-                let what = "a force at this point";
+                let what = Role::force("a force at this point");
                 if values.len() == units.len() {
                     for (value, unit) in values.into_iter().zip(&units) {
                         self.expect(value, unit, what)?;
@@ -397,12 +407,12 @@ impl Checker<'_, '_> {
         let expect = |this: &mut Self| match &value.value.kind {
             ast::ExprKind::List(values) => values
                 .iter()
-                .try_for_each(|value| this.expect(value, &unit, &what)),
+                .try_for_each(|value| this.expect(value, &unit, what.as_str())),
             _ => {
                 let found = this.shape(&value.value, Some(&unit))?.quantities();
                 found
                     .iter()
-                    .try_for_each(|found| this.equal(&unit, found, &what, &value.value))
+                    .try_for_each(|found| this.equal(&unit, found, what.as_str(), &value.value))
             }
         };
         match &value.element {

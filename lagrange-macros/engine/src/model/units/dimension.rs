@@ -80,11 +80,6 @@ impl Dimension {
         Some(product)
     }
 
-    /// selfʳ
-    pub fn power(self, r: Rational) -> Option<Dimension> {
-        Dimension::ONE.times(self, r)
-    }
-
     /// The power of time that it is, if it is nothing else.
     pub fn as_time(self) -> Option<Rational> {
         let rest = self.times(Dimension::TIME, self.0[2].checked_neg()?)?;

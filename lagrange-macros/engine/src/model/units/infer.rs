@@ -37,6 +37,33 @@ impl Shape {
     }
 }
 
+/// What a unit is expected of, for messages.
+#[derive(Clone, Copy)]
+pub(super) struct Role<'a> {
+    /// `a slip`
+    pub what: &'a str,
+    /// Whether J is read as N m.
+    pub is_force: bool,
+}
+
+impl<'a> From<&'a str> for Role<'a> {
+    fn from(what: &'a str) -> Role<'a> {
+        Role {
+            what,
+            is_force: false,
+        }
+    }
+}
+
+impl Role<'_> {
+    pub fn force(what: &str) -> Role<'_> {
+        Role {
+            what,
+            is_force: true,
+        }
+    }
+}
+
 impl Checker<'_, '_> {
     /// The unit of a single value.
     pub fn one(&mut self, expr: &Expr, hint: Option<&Quantity>) -> Option<Quantity> {
@@ -47,9 +74,14 @@ impl Checker<'_, '_> {
     }
 
     /// Whether an expression has the unit that is wanted; if not, says so.
-    pub fn expect(&mut self, expr: &Expr, wanted: &Quantity, what: &str) -> Option<()> {
+    pub fn expect<'a>(
+        &mut self,
+        expr: &Expr,
+        wanted: &Quantity,
+        role: impl Into<Role<'a>>,
+    ) -> Option<()> {
         let found = self.one(expr, Some(wanted))?;
-        self.equal(wanted, &found, what, expr)
+        self.equal(wanted, &found, role, expr)
     }
 
     /// Whether an expression is a plain number.
@@ -57,18 +89,23 @@ impl Checker<'_, '_> {
         self.expect(expr, &Dimension::ONE.into(), what)
     }
 
-    pub fn equal(
+    /// Whether the unit found for an expression is the wanted one; if not, says so.
+    pub fn equal<'a>(
         &mut self,
         wanted: &Quantity,
         found: &Quantity,
-        what: &str,
+        role: impl Into<Role<'a>>,
         expr: &Expr,
     ) -> Option<()> {
         let Err((wanted, found)) = self.unknowns.equate(wanted, found) else {
             return Some(());
         };
+        let Role { what, is_force } = role.into();
         let hint = self.remedy(&wanted, &found, expr);
-        let (wanted, found) = (self.phrase(&wanted), self.phrase(&found));
+        let (wanted, found) = (
+            self.phrase(&wanted, is_force),
+            self.phrase(&found, is_force),
+        );
         self.sink.report(
             Code::UnitExpected,
             expr.extent,
@@ -87,13 +124,8 @@ impl Checker<'_, '_> {
             ExprKind::Number(_) => one(Dimension::ONE),
             ExprKind::Name(name) => self.name(name),
             ExprKind::Sum(terms) => {
-                let shapes: Vec<Option<Shape>> = terms
-                    .iter()
-                    .map(|(_, term)| self.shape(term, hint))
-                    .collect();
-                let shapes: Vec<Shape> = shapes.into_iter().collect::<Option<_>>()?;
                 let terms: Vec<&Expr> = terms.iter().map(|(_, term)| term).collect();
-                self.sum(&terms, shapes, hint)
+                self.terms(&terms, hint)
             }
             ExprKind::Product(factors) => self.product(factors, hint),
             ExprKind::Negative(inner) => self.shape(inner, hint),
@@ -111,8 +143,7 @@ impl Checker<'_, '_> {
                     );
                 }
                 self.comparison(condition)?;
-                let (a, b) = (self.shape(then, hint), self.shape(otherwise, hint));
-                self.sum(&[then, otherwise], vec![a?, b?], hint)
+                self.terms(&[then, otherwise], hint)
             }
             ExprKind::SumOver(index, body) => self.sum_over(index, body, hint),
             ExprKind::List(elements) => {
@@ -139,6 +170,20 @@ impl Checker<'_, '_> {
                 })
             }
         }
+    }
+
+    /// Values of one unit. Those that can be read are compared even if others cannot.
+    fn terms(&mut self, terms: &[&Expr], hint: Option<&Quantity>) -> Option<Shape> {
+        let found: Vec<(&Expr, Option<Shape>)> = terms
+            .iter()
+            .map(|&term| (term, self.shape(term, hint)))
+            .collect();
+        let complete = found.iter().all(|(_, shape)| shape.is_some());
+        let (terms, shapes): (Vec<&Expr>, Vec<Shape>) = found
+            .into_iter()
+            .filter_map(|(term, shape)| Some((term, shape?)))
+            .unzip();
+        self.sum(&terms, shapes, hint).filter(|_| complete)
     }
 
     /// Units that must agree: of terms, or of the sides of a condition.
@@ -418,11 +463,8 @@ impl Checker<'_, '_> {
                 plain
             }
             ("min" | "max", several) => {
-                let shapes: Vec<Option<Shape>> =
-                    several.iter().map(|e| self.shape(e, hint)).collect();
-                let shapes: Vec<Shape> = shapes.into_iter().collect::<Option<_>>()?;
                 let terms: Vec<&Expr> = several.iter().collect();
-                self.sum(&terms, shapes, hint)
+                self.terms(&terms, hint)
             }
             ("dot" | "cross" | "norm", lists) => self.of_lists(name, lists),
             ("gap" | "slip" | "momentum", [inner]) => {
@@ -444,7 +486,7 @@ impl Checker<'_, '_> {
             (function, several) if Function::from_name(function).is_some() => {
                 let what = format!("the argument of `{function}`");
                 for argument in several {
-                    self.plain(argument, &what)?;
+                    self.plain(argument, what.as_str())?;
                 }
                 plain
             }
@@ -504,9 +546,14 @@ impl Checker<'_, '_> {
     }
 
     /// `in m/s`, `a plain number`
-    pub fn phrase(&self, quantity: &Quantity) -> String {
-        match self.unknowns.text(quantity) {
-            plain if plain.is_empty() => "a plain number".to_string(),
+    pub fn phrase(&self, quantity: &Quantity, is_force: bool) -> String {
+        let known = self.unknowns.dimension(quantity);
+        let unit = match known.filter(|_| is_force) {
+            Some(dimension) => dimension.as_force(),
+            None => self.unknowns.text(quantity),
+        };
+        match unit.as_str() {
+            "" => "a plain number".to_string(),
             unit => format!("in {unit}"),
         }
     }
@@ -521,6 +568,21 @@ impl Checker<'_, '_> {
 
     /// What to do about an expression that has another unit than the wanted one.
     pub fn remedy(&mut self, wanted: &Quantity, found: &Quantity, expr: &Expr) -> String {
+        let mut names = Vec::new();
+        names_in(expr, &mut names);
+        let inferred = names.into_iter().find_map(|name| {
+            let quantity = self.inferred.get(name)?;
+            Some(format!(
+                "`{name}` must be {} elsewhere: give it a unit, or another name here",
+                self.phrase(quantity, false)
+            ))
+            .filter(|_| self.unknowns.dimension(quantity).is_some())
+        });
+        inferred.unwrap_or_else(|| self.missing(wanted, found, expr))
+    }
+
+    /// The factor that is missing.
+    fn missing(&mut self, wanted: &Quantity, found: &Quantity, expr: &Expr) -> String {
         let factor = self.unknowns.times(wanted, found, Rational::MINUS_ONE);
         if is_number(expr) {
             let unit = self.unknowns.text(&factor);
@@ -532,7 +594,14 @@ impl Checker<'_, '_> {
             return "units are `#[lagrange(unit = \"…\")]` on fields, and `coordinates(x: \"m\")`"
                 .to_string();
         };
-        match factor.as_time() {
+        if let Some(number) = constant(expr) {
+            return format!(
+                "`{number}` is a plain number: make it a field with `#[lagrange(unit = \"{}\")]`",
+                factor.text()
+            );
+        }
+        let is_plain = wanted.known().is_some_and(Dimension::is_one);
+        match factor.as_time().filter(|_| !is_plain) {
             Some(power) if power == Rational::MINUS_ONE => "is a `der(…)` missing?".to_string(),
             Some(power) if power.is_one() => "is there a `der(…)` too many?".to_string(),
             _ => format!("a factor in {} is missing", factor.text()),
@@ -560,5 +629,40 @@ fn is_number(expr: &Expr) -> bool {
         ExprKind::Product(factors) => factors.iter().all(|(_, factor)| is_number(factor)),
         ExprKind::Power(base, exponent) => is_number(base) && is_number(exponent),
         _ => false,
+    }
+}
+
+/// A number in a product that looks like a constant of nature: one with decimals, or above ten.
+fn constant(expr: &Expr) -> Option<&Expr> {
+    match &expr.kind {
+        ExprKind::Number(number) if number.exponent < 0 || number.digits > 10 => Some(expr),
+        ExprKind::Negative(inner) => constant(inner),
+        ExprKind::Product(factors) => factors.iter().find_map(|(_, factor)| constant(factor)),
+        _ => None,
+    }
+}
+
+/// The names that an expression uses, in order.
+fn names_in<'a>(expr: &'a Expr, names: &mut Vec<&'a str>) {
+    match &expr.kind {
+        ExprKind::Number(_) => {}
+        ExprKind::Name(name) => names.push(&name.text),
+        ExprKind::Sum(terms) => terms.iter().for_each(|(_, term)| names_in(term, names)),
+        ExprKind::Product(factors) => factors
+            .iter()
+            .for_each(|(_, factor)| names_in(factor, names)),
+        ExprKind::Negative(inner) | ExprKind::SumOver(_, inner) => names_in(inner, names),
+        ExprKind::Member(inner, _) | ExprKind::Element(inner, _) => names_in(inner, names),
+        ExprKind::Power(base, exponent) => [base, exponent]
+            .into_iter()
+            .for_each(|part| names_in(part, names)),
+        ExprKind::Call(_, parts) | ExprKind::List(parts) => {
+            parts.iter().for_each(|part| names_in(part, names));
+        }
+        ExprKind::If(condition, then, otherwise) => {
+            for part in [&condition.left, &condition.right, then, otherwise] {
+                names_in(part, names);
+            }
+        }
     }
 }

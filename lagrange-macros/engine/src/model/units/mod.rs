@@ -151,11 +151,15 @@ impl Elaboration<'_> {
         per_mass: bool,
     ) -> Diagnostics {
         let mut unknowns = Unknowns::default();
-        let mut names = BTreeMap::new();
+        let (mut names, mut inferred) = (BTreeMap::new(), BTreeMap::new());
         for one in given {
             let quantity: Quantity = match &one.unit {
                 Some(unit) => unit.dimension.into(),
-                None => unknowns.fresh(&one.name.text),
+                None => {
+                    let unknown = unknowns.fresh(&one.name.text);
+                    inferred.insert(one.name.text.clone(), unknown.clone());
+                    unknown
+                }
             };
             let shape = match one.length {
                 None => Shape::One(quantity),
@@ -173,6 +177,7 @@ impl Elaboration<'_> {
             sink: Diagnostics::new(),
             unknowns,
             names,
+            inferred,
             energy,
             forces: Forces::default(),
             gaps: BTreeMap::new(),
