@@ -9,7 +9,7 @@
 //! ```
 
 use super::dimension::Dimension;
-use super::infer::{Role, Shape};
+use super::infer::{Role, Shape, is_number};
 use super::quantity::{Quantity, Unknowns};
 use crate::ast::{
     self, Action, Clause, Declaration, Expr, FrictionLaw, Head, ItemKind, Observe, Order,
@@ -158,7 +158,7 @@ impl Checker<'_, '_> {
                     Trigger::All(clauses) => {
                         for clause in clauses {
                             if let Clause::Comparison(comparison) = clause {
-                                this.comparison(comparison)?;
+                                this.loosely(comparison)?;
                             }
                         }
                         Some(())
@@ -215,7 +215,7 @@ impl Checker<'_, '_> {
         };
         let region = match &contact.region {
             None => Some(()),
-            Some(region) => self.comparison(region).map(|_| ()),
+            Some(region) => self.loosely(region).map(|_| ()),
         };
         let gap = gap?;
         let force = self.unknowns.times(&self.energy, &gap, Rational::MINUS_ONE);
@@ -407,7 +407,9 @@ impl Checker<'_, '_> {
         let expect = |this: &mut Self| match &value.value.kind {
             ast::ExprKind::List(values) => values
                 .iter()
+                .filter(|value| !is_number(value))
                 .try_for_each(|value| this.expect(value, &unit, what.as_str())),
+            _ if is_number(&value.value) => Some(()),
             _ => {
                 let found = this.shape(&value.value, Some(&unit))?.quantities();
                 found

@@ -358,6 +358,16 @@ impl Checker<'_, '_> {
         None
     }
 
+    /// The unit of both sides where runs are described (starts, stops, marks): there a side that is nothing but a
+    /// number is in the unit of the other.
+    pub fn loosely(&mut self, comparison: &Comparison) -> Option<Quantity> {
+        match [&comparison.left, &comparison.right].map(is_number) {
+            [true, false] => self.one(&comparison.right, None),
+            [false, true] => self.one(&comparison.left, None),
+            _ => self.comparison(comparison),
+        }
+    }
+
     /// What a name stands for.
     fn name(&mut self, name: &Name) -> Option<Shape> {
         let text = name.text.as_str();
@@ -620,7 +630,7 @@ impl Checker<'_, '_> {
 }
 
 /// Whether an expression is made of numbers only.
-fn is_number(expr: &Expr) -> bool {
+pub(super) fn is_number(expr: &Expr) -> bool {
     match &expr.kind {
         ExprKind::Number(_) => true,
         ExprKind::Name(name) => name.text == "pi",

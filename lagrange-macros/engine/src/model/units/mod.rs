@@ -4,7 +4,8 @@
 //!   any, nothing is.
 //! * A field or coordinate without a unit is an unknown, and found from what it is added to, compared with, or an energy
 //!   of; what stays free fits everything.
-//! * Numbers are plain numbers, `0` fits everything, `t` is in s, angles are plain numbers.
+//! * Numbers are plain numbers, `0` fits everything, `t` is in s, angles are plain numbers. In starts, stops, marks and
+//!   regions, which describe a run, a value that is nothing but a number is in the unit that belongs there.
 //! * Energies are in J. Where no given unit contains kg, they may all be per unit of mass instead (a hint says so).
 //! * Units are coherent: a multiple like `mm` is refused, since numbers are never converted.
 
