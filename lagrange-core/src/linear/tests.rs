@@ -222,6 +222,7 @@ fn random_system(seed: u64) -> (Description, Builder) {
         stops: &[],
         marks: &[],
         starts: &[],
+        units: crate::system::Units::NONE,
     };
     (description, b)
 }

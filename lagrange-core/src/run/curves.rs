@@ -170,6 +170,9 @@ impl Curves {
             let s = self.nodes[j];
             step.state_into(S::Scalar::from_f64(s), q, v);
             dynamics.value(step.t + step.h * S::Scalar::from_f64(s), q, v)?;
+            if j == 0 {
+                dynamics.take_headings();
+            }
             // Stops and marks read the tape after the solve.
             dynamics.report_value();
             let reading = Reading::Values(dynamics);

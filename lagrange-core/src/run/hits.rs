@@ -15,6 +15,8 @@ pub(super) enum Hit {
     Nothing,
     /// Guards of the mode fall through zero (in [`Run::fallen`]) at this part of the step.
     Guards(f64),
+    /// A slip of two components has turned by a quarter within the step, which ends at this part of it.
+    Turned(f64),
     /// Stop `index` becomes true at this part of the step.
     Stop(usize, f64),
 }
@@ -24,7 +26,7 @@ impl Hit {
     pub(super) fn end(&self) -> f64 {
         match *self {
             Hit::Nothing => 1.0,
-            Hit::Guards(s) | Hit::Stop(_, s) => s,
+            Hit::Guards(s) | Hit::Turned(s) | Hit::Stop(_, s) => s,
         }
     }
 }
@@ -54,9 +56,15 @@ impl<S: System> Run<S> {
             }
         }
         let guards = if self.fallen.is_empty() {
+            self.rests.clear();
             Hit::Nothing
         } else {
-            Hit::Guards(at)
+            self.tell_rest_from_turn(at);
+            if self.fallen.is_empty() {
+                Hit::Turned(at)
+            } else {
+                Hit::Guards(at)
+            }
         };
         // A stop at the instant of an impact ends the run before it; rounding may see it a little later.
         match self.first_stop((guards.end() * (1.0 + 1e-13)).min(1.0)) {

@@ -31,12 +31,22 @@ enum Leading {
     Stays,
 }
 
-/// A series of the order `order` at the moment, to be taken over times up to about `h`.
-#[derive(Clone, Copy)]
-struct Reach {
+/// What happens after the moment, by a series of the order `order`, over times up to about `h`.
+struct Ahead<'a, S: System> {
+    dynamics: &'a Dynamics<S>,
+    moment: Moment<'a, S::Scalar>,
+    known: &'a Known,
     order: usize,
     h: f64,
 }
+
+impl<S: System> Clone for Ahead<'_, S> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S: System> Copy for Ahead<'_, S> {}
 
 impl<T: Scalar> Decider<T> {
     /// Whether `mode` is feasible; if so, `zeros` says which guards begin with how many vanishing coefficients, and if not,
@@ -51,7 +61,13 @@ impl<T: Scalar> Decider<T> {
         last: bool,
     ) -> Result<bool, EvaluationError> {
         let Moment { t, q, v, .. } = moment;
-        dynamics.set_mode(mode);
+        self.posed.clone_from(mode);
+        self.forks = false;
+        if mode.has_incipient_slip() && !self.find_directions(dynamics, table, moment)? {
+            return Ok(false);
+        }
+        dynamics.set_mode(&self.posed);
+        let mode = &self.posed;
         let watched = table.of(dynamics);
         dynamics.set_extra_needs(&watched.deciding);
         let serves = watched.deciding == watched.needs;
@@ -60,7 +76,7 @@ impl<T: Scalar> Decider<T> {
         dynamics.value(t, q, v)?;
         self.sizes.take(dynamics);
         self.share(dynamics);
-        self.ask_values(dynamics, moment, mode, known);
+        self.ask_values(dynamics, moment, known);
         if !self.violated.is_empty() || self.questions.is_empty() {
             return Ok(self.violated.is_empty());
         }
@@ -73,7 +89,7 @@ impl<T: Scalar> Decider<T> {
         for order in [low, moment.order] {
             dynamics.series(t, q, v, order)?;
             self.decision.expanded = serves && order == moment.order;
-            match self.judge(dynamics, moment, mode, known, order) {
+            match self.judge(dynamics, moment, known, order) {
                 Some(feasible) => return Ok(feasible),
                 None => self.zeros.truncate(settled),
             }
@@ -106,7 +122,6 @@ impl<T: Scalar> Decider<T> {
         &mut self,
         dynamics: &Dynamics<S>,
         moment: Moment<'_, T>,
-        mode: &Mode,
         known: &Known,
     ) {
         let Self {
@@ -115,6 +130,7 @@ impl<T: Scalar> Decider<T> {
             zeros,
             violated,
             joints,
+            posed: mode,
             ..
         } = self;
         zeros.clear();
@@ -151,7 +167,6 @@ impl<T: Scalar> Decider<T> {
         &mut self,
         dynamics: &Dynamics<S>,
         moment: Moment<'_, T>,
-        mode: &Mode,
         known: &Known,
         order: usize,
     ) -> Option<bool> {
@@ -160,21 +175,19 @@ impl<T: Scalar> Decider<T> {
         let allowed = Tolerance::both(if last { moment.tolerance } else { 1e-3 });
         let step = taylor::step_size(dynamics, order, allowed);
         let h = step.filter(|h| h.is_finite()).unwrap_or(1.0);
-        let reach = Reach { order, h };
+        let ahead = Ahead {
+            dynamics,
+            moment,
+            known,
+            order,
+            h,
+        };
         let mut unclear = false;
         let questions = core::mem::take(&mut self.questions);
         for &(guard, order_known) in &questions {
             let mut series = [0.0; guard::LENGTH];
             let series = &mut series[..=order];
-            match self.just_after(
-                (guard, order_known),
-                dynamics,
-                moment,
-                mode,
-                known,
-                reach,
-                series,
-            ) {
+            match self.just_after(guard, order_known, ahead, series) {
                 Leading::Falls => blame(guard, &self.joints, &mut self.violated),
                 Leading::Rises(0) => {}
                 Leading::Rises(k) => self.zeros.push((guard, k)),
@@ -189,7 +202,7 @@ impl<T: Scalar> Decider<T> {
             }
         }
         if self.violated.is_empty() && !unclear && !self.joints.is_empty() {
-            self.look_ahead(dynamics, moment, mode, known, reach);
+            self.look_ahead(ahead);
         }
         self.questions = questions;
         if self.violated.is_empty() && unclear {
@@ -199,20 +212,13 @@ impl<T: Scalar> Decider<T> {
     }
 
     /// At the border several joint guards may vanish together: a little later those that fall show.
-    fn look_ahead<S: System<Scalar = T>>(
-        &mut self,
-        dynamics: &Dynamics<S>,
-        moment: Moment<'_, T>,
-        mode: &Mode,
-        known: &Known,
-        reach: Reach,
-    ) {
+    fn look_ahead<S: System<Scalar = T>>(&mut self, ahead: Ahead<'_, S>) {
         let mut series = [0.0; guard::LENGTH];
-        let series = &mut series[..=reach.order];
-        let later = AHEAD * reach.h;
+        let series = &mut series[..=ahead.order];
+        let (reading, later) = (Reading::Series(ahead.dynamics), AHEAD * ahead.h);
         for _ in 0..MOST_JOINTS {
             let found = self.sharing.critical_at(|guard| {
-                guard::series(guard, mode, &Reading::Series(dynamics), series);
+                guard::series(guard, &self.posed, &reading, series);
                 crate::trajectory::horner(series, later)
             });
             let Some(joint) = found else {
@@ -220,8 +226,7 @@ impl<T: Scalar> Decider<T> {
             };
             let index = self.joints.len();
             self.joints.push(joint);
-            let question = (Guard::Joint(index), 0);
-            match self.just_after(question, dynamics, moment, mode, known, reach, series) {
+            match self.just_after(Guard::Joint(index), 0, ahead, series) {
                 Leading::Falls => {
                     return blame(Guard::Joint(index), &self.joints, &mut self.violated);
                 }
@@ -233,21 +238,23 @@ impl<T: Scalar> Decider<T> {
     }
 
     /// What a guard does just after the moment; its series, scaled onto the reach, is left in `series`.
-    #[allow(clippy::too_many_arguments)]
     fn just_after<S: System<Scalar = T>>(
         &self,
-        (guard, order_known): (Guard, usize),
-        dynamics: &Dynamics<S>,
-        moment: Moment<'_, T>,
-        mode: &Mode,
-        known: &Known,
-        reach: Reach,
+        guard: Guard,
+        order_known: usize,
+        ahead: Ahead<'_, S>,
         series: &mut [f64],
     ) -> Leading {
-        let Moment { tolerance, .. } = moment;
-        let h = reach.h;
+        let Ahead {
+            dynamics,
+            moment,
+            known,
+            h,
+            ..
+        } = ahead;
+        let tolerance = moment.tolerance;
         let reading = Reading::Series(dynamics);
-        sharing::series(guard, &self.joints, mode, &reading, series);
+        sharing::series(guard, &self.joints, &self.posed, &reading, series);
         let mut power = 1.0;
         let mut size = 0.0_f64;
         for (k, c) in series.iter_mut().enumerate() {
@@ -275,11 +282,12 @@ impl<T: Scalar> Decider<T> {
 /// in which it is closed, or sticks, has the same motion, and more forces to choose from.
 fn is_held<S: System>(guard: Guard, dynamics: &Dynamics<S>) -> bool {
     let d = S::DESCRIPTION;
-    match guard {
-        Guard::Gap(c) => dynamics.follows(d.contacts[c].row),
-        Guard::Slip(f) => dynamics.follows(d.frictions[f].row),
-        _ => false,
-    }
+    let mut rows = match guard {
+        Guard::Gap(c) => d.contacts[c].row..d.contacts[c].row + 1,
+        Guard::Slip(f) => d.frictions[f].row..d.frictions[f].row + d.frictions[f].components,
+        _ => return false,
+    };
+    rows.all(|row| dynamics.follows(row))
 }
 
 /// Books what forbids a mode: of a joint guard, its parts.
@@ -299,14 +307,7 @@ fn leading<S: System>(
     dynamics: &Dynamics<S>,
 ) -> Option<f64> {
     let d = S::DESCRIPTION;
-    let acceleration = |row: usize| {
-        let row = &d.rows[row];
-        let products = row.jacobian.iter().map(|&(j, place)| {
-            let a = dynamics.motion(place) * dynamics.acceleration()[j];
-            a.value()
-        });
-        dynamics.motion(row.bias).value() + products.sum::<f64>()
-    };
+    let acceleration = |row: usize| row_acceleration(row, dynamics);
     match (guard, order_known) {
         (_, 0) => Some(sharing::value(
             guard,
@@ -320,10 +321,27 @@ fn leading<S: System>(
                 direction: Direction::Fixed([sign, 0.0]),
                 ..
             }) => Some(sign * acceleration(d.frictions[f].row)),
+            FrictionMode::Slip(Sliding {
+                direction: Direction::Incipient([x, y]),
+                ..
+            }) => {
+                let row = d.frictions[f].row;
+                Some(x * acceleration(row) + y * acceleration(row + 1))
+            }
             _ => None,
         },
         _ => None,
     }
+}
+
+/// a v̇ + γ of a row at the last value.
+pub(super) fn row_acceleration<S: System>(row: usize, dynamics: &Dynamics<S>) -> f64 {
+    let row = &S::DESCRIPTION.rows[row];
+    let products = row.jacobian.iter().map(|&(j, place)| {
+        let a = dynamics.motion(place) * dynamics.acceleration()[j];
+        a.value()
+    });
+    dynamics.motion(row.bias).value() + products.sum::<f64>()
 }
 
 /// The guards that can be violated just after the instant, with the number of coefficients known to vanish; `held` are

@@ -10,6 +10,7 @@
 
 mod candidates;
 mod examine;
+mod incipient;
 mod known;
 
 use crate::arithmetic::Scalar;
@@ -56,6 +57,12 @@ pub struct Decider<T> {
     sizes: Sizes,
     /// Needs of everything about every row.
     rows: NeedSet,
+    /// The candidate under examination, with the directions in which its slips begin.
+    posed: Mode,
+    /// The same of the best one.
+    best: Mode,
+    /// Whether its slip could begin in another direction.
+    forks: bool,
 }
 
 impl<T: Scalar> Decider<T> {
@@ -78,6 +85,9 @@ impl<T: Scalar> Decider<T> {
             motion: Vec::new(),
             sizes: Sizes::default(),
             rows: guard::all_row_needs(description, &NeedSet::new(description)),
+            posed: Mode::open(description),
+            best: Mode::open(description),
+            forks: false,
         }
     }
 
@@ -111,9 +121,9 @@ impl<T: Scalar> Decider<T> {
         let outcome = listed.and_then(|()| {
             let (best, failure) = self.best(dynamics, table, moment, present, known, &candidates);
             match (best, failure) {
-                (Some(best), _) => {
-                    self.decision.mode.clone_from(&candidates[best]);
-                    dynamics.set_mode(&candidates[best]);
+                (Some(_), _) => {
+                    self.decision.mode.clone_from(&self.best);
+                    dynamics.set_mode(&self.best);
                     Ok(())
                 }
                 (None, Some((mode, error))) => {
@@ -186,7 +196,8 @@ impl<T: Scalar> Decider<T> {
             match self.examine(dynamics, table, moment, mode, known, last) {
                 Ok(true) if best.is_none() => {
                     best = Some(index);
-                    self.decision.ambiguous = false;
+                    self.decision.ambiguous = self.forks;
+                    core::mem::swap(&mut self.best, &mut self.posed);
                     core::mem::swap(&mut self.decision.zeros, &mut self.zeros);
                     self.decision.joints.clone_from(&self.joints);
                     self.motion.clear();
