@@ -37,7 +37,7 @@ pub(crate) fn epsilon<T: Scalar>() -> f64 {
 }
 
 pub(crate) use collect::acts;
-pub(crate) use consistent::solve_consistent;
+pub(crate) use consistent::{SeveralSides, solve_consistent};
 pub(crate) use direct::positive_definite;
 pub(crate) use least_norm::{Freedom, least_norm};
 pub(crate) use lemke::{Lemke, Outcome};
