@@ -211,7 +211,10 @@ impl<T: Scalar> Decider<T> {
             // What is found of the last one serves the coming step.
             let last = best.is_none() && index + 1 == candidates.len();
             self.decision.expanded = false;
-            match self.examine(dynamics, table, moment, mode, known, last) {
+            let outcome = self.examine(dynamics, table, moment, mode, known, last);
+            // Another than the best leaves its own series behind.
+            self.decision.expanded &= best.is_none();
+            match outcome {
                 Ok(true) if best.is_none() => {
                     best = Some(index);
                     self.decision.ambiguous = self.forks;
