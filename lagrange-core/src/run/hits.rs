@@ -75,10 +75,21 @@ impl<S: System> Run<S> {
         // A root that rounding has moved across the border between two steps shows as a negative start.
         if known == 0 && curve.first().is_some_and(|c| *c < 0.0) {
             let size: f64 = curve.iter().map(|c| c.abs()).sum();
-            let rises = curve[0] > -1e-13 * size && curve.get(1).is_some_and(|c| *c > 0.0);
+            // A gap is as exact as the place where it was last located.
+            let blur = match guard {
+                Guard::Gap(_) => self.settings.tolerance.max(1e-13),
+                _ => 1e-13,
+            };
+            let rises = curve[0] > -blur * size && curve.get(1).is_some_and(|c| *c > 0.0);
             if !rises {
                 return Some((0.0, 0.0));
             }
+        }
+        if let Guard::Gap(_) = guard
+            && known == 0
+            && self.closes_at_once(curve)
+        {
+            return Some((0.0, 0.0));
         }
         let mut from = 0.0;
         while let Some(root) = first_root(curve, from) {
@@ -92,6 +103,19 @@ impl<S: System> Run<S> {
             }
         }
         None
+    }
+
+    /// Whether a gap begins so near to zero, and closes so soon, that its root cannot be told from the start of the step: it
+    /// falls, or rises by less than the error of its place.
+    fn closes_at_once(&self, curve: &[f64]) -> bool {
+        let [gap, rate, bend, ..] = *curve else {
+            return false;
+        };
+        let size: f64 = curve.iter().map(|c| c.abs()).sum();
+        let blur = self.settings.tolerance.max(1e-13) * size;
+        let falls = rate < 0.0 && gap <= 1e-15 * size;
+        let hardly_rises = bend < 0.0 && gap + 0.25 * rate * rate / -bend <= blur;
+        falls || (gap.abs() <= blur && rate >= 0.0 && hardly_rises)
     }
 
     /// The earliest stop up to part `end` of the step.

@@ -8,6 +8,7 @@ use crate::dynamics::EvaluationError;
 use crate::error::Error;
 use crate::integrate::taylor::{self, DefectControl, Verdict};
 use crate::integrate::{Integrator, Method, StepError};
+use crate::modes::guard::Guard;
 use crate::system::System;
 use crate::trajectory::State;
 
@@ -73,8 +74,11 @@ impl<S: System> Run<S> {
                 let accelerations = self.dynamics.acceleration();
                 let motion = taylor::defect(&self.step, end, accelerations, self.tolerance);
                 let (guards, tolerance) = (&self.guards, self.tolerance.relative);
-                let curves = &self.curves;
-                let guards = curves.defect(&mut self.dynamics, &self.mode, guards, end, tolerance);
+                let (curves, fallen) = (&self.curves, &self.fallen);
+                let stops = matches!(hit, Hit::Stop(..));
+                let located = |g| fallen.contains(&g) || stops && matches!(g, Guard::Stop(..));
+                let dynamics = &mut self.dynamics;
+                let guards = curves.defect(dynamics, &self.mode, guards, end, tolerance, located);
                 // Not the larger of a number and a NaN, which would be the number.
                 if guards <= motion { motion } else { guards }
             } else {
@@ -94,7 +98,8 @@ impl<S: System> Run<S> {
             let Stepper::Taylor(control) = &mut self.stepper else {
                 return Ok(hit);
             };
-            match control.judge(h, defect, self.order) {
+            // The polynomial is as good at its root however long the step: the next try ends before it.
+            match control.judge(h * end, defect, self.order) {
                 Verdict::Accept => {
                     self.distance = distance;
                     return Ok(hit);

@@ -208,14 +208,15 @@ impl<S: System> Run<S> {
         Ok(())
     }
 
-    /// Slip of a friction row and the size of the terms that make it.
+    /// Slip of a friction row and the size of the terms that make it; a velocity that is zero is so only to some 1e-16 of the
+    /// unit, as projections leave it.
     pub(super) fn slip(&self, row: usize) -> (f64, f64) {
         let row = &S::DESCRIPTION.rows[row];
         let number = |place| self.dynamics.motion(place).value();
         let size = row
             .jacobian
             .iter()
-            .map(|&(j, place)| (number(place) * self.state.v[j].value()).abs())
+            .map(|&(j, place)| number(place).abs() * (self.state.v[j].value().abs() + 1e-2))
             .sum();
         (number(row.velocity), size)
     }

@@ -6,6 +6,7 @@ mod diagnostics;
 mod efficiency;
 mod errors;
 mod interpretation;
+mod random;
 mod recording;
 mod runner;
 mod stability;
