@@ -7,6 +7,11 @@ use crate::mode::{FrictionMode, Mode};
 use crate::modes::guard::{Guard, LENGTH};
 use crate::system::{Condition, System, Watch};
 
+/// Coefficients this much smaller than all together cannot be told from 0: some degrees times rounding.
+const RESOLUTION: f64 = 1e-13;
+/// From here on they can.
+const CLEAR: f64 = 1e-10;
+
 /// What happens first within a step.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Hit {
@@ -63,32 +68,8 @@ impl<S: System> Run<S> {
 
     /// Where a guard of the mode falls through zero: (part of the step, half width of the enclosure).
     fn fall(&self, guard: Guard, curve: &[f64]) -> Option<(f64, f64)> {
-        let known = self
-            .zeros
-            .iter()
-            .find(|(g, _)| *g == guard)
-            .map_or(0, |(_, order)| *order);
-        if known >= LENGTH {
-            return None;
-        }
-        let curve = deflate(curve, known);
-        // A root that rounding has moved across the border between two steps shows as a negative start.
-        if known == 0 && curve.first().is_some_and(|c| *c < 0.0) {
-            let size: f64 = curve.iter().map(|c| c.abs()).sum();
-            // A gap is as exact as the place where it was last located.
-            let blur = match guard {
-                Guard::Gap(_) => self.settings.tolerance.max(1e-13),
-                _ => 1e-13,
-            };
-            let rises = curve[0] > -blur * size && curve.get(1).is_some_and(|c| *c > 0.0);
-            if !rises {
-                return Some((0.0, 0.0));
-            }
-        }
-        if let Guard::Gap(_) = guard
-            && known == 0
-            && self.closes_at_once(curve)
-        {
+        let curve = self.judged(guard, curve)?;
+        if falls_at_once(curve, RESOLUTION) {
             return Some((0.0, 0.0));
         }
         let mut from = 0.0;
@@ -105,17 +86,42 @@ impl<S: System> Run<S> {
         None
     }
 
-    /// Whether a gap begins so near to zero, and closes so soon, that its root cannot be told from the start of the step: it
-    /// falls, or rises by less than the error of its place.
-    fn closes_at_once(&self, curve: &[f64]) -> bool {
-        let [gap, rate, bend, ..] = *curve else {
-            return false;
-        };
-        let size: f64 = curve.iter().map(|c| c.abs()).sum();
-        let blur = self.settings.tolerance.max(1e-13) * size;
-        let falls = rate < 0.0 && gap <= 1e-15 * size;
-        let hardly_rises = bend < 0.0 && gap + 0.25 * rate * rate / -bend <= blur;
-        falls || (gap.abs() <= blur && rate >= 0.0 && hardly_rises)
+    /// What of a guard's curve is judged: without leading coefficients that are known to vanish. Nothing if all do.
+    fn judged<'c>(&self, guard: Guard, curve: &'c [f64]) -> Option<&'c [f64]> {
+        let zeros = self.zeros.iter().find(|(g, _)| *g == guard);
+        let known = zeros.map_or(0, |(_, order)| *order);
+        if known >= LENGTH {
+            return None;
+        }
+        let judged = deflate(curve, known);
+        if let (0, [start, rate, ..]) = (known, judged)
+            && *start < 0.0
+            && *rate > 0.0
+        {
+            // A root that rounding has moved across the border between two steps, or a gap that parts from where it was
+            // located, shows as a negative start from which the guard rises.
+            let blur = match guard {
+                Guard::Gap(_) => self.settings.tolerance.max(1e-13),
+                _ => 1e-13,
+            };
+            let size: f64 = judged.iter().map(|c| c.abs()).sum();
+            if *start > -blur * size {
+                return Some(deflate(judged, 1));
+            }
+        }
+        Some(judged)
+    }
+
+    /// Whether the step is so long that rounding hides how a guard begins that falls in it.
+    pub(super) fn hides_a_start(&self) -> bool {
+        let mut guards = self.guards.iter().enumerate();
+        guards.any(|(k, &guard)| {
+            let curve = self.judged(guard, self.curves.mode_guard(k));
+            curve.is_some_and(|curve| {
+                let begins = curve.iter().find(|c| **c != 0.0);
+                begins.is_some_and(|c| *c > 0.0) && falls_at_once(curve, CLEAR)
+            })
+        })
     }
 
     /// The earliest stop up to part `end` of the step.
@@ -192,6 +198,16 @@ impl<S: System> Run<S> {
             }
         }
     }
+}
+
+/// Whether a guard is negative from the start on, as far as can be told by numbers this much smaller than its largest.
+fn falls_at_once(curve: &[f64], resolution: f64) -> bool {
+    if curve.first().is_none_or(|start| *start < 0.0) {
+        return true;
+    }
+    let noise = resolution * curve.iter().map(|c| c.abs()).sum::<f64>();
+    let leading = curve.iter().position(|c| c.abs() > noise);
+    leading.is_some_and(|k| k > 0 && curve[k] < 0.0)
 }
 
 /// First instant up to `end` at which a watch becomes true: a term rises through zero while the others are ≥ 0.

@@ -12,6 +12,9 @@ use crate::modes::guard::Guard;
 use crate::system::System;
 use crate::trajectory::State;
 
+/// Where rounding hides how a guard begins, the step is made shorter by this.
+const CLOSER_LOOK: f64 = 1e-3;
+
 /// What makes the polynomials of a step.
 #[derive(Debug)]
 pub(super) enum Stepper<T> {
@@ -64,6 +67,10 @@ impl<S: System> Run<S> {
             self.write_polynomial(h, self.order);
             self.curves
                 .take_series(&self.dynamics, &self.mode, &self.guards, &self.powers);
+            if self.hides_a_start() && self.t.value() + CLOSER_LOOK * h > self.t.value() {
+                h *= CLOSER_LOOK;
+                continue;
+            }
             let hit = self.first_hit();
             let end = hit.end();
             if end == 0.0 {
