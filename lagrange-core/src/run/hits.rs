@@ -100,12 +100,12 @@ impl<S: System> Run<S> {
         {
             // A root that rounding has moved across the border between two steps, or a gap that parts from where it was
             // located, shows as a negative start from which the guard rises.
-            let blur = match guard {
-                Guard::Gap(_) => self.settings.tolerance.max(1e-13),
-                _ => 1e-13,
-            };
             let size: f64 = judged.iter().map(|c| c.abs()).sum();
-            if *start > -blur * size {
+            let blur = match guard {
+                Guard::Gap(_) => self.settings.tolerance.max(1e-13) * size.max(1.0),
+                _ => 1e-13 * size,
+            };
+            if *start > -blur {
                 return Some(deflate(judged, 1));
             }
         }
