@@ -226,7 +226,8 @@ impl<S: System> Run<S> {
         Ok(())
     }
 
-    /// Whether the slip of friction `f` is zero beside the terms that make it.
+    /// Whether the slip of friction `f` is zero beside the terms that make it; a velocity that is zero is so only to some 1e-16
+    /// of the unit, as projections leave it.
     pub(super) fn slip_vanishes(&self, f: usize) -> bool {
         let d = S::DESCRIPTION;
         let friction = &d.frictions[f];
@@ -234,7 +235,8 @@ impl<S: System> Run<S> {
         let rows = &d.rows[friction.row..friction.row + friction.components];
         let largest = |row: &Row| {
             let terms = row.jacobian.iter();
-            let sizes = terms.map(|&(j, place)| (number(place) * self.state.v[j].value()).abs());
+            let size = |j: usize| self.state.v[j].value().abs() + 1e-2;
+            let sizes = terms.map(|&(j, place)| number(place).abs() * size(j));
             sizes.sum::<f64>()
         };
         let size = rows.iter().map(largest).fold(0.0, f64::max);
