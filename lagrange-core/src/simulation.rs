@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::integrate::Method;
 use crate::modes::start;
 use crate::run::Runner;
-use crate::system::System;
+use crate::system::{Impacts, System};
 use crate::trajectory::{State, Trajectory};
 use core::fmt;
 use core::ops::Range;
@@ -26,6 +26,8 @@ pub(crate) struct Settings {
     pub method: Method,
     pub project_start: bool,
     pub record: bool,
+    /// As declared if `None`.
+    pub impacts: Option<Impacts>,
     pub max_events: usize,
     pub max_steps: usize,
 }
@@ -71,6 +73,7 @@ impl<'a, S: System> Simulation<'a, S> {
                 method: Method::Taylor,
                 project_start: false,
                 record: true,
+                impacts: None,
                 max_events: 100_000,
                 max_steps: 100_000_000,
             },
@@ -110,6 +113,13 @@ impl<'a, S: System> Simulation<'a, S> {
     #[must_use]
     pub fn record(mut self, yes: bool) -> Self {
         self.settings.record = yes;
+        self
+    }
+
+    /// How contacts are solved that are hit together, instead of what `impacts = …` declares.
+    #[must_use]
+    pub fn impacts(mut self, impacts: Impacts) -> Self {
+        self.settings.impacts = Some(impacts);
         self
     }
 

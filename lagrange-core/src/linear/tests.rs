@@ -222,6 +222,7 @@ fn random_system(seed: u64) -> (Description, Builder) {
         stops: &[],
         marks: &[],
         starts: &[],
+        impacts: crate::system::Impacts::Together,
     };
     (description, b)
 }

@@ -131,6 +131,7 @@ pub static PENDULUM: Description = Description {
     stops: &[],
     marks: &[],
     starts: &[],
+    impacts: crate::system::Impacts::Together,
 };
 
 impl System for Pendulum {

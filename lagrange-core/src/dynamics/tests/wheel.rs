@@ -193,6 +193,7 @@ pub static WHEEL: Description = Description {
     stops: &[],
     marks: &[],
     starts: &[],
+    impacts: crate::system::Impacts::Together,
 };
 
 fn held(h: &Held, need: usize) -> bool {

@@ -1,6 +1,7 @@
 //! The table that says what the numbers of the tapes mean: `lagrange_core::system::Description`.
 
 use super::names::{self, index};
+use crate::ast::Impacts;
 use crate::derive::{Load, NeedId, OutputId};
 use crate::model::{Condition, ItemName, Normal, Restitution, Watch};
 use crate::plan::{Program, Tape};
@@ -83,6 +84,10 @@ pub fn description(program: &Program) -> TokenStream {
         .zip(&structure.marks)
         .map(|(watch, numbers)| writer.watch(watch, numbers));
     let starts = system.starts.iter().map(|start| &start.name.text);
+    let impacts = match system.impacts {
+        Impacts::Together => quote!(Together),
+        Impacts::InTurn => quote!(InTurn),
+    };
     quote! {
         #core::system::Description {
             name: #name,
@@ -111,6 +116,7 @@ pub fn description(program: &Program) -> TokenStream {
             stops: &[#(#stops),*],
             marks: &[#(#marks),*],
             starts: &[#(#starts),*],
+            impacts: #core::system::Impacts::#impacts,
         }
     }
 }
