@@ -254,7 +254,7 @@ impl Settings {
     /// Refuses what the declaration may say but this version cannot run.
     fn supported<S: System>(&self) -> Result<(), Error> {
         use crate::effects::Item;
-        use crate::system::{Normal, Restitution};
+        use crate::system::Normal;
         let d = S::DESCRIPTION;
         let takes_part = |item: Item| self.effects.includes(d, item);
         for (i, contact) in d
@@ -268,14 +268,6 @@ impl Settings {
                 let instead = "leave `where` out and stop the run at the edge";
                 return Err(Error::Unsupported {
                     what: "a contact limited to a region",
-                    item,
-                    instead,
-                });
-            }
-            if let Restitution::Poisson(_) = contact.restitution {
-                let instead = "use Newton's restitution";
-                return Err(Error::Unsupported {
-                    what: "Poisson's restitution",
                     item,
                     instead,
                 });
