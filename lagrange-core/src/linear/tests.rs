@@ -223,6 +223,7 @@ fn random_system(seed: u64) -> (Description, Builder) {
         marks: &[],
         starts: &[],
         units: crate::system::Units::NONE,
+        impacts: crate::system::Impacts::Together,
     };
     (description, b)
 }

@@ -234,7 +234,6 @@ fn mistakes_point_at_their_token() {
         ("start(a: x == 1)", "2:12 E001"),
         ("start(a: )", "2:10 E001"),
         ("impacts = sometimes", "2:11 E001"),
-        ("impacts = in_turn", "2:11 E019"),
         ("coordinates = x", "2:13 E001"),
         ("kinetic = \"text\"", "2:11 E008"),
         ("kinetic = 1 % 2", "2:13 E024"),

@@ -185,15 +185,9 @@ fn attitude(part: &mut Cursor, sink: &mut Diagnostics) -> Option<ItemKind> {
 
 /// `together` or `in_turn`
 fn impacts(part: &mut Cursor, sink: &mut Diagnostics) -> Option<Impacts> {
-    let at = part.here();
     let impacts = match part.word()?.text.as_str() {
         "together" => Impacts::Together,
-        "in_turn" => {
-            let advice = "leave it out: contacts that are hit together are solved together";
-            sink.report(Code::Later, at, &[&"impacts = in_turn", &advice]);
-            part.skip_all();
-            return None;
-        }
+        "in_turn" => Impacts::InTurn,
         _ => {
             part.expected("`together` or `in_turn`", sink);
             part.skip_all();
