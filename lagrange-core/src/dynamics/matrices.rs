@@ -65,7 +65,11 @@ impl<S: System> Dynamics<S> {
         let mut nodes = self.nodes.clone();
         nodes.resize(nodes.len() + plan.program.len(), S::Scalar::default());
         for heading in &plan.headings {
-            for (node, along) in heading.nodes.into_iter().zip(self.heading(heading.friction)) {
+            for (node, along) in heading
+                .nodes
+                .into_iter()
+                .zip(self.heading(heading.friction))
+            {
                 nodes[node] = along;
             }
         }

@@ -155,9 +155,7 @@ impl<T: Scalar> Tape<T> {
         a.origin(parts.program);
         let mut headings = Vec::new();
         for heading in &plan.headings {
-            let slots = heading
-                .operations
-                .map(|i| Slot::new(parts.program + i));
+            let slots = heading.operations.map(|i| Slot::new(parts.program + i));
             for (node, slot) in heading.nodes.into_iter().zip(slots) {
                 nodes[node] = Recorded::varying(slot);
             }

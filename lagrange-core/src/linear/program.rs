@@ -47,13 +47,33 @@ impl<T: Scalar> Sum for Recorder<'_, T> {
 /// An operation; nodes are indices into the tape's outputs followed by the results of this program.
 #[derive(Clone, Copy, Debug)]
 enum Op {
-    Scale { constant: usize, x: usize },
-    Offset { constant: usize, x: usize },
-    Add { x: usize, y: usize },
-    Mul { x: usize, y: usize },
-    Sqrt { x: usize },
-    Ratio { constant: usize, x: usize },
-    Sum { first: usize, end: usize },
+    Scale {
+        constant: usize,
+        x: usize,
+    },
+    Offset {
+        constant: usize,
+        x: usize,
+    },
+    Add {
+        x: usize,
+        y: usize,
+    },
+    Mul {
+        x: usize,
+        y: usize,
+    },
+    Sqrt {
+        x: usize,
+    },
+    Ratio {
+        constant: usize,
+        x: usize,
+    },
+    Sum {
+        first: usize,
+        end: usize,
+    },
     /// What is in the node already.
     Given,
 }

@@ -99,8 +99,7 @@ impl Sizes {
         let friction = &S::DESCRIPTION.frictions[f];
         let rows = friction.row..friction.row + friction.components;
         let force = rows.map(|row| self.row(row, dynamics).force);
-        force.fold(0.0, f64::max)
-            + self.friction(f, friction.static_coefficient, dynamics)
+        force.fold(0.0, f64::max) + self.friction(f, friction.static_coefficient, dynamics)
     }
 }
 

@@ -68,7 +68,11 @@ impl Decider {
             let row = S::DESCRIPTION.frictions[f].row;
             let [x, y] = [row, row + 1].map(|row| dynamics.force(row).value());
             let angle = (-y).atan2(-x);
-            if known && angle.is_finite() { angle } else { 0.0 }
+            if known && angle.is_finite() {
+                angle
+            } else {
+                0.0
+            }
         };
         beginning.iter().map(angle).collect()
     }
@@ -214,7 +218,9 @@ fn settle<S: System>(
     all(angles)?;
     let along = beginning.iter().map(|&f| frame_of(dynamics, f));
     let turns: Vec<Turn> = along.collect();
-    let largest = turns.iter().fold(0.0_f64, |m, turn| m.max(turn.along.abs()));
+    let largest = turns
+        .iter()
+        .fold(0.0_f64, |m, turn| m.max(turn.along.abs()));
     Ok(turns
         .iter()
         .all(|turn| turn.along >= -NOTHING * largest && turn.across.is_finite()))
