@@ -83,12 +83,12 @@ fn a_block_pushed_sideways_comes_to_rest() {
         // Just before it stops the friction points uphill; ψ goes there like a power of the time that is left.
         let limit = block(ratio).mu_kinetic * 2.0 * 9.81 * SLOPE.cos();
         let turned = 1e-8_f64.powf(1.0 / (ratio - 1.0)).max(1e-7);
-        all_agree(
-            "last friction",
-            &rest.forces[1..],
-            &[0.0, -limit],
-            4.0 * turned,
-        );
+        let last = [0.0, -limit];
+        all_agree("last friction", &rest.forces[1..], &last, 8.0 * turned);
+        let before = sampler.at(rest.time * (1.0 - 4e-16));
+        let before = before.expect("before it rests");
+        all_agree("sampled", &before.forces[1..], &last, 8.0 * turned);
+        assert_eq!(trajectory.phases().len(), 2);
     }
 }
 
