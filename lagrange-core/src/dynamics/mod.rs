@@ -19,6 +19,7 @@ pub(crate) mod tests;
 mod values;
 
 pub use error::{EvaluationError, row_name};
+pub(crate) use heading::approach;
 pub use needs::{NeedSet, add_branch_guards, add_guards};
 pub use projection::Residual;
 
@@ -188,6 +189,9 @@ impl<S: System> Dynamics<S> {
     /// Changes the mode. The first time in a mode parameter-only numbers and the plan of the linear system are made; they are
     /// kept. What was asked for beside the motion stays asked for.
     pub fn set_mode(&mut self, mode: &Mode) {
+        for (f, along) in mode.incipient() {
+            self.set_heading(f, along.map(S::Scalar::from_f64));
+        }
         if *self.mode() == *mode {
             return;
         }
@@ -196,9 +200,6 @@ impl<S: System> Dynamics<S> {
             .iter()
             .position(|compiled| compiled.mode.has_equations_of(mode));
         self.current = known.unwrap_or_else(|| self.compile(mode));
-        for (f, along) in mode.incipient() {
-            self.set_heading(f, along.map(S::Scalar::from_f64));
-        }
         self.modes[self.current].mode.clone_from(mode);
         self.hold();
     }
