@@ -143,6 +143,7 @@ impl<S: System<Scalar = f64> + Default> Scene for Entry<S> {
         let simulation = Simulation::new(&system)
             .tolerance(request.tolerance)
             .method(request.method)
+            .effects(request.effects(S::DESCRIPTION)?)
             .project_start(request.project);
         let start = request.start(&system, &simulation)?;
         let until = request.until.unwrap_or(self.until);
@@ -162,17 +163,22 @@ impl<S: System<Scalar = f64> + Default> Scene for Entry<S> {
     fn accuracy(&self, study: &Study) -> Result<Accuracy, Refusal> {
         let request = &study.request;
         let system: S = request.system()?;
-        let start = request.start(
-            &system,
-            &Simulation::new(&system).tolerance(request.tolerance),
-        )?;
+        let effects = request.effects(S::DESCRIPTION)?;
+        let simulation = Simulation::new(&system)
+            .tolerance(request.tolerance)
+            .effects(effects.clone());
+        let start = request.start(&system, &simulation)?;
         let until = request.until.unwrap_or(self.until);
+        // A closed form is that of the whole declaration.
+        let whole = effects.left_out().next().is_none();
         let closed_form = self
             .closed_form
+            .filter(|_| whole)
             .and_then(|known| known(&system, &start, until));
         let course = Course {
             system: &system,
             start,
+            effects,
             until,
             max_steps: 400_000,
         };

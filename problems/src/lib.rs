@@ -11,5 +11,6 @@ pub mod outcome;
 pub mod reference;
 pub mod report;
 pub mod request;
+pub mod scene_file;
 pub mod scenes;
 pub mod stability;
