@@ -86,12 +86,12 @@ table! {
     ListProduct "E313" "`{0}` of two lists has no single meaning" "write `dot(a, b)`, `cross(a, b)`, or single elements";
 
     VelocityHere "E401" "{0} depends on positions only, and `{1}` is a velocity" "{2}";
-    AccelerationHere "E402" "`{0}` is an acceleration" "accelerations are known after the equations are solved: in `observe`, `stop` and `mark` only";
+    AccelerationHere "E402" "`{0}` is an acceleration" "accelerations are known after the equations are solved: in `observe`, `stop`, `mark` and `check` only";
     CoordinateHere "E403" "{0} depends on parameters and t only, and `{1}` depends on the motion" "{2}";
     HigherDerivative "E404" "the derivative of an acceleration or force is not available" "";
-    OutputOnly "E405" "`{0}` has a value after the equations are solved" "use it in `observe`, `stop` or `mark`";
+    OutputOnly "E405" "`{0}` has a value after the equations are solved" "use it in `observe`, `stop`, `mark` or `check`";
     ForceHere "E406" "`{0}` is a {1}, whose force is not known here" "a force item may contain contacts and constraints; every output may contain all";
-    ConditionHere "E407" "`{0}(…)` is a condition, not a value" "use it in `stop` or `mark`, joined by `and`";
+    ConditionHere "E407" "`{0}(…)` is a condition, not a value" "use it in `stop` or `mark`, or behind `when` in a `check`, joined by `and`";
 
     NoCoordinates "E501" "no coordinates are declared" "add `coordinates(x, …)`";
     NoKinetic "E502" "no kinetic energy is declared" "add `kinetic = mass/2 * der(x)^2`, or a whole `lagrangian = …`";
@@ -107,6 +107,11 @@ table! {
 
     NoInertia "E601" "the coordinate `{0}` has no inertia" "no kinetic energy contains `der({0})`, and no constraint ties it: add its kinetic energy or remove it";
     EquationCount "E602" "{0} equations for {1} unknowns" "{2}";
+
+    CheckFalse "E701" "`{0}` does not hold{1}" "{2}";
+    CheckNever "E702" "no state fulfils the condition of this check" "{0}";
+    CheckModes "E703" "the condition leaves {0} modes open" "say of more contacts whether they are `open` or `closed`; `open(name)` of an indexed contact means all its elements that are not named otherwise";
+    CheckPremise "E704" "`{0}` is known after the equations are solved" "the condition of a check is made of positions, velocities, `closed(…)`, `open(…)`, `sticks(…)` and `slips(…)`";
 
     Bug "E999" "a bug in the derive: something was left out without a message" "please report it with the declaration";
 }

@@ -16,10 +16,12 @@
 //! Atoms are found by value: arguments that are equal as expressions have equal values and get the same atom.
 
 mod complex;
+mod degree;
 mod point;
 mod prime;
 #[cfg(test)]
 mod tests;
 
+pub use degree::Degree;
 pub use point::{Angles, FieldValue, Point, Trouble};
 pub use prime::{PRIMES, Prime};

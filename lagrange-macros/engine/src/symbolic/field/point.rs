@@ -55,6 +55,18 @@ impl Pool {
         angles
     }
 
+    /// Degree of a function of the argument in the atoms: 2 Σ |cᵢ| D.
+    pub(super) fn turns(&self, argument: ExprId, angles: &Angles) -> f64 {
+        let expanded = angles.arguments.get(&argument).copied();
+        let Some(expanded) = expanded else {
+            return 2.0;
+        };
+        let (constant, terms) = self.affine(expanded);
+        let sizes = terms.iter().map(|&(_, c)| c).chain([constant]);
+        let sum: f64 = sizes.map(|c| c.to_f64().abs()).sum();
+        2.0 * sum * angles.denominator.unwrap_or(i128::MAX) as f64
+    }
+
     /// constant + Σ cᵢ tᵢ
     fn affine(&self, e: ExprId) -> (Rational, Vec<(ExprId, Rational)>) {
         match self.node(e) {
