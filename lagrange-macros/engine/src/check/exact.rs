@@ -57,7 +57,11 @@ pub(super) fn exact(pool: &mut Pool, case: &Case) -> Finding {
         all.extend(tie.jacobian.iter().map(|&(_, e)| e).chain([tie.whole]));
     }
     all.push(case.claim);
-    let angles = pool.angles(&all);
+    let mechanics = case.mechanics;
+    let moving = mechanics.coordinates.iter().flat_map(|q| &q[1..]).copied();
+    let forces = mechanics.rows.iter().map(|row| row.force);
+    let dependent: Vec<Symbol> = moving.chain(forces).collect();
+    let angles = pool.angles(&all, &dependent);
     let mut undecided: Vec<usize> = all.iter().flat_map(|&e| pool.branches(e)).collect();
     undecided.sort_unstable();
     undecided.dedup();
@@ -81,7 +85,7 @@ pub(super) fn exact(pool: &mut Pool, case: &Case) -> Finding {
             Finding::Zero => impossible = false,
             Finding::Impossible => {}
             Finding::Different { certain } => {
-                let certain = certain && undecided.is_empty();
+                let certain = certain && undecided.is_empty() && angles.are_independent();
                 return Finding::Different { certain };
             }
             open => return open,

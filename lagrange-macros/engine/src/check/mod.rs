@@ -28,7 +28,7 @@ use crate::ast::Declaration;
 use crate::derive::Equations;
 use crate::diagnostics::{Code, Diagnostics};
 use crate::model::{self, Branch, Check, Premise, Scope};
-use crate::symbolic::{ExprId, Pool};
+use crate::symbolic::{ExprId, Pool, Rational};
 use exact::{Case, Finding, exact};
 use mechanics::Mechanics;
 use modes::{Grip, Mode, modes};
@@ -124,13 +124,14 @@ impl Court<'_> {
     }
 
     fn judge(&mut self, check: &Check, sink: &mut Diagnostics) -> Option<Verdict> {
-        let modes = match modes(&self.mechanics, &check.conditions) {
+        let mut modes = match modes(&self.mechanics, &check.conditions) {
             Ok(modes) => modes,
             Err(count) => {
                 sink.report(Code::CheckModes, check.extent, &[&count]);
                 return None;
             }
         };
+        modes.retain(|mode| !self.contradicts(check, mode));
         let applied = self.mechanics.applied.clone();
         let claim = {
             let pool = self.pool();
@@ -253,7 +254,7 @@ impl Court<'_> {
                 Positions::Solved(sheets)
             },
         };
-        let search = refute::search(pool, &region, check, &applied_of(&self.mechanics), certain);
+        let search = refute::search(pool, &region, check, &self.mechanics.applied, certain);
         match search {
             refute::Search::Counterexample(text) => Ruling::Refuted(text),
             refute::Search::Nothing(states) => Ruling::Tested(states, because),
@@ -303,6 +304,24 @@ impl Court<'_> {
         self.prepared.len() - 1
     }
 
+    /// Whether the conditions on the state exclude the direction of a slip.
+    fn contradicts(&mut self, check: &Check, mode: &Mode) -> bool {
+        let system = &mut self.equations.system;
+        let mut slips = system.frictions.iter().zip(&mode.grips);
+        let at_least = check.premises.iter().filter_map(|premise| match premise {
+            Premise::AtLeast(e) => Some(*e),
+            Premise::Zero(_) => None,
+        });
+        let at_least: Vec<ExprId> = at_least.collect();
+        slips.any(|(friction, grip)| match (grip, &friction.slip[..]) {
+            (Grip::Slips { forward }, &[(slip, _)]) => at_least.iter().any(|&e| {
+                let ratio = ratio(&mut system.pool, e, slip);
+                ratio.is_some_and(|ratio| ratio.is_negative() == *forward)
+            }),
+            _ => false,
+        })
+    }
+
     /// Branches on what the mode or the conditions say: a closed contact pushes, an open gap is positive, a slip has its
     /// direction.
     fn decided(&mut self, check: &Check, mode: &Mode) -> Vec<(usize, bool)> {
@@ -331,20 +350,17 @@ impl Court<'_> {
         }
         let mut decided = Vec::new();
         for (i, branch) in self.branches.iter().enumerate() {
-            let ratio = positive.iter().find_map(|&known| {
-                let ratio = system.pool.div(branch.guard, known)?;
-                let ratio = system.pool.simplify(ratio);
-                system
-                    .pool
-                    .as_number(ratio)
-                    .filter(|ratio| !ratio.is_zero())
-            });
+            let mut known = positive.iter();
+            let ratio = known.find_map(|&known| ratio(&mut system.pool, branch.guard, known));
             decided.extend(ratio.map(|ratio| (i, !ratio.is_negative())));
         }
         decided
     }
 }
 
-fn applied_of(mechanics: &Mechanics) -> Vec<(crate::symbolic::Symbol, ExprId)> {
-    mechanics.applied.clone()
+/// a/b, if that is a number.
+fn ratio(pool: &mut Pool, a: ExprId, b: ExprId) -> Option<Rational> {
+    let ratio = pool.div(a, b)?;
+    let ratio = pool.simplify(ratio);
+    pool.as_number(ratio).filter(|ratio| !ratio.is_zero())
 }

@@ -42,7 +42,7 @@ pub(super) struct Newton {
 /// A state with its accelerations and forces.
 pub(super) struct State<'a> {
     pub numbers: Floating<'a>,
-    /// Gaps are open, forces push, friction holds, and the conditions on the state are fulfilled.
+    /// Gaps are open, forces push, and friction holds.
     pub feasible: bool,
     /// What the mode does not determine.
     pub undetermined: Vec<Symbol>,
@@ -95,6 +95,13 @@ pub(super) fn sample<'a>(pool: &Pool, region: &Region<'a>, seed: u64) -> Result<
         }
     }
     let undetermined = accelerations(&mut numbers, pool, mechanics, region.mode)?;
+    for premise in region.premises {
+        if let Premise::AtLeast(e) = *premise
+            && numbers.values(pool, &[e])?[0].value < 0.0
+        {
+            return Err(Trouble::NotSquare.into());
+        }
+    }
     let feasible = feasible(pool, region, &mut numbers)?;
     Ok(State {
         numbers,
@@ -162,13 +169,6 @@ fn feasible(pool: &Pool, region: &Region, numbers: &mut Floating) -> Result<bool
             if !at_least(e)? {
                 return Ok(false);
             }
-        }
-    }
-    for premise in region.premises {
-        if let Premise::AtLeast(e) = *premise
-            && !at_least(e)?
-        {
-            return Ok(false);
         }
     }
     let force = |numbers: &Floating, row: usize| numbers.symbol(mechanics.rows[row].force).value;

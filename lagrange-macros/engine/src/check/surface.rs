@@ -155,7 +155,7 @@ fn vanishes(pool: &mut Pool, e: ExprId) -> bool {
     if pool.is_zero(e) {
         return true;
     }
-    let angles = pool.angles(&[e]);
+    let angles = pool.angles(&[e], &[]);
     let mut zeros = 0;
     for seed in 0..8 {
         let mut point = Point::new(PRIMES[seed as usize % 2], 77 + seed, &angles);

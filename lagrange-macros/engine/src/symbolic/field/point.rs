@@ -3,7 +3,7 @@
 use super::super::{ExprId, Function, Node, Pool, Rational, Symbol};
 use super::Prime;
 use super::complex::Turn;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Why an expression has no value at a point.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -26,17 +26,31 @@ pub struct Angles {
     denominator: Option<i128>,
     /// Argument → multiplied out.
     arguments: BTreeMap<ExprId, ExprId>,
+    /// Whether all basis terms are products of free symbols.
+    independent: bool,
+    /// Those that are.
+    plain: BTreeSet<ExprId>,
+}
+
+impl Angles {
+    /// Whether all basis terms are products of free symbols. Different ones are then linearly independent, and so
+    /// functions of them are independent (Ax, Annals of Mathematics 93, 1971).
+    pub fn are_independent(&self) -> bool {
+        self.independent
+    }
 }
 
 /// Longer common denominators make degrees that prove little.
 const LARGEST_DENOMINATOR: i128 = 1 << 40;
 
 impl Pool {
-    /// The basis for all arguments in the expressions.
-    pub fn angles(&mut self, roots: &[ExprId]) -> Angles {
+    /// The basis for all arguments in the expressions. `dependent`: symbols that will be bound to what depends on others.
+    pub fn angles(&mut self, roots: &[ExprId], dependent: &[Symbol]) -> Angles {
         let mut angles = Angles {
             denominator: Some(1),
             arguments: BTreeMap::new(),
+            independent: true,
+            plain: BTreeSet::new(),
         };
         for e in self.iter_reachable(roots) {
             if let Node::Call(f, arguments) = self.node(e)
@@ -50,9 +64,31 @@ impl Pool {
                 for c in coefficients {
                     angles.denominator = angles.denominator.and_then(|d| common(d, c));
                 }
+                for (term, _) in terms {
+                    if self.is_plain(term, dependent) {
+                        angles.plain.insert(term);
+                    } else {
+                        angles.independent = false;
+                    }
+                }
             }
         }
         angles
+    }
+
+    /// Whether it is a product of whole powers of free symbols.
+    fn is_plain(&self, term: ExprId, dependent: &[Symbol]) -> bool {
+        let is_free = |e: ExprId| match self.node(e) {
+            Node::Symbol(symbol) => !dependent.contains(symbol),
+            Node::Pi => true,
+            _ => false,
+        };
+        match self.node(term) {
+            Node::Product(factors) => factors
+                .iter()
+                .all(|&(base, r)| r.is_integer() && is_free(base)),
+            _ => is_free(term),
+        }
     }
 
     /// Degree of a function of the argument in the atoms: 2 Σ |cᵢ| D.
@@ -83,6 +119,9 @@ impl Pool {
             if let Node::Call(_, arguments) = self.node(e) {
                 roots.extend(point.angles.arguments.get(&arguments[0]));
             }
+        }
+        if !point.angles.independent {
+            roots.extend(&point.angles.plain);
         }
         let reachable = self.iter_reachable(&roots);
         // Expanded arguments can be younger than the calls that use them.
@@ -222,7 +261,10 @@ impl Values<'_> {
                         let argument = point.angles.arguments.get(&arguments[0]);
                         let argument = argument.copied().unwrap_or(arguments[0]);
                         let (_, terms) = self.pool.affine(argument);
-                        stack.extend(terms.iter().map(|&(t, _)| t).filter(|&t| missing(t)));
+                        let terms = terms.iter().map(|&(t, _)| t);
+                        let plain = point.angles.plain.iter().copied();
+                        let plain = plain.filter(|_| !point.angles.independent);
+                        stack.extend(terms.chain(plain).filter(|&t| missing(t)));
                     }
                     node => node.for_each_child(|child| {
                         if missing(child) {
@@ -360,7 +402,37 @@ impl Values<'_> {
         for (term, c) in terms {
             whole.push((term, c, times(c)?));
         }
+        self.recognize(&mut whole, point);
         Ok((times(constant)?, whole))
+    }
+
+    /// Terms that are no products of free symbols may add up to one that is: θ (1/cos² − tan²) = θ.
+    fn recognize(&self, whole: &mut Vec<(ExprId, Rational, i128)>, point: &Point) {
+        const LARGEST: u64 = 64;
+        let field = point.field;
+        let is_plain = |term: &ExprId| point.angles.plain.contains(term);
+        if whole.iter().all(|(term, ..)| is_plain(term)) {
+            return;
+        }
+        let mut sum = 0;
+        for (term, _, n) in whole.iter().filter(|(term, ..)| !is_plain(term)) {
+            let Ok(value) = self.at(*term) else {
+                return;
+            };
+            sum = field.add(sum, field.mul(field.integer(*n), value));
+        }
+        for &term in &point.angles.plain {
+            let Some(below) = self.at(term).ok().and_then(|value| field.inverse(value)) else {
+                continue;
+            };
+            let (ratio, negative) = unsigned(field, field.mul(sum, below));
+            if ratio <= LARGEST {
+                let n = i128::from(ratio);
+                whole.retain(|(term, ..)| is_plain(term));
+                whole.push((term, Rational::ZERO, if negative { -n } else { n }));
+                return;
+            }
+        }
     }
 
     fn turn(&self, u: ExprId, point: &Point) -> Result<Turn, Trouble> {

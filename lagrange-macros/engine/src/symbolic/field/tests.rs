@@ -99,7 +99,7 @@ fn symbols(pool: &mut Pool) -> [ExprId; 3] {
 
 /// Values of e at a few points of both fields.
 fn values(pool: &mut Pool, e: ExprId) -> Vec<Result<u64, Trouble>> {
-    let angles = pool.angles(&[e]);
+    let angles = pool.angles(&[e], &[]);
     let points = (0..8).flat_map(|seed| PRIMES.map(|field| Point::new(field, seed, &angles)));
     points
         .map(|mut point| pool.at_point(&[e], &mut point)[0])

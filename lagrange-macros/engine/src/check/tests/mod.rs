@@ -1,5 +1,8 @@
 //! Checks on whole declarations.
 
+mod identities;
+mod rewriting;
+
 use super::{Outcome, Verdict};
 use crate::checked;
 
