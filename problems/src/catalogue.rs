@@ -3,6 +3,7 @@
 
 use crate::accuracy::{self, Accuracy, Course, Study};
 use crate::closed_form::ClosedForm;
+use crate::cost::{self, Costs};
 use crate::outcome::Outcome;
 use crate::request::{Refusal, Request};
 use crate::scenes::hard::*;
@@ -80,6 +81,12 @@ pub trait Scene: Sync {
     /// The request makes no sense, the start does not exist, or there is nothing to measure errors against.
     fn accuracy(&self, study: &Study) -> Result<Accuracy, Refusal>;
 
+    /// Measures what each effect costs.
+    ///
+    /// # Errors
+    /// The request makes no sense, the start does not exist, or the run fails.
+    fn costs(&self, request: &Request) -> Result<Costs, Refusal>;
+
     /// First sentence of the documentation.
     fn summary(&self) -> &'static str {
         let text = self.description().documentation.trim();
@@ -140,11 +147,7 @@ impl<S: System<Scalar = f64> + Default> Scene for Entry<S> {
 
     fn run(&self, request: &Request) -> Result<Outcome, Refusal> {
         let system: S = request.system()?;
-        let simulation = Simulation::new(&system)
-            .tolerance(request.tolerance)
-            .method(request.method)
-            .effects(request.effects(S::DESCRIPTION)?)
-            .project_start(request.project);
+        let simulation = request.simulation(&system)?;
         let start = request.start(&system, &simulation)?;
         let until = request.until.unwrap_or(self.until);
         let (trajectory, failure) = match simulation.run(start, 0.0..until) {
@@ -158,6 +161,16 @@ impl<S: System<Scalar = f64> + Default> Scene for Entry<S> {
             failure,
             request.samples,
         ))
+    }
+
+    fn costs(&self, request: &Request) -> Result<Costs, Refusal> {
+        let system: S = request.system()?;
+        let simulation = request.simulation(&system)?;
+        let start = request.start(&system, &simulation)?;
+        let until = request.until.unwrap_or(self.until);
+        let effects = request.effects(S::DESCRIPTION)?;
+        cost::measure(self.name, &system, &simulation, &effects, &start, until)
+            .map_err(Refusal::Run)
     }
 
     fn accuracy(&self, study: &Study) -> Result<Accuracy, Refusal> {

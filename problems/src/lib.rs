@@ -6,6 +6,7 @@
 pub mod accuracy;
 pub mod catalogue;
 pub mod closed_form;
+pub mod cost;
 pub mod names;
 pub mod outcome;
 pub mod reference;

@@ -68,6 +68,8 @@ pub enum Refusal {
     },
     /// No consistent state with the values that are to be held.
     Start(Error),
+    /// The run fails.
+    Run(Error),
     /// No reference to measure errors against.
     Reference {
         /// The run that failed, or disagreed.
@@ -111,6 +113,7 @@ impl fmt::Display for Refusal {
                 }
             }
             Refusal::Repeated { name } => write!(f, "`{name}` is given twice; give it once"),
+            Refusal::Run(error) => write!(f, "{error}"),
             Refusal::Start(error) => write!(f, "no such start: {error}"),
             Refusal::Reference { by, reason } => {
                 write!(f, "no reference to measure errors against: {by}: {reason}")
@@ -135,6 +138,18 @@ impl Request {
             system.set_parameter(find_parameter(S::DESCRIPTION, name)?, *value);
         }
         Ok(system)
+    }
+
+    /// How to run `system`.
+    pub(crate) fn simulation<'a, S: System<Scalar = f64>>(
+        &self,
+        system: &'a S,
+    ) -> Result<Simulation<'a, S>, Refusal> {
+        Ok(Simulation::new(system)
+            .tolerance(self.tolerance)
+            .method(self.method)
+            .effects(self.effects(S::DESCRIPTION)?)
+            .project_start(self.project))
     }
 
     /// What takes part.

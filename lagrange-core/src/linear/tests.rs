@@ -222,6 +222,7 @@ fn random_system(seed: u64) -> (Description, Builder) {
         stops: &[],
         marks: &[],
         starts: &[],
+        units: crate::system::Units::NONE,
     };
     (description, b)
 }
@@ -293,7 +294,9 @@ fn by_definition(
                     let slip = |c: usize| read(d.rows[friction.row + c].velocity);
                     let speed = (0..friction.components).map(slip).fold(0.0, f64::hypot);
                     let direction = match sliding.direction {
-                        Direction::Fixed(direction) => direction[component],
+                        Direction::Fixed(direction) | Direction::Incipient(direction) => {
+                            direction[component]
+                        }
                         Direction::AlongSlip => slip(component) / speed,
                     };
                     slides[row] = Some(match friction.normal {

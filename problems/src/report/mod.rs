@@ -2,6 +2,7 @@
 //! in [`accuracy`] the same of an [`Accuracy`](crate::accuracy::Accuracy).
 
 pub mod accuracy;
+pub mod cost;
 pub mod csv;
 pub mod json;
 pub mod plot;
@@ -37,6 +38,23 @@ pub fn is_angle(coordinate: &Coordinate) -> bool {
         .next()
         .unwrap_or_default();
     LETTERS.contains(&stem)
+}
+
+/// The unit of a velocity: `m/s`, `rad/s`; empty for a coordinate without a unit.
+pub(crate) fn rate_unit(unit: &str) -> String {
+    match unit {
+        "" => String::new(),
+        unit if unit.contains(['/', ' ']) => format!("({unit})/s"),
+        unit => format!("{unit}/s"),
+    }
+}
+
+/// A name with its unit, `x [m]`, or the name alone.
+pub(crate) fn with_unit(name: &str, unit: &str) -> String {
+    match unit {
+        "" => name.to_owned(),
+        unit => format!("{name} [{unit}]"),
+    }
 }
 
 /// A state as (name, value) pairs in the order of the coordinates: positions, then velocities.
