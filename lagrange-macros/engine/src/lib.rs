@@ -4,6 +4,7 @@ pub mod ast;
 pub mod derive;
 pub mod diagnostics;
 pub mod emit;
+pub mod inspect;
 pub mod interpret;
 pub mod model;
 pub mod parse;
@@ -57,4 +58,23 @@ fn planned(declaration: &Declaration, sink: &mut Diagnostics) -> Option<Program>
         _ => {}
     }
     program
+}
+
+/// What is derived from a struct with its `#[lagrange(…)]` attributes, to be read: in one mode, or in all.
+///
+/// # Errors
+/// The mistakes of the declaration, or that there is no such mode; in words.
+pub fn inspect(input: TokenStream, mode: Option<&str>) -> Result<inspect::Derivation, String> {
+    let mut sink = Diagnostics::new();
+    let declaration = parse::declaration(input, &mut sink);
+    let planned = declaration.and_then(|declaration| {
+        let program = planned(&declaration, &mut sink)?;
+        Some((declaration, program))
+    });
+    match planned {
+        Some((declaration, mut program)) if sink.is_empty() => {
+            inspect::derivation(&declaration, &mut program, mode).map_err(|e| e.to_string())
+        }
+        _ => Err(sink.to_string()),
+    }
 }
