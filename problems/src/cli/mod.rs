@@ -5,6 +5,7 @@
 
 mod accuracy;
 mod course;
+mod inspect;
 mod list;
 mod output;
 mod run;
@@ -28,6 +29,7 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     List(list::List),
+    Inspect(inspect::Inspect),
     Run(run::Run),
     Accuracy(accuracy::Measure),
     Stability(stability::Stability),
@@ -72,6 +74,7 @@ pub(crate) fn main() -> ExitCode {
     };
     let result = match arguments.command {
         Command::List(list) => list.execute(),
+        Command::Inspect(inspect) => inspect.execute(),
         Command::Run(run) => run.execute(),
         Command::Accuracy(accuracy) => accuracy.execute(),
         Command::Stability(stability) => stability.execute(),

@@ -4,6 +4,10 @@ use super::formula::{Formula, Statement};
 use super::letter::Letter;
 use super::{Derivation, Item, Mode, Part};
 
+/// Headings that printers look for.
+pub(super) const ENERGIES: &str = "Energies";
+pub(super) const MOTION: &str = "Equations of motion (Euler–Lagrange)";
+
 /// A piece of a line.
 #[derive(Clone, Debug)]
 pub(super) enum Piece {
@@ -93,7 +97,7 @@ impl Derivation {
     }
 
     fn equations(&self, blocks: &mut Vec<Block>) {
-        blocks.push(Block::Heading(2, "Energies".to_owned()));
+        blocks.push(Block::Heading(2, ENERGIES.to_owned()));
         let energy = |name: &str, value: &Formula| {
             let left = Formula::Letter(Letter::new(name));
             (Vec::new(), Statement::equal(left, value.clone()))
@@ -102,10 +106,7 @@ impl Derivation {
             energy("T", &self.kinetic),
             energy("V", &self.potential),
         ]));
-        blocks.push(Block::Heading(
-            2,
-            "Equations of motion (Euler–Lagrange)".to_owned(),
-        ));
+        blocks.push(Block::Heading(2, MOTION.to_owned()));
         let equations = self.motion.iter();
         blocks.push(Block::Equations(
             equations

@@ -3,7 +3,7 @@
 use super::notation::terms;
 use super::text::{self, Text};
 use crate::inspect::Derivation;
-use crate::inspect::document::{Block, Piece};
+use crate::inspect::document::{Block, ENERGIES, MOTION, Piece};
 use crate::inspect::formula::Statement;
 
 /// Columns.
@@ -23,6 +23,20 @@ pub fn plain(derivation: &Derivation) -> String {
             Block::Paragraph(pieces) => paragraph(&line(&pieces), &mut out),
             Block::Table(rows) => table(&rows, &mut out),
             Block::Equations(equations) => lines(&equations, &mut out),
+        }
+    }
+    out
+}
+
+/// Energies and equations of motion alone.
+pub fn brief(derivation: &Derivation) -> String {
+    let mut out = String::new();
+    let mut inside = false;
+    for block in derivation.blocks() {
+        match block {
+            Block::Heading(2, title) => inside = title == ENERGIES || title == MOTION,
+            Block::Equations(equations) if inside => lines(&equations, &mut out),
+            _ => {}
         }
     }
     out
