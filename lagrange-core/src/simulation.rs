@@ -244,7 +244,7 @@ impl Settings {
     /// Refuses what the declaration may say but this version cannot run.
     fn supported<S: System>(&self) -> Result<(), Error> {
         use crate::effects::Item;
-        use crate::system::{Normal, Restitution};
+        use crate::system::Restitution;
         let d = S::DESCRIPTION;
         let takes_part = |item: Item| self.effects.includes(d, item);
         for (i, contact) in d
@@ -266,30 +266,6 @@ impl Settings {
                 let instead = "use Newton's restitution";
                 return Err(Error::Unsupported {
                     what: "Poisson's restitution",
-                    item,
-                    instead,
-                });
-            }
-        }
-        for (i, friction) in d
-            .frictions
-            .iter()
-            .enumerate()
-            .filter(|(i, _)| takes_part(Item::Friction(*i)))
-        {
-            let item = d.frictions[i].name;
-            if friction.components > 1 {
-                let instead = "give one slip component, or leave the friction out";
-                return Err(Error::Unsupported {
-                    what: "friction in two directions",
-                    item,
-                    instead,
-                });
-            }
-            if let Normal::Constraint(_) = friction.normal {
-                let instead = "give its normal force by `normal = …`";
-                return Err(Error::Unsupported {
-                    what: "friction on a constraint",
                     item,
                     instead,
                 });

@@ -6,6 +6,7 @@
 
 mod compiled;
 mod error;
+mod heading;
 mod jacobian;
 mod matrices;
 mod needs;
@@ -21,6 +22,7 @@ pub use error::{EvaluationError, row_name};
 pub use needs::{NeedSet, add_branch_guards, add_guards};
 pub use projection::Residual;
 
+use crate::arithmetic::Scalar;
 use crate::effects::Effects;
 use crate::linear::{SolveError, Solver};
 use crate::mode::Mode;
@@ -44,6 +46,15 @@ pub struct Work {
     pub factorizations: usize,
     /// Runs of the tape by projections.
     pub projections: usize,
+}
+
+/// Arithmetic operations of one evaluation in the present mode.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Operations {
+    /// Of the accelerations: a right-hand side.
+    pub accelerations: usize,
+    /// Of everything that was asked for: forces, guards and outputs as well.
+    pub everything: usize,
 }
 
 /// The equations of motion of a scene.
@@ -74,6 +85,8 @@ pub struct Dynamics<S: System> {
     report_nodes: Vec<S::Scalar>,
     right: Vec<S::Scalar>,
     solution: Vec<S::Scalar>,
+    /// Directions of slips with two components.
+    headings: heading::Headings<S::Scalar>,
     projector: Solver<S::Scalar>,
     projection: projection::Scratch<S::Scalar>,
     /// Columns of a Jacobian, for a stepper that wants rows.
@@ -109,6 +122,7 @@ impl<S: System> Dynamics<S> {
             report_nodes: vec![zero; d.report.outputs],
             right: Vec::with_capacity(n + rows),
             solution: Vec::with_capacity(n + rows),
+            headings: heading::Headings::new(d.frictions.len()),
             projector,
             projection: projection::Scratch::new(n, rows),
             columns: Vec::new(),
@@ -155,6 +169,12 @@ impl<S: System> Dynamics<S> {
         self.work
     }
 
+    /// Operations of the last [`Self::value`]: what takes no part in the mode is not among them.
+    pub fn operations(&self) -> Operations {
+        let tape = self.compiled().tape();
+        tape.map(|tape| tape.operations()).unwrap_or_default()
+    }
+
     /// The rows that act as equations in this mode, ascending.
     pub fn acting_rows(&self) -> &[usize] {
         &self.compiled().plan.acting
@@ -174,8 +194,12 @@ impl<S: System> Dynamics<S> {
         let known = self
             .modes
             .iter()
-            .position(|compiled| compiled.mode == *mode);
+            .position(|compiled| compiled.mode.has_equations_of(mode));
         self.current = known.unwrap_or_else(|| self.compile(mode));
+        for (f, along) in mode.incipient() {
+            self.set_heading(f, along.map(S::Scalar::from_f64));
+        }
+        self.modes[self.current].mode.clone_from(mode);
         self.hold();
     }
 

@@ -328,9 +328,12 @@ impl<S: System> Collision<'_, S> {
                     sticks[f] = true;
                 }
                 Sliding::Along(sign) => {
-                    if sign * rate_after(d.frictions[f].row) < -tiny_speed {
+                    let slip = sign * rate_after(d.frictions[f].row);
+                    if slip < -tiny_speed {
                         return None;
                     }
+                    // Other contacts may have stopped the slip that this friction allows.
+                    sticks[f] = slip <= tiny_speed;
                 }
             }
         }

@@ -8,13 +8,16 @@ use crate::mode::FrictionMode;
 use crate::modes::decide::{Known, Moment};
 use crate::modes::guard::Guard;
 use crate::modes::impact::{Impact, impact};
-use crate::system::{Normal, System};
+use crate::system::{Normal, Row, System};
 use crate::trajectory::{EventKind, Subject};
 
 impl<S: System> Run<S> {
     /// Leaves the present mode because the guards in `self.fallen` fell through zero.
     pub(super) fn switch(&mut self) -> Result<(), Error> {
         let d = S::DESCRIPTION;
+        if !self.rests.is_empty() {
+            self.come_to_rest()?;
+        }
         if !self.valued {
             self.evaluate()?;
         }
@@ -25,7 +28,7 @@ impl<S: System> Run<S> {
             .residue(&self.dynamics, &self.mode, &self.fallen);
         known.touching.copy_from_slice(&self.mode.contacts);
         for (resting, friction) in known.resting.iter_mut().zip(&self.mode.frictions) {
-            *resting = *friction == FrictionMode::Stick;
+            *resting = friction.rests();
         }
         for &guard in &self.fallen {
             match guard {
@@ -151,8 +154,7 @@ impl<S: System> Run<S> {
             self.evaluate_all_rows()?;
             for (f, friction) in d.frictions.iter().enumerate() {
                 if matches!(friction.normal, Normal::Contact(on) if known.touching[on]) {
-                    let (slip, size) = self.slip(friction.row);
-                    known.resting[f] = slip.abs() <= 1e-13 * size;
+                    known.resting[f] = self.slip_vanishes(f);
                 }
             }
             let state = core::mem::take(&mut self.state);
@@ -199,24 +201,29 @@ impl<S: System> Run<S> {
             return Ok(());
         }
         self.evaluate_all_rows()?;
-        for (f, friction) in d.frictions.iter().enumerate() {
+        for f in 0..d.frictions.len() {
             if wakes(self, known, f) {
-                let (slip, size) = self.slip(friction.row);
-                known.resting[f] = slip.abs() <= 1e-13 * size;
+                known.resting[f] = self.slip_vanishes(f);
             }
         }
         Ok(())
     }
 
-    /// Slip of a friction row and the size of the terms that make it.
-    pub(super) fn slip(&self, row: usize) -> (f64, f64) {
-        let row = &S::DESCRIPTION.rows[row];
+    /// Whether the slip of friction `f` is zero beside the terms that make it; a velocity that is zero is so only to some 1e-16
+    /// of the unit, as projections leave it.
+    pub(super) fn slip_vanishes(&self, f: usize) -> bool {
+        let d = S::DESCRIPTION;
+        let friction = &d.frictions[f];
         let number = |place| self.dynamics.motion(place).value();
-        let size = row
-            .jacobian
-            .iter()
-            .map(|&(j, place)| (number(place) * self.state.v[j].value()).abs())
-            .sum();
-        (number(row.velocity), size)
+        let rows = &d.rows[friction.row..friction.row + friction.components];
+        let largest = |row: &Row| {
+            let terms = row.jacobian.iter();
+            let size = |j: usize| self.state.v[j].value().abs() + 1e-2;
+            let sizes = terms.map(|&(j, place)| number(place).abs() * size(j));
+            sizes.sum::<f64>()
+        };
+        let size = rows.iter().map(largest).fold(0.0, f64::max);
+        rows.iter()
+            .all(|row| number(row.velocity).abs() <= 1e-13 * size)
     }
 }

@@ -117,7 +117,7 @@ impl<'a, S: System> Sampler<'a, S> {
             self.dynamics.set_extra_needs(&needs);
         }
         let dynamics = &mut self.dynamics;
-        let outcome = dynamics.value(t, &state.q, &state.v);
+        let outcome = dynamics.value_along(t, &state.q, &state.v);
         outcome
             .map_err(|e| Error::from_evaluation(e, t.value(), &self.trajectory.modes[mode], d))?;
         dynamics.report_value();

@@ -5,6 +5,7 @@
 
 mod accuracy;
 mod course;
+mod effects;
 mod inspect;
 mod list;
 mod output;
@@ -32,6 +33,7 @@ enum Command {
     Inspect(inspect::Inspect),
     Run(run::Run),
     Accuracy(accuracy::Measure),
+    Effects(effects::Effects),
     Stability(stability::Stability),
 }
 
@@ -55,7 +57,9 @@ impl Trouble {
     /// A name that is not known makes no sense; a start or a reference that does not exist was tried.
     fn refused(refusal: Refusal) -> Self {
         match refusal {
-            Refusal::Start(_) | Refusal::Reference { .. } => Trouble::failed(refusal),
+            Refusal::Start(_) | Refusal::Run(_) | Refusal::Reference { .. } => {
+                Trouble::failed(refusal)
+            }
             _ => Trouble::usage(refusal),
         }
     }
@@ -77,6 +81,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Inspect(inspect) => inspect.execute(),
         Command::Run(run) => run.execute(),
         Command::Accuracy(accuracy) => accuracy.execute(),
+        Command::Effects(effects) => effects.execute(),
         Command::Stability(stability) => stability.execute(),
     };
     match result {

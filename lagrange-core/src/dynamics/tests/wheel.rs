@@ -193,6 +193,7 @@ pub static WHEEL: Description = Description {
     stops: &[],
     marks: &[],
     starts: &[],
+    units: crate::system::Units::NONE,
 };
 
 fn held(h: &Held, need: usize) -> bool {

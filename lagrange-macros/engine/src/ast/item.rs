@@ -1,6 +1,6 @@
 //! Items of a declaration.
 
-use super::{Comparison, Expr, Head, Index, Name, Reference};
+use super::{Comparison, Expr, Head, Index, Name, Reference, Unit};
 use proc_macro2::Span;
 
 /// An item of a declaration.
@@ -56,8 +56,8 @@ pub struct Coordinate {
     pub name: Name,
     /// Number of elements.
     pub length: Option<Expr>,
-    /// Unit, or empty.
-    pub unit: String,
+    /// Unit.
+    pub unit: Option<Unit>,
 }
 
 /// A named expression.

@@ -45,10 +45,19 @@ pub struct Field {
     pub documentation: String,
     /// `tex = "…"`, or empty.
     pub tex: String,
-    /// `unit = "…"`, or empty.
-    pub unit: String,
+    /// `unit = "…"`
+    pub unit: Option<Unit>,
     /// `symbol = "…"`, or empty.
     pub letter: String,
+}
+
+/// A unit as written.
+#[derive(Clone, Debug)]
+pub struct Unit {
+    /// Without the quotation marks.
+    pub text: String,
+    /// Where it is.
+    pub extent: Extent,
 }
 
 /// A name as written; `r#type` reads as `type`.

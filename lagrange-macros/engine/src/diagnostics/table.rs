@@ -1,6 +1,6 @@
 //! Every message of the macro: its code, what is wrong, and what to do next. `{0}`, `{1}`, … are blanks.
 //!
-//! E0xx notation · E1xx the struct · E2xx names · E3xx values · E4xx what may stand where · E5xx mechanics
+//! E0xx notation · E1xx the struct · E2xx names · E3xx values · E4xx what may stand where · E5xx, E6xx mechanics · E7xx units
 
 /// A row of the table.
 pub(super) struct Row {
@@ -107,6 +107,14 @@ table! {
 
     NoInertia "E601" "the coordinate `{0}` has no inertia" "no kinetic energy contains `der({0})`, and no constraint ties it: add its kinetic energy or remove it";
     EquationCount "E602" "{0} equations for {1} unknowns" "{2}";
+
+    UnknownUnit "E701" "`{0}` is not a unit" "{1}";
+    UnitMultiple "E702" "`{0}` is a multiple of {1}" "numbers are not converted: write `{1}`, and give the values in it";
+    UnitForm "E703" "{0}" "{1}";
+    UnitExpected "E704" "{0} is {1}, and this is {2}" "{3}";
+    UnitsAdded "E705" "adds {0} to {1}" "{2}";
+    UnitsCompared "E706" "compares {0} with {1}" "{2}";
+    PressedBy "E707" "the force of `{0}` is {1}, and what presses is {2}" "{3}";
 
     Bug "E999" "a bug in the derive: something was left out without a message" "please report it with the declaration";
 }

@@ -142,7 +142,11 @@ fn meanings(declaration: &Declaration, system: &System, names: &Names) -> Vec<Me
             letter: names.declared(&field.name.text),
             name,
             text: summary(&field.documentation),
-            unit: field.unit.clone(),
+            unit: field
+                .unit
+                .as_ref()
+                .map(|unit| unit.text.clone())
+                .unwrap_or_default(),
         });
     }
     let _ = system;

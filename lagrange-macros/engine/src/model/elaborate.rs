@@ -5,7 +5,7 @@
 use super::names::{Kind, Meaning, Names};
 use super::reach::{Context, Depth, Reach};
 use super::value::Value;
-use super::{ItemName, System};
+use super::{ItemName, System, Units};
 use crate::ast::{Declaration, Expr, Head, Impacts, Item, ItemKind, Name};
 use crate::diagnostics::{Code, Diagnostics};
 use crate::symbolic::{ExprId, Pool, Symbol};
@@ -65,6 +65,9 @@ pub fn system(declaration: &Declaration, sink: &mut Diagnostics) -> Option<Syste
     }
     elaboration.check_quadratic(declaration);
     elaboration.check_dropped(declaration);
+    if elaboration.sink.count() == before {
+        elaboration.units(declaration);
+    }
     let system = elaboration.system;
     (sink.count() == before).then_some(system)
 }
@@ -124,6 +127,8 @@ impl<'a> Elaboration<'a> {
             stops: Vec::new(),
             marks: Vec::new(),
             impacts: Impacts::default(),
+            units: Units::default(),
+            hints: Vec::new(),
         };
         Elaboration {
             system,

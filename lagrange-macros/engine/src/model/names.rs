@@ -215,6 +215,11 @@ impl Elaboration<'_> {
     }
 }
 
+/// A name without `r#`.
+pub(super) fn plain(ident: &proc_macro2::Ident) -> String {
+    Name::new(ident).text
+}
+
 /// Whether a word cannot be a name.
 pub(super) fn is_reserved(word: &str) -> bool {
     RESERVED.contains(&word) || FUNCTIONS.contains(&word)

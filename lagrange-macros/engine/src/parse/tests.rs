@@ -159,7 +159,7 @@ fn mass_on_wheel_reads() {
     assert_eq!(read.scalar.as_ref().unwrap(), "T");
     assert!(read.documentation.starts_with("A small mass"));
     assert_eq!(read.fields.len(), 7);
-    assert_eq!(read.fields[0].unit, "kg");
+    assert_eq!(read.fields[0].unit.as_ref().unwrap().text, "kg");
     assert_eq!(read.items.len(), 10);
 }
 

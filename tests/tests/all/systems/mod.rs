@@ -12,6 +12,7 @@ mod pendulum;
 mod piecewise;
 mod skate;
 mod sling;
+mod wire;
 
 use lagrange_core::prelude::*;
 
