@@ -29,14 +29,23 @@ fn written(kind: &ItemKind, names: &Names, items: &mut Vec<Item>) {
     let formula = |e| Part::Formula(names.written(e));
     match kind {
         ItemKind::Coordinates(coordinates) => {
-            let letters = coordinates.iter().map(|coordinate| {
+            let mut parts = Vec::new();
+            for coordinate in coordinates {
                 let letter = Letter::new(&coordinate.name.text);
-                Part::Formula(match &coordinate.length {
-                    Some(length) => Formula::Letter(letter.element(&format!("0…{length}-1"))),
-                    None => Formula::Letter(letter),
-                })
-            });
-            add("coordinates", String::new(), letters.collect());
+                let Some(length) = &coordinate.length else {
+                    parts.push(Part::Formula(Formula::Letter(letter)));
+                    continue;
+                };
+                let length = length.to_string();
+                let last = match length.parse::<usize>() {
+                    Ok(count) => count.saturating_sub(1).to_string(),
+                    Err(_) => format!("{length}-1"),
+                };
+                parts.push(Part::Formula(Formula::Letter(letter.clone().element("0"))));
+                parts.push(Part::Word("…".to_owned()));
+                parts.push(Part::Formula(Formula::Letter(letter.element(&last))));
+            }
+            add("coordinates", String::new(), parts);
         }
         ItemKind::Define(definitions) => {
             for definition in definitions {

@@ -138,7 +138,12 @@ impl Derivation {
         if self.mode_count < 2 {
             return;
         }
-        blocks.push(Block::Heading(2, format!("Modes ({})", self.mode_count)));
+        let count = match self.mode_count {
+            few @ 0..1_000_000 => few.to_string(),
+            u128::MAX => "more than 1e38".to_owned(),
+            many => format!("about {:.0e}", many as f64),
+        };
+        blocks.push(Block::Heading(2, format!("Modes ({count})")));
         for mode in &self.modes {
             mode_blocks(mode, blocks);
         }

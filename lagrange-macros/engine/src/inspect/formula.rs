@@ -5,6 +5,9 @@
 use super::letter::{Letter, Mark};
 use crate::symbolic::Rational;
 
+/// What is left of a part at least.
+const FEW: usize = 6;
+
 /// A formula.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Formula {
@@ -162,6 +165,75 @@ impl Formula {
             }
             Formula::SumOver(_, parts) => 2 + all(&**parts),
             Formula::List(list) => 2 + all(list),
+        }
+    }
+
+    /// How hard it is to read: its size, and how deep its parentheses are.
+    pub fn effort(&self) -> usize {
+        self.size() + 3 * self.nesting()
+    }
+
+    fn nesting(&self) -> usize {
+        match self {
+            Formula::Sum(terms) => terms
+                .iter()
+                .map(|(_, term)| term.nesting())
+                .max()
+                .unwrap_or(0),
+            Formula::Product(factors) => {
+                let inside = |f: &Formula| usize::from(matches!(f, Formula::Sum(_))) + f.nesting();
+                factors.iter().map(inside).max().unwrap_or(0)
+            }
+            Formula::Power(a, _) => usize::from(matches!(**a, Formula::Sum(_))) + a.nesting(),
+            Formula::Negative(a) => a.nesting(),
+            Formula::Fraction(a, b) => a.nesting().max(b.nesting()),
+            _ => 0,
+        }
+    }
+
+    /// The same, with terms and parts left out until there is no more than so much to read (but for what cannot be taken
+    /// apart).
+    pub fn shortened(&self, most: usize) -> Formula {
+        if self.size() <= most {
+            return self.clone();
+        }
+        let part = |a: &Formula, most: usize| Box::new(a.shortened(most));
+        match self {
+            Formula::Sum(terms) => {
+                let mut left = most;
+                let mut kept = Vec::new();
+                for (minus, term) in terms {
+                    let size = 1 + term.size();
+                    if !kept.is_empty() && size > left {
+                        break;
+                    }
+                    kept.push((*minus, term.shortened(left.max(FEW))));
+                    left = left.saturating_sub(size);
+                }
+                if kept.len() < terms.len() {
+                    kept.push((false, Formula::More(terms.len() - kept.len())));
+                }
+                Formula::Sum(kept)
+            }
+            Formula::Product(factors) => {
+                let sizes: usize = factors.iter().map(Formula::size).sum();
+                let share = |f: &Formula| (most * f.size() / sizes.max(1)).max(FEW);
+                Formula::Product(factors.iter().map(|f| f.shortened(share(f))).collect())
+            }
+            Formula::Negative(a) => Formula::Negative(part(a, most)),
+            Formula::Root(a) => Formula::Root(part(a, most)),
+            Formula::Absolute(a) => Formula::Absolute(part(a, most)),
+            Formula::Fraction(a, b) => {
+                let half = (most / 2).max(FEW);
+                Formula::Fraction(part(a, half), part(b, half))
+            }
+            Formula::Power(a, b) => Formula::Power(part(a, most), b.clone()),
+            Formula::Call(f, arguments) => {
+                let share = (most / arguments.len().max(1)).max(FEW);
+                let arguments = arguments.iter().map(|a| a.shortened(share));
+                Formula::Call(f.clone(), arguments.collect())
+            }
+            other => other.clone(),
         }
     }
 

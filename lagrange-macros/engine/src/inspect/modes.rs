@@ -89,43 +89,21 @@ pub(super) fn choose(work: &Work, mode: Option<&str>) -> Result<Chosen, UnknownM
     let system = work.system();
     let count = count(system);
     let contacts = system.contacts.len();
-    let mut patterns: Vec<Vec<bool>> = Vec::new();
+    let mut shown = Vec::new();
     if count <= MOST_SHOWN {
         for bits in 0..1_usize << contacts {
-            patterns.push((0..contacts).map(|i| bits >> i & 1 == 1).collect());
+            let closed = (0..contacts).map(|i| bits >> i & 1 == 1).collect();
+            with_frictions(system, closed, usize::MAX, &mut shown);
         }
     } else {
-        patterns.push(vec![false; contacts]);
+        with_frictions(system, vec![false; contacts], 1, &mut shown);
         for one in Work::shown(contacts) {
-            patterns.push((0..contacts).map(|i| i == one).collect());
+            let closed = (0..contacts).map(|i| i == one).collect();
+            with_frictions(system, closed, 3, &mut shown);
         }
         if contacts > 1 {
-            patterns.push(vec![true; contacts]);
+            with_frictions(system, vec![true; contacts], 1, &mut shown);
         }
-    }
-    let mut shown = Vec::new();
-    for contacts in patterns {
-        let mut frictions: Vec<Vec<State>> = vec![Vec::new()];
-        for friction in 0..system.frictions.len() {
-            let states = match acts(system, friction, &contacts) {
-                true => states(system, friction),
-                false => &[State::Inactive],
-            };
-            // Of very many only sticking is shown.
-            let states = &states[..if frictions.len() > 27 {
-                1
-            } else {
-                states.len()
-            }];
-            frictions = frictions
-                .iter()
-                .flat_map(|before| states.iter().map(|&s| [before.as_slice(), &[s]].concat()))
-                .collect();
-        }
-        shown.extend(frictions.into_iter().map(|frictions| Choice {
-            contacts: contacts.clone(),
-            frictions,
-        }));
     }
     let Some(asked) = mode else {
         return Ok(Chosen { shown, count });
@@ -140,6 +118,29 @@ pub(super) fn choose(work: &Work, mode: Option<&str>) -> Result<Chosen, UnknownM
             known: shown.iter().map(|choice| name(system, choice)).collect(),
         }),
     }
+}
+
+/// All states of the frictions beside these contacts; frictions have only their first state once there are so many.
+fn with_frictions(system: &System, contacts: Vec<bool>, most: usize, shown: &mut Vec<Choice>) {
+    let mut list: Vec<Vec<State>> = vec![Vec::new()];
+    for friction in 0..system.frictions.len() {
+        let states = match acts(system, friction, &contacts) {
+            true => states(system, friction),
+            false => &[State::Inactive],
+        };
+        let states = match list.len() * states.len() <= most {
+            true => states,
+            false => &states[..1],
+        };
+        list = list
+            .iter()
+            .flat_map(|before| states.iter().map(|&s| [before.as_slice(), &[s]].concat()))
+            .collect();
+    }
+    shown.extend(list.into_iter().map(|frictions| Choice {
+        contacts: contacts.clone(),
+        frictions,
+    }));
 }
 
 /// How many modes there are.

@@ -40,21 +40,30 @@ pub struct Names {
     declared: BTreeMap<String, Letter>,
 }
 
-/// Letters that physicists write before others in a product.
-const FIRST: &str = "mMIJkcg";
+/// Letters that physicists write before others in a product, class by class.
+const FIRST: [&str; 3] = ["mMIJ", "kc", "g"];
 
 impl Names {
     /// Letters of everything that a system names.
     pub fn of(declaration: &Declaration, system: &System) -> Names {
         let mut declared = BTreeMap::new();
+        let mut taken: Vec<Letter> = Vec::new();
+        for coordinate in &system.coordinates {
+            taken.push(Letter::new(&coordinate.name.text));
+        }
         for field in &declaration.fields {
-            let written = match field.letter.as_str() {
-                "" => &field.name.text,
-                letter => letter,
+            let name = &field.name.text;
+            let mut letter = match field.letter.as_str() {
+                "" => Letter::new(name),
+                letter => Letter::new(letter),
             };
-            let mut letter = Letter::new(written);
             letter.tex = field.tex.clone();
-            declared.insert(field.name.text.clone(), letter);
+            // A letter stands for one thing only; the second keeps its name.
+            if taken.contains(&letter) {
+                letter = Letter::new(name);
+            }
+            taken.push(letter.clone());
+            declared.insert(name.clone(), letter);
         }
         let mut names = Names {
             symbols: BTreeMap::new(),
@@ -69,10 +78,10 @@ impl Names {
                 None => whole,
             };
             let early = match letter.base.chars().next() {
-                Some(c) if letter.is_single() => FIRST.find(c),
+                Some(c) if letter.is_single() => FIRST.iter().position(|class| class.contains(c)),
                 _ => None,
             };
-            let order = early.unwrap_or(FIRST.len() + i);
+            let order = early.unwrap_or(FIRST.len()) * system.parameters.len() + i;
             names.enter(parameter.symbol, letter, Kind::Parameter, order);
         }
         for (i, coordinate) in system.coordinates.iter().enumerate() {

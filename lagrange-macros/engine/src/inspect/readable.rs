@@ -15,6 +15,9 @@ const MOST_EXPANDED: usize = 48;
 /// Of longer sums only so many terms are shown.
 const MOST_SHOWN: usize = 40;
 
+/// Of formulas with more to read than this, parts are left out.
+const LONGEST: usize = 120;
+
 /// base^exponent factors.
 type Factors = Vec<(ExprId, Rational)>;
 
@@ -30,8 +33,32 @@ pub struct Reader<'a> {
 /// Where a factor stands in a product, then among its like.
 type Rank = (u8, usize, usize);
 
+/// Where a term stands in a sum.
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
+struct Place {
+    forces: i64,
+    rates: i64,
+    mixed: bool,
+    velocities: Vec<usize>,
+    still: bool,
+    ranks: Vec<(Rank, Rational)>,
+}
+
+impl Default for Place {
+    fn default() -> Place {
+        Place {
+            forces: 0,
+            rates: 0,
+            mixed: false,
+            velocities: Vec::new(),
+            still: true,
+            ranks: Vec::new(),
+        }
+    }
+}
+
 const NUMBER: u8 = 0;
-const STILL_SUM: u8 = 5;
+const PARAMETER: u8 = 2;
 const MOVING_SUM: u8 = 10;
 const FUNCTION: u8 = 11;
 
@@ -51,8 +78,12 @@ impl<'a> Reader<'a> {
         self.pool
     }
 
-    /// An expression on paper.
+    /// An expression on paper; what would be very long is shortened.
     pub fn formula(&mut self, e: ExprId) -> Formula {
+        self.full(e).shortened(LONGEST)
+    }
+
+    fn full(&mut self, e: ExprId) -> Formula {
         if let Some(known) = self.known.get(&e) {
             return known.clone();
         }
@@ -74,12 +105,11 @@ impl<'a> Reader<'a> {
                     false => as_is,
                 }
             }
-            Node::Power(base, exponent) => Formula::Power(
-                Box::new(self.formula(base)),
-                Box::new(self.formula(exponent)),
-            ),
+            Node::Power(base, exponent) => {
+                Formula::Power(Box::new(self.full(base)), Box::new(self.full(exponent)))
+            }
             Node::Call(f, arguments) => {
-                let arguments = arguments.iter().map(|&a| self.formula(a)).collect();
+                let arguments = arguments.iter().map(|&a| self.full(a)).collect();
                 Formula::Call(name(f).to_owned(), arguments)
             }
             Node::Select {
@@ -101,15 +131,16 @@ impl<'a> Reader<'a> {
         let Some(flat) = self.multiplied_out(e) else {
             return best;
         };
-        let collected = self.collected(flat);
-        for form in [collected, flat] {
+        let by_rates = self.collected(flat, Kind::Velocity);
+        let by_positions = self.collected(flat, Kind::Position);
+        for form in [by_rates, by_positions, flat] {
             if form != e {
                 let other = match self.pool.node(form).clone() {
                     Node::Sum { .. } => self.laid_out(form),
                     Node::Product(factors) => self.term(Rational::ONE, &factors, None),
-                    _ => self.formula(form),
+                    _ => self.full(form),
                 };
-                if other.size() + nesting(&other) < best.size() + nesting(&best) {
+                if other.effort() < best.effort() {
                     best = other;
                 }
             }
@@ -128,10 +159,14 @@ impl<'a> Reader<'a> {
 
     /// Whether it holds parameters and time only.
     fn is_still(&self, e: ExprId) -> bool {
-        self.pool
-            .symbols(e)
-            .iter()
-            .all(|s| self.names.symbol(*s).is_some_and(|k| k.kind <= Kind::Time))
+        self.is_below(e, Kind::Position)
+    }
+
+    /// Whether all its symbols are of a kind before this one.
+    fn is_below(&self, e: ExprId, kind: Kind) -> bool {
+        let symbols = self.pool.symbols(e);
+        let below = |s| self.names.symbol(s).is_some_and(|known| known.kind < kind);
+        symbols.into_iter().all(below)
     }
 
     /// Products over moving sums multiplied out; `None` if that is too long.
@@ -229,8 +264,8 @@ impl<'a> Reader<'a> {
         Some(())
     }
 
-    /// Terms with the same velocities, accelerations and forces put together.
-    fn collected(&mut self, flat: ExprId) -> ExprId {
+    /// Terms put together that agree in all factors of this kind or a later one, functions of such included.
+    fn collected(&mut self, flat: ExprId, kind: Kind) -> ExprId {
         let Node::Sum { constant, terms } = self.pool.node(flat).clone() else {
             return flat;
         };
@@ -240,11 +275,9 @@ impl<'a> Reader<'a> {
                 Node::Product(factors) => factors.clone(),
                 _ => vec![(term, Rational::ONE)],
             };
-            let (moving, still): (Factors, Factors) =
-                factors.into_iter().partition(|&(base, _)| {
-                    matches!(self.pool.node(base), Node::Symbol(s)
-                        if self.names.symbol(*s).is_some_and(|k| k.kind >= Kind::Velocity))
-                });
+            let (moving, still): (Factors, Factors) = factors
+                .into_iter()
+                .partition(|&(base, _)| !self.is_below(base, kind));
             let still = self.pool.monomial(Rational::ONE, &still);
             groups.entry(moving).or_default().push((still, c));
         }
@@ -265,7 +298,7 @@ impl<'a> Reader<'a> {
     /// A sum as it stands, with the factors that all terms share in front.
     fn laid_out(&mut self, e: ExprId) -> Formula {
         let Node::Sum { constant, terms } = self.pool.node(e).clone() else {
-            return self.formula(e);
+            return self.full(e);
         };
         let mut list: Vec<(Rational, Factors)> = terms
             .iter()
@@ -310,29 +343,34 @@ impl<'a> Reader<'a> {
         self.term(c, &common, Some(inner))
     }
 
-    /// Where a term stands in a sum: what moves most comes first.
-    fn place(&self, factors: &[(ExprId, Rational)]) -> (i64, i64, Vec<(Rank, Rational)>) {
-        let mut forces = 0;
-        let mut velocities = 0;
+    /// Where a term stands in a sum: what moves most comes first, squares before products, numbers last.
+    fn place(&self, factors: &[(ExprId, Rational)]) -> Place {
+        let mut place = Place::default();
         for &(base, exponent) in factors {
             if let Node::Symbol(symbol) = self.pool.node(base)
                 && let Some(known) = self.names.symbol(*symbol)
             {
                 let size = i64::try_from(exponent.numerator()).unwrap_or(1);
                 match known.kind {
-                    Kind::Acceleration => velocities += 16 * size,
-                    Kind::Velocity => velocities += size,
-                    Kind::Force => forces += size,
+                    Kind::Acceleration => {
+                        place.rates -= 16 * size;
+                        place.velocities.push(known.order);
+                    }
+                    Kind::Velocity => {
+                        place.rates -= size;
+                        place.velocities.push(known.order);
+                    }
+                    Kind::Force => place.forces += size,
                     _ => {}
                 }
             }
+            place.still &= self.is_still(base);
+            place.ranks.push((self.rank(base), exponent));
         }
-        let mut ranks: Vec<(Rank, Rational)> = factors
-            .iter()
-            .map(|&(base, exponent)| (self.rank(base), exponent))
-            .collect();
-        ranks.sort();
-        (forces, -velocities, ranks)
+        place.velocities.sort_unstable();
+        place.mixed = place.velocities.len() > 1;
+        place.ranks.sort_unstable();
+        place
     }
 
     /// c · Π base^exponent · extra, in the order of reading.
@@ -348,7 +386,7 @@ impl<'a> Reader<'a> {
         let mut size = c.checked_abs().unwrap_or(c);
         for &(base, exponent) in factors {
             let mut rank = self.rank(base);
-            let (negative, formula) = match self.formula(base).signed() {
+            let (negative, formula) = match self.full(base).signed() {
                 // An odd power of a sum that reads better with its sign in front.
                 (true, formula) if exponent.is_integer() => {
                     (exponent.numerator() % 2 != 0, formula)
@@ -410,7 +448,7 @@ impl<'a> Reader<'a> {
             Node::Symbol(symbol) => match self.names.symbol(*symbol) {
                 Some(known) => {
                     let kind = match known.kind {
-                        Kind::Parameter => 2,
+                        Kind::Parameter => PARAMETER,
                         Kind::Time => 3,
                         Kind::Position => 4,
                         Kind::Velocity => 6,
@@ -425,7 +463,13 @@ impl<'a> Reader<'a> {
                 let first = self.pool.symbols(e).first().map_or(0, |s| s.index());
                 (FUNCTION, first, e.index())
             }
-            Node::Sum { .. } if self.is_still(e) => (STILL_SUM, 0, e.index()),
+            // A sum of masses stands where masses stand.
+            Node::Sum { .. } if self.is_still(e) => {
+                let symbols = self.pool.symbols(e);
+                let orders = symbols.iter().filter_map(|s| self.names.symbol(*s));
+                let first = orders.map(|known| known.order).min();
+                (PARAMETER, first.unwrap_or(usize::MAX), e.index())
+            }
             _ => (MOVING_SUM, 0, e.index()),
         }
     }
@@ -440,13 +484,13 @@ impl<'a> Reader<'a> {
         let reverse = self.pool.neg(difference);
         let call = |f: &str, arguments| Formula::Call(f.to_owned(), arguments);
         if otherwise == minus && then == guard {
-            let (_, size) = self.formula(guard).signed();
+            let (_, size) = self.full(guard).signed();
             return Formula::Absolute(Box::new(size));
         }
         if otherwise == minus && self.pool.is_one(then) {
-            return call("sgn", vec![self.formula(guard)]);
+            return call("sgn", vec![self.full(guard)]);
         }
-        let sides = [self.formula(then), self.formula(otherwise)];
+        let sides = [self.full(then), self.full(otherwise)];
         if guard == difference {
             return call("max", sides.to_vec());
         }
@@ -454,7 +498,7 @@ impl<'a> Reader<'a> {
             return call("min", sides.to_vec());
         }
         let [then, otherwise] = sides.map(Box::new);
-        let condition = Statement::new(self.formula(guard), Relation::AtLeast, Formula::ZERO);
+        let condition = Statement::new(self.full(guard), Relation::AtLeast, Formula::ZERO);
         Formula::Cases(Box::new(condition), then, otherwise)
     }
 }
@@ -475,29 +519,6 @@ fn product(mut factors: Vec<Formula>) -> Formula {
     match factors.len() {
         1 => factors.remove(0),
         _ => Formula::Product(factors),
-    }
-}
-
-/// How deep parentheses are.
-fn nesting(formula: &Formula) -> usize {
-    let deepest = |list: &mut dyn Iterator<Item = &Formula>| list.map(nesting).max().unwrap_or(0);
-    match formula {
-        Formula::Sum(terms) => deepest(&mut terms.iter().map(|(_, term)| term)),
-        Formula::Product(factors) => deepest(&mut factors.iter().map(|f| match f {
-            Formula::Sum(_) => f,
-            f => f,
-        }))
-        .max(
-            factors
-                .iter()
-                .filter(|f| matches!(f, Formula::Sum(_)))
-                .map(|f| 1 + nesting(f))
-                .max()
-                .unwrap_or(0),
-        ),
-        Formula::Negative(a) => nesting(a),
-        Formula::Fraction(a, b) => nesting(a).max(nesting(b)),
-        _ => 0,
     }
 }
 

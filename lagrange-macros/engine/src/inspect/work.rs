@@ -11,6 +11,9 @@ use crate::model::System;
 use crate::plan::Program;
 use crate::symbolic::{ExprId, Pool, Symbol};
 
+/// Branches that are told of.
+const MOST_BRANCHES: usize = 12;
+
 /// A derivation on its way.
 pub(super) struct Work<'a> {
     pub program: &'a Program,
@@ -80,7 +83,7 @@ pub(super) fn derivation(
     };
     let chosen = modes::choose(&work, mode)?;
     let structure = &program.equations.structure;
-    let kinetic = work.formula_of(structure.energy.0);
+    let kinetic = work.kinetic();
     let potential = work.formula_of(structure.energy.1);
     let motion = work.motion();
     let rows = work.rows();
@@ -92,12 +95,19 @@ pub(super) fn derivation(
     let mut notes = Vec::new();
     if (modes.len() as u128) < chosen.count && mode.is_none() {
         notes.push(format!(
-            "{} of {} modes are shown: all contacts open, each one closed, and all closed.",
+            "{} of {} modes are shown: all contacts open, one of them closed, and all of them closed and sticking.",
             modes.len(),
             chosen.count
         ));
     }
-    for branch in &system.branches {
+    let coordinates = system.coordinates.len();
+    if motion.len() < coordinates {
+        notes.push(format!(
+            "{} of {coordinates} equations of motion are shown: the first ones and the last one.",
+            motion.len()
+        ));
+    }
+    for branch in system.branches.iter().take(MOST_BRANCHES) {
         notes.push(format!(
             "Piecewise: {} has two sides; each side is smooth, and changing sides is an event.",
             branch.text

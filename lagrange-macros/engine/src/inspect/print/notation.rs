@@ -13,6 +13,9 @@ enum Strength {
     Atom,
 }
 
+/// Sums with no more than this to read are not broken.
+const SHORT: usize = 12;
+
 /// How the pieces of formulas are written in one language.
 pub trait Notation {
     /// A symbol.
@@ -145,6 +148,49 @@ pub fn terms(n: &dyn Notation, f: &Formula) -> Vec<String> {
                 n.row(&[sign, bound(n, term, Strength::Product)])
             })
             .collect(),
+        other => vec![formula(n, other)],
+    }
+}
+
+/// The same, broken also inside of a sum that is the one long factor of a product.
+pub fn pieces(n: &dyn Notation, f: &Formula) -> Vec<String> {
+    match f {
+        Formula::Sum(list) => {
+            let mut all = Vec::new();
+            for (i, (minus, term)) in list.iter().enumerate() {
+                let mut own = match term {
+                    Formula::Product(_) => pieces(n, term),
+                    term => vec![bound(n, term, Strength::Product)],
+                };
+                own[0] = format!("{}{}", n.sign(*minus, i == 0), own[0]);
+                all.append(&mut own);
+            }
+            all
+        }
+        Formula::Negative(inner) => {
+            let mut own = pieces(n, inner);
+            own[0] = format!("{}{}", n.sign(true, true), own[0]);
+            own
+        }
+        Formula::Product(factors) => {
+            let sums = factors.iter().filter(|f| matches!(f, Formula::Sum(_)));
+            let at = factors.iter().rposition(|f| matches!(f, Formula::Sum(_)));
+            let Some(at) = at.filter(|&at| sums.count() == 1 && factors[at].size() > SHORT) else {
+                return vec![formula(n, f)];
+            };
+            let mut all = pieces(n, &factors[at]);
+            let side = |list: &[Formula]| match list {
+                [] => String::new(),
+                list => formula(n, &Formula::Product(list.to_vec())),
+            };
+            let (before, after) = (side(&factors[..at]), side(&factors[at + 1..]));
+            let space = |text: &str| if text.is_empty() { "" } else { " " };
+            all[0] = format!("{before}{}({}", space(&before), all[0]);
+            if let Some(last) = all.last_mut() {
+                *last = format!("{last}){}{after}", space(&after));
+            }
+            all
+        }
         other => vec![formula(n, other)],
     }
 }

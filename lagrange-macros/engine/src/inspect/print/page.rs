@@ -5,6 +5,9 @@ use crate::inspect::document::{Block, Piece};
 use crate::inspect::formula::Statement;
 use crate::inspect::{Derivation, Equation};
 
+/// A doc comment with more than this is not continued.
+const MOST_BYTES: usize = 12_000;
+
 /// The whole derivation as a `<section>`; well-formed XML.
 pub fn page(derivation: &Derivation) -> String {
     let mut out = String::from("<section>\n");
@@ -32,13 +35,18 @@ pub fn page(derivation: &Derivation) -> String {
     out
 }
 
-/// The equations of motion in one line, each with its plain text as title.
+/// The equations of motion in one line, each with its plain text as title; not all if that is very long.
 pub fn equations(derivation: &Derivation) -> String {
-    let motion = derivation.motion.iter();
-    let equations: String = motion
-        .map(|Equation { statement, .. }| titled(statement))
-        .collect();
-    format!("<div class=\"lagrange-equations\">{equations}</div>")
+    let mut out = String::from("<div class=\"lagrange-equations\">");
+    for (i, Equation { statement, .. }) in derivation.motion.iter().enumerate() {
+        if out.len() > MOST_BYTES {
+            let left = derivation.motion.len() - i;
+            out.push_str(&format!("<div>… {left} more like these</div>"));
+            break;
+        }
+        out.push_str(&titled(statement));
+    }
+    out + "</div>"
 }
 
 /// A statement with its plain text as title.

@@ -1,10 +1,13 @@
 //! A derivation as plain text, at most a hundred columns wide where it can be broken.
 
-use super::notation::terms;
+use super::notation::{Notation, pieces};
 use super::text::{self, Text};
 use crate::inspect::Derivation;
 use crate::inspect::document::{Block, ENERGIES, MOTION, Piece};
 use crate::inspect::formula::Statement;
+
+/// A left side up to this stays in one line with what follows.
+const SHORT: usize = 8;
 
 /// Columns.
 const WIDTH: usize = 100;
@@ -120,32 +123,38 @@ fn lines(equations: &[(Vec<Piece>, Statement)], out: &mut String) {
     }
 }
 
-/// A long equation, broken between terms of its right side, or before the relation.
+/// A long equation: its right side in a line of its own if it fits there, else broken between terms.
 fn broken(head: &str, statement: &Statement, out: &mut String) {
     let indent = " ".repeat(width(head) + 4);
-    let mut pieces = terms(&Text, &statement.left);
-    let mut right = terms(&Text, &statement.right);
-    let relation = match text::statement(&Statement::new(
-        crate::inspect::Formula::ZERO,
-        statement.relation,
-        crate::inspect::Formula::ZERO,
-    )) {
-        sample => sample.trim_matches('0').to_owned(),
-    };
+    let relation = Text.relation(statement.relation);
+    let mut all = pieces(&Text, &statement.left);
+    let mut right = pieces(&Text, &statement.right);
+    let whole = format!(
+        "{}{}",
+        relation.trim_start(),
+        text::formula(&statement.right)
+    );
+    let left = text::formula(&statement.left);
+    if width(&indent) + width(&whole) <= WIDTH && width(head) + width(&left) <= WIDTH {
+        out.push_str(&format!("{head}{left}\n{indent}{whole}\n"));
+        return;
+    }
     right[0] = format!("{relation}{}", right[0]);
-    pieces.append(&mut right);
+    if width(&left) <= SHORT {
+        right[0] = format!("{left}{}", right[0]);
+        all.clear();
+    }
+    all.append(&mut right);
     let mut current = head.to_owned();
-    let mut fresh = true;
-    for piece in pieces {
-        if !fresh && width(&current) + width(&piece) > WIDTH {
+    for (i, piece) in all.iter().enumerate() {
+        if i > 0 && width(&current) + width(piece) > WIDTH {
             out.push_str(current.trim_end());
             out.push('\n');
             current = indent.clone();
             current.push_str(piece.trim_start());
         } else {
-            current.push_str(&piece);
+            current.push_str(piece);
         }
-        fresh = false;
     }
     out.push_str(current.trim_end());
     out.push('\n');
