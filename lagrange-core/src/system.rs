@@ -11,6 +11,7 @@
 use crate::arithmetic::{Arithmetic, Scalar};
 use core::fmt;
 use core::str::FromStr;
+use crate::derivation::Derivation;
 
 /// Where a number of the description is found after a tape has run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,6 +53,11 @@ pub trait System: Clone {
 
     /// The table of names, places and needs.
     const DESCRIPTION: &'static Description;
+
+    /// What was derived, to be read; [`Derivation::NONE`] of a system written by hand.
+    fn derivation() -> &'static Derivation {
+        &Derivation::NONE
+    }
 
     /// Parameter `index` of the description.
     fn parameter(&self, index: usize) -> Self::Scalar;
