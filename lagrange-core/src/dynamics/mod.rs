@@ -46,6 +46,15 @@ pub struct Work {
     pub projections: usize,
 }
 
+/// Arithmetic operations of one evaluation in the present mode.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Operations {
+    /// Of the accelerations: a right-hand side.
+    pub accelerations: usize,
+    /// Of everything that was asked for: forces, guards and outputs as well.
+    pub everything: usize,
+}
+
 /// The equations of motion of a scene.
 #[derive(Clone, Debug)]
 pub struct Dynamics<S: System> {
@@ -153,6 +162,12 @@ impl<S: System> Dynamics<S> {
     /// Work done so far.
     pub fn work(&self) -> Work {
         self.work
+    }
+
+    /// Operations of the last [`Self::value`]: what takes no part in the mode is not among them.
+    pub fn operations(&self) -> Operations {
+        let tape = self.compiled().tape();
+        tape.map(|tape| tape.operations()).unwrap_or_default()
     }
 
     /// The rows that act as equations in this mode, ascending.

@@ -17,6 +17,8 @@ mod consistent;
 mod direct;
 mod eliminate;
 mod least_norm;
+#[allow(dead_code, reason = "impacts and switches of many contacts call it")]
+mod lemke;
 mod lu;
 mod plan;
 mod program;

@@ -17,6 +17,8 @@ pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
 struct Report {
     scene: &'static str,
     parameters: Numbers,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    without: Vec<&'static str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     start: Option<Instant>,
     events: Vec<Happening>,
@@ -115,6 +117,7 @@ fn report(outcome: &Outcome) -> Report {
     Report {
         scene: outcome.scene,
         parameters: Numbers(names.zip(outcome.parameters.iter().copied()).collect()),
+        without: outcome.left_out(),
         start: outcome.first().map(instant),
         events: outcome
             .events

@@ -2,13 +2,28 @@
 //! in [`accuracy`] the same of an [`Accuracy`](crate::accuracy::Accuracy).
 
 pub mod accuracy;
+pub mod cost;
 pub mod csv;
 pub mod json;
 pub mod plot;
 pub mod stability;
 pub mod table;
 
+use clap::ValueEnum;
 use lagrange_core::system::{Coordinate, Description};
+use serde::{Deserialize, Serialize};
+
+/// In what form to print.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Deserialize, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Format {
+    /// To read.
+    Table,
+    /// Every number in full precision.
+    Json,
+    /// One line per sample (and event), or per method and tolerance.
+    Csv,
+}
 
 /// Whether a coordinate is an angle, so that people read it in degrees: its unit is declared as `rad`, or its
 /// name is that of a Greek letter customary for angles (`theta`, `phi2`, `psi_left`, `alpha[3]`).

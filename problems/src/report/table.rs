@@ -18,6 +18,10 @@ const WIDTH: u16 = 100;
 
 /// Writes the story of `outcome`.
 pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
+    let left_out = outcome.left_out();
+    if !left_out.is_empty() {
+        writeln!(out, "Without {}.\n", left_out.join(", "))?;
+    }
     writeln!(out, "{}", story(outcome).trim_fmt())?;
     if let Some(ledger) = &outcome.ledger {
         writeln!(out, "\n{}", energy(ledger).trim_fmt())?;

@@ -3,6 +3,7 @@
 mod bowl;
 mod derived;
 mod diagnostics;
+mod effects;
 mod efficiency;
 mod errors;
 mod interpretation;
