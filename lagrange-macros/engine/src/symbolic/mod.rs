@@ -13,6 +13,7 @@ mod expand;
 mod factor;
 mod facts;
 mod function;
+mod group;
 mod hash;
 mod linear;
 mod node;
