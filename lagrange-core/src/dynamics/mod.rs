@@ -21,6 +21,7 @@ pub use error::{EvaluationError, row_name};
 pub use needs::{NeedSet, add_branch_guards, add_guards};
 pub use projection::Residual;
 
+use crate::arithmetic::Value;
 use crate::effects::Effects;
 use crate::linear::{SolveError, Solver};
 use crate::mode::Mode;
@@ -76,6 +77,9 @@ pub struct Dynamics<S: System> {
     energies: NeedSet,
     /// Whether the tape in use is that of the present mode and needs.
     selected: bool,
+    /// Runs tapes for values and derivatives.
+    plain: Value<S::Scalar>,
+    lanes: jacobian::Seeded<S::Scalar>,
     /// t, q, v, v̇, λ of all rows at the last value.
     inputs: Vec<S::Scalar>,
     /// Outputs of the motion tape at the last value.
@@ -113,6 +117,8 @@ impl<S: System> Dynamics<S> {
             reports: false,
             energies: needs::of_energies(d),
             selected: false,
+            plain: Value::new(),
+            lanes: jacobian::Seeded::new(),
             inputs: vec![zero; 1 + 3 * n + rows],
             nodes: vec![zero; d.motion.outputs],
             report_nodes: vec![zero; d.report.outputs],
