@@ -9,9 +9,9 @@
 //! Every number is an *output* of a tape or a parameter-only *constant*; a [`Place`] says which.
 
 use crate::arithmetic::{Arithmetic, Scalar};
+use crate::derivation::Derivation;
 use core::fmt;
 use core::str::FromStr;
-use crate::derivation::Derivation;
 
 /// Where a number of the description is found after a tape has run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

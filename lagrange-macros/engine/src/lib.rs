@@ -24,14 +24,9 @@ pub fn expand(input: TokenStream) -> TokenStream {
     let declaration = parse::declaration(input.clone(), &mut sink);
     let program = declaration
         .as_ref()
-<<<<<<< HEAD
-        .and_then(|declaration| planned(declaration, &mut sink))
-    {
-        Some((program, verdicts)) if sink.is_empty() => emit::emit(&program, &verdicts),
-=======
         .and_then(|declaration| planned(declaration, &mut sink));
     match (&declaration, program) {
-        (Some(declaration), Some(mut program)) if sink.is_empty() => {
+        (Some(declaration), Some((mut program, _))) if sink.is_empty() => {
             let mut tokens = emit::emit(&program);
             if let Ok(derivation) = inspect::derivation(declaration, &mut program, None) {
                 let system = &program.equations.system;
@@ -39,7 +34,6 @@ pub fn expand(input: TokenStream) -> TokenStream {
             }
             tokens
         }
->>>>>>> h/inspect
         _ => {
             let mut tokens = sink.into_compile_errors();
             tokens.extend(emit::fallback(input, declaration.as_ref()));
@@ -112,7 +106,7 @@ pub fn inspect(input: TokenStream, mode: Option<&str>) -> Result<inspect::Deriva
     let mut sink = Diagnostics::new();
     let declaration = parse::declaration(input, &mut sink);
     let planned = declaration.and_then(|declaration| {
-        let program = planned(&declaration, &mut sink)?;
+        let (program, _) = planned(&declaration, &mut sink)?;
         Some((declaration, program))
     });
     match planned {

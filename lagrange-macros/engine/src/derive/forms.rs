@@ -65,6 +65,14 @@ impl Variables {
         indices_in(&self.positions, &pool.symbols(e))
     }
 
+    /// Whether e can change during a run: it is no expression of parameters alone.
+    pub fn changes(&self, pool: &Pool, e: ExprId) -> bool {
+        !pool.branches(e).is_empty()
+            || pool.depends_on_any(e, &[self.time])
+            || pool.depends_on_any(e, &self.positions)
+            || pool.depends_on_any(e, &self.velocities)
+    }
+
     /// e at v = 0.
     pub fn at_rest(&self, pool: &mut Pool, e: ExprId) -> ExprId {
         let rest: Vec<_> = self

@@ -1,6 +1,7 @@
 //! [`Program`] → tokens: the tapes, the table that says what their numbers mean, and the handles.
 //! The only place that uses `quote`.
 
+mod code;
 mod derivation;
 mod description;
 mod fallback;
@@ -11,7 +12,6 @@ mod tape;
 #[cfg(test)]
 mod tests;
 
-use crate::check::Verdict;
 use crate::derive::Stage;
 use crate::plan::Program;
 use proc_macro2::TokenStream;
@@ -20,14 +20,8 @@ use quote::quote;
 pub use derivation::derivation;
 pub use fallback::fallback;
 
-<<<<<<< HEAD
-/// `impl System` and the handles of a program.
-pub fn emit(program: &Program, verdicts: &[Verdict]) -> TokenStream {
-    let _ = verdicts;
-=======
 /// `impl System` and the handles of a program; [`derivation()`] belongs to it.
 pub fn emit(program: &Program) -> TokenStream {
->>>>>>> h/inspect
     let system = &program.equations.system;
     let (name, core) = (&system.name, &system.core);
     let (generics, arguments, scalar) = match &system.scalar {

@@ -112,6 +112,7 @@ impl<'a> Reader<'a> {
                 let arguments = arguments.iter().map(|&a| self.full(a)).collect();
                 Formula::Call(name(f).to_owned(), arguments)
             }
+            Node::Group(e) => self.full(e),
             Node::Select {
                 branch,
                 then,

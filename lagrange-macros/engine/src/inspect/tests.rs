@@ -48,7 +48,7 @@ fn time() {
         let t1 = std::time::Instant::now();
         let mut sink = crate::Diagnostics::new();
         let declaration = crate::parse::declaration(tokens.clone(), &mut sink).unwrap();
-        let mut program = crate::planned(&declaration, &mut sink).unwrap();
+        let (mut program, _) = crate::planned(&declaration, &mut sink).unwrap();
         let t2 = std::time::Instant::now();
         let d = super::derivation(&declaration, &mut program, None).unwrap();
         let t3 = std::time::Instant::now();
