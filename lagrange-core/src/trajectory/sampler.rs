@@ -2,7 +2,7 @@
 
 use super::{State, Trajectory};
 use crate::arithmetic::Scalar;
-use crate::dynamics::{Dynamics, NeedSet};
+use crate::dynamics::{Dynamics, EvaluationError, NeedSet};
 use crate::error::Error;
 use crate::mode::Mode;
 use crate::modes::guard;
@@ -50,15 +50,8 @@ pub struct Sampler<'a, S: System> {
 
 impl<'a, S: System> Sampler<'a, S> {
     pub(super) fn new(trajectory: &'a Trajectory<S>) -> Self {
-        let d = S::DESCRIPTION;
         let mut dynamics = Dynamics::new(&trajectory.scene, &trajectory.effects);
-        let mut needs = NeedSet::new(d);
-        needs.insert(d.energy.need);
-        let loads = d.forces.iter().chain(d.dissipations).map(|l| l.report_need);
-        loads
-            .chain(d.observes.iter().map(|o| o.need))
-            .for_each(|need| needs.insert(need));
-        dynamics.set_report_needs(&needs);
+        report_everything(&mut dynamics);
         Self {
             trajectory,
             dynamics,
@@ -116,37 +109,8 @@ impl<'a, S: System> Sampler<'a, S> {
             let needs = guard::all_row_needs(d, &NeedSet::new(d));
             self.dynamics.set_extra_needs(&needs);
         }
-        let dynamics = &mut self.dynamics;
-        let outcome = dynamics.value_along(t, &state.q, &state.v);
-        outcome
-            .map_err(|e| Error::from_evaluation(e, t.value(), &self.trajectory.modes[mode], d))?;
-        dynamics.report_value();
-        let contacts = d
-            .contacts
-            .iter()
-            .map(|c| d.rows[c.row].position.unwrap_or(Place::Zero));
-        let frictions = d.frictions.iter().flat_map(|f| f.row..f.row + f.components);
-        Ok(Instant {
-            time: t,
-            mode: self.trajectory.modes[mode].clone(),
-            q: state.q.clone(),
-            v: state.v.clone(),
-            acceleration: dynamics.acceleration().to_vec(),
-            forces: (0..d.rows.len()).map(|row| dynamics.force(row)).collect(),
-            gaps: contacts.map(|place| dynamics.motion(place)).collect(),
-            slips: frictions
-                .map(|row| dynamics.motion(d.rows[row].velocity))
-                .collect(),
-            kinetic: dynamics.report(d.energy.kinetic),
-            potential: dynamics.report(d.energy.potential),
-            jacobi: dynamics.report(d.energy.jacobi),
-            loads: d.forces.iter().map(|f| dynamics.report(f.value)).collect(),
-            observes: d
-                .observes
-                .iter()
-                .map(|o| dynamics.report(o.place))
-                .collect(),
-        })
+        let outcome = instant(&mut self.dynamics, t, state);
+        outcome.map_err(|e| Error::from_evaluation(e, t.value(), &self.trajectory.modes[mode], d))
     }
 
     /// Power of every force, dissipation and row, and of explicit time, at part `s` of a segment; in the order of
@@ -187,4 +151,53 @@ impl<'a, S: System> Sampler<'a, S> {
         }
         Ok(())
     }
+}
+
+/// Asks the report tape for all that an [`Instant`] holds.
+pub(crate) fn report_everything<S: System>(dynamics: &mut Dynamics<S>) {
+    let d = S::DESCRIPTION;
+    let mut needs = NeedSet::new(d);
+    needs.insert(d.energy.need);
+    let loads = d.forces.iter().chain(d.dissipations).map(|l| l.report_need);
+    loads
+        .chain(d.observes.iter().map(|o| o.need))
+        .for_each(|need| needs.insert(need));
+    dynamics.set_report_needs(&needs);
+}
+
+/// Everything about a state in the present mode; all numbers of the rows and the report must have been asked for.
+pub(crate) fn instant<S: System>(
+    dynamics: &mut Dynamics<S>,
+    t: S::Scalar,
+    state: &State<S::Scalar>,
+) -> Result<Instant<S::Scalar>, EvaluationError> {
+    let d = S::DESCRIPTION;
+    dynamics.value_along(t, &state.q, &state.v)?;
+    dynamics.report_value();
+    let contacts = d
+        .contacts
+        .iter()
+        .map(|c| d.rows[c.row].position.unwrap_or(Place::Zero));
+    let frictions = d.frictions.iter().flat_map(|f| f.row..f.row + f.components);
+    Ok(Instant {
+        time: t,
+        mode: dynamics.mode().clone(),
+        q: state.q.clone(),
+        v: state.v.clone(),
+        acceleration: dynamics.acceleration().to_vec(),
+        forces: (0..d.rows.len()).map(|row| dynamics.force(row)).collect(),
+        gaps: contacts.map(|place| dynamics.motion(place)).collect(),
+        slips: frictions
+            .map(|row| dynamics.motion(d.rows[row].velocity))
+            .collect(),
+        kinetic: dynamics.report(d.energy.kinetic),
+        potential: dynamics.report(d.energy.potential),
+        jacobi: dynamics.report(d.energy.jacobi),
+        loads: d.forces.iter().map(|f| dynamics.report(f.value)).collect(),
+        observes: d
+            .observes
+            .iter()
+            .map(|o| dynamics.report(o.place))
+            .collect(),
+    })
 }
