@@ -7,6 +7,7 @@ mod effects;
 mod efficiency;
 mod errors;
 mod interpretation;
+mod large;
 mod recording;
 mod runner;
 mod stability;
