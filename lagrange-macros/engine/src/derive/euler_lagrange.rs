@@ -14,7 +14,7 @@ use super::needs::{ALWAYS, Needs};
 use super::quadratic::Quadratic;
 use super::squares::Squares;
 use crate::model::System;
-use crate::symbolic::{ExprId, Pool};
+use crate::symbolic::{ExprId, Node, Pool, Rational};
 use std::collections::BTreeMap;
 
 /// With more coordinates than this, entries of f and p are not multiplied out: the terms grow like n³.
@@ -186,12 +186,24 @@ fn large(pool: &mut Pool, x: &Variables, group: &Group, squares: &Squares) -> In
 /// V in its cheapest form, and −∂V/∂q.
 fn conservative(pool: &mut Pool, x: &Variables, potential: ExprId) -> (ExprId, Vec<ExprId>) {
     let potential = pool.simplify(potential);
-    let slopes = x.positions.iter().map(|&q| {
-        let slope = pool.differentiate(potential, q);
+    // Term by term: most terms of a large V know few of the positions.
+    let terms = match pool.node(potential) {
+        Node::Sum { terms, .. } => terms.clone(),
+        _ => vec![(potential, Rational::ONE)],
+    };
+    let mut slopes = vec![Vec::new(); x.len()];
+    for (term, number) in terms {
+        for i in x.positions_in(pool, term) {
+            let slope = pool.differentiate(term, x.positions[i]);
+            slopes[i].push(pool.scale(slope, number));
+        }
+    }
+    let forces = slopes.into_iter().map(|slopes| {
+        let slope = pool.sum(&slopes);
         pool.neg(slope)
     });
-    let slopes = slopes.collect();
-    (potential, slopes)
+    let forces = forces.collect();
+    (potential, forces)
 }
 
 /// (i, fᵢ), zeros left out.

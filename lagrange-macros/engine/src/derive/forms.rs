@@ -93,10 +93,10 @@ impl Variables {
     }
 }
 
+/// Both are ascending.
 fn indices_in(symbols: &[Symbol], present: &[Symbol]) -> Vec<usize> {
-    (0..symbols.len())
-        .filter(|&i| present.binary_search(&symbols[i]).is_ok())
-        .collect()
+    let index = |symbol| symbols.binary_search(symbol).ok();
+    present.iter().filter_map(index).collect()
 }
 
 /// The form with the fewest operations when computed beside `company`; of equals the first.
