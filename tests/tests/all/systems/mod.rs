@@ -5,6 +5,7 @@ mod block;
 mod cart_pole;
 mod chain;
 mod cradle;
+mod crowd;
 mod cue_ball;
 mod damped;
 mod hoop;
