@@ -254,7 +254,6 @@ impl Settings {
     /// Refuses what the declaration may say but this version cannot run.
     fn supported<S: System>(&self) -> Result<(), Error> {
         use crate::effects::Item;
-        use crate::system::Normal;
         let d = S::DESCRIPTION;
         let takes_part = |item: Item| self.effects.includes(d, item);
         for (i, contact) in d
@@ -268,30 +267,6 @@ impl Settings {
                 let instead = "leave `where` out and stop the run at the edge";
                 return Err(Error::Unsupported {
                     what: "a contact limited to a region",
-                    item,
-                    instead,
-                });
-            }
-        }
-        for (i, friction) in d
-            .frictions
-            .iter()
-            .enumerate()
-            .filter(|(i, _)| takes_part(Item::Friction(*i)))
-        {
-            let item = d.frictions[i].name;
-            if friction.components > 1 {
-                let instead = "give one slip component, or leave the friction out";
-                return Err(Error::Unsupported {
-                    what: "friction in two directions",
-                    item,
-                    instead,
-                });
-            }
-            if let Normal::Constraint(_) = friction.normal {
-                let instead = "give its normal force by `normal = …`";
-                return Err(Error::Unsupported {
-                    what: "friction on a constraint",
                     item,
                     instead,
                 });

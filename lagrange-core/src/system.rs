@@ -151,8 +151,39 @@ pub struct Description {
     pub marks: &'static [Watch],
     /// Named starts.
     pub starts: &'static [&'static str],
+    /// Units of energies and forces.
+    pub units: Units,
     /// How contacts are solved that are hit at the same instant.
     pub impacts: Impacts,
+}
+
+/// Units of what a run reports, beside those of parameters, coordinates and [`Observe`]: derived at build time from the
+/// declared ones. An empty text is a plain number, or a unit that does not follow; all are empty if no unit is declared.
+#[derive(Clone, Copy, Debug)]
+pub struct Units {
+    /// Of kinetic and potential energy: `J`, unless all of them are declared per unit of mass.
+    pub energy: &'static str,
+    /// Of multipliers, one per row: `N` for a gap in m, `N m` for an angle, `N/m` for a constraint in m².
+    pub rows: &'static [&'static str],
+    /// Of the values of force items.
+    pub forces: &'static [&'static str],
+    /// Of the values of dissipations.
+    pub dissipations: &'static [&'static str],
+}
+
+impl Units {
+    /// No unit is declared.
+    pub const NONE: Units = Units {
+        energy: "",
+        rows: &[],
+        forces: &[],
+        dissipations: &[],
+    };
+
+    /// Of the multiplier of this row.
+    pub fn row(&self, row: usize) -> &'static str {
+        self.rows.get(row).copied().unwrap_or_default()
+    }
 }
 
 /// How contacts are solved that are hit at the same instant, or while others are closed.
@@ -192,7 +223,7 @@ pub struct Parameter {
     pub name: &'static str,
     /// Doc comment.
     pub documentation: &'static str,
-    /// Unit as declared, or empty.
+    /// Unit as declared or inferred; empty for a plain number and where nothing is known.
     pub unit: &'static str,
     /// TeX symbol as declared, or empty.
     pub tex: &'static str,
@@ -203,7 +234,7 @@ pub struct Parameter {
 pub struct Coordinate {
     /// Name, `theta` or `theta[2]`.
     pub name: &'static str,
-    /// Unit as declared, or empty.
+    /// Unit as declared or inferred; empty for a plain number and where nothing is known.
     pub unit: &'static str,
     /// Whether no energy, row or force depends on it.
     pub cyclic: bool,
@@ -394,7 +425,7 @@ pub struct Observe {
     pub place: Place,
     /// Its need.
     pub need: usize,
-    /// Unit as declared, or empty.
+    /// Unit as declared or inferred; empty for a plain number and where nothing is known.
     pub unit: &'static str,
 }
 

@@ -64,6 +64,15 @@ impl<S: System> Dynamics<S> {
         } = self.compiled();
         let mut nodes = self.nodes.clone();
         nodes.resize(nodes.len() + plan.program.len(), S::Scalar::default());
+        for heading in &plan.headings {
+            for (node, along) in heading
+                .nodes
+                .into_iter()
+                .zip(self.heading(heading.friction))
+            {
+                nodes[node] = along;
+            }
+        }
         plan.program.run(&mut Value::new(), constants, &mut nodes);
         let number = |place: Place| match place {
             Place::Zero => S::Scalar::default(),

@@ -6,6 +6,7 @@
 
 mod compiled;
 mod error;
+mod heading;
 mod jacobian;
 mod matrices;
 mod needs;
@@ -18,9 +19,11 @@ pub(crate) mod tests;
 mod values;
 
 pub use error::{EvaluationError, row_name};
+pub(crate) use heading::approach;
 pub use needs::{NeedSet, add_branch_guards, add_guards};
 pub use projection::Residual;
 
+use crate::arithmetic::Scalar;
 use crate::effects::Effects;
 use crate::linear::{SolveError, Solver};
 use crate::mode::Mode;
@@ -44,6 +47,15 @@ pub struct Work {
     pub factorizations: usize,
     /// Runs of the tape by projections.
     pub projections: usize,
+}
+
+/// Arithmetic operations of one evaluation in the present mode.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Operations {
+    /// Of the accelerations: a right-hand side.
+    pub accelerations: usize,
+    /// Of everything that was asked for: forces, guards and outputs as well.
+    pub everything: usize,
 }
 
 /// The equations of motion of a scene.
@@ -74,6 +86,8 @@ pub struct Dynamics<S: System> {
     report_nodes: Vec<S::Scalar>,
     right: Vec<S::Scalar>,
     solution: Vec<S::Scalar>,
+    /// Directions of slips with two components.
+    headings: heading::Headings<S::Scalar>,
     projector: Solver<S::Scalar>,
     projection: projection::Scratch<S::Scalar>,
     /// Columns of a Jacobian, for a stepper that wants rows.
@@ -109,6 +123,7 @@ impl<S: System> Dynamics<S> {
             report_nodes: vec![zero; d.report.outputs],
             right: Vec::with_capacity(n + rows),
             solution: Vec::with_capacity(n + rows),
+            headings: heading::Headings::new(d.frictions.len()),
             projector,
             projection: projection::Scratch::new(n, rows),
             columns: Vec::new(),
@@ -155,6 +170,12 @@ impl<S: System> Dynamics<S> {
         self.work
     }
 
+    /// Operations of the last [`Self::value`]: what takes no part in the mode is not among them.
+    pub fn operations(&self) -> Operations {
+        let tape = self.compiled().tape();
+        tape.map(|tape| tape.operations()).unwrap_or_default()
+    }
+
     /// The rows that act as equations in this mode, ascending.
     pub fn acting_rows(&self) -> &[usize] {
         &self.compiled().plan.acting
@@ -168,14 +189,18 @@ impl<S: System> Dynamics<S> {
     /// Changes the mode. The first time in a mode parameter-only numbers and the plan of the linear system are made; they are
     /// kept. What was asked for beside the motion stays asked for.
     pub fn set_mode(&mut self, mode: &Mode) {
+        for (f, along) in mode.incipient() {
+            self.set_heading(f, along.map(S::Scalar::from_f64));
+        }
         if *self.mode() == *mode {
             return;
         }
         let known = self
             .modes
             .iter()
-            .position(|compiled| compiled.mode == *mode);
+            .position(|compiled| compiled.mode.has_equations_of(mode));
         self.current = known.unwrap_or_else(|| self.compile(mode));
+        self.modes[self.current].mode.clone_from(mode);
         self.hold();
     }
 

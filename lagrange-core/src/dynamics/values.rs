@@ -67,6 +67,11 @@ impl<S: System> Dynamics<S> {
         tape.registers[1] = t;
         tape.registers[2..2 + n].copy_from_slice(q);
         tape.registers[2 + n..2 + 2 * n].copy_from_slice(v);
+        for &(friction, slots, _) in &tape.headings {
+            for (slot, along) in slots.into_iter().zip(self.headings.of(friction)) {
+                tape.registers[slot.index()] = along;
+            }
+        }
         tape.evaluate(extent, MOTION);
         if tape.unsolved.is_some() {
             self.solve_start(refined)?;

@@ -4,6 +4,7 @@ mod accumulation;
 mod curves;
 mod hits;
 mod log;
+mod rest;
 mod runner;
 mod singular;
 mod stepping;
@@ -31,6 +32,7 @@ use core::ops::Range;
 use curves::Curves;
 use hits::Hit;
 use log::Before;
+use rest::Rest;
 pub use runner::Runner;
 use singular::Rank;
 use stepping::Stepper;
@@ -71,6 +73,10 @@ pub(crate) struct Run<S: System> {
     /// Falling guards found in the present step: (guard, part of the step, half width).
     falls: Vec<(Guard, f64, f64)>,
     fallen: Vec<Guard>,
+    /// Slips of two components that come to rest with it.
+    rests: Vec<Rest>,
+    /// Velocities a little before that.
+    earlier: Vec<S::Scalar>,
     stop_below: Vec<Vec<bool>>,
     mark_below: Vec<Vec<bool>>,
     marks: Vec<(usize, f64)>,
@@ -135,6 +141,8 @@ impl<S: System> Run<S> {
             valued: false,
             falls: Vec::new(),
             fallen: Vec::new(),
+            rests: Vec::new(),
+            earlier: vec![zero; n],
             stop_below: d.stops.iter().map(|w| vec![false; w.terms.len()]).collect(),
             mark_below: d.marks.iter().map(|w| vec![false; w.terms.len()]).collect(),
             marks: Vec::new(),
@@ -230,7 +238,7 @@ impl<S: System> Run<S> {
         if end > 0.0 {
             // The step left there the state at its end, evaluated.
             core::mem::swap(&mut self.state, &mut self.scratch);
-            (self.valued, self.expanded) = (true, false);
+            (self.valued, self.expanded) = (self.rests.is_empty(), false);
         }
         self.log_marks(end);
         self.remember_sides(end);
@@ -254,8 +262,18 @@ impl<S: System> Run<S> {
                 self.project(near)?;
             }
         }
+        if end > 0.0 {
+            self.slips_have_begun();
+        }
         match hit {
-            Hit::Nothing => Ok(()),
+            Hit::Nothing | Hit::Turned(_) => {
+                if self.slips_come_to_rest(end) {
+                    self.count_switch()?;
+                    self.stepper.restart();
+                    self.switch()?;
+                }
+                Ok(())
+            }
             Hit::Stop(stop, _) => {
                 if !self.valued {
                     self.evaluate()?;
@@ -313,7 +331,7 @@ impl<S: System> Run<S> {
             self.step.state_into(s, &mut state.q, &mut state.v);
             let time = self.step.time(s);
             self.valued = false;
-            if self.dynamics.value(time, &state.q, &state.v).is_ok() {
+            if self.dynamics.value_along(time, &state.q, &state.v).is_ok() {
                 self.log_watch(Subject::Mark(mark), EventKind::Mark, time, &state);
             }
             self.scratch = state;

@@ -15,6 +15,9 @@ impl<S: System> Run<S> {
     /// Leaves the present mode because the guards in `self.fallen` fell through zero.
     pub(super) fn switch(&mut self) -> Result<(), Error> {
         let d = S::DESCRIPTION;
+        if !self.rests.is_empty() {
+            self.come_to_rest()?;
+        }
         if !self.valued {
             self.evaluate()?;
         }
@@ -25,7 +28,7 @@ impl<S: System> Run<S> {
             .residue(&self.dynamics, &self.mode, &self.fallen);
         known.touching.copy_from_slice(&self.mode.contacts);
         for (resting, friction) in known.resting.iter_mut().zip(&self.mode.frictions) {
-            *resting = *friction == FrictionMode::Stick;
+            *resting = friction.rests();
         }
         for &guard in &self.fallen {
             match guard {
@@ -90,7 +93,7 @@ impl<S: System> Run<S> {
         self.evaluate_all_rows()?;
         for c in (0..d.contacts.len()).filter(|&c| !self.mode.contacts[c]) {
             // A gap that rounding has left below zero may be growing.
-            let (rate, size) = self.slip(d.contacts[c].row);
+            let (rate, size) = self.rate(d.contacts[c].row);
             if known.arriving[c] && rate > 1e-12 * size {
                 (known.touching[c], known.arriving[c], known.parting[c]) = (false, false, true);
                 known.located.retain(|guard| *guard != Guard::Gap(c));
@@ -164,8 +167,7 @@ impl<S: System> Run<S> {
             self.evaluate_all_rows()?;
             for (f, friction) in d.frictions.iter().enumerate() {
                 if matches!(friction.normal, Normal::Contact(on) if known.touching[on]) {
-                    let (slip, size) = self.slip(friction.row);
-                    known.resting[f] = slip.abs() <= 1e-13 * size;
+                    known.resting[f] = self.slip_vanishes(f);
                 }
             }
             let state = core::mem::take(&mut self.state);
@@ -200,7 +202,7 @@ impl<S: System> Run<S> {
     fn rests_after(&self, outcome: &Impact<S::Scalar>, f: usize) -> bool {
         let friction = &S::DESCRIPTION.frictions[f];
         (friction.row..friction.row + friction.components).all(|row| {
-            let (mut slip, mut size) = self.slip(row);
+            let (mut slip, mut size) = self.rate(row);
             let jacobian = S::DESCRIPTION.rows[row].jacobian.iter();
             for &(j, place) in jacobian {
                 let jump = (outcome.v[j] - self.before.state.v[j]).value();
@@ -229,24 +231,31 @@ impl<S: System> Run<S> {
             return Ok(());
         }
         self.evaluate_all_rows()?;
-        for (f, friction) in d.frictions.iter().enumerate() {
+        for f in 0..d.frictions.len() {
             if wakes(self, known, f) {
-                let (slip, size) = self.slip(friction.row);
-                known.resting[f] = slip.abs() <= 1e-13 * size;
+                known.resting[f] = self.slip_vanishes(f);
             }
         }
         Ok(())
     }
 
-    /// Slip of a friction row and the size of the terms that make it.
-    pub(super) fn slip(&self, row: usize) -> (f64, f64) {
+    /// Whether the slip of friction `f` is zero beside the terms that make it.
+    pub(super) fn slip_vanishes(&self, f: usize) -> bool {
+        let friction = &S::DESCRIPTION.frictions[f];
+        let rows = friction.row..friction.row + friction.components;
+        let rates = || rows.clone().map(|row| self.rate(row));
+        let size = rates().map(|(_, size)| size).fold(0.0, f64::max);
+        rates().all(|(rate, _)| rate.abs() <= 1e-13 * size)
+    }
+
+    /// Rate of a row (slip, rate of a gap) and the size of the terms that make it; a velocity that is zero is so only to some
+    /// 1e-16 of the unit, as projections leave it.
+    fn rate(&self, row: usize) -> (f64, f64) {
         let row = &S::DESCRIPTION.rows[row];
         let number = |place| self.dynamics.motion(place).value();
-        let size = row
-            .jacobian
-            .iter()
-            .map(|&(j, place)| (number(place) * self.state.v[j].value()).abs())
-            .sum();
-        (number(row.velocity), size)
+        let size = |j: usize| self.state.v[j].value().abs() + 1e-2;
+        let terms = row.jacobian.iter();
+        let sizes = terms.map(|&(j, place)| number(place).abs() * size(j));
+        (number(row.velocity), sizes.sum())
     }
 }

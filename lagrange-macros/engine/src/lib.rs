@@ -1,6 +1,7 @@
 //! Symbolic mechanics: tokens of a declaration → equations → tokens of Rust.
 
 pub mod ast;
+pub mod check;
 pub mod derive;
 pub mod diagnostics;
 pub mod emit;
@@ -11,6 +12,7 @@ pub mod plan;
 pub mod symbolic;
 
 use ast::Declaration;
+use check::Verdict;
 use diagnostics::{Code, Diagnostics};
 use plan::Program;
 use proc_macro2::TokenStream;
@@ -23,7 +25,7 @@ pub fn expand(input: TokenStream) -> TokenStream {
         .as_ref()
         .and_then(|declaration| planned(declaration, &mut sink))
     {
-        Some(program) if sink.is_empty() => emit::emit(&program),
+        Some((program, verdicts)) if sink.is_empty() => emit::emit(&program, &verdicts),
         _ => {
             let mut tokens = sink.into_compile_errors();
             tokens.extend(emit::fallback(input, declaration.as_ref()));
@@ -37,24 +39,45 @@ pub fn expand(input: TokenStream) -> TokenStream {
 /// # Errors
 /// All mistakes that the first stage with mistakes has found.
 pub fn program(input: TokenStream) -> Result<Program, Diagnostics> {
+    Ok(checked(input)?.0)
+}
+
+/// The program of a struct with its `#[lagrange(…)]` attributes, and what is known of its checks.
+///
+/// # Errors
+/// All mistakes that the first stage with mistakes has found; a check that is false is one.
+pub fn checked(input: TokenStream) -> Result<(Program, Vec<Verdict>), Diagnostics> {
     let mut sink = Diagnostics::new();
     let declaration = parse::declaration(input, &mut sink);
     match declaration.and_then(|declaration| planned(&declaration, &mut sink)) {
-        Some(program) if sink.is_empty() => Ok(program),
+        Some(found) if sink.is_empty() => Ok(found),
         _ => Err(sink),
     }
 }
 
-fn planned(declaration: &Declaration, sink: &mut Diagnostics) -> Option<Program> {
-    let system = model::system(declaration, sink);
-    let equations = system.and_then(|system| derive::equations(system, sink));
-    let program = equations.map(plan::plan);
-    match &program {
-        Some(program) if program.equations.system.pool.overflowed() => {
+fn planned(declaration: &Declaration, sink: &mut Diagnostics) -> Option<(Program, Vec<Verdict>)> {
+    let system = model::scoped(declaration, sink);
+    let program = system.and_then(|(system, scope)| {
+        let equations = derive::equations(system, sink)?;
+        Some((plan::plan(equations), scope))
+    });
+    match program {
+        Some((program, _)) if program.equations.system.pool.overflowed() => {
             sink.report(Code::Overflow, &declaration.name, &[]);
+            None
         }
-        None if sink.is_empty() => sink.report(Code::Bug, &declaration.name, &[]),
-        _ => {}
+        Some((mut program, scope)) => {
+            // What is planned does not change any more, so checks cannot change what is emitted.
+            let (equations, verdicts) =
+                check::verdicts(declaration, program.equations, scope, sink);
+            program.equations = equations;
+            Some((program, verdicts))
+        }
+        None => {
+            if sink.is_empty() {
+                sink.report(Code::Bug, &declaration.name, &[]);
+            }
+            None
+        }
     }
-    program
 }

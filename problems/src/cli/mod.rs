@@ -5,6 +5,7 @@
 
 mod accuracy;
 mod course;
+mod effects;
 mod list;
 mod output;
 mod run;
@@ -30,6 +31,7 @@ enum Command {
     List(list::List),
     Run(run::Run),
     Accuracy(accuracy::Measure),
+    Effects(effects::Effects),
     Stability(stability::Stability),
 }
 
@@ -53,7 +55,9 @@ impl Trouble {
     /// A name that is not known makes no sense; a start or a reference that does not exist was tried.
     fn refused(refusal: Refusal) -> Self {
         match refusal {
-            Refusal::Start(_) | Refusal::Reference { .. } => Trouble::failed(refusal),
+            Refusal::Start(_) | Refusal::Run(_) | Refusal::Reference { .. } => {
+                Trouble::failed(refusal)
+            }
             _ => Trouble::usage(refusal),
         }
     }
@@ -74,6 +78,7 @@ pub(crate) fn main() -> ExitCode {
         Command::List(list) => list.execute(),
         Command::Run(run) => run.execute(),
         Command::Accuracy(accuracy) => accuracy.execute(),
+        Command::Effects(effects) => effects.execute(),
         Command::Stability(stability) => stability.execute(),
     };
     match result {

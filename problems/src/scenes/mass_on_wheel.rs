@@ -16,7 +16,7 @@ use lagrange_core::prelude::*;
 /// mass can neither stay on nor leave, and the run ends with an error that says so.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    coordinates(x, phi, r, theta),
+    coordinates(x: "m", phi: "rad", r: "m", theta: "rad"),
     define(
         px = x + r * sin(theta),
         py = r * cos(theta),
@@ -32,20 +32,28 @@ use lagrange_core::prelude::*;
 )]
 pub struct MassOnWheel<T = f64> {
     /// Mass of the wheel, kg.
+    #[lagrange(unit = "kg")]
     pub wheel: T,
     /// Moment of inertia of the wheel about its centre, kg m²; ½ M R² for a disc.
+    #[lagrange(unit = "kg m^2")]
     pub inertia: T,
     /// The small mass, kg.
+    #[lagrange(unit = "kg")]
     pub mass: T,
     /// Radius of the wheel, m.
+    #[lagrange(unit = "m")]
     pub radius: T,
     /// Gravitational acceleration, m/s².
+    #[lagrange(unit = "m/s^2")]
     pub gravity: T,
     /// Coefficient of static friction.
+    #[lagrange(unit = "1")]
     pub mu_static: T,
     /// Coefficient of kinetic friction.
+    #[lagrange(unit = "1")]
     pub mu_kinetic: T,
     /// θ at the start, rad from the upward vertical.
+    #[lagrange(unit = "rad")]
     pub start_angle: T,
 }
 

@@ -3,9 +3,11 @@
 mod bowl;
 mod derived;
 mod diagnostics;
+mod effects;
 mod efficiency;
 mod errors;
 mod interpretation;
+mod random;
 mod recording;
 mod runner;
 mod stability;

@@ -131,6 +131,7 @@ pub static PENDULUM: Description = Description {
     stops: &[],
     marks: &[],
     starts: &[],
+    units: crate::system::Units::NONE,
     impacts: crate::system::Impacts::Together,
 };
 

@@ -193,6 +193,7 @@ pub static WHEEL: Description = Description {
     stops: &[],
     marks: &[],
     starts: &[],
+    units: crate::system::Units::NONE,
     impacts: crate::system::Impacts::Together,
 };
 

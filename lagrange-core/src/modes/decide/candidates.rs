@@ -29,6 +29,7 @@ pub fn list_candidates<S: System>(
             Normal::Constraint(_) | Normal::Given(_) => true,
         };
         closes
+            && d.frictions[f].components == 1
             && !known.resting[f]
             && dynamics.effects().includes(d, Item::Friction(f))
             && slip_sign(f, present, known).is_none()
@@ -105,7 +106,22 @@ impl<S: System> Listing<'_, S> {
         } else {
             &[1.0]
         };
-        if self.known.resting[f] {
+        if friction.components > 1 {
+            let direction = if self.known.resting[f] {
+                self.friction(mode, f, FrictionMode::Stick);
+                // Where to is found when the candidate is examined.
+                Direction::Incipient([0.0; 2])
+            } else {
+                Direction::AlongSlip
+            };
+            for &normal_sign in bearings {
+                let sliding = Sliding {
+                    direction,
+                    normal_sign,
+                };
+                self.friction(mode, f, FrictionMode::Slip(sliding));
+            }
+        } else if self.known.resting[f] {
             self.friction(mode, f, FrictionMode::Stick);
             for &bearing in bearings {
                 self.friction(mode, f, slide(1.0, bearing));

@@ -25,7 +25,13 @@ impl Decider {
         last: bool,
     ) -> Result<bool, EvaluationError> {
         let Moment { t, q, v, .. } = moment;
-        dynamics.set_mode(mode);
+        self.posed.clone_from(mode);
+        self.forks = false;
+        if mode.has_incipient_slip() && !self.find_directions(dynamics, table, moment)? {
+            return Ok(false);
+        }
+        dynamics.set_mode(&self.posed);
+        let mode = &self.posed;
         let watched = table.of(dynamics);
         dynamics.set_extra_needs(&watched.deciding);
         let serves = watched.deciding == watched.needs;
@@ -75,7 +81,7 @@ impl Decider {
         for order in [low, moment.order] {
             dynamics.series(t, q, v, order)?;
             self.decision.expanded = serves && order == moment.order;
-            match self.judge(dynamics, moment, mode, known, order) {
+            match self.judge(dynamics, moment, known, order) {
                 Some(feasible) => return Ok(feasible),
                 None => self.zeros.truncate(settled),
             }
@@ -89,7 +95,6 @@ impl Decider {
         &mut self,
         dynamics: &Dynamics<S>,
         moment: Moment<'_, S::Scalar>,
-        mode: &Mode,
         known: &Known,
         order: usize,
     ) -> Option<bool> {
@@ -103,7 +108,7 @@ impl Decider {
         let series = &mut series[..=order];
         let mut unclear = false;
         for &(guard, order_known) in &self.questions {
-            guard::series(guard, mode, &Reading::Series(dynamics), series);
+            guard::series(guard, &self.posed, &Reading::Series(dynamics), series);
             let mut power = 1.0;
             let mut size = 0.0_f64;
             for (k, c) in series.iter_mut().enumerate() {
@@ -145,14 +150,7 @@ fn leading<S: System>(
     dynamics: &Dynamics<S>,
 ) -> Option<f64> {
     let d = S::DESCRIPTION;
-    let acceleration = |row: usize| {
-        let row = &d.rows[row];
-        let products = row.jacobian.iter().map(|&(j, place)| {
-            let a = dynamics.motion(place) * dynamics.acceleration()[j];
-            a.value()
-        });
-        dynamics.motion(row.bias).value() + products.sum::<f64>()
-    };
+    let acceleration = |row: usize| row_acceleration(row, dynamics);
     match (guard, order_known) {
         (_, 0) => Some(guard::value(guard, mode, &Reading::Values(dynamics))),
         (Guard::Gap(c), 2) => Some(acceleration(d.contacts[c].row)),
@@ -161,10 +159,27 @@ fn leading<S: System>(
                 direction: Direction::Fixed([sign, 0.0]),
                 ..
             }) => Some(sign * acceleration(d.frictions[f].row)),
+            FrictionMode::Slip(Sliding {
+                direction: Direction::Incipient([x, y]),
+                ..
+            }) => {
+                let row = d.frictions[f].row;
+                Some(x * acceleration(row) + y * acceleration(row + 1))
+            }
             _ => None,
         },
         _ => None,
     }
+}
+
+/// a v̇ + γ of a row at the last value.
+pub(super) fn row_acceleration<S: System>(row: usize, dynamics: &Dynamics<S>) -> f64 {
+    let row = &S::DESCRIPTION.rows[row];
+    let products = row.jacobian.iter().map(|&(j, place)| {
+        let a = dynamics.motion(place) * dynamics.acceleration()[j];
+        a.value()
+    });
+    dynamics.motion(row.bias).value() + products.sum::<f64>()
 }
 
 /// The guards that can be violated just after the instant, with the number of coefficients known to vanish; `held` are

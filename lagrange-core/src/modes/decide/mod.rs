@@ -10,6 +10,7 @@
 
 mod candidates;
 mod examine;
+mod incipient;
 mod known;
 
 use crate::arithmetic::Scalar;
@@ -49,6 +50,12 @@ pub struct Decider {
     sizes: Sizes,
     /// Needs of everything about every row.
     rows: NeedSet,
+    /// The candidate under examination, with the directions in which its slips begin.
+    posed: Mode,
+    /// The same of the best one.
+    best: Mode,
+    /// Whether its slip could begin in another direction.
+    forks: bool,
 }
 
 impl Decider {
@@ -67,6 +74,9 @@ impl Decider {
             motion: Vec::new(),
             sizes: Sizes::default(),
             rows: guard::all_row_needs(description, &NeedSet::new(description)),
+            posed: Mode::open(description),
+            best: Mode::open(description),
+            forks: false,
         }
     }
 
@@ -100,9 +110,9 @@ impl Decider {
         let outcome = listed.and_then(|()| {
             let (best, failure) = self.best(dynamics, table, moment, present, known, &candidates);
             match (best, failure) {
-                (Some(best), _) => {
-                    self.decision.mode.clone_from(&candidates[best]);
-                    dynamics.set_mode(&candidates[best]);
+                (Some(_), _) => {
+                    self.decision.mode.clone_from(&self.best);
+                    dynamics.set_mode(&self.best);
                     Ok(())
                 }
                 (None, Some((mode, error))) => {
@@ -175,7 +185,8 @@ impl Decider {
             match self.examine(dynamics, table, moment, mode, known, last) {
                 Ok(true) if best.is_none() => {
                     best = Some(index);
-                    self.decision.ambiguous = false;
+                    self.decision.ambiguous = self.forks;
+                    core::mem::swap(&mut self.best, &mut self.posed);
                     core::mem::swap(&mut self.decision.zeros, &mut self.zeros);
                     self.motion.clear();
                     let motion = dynamics.acceleration().iter().map(|a| a.value());

@@ -10,6 +10,7 @@ mod tape;
 #[cfg(test)]
 mod tests;
 
+use crate::check::Verdict;
 use crate::derive::Stage;
 use crate::plan::Program;
 use proc_macro2::TokenStream;
@@ -18,7 +19,8 @@ use quote::quote;
 pub use fallback::fallback;
 
 /// `impl System` and the handles of a program.
-pub fn emit(program: &Program) -> TokenStream {
+pub fn emit(program: &Program, verdicts: &[Verdict]) -> TokenStream {
+    let _ = verdicts;
     let system = &program.equations.system;
     let (name, core) = (&system.name, &system.core);
     let (generics, arguments, scalar) = match &system.scalar {
