@@ -371,7 +371,9 @@ impl<T: Scalar> Search<T> {
         let tight = |p: &Pattern<T>, k: usize| {
             let row = c.touches[k].row;
             let over = p.after[row] - phase.aims[k];
-            phase.within[k] && !p.pressed[k] && over.value() <= p.noise[row]
+            // With friction it would have to be decided what that does.
+            let rough = c.rubs.iter().any(|rub| rub.bearer == Bearer::Touch(k));
+            phase.within[k] && !p.pressed[k] && !rough && over.value() <= p.noise[row]
         };
         if !self.taking.iter().any(|&k| tight(&self.pattern, k)) {
             return true;

@@ -2,6 +2,7 @@
 
 use super::collision::{Bearer, Collision, Rub, Touch};
 use super::law::Law;
+use super::turn::{Stuck, Turns};
 
 /// Seeded random numbers (splitmix64, Steele, Lea & Flood 2014).
 struct Random(u64);
@@ -226,10 +227,10 @@ fn judge(c: &Collision<f64>, law: &Law<f64>, kind: &Kind) {
         if kind.poisson {
             continue;
         }
-        assert!(against < tiny, "{kind:?}");
-        if size(&slip) > tiny {
+        assert!(against < tiny * (1.0 + normal), "{kind:?}");
+        if size(&slip) > 1e3 * tiny {
             assert!(
-                (against + rub.slide * normal * size(&slip)).abs() < tiny,
+                (against + rub.slide * normal * size(&slip)).abs() < tiny * (1.0 + normal),
                 "{kind:?}"
             );
         }
@@ -249,22 +250,6 @@ fn random_impacts_obey_their_law() {
             law.phase.within.resize(c.touches.len(), true);
             if !law.solve(&c, &c.rates) {
                 failed += 1;
-                if !kind.held {
-                    println!(
-                        "{:?} {:?}\n {:?} {:?}",
-                        c.response, c.rates, c.touches, c.rubs
-                    );
-                    println!(
-                        "phase {:?} {:?} {:?}",
-                        law.phase.rates, law.phase.aims, law.phase.least
-                    );
-                    println!(
-                        "{:?} {:?} {:?}",
-                        law.search.pattern.pressed,
-                        law.search.pattern.slides,
-                        law.search.pattern.impulses
-                    );
-                }
                 continue;
             }
             here += 1;
@@ -279,4 +264,95 @@ fn random_impacts_obey_their_law() {
     println!("{solved} solved, {unsolved} not, {lowered} lowered");
     assert_eq!(unsolved, 0);
     assert!(lowered > 10);
+}
+
+/// Balls on a line, each against the next.
+fn row_of_balls(masses: &[f64], speeds: &[f64], e: f64) -> Collision<f64> {
+    let contacts = masses.len() - 1;
+    let mut c = Collision {
+        size: contacts,
+        terms: vec![1.0; contacts],
+        ..Collision::default()
+    };
+    for k in 0..contacts {
+        c.touches.push(Touch {
+            contact: k,
+            row: k,
+            restitution: e,
+            poisson: false,
+        });
+        c.rates.push(speeds[k + 1] - speeds[k]);
+        for j in 0..contacts {
+            c.response.push(match (k as isize - j as isize).abs() {
+                0 => 1.0 / masses[k] + 1.0 / masses[k + 1],
+                1 => -1.0 / masses[k.max(j)],
+                _ => 0.0,
+            });
+        }
+    }
+    c
+}
+
+#[test]
+fn a_row_of_sixty_four_balls_struck_together_keeps_its_law() {
+    // The struck pair has impulse Λ; the others transmit what keeps them at rest relative to each other: with all rates
+    // but the first aimed at 0 and the first at e v, the tail moves as one.
+    for e in [0.0, 0.5, 1.0] {
+        let masses = [1.0; 64];
+        let mut speeds = [0.0; 64];
+        speeds[0] = 1.0;
+        let c = row_of_balls(&masses, &speeds, e);
+        let mut law = Law::<f64>::default();
+        law.phase.within = vec![true; 63];
+        assert!(law.solve(&c, &c.rates));
+        // m v = m u + 63 m w and w − u = e v.
+        let w = (1.0 + e) / 64.0;
+        for k in 0..63 {
+            let impulse = w * (63 - k) as f64;
+            assert!((law.impulses[k] - impulse).abs() < 1e-13, "{k}");
+        }
+        assert!(law.search.tried < 5);
+    }
+}
+
+#[test]
+fn in_turn_a_row_passes_the_blow_on() {
+    let mut speeds = [0.0; 64];
+    speeds[0] = 1.0;
+    let c = row_of_balls(&[1.0; 64], &speeds, 1.0);
+    let (mut law, mut turns) = (Law::<f64>::default(), Turns::<f64>::default());
+    turns.solve(&c, &mut law).expect("an end");
+    assert_eq!(turns.count, 63);
+    assert!(turns.impulses.iter().all(|x| (x - 1.0).abs() < 1e-13));
+}
+
+/// A heavy ball pushes a light one against a wall: Galperin (2003) counts ⌈π/atan √(m/M)⌉ − 1 collisions.
+#[test]
+fn in_turn_collisions_count_the_digits_of_pi() {
+    for (ratio, count) in [(1.0, 3), (1e2, 31), (1e4, 314), (1e6, 3141), (1e8, 31415)] {
+        // Gaps: light − wall, heavy − light.
+        let mut c = row_of_balls(&[1.0, 1.0, ratio], &[0.0, 0.0, -1.0], 1.0);
+        c.response[0] = 1.0;
+        let (mut law, mut turns) = (Law::<f64>::default(), Turns::<f64>::default());
+        turns.solve(&c, &mut law).expect("an end");
+        assert_eq!(turns.count, count);
+    }
+}
+
+#[test]
+fn a_ball_that_is_squeezed_comes_to_rest_or_is_an_error() {
+    // Two heavy balls close in on a light one.
+    for e in [0.0, 0.5, 0.99] {
+        let c = row_of_balls(&[1e3, 1.0, 1e3], &[1.0, 0.0, -1.0], e);
+        let (mut law, mut turns) = (Law::<f64>::default(), Turns::<f64>::default());
+        turns.solve(&c, &mut law).expect("a limit");
+        // By symmetry of the limit: momentum is shared by all that moves together, or they part.
+        let closing = turns.rates.iter().fold(0.0, |m, r| f64::min(m, *r));
+        assert!(closing > -1e-12, "{e}: {:?}", turns.rates);
+    }
+    // Walls that close in cannot be stopped: light and heavy change places without end.
+    let mut c = row_of_balls(&[1.0, 1.0, 1.0], &[1.0, 0.0, -1.0], 1.0);
+    c.response = vec![1.0, -1.0, -1.0, 1.0];
+    let (mut law, mut turns) = (Law::<f64>::default(), Turns::<f64>::default());
+    assert!(matches!(turns.solve(&c, &mut law), Err(Stuck::Endless(_))));
 }
