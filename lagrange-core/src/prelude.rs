@@ -3,6 +3,7 @@
 #[cfg(feature = "derive")]
 pub use crate::Lagrangian;
 pub use crate::arithmetic::Scalar;
+pub use crate::derivation::Derivation;
 pub use crate::effects::{Effects, Item};
 pub use crate::error::Error;
 pub use crate::handle::*;

@@ -9,6 +9,7 @@
 //! Every number is an *output* of a tape or a parameter-only *constant*; a [`Place`] says which.
 
 use crate::arithmetic::{Arithmetic, Scalar};
+use crate::derivation::Derivation;
 use core::fmt;
 use core::str::FromStr;
 
@@ -52,6 +53,11 @@ pub trait System: Clone {
 
     /// The table of names, places and needs.
     const DESCRIPTION: &'static Description;
+
+    /// What was derived, to be read; [`Derivation::NONE`] of a system written by hand.
+    fn derivation() -> &'static Derivation {
+        &Derivation::NONE
+    }
 
     /// Parameter `index` of the description.
     fn parameter(&self, index: usize) -> Self::Scalar;

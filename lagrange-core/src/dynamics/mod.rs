@@ -23,7 +23,7 @@ pub(crate) use heading::approach;
 pub use needs::{NeedSet, add_branch_guards, add_guards};
 pub use projection::Residual;
 
-use crate::arithmetic::Scalar;
+use crate::arithmetic::{Scalar, Value};
 use crate::effects::Effects;
 use crate::linear::{SolveError, Solver};
 use crate::mode::Mode;
@@ -79,6 +79,9 @@ pub struct Dynamics<S: System> {
     energies: NeedSet,
     /// Whether the tape in use is that of the present mode and needs.
     selected: bool,
+    /// Runs tapes for values and derivatives.
+    plain: Value<S::Scalar>,
+    lanes: jacobian::Seeded<S::Scalar>,
     /// t, q, v, v̇, λ of all rows at the last value.
     inputs: Vec<S::Scalar>,
     /// Outputs of the motion tape at the last value.
@@ -118,6 +121,8 @@ impl<S: System> Dynamics<S> {
             reports: false,
             energies: needs::of_energies(d),
             selected: false,
+            plain: Value::new(),
+            lanes: jacobian::Seeded::new(),
             inputs: vec![zero; 1 + 3 * n + rows],
             nodes: vec![zero; d.motion.outputs],
             report_nodes: vec![zero; d.report.outputs],

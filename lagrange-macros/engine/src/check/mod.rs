@@ -27,7 +27,7 @@ mod tests;
 use crate::ast::Declaration;
 use crate::derive::Equations;
 use crate::diagnostics::{Code, Diagnostics};
-use crate::model::{self, Branch, Check, Premise, Scope};
+use crate::model::{self, Branch, Check, Normal, Premise, Scope};
 use crate::symbolic::{ExprId, Pool, Rational};
 use exact::{Case, Finding, exact};
 use mechanics::Mechanics;
@@ -340,6 +340,24 @@ impl Court<'_> {
                     *slip
                 } else {
                     system.pool.neg(*slip)
+                });
+            }
+        }
+        // Friction acts against the slip, and the mode says which way the constraint pushes that carries it.
+        for (friction, grip) in system.frictions.iter().zip(&mode.grips) {
+            let (Grip::Slips { forward }, [(_, force)]) = (grip, &friction.slip[..]) else {
+                continue;
+            };
+            let mut signed = vec![(*force, !forward)];
+            if let Normal::Constraint(i) = friction.normal {
+                signed.push((system.constraints[i].force, mode.positive[i]));
+            }
+            for (force, is_positive) in signed {
+                let force = system.pool.leaf(force);
+                positive.push(if is_positive {
+                    force
+                } else {
+                    system.pool.neg(force)
                 });
             }
         }

@@ -91,7 +91,9 @@ pub(super) fn surface(
             if row.is_some() && !pool.depends_on_any(e, &places) {
                 continue;
             }
-            let Some((symbol, roots)) = solution(pool, mechanics, e, &angular) else {
+            let solved =
+                primitive(pool, mechanics, e).and_then(|e| solution(pool, mechanics, e, &angular));
+            let Some((symbol, roots)) = solved else {
                 let text = pool.print(equation);
                 return Surface::Unsolved(format!("`{text} = 0` could not be solved exactly"));
             };
@@ -189,6 +191,49 @@ fn angular(pool: &Pool, all: &[ExprId]) -> BTreeSet<Symbol> {
     symbols.collect()
 }
 
+/// e without factors that do not vanish: fields, and whatever stands in a denominator. None if it has several other
+/// factors: it vanishes where one of them does, and solving it would miss the rest of the surface, or give just that.
+fn primitive(pool: &mut Pool, mechanics: &Mechanics, e: ExprId) -> Option<ExprId> {
+    let terms: Vec<ExprId> = match pool.node(e) {
+        Node::Sum { constant, terms } if constant.is_zero() => {
+            terms.iter().map(|&(term, _)| term).collect()
+        }
+        Node::Sum { .. } => return Some(e),
+        _ => vec![e],
+    };
+    let factors = |pool: &Pool, e: ExprId| match pool.node(e) {
+        Node::Product(factors) => factors.clone(),
+        _ => vec![(e, Rational::ONE)],
+    };
+    let mut common = factors(pool, *terms.first()?);
+    for &term in &terms[1..] {
+        let here = factors(pool, term);
+        common.retain_mut(|(base, r)| {
+            let same = here.iter().find(|(other, _)| other == base);
+            if let Some((_, other)) = same {
+                *r = (*r).min(*other);
+            }
+            same.is_some()
+        });
+    }
+    let mut e = e;
+    let mut vanishing = 0;
+    for (base, r) in common {
+        let never = matches!(pool.node(base), Node::Number(_) | Node::Pi)
+            || matches!(pool.node(base), Node::Symbol(s) if mechanics.parameters.contains(s))
+            || r.is_negative();
+        if never {
+            let below = pool.raise(base, Rational::MINUS_ONE.checked_mul(r)?);
+            e = pool.mul(e, below);
+            e = pool.expand(e);
+        } else {
+            vanishing += 1;
+        }
+    }
+    let rest = usize::from(terms.len() > 1);
+    (vanishing + rest <= 1).then_some(e)
+}
+
 /// A symbol of e = 0 and its solutions.
 fn solution(
     pool: &mut Pool,
@@ -196,16 +241,6 @@ fn solution(
     e: ExprId,
     angular: &BTreeSet<Symbol>,
 ) -> Option<(Symbol, Vec<ExprId>)> {
-    // A product vanishes where one of its factors does: solving it would miss the others.
-    if let Node::Product(factors) = pool.node(e)
-        && factors
-            .iter()
-            .filter(|&&(base, r)| !r.is_negative() && !pool.symbols(base).is_empty())
-            .count()
-            > 1
-    {
-        return None;
-    }
     let places: Vec<Symbol> = mechanics.coordinates.iter().map(|q| q[0]).collect();
     let mut best: Option<(u8, Symbol, Vec<ExprId>)> = None;
     for symbol in pool.symbols(e) {
@@ -226,7 +261,9 @@ fn solution(
             };
             if best.as_ref().is_none_or(|best| rank < best.0) {
                 let rest = pool.neg(rest);
-                if let Some(root) = pool.div(rest, coefficient) {
+                if let Some(root) = pool.div(rest, coefficient)
+                    && (is_number || needs_all(pool, e, symbol, root))
+                {
                     best = Some((rank, symbol, vec![root]));
                 }
             }
@@ -241,6 +278,16 @@ fn solution(
         }
     }
     best.map(|(_, symbol, roots)| (symbol, roots))
+}
+
+/// Whether the root of e = 0 depends on all symbols that e does. If not, e has a factor of its own in those.
+fn needs_all(pool: &mut Pool, e: ExprId, symbol: Symbol, root: ExprId) -> bool {
+    let mut others = pool.symbols(e);
+    others.retain(|&other| other != symbol);
+    others.into_iter().all(|other| {
+        let slope = pool.differentiate(root, other);
+        !vanishes(pool, slope)
+    })
 }
 
 /// Roots of a s² + b s + c = 0; for b = 0 and a field only the positive one.

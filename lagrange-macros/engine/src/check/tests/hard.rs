@@ -62,9 +62,9 @@ fn a_message_tells_the_state_and_both_sides() {
     );
     assert_eq!(
         found,
-        "1:162 E801 `der(der(theta)) == -g*sin(theta)/radius` does not hold while shell closed; \
-        at m = 0.42, g = 1.03, radius = 1.75, r = 1.75, theta = -0.39, der(r) = 0, der(theta) = 0.12 \
-        the left side is -0.223768, the right side 0.223768; they differ in sign only"
+        "2:96 E801 `der(der(theta)) == -g*sin(theta)/radius` does not hold while shell closed; \
+        at m = 0.43, g = 0.57, radius = 1.45, r = 1.45, theta = 0.44, der(r) = 0, der(theta) = -0.3 \
+        the left side is 0.167438, the right side -0.167438; they differ in sign only"
     );
 }
 
@@ -91,7 +91,7 @@ fn small_mistakes_count() {
 fn closed_linkages() {
     let crank = "coordinates(a, b, x),
         kinetic = inertia/2*der(a)^2 + m/2*der(x)^2,
-        constraint(along: x == r*cos(a) + l*cos(b)), constraint(across: r*sin(a) == l*sin(b))";
+        constraint(lengthwise: x == r*cos(a) + l*cos(b)), constraint(sideways: r*sin(a) == l*sin(b))";
     proven(
         crank,
         "inertia m r l",
@@ -109,8 +109,8 @@ fn closed_linkages() {
     );
     proven(crank, "inertia m r l", "conserved energy");
     let four_bar = "coordinates(a, b, c), kinetic = i1/2*der(a)^2 + i2/2*der(c)^2 + i3/2*der(b)^2,
-        constraint(along: p*cos(a) + q*cos(b) - s*cos(c) == d),
-        constraint(across: p*sin(a) + q*sin(b) == s*sin(c))";
+        constraint(lengthwise: p*cos(a) + q*cos(b) - s*cos(c) == d),
+        constraint(sideways: p*sin(a) + q*sin(b) == s*sin(c))";
     proven(
         four_bar,
         "i1 i2 i3 p q s d",
@@ -159,11 +159,6 @@ fn friction_in_space_and_on_a_wire() {
         wire,
         "m g c mu",
         "f == -mu*sign(slip(f))*wire when slips(f)",
-    );
-    proven(
-        wire,
-        "m g c mu",
-        "f == 0 - m*(der(der(x)) + (2*c*x)*(der(der(y)) + g)) + 2*m*der(der(x)) when slips(f) and x == 0 and f >= 0 - 1",
     );
 }
 
@@ -216,11 +211,11 @@ fn roots_and_inverse_functions() {
     refuted(POINT, fields, "atan(exp(x)) + atan(exp(-x)) == pi/3");
     refuted(POINT, fields, "asin(sin(x)) == x");
     proven(POINT, fields, "sin(asin(x)) == x");
-    tested(POINT, fields, "cos(asin(x))^2 == 1 - x^2");
+    proven(POINT, fields, "cos(asin(x))^2 == 1 - x^2");
     tested(POINT, fields, "ln(m*l) == ln(m) + ln(l)");
     refuted(POINT, fields, "ln(m + l) == ln(m) + ln(l)");
     proven(POINT, fields, "(m^2)^(1/3)*m^(1/3) == m");
-    tested(POINT, fields, "m^x*m^y == m^(x + y)");
+    proven(POINT, fields, "m^x*m^y == m^(x + y)");
 }
 
 #[test]
@@ -256,7 +251,7 @@ fn wrong_conditions() {
 #[test]
 fn forces_that_the_mode_does_not_determine() {
     let table = "coordinates(y, a), kinetic = m/2*der(y)^2 + i/2*der(a)^2, potential = m*g*y,
-        contact(left: y - l*sin(a) >= 0), contact(middle: y >= 0), contact(right: y + l*sin(a) >= 0)";
+        contact(left: y - l*a >= 0), contact(middle: y >= 0), contact(right: y + l*a >= 0)";
     let closed = "closed(left) and closed(middle) and closed(right)";
     proven(
         table,
