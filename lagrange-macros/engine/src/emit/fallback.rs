@@ -181,6 +181,7 @@ fn empty(core: &TokenStream) -> TokenStream {
             stops: &[],
             marks: &[],
             starts: &[],
+            units: #core::system::Units::NONE,
         }
     }
 }

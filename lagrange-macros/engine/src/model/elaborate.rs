@@ -67,6 +67,7 @@ pub fn system(declaration: &Declaration, sink: &mut Diagnostics) -> Option<Syste
     elaboration.check_dropped(declaration);
     if elaboration.sink.count() == before {
         elaboration.units(declaration);
+        elaboration.structure(declaration);
     }
     let system = elaboration.system;
     (sink.count() == before).then_some(system)
