@@ -68,6 +68,9 @@ pub trait Scene: Sync {
     /// Names, documentation and structure.
     fn description(&self) -> &'static Description;
 
+    /// What was derived, to be read.
+    fn derivation(&self) -> &'static Derivation;
+
     /// Default value of every parameter, in the order of the description.
     fn defaults(&self) -> Vec<f64>;
 
@@ -136,6 +139,10 @@ impl<S: System<Scalar = f64> + Default> Scene for Entry<S> {
 
     fn description(&self) -> &'static Description {
         S::DESCRIPTION
+    }
+
+    fn derivation(&self) -> &'static Derivation {
+        S::derivation()
     }
 
     fn defaults(&self) -> Vec<f64> {

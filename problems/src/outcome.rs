@@ -256,7 +256,7 @@ impl<S: System<Scalar = f64>> Limits<S> {
 
     fn at(&mut self, time: f64, q: &[f64], v: &[f64]) -> Vec<Option<f64>> {
         let description = S::DESCRIPTION;
-        if self.dynamics.value(time, q, v).is_err() {
+        if self.dynamics.value_along(time, q, v).is_err() {
             return vec![None; description.frictions.len()];
         }
         let dynamics = &self.dynamics;
