@@ -61,7 +61,12 @@ impl Decider {
             } else {
                 1e-6
             };
-            let clear = noise.max(1e-6) * sizes.of(guard, dynamics);
+            let size = sizes.of(guard, dynamics);
+            if matches!(guard, Guard::Bearing(_)) && concerns(guard, known) && size <= value.abs() {
+                // Nothing to compare it with: all forces may vanish at this instant.
+                return true;
+            }
+            let clear = noise.max(1e-6) * size;
             refused |= value < -clear;
             let settled = clear > 0.0 && value > clear;
             if settled && order_known > 0 {
@@ -236,11 +241,13 @@ fn concerns(guard: Guard, known: &Known) -> bool {
                     Guard::StickUpper(f)
                     | Guard::StickLower(f)
                     | Guard::StickCone(f)
-                    | Guard::Slip(f),
+                    | Guard::Slip(f)
+                    | Guard::Bearing(f),
                     Guard::Slip(g)
                     | Guard::StickUpper(g)
                     | Guard::StickLower(g)
-                    | Guard::StickCone(g),
+                    | Guard::StickCone(g)
+                    | Guard::Bearing(g),
                 ) => f == g,
                 _ => false,
             }
