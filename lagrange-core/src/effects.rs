@@ -28,6 +28,60 @@ pub enum Item {
     Mark(usize),
 }
 
+impl Item {
+    /// All items that a scene can leave out, in order of declaration within each kind.
+    pub fn all(description: &Description) -> impl Iterator<Item = Item> + '_ {
+        let d = description;
+        let optional = |list: &'static [crate::system::Effect], item: fn(usize) -> Item| {
+            let named = list.iter().enumerate().filter(|(_, e)| e.optional);
+            named.map(move |(i, _)| item(i))
+        };
+        optional(d.kinetic, Item::Kinetic)
+            .chain(optional(d.potential, Item::Potential))
+            .chain((0..d.constraints.len()).map(Item::Constraint))
+            .chain((0..d.contacts.len()).map(Item::Contact))
+            .chain((0..d.frictions.len()).map(Item::Friction))
+            .chain((0..d.forces.len()).map(Item::Force))
+            .chain((0..d.dissipations.len()).map(Item::Dissipation))
+            .chain((0..d.observes.len()).map(Item::Observe))
+            .chain((0..d.stops.len()).map(Item::Stop))
+            .chain((0..d.marks.len()).map(Item::Mark))
+    }
+
+    /// Its name in the declaration.
+    pub fn name(self, description: &Description) -> &'static str {
+        let d = description;
+        match self {
+            Item::Kinetic(i) => d.kinetic[i].name,
+            Item::Potential(i) => d.potential[i].name,
+            Item::Constraint(i) => d.constraints[i].name,
+            Item::Contact(i) => d.contacts[i].name,
+            Item::Friction(i) => d.frictions[i].name,
+            Item::Force(i) => d.forces[i].name,
+            Item::Dissipation(i) => d.dissipations[i].name,
+            Item::Observe(i) => d.observes[i].name,
+            Item::Stop(i) => d.stops[i].name,
+            Item::Mark(i) => d.marks[i].name,
+        }
+    }
+
+    /// What it is, in a word.
+    pub fn kind(self) -> &'static str {
+        match self {
+            Item::Kinetic(_) => "kinetic energy",
+            Item::Potential(_) => "potential",
+            Item::Constraint(_) => "constraint",
+            Item::Contact(_) => "contact",
+            Item::Friction(_) => "friction",
+            Item::Force(_) => "force",
+            Item::Dissipation(_) => "dissipation",
+            Item::Observe(_) => "output",
+            Item::Stop(_) => "stop",
+            Item::Mark(_) => "mark",
+        }
+    }
+}
+
 /// The effects of a scene: all items of the declaration but those left out.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Effects {

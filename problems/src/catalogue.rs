@@ -3,6 +3,7 @@
 
 use crate::accuracy::{self, Accuracy, Course, Study};
 use crate::closed_form::ClosedForm;
+use crate::cost::{self, Costs};
 use crate::outcome::Outcome;
 use crate::request::{Refusal, Request};
 use crate::scenes::hard::*;
@@ -72,6 +73,9 @@ pub trait Scene: Sync {
     /// Names, documentation and structure.
     fn description(&self) -> &'static Description;
 
+    /// What was derived, to be read.
+    fn derivation(&self) -> &'static Derivation;
+
     /// Default value of every parameter, in the order of the description.
     fn defaults(&self) -> Vec<f64>;
 
@@ -84,6 +88,12 @@ pub trait Scene: Sync {
     /// # Errors
     /// The request makes no sense, the start does not exist, or there is nothing to measure errors against.
     fn accuracy(&self, study: &Study) -> Result<Accuracy, Refusal>;
+
+    /// Measures what each effect costs.
+    ///
+    /// # Errors
+    /// The request makes no sense, the start does not exist, or the run fails.
+    fn costs(&self, request: &Request) -> Result<Costs, Refusal>;
 
     /// First sentence of the documentation.
     fn summary(&self) -> &'static str {
@@ -136,6 +146,10 @@ impl<S: System<Scalar = f64> + Default> Scene for Entry<S> {
         S::DESCRIPTION
     }
 
+    fn derivation(&self) -> &'static Derivation {
+        S::derivation()
+    }
+
     fn defaults(&self) -> Vec<f64> {
         let system = S::default();
         (0..S::DESCRIPTION.parameters.len())
@@ -145,10 +159,7 @@ impl<S: System<Scalar = f64> + Default> Scene for Entry<S> {
 
     fn run(&self, request: &Request) -> Result<Outcome, Refusal> {
         let system: S = request.system()?;
-        let simulation = Simulation::new(&system)
-            .tolerance(request.tolerance)
-            .method(request.method)
-            .project_start(request.project);
+        let simulation = request.simulation(&system)?;
         let start = request.start(&system, &simulation)?;
         let until = request.until.unwrap_or(self.until);
         let (trajectory, failure) = match simulation.run(start, 0.0..until) {
@@ -164,20 +175,35 @@ impl<S: System<Scalar = f64> + Default> Scene for Entry<S> {
         ))
     }
 
+    fn costs(&self, request: &Request) -> Result<Costs, Refusal> {
+        let system: S = request.system()?;
+        let simulation = request.simulation(&system)?;
+        let start = request.start(&system, &simulation)?;
+        let until = request.until.unwrap_or(self.until);
+        let effects = request.effects(S::DESCRIPTION)?;
+        cost::measure(self.name, &system, &simulation, &effects, &start, until)
+            .map_err(Refusal::Run)
+    }
+
     fn accuracy(&self, study: &Study) -> Result<Accuracy, Refusal> {
         let request = &study.request;
         let system: S = request.system()?;
-        let start = request.start(
-            &system,
-            &Simulation::new(&system).tolerance(request.tolerance),
-        )?;
+        let effects = request.effects(S::DESCRIPTION)?;
+        let simulation = Simulation::new(&system)
+            .tolerance(request.tolerance)
+            .effects(effects.clone());
+        let start = request.start(&system, &simulation)?;
         let until = request.until.unwrap_or(self.until);
+        // A closed form is that of the whole declaration.
+        let whole = effects.left_out().next().is_none();
         let closed_form = self
             .closed_form
+            .filter(|_| whole)
             .and_then(|known| known(&system, &start, until));
         let course = Course {
             system: &system,
             start,
+            effects,
             until,
             max_steps: 400_000,
         };

@@ -6,10 +6,12 @@
 pub mod accuracy;
 pub mod catalogue;
 pub mod closed_form;
+pub mod cost;
 pub mod names;
 pub mod outcome;
 pub mod reference;
 pub mod report;
 pub mod request;
+pub mod scene_file;
 pub mod scenes;
 pub mod stability;

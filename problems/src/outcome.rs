@@ -14,6 +14,8 @@ pub struct Outcome {
     pub description: &'static Description,
     /// Value of every parameter.
     pub parameters: Vec<f64>,
+    /// What takes part.
+    pub effects: Effects,
     /// Event log.
     pub events: Vec<Event<f64>>,
     /// Modes in order of time.
@@ -140,6 +142,7 @@ impl Outcome {
             parameters: (0..description.parameters.len())
                 .map(|i| system.parameter(i))
                 .collect(),
+            effects: trajectory.effects().clone(),
             events: trajectory.events().to_vec(),
             phases: trajectory.phases(),
             samples: sample(trajectory, intervals),
@@ -147,6 +150,12 @@ impl Outcome {
             work: trajectory.work(),
             failure,
         }
+    }
+
+    /// Names of what was left out.
+    pub fn left_out(&self) -> Vec<&'static str> {
+        let items = self.effects.left_out();
+        items.map(|item| item.name(self.description)).collect()
     }
 
     /// The first instant, if the run began.

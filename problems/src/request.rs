@@ -2,8 +2,10 @@
 
 use crate::names::nearest;
 use core::fmt;
+use lagrange_core::effects::Item;
 use lagrange_core::prelude::*;
 use lagrange_core::system::Description;
+use std::collections::BTreeSet;
 
 /// A run of a scene as asked for. Names are those of the declaration.
 #[derive(Clone, Debug)]
@@ -12,6 +14,8 @@ pub struct Request {
     pub parameters: Vec<(String, f64)>,
     /// Named start; the first one if `None`.
     pub from: Option<String>,
+    /// Items switched off (or on again), in this order.
+    pub effects: Vec<(String, bool)>,
     /// Coordinates (`theta`) and velocities (`der(theta)`) to be held exactly.
     pub start: Vec<(String, f64)>,
     /// End, s; the scene's own if `None`.
@@ -31,6 +35,7 @@ impl Default for Request {
         Self {
             parameters: Vec::new(),
             from: None,
+            effects: Vec::new(),
             start: Vec::new(),
             until: None,
             tolerance: 1e-9,
@@ -63,6 +68,8 @@ pub enum Refusal {
     },
     /// No consistent state with the values that are to be held.
     Start(Error),
+    /// The run fails.
+    Run(Error),
     /// No reference to measure errors against.
     Reference {
         /// The run that failed, or disagreed.
@@ -106,6 +113,7 @@ impl fmt::Display for Refusal {
                 }
             }
             Refusal::Repeated { name } => write!(f, "`{name}` is given twice; give it once"),
+            Refusal::Run(error) => write!(f, "{error}"),
             Refusal::Start(error) => write!(f, "no such start: {error}"),
             Refusal::Reference { by, reason } => {
                 write!(f, "no reference to measure errors against: {by}: {reason}")
@@ -120,29 +128,41 @@ impl Request {
     /// The default system with the parameters of the request.
     pub(crate) fn system<S: System<Scalar = f64> + Default>(&self) -> Result<S, Refusal> {
         let mut system = S::default();
-        for (name, value) in &self.parameters {
-            system.set_parameter(self.parameter(S::DESCRIPTION, name)?, *value);
+        for (index, (name, value)) in self.parameters.iter().enumerate() {
+            if self.parameters[..index]
+                .iter()
+                .any(|(other, _)| other == name)
+            {
+                return Err(Refusal::Repeated { name: name.clone() });
+            }
+            system.set_parameter(find_parameter(S::DESCRIPTION, name)?, *value);
         }
         Ok(system)
     }
 
-    /// Index of the parameter called `name`.
-    fn parameter(&self, description: &'static Description, name: &str) -> Result<usize, Refusal> {
-        if self
-            .parameters
-            .iter()
-            .filter(|(other, _)| other == name)
-            .count()
-            > 1
-        {
-            return Err(Refusal::Repeated {
-                name: name.to_owned(),
-            });
+    /// How to run `system`.
+    pub(crate) fn simulation<'a, S: System<Scalar = f64>>(
+        &self,
+        system: &'a S,
+    ) -> Result<Simulation<'a, S>, Refusal> {
+        Ok(Simulation::new(system)
+            .tolerance(self.tolerance)
+            .method(self.method)
+            .effects(self.effects(S::DESCRIPTION)?)
+            .project_start(self.project))
+    }
+
+    /// What takes part.
+    pub(crate) fn effects(&self, description: &'static Description) -> Result<Effects, Refusal> {
+        let mut off = BTreeSet::new();
+        for (name, on) in &self.effects {
+            let item = find_effect(description, name)?;
+            match on {
+                true => off.remove(&item),
+                false => off.insert(item),
+            };
         }
-        let known = || description.parameters.iter().map(|p| p.name);
-        known()
-            .position(|p| p == name)
-            .ok_or_else(|| Refusal::unknown("parameter", name, known()))
+        Ok(off.into_iter().fold(Effects::all(), Effects::without))
     }
 
     /// The state to start from.
@@ -190,10 +210,7 @@ impl Request {
             v: vec![0.0; n],
         };
         let index = match &self.from {
-            Some(name) => starts
-                .iter()
-                .position(|start| start == name)
-                .ok_or_else(|| Refusal::unknown("start", name, starts.iter().copied()))?,
+            Some(name) => find_start(S::DESCRIPTION, name)?,
             None if starts.is_empty() => return Ok(state),
             None => 0,
         };
@@ -202,13 +219,47 @@ impl Request {
     }
 }
 
-enum Quantity {
+/// Index of the parameter called `name`.
+pub(crate) fn find_parameter(
+    description: &'static Description,
+    name: &str,
+) -> Result<usize, Refusal> {
+    let known = || description.parameters.iter().map(|p| p.name);
+    known()
+        .position(|p| p == name)
+        .ok_or_else(|| Refusal::unknown("parameter", name, known()))
+}
+
+/// The item called `name` that can be switched off.
+pub(crate) fn find_effect(description: &'static Description, name: &str) -> Result<Item, Refusal> {
+    let known = || Item::all(description);
+    known()
+        .find(|item| item.name(description) == name)
+        .ok_or_else(|| Refusal::unknown("effect", name, known().map(|i| i.name(description))))
+}
+
+/// Index of the named start called `name`.
+pub(crate) fn find_start(description: &'static Description, name: &str) -> Result<usize, Refusal> {
+    let known = || description.starts.iter().copied();
+    known()
+        .position(|start| start == name)
+        .ok_or_else(|| Refusal::unknown("start", name, known()))
+}
+
+/// Level of a number of the state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Quantity {
+    /// A coordinate.
     Position,
+    /// Its rate.
     Velocity,
 }
 
 /// `theta` or `der(theta)`, blanks ignored.
-fn find_state(description: &'static Description, name: &str) -> Result<(usize, Quantity), Refusal> {
+pub(crate) fn find_state(
+    description: &'static Description,
+    name: &str,
+) -> Result<(usize, Quantity), Refusal> {
     let plain: String = name.chars().filter(|c| !c.is_whitespace()).collect();
     for (index, coordinate) in description.coordinates.iter().enumerate() {
         if plain == coordinate.name {

@@ -237,3 +237,58 @@ fn files_are_written_or_the_reason_is_given() {
         "/nowhere/run.json",
     );
 }
+
+/// Path of a scene file of the catalogue.
+fn scene_file(name: &str) -> String {
+    format!("{}/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"))
+}
+
+#[test]
+fn scene_files_run_and_the_command_line_has_the_last_word() {
+    let folder = std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes"));
+    let mut count = 0;
+    for file in folder.expect("scene files") {
+        let path = file.expect("a file").path();
+        says(&["run", path.to_str().expect("unicode")]);
+        count += 1;
+    }
+    assert!(count >= 3);
+    let sticky = json(&[&scene_file("sticky-wheel")]);
+    assert_eq!(story(&sticky), ["rim lost", "floor stop"]);
+    assert_eq!(sticky["parameters"]["mu_static"], 10.0);
+    let again = json(&[&scene_file("sticky-wheel"), "--set", "mu_static=0.6"]);
+    assert_eq!(story(&again), ["grip slips", "rim lost", "floor stop"]);
+    let smooth = json(&[&scene_file("smooth-wheel")]);
+    assert_eq!(smooth["without"], serde_json::json!(["grip"]));
+    let rough = json(&[&scene_file("smooth-wheel"), "--with", "grip"]);
+    assert_eq!(rough["without"], Value::Null);
+}
+
+#[test]
+fn a_saved_run_runs_again() {
+    let path = std::env::temp_dir().join(format!("lagrange-saved-{}.toml", std::process::id()));
+    let path = path.to_str().expect("unicode");
+    let arguments = [
+        "mass-on-wheel",
+        "--set",
+        "mass=0.3",
+        "--start",
+        "theta=0.2",
+        "--without",
+        "floor",
+        "--until",
+        "2",
+    ];
+    let first = json(&[&arguments[..], &["--save", path]].concat());
+    let second = json(&[path]);
+    std::fs::remove_file(path).expect("it was written");
+    assert_eq!(first, second);
+    let smooth = says(&["run", "mass-on-wheel", "--without", "grip"]);
+    assert!(smooth.starts_with("Without grip.\n"), "{smooth}");
+    refuses(
+        &["run", "mass-on-wheel", "--without", "gripp"],
+        2,
+        "did you mean `grip`?",
+    );
+    refuses(&["run", "nowhere.toml"], 2, "cannot read nowhere.toml");
+}

@@ -73,6 +73,15 @@ impl Instruction {
         own.into_iter().chain(listed).filter(|slot| slot.0 > 0)
     }
 
+    /// Arithmetic operations and function calls that it takes.
+    pub(super) fn operations(&self) -> usize {
+        match self.op {
+            Op::Copy => 0,
+            Op::Sum | Op::Sum2 => 2 * (self.y.index() - self.x.index()) - 1,
+            _ => 1,
+        }
+    }
+
     /// Whether its coefficients are sums of its operands' with factors that do not depend on time.
     pub(super) fn is_linear(&self) -> bool {
         matches!(

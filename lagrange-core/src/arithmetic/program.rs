@@ -57,6 +57,15 @@ impl Program {
         }
     }
 
+    /// Arithmetic operations and function calls of one evaluation.
+    pub fn operations(&self) -> usize {
+        let lists = self
+            .parts
+            .iter()
+            .flat_map(|p| p.fixed.iter().chain(&p.varying));
+        lists.map(Instruction::operations).sum()
+    }
+
     /// Values of part `index` from those of its operands. As many registers as [`Recording::registers_filled`] made.
     #[inline]
     pub fn evaluate<T: Scalar>(&self, index: usize, registers: &mut [T]) {

@@ -23,7 +23,7 @@ pub(crate) use heading::approach;
 pub use needs::{NeedSet, add_branch_guards, add_guards};
 pub use projection::Residual;
 
-use crate::arithmetic::Scalar;
+use crate::arithmetic::{Scalar, Value};
 use crate::effects::Effects;
 use crate::linear::{SolveError, Solver};
 use crate::mode::Mode;
@@ -49,6 +49,15 @@ pub struct Work {
     pub projections: usize,
 }
 
+/// Arithmetic operations of one evaluation in the present mode.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Operations {
+    /// Of the accelerations: a right-hand side.
+    pub accelerations: usize,
+    /// Of everything that was asked for: forces, guards and outputs as well.
+    pub everything: usize,
+}
+
 /// The equations of motion of a scene.
 #[derive(Clone, Debug)]
 pub struct Dynamics<S: System> {
@@ -70,6 +79,9 @@ pub struct Dynamics<S: System> {
     energies: NeedSet,
     /// Whether the tape in use is that of the present mode and needs.
     selected: bool,
+    /// Runs tapes for values and derivatives.
+    plain: Value<S::Scalar>,
+    lanes: jacobian::Seeded<S::Scalar>,
     /// t, q, v, v̇, λ of all rows at the last value.
     inputs: Vec<S::Scalar>,
     /// Outputs of the motion tape at the last value.
@@ -109,6 +121,8 @@ impl<S: System> Dynamics<S> {
             reports: false,
             energies: needs::of_energies(d),
             selected: false,
+            plain: Value::new(),
+            lanes: jacobian::Seeded::new(),
             inputs: vec![zero; 1 + 3 * n + rows],
             nodes: vec![zero; d.motion.outputs],
             report_nodes: vec![zero; d.report.outputs],
@@ -159,6 +173,12 @@ impl<S: System> Dynamics<S> {
     /// Work done so far.
     pub fn work(&self) -> Work {
         self.work
+    }
+
+    /// Operations of the last [`Self::value`]: what takes no part in the mode is not among them.
+    pub fn operations(&self) -> Operations {
+        let tape = self.compiled().tape();
+        tape.map(|tape| tape.operations()).unwrap_or_default()
     }
 
     /// The rows that act as equations in this mode, ascending.

@@ -2,6 +2,7 @@
 //!
 //! Registers: zero | t q v v̇ λ | motion tape | report tape | plan's program | what the recorder needs beside.
 
+use super::Operations;
 use super::compiled::{Asked, Compiled};
 use super::needs::NeedSet;
 use super::values::Extent;
@@ -111,6 +112,16 @@ impl<T: Scalar> Tape<T> {
         self.at_rest == asked.at_rest
             && self.extra == *asked.extra
             && self.report.as_ref() == asked.report
+    }
+
+    /// Arithmetic operations of one evaluation; the solver's are those of elimination by pivots.
+    pub(super) fn operations(&self) -> Operations {
+        let size = self.unsolved.as_ref().map_or(0, |u| u.unknowns.len());
+        let solver = size * (size + 1) * (4 * size + 5) / 6 - 2 * size;
+        Operations {
+            accelerations: self.accelerations.operations() + solver,
+            everything: self.everything.operations() + solver,
+        }
     }
 
     /// Whether it takes the coordinates that cannot accelerate as at rest.

@@ -8,7 +8,7 @@ use crate::system::*;
 use nalgebra::{DMatrix, DVector};
 
 /// Numbers in −1…1 from a seed.
-struct Random(u64);
+pub(super) struct Random(pub(super) u64);
 
 impl Random {
     fn bits(&mut self) -> u64 {
@@ -18,13 +18,13 @@ impl Random {
         self.0 ^= self.0 << 17;
         self.0
     }
-    fn number(&mut self) -> f64 {
+    pub(super) fn number(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
-    fn below(&mut self, n: usize) -> usize {
+    pub(super) fn below(&mut self, n: usize) -> usize {
         (self.bits() >> 33) as usize % n
     }
-    fn one_in(&mut self, n: usize) -> bool {
+    pub(super) fn one_in(&mut self, n: usize) -> bool {
         self.below(n) == 0
     }
 }
@@ -222,6 +222,8 @@ fn random_system(seed: u64) -> (Description, Builder) {
         stops: &[],
         marks: &[],
         starts: &[],
+        units: crate::system::Units::NONE,
+        impacts: crate::system::Impacts::Together,
     };
     (description, b)
 }

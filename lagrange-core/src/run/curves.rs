@@ -93,7 +93,7 @@ impl Curves {
     }
 
     /// How far the polynomials are off at part `s` of the step, in units of what is allowed; `dynamics` holds the values of
-    /// the state there.
+    /// the state there, `located` tells the guards whose root it is.
     ///
     /// The step is chosen for the coordinates, but a guard is a function of them whose series may converge no further than
     /// a part of it: in free flight the coordinates are polynomials, the distance √(x² + y²) is not.
@@ -104,19 +104,32 @@ impl Curves {
         guards: &[Guard],
         s: f64,
         tolerance: f64,
+        located: impl Fn(Guard) -> bool,
     ) -> f64 {
         let all = guards.iter().chain(&self.watches);
         let curves = self.coefficients.chunks_exact(self.width);
         let mut worst = 0.0;
         let mut reported = false;
         for (curve, &g) in curves.zip(all) {
-            // Forces are second derivatives, and the worse for it.
+            let located = located(g);
+            // Forces are second derivatives, and the worse for it. Where a guard has been located it has to be exact, else it
+            // only must not be missed.
             let (share, floor) = match g {
                 Guard::Normal(_)
                 | Guard::StickUpper(_)
                 | Guard::StickLower(_)
                 | Guard::StickCone(_)
+                | Guard::Bearing(_)
+                    if located =>
+                {
+                    (10.0, 1e-12)
+                }
+                Guard::Normal(_)
+                | Guard::StickUpper(_)
+                | Guard::StickLower(_)
+                | Guard::StickCone(_)
                 | Guard::Bearing(_) => (1e4, 1e-10),
+                _ if located => (0.1, 1e-14),
                 _ => (10.0, 1e-13),
             };
             let share = (share * tolerance).max(floor);
@@ -128,12 +141,10 @@ impl Curves {
                 reported = true;
             }
             let value = guard::value(g, mode, &Reading::Values(dynamics));
-            let (mut found, mut size) = (0.0, 0.0);
-            for c in curve.iter().rev() {
-                found = found * s + c;
-                size = size * s + c.abs();
-            }
-            let allowed = share * (size + value.abs());
+            let found = curve.iter().rev().fold(0.0, |sum, c| sum * s + c);
+            // Not all coefficients: where the series has stopped converging they are large and cancel.
+            let size = value.abs() + curve.iter().take(2).map(|c| c.abs()).sum::<f64>();
+            let allowed = share * size;
             let ratio = (found - value).abs() / (allowed + 64.0 * f64::EPSILON);
             worst = if ratio > worst || ratio.is_nan() {
                 ratio

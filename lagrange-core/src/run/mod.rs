@@ -19,6 +19,7 @@ use crate::integrate::{StepPolynomial, Tolerance};
 use crate::mode::Mode;
 use crate::modes::decide::Decider;
 use crate::modes::guard::{self, Guard};
+use crate::modes::impact::Collider;
 use crate::modes::reading::Reading;
 use crate::modes::start::{self, Survey};
 use crate::modes::table::Table;
@@ -86,6 +87,9 @@ pub(crate) struct Run<S: System> {
     scratch: State<S::Scalar>,
     survey: Survey,
     decider: Decider,
+    collider: Collider<S::Scalar>,
+    /// Contacts whose gap vanishes at an impact.
+    near: Vec<usize>,
     before: Before<S::Scalar>,
     forces_after: Vec<S::Scalar>,
     /// Per contact: its impacts so far.
@@ -147,6 +151,8 @@ impl<S: System> Run<S> {
             curves: Curves::new::<S>(),
             survey: Survey::new(d),
             decider: Decider::new(d),
+            collider: Collider::default(),
+            near: Vec::with_capacity(d.contacts.len()),
             impacts: vec![Impacts::default(); d.contacts.len()],
             rank: Rank::new::<S>(),
             distance: 1.0,

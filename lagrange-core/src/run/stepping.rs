@@ -9,8 +9,12 @@ use crate::dynamics::EvaluationError;
 use crate::error::Error;
 use crate::integrate::taylor::{self, DefectControl, Verdict};
 use crate::integrate::{Integrator, Method, StepError};
+use crate::modes::guard::Guard;
 use crate::system::System;
 use crate::trajectory::State;
+
+/// Where rounding hides how a guard begins, the step is made shorter by this.
+const CLOSER_LOOK: f64 = 1e-3;
 
 /// What makes the polynomials of a step.
 #[derive(Debug)]
@@ -66,6 +70,10 @@ impl<S: System> Run<S> {
             self.write_polynomial(h, self.order);
             self.curves
                 .take_series(&self.dynamics, &self.mode, &self.guards, &self.powers);
+            if self.hides_a_start() && self.t.value() + CLOSER_LOOK * h > self.t.value() {
+                h *= CLOSER_LOOK;
+                continue;
+            }
             let hit = self.first_hit();
             let end = hit.end();
             if end == 0.0 {
@@ -81,8 +89,12 @@ impl<S: System> Run<S> {
                 let accelerations = self.dynamics.acceleration();
                 let motion = taylor::defect(&self.step, looked, accelerations, self.tolerance);
                 let (guards, tolerance) = (&self.guards, self.tolerance.relative);
-                let (dynamics, curves) = (&mut self.dynamics, &self.curves);
-                let guards = curves.defect(dynamics, &self.mode, guards, looked, tolerance);
+                let (curves, fallen) = (&self.curves, &self.fallen);
+                let stops = matches!(hit, Hit::Stop(..));
+                let located = |g| fallen.contains(&g) || stops && matches!(g, Guard::Stop(..));
+                let dynamics = &mut self.dynamics;
+                let guards =
+                    curves.defect(dynamics, &self.mode, guards, looked, tolerance, located);
                 // Not the larger of a number and a NaN, which would be the number.
                 if guards <= motion { motion } else { guards }
             } else {
@@ -103,7 +115,8 @@ impl<S: System> Run<S> {
                 Stepper::Taylor(control) => control,
                 Stepper::Other(..) => &mut control,
             };
-            match control.judge(h, defect, self.order) {
+            // The polynomial is as good at its root however long the step: the next try ends before it.
+            match control.judge(h * end, defect, self.order) {
                 Verdict::Accept => {
                     self.distance = distance;
                     if looked != end {

@@ -146,6 +146,8 @@ pub struct Event<T> {
     pub impulses: Vec<T>,
     /// Whether the restitution was lowered so that the impact does not add energy.
     pub restitution_lowered: bool,
+    /// Whether rows that depend on each other leave impulses of this impact undetermined; those given are of least norm.
+    pub impulses_undetermined: bool,
     /// Whether more than one mode could continue the motion.
     pub ambiguous: bool,
 }
@@ -181,6 +183,7 @@ impl<T: crate::arithmetic::Scalar> Event<T> {
             forces_after: Vec::new(),
             impulses: Vec::new(),
             restitution_lowered: false,
+            impulses_undetermined: false,
             ambiguous: false,
         }
     }
@@ -200,6 +203,7 @@ impl<T: crate::arithmetic::Scalar> Event<T> {
         copy(&mut self.forces_after, a.forces_after);
         copy(&mut self.impulses, a.impulses);
         self.restitution_lowered = false;
+        self.impulses_undetermined = false;
         self.ambiguous = false;
     }
 

@@ -8,6 +8,7 @@ pub(crate) use event::Around;
 pub use event::{Event, EventKind, Starts, State, Subject};
 pub use ledger::{Energies, Entry, Ledger};
 pub use sampler::{Instant, Sampler};
+pub(crate) use sampler::{instant, report_everything};
 
 use crate::arithmetic::Scalar;
 use crate::effects::Effects;

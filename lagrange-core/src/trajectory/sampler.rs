@@ -52,15 +52,8 @@ pub struct Sampler<'a, S: System> {
 
 impl<'a, S: System> Sampler<'a, S> {
     pub(super) fn new(trajectory: &'a Trajectory<S>) -> Self {
-        let d = S::DESCRIPTION;
         let mut dynamics = Dynamics::new(&trajectory.scene, &trajectory.effects);
-        let mut needs = NeedSet::new(d);
-        needs.insert(d.energy.need);
-        let loads = d.forces.iter().chain(d.dissipations).map(|l| l.report_need);
-        loads
-            .chain(d.observes.iter().map(|o| o.need))
-            .for_each(|need| needs.insert(need));
-        dynamics.set_report_needs(&needs);
+        report_everything(&mut dynamics);
         Self {
             trajectory,
             dynamics,
@@ -175,35 +168,8 @@ impl<'a, S: System> Sampler<'a, S> {
         } else {
             dynamics.value_along(t, &state.q, &state.v)
         };
-        outcome
-            .map_err(|e| Error::from_evaluation(e, t.value(), &self.trajectory.modes[mode], d))?;
-        dynamics.report_value();
-        let contacts = d
-            .contacts
-            .iter()
-            .map(|c| d.rows[c.row].position.unwrap_or(Place::Zero));
-        let frictions = d.frictions.iter().flat_map(|f| f.row..f.row + f.components);
-        Ok(Instant {
-            time: t,
-            mode: self.trajectory.modes[mode].under_way(),
-            q: state.q.clone(),
-            v: state.v.clone(),
-            acceleration: dynamics.acceleration().to_vec(),
-            forces: (0..d.rows.len()).map(|row| dynamics.force(row)).collect(),
-            gaps: contacts.map(|place| dynamics.motion(place)).collect(),
-            slips: frictions
-                .map(|row| dynamics.motion(d.rows[row].velocity))
-                .collect(),
-            kinetic: dynamics.report(d.energy.kinetic),
-            potential: dynamics.report(d.energy.potential),
-            jacobi: dynamics.report(d.energy.jacobi),
-            loads: d.forces.iter().map(|f| dynamics.report(f.value)).collect(),
-            observes: d
-                .observes
-                .iter()
-                .map(|o| dynamics.report(o.place))
-                .collect(),
-        })
+        let outcome = outcome.map(|()| instant(dynamics, t, state));
+        outcome.map_err(|e| Error::from_evaluation(e, t.value(), &self.trajectory.modes[mode], d))
     }
 
     /// Power of every force, dissipation and row, and of explicit time, at part `s` of a segment; in the order of
@@ -243,5 +209,53 @@ impl<'a, S: System> Sampler<'a, S> {
             *out = power;
         }
         Ok(())
+    }
+}
+
+/// Asks the report tape for all that an [`Instant`] holds.
+pub(crate) fn report_everything<S: System>(dynamics: &mut Dynamics<S>) {
+    let d = S::DESCRIPTION;
+    let mut needs = NeedSet::new(d);
+    needs.insert(d.energy.need);
+    let loads = d.forces.iter().chain(d.dissipations).map(|l| l.report_need);
+    loads
+        .chain(d.observes.iter().map(|o| o.need))
+        .for_each(|need| needs.insert(need));
+    dynamics.set_report_needs(&needs);
+}
+
+/// Everything about a state in the present mode; all numbers of the rows and the report must have been asked for.
+pub(crate) fn instant<S: System>(
+    dynamics: &mut Dynamics<S>,
+    t: S::Scalar,
+    state: &State<S::Scalar>,
+) -> Instant<S::Scalar> {
+    let d = S::DESCRIPTION;
+    dynamics.report_value();
+    let contacts = d
+        .contacts
+        .iter()
+        .map(|c| d.rows[c.row].position.unwrap_or(Place::Zero));
+    let frictions = d.frictions.iter().flat_map(|f| f.row..f.row + f.components);
+    Instant {
+        time: t,
+        mode: dynamics.mode().under_way(),
+        q: state.q.clone(),
+        v: state.v.clone(),
+        acceleration: dynamics.acceleration().to_vec(),
+        forces: (0..d.rows.len()).map(|row| dynamics.force(row)).collect(),
+        gaps: contacts.map(|place| dynamics.motion(place)).collect(),
+        slips: frictions
+            .map(|row| dynamics.motion(d.rows[row].velocity))
+            .collect(),
+        kinetic: dynamics.report(d.energy.kinetic),
+        potential: dynamics.report(d.energy.potential),
+        jacobi: dynamics.report(d.energy.jacobi),
+        loads: d.forces.iter().map(|f| dynamics.report(f.value)).collect(),
+        observes: d
+            .observes
+            .iter()
+            .map(|o| dynamics.report(o.place))
+            .collect(),
     }
 }

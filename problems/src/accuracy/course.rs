@@ -15,6 +15,8 @@ pub(crate) struct Course<'a, S> {
     pub system: &'a S,
     /// State at time 0.
     pub start: State<f64>,
+    /// What takes part.
+    pub effects: Effects,
     /// Last time, s.
     pub until: f64,
     /// Most steps of a run: what needs more is no choice for this scene.
@@ -26,6 +28,7 @@ impl<S: System<Scalar = f64>> Course<'_, S> {
         Simulation::new(self.system)
             .method(setting.method)
             .tolerance(setting.tolerance)
+            .effects(self.effects.clone())
             .max_steps(self.max_steps)
             .max_events(MAX_EVENTS)
     }

@@ -1,12 +1,12 @@
 //! `lagrange accuracy`: what accuracy costs in a scene, method by method.
 
 use super::Trouble;
-use super::course::Course;
-use super::output::{Format, Output, patiently, to_file};
+use super::course::{Course, scene};
+use super::output::{Output, patiently, to_file};
 use super::values::{positive, tolerances};
 use clap::Args;
 use lagrange_problems::accuracy::{Accuracy, Family, Study};
-use lagrange_problems::catalogue::find;
+use lagrange_problems::report::Format;
 use lagrange_problems::report::accuracy::{answer, csv, json, plot, table};
 use lagrange_problems::request::Request;
 use std::io::{self, Write};
@@ -15,7 +15,7 @@ use std::path::PathBuf;
 /// Measure what accuracy costs: methods at tolerances, in time and work, against a reference that is made on the spot.
 #[derive(Args)]
 pub(super) struct Measure {
-    /// The scene; `lagrange list` shows them.
+    /// The scene, or a scene file; `lagrange list` shows the scenes.
     scene: String,
     #[command(flatten)]
     course: Course,
@@ -42,12 +42,13 @@ pub(super) struct Measure {
 
 impl Measure {
     pub(super) fn execute(self) -> Result<(), Trouble> {
-        let scene = find(&self.scene).map_err(Trouble::usage)?;
+        let file = scene(&self.scene)?;
+        let scene = file.scene;
         let study = Study {
-            request: Request {
+            request: self.course.request(Request {
                 tolerance: 1e-15,
-                ..self.course.request()
-            },
+                ..file.request
+            }),
             methods: match self.methods.is_empty() {
                 true => Family::ALL.to_vec(),
                 false => self.methods,
@@ -59,7 +60,7 @@ impl Measure {
             scene.accuracy(&study)
         })
         .map_err(Trouble::refused)?;
-        let (format, target) = (self.output.format, self.target);
+        let (format, target) = (self.output.format(), self.target);
         self.output
             .write(|out| write(&accuracy, format, target, out))?;
         if let Some(path) = &self.plot {

@@ -5,6 +5,8 @@
 
 mod accuracy;
 mod course;
+mod effects;
+mod inspect;
 mod list;
 mod output;
 mod run;
@@ -28,8 +30,10 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     List(list::List),
+    Inspect(inspect::Inspect),
     Run(run::Run),
     Accuracy(accuracy::Measure),
+    Effects(effects::Effects),
     Stability(stability::Stability),
 }
 
@@ -53,7 +57,9 @@ impl Trouble {
     /// A name that is not known makes no sense; a start or a reference that does not exist was tried.
     fn refused(refusal: Refusal) -> Self {
         match refusal {
-            Refusal::Start(_) | Refusal::Reference { .. } => Trouble::failed(refusal),
+            Refusal::Start(_) | Refusal::Run(_) | Refusal::Reference { .. } => {
+                Trouble::failed(refusal)
+            }
             _ => Trouble::usage(refusal),
         }
     }
@@ -72,8 +78,10 @@ pub(crate) fn main() -> ExitCode {
     };
     let result = match arguments.command {
         Command::List(list) => list.execute(),
+        Command::Inspect(inspect) => inspect.execute(),
         Command::Run(run) => run.execute(),
         Command::Accuracy(accuracy) => accuracy.execute(),
+        Command::Effects(effects) => effects.execute(),
         Command::Stability(stability) => stability.execute(),
     };
     match result {

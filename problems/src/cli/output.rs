@@ -1,8 +1,9 @@
 //! Where results go, and signs of life while they are being made.
 
 use super::Trouble;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
+use lagrange_problems::report::Format;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -11,25 +12,31 @@ use std::time::Duration;
 /// What to print, and where to.
 #[derive(Args)]
 pub(super) struct Output {
-    /// What to print.
-    #[arg(long, value_enum, default_value_t = Format::Table)]
-    pub format: Format,
+    /// What to print [default: table].
+    #[arg(long, value_enum)]
+    format: Option<Format>,
     /// Write the result to a file instead of stdout.
     #[arg(long, value_name = "FILE")]
     output: Option<PathBuf>,
 }
 
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(super) enum Format {
-    /// To read.
-    Table,
-    /// Every number in full precision.
-    Json,
-    /// One line per sample (and event), or per method and tolerance.
-    Csv,
-}
-
 impl Output {
+    /// What to print.
+    pub(super) fn format(&self) -> Format {
+        self.format.unwrap_or(Format::Table)
+    }
+
+    /// Takes from a scene file what the command line leaves open.
+    pub(super) fn or(&mut self, format: Option<Format>, output: Option<PathBuf>) {
+        self.format = self.format.or(format);
+        self.output = self.output.take().or(output);
+    }
+
+    /// What to print, and where to, as given.
+    pub(super) fn given(&self) -> (Option<Format>, Option<PathBuf>) {
+        (self.format, self.output.clone())
+    }
+
     /// Writes where the user wants it.
     pub(super) fn write(
         &self,

@@ -1,8 +1,9 @@
 //! `lagrange stability`: hard cases, each against an answer known by other means.
 
 use super::Trouble;
-use super::output::{Format, Output, patiently};
+use super::output::{Output, patiently};
 use clap::Args;
+use lagrange_problems::report::Format;
 use lagrange_problems::report::stability as report;
 use lagrange_problems::stability::{CASES, Case, Extent, Report};
 use std::io::{self, Write};
@@ -30,7 +31,7 @@ impl Stability {
         let reports: Vec<Report> = patiently("running the hard cases", || {
             cases.into_iter().map(|case| case.run(extent)).collect()
         });
-        let format = self.output.format;
+        let format = self.output.format();
         self.output.write(|out| write(&reports, format, out))?;
         let failing = reports.iter().filter(|report| !report.holds());
         let names: Vec<&str> = failing.map(|report| report.case.name).collect();

@@ -2,13 +2,28 @@
 //! in [`accuracy`] the same of an [`Accuracy`](crate::accuracy::Accuracy).
 
 pub mod accuracy;
+pub mod cost;
 pub mod csv;
 pub mod json;
 pub mod plot;
 pub mod stability;
 pub mod table;
 
+use clap::ValueEnum;
 use lagrange_core::system::{Coordinate, Description};
+use serde::{Deserialize, Serialize};
+
+/// In what form to print.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Deserialize, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Format {
+    /// To read.
+    Table,
+    /// Every number in full precision.
+    Json,
+    /// One line per sample (and event), or per method and tolerance.
+    Csv,
+}
 
 /// Whether a coordinate is an angle, so that people read it in degrees: its unit is declared as `rad`, or its
 /// name is that of a Greek letter customary for angles (`theta`, `phi2`, `psi_left`, `alpha[3]`).
@@ -23,6 +38,23 @@ pub fn is_angle(coordinate: &Coordinate) -> bool {
         .next()
         .unwrap_or_default();
     LETTERS.contains(&stem)
+}
+
+/// The unit of a velocity: `m/s`, `rad/s`; empty for a coordinate without a unit.
+pub(crate) fn rate_unit(unit: &str) -> String {
+    match unit {
+        "" => String::new(),
+        unit if unit.contains(['/', ' ']) => format!("({unit})/s"),
+        unit => format!("{unit}/s"),
+    }
+}
+
+/// A name with its unit, `x [m]`, or the name alone.
+pub(crate) fn with_unit(name: &str, unit: &str) -> String {
+    match unit {
+        "" => name.to_owned(),
+        unit => format!("{name} [{unit}]"),
+    }
 }
 
 /// A state as (name, value) pairs in the order of the coordinates: positions, then velocities.

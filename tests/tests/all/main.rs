@@ -3,9 +3,12 @@
 mod bowl;
 mod derived;
 mod diagnostics;
+mod effects;
 mod efficiency;
 mod errors;
 mod interpretation;
+mod large;
+mod random;
 mod recording;
 mod runner;
 mod stability;

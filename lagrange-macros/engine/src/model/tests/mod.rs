@@ -6,6 +6,7 @@ use crate::symbolic::ExprId;
 
 mod items;
 mod mistakes;
+mod units;
 
 /// DESIGN's example.
 pub(crate) const MASS_ON_WHEEL: &str = r#"

@@ -1,0 +1,143 @@
+//! Costs of effects → table, JSON, CSV.
+
+use super::table::page;
+use crate::cost::{Cost, Costs, EffectCost};
+use comfy_table::{CellAlignment, ContentArrangement, Table};
+use serde_json::{Value, json};
+use std::io::{self, Write};
+
+/// Writes two tables to read: modes, then what each effect adds to each of them.
+///
+/// # Errors
+/// Of `out`.
+pub fn table(costs: &Costs, mut out: impl Write) -> io::Result<()> {
+    let mut modes = page();
+    modes.set_content_arrangement(ContentArrangement::Disabled);
+    modes.set_header(["mode", "", "operations", "ns"]);
+    for (index, mode) in costs.modes.iter().enumerate() {
+        let Cost {
+            operations,
+            nanoseconds,
+        } = mode.cost;
+        modes.add_row([
+            (index + 1).to_string(),
+            mode.mode.clone(),
+            operations.to_string(),
+            format!("{nanoseconds:.0}"),
+        ]);
+    }
+    align(&mut modes, 2);
+    writeln!(out, "A right-hand side:\n\n{}\n", modes.trim_fmt())?;
+    let mut effects = page();
+    effects.set_content_arrangement(ContentArrangement::Disabled);
+    let mut header = vec!["effect".to_owned()];
+    for number in 1..=costs.modes.len() {
+        header.extend([format!("{number}: operations"), "ns".to_owned()]);
+    }
+    header.push("whole run without it".to_owned());
+    effects.set_header(header);
+    for effect in &costs.effects {
+        let mut line = vec![format!("{} ({})", effect.name, effect.kind)];
+        for share in shares(costs, effect) {
+            match share {
+                Some((0, _)) => line.extend(["0".to_owned(), String::new()]),
+                Some((operations, ns)) => {
+                    line.extend([format!("{operations:+}"), format!("{ns:+.0}")]);
+                }
+                None => line.extend(["needed".to_owned(), String::new()]),
+            }
+        }
+        line.push(match &effect.run {
+            Ok(time) => format!("{:.1} µs", time * 1e6),
+            Err(_) => "fails".to_owned(),
+        });
+        effects.add_row(line);
+    }
+    align(&mut effects, 1);
+    writeln!(
+        out,
+        "What each effect adds, mode by mode:\n\n{}\n",
+        effects.trim_fmt()
+    )?;
+    writeln!(
+        out,
+        "A whole run with everything takes {:.1} µs. 0: the effect does not act in the mode, and costs nothing there.",
+        costs.run * 1e6
+    )
+}
+
+fn align(table: &mut Table, first: usize) {
+    for (index, column) in table.column_iter_mut().enumerate() {
+        column.set_padding((if index == 0 { 0 } else { 1 }, 1));
+        if index >= first {
+            column.set_cell_alignment(CellAlignment::Right);
+        }
+    }
+}
+
+/// What an effect adds to each mode: operations and ns; `None` where nothing moves without it.
+fn shares<'a>(
+    costs: &'a Costs,
+    effect: &'a EffectCost,
+) -> impl Iterator<Item = Option<(i64, f64)>> + 'a {
+    costs
+        .modes
+        .iter()
+        .zip(&effect.without)
+        .map(|(mode, without)| {
+            without.map(|without| {
+                (
+                    mode.cost.operations as i64 - without.operations as i64,
+                    mode.cost.nanoseconds - without.nanoseconds,
+                )
+            })
+        })
+}
+
+fn cost(cost: &Cost) -> Value {
+    json!({ "operations": cost.operations, "nanoseconds": cost.nanoseconds })
+}
+
+/// Writes one object.
+///
+/// # Errors
+/// Of `out`.
+pub fn json(costs: &Costs, mut out: impl Write) -> io::Result<()> {
+    let effect = |effect: &EffectCost| {
+        let run = effect.run.as_ref();
+        json!({
+            "name": effect.name,
+            "kind": effect.kind,
+            "without": effect.without.iter().map(|c| c.as_ref().map(cost)).collect::<Vec<_>>(),
+            "run_seconds": run.ok(),
+            "run_error": run.err().map(ToString::to_string),
+        })
+    };
+    let mode =
+        |mode: &crate::cost::ModeCost| json!({ "mode": mode.mode, "cost": cost(&mode.cost) });
+    let value = json!({
+        "scene": costs.scene,
+        "run_seconds": costs.run,
+        "modes": costs.modes.iter().map(mode).collect::<Vec<_>>(),
+        "effects": costs.effects.iter().map(effect).collect::<Vec<_>>(),
+    });
+    writeln!(out, "{}", serde_json::to_string_pretty(&value)?)
+}
+
+/// Writes a line per mode and effect left out; the first lines of a mode leave out none.
+///
+/// # Errors
+/// Of `out`.
+pub fn csv(costs: &Costs, out: impl Write) -> io::Result<()> {
+    let mut table = ::csv::Writer::from_writer(out);
+    table.write_record(["mode", "without", "operations", "nanoseconds"])?;
+    for (index, mode) in costs.modes.iter().enumerate() {
+        let without = costs.effects.iter().map(|e| (e.name, e.without[index]));
+        for (name, cost) in core::iter::once(("", Some(mode.cost))).chain(without) {
+            let operations = cost.map(|c| c.operations.to_string()).unwrap_or_default();
+            let nanoseconds = cost.map(|c| c.nanoseconds.to_string()).unwrap_or_default();
+            table.write_record([&mode.mode, name, &operations, &nanoseconds])?;
+        }
+    }
+    table.flush()
+}

@@ -1,0 +1,121 @@
+//! Only the effects that a scene calls for: what is left out costs what it would cost if it had never been declared.
+
+use lagrange_core::dynamics::{Dynamics, Operations, add_guards};
+use lagrange_core::prelude::*;
+
+/// A cart with everything.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, theta),
+    define(px = x + length * sin(theta), py = y - length * cos(theta)),
+    kinetic = cart/2 * (der(x)^2 + der(y)^2) + bob/2 * (der(px)^2 + der(py)^2),
+    potential(weight: gravity * (cart * y + bob * py)),
+    potential(spring: stiffness/2 * x^2 * (1 + x^2)),
+    contact(floor: y >= 0),
+    friction(grip on floor: slip = der(x), static = mu),
+    force(motor: x = torque * sin(rate * t)),
+    dissipation(drag: damping/2 * (der(px)^2 + der(py)^2)),
+)]
+struct Everything {
+    cart: f64,
+    bob: f64,
+    length: f64,
+    gravity: f64,
+    stiffness: f64,
+    mu: f64,
+    torque: f64,
+    rate: f64,
+    damping: f64,
+}
+
+/// The same cart with the weights and the floor alone.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, theta),
+    define(px = x + length * sin(theta), py = y - length * cos(theta)),
+    kinetic = cart/2 * (der(x)^2 + der(y)^2) + bob/2 * (der(px)^2 + der(py)^2),
+    potential(weight: gravity * (cart * y + bob * py)),
+    contact(floor: y >= 0),
+)]
+struct Plain {
+    cart: f64,
+    bob: f64,
+    length: f64,
+    gravity: f64,
+}
+
+const EVERYTHING: Everything = Everything {
+    cart: 1.5,
+    bob: 0.7,
+    length: 0.9,
+    gravity: 9.81,
+    stiffness: 3.0,
+    mu: 0.4,
+    torque: 2.0,
+    rate: 1.3,
+    damping: 0.25,
+};
+
+const PLAIN: Plain = Plain {
+    cart: 1.5,
+    bob: 0.7,
+    length: 0.9,
+    gravity: 9.81,
+};
+
+/// Operations and accelerations, on the floor or above it, with all that a step watches.
+fn cost<S: System<Scalar = f64>>(
+    system: &S,
+    effects: &Effects,
+    closed: bool,
+) -> (Operations, Vec<f64>) {
+    let d = S::DESCRIPTION;
+    let mut mode = Mode::open(d);
+    mode.contacts[0] = closed;
+    let mut dynamics = Dynamics::new(system, effects);
+    dynamics.set_mode(&mode);
+    let mut needs = dynamics.motion_needs().clone();
+    add_guards(d, effects, &mode, &mut needs);
+    dynamics.set_extra_needs(&needs);
+    let y = if closed { 0.0 } else { 0.3 };
+    dynamics
+        .value(0.2, &[0.4, y, 0.7], &[0.5, 0.0, -1.1])
+        .expect("a regular state");
+    (dynamics.operations(), dynamics.acceleration().to_vec())
+}
+
+#[test]
+fn what_is_left_out_costs_what_is_not_declared() {
+    let without = Effects::all()
+        .without(Everything::SPRING)
+        .without(Everything::GRIP)
+        .without(Everything::MOTOR)
+        .without(Everything::DRAG);
+    for closed in [true, false] {
+        let left_out = cost(&EVERYTHING, &without, closed);
+        let undeclared = cost(&PLAIN, &Effects::all(), closed);
+        assert_eq!(left_out.0, undeclared.0, "closed: {closed}");
+        for (a, b) in left_out.1.iter().zip(&undeclared.1) {
+            assert!((a - b).abs() <= 1e-14 * b.abs().max(1.0), "{a}, not {b}");
+        }
+        let all = cost(&EVERYTHING, &Effects::all(), closed);
+        assert!(all.0.accelerations > undeclared.0.accelerations + 10);
+    }
+}
+
+#[test]
+fn each_effect_adds_its_own_operations() {
+    let all = cost(&EVERYTHING, &Effects::all(), false).0;
+    for item in Item::all(Everything::DESCRIPTION) {
+        let less = cost(&EVERYTHING, &Effects::all().without(item), false).0;
+        let name = item.name(Everything::DESCRIPTION);
+        match item {
+            // In flight the floor is watched and does not act, and its friction is not even watched.
+            Item::Contact(_) => {
+                assert_eq!(less.accelerations, all.accelerations, "{name}");
+            }
+            Item::Friction(_) => assert_eq!(less, all, "{name}"),
+            _ => assert!(less.accelerations < all.accelerations, "{name}"),
+        }
+    }
+}
