@@ -275,7 +275,8 @@ impl<S: System<Scalar = f64>> Limits<S> {
 
     fn at(&mut self, time: f64, instant: &Instant<f64>) -> Vec<Option<f64>> {
         let description = S::DESCRIPTION;
-        if self.dynamics.value(time, &instant.q, &instant.v).is_err() {
+        let along = self.dynamics.value_along(time, &instant.q, &instant.v);
+        if along.is_err() {
             return vec![None; description.frictions.len()];
         }
         let dynamics = &self.dynamics;

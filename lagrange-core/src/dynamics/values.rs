@@ -3,7 +3,7 @@
 use super::compiled::Compiled;
 use super::tape::{FORCES, MOTION, Tape};
 use super::{Dynamics, EvaluationError};
-use crate::arithmetic::{Scalar, Value};
+use crate::arithmetic::Scalar;
 use crate::linear::{Inertia, SolveError, epsilon};
 use crate::system::{Held, Place, System};
 
@@ -208,7 +208,7 @@ impl<S: System> Dynamics<S> {
             branches: &compiled.mode.branches,
         };
         self.scene.motion(
-            &mut Value::new(),
+            &mut self.plain,
             &held,
             &compiled.constants,
             &self.inputs[..1 + 2 * n],
@@ -231,7 +231,7 @@ impl<S: System> Dynamics<S> {
             branches: &compiled.mode.branches,
         };
         self.scene.report(
-            &mut Value::new(),
+            &mut self.plain,
             &held,
             &compiled.constants,
             &self.inputs,

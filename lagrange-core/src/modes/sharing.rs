@@ -13,7 +13,7 @@
 
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
-use crate::linear::{Freedom, Lemke, Outcome};
+use crate::linear::{Freedom, Lemke, LemkeOutcome};
 use crate::mode::{FrictionMode, Mode};
 use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
@@ -206,7 +206,7 @@ impl<T: Scalar> Sharing<T> {
     }
 
     fn certificate(&mut self) -> Option<Joint> {
-        if self.lemke.solve(&self.matrix, &self.q) != Outcome::Ray {
+        if self.lemke.solve(&self.matrix, &self.q) != LemkeOutcome::Ray {
             return None;
         }
         let ray = self.lemke.ray();
@@ -248,7 +248,7 @@ impl<T: Scalar> Sharing<T> {
             self.q.clear();
             let values = self.bounds.iter().map(|bound| bound.value + slack);
             self.q.extend(values);
-            self.lemke.solve(&self.matrix, &self.q) == Outcome::Solved
+            self.lemke.solve(&self.matrix, &self.q) == LemkeOutcome::Solved
         });
         if solved {
             for (bound, &w) in self.bounds.iter().zip(self.lemke.z()) {

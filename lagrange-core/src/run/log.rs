@@ -3,6 +3,7 @@
 use super::Run;
 use crate::arithmetic::Scalar;
 use crate::mode::{FrictionMode, Mode};
+use crate::modes::decide::Known;
 use crate::modes::impact::Impact;
 use crate::system::System;
 use crate::trajectory::{Around, Event, EventKind, State, Subject};
@@ -17,9 +18,10 @@ pub(super) struct Before<T> {
 }
 
 impl<S: System> Run<S> {
-    pub(super) fn log_impacts(&mut self, outcome: &Impact<S::Scalar>, hit: &[usize]) {
+    pub(super) fn log_impacts(&mut self, outcome: &Impact<S::Scalar>, known: &Known) {
         let before = &self.before;
-        for &c in hit.iter().filter(|c| outcome.struck[**c]) {
+        let hit = |c: &usize| known.arriving[*c] && outcome.struck[*c];
+        for c in (0..S::DESCRIPTION.contacts.len()).filter(hit) {
             let event = self
                 .trajectory
                 .events
@@ -37,6 +39,7 @@ impl<S: System> Run<S> {
             };
             event.write(self.t, Subject::Contact(c), EventKind::Impact, around);
             event.restitution_lowered = outcome.lowered;
+            event.impulses_undetermined = outcome.undetermined;
         }
     }
 

@@ -20,6 +20,7 @@ use crate::integrate::{StepPolynomial, Tolerance};
 use crate::mode::Mode;
 use crate::modes::decide::Decider;
 use crate::modes::guard::{self, Guard};
+use crate::modes::impact::Collider;
 use crate::modes::reading::Reading;
 use crate::modes::sharing::{Joint, Sharing};
 use crate::modes::start::{self, Survey};
@@ -87,6 +88,9 @@ pub(crate) struct Run<S: System> {
     curves: Curves,
     scratch: State<S::Scalar>,
     survey: Survey,
+    collider: Collider<S::Scalar>,
+    /// Contacts whose gap vanishes at an impact.
+    near: Vec<usize>,
     decider: Decider<S::Scalar>,
     /// Of undetermined forces at the present state.
     sharing: Sharing<S::Scalar>,
@@ -156,6 +160,8 @@ impl<S: System> Run<S> {
             curves: Curves::new::<S>(),
             survey: Survey::new(d),
             decider: Decider::new(d),
+            collider: Collider::default(),
+            near: Vec::with_capacity(d.contacts.len()),
             sharing: Sharing::default(),
             joints: Vec::new(),
             impacts: vec![Impacts::default(); d.contacts.len()],

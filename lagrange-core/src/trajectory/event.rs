@@ -151,6 +151,8 @@ pub struct Event<T> {
     pub impulses: Vec<T>,
     /// Whether the restitution was lowered so that the impact does not add energy.
     pub restitution_lowered: bool,
+    /// Whether rows that depend on each other leave impulses of this impact undetermined; those given are of least norm.
+    pub impulses_undetermined: bool,
     /// Whether more than one mode could continue the motion.
     pub ambiguous: bool,
 }
@@ -190,6 +192,7 @@ impl<T: crate::arithmetic::Scalar> Event<T> {
             undetermined_after: Vec::new(),
             impulses: Vec::new(),
             restitution_lowered: false,
+            impulses_undetermined: false,
             ambiguous: false,
         }
     }
@@ -214,6 +217,7 @@ impl<T: crate::arithmetic::Scalar> Event<T> {
         self.undetermined_after
             .extend_from_slice(a.undetermined_after);
         self.restitution_lowered = false;
+        self.impulses_undetermined = false;
         self.ambiguous = false;
     }
 

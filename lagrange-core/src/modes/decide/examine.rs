@@ -149,7 +149,13 @@ impl<T: Scalar> Decider<T> {
             } else {
                 1e-6
             };
-            let clear = noise.max(1e-6) * sizes.of(guard, dynamics);
+            let size = sizes.of(guard, dynamics);
+            let incomparable = matches!(guard, Guard::Bearing(_)) && size <= value.abs();
+            if incomparable && concerns(guard, joints, known) {
+                // All forces may vanish at this instant.
+                return true;
+            }
+            let clear = noise.max(1e-6) * size;
             if value < -clear {
                 blame(guard, joints, violated);
             }
@@ -407,11 +413,13 @@ fn concerns(guard: Guard, joints: &[Joint], known: &Known) -> bool {
                     Guard::StickUpper(f)
                     | Guard::StickLower(f)
                     | Guard::StickCone(f)
-                    | Guard::Slip(f),
+                    | Guard::Slip(f)
+                    | Guard::Bearing(f),
                     Guard::Slip(g)
                     | Guard::StickUpper(g)
                     | Guard::StickLower(g)
-                    | Guard::StickCone(g),
+                    | Guard::StickCone(g)
+                    | Guard::Bearing(g),
                 ) => f == g,
                 _ => false,
             }

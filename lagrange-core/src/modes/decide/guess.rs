@@ -20,7 +20,7 @@ use super::{Decider, Known, Moment};
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
 use crate::effects::Item;
-use crate::linear::{Lemke, Outcome, SeveralSides};
+use crate::linear::{Lemke, LemkeOutcome, SeveralSides};
 use crate::mode::{Direction, FrictionMode, Mode, Sliding};
 use crate::system::{Normal, Place, System};
 
@@ -63,7 +63,7 @@ impl<T: Scalar> Decider<T> {
         };
         let (m, q) = pairs(&g, &b, contacts.len(), &resting);
         let mut lemke = Lemke::default();
-        if lemke.solve(&m, &q) != Outcome::Solved {
+        if lemke.solve(&m, &q) != LemkeOutcome::Solved {
             return;
         }
         for (k, &c) in contacts.iter().enumerate() {
