@@ -15,10 +15,6 @@ fn consistent<T: Scalar>() -> f64 {
     6.0 * epsilon::<T>().sqrt()
 }
 
-/// Accelerations below this, in the unit of the scene, are none: where nothing drives the system there is nothing else to
-/// compare what rounding leaves with.
-const NOTHING: f64 = 1e-18;
-
 /// What is wrong with a system; indices are unknowns and equations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum SolveError {
@@ -233,31 +229,33 @@ impl<T: Scalar> Solver<T> {
         }
     }
 
-    /// Whether the rows set aside agree with the solution `x` of the right-hand side `b`. Where everything rests all terms are
-    /// rounding, so they are compared with what the loads could do along the row: √(Σaⱼ²/Mⱼⱼ · Σfⱼ²/Mⱼⱼ).
+    /// Whether the rows set aside agree with the solution `x` of the right-hand side `b`.
+    ///
+    /// What is to agree may be all rounding (the centripetal terms of a rod that lies still), so that it is compared with the
+    /// acceleration that the forcing f could give the row, √(Σaⱼ²/mⱼ · Σfⱼ²/mⱼ), too.
     pub(crate) fn check_rows_aside(&self, x: &[T], b: &[T]) -> Result<(), SolveError> {
         let (n, size) = (self.coordinates, self.size);
-        if !self.has_rows_aside() {
-            return Ok(());
-        }
-        let mobility = |j: usize| {
+        let weighted = |j: usize, number: T| {
             let inertia = self.matrix[j * size + j].value();
-            if inertia > 0.0 { 1.0 / inertia } else { 0.0 }
+            if inertia > 0.0 {
+                number.value() * number.value() / inertia
+            } else {
+                0.0
+            }
         };
-        let squares = b[..n].iter().enumerate();
-        let drive: f64 = squares.map(|(j, f)| mobility(j) * f.value().powi(2)).sum();
+        let drive: f64 = (0..n).map(|j| weighted(j, b[j])).sum();
         for (row, _) in self.aside.iter().enumerate().filter(|(_, aside)| **aside) {
-            let mut compliance = 0.0;
             let (mut residual, mut largest) = (-b[n + row].value(), b[n + row].value().abs());
             for (j, x) in x[..n].iter().enumerate() {
-                let element = self.matrix[(n + row) * size + j].value();
-                let term = element * x.value();
+                let term = self.matrix[(n + row) * size + j].value() * x.value();
                 residual += term;
                 largest = largest.max(term.abs());
-                compliance += mobility(j) * element * element;
             }
-            largest = largest.max((compliance * drive).sqrt());
-            if residual.abs() > consistent::<T>() * largest + NOTHING {
+            let elements = &self.matrix[(n + row) * size..][..n];
+            let compliance = elements.iter().enumerate().map(|(j, &a)| weighted(j, a));
+            let driven = (drive * compliance.sum::<f64>()).sqrt();
+            let rounding = 1e4 * epsilon::<T>() * driven;
+            if residual.abs() > consistent::<T>() * largest + rounding {
                 return Err(SolveError::Inconsistent {
                     row,
                     residual: residual.abs() / largest,
