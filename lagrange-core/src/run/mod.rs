@@ -27,7 +27,7 @@ use crate::pool::Pool;
 use crate::simulation::Settings;
 use crate::system::{System, Watch};
 use crate::trajectory::{EventKind, State, Subject, Trajectory, Work};
-use accumulation::Impacts;
+use accumulation::{Impacts, Train};
 use core::ops::Range;
 use curves::Curves;
 use hits::Hit;
@@ -94,6 +94,9 @@ pub(crate) struct Run<S: System> {
     forces_after: Vec<S::Scalar>,
     /// Per contact: its impacts so far.
     impacts: Vec<Impacts>,
+    /// All impacts so far.
+    train: Train,
+    scratch_mode: Mode,
     /// Watches for positions where constraints lose rank.
     rank: Rank,
     /// Distance from such a position at the start of the coming step.
@@ -154,6 +157,8 @@ impl<S: System> Run<S> {
             collider: Collider::default(),
             near: Vec::with_capacity(d.contacts.len()),
             impacts: vec![Impacts::default(); d.contacts.len()],
+            train: Train::default(),
+            scratch_mode: mode.clone(),
             rank: Rank::new::<S>(),
             distance: 1.0,
             stuck: Pool::default(),
@@ -197,6 +202,7 @@ impl<S: System> Run<S> {
             .iter_mut()
             .for_each(|terms| terms.fill(false));
         self.impacts.fill(Impacts::default());
+        self.train = Train::default();
         self.rank.restart();
         self.distance = 1.0;
         self.stuck.clear();
