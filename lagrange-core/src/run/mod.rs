@@ -6,6 +6,7 @@ mod hits;
 mod log;
 mod rest;
 mod runner;
+mod shares;
 mod singular;
 mod stepping;
 mod switch;
@@ -21,6 +22,7 @@ use crate::modes::decide::Decider;
 use crate::modes::guard::{self, Guard};
 use crate::modes::impact::Collider;
 use crate::modes::reading::Reading;
+use crate::modes::sharing::{Joint, Sharing};
 use crate::modes::start::{self, Survey};
 use crate::modes::table::Table;
 use crate::pool::Pool;
@@ -86,12 +88,17 @@ pub(crate) struct Run<S: System> {
     curves: Curves,
     scratch: State<S::Scalar>,
     survey: Survey,
-    decider: Decider,
     collider: Collider<S::Scalar>,
     /// Contacts whose gap vanishes at an impact.
     near: Vec<usize>,
+    decider: Decider<S::Scalar>,
+    /// Of undetermined forces at the present state.
+    sharing: Sharing<S::Scalar>,
+    /// Guards of such forces that have been met in this mode.
+    joints: Vec<Joint>,
     before: Before<S::Scalar>,
     forces_after: Vec<S::Scalar>,
+    undetermined_after: Vec<bool>,
     /// Per contact: its impacts so far.
     impacts: Vec<Impacts>,
     /// All impacts so far.
@@ -134,8 +141,10 @@ impl<S: System> Run<S> {
                 mode: mode.clone(),
                 state: state.clone(),
                 forces: vec![zero; rows],
+                undetermined: Vec::with_capacity(rows),
             },
             forces_after: vec![zero; rows],
+            undetermined_after: Vec::with_capacity(rows),
             table: Table::default(),
             guards: Vec::new(),
             drifts: true,
@@ -156,6 +165,8 @@ impl<S: System> Run<S> {
             decider: Decider::new(d),
             collider: Collider::default(),
             near: Vec::with_capacity(d.contacts.len()),
+            sharing: Sharing::default(),
+            joints: Vec::new(),
             impacts: vec![Impacts::default(); d.contacts.len()],
             train: Train::default(),
             scratch_mode: mode.clone(),
@@ -206,6 +217,8 @@ impl<S: System> Run<S> {
         self.rank.restart();
         self.distance = 1.0;
         self.stuck.clear();
+        self.joints.clear();
+        self.sharing.clear();
         self.finished = false;
         let outcome = self.go();
         self.close();
@@ -380,6 +393,7 @@ impl<S: System> Run<S> {
     fn set_mode_decided(&mut self) {
         self.mode.clone_from(&self.decider.decision.mode);
         self.trajectory.enter(&self.mode);
+        self.joints.clone_from(&self.decider.decision.joints);
         (self.expanded, self.valued) = (false, false);
         self.hold_guards();
     }
@@ -388,6 +402,7 @@ impl<S: System> Run<S> {
     fn hold_guards(&mut self) {
         let watched = self.table.of(&self.dynamics);
         self.guards.clone_from(&watched.guards);
+        self.guards.extend((0..self.joints.len()).map(Guard::Joint));
         self.drifts = watched.drifts;
         self.dynamics.set_extra_needs(&watched.needs);
     }

@@ -38,6 +38,15 @@ impl<S: System> Run<S> {
             }
         }
         known.located.extend_from_slice(&self.fallen);
+        for guard in &self.fallen {
+            if let Guard::Joint(k) = *guard {
+                let parts = self.joints[k].parts.iter().map(|&(part, _)| part);
+                self.survey.known.located.extend(parts);
+                let residue = self.joint_residue(&self.joints[k]);
+                let known = &mut self.survey.known;
+                known.residue = known.residue.max(residue);
+            }
+        }
         self.settle()
     }
 
@@ -79,6 +88,14 @@ impl<S: System> Run<S> {
             self.project(true)?;
         }
         self.expand()?;
+        if self.dynamics.has_dependent_rows() {
+            let valued = self.valued;
+            self.evaluate()?;
+            self.valued = valued;
+            self.note_shares();
+        } else {
+            self.sharing.clear();
+        }
         let outcome = core::mem::take(&mut self.collider.outcome);
         let impulses = if hit { &outcome.impulses[..] } else { &[] };
         self.log_changes(impulses, self.decider.decision.ambiguous);

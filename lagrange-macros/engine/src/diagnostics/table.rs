@@ -107,6 +107,8 @@ table! {
 
     NoInertia "E601" "the coordinate `{0}` has no inertia" "no kinetic energy contains `der({0})`, and no constraint ties it: add its kinetic energy or remove it";
     EquationCount "E602" "{0} equations for {1} unknowns" "{2}";
+    Redundant "E603" "`{0}` says nothing that {1} does not say already" "take one of them away: their forces cannot be told apart";
+    Contradiction "E604" "`{0}` cannot hold together with {1}" "they restrict the same motion in two ways: take one away";
 
     UnknownUnit "E701" "`{0}` is not a unit" "{1}";
     UnitMultiple "E702" "`{0}` is a multiple of {1}" "numbers are not converted: write `{1}`, and give the values in it";

@@ -82,6 +82,7 @@ pub fn scoped(declaration: &Declaration, sink: &mut Diagnostics) -> Option<(Syst
     elaboration.check_dropped(declaration);
     if elaboration.sink.count() == before {
         elaboration.units(declaration);
+        elaboration.structure(declaration);
     }
     let (system, scope) = elaboration.close();
     (sink.count() == before).then_some((system, scope))

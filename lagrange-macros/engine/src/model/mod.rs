@@ -22,6 +22,7 @@ mod outputs;
 mod piecewise;
 mod reach;
 mod starts;
+mod structure;
 #[cfg(test)]
 pub(crate) mod tests;
 mod units;

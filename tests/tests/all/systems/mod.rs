@@ -6,6 +6,7 @@ mod blows;
 mod cart_pole;
 mod chain;
 mod cradle;
+mod crowd;
 mod cue_ball;
 mod damped;
 mod groove;
