@@ -144,8 +144,12 @@ pub fn terms(n: &dyn Notation, f: &Formula) -> Vec<String> {
             .iter()
             .enumerate()
             .map(|(i, (minus, term))| {
-                let sign = n.sign(*minus, i == 0).to_owned();
-                n.row(&[sign, bound(n, term, Strength::Product)])
+                // Side by side, so that a sign stands between two terms.
+                format!(
+                    "{}{}",
+                    n.sign(*minus, i == 0),
+                    bound(n, term, Strength::Product)
+                )
             })
             .collect(),
         other => vec![formula(n, other)],
