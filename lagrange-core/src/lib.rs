@@ -4,6 +4,8 @@
 extern crate self as lagrange_core;
 
 pub mod arithmetic;
+pub mod checks;
+pub mod code;
 mod derivation;
 pub mod dynamics;
 pub mod effects;

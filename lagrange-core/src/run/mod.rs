@@ -6,6 +6,7 @@ mod hits;
 mod log;
 mod rest;
 mod runner;
+mod shares;
 mod singular;
 mod stepping;
 mod switch;
@@ -19,7 +20,9 @@ use crate::integrate::{StepPolynomial, Tolerance};
 use crate::mode::Mode;
 use crate::modes::decide::Decider;
 use crate::modes::guard::{self, Guard};
+use crate::modes::impact::Collider;
 use crate::modes::reading::Reading;
+use crate::modes::sharing::{Joint, Sharing};
 use crate::modes::start::{self, Survey};
 use crate::modes::table::Table;
 use crate::pool::Pool;
@@ -85,9 +88,17 @@ pub(crate) struct Run<S: System> {
     curves: Curves,
     scratch: State<S::Scalar>,
     survey: Survey,
-    decider: Decider,
+    collider: Collider<S::Scalar>,
+    /// Contacts whose gap vanishes at an impact.
+    near: Vec<usize>,
+    decider: Decider<S::Scalar>,
+    /// Of undetermined forces at the present state.
+    sharing: Sharing<S::Scalar>,
+    /// Guards of such forces that have been met in this mode.
+    joints: Vec<Joint>,
     before: Before<S::Scalar>,
     forces_after: Vec<S::Scalar>,
+    undetermined_after: Vec<bool>,
     /// Per contact: its impacts so far.
     impacts: Vec<Impacts>,
     /// Watches for positions where constraints lose rank.
@@ -127,8 +138,10 @@ impl<S: System> Run<S> {
                 mode: mode.clone(),
                 state: state.clone(),
                 forces: vec![zero; rows],
+                undetermined: Vec::with_capacity(rows),
             },
             forces_after: vec![zero; rows],
+            undetermined_after: Vec::with_capacity(rows),
             table: Table::default(),
             guards: Vec::new(),
             drifts: true,
@@ -147,6 +160,10 @@ impl<S: System> Run<S> {
             curves: Curves::new::<S>(),
             survey: Survey::new(d),
             decider: Decider::new(d),
+            collider: Collider::default(),
+            near: Vec::with_capacity(d.contacts.len()),
+            sharing: Sharing::default(),
+            joints: Vec::new(),
             impacts: vec![Impacts::default(); d.contacts.len()],
             rank: Rank::new::<S>(),
             distance: 1.0,
@@ -194,6 +211,8 @@ impl<S: System> Run<S> {
         self.rank.restart();
         self.distance = 1.0;
         self.stuck.clear();
+        self.joints.clear();
+        self.sharing.clear();
         self.finished = false;
         let outcome = self.go();
         self.close();
@@ -368,6 +387,7 @@ impl<S: System> Run<S> {
     fn set_mode_decided(&mut self) {
         self.mode.clone_from(&self.decider.decision.mode);
         self.trajectory.enter(&self.mode);
+        self.joints.clone_from(&self.decider.decision.joints);
         (self.expanded, self.valued) = (false, false);
         self.hold_guards();
     }
@@ -376,6 +396,7 @@ impl<S: System> Run<S> {
     fn hold_guards(&mut self) {
         let watched = self.table.of(&self.dynamics);
         self.guards.clone_from(&watched.guards);
+        self.guards.extend((0..self.joints.len()).map(Guard::Joint));
         self.drifts = watched.drifts;
         self.dynamics.set_extra_needs(&watched.needs);
     }

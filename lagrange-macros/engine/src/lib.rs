@@ -1,6 +1,7 @@
 //! Symbolic mechanics: tokens of a declaration → equations → tokens of Rust.
 
 pub mod ast;
+pub mod check;
 pub mod derive;
 pub mod diagnostics;
 pub mod emit;
@@ -12,6 +13,7 @@ pub mod plan;
 pub mod symbolic;
 
 use ast::Declaration;
+use check::Verdict;
 use diagnostics::{Code, Diagnostics};
 use plan::Program;
 use proc_macro2::TokenStream;
@@ -24,7 +26,7 @@ pub fn expand(input: TokenStream) -> TokenStream {
         .as_ref()
         .and_then(|declaration| planned(declaration, &mut sink));
     match (&declaration, program) {
-        (Some(declaration), Some(mut program)) if sink.is_empty() => {
+        (Some(declaration), Some((mut program, _))) if sink.is_empty() => {
             let mut tokens = emit::emit(&program);
             if let Ok(derivation) = inspect::derivation(declaration, &mut program, None) {
                 let system = &program.equations.system;
@@ -53,26 +55,47 @@ pub fn formatted(expansion: &TokenStream) -> String {
 /// # Errors
 /// All mistakes that the first stage with mistakes has found.
 pub fn program(input: TokenStream) -> Result<Program, Diagnostics> {
+    Ok(checked(input)?.0)
+}
+
+/// The program of a struct with its `#[lagrange(…)]` attributes, and what is known of its checks.
+///
+/// # Errors
+/// All mistakes that the first stage with mistakes has found; a check that is false is one.
+pub fn checked(input: TokenStream) -> Result<(Program, Vec<Verdict>), Diagnostics> {
     let mut sink = Diagnostics::new();
     let declaration = parse::declaration(input, &mut sink);
     match declaration.and_then(|declaration| planned(&declaration, &mut sink)) {
-        Some(program) if sink.is_empty() => Ok(program),
+        Some(found) if sink.is_empty() => Ok(found),
         _ => Err(sink),
     }
 }
 
-fn planned(declaration: &Declaration, sink: &mut Diagnostics) -> Option<Program> {
-    let system = model::system(declaration, sink);
-    let equations = system.and_then(|system| derive::equations(system, sink));
-    let program = equations.map(plan::plan);
-    match &program {
-        Some(program) if program.equations.system.pool.overflowed() => {
+fn planned(declaration: &Declaration, sink: &mut Diagnostics) -> Option<(Program, Vec<Verdict>)> {
+    let system = model::scoped(declaration, sink);
+    let program = system.and_then(|(system, scope)| {
+        let equations = derive::equations(system, sink)?;
+        Some((plan::plan(equations), scope))
+    });
+    match program {
+        Some((program, _)) if program.equations.system.pool.overflowed() => {
             sink.report(Code::Overflow, &declaration.name, &[]);
+            None
         }
-        None if sink.is_empty() => sink.report(Code::Bug, &declaration.name, &[]),
-        _ => {}
+        Some((mut program, scope)) => {
+            // What is planned does not change any more, so checks cannot change what is emitted.
+            let (equations, verdicts) =
+                check::verdicts(declaration, program.equations, scope, sink);
+            program.equations = equations;
+            Some((program, verdicts))
+        }
+        None => {
+            if sink.is_empty() {
+                sink.report(Code::Bug, &declaration.name, &[]);
+            }
+            None
+        }
     }
-    program
 }
 
 /// What is derived from a struct with its `#[lagrange(…)]` attributes, to be read: in one mode, or in all.
@@ -83,7 +106,7 @@ pub fn inspect(input: TokenStream, mode: Option<&str>) -> Result<inspect::Deriva
     let mut sink = Diagnostics::new();
     let declaration = parse::declaration(input, &mut sink);
     let planned = declaration.and_then(|declaration| {
-        let program = planned(&declaration, &mut sink)?;
+        let (program, _) = planned(&declaration, &mut sink)?;
         Some((declaration, program))
     });
     match planned {

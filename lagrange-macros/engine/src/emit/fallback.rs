@@ -76,7 +76,10 @@ fn placeholders(declaration: &Declaration, core: &TokenStream) -> TokenStream {
                 Some(head) => ("PotentialId", head),
                 None => continue,
             },
-            ItemKind::Define(_) | ItemKind::Lagrangian(_) | ItemKind::Impacts(_) => continue,
+            ItemKind::Define(_)
+            | ItemKind::Lagrangian(_)
+            | ItemKind::Impacts(_)
+            | ItemKind::Check(_) => continue,
             ItemKind::Constraint(item) => ("ConstraintId", &item.head),
             ItemKind::Contact(item) => ("ContactId", &item.head),
             ItemKind::Friction(item) => ("FrictionId", &item.head),
@@ -184,6 +187,7 @@ fn empty(core: &TokenStream) -> TokenStream {
             stops: &[],
             marks: &[],
             starts: &[],
+            impacts: #core::system::Impacts::Together,
         }
     }
 }

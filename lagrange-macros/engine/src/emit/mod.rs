@@ -1,6 +1,7 @@
 //! [`Program`] → tokens: the tapes, the table that says what their numbers mean, and the handles.
 //! The only place that uses `quote`.
 
+mod code;
 mod derivation;
 mod description;
 mod fallback;

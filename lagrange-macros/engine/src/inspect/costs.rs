@@ -215,7 +215,7 @@ fn tree(pool: &Pool, e: ExprId, known: &mut BTreeMap<ExprId, u64>) -> u64 {
         parts = parts.saturating_add(tree(pool, child, known));
     }
     let own = match pool.node(e) {
-        Node::Number(_) | Node::Pi | Node::Symbol(_) => 0,
+        Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Group(_) => 0,
         Node::Sum { constant, terms } => {
             let scaled = terms.iter().filter(|(_, c)| !c.is_unit()).count();
             terms.len() - usize::from(constant.is_zero()) + scaled

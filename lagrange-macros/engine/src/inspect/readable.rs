@@ -112,6 +112,7 @@ impl<'a> Reader<'a> {
                 let arguments = arguments.iter().map(|&a| self.full(a)).collect();
                 Formula::Call(name(f).to_owned(), arguments)
             }
+            Node::Group(e) => self.full(e),
             Node::Select {
                 branch,
                 then,
@@ -579,12 +580,23 @@ fn take_common(terms: &mut [(Rational, Factors)]) -> (Rational, Factors) {
     };
     let quotients: Option<Vec<Rational>> =
         terms.iter().map(|(c, _)| c.checked_div(number)).collect();
-    match quotients {
+    // Not ½ (a − 2 b): a fraction in front must spare more numbers than it makes.
+    let spares = |quotients: &Vec<Rational>| {
+        let units = quotients.iter().filter(|q| q.is_unit()).count();
+        number.is_integer() || 2 * units > quotients.len()
+    };
+    match quotients.filter(spares) {
         Some(quotients) => {
             for ((c, _), quotient) in terms.iter_mut().zip(quotients) {
                 *c = quotient;
             }
             (number, common)
+        }
+        None if minus => {
+            for (c, _) in terms.iter_mut() {
+                *c = c.checked_neg().unwrap_or(*c);
+            }
+            (Rational::MINUS_ONE, common)
         }
         None => (Rational::ONE, common),
     }

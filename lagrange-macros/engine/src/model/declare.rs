@@ -205,6 +205,10 @@ impl Elaboration<'_> {
             ItemKind::Start(item) => (&item.head, Kind::Start),
             ItemKind::Stop(item) => (&item.head, Kind::Stop),
             ItemKind::Mark(item) => (&item.head, Kind::Mark),
+            ItemKind::Check(item) => match &item.head {
+                None => return true,
+                Some(head) => (head, Kind::Check),
+            },
         };
         let elements = Vec::new();
         self.enter(

@@ -7,6 +7,7 @@
 
 mod attitude;
 mod calls;
+mod checks;
 mod constraints;
 mod contacts;
 mod declare;
@@ -21,6 +22,7 @@ mod outputs;
 mod piecewise;
 mod reach;
 mod starts;
+mod structure;
 #[cfg(test)]
 pub(crate) mod tests;
 mod units;
@@ -31,7 +33,8 @@ use crate::diagnostics::Extent;
 use crate::symbolic::{ExprId, Pool, Symbol};
 use proc_macro2::{Ident, Span};
 
-pub use elaborate::system;
+pub use checks::{Check, Premise, checks};
+pub use elaborate::{Scope, scoped, system};
 
 /// A mechanical system with all names resolved.
 pub struct System {
@@ -263,6 +266,7 @@ pub struct Dissipation {
 }
 
 /// Guard of a piecewise branch.
+#[derive(Clone)]
 pub struct Branch {
     /// ≥ 0 selects `then`.
     pub guard: ExprId,

@@ -239,9 +239,7 @@ fn bound(n: &dyn Notation, f: &Formula, least: Strength) -> String {
 
 fn strength(n: &dyn Notation, f: &Formula) -> Strength {
     match f {
-        Formula::Sum(_) | Formula::Negative(_) | Formula::More(_) | Formula::SumOver(..) => {
-            Strength::Sum
-        }
+        Formula::Sum(_) | Formula::Negative(_) | Formula::SumOver(..) => Strength::Sum,
         Formula::Number(number) if !number.is_integer() => Strength::Product,
         Formula::Product(_) => Strength::Product,
         Formula::Fraction(..) if n.in_line() => Strength::Product,
