@@ -1,6 +1,7 @@
 //! [`Program`] → tokens: the tapes, the table that says what their numbers mean, and the handles.
 //! The only place that uses `quote`.
 
+mod checks;
 mod description;
 mod fallback;
 mod handles;
@@ -20,7 +21,6 @@ pub use fallback::fallback;
 
 /// `impl System` and the handles of a program.
 pub fn emit(program: &Program, verdicts: &[Verdict]) -> TokenStream {
-    let _ = verdicts;
     let system = &program.equations.system;
     let (name, core) = (&system.name, &system.core);
     let (generics, arguments, scalar) = match &system.scalar {
@@ -32,6 +32,7 @@ pub fn emit(program: &Program, verdicts: &[Verdict]) -> TokenStream {
         None => (quote!(), quote!(), quote!(f64)),
     };
     let handles = handles::handles(program);
+    let checks = checks::checks(program, verdicts);
     let description = description::description(program);
     let access = scalar::access(system);
     let start = scalar::starts(program);
@@ -40,6 +41,7 @@ pub fn emit(program: &Program, verdicts: &[Verdict]) -> TokenStream {
     let report = tape::tape(program, Stage::Report);
     quote! {
         #handles
+        #checks
 
         #[automatically_derived]
         #[allow(unused, clippy::all, clippy::pedantic, clippy::nursery)]
