@@ -22,6 +22,8 @@ pub struct Check {
     pub when: String,
     /// Where.
     pub extent: Extent,
+    /// Whether it says that a quantity is conserved; the left side is then its rate, the right side 0.
+    pub is_conserved: bool,
     /// Left side.
     pub left: ExprId,
     /// Right side.
@@ -100,6 +102,7 @@ impl Elaboration<'_> {
             text,
             when: when(&declared.premises),
             extent: declared.claimed,
+            is_conserved: matches!(declared.claim, Claim::Conserved(_)),
             left: left?,
             right: right?,
             conditions: Vec::new(),
