@@ -51,6 +51,7 @@ pub static HARD: &[&dyn Scene] = &[
     &Entry::<RodOnSupports>::new("rod-on-supports", 10.0),
     &Entry::<BeamOnSupports>::new("beam-on-supports", 10.0),
     &Entry::<Sled>::new("sled", 2.0),
+    &Entry::<Table>::new("table", 4.0),
     &Entry::<Parallelogram>::new("parallelogram", 2.0),
     &Entry::<SliderCrank>::new("slider-crank", 2.0),
     &Entry::<RollingDisk>::new("rolling-disk", 5.0),

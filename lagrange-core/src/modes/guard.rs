@@ -215,6 +215,22 @@ fn stick_cone<S: System>(f: usize, mode: &Mode, reading: &Reading<'_, S>, out: &
     }
 }
 
+/// μs N − u·F: the side of the cone of a sticking friction in direction u.
+pub fn cone_side<S: System>(
+    f: usize,
+    along: [f64; 2],
+    mode: &Mode,
+    reading: &Reading<'_, S>,
+    out: &mut [f64],
+) {
+    let friction = &S::DESCRIPTION.frictions[f];
+    out.fill(0.0);
+    limit(f, mode, reading, out);
+    for (k, &part) in along.iter().enumerate().take(friction.components) {
+        add(out, -part, reading.force(friction.row + k));
+    }
+}
+
 /// Adds the normal force N of friction `f`.
 pub fn normal_force<S: System>(f: usize, mode: &Mode, reading: &Reading<'_, S>, out: &mut [f64]) {
     let d = S::DESCRIPTION;

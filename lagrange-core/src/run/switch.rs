@@ -40,7 +40,7 @@ impl<S: System> Run<S> {
         known.located.extend_from_slice(&self.fallen);
         for guard in &self.fallen {
             if let Guard::Joint(k) = *guard {
-                let parts = self.joints[k].parts.iter().map(|&(part, _)| part);
+                let parts = self.joints[k].parts.iter().map(|part| part.guard);
                 self.survey.known.located.extend(parts);
                 let residue = self.joint_residue(&self.joints[k]);
                 let known = &mut self.survey.known;

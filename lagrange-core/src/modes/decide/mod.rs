@@ -110,7 +110,7 @@ impl<T: Scalar> Decider<T> {
     /// Finds the mode in which the motion goes on from a moment, into [`Self::decision`].
     ///
     /// On success `dynamics` is left in that mode. Where a few modes are possible all are looked at; the order of preference among
-    /// feasible ones is: stick before slip, then the present mode, then the fewest changes. Where they are many, see
+    /// feasible ones is: closed before open, stick before slip, then the present mode, then the fewest changes. Where they are many, see
     /// [`pivot`].
     ///
     /// # Errors
@@ -248,13 +248,6 @@ impl<T: Scalar> Decider<T> {
         let motion = dynamics.acceleration().iter().map(|a| a.value());
         self.motion.extend(motion);
     }
-}
-
-fn slips(mode: &Mode) -> usize {
-    mode.frictions
-        .iter()
-        .filter(|f| matches!(f, FrictionMode::Slip(_)))
-        .count()
 }
 
 fn sticks(mode: &Mode) -> usize {
