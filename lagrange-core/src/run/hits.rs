@@ -1,6 +1,7 @@
 //! What ends a step early: the earliest root among the guards of the mode and the stops.
 
 use super::Run;
+use crate::arithmetic::Scalar;
 use crate::events::{Direction, RootList, deflate, first_root, roots};
 use crate::integrate::polynomial_sum as sum;
 use crate::mode::{FrictionMode, Mode};
@@ -19,6 +20,8 @@ pub(super) enum Hit {
     Nothing,
     /// Guards of the mode fall through zero (in [`Run::fallen`]) at this part of the step.
     Guards(f64),
+    /// A slip of two components has turned by a quarter within the step, which ends at this part of it.
+    Turned(f64),
     /// Stop `index` becomes true at this part of the step.
     Stop(usize, f64),
 }
@@ -28,7 +31,7 @@ impl Hit {
     pub(super) fn end(&self) -> f64 {
         match *self {
             Hit::Nothing => 1.0,
-            Hit::Guards(s) | Hit::Stop(_, s) => s,
+            Hit::Guards(s) | Hit::Turned(s) | Hit::Stop(_, s) => s,
         }
     }
 }
@@ -45,7 +48,10 @@ impl<S: System> Run<S> {
                 first = first.min(s + width);
             }
         }
-        // Roots whose enclosures overlap with that of the earliest cannot be told apart from it.
+        // Roots whose enclosures overlap with that of the earliest cannot be told apart from it, nor can those at a
+        // distance that time does not resolve.
+        let h = self.step.h.value();
+        first += 8.0 * f64::EPSILON * (self.t.value() / h).abs().max(1.0);
         self.fallen.clear();
         let mut at = f64::INFINITY;
         for &(guard, s, width) in &self.falls {
@@ -55,9 +61,15 @@ impl<S: System> Run<S> {
             }
         }
         let guards = if self.fallen.is_empty() {
+            self.rests.clear();
             Hit::Nothing
         } else {
-            Hit::Guards(at)
+            self.tell_rest_from_turn(at);
+            if self.fallen.is_empty() {
+                Hit::Turned(at)
+            } else {
+                Hit::Guards(at)
+            }
         };
         // A stop at the instant of an impact ends the run before it; rounding may see it a little later.
         match self.first_stop((guards.end() * (1.0 + 1e-13)).min(1.0)) {
