@@ -9,7 +9,7 @@ use core::ops::Range;
 
 /// Runs one system again and again: what a run works with is made once, and the trajectory is written into the same memory.
 /// From the second run on nothing is allocated, unless a run meets a mode or needs an amount of recording that none before
-/// did, or has impacts.
+/// did, has impacts, or forces that the motion leaves open.
 ///
 /// Made by [`Simulation::runner`](crate::Simulation::runner).
 #[derive(Debug)]

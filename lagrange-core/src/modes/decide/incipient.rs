@@ -3,7 +3,7 @@
 //! ṡ(u) × u = 0 with ṡ·u > 0. Where the slip begins smoothly (equal coefficients of friction) ṡ vanishes at the answer, but
 //! ṡ × u still changes its sign there.
 
-use super::examine::row_acceleration;
+use super::questions::row_acceleration;
 use super::{Decider, Moment};
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError};

@@ -14,6 +14,7 @@ mod guess;
 mod incipient;
 mod known;
 mod pivot;
+mod questions;
 
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError, NeedSet};

@@ -11,104 +11,18 @@
 //! which everything open cancels, and which is negative. Such a sum is a [`Joint`] guard. It ends a mode where the guards
 //! of single forces cannot: both frictions under a rod slip together, where μs (N₁ + N₂) − (F₁ + F₂) falls through zero.
 
+mod bounds;
+mod joint;
+
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
 use crate::linear::{Freedom, Lemke, LemkeOutcome};
-use crate::mode::{FrictionMode, Mode};
-use crate::modes::guard::{self, Guard};
-use crate::modes::reading::Reading;
+use crate::mode::FrictionMode;
+use crate::modes::guard::Guard;
 use crate::modes::scale::Sizes;
-use crate::system::{Normal, Place, System};
-
-/// A guard as a part of a joint one.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Part {
-    /// The guard.
-    pub guard: Guard,
-    /// Of a friction cone: the direction u of the plane μs N − u·F ≥ 0 that touches it there.
-    pub along: [f64; 2],
-    /// Weight in the sum.
-    pub weight: f64,
-}
-
-/// Weighted guards whose sum is determined where they are not. The sum is relative to the terms that make it.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Joint {
-    /// The guards, with weights that are all positive.
-    pub parts: Vec<Part>,
-}
-
-/// [`guard::series`], also of joint guards.
-pub fn series<S: System>(
-    guard: Guard,
-    joints: &[Joint],
-    mode: &Mode,
-    reading: &Reading<'_, S>,
-    out: &mut [f64],
-) {
-    let Guard::Joint(index) = guard else {
-        return guard::series(guard, mode, reading, out);
-    };
-    let mut part = [0.0; guard::LENGTH];
-    let part = &mut part[..out.len()];
-    out.fill(0.0);
-    for each in &joints[index].parts {
-        side(each.guard, each.along, mode, reading, part);
-        for (sum, x) in out.iter_mut().zip(&*part) {
-            *sum += each.weight * x;
-        }
-    }
-}
-
-/// [`guard::value`], also of joint guards.
-pub fn value<S: System>(
-    guard: Guard,
-    joints: &[Joint],
-    mode: &Mode,
-    reading: &Reading<'_, S>,
-) -> f64 {
-    let mut value = [0.0];
-    series(guard, joints, mode, reading, &mut value);
-    value[0]
-}
-
-/// [`guard::series`], but of a cone only the plane that touches it in direction `along`.
-pub fn side<S: System>(
-    guard: Guard,
-    along: [f64; 2],
-    mode: &Mode,
-    reading: &Reading<'_, S>,
-    out: &mut [f64],
-) {
-    match guard {
-        Guard::StickCone(f) => guard::cone_side(f, along, mode, reading, out),
-        _ => guard::series(guard, mode, reading, out),
-    }
-}
-
-/// A guard, or a side of a cone, that bounds undetermined forces: linear in them and relative to its size.
-#[derive(Clone, Copy, Debug)]
-struct Bound {
-    guard: Guard,
-    along: [f64; 2],
-    /// (index of an acting row, factor)
-    terms: [(usize, f64); 3],
-    size: f64,
-    /// At the forces of least norm.
-    value: f64,
-}
-
-/// A friction cone around undetermined forces.
-#[derive(Clone, Copy, Debug)]
-struct Cone {
-    friction: usize,
-    /// Indices of acting rows.
-    rows: [usize; 2],
-    /// (index of an acting row, factor): what it can hold, beside `constant`.
-    limit: (usize, f64),
-    constant: f64,
-    size: f64,
-}
+use crate::system::{Normal, System};
+use bounds::{Bound, Cone};
+pub use joint::{Joint, Part, series, side, value};
 
 /// Undetermined forces at one state; the memory is reused.
 #[derive(Clone, Debug, Default)]
@@ -158,114 +72,6 @@ impl<T: Scalar> Sharing<T> {
             }
         }
         self.fill_matrix();
-    }
-
-    /// The bounds with a part that is open.
-    fn list_bounds<S: System<Scalar = T>>(&mut self, dynamics: &Dynamics<S>) {
-        let d = S::DESCRIPTION;
-        let acting = dynamics.acting_rows();
-        let index = |row: usize| acting.binary_search(&row).ok();
-        let number = |place: Place| dynamics.motion(place).value();
-        let mode = dynamics.mode();
-        for (c, contact) in d.contacts.iter().enumerate() {
-            if let Some(i) = index(contact.row) {
-                self.bound(Guard::Normal(c), [(i, 1.0), (i, 0.0)], 0.0, dynamics);
-            }
-        }
-        for (f, friction) in d.frictions.iter().enumerate() {
-            if mode.frictions[f] != FrictionMode::Stick {
-                continue;
-            }
-            let Some(i) = index(friction.row) else {
-                continue;
-            };
-            let coefficient = number(friction.static_coefficient);
-            let (limit, constant) = match friction.normal {
-                Normal::Contact(c) => {
-                    let factor = d.contacts[c].normal_factor.map_or(1.0, number);
-                    let Some(row) = index(d.contacts[c].row) else {
-                        continue;
-                    };
-                    ((row, coefficient * factor), 0.0)
-                }
-                Normal::Given(place) => ((i, 0.0), coefficient * number(place)),
-                // |λ| is no linear bound.
-                Normal::Constraint(_) => continue,
-            };
-            if friction.components == 1 {
-                self.bound(Guard::StickUpper(f), [(i, -1.0), limit], constant, dynamics);
-                self.bound(Guard::StickLower(f), [(i, 1.0), limit], constant, dynamics);
-            } else if let Some(j) = index(friction.row + 1)
-                && [limit.0, i, j]
-                    .iter()
-                    .any(|&i| !self.freedom.is_determined(i))
-            {
-                self.cones.push(Cone {
-                    friction: f,
-                    rows: [i, j],
-                    limit,
-                    constant,
-                    size: self.sizes.of(Guard::StickCone(f), dynamics).sqrt(),
-                });
-            }
-        }
-    }
-
-    /// Adds a bound, if it has a part that is open.
-    fn bound<S: System<Scalar = T>>(
-        &mut self,
-        guard: Guard,
-        [first, second]: [(usize, f64); 2],
-        constant: f64,
-        dynamics: &Dynamics<S>,
-    ) {
-        let open = |j: usize| {
-            let parts = [first, second].map(|(i, a)| a * self.freedom.row(i)[j]);
-            (parts[0] + parts[1]).abs()
-        };
-        let most = (0..self.least.len()).map(open).fold(0.0, f64::max);
-        if most > 1e-9 * first.1.abs().max(second.1.abs()) {
-            let size = self.sizes.of(guard, dynamics);
-            self.push(
-                guard,
-                [0.0; 2],
-                [first, second, (first.0, 0.0)],
-                constant,
-                size,
-            );
-        }
-    }
-
-    /// Adds the side of a cone in direction `along`.
-    fn cut(&mut self, cone: usize, along: [f64; 2]) {
-        let Cone {
-            friction,
-            rows,
-            limit,
-            constant,
-            size,
-        } = self.cones[cone];
-        let terms = [(rows[0], -along[0]), (rows[1], -along[1]), limit];
-        self.push(Guard::StickCone(friction), along, terms, constant, size);
-    }
-
-    fn push(
-        &mut self,
-        guard: Guard,
-        along: [f64; 2],
-        terms: [(usize, f64); 3],
-        constant: f64,
-        size: f64,
-    ) {
-        let size = size.max(f64::MIN_POSITIVE);
-        let value: f64 = terms.iter().map(|&(i, a)| a * self.least[i].value()).sum();
-        self.bounds.push(Bound {
-            guard,
-            along,
-            terms,
-            size,
-            value: (value + constant) / size,
-        });
     }
 
     fn fill_matrix(&mut self) {
