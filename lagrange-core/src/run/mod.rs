@@ -22,7 +22,7 @@ use crate::modes::reading::Reading;
 use crate::modes::start::{self, Survey};
 use crate::modes::table::Table;
 use crate::pool::Pool;
-use crate::simulation::Settings;
+use crate::simulation::{Held, Settings};
 use crate::system::{System, Watch};
 use crate::trajectory::{EventKind, State, Subject, Trajectory, Work};
 use accumulation::Impacts;
@@ -162,6 +162,18 @@ impl<S: System> Run<S> {
         self.watch();
     }
 
+    /// See [`crate::Simulation::consistent`].
+    fn consistent(
+        &mut self,
+        time: f64,
+        reference: &State<S::Scalar>,
+        wanted: &State<S::Scalar>,
+        held: &Held,
+    ) -> Result<State<S::Scalar>, Error> {
+        let tolerance = self.settings.tolerance;
+        start::consistent(&mut self.dynamics, time, tolerance, reference, wanted, held)
+    }
+
     /// Runs from `start` over `span`.
     pub(crate) fn execute(
         &mut self,
@@ -208,6 +220,7 @@ impl<S: System> Run<S> {
         self.trajectory.modes.push(&self.mode);
         self.hold_guards();
         self.settle()?;
+        self.finished |= self.has_seen_all();
         while !self.finished && self.t.value() < self.end {
             if self.trajectory.work.steps >= self.settings.max_steps {
                 return Err(self.limit("steps", self.settings.max_steps));
@@ -249,20 +262,31 @@ impl<S: System> Run<S> {
             }
         }
         match hit {
-            Hit::Nothing => Ok(()),
+            Hit::Nothing => {}
             Hit::Stop(stop, _) => {
                 if !self.valued {
                     self.evaluate()?;
                 }
                 self.finish(stop);
-                Ok(())
             }
             Hit::Guards(_) => {
                 self.count_switch()?;
                 self.stepper.restart();
-                self.switch()
+                self.switch()?;
             }
         }
+        self.finished |= self.has_seen_all();
+        Ok(())
+    }
+
+    /// Whether everything has happened that the run is to end after.
+    fn has_seen_all(&self) -> bool {
+        let happened = |(subject, kind): &(Subject, EventKind)| {
+            let mut events = self.trajectory.events.iter();
+            events.any(|e| e.subject == *subject && e.kind.word() == kind.word())
+        };
+        let last = &self.settings.last_events;
+        !last.is_empty() && last.iter().all(happened)
     }
 
     /// Counts a switch; too many at one time, or in all, end the run.

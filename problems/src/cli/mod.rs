@@ -10,6 +10,7 @@ mod list;
 mod output;
 mod run;
 mod stability;
+mod sweep;
 mod values;
 
 use clap::error::ErrorKind;
@@ -33,6 +34,7 @@ enum Command {
     Accuracy(accuracy::Measure),
     Effects(effects::Effects),
     Stability(stability::Stability),
+    Sweep(sweep::Sweeps),
 }
 
 /// What went wrong, and with it the exit code.
@@ -80,6 +82,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Accuracy(accuracy) => accuracy.execute(),
         Command::Effects(effects) => effects.execute(),
         Command::Stability(stability) => stability.execute(),
+        Command::Sweep(sweep) => sweep.execute(),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
