@@ -166,7 +166,7 @@ impl<S> Entry<S> {
     }
 }
 
-impl<S: System<Scalar = f64> + Default + Send> Scene for Entry<S> {
+impl<S: System<Scalar = f64> + Default + Send + 'static> Scene for Entry<S> {
     fn name(&self) -> &'static str {
         self.name
     }

@@ -10,7 +10,6 @@ use lagrange_core::prelude::Method;
 use lagrange_problems::report::{Format, sweep as report};
 use lagrange_problems::request::Request;
 use lagrange_problems::sweep::{Axis, Journal, Points, Sampling, Summary, Sweep, work};
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 

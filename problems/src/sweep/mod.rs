@@ -58,7 +58,7 @@ impl Sweep {
                 .map(|text| Observation::parse(scene.result(text), scene.description()))
                 .collect::<Result<_, _>>()?,
         };
-        scene.worker(&sweep)?;
+        drop(scene.worker(&sweep)?);
         Ok(sweep)
     }
 

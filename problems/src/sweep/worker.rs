@@ -17,7 +17,7 @@ enum Target {
 }
 
 /// Runs the points of a sweep over a system of type `S`, until a time if the request names none.
-pub(crate) fn worker<S: System<Scalar = f64> + Default + Send>(
+pub(crate) fn worker<S: System<Scalar = f64> + Default + Send + 'static>(
     sweep: &Sweep,
     until: f64,
 ) -> Result<Worker<'_>, Refusal> {
