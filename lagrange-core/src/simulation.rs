@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::integrate::Method;
 use crate::modes::start;
 use crate::run::Runner;
-use crate::system::System;
+use crate::system::{Impacts, System};
 use crate::trajectory::{EventKind, State, Subject, Trajectory};
 use core::fmt;
 use core::ops::Range;
@@ -28,6 +28,8 @@ pub(crate) struct Settings {
     pub record: bool,
     /// The run ends once each of these has happened; empty: it does not.
     pub last_events: Vec<(Subject, EventKind)>,
+    /// As declared if `None`.
+    pub impacts: Option<Impacts>,
     pub max_events: usize,
     pub max_steps: usize,
 }
@@ -74,6 +76,7 @@ impl<'a, S: System> Simulation<'a, S> {
                 project_start: false,
                 record: true,
                 last_events: Vec::new(),
+                impacts: None,
                 max_events: 100_000,
                 max_steps: 100_000_000,
             },
@@ -121,6 +124,13 @@ impl<'a, S: System> Simulation<'a, S> {
     #[must_use]
     pub fn end_after(mut self, subject: Subject, kind: EventKind) -> Self {
         self.settings.last_events.push((subject, kind));
+        self
+    }
+
+    /// How contacts are solved that are hit together, instead of what `impacts = …` declares.
+    #[must_use]
+    pub fn impacts(mut self, impacts: Impacts) -> Self {
+        self.settings.impacts = Some(impacts);
         self
     }
 
@@ -255,7 +265,6 @@ impl Settings {
     /// Refuses what the declaration may say but this version cannot run.
     fn supported<S: System>(&self) -> Result<(), Error> {
         use crate::effects::Item;
-        use crate::system::{Normal, Restitution};
         let d = S::DESCRIPTION;
         let takes_part = |item: Item| self.effects.includes(d, item);
         for (i, contact) in d
@@ -269,38 +278,6 @@ impl Settings {
                 let instead = "leave `where` out and stop the run at the edge";
                 return Err(Error::Unsupported {
                     what: "a contact limited to a region",
-                    item,
-                    instead,
-                });
-            }
-            if let Restitution::Poisson(_) = contact.restitution {
-                let instead = "use Newton's restitution";
-                return Err(Error::Unsupported {
-                    what: "Poisson's restitution",
-                    item,
-                    instead,
-                });
-            }
-        }
-        for (i, friction) in d
-            .frictions
-            .iter()
-            .enumerate()
-            .filter(|(i, _)| takes_part(Item::Friction(*i)))
-        {
-            let item = d.frictions[i].name;
-            if friction.components > 1 {
-                let instead = "give one slip component, or leave the friction out";
-                return Err(Error::Unsupported {
-                    what: "friction in two directions",
-                    item,
-                    instead,
-                });
-            }
-            if let Normal::Constraint(_) = friction.normal {
-                let instead = "give its normal force by `normal = …`";
-                return Err(Error::Unsupported {
-                    what: "friction on a constraint",
                     item,
                     instead,
                 });

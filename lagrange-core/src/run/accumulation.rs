@@ -98,12 +98,11 @@ impl<S: System> Run<S> {
         for (other, impacts) in self.impacts.iter().enumerate() {
             let recent =
                 impacts.count >= FEWEST && self.t.value() - impacts.last <= 2.0 * impacts.interval;
-            let gap = self.dynamics.motion(
-                d.rows[d.contacts[other].row]
-                    .position
-                    .unwrap_or(Place::Zero),
-            );
-            if other != c && recent && gap.value().abs() <= tolerance {
+            let row = &d.rows[d.contacts[other].row];
+            let gap = self.dynamics.motion(row.position.unwrap_or(Place::Zero));
+            // One that parts for good closes again in its own time.
+            let still = self.rate_after(other) <= 8.0 * self.rate_after(c);
+            if other != c && recent && gap.value().abs() <= tolerance && still {
                 known.touching[other] = true;
                 known.parting[other] = false;
             }
@@ -112,5 +111,14 @@ impl<S: System> Run<S> {
         let count = self.impacts[c].count;
         self.impacts[c] = Impacts::default();
         Some(count)
+    }
+    /// Speed at which the gap of contact `c` changes after the impact that `dynamics` has evaluated.
+    fn rate_after(&self, c: usize) -> f64 {
+        let row = &S::DESCRIPTION.rows[S::DESCRIPTION.contacts[c].row];
+        let jump = row.jacobian.iter().map(|&(j, place)| {
+            let change = self.state.v[j] - self.before.state.v[j];
+            (self.dynamics.motion(place) * change).value()
+        });
+        (self.dynamics.motion(row.velocity).value() + jump.sum::<f64>()).abs()
     }
 }

@@ -158,10 +158,11 @@ impl<S: System> Trajectory<S> {
         let d = S::DESCRIPTION;
         let mut booked = None;
         for event in self.events.iter().filter(|e| e.kind == EventKind::Impact) {
-            if booked == Some(event.time) {
+            // Impacts that follow each other at one instant begin in different states.
+            if booked == Some(&event.state) {
                 continue;
             }
-            booked = Some(event.time);
+            booked = Some(&event.state);
             let mode = self
                 .modes
                 .iter()

@@ -7,6 +7,8 @@ mod effects;
 mod efficiency;
 mod errors;
 mod interpretation;
+mod large;
+mod random;
 mod recording;
 mod runner;
 mod stability;

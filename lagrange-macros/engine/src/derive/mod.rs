@@ -16,6 +16,7 @@ mod quadratic;
 mod regular;
 mod rows;
 mod sheet;
+mod squares;
 #[cfg(test)]
 mod tests;
 

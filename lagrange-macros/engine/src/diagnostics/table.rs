@@ -1,6 +1,6 @@
 //! Every message of the macro: its code, what is wrong, and what to do next. `{0}`, `{1}`, … are blanks.
 //!
-//! E0xx notation · E1xx the struct · E2xx names · E3xx values · E4xx what may stand where · E5xx mechanics
+//! E0xx notation · E1xx the struct · E2xx names · E3xx values · E4xx what may stand where · E5xx, E6xx mechanics · E7xx units · E8xx checks
 
 /// A row of the table.
 pub(super) struct Row {
@@ -86,12 +86,12 @@ table! {
     ListProduct "E313" "`{0}` of two lists has no single meaning" "write `dot(a, b)`, `cross(a, b)`, or single elements";
 
     VelocityHere "E401" "{0} depends on positions only, and `{1}` is a velocity" "{2}";
-    AccelerationHere "E402" "`{0}` is an acceleration" "accelerations are known after the equations are solved: in `observe`, `stop` and `mark` only";
+    AccelerationHere "E402" "`{0}` is an acceleration" "accelerations are known after the equations are solved: in `observe`, `stop`, `mark` and `check` only";
     CoordinateHere "E403" "{0} depends on parameters and t only, and `{1}` depends on the motion" "{2}";
     HigherDerivative "E404" "the derivative of an acceleration or force is not available" "";
-    OutputOnly "E405" "`{0}` has a value after the equations are solved" "use it in `observe`, `stop` or `mark`";
+    OutputOnly "E405" "`{0}` has a value after the equations are solved" "use it in `observe`, `stop`, `mark` or `check`";
     ForceHere "E406" "`{0}` is a {1}, whose force is not known here" "a force item may contain contacts and constraints; every output may contain all";
-    ConditionHere "E407" "`{0}(…)` is a condition, not a value" "use it in `stop` or `mark`, joined by `and`";
+    ConditionHere "E407" "`{0}(…)` is a condition, not a value" "use it in `stop` or `mark`, or behind `when` in a `check`, joined by `and`";
 
     NoCoordinates "E501" "no coordinates are declared" "add `coordinates(x, …)`";
     NoKinetic "E502" "no kinetic energy is declared" "add `kinetic = mass/2 * der(x)^2`, or a whole `lagrangian = …`";
@@ -107,6 +107,21 @@ table! {
 
     NoInertia "E601" "the coordinate `{0}` has no inertia" "no kinetic energy contains `der({0})`, and no constraint ties it: add its kinetic energy or remove it";
     EquationCount "E602" "{0} equations for {1} unknowns" "{2}";
+    Redundant "E603" "`{0}` says nothing that {1} does not say already" "take one of them away: their forces cannot be told apart";
+    Contradiction "E604" "`{0}` cannot hold together with {1}" "they restrict the same motion in two ways: take one away";
+
+    UnknownUnit "E701" "`{0}` is not a unit" "{1}";
+    UnitMultiple "E702" "`{0}` is a multiple of {1}" "numbers are not converted: write `{1}`, and give the values in it";
+    UnitForm "E703" "{0}" "{1}";
+    UnitExpected "E704" "{0} is {1}, and this is {2}" "{3}";
+    UnitsAdded "E705" "adds {0} to {1}" "{2}";
+    UnitsCompared "E706" "compares {0} with {1}" "{2}";
+    PressedBy "E707" "the force of `{0}` is {1}, and what presses is {2}" "{3}";
+
+    CheckFalse "E801" "`{0}` does not hold{1}" "{2}";
+    CheckNever "E802" "no state fulfils the condition of this check" "{0}";
+    CheckModes "E803" "the condition leaves {0} modes open" "say of more contacts whether they are `open` or `closed`; `open(name)` of an indexed contact means all its elements that are not named otherwise";
+    CheckPremise "E804" "`{0}` is known after the equations are solved" "the condition of a check is made of positions, velocities, `closed(…)`, `open(…)`, `sticks(…)` and `slips(…)`";
 
     Bug "E999" "a bug in the derive: something was left out without a message" "please report it with the declaration";
 }

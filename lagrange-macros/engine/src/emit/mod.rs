@@ -1,6 +1,8 @@
 //! [`Program`] → tokens: the tapes, the table that says what their numbers mean, and the handles.
 //! The only place that uses `quote`.
 
+mod code;
+mod derivation;
 mod description;
 mod fallback;
 mod handles;
@@ -15,9 +17,10 @@ use crate::plan::Program;
 use proc_macro2::TokenStream;
 use quote::quote;
 
+pub use derivation::derivation;
 pub use fallback::fallback;
 
-/// `impl System` and the handles of a program.
+/// `impl System` and the handles of a program; [`derivation()`] belongs to it.
 pub fn emit(program: &Program) -> TokenStream {
     let system = &program.equations.system;
     let (name, core) = (&system.name, &system.core);
@@ -28,6 +31,10 @@ pub fn emit(program: &Program) -> TokenStream {
             quote!(#scalar),
         ),
         None => (quote!(), quote!(), quote!(f64)),
+    };
+    let inherent = match &system.scalar {
+        Some(_) => quote!(#name::<f64>),
+        None => quote!(#name),
     };
     let handles = handles::handles(program);
     let description = description::description(program);
@@ -44,6 +51,9 @@ pub fn emit(program: &Program) -> TokenStream {
         impl #generics #core::system::System for #name #arguments {
             type Scalar = #scalar;
             const DESCRIPTION: &'static #core::system::Description = &#description;
+            fn derivation() -> &'static #core::Derivation {
+                #inherent::derivation()
+            }
             #access
             #start
             #constants

@@ -26,6 +26,7 @@ pub(super) fn degree(pool: &Pool, e: ExprId, symbols: &[Symbol]) -> Option<i64> 
             }),
             Node::Power(base, exponent) => (is_free(base) && is_free(exponent)).then_some(0),
             Node::Call(_, arguments) => arguments.iter().all(is_free).then_some(0),
+            Node::Group(e) => of(*e),
             Node::Select {
                 then, otherwise, ..
             } => of(*then).zip(of(*otherwise)).map(|(a, b)| a.max(b)),

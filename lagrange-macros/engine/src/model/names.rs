@@ -10,8 +10,28 @@ use std::collections::BTreeMap;
 
 /// Words with a meaning of their own in expressions, beside the functions.
 const RESERVED: &[&str] = &[
-    "t", "pi", "sum", "if", "gap", "slip", "momentum", "energy", "closed", "open", "sticks",
-    "slips", "poisson", "at", "along", "on", "where", "while", "and", "in",
+    "t",
+    "pi",
+    "sum",
+    "if",
+    "gap",
+    "slip",
+    "momentum",
+    "energy",
+    "closed",
+    "open",
+    "sticks",
+    "slips",
+    "poisson",
+    "when",
+    "conserved",
+    "at",
+    "along",
+    "on",
+    "where",
+    "while",
+    "and",
+    "in",
 ];
 
 /// A kind of item.
@@ -31,6 +51,7 @@ pub(super) enum Kind {
     Start,
     Stop,
     Mark,
+    Check,
 }
 
 impl Kind {
@@ -51,6 +72,7 @@ impl Kind {
             Kind::Start => "start",
             Kind::Stop => "stop",
             Kind::Mark => "mark",
+            Kind::Check => "check",
         }
     }
 }
@@ -213,6 +235,11 @@ impl Elaboration<'_> {
             format!("known are {}", known.join(", "))
         }
     }
+}
+
+/// A name without `r#`.
+pub(super) fn plain(ident: &proc_macro2::Ident) -> String {
+    Name::new(ident).text
 }
 
 /// Whether a word cannot be a name.

@@ -18,6 +18,7 @@ const OPERATORS: &[&str] = &[
 const DEEPEST: usize = 100;
 
 /// Tokens and a position among them.
+#[derive(Clone)]
 pub(super) struct Cursor {
     tokens: Vec<TokenTree>,
     at: usize,

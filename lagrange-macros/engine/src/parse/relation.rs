@@ -3,7 +3,7 @@
 use super::cursor::Cursor;
 use super::expression::expression;
 use super::item::is_keyword;
-use crate::ast::{Comparison, Expr, Relation};
+use crate::ast::{Comparison, Expr, Premise, Relation};
 use crate::diagnostics::{Code, Diagnostics};
 use proc_macro2::{Delimiter, TokenTree};
 
@@ -87,6 +87,34 @@ pub(super) fn equation(cursor: &mut Cursor, sink: &mut Diagnostics) -> Option<(E
     let right = expression(cursor, sink)?;
     unchained(cursor, sink)?;
     Some((left, right))
+}
+
+/// `left == right`, `left >= right` or `left <= right`.
+pub(super) fn equation_or_comparison(
+    cursor: &mut Cursor,
+    sink: &mut Diagnostics,
+) -> Option<Premise> {
+    let is_equation = match cursor.group(Delimiter::None) {
+        Some(group) => Cursor::new(group.stream(), cursor.here(), 0).has_operator(&["=="]),
+        None => {
+            // Only up to the next condition.
+            let mut ahead = cursor.clone();
+            let mut found = false;
+            while let Some(token) = ahead.peek() {
+                found |= ahead.operator() == Some("==");
+                if matches!(token, TokenTree::Ident(word) if *word == "and") {
+                    break;
+                }
+                ahead.next();
+            }
+            found
+        }
+    };
+    if is_equation {
+        equation(cursor, sink).map(|(left, right)| Premise::Equal(left, right))
+    } else {
+        comparison(cursor, "`a >= b` or `a == b`", sink).map(Premise::AtLeast)
+    }
 }
 
 fn unchained(cursor: &Cursor, sink: &mut Diagnostics) -> Option<()> {

@@ -2,7 +2,7 @@
 
 use super::cursor::Cursor;
 use super::item;
-use crate::ast::{Declaration, Field, Name};
+use crate::ast::{Declaration, Field, Name, Unit};
 use crate::diagnostics::{Code, Diagnostics, Extent};
 use proc_macro2::{Ident, TokenStream};
 use syn::spanned::Spanned;
@@ -88,7 +88,7 @@ fn field(field: &syn::Field, scalar: Option<&Ident>, sink: &mut Diagnostics) -> 
         length,
         documentation: documentation(&field.attrs),
         tex: String::new(),
-        unit: String::new(),
+        unit: None,
         letter: String::new(),
     };
     for attribute in field.attrs.iter().filter(|a| a.path().is_ident("lagrange")) {
@@ -123,10 +123,11 @@ fn length(length: &Expr) -> Option<usize> {
 fn field_attribute(part: &mut Cursor, field: &mut Field, sink: &mut Diagnostics) -> Option<()> {
     let keys = ["tex", "unit", "symbol"];
     let key = item::key(part, "a field", &keys, sink)?;
+    let extent = part.here();
     let text = item::text(part, sink)?;
     match key.text.as_str() {
         "tex" => field.tex = text,
-        "unit" => field.unit = text,
+        "unit" => field.unit = Some(Unit { text, extent }),
         _ => field.letter = text,
     }
     super::relation::leftover(part, sink)

@@ -5,13 +5,18 @@ mod block;
 mod cart_pole;
 mod chain;
 mod cradle;
+mod crowd;
+mod cue_ball;
 mod damped;
 mod hoop;
+mod incline;
 mod kepler;
 mod pendulum;
 mod piecewise;
 mod skate;
 mod sling;
+mod turntable;
+mod wire;
 
 use lagrange_core::prelude::*;
 

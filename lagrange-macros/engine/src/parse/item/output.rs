@@ -4,7 +4,7 @@ use super::super::cursor::Cursor;
 use super::super::expression::whole;
 use super::super::relation::{comparison, holds_relation, leftover};
 use super::{head, head_and_colon, no_more, reference};
-use crate::ast::{Clause, ItemKind, ModeWord, Observe, Trigger, Watch};
+use crate::ast::{Clause, ItemKind, ModeWord, Observe, Reference, Trigger, Watch};
 use crate::diagnostics::Diagnostics;
 use proc_macro2::{Delimiter, TokenTree};
 
@@ -62,13 +62,25 @@ fn mode(part: &Cursor) -> Option<ModeWord> {
 }
 
 fn clause(part: &mut Cursor, sink: &mut Diagnostics) -> Option<Clause> {
-    let Some(word) = mode(part) else {
-        return comparison(part, "`a >= b`", sink).map(Clause::Comparison);
-    };
+    match mode_clause(part, sink) {
+        Some(clause) => clause.map(|(word, item)| Clause::Mode(word, item)),
+        None => comparison(part, "`a >= b`", sink).map(Clause::Comparison),
+    }
+}
+
+/// `closed(c)` and the like; None if something else stands here, Some(None) if it is wrong.
+pub(super) fn mode_clause(
+    part: &mut Cursor,
+    sink: &mut Diagnostics,
+) -> Option<Option<(ModeWord, Reference)>> {
+    let word = mode(part)?;
     part.next();
     let group = part.take_group(Delimiter::Parenthesis)?;
-    let mut inside = part.inside(&group, sink)?;
-    let item = reference(&mut inside, "the name of an item", sink)?;
-    leftover(&mut inside, sink)?;
-    Some(Clause::Mode(word, item))
+    let mut item = || {
+        let mut inside = part.inside(&group, sink)?;
+        let item = reference(&mut inside, "the name of an item", sink)?;
+        leftover(&mut inside, sink)?;
+        Some((word, item))
+    };
+    Some(item())
 }

@@ -4,7 +4,7 @@ use super::super::cursor::Cursor;
 use super::super::expression::whole;
 use super::super::relation::leftover;
 use super::{head, head_and_colon, no_more, text};
-use crate::ast::{Coordinate, Definition, Dissipation, Energy, Expr, ItemKind};
+use crate::ast::{Coordinate, Definition, Dissipation, Energy, Expr, ItemKind, Unit};
 use crate::diagnostics::Diagnostics;
 use proc_macro2::Delimiter;
 
@@ -30,8 +30,12 @@ pub(super) fn coordinates(parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<
             Some(group) => Some(whole(&mut part.inside(&group, sink)?, sink)?),
         };
         let unit = match part.take(":") {
-            None => String::new(),
-            Some(_) => text(part, sink)?,
+            None => None,
+            Some(_) => {
+                let extent = part.here();
+                let text = text(part, sink)?;
+                Some(Unit { text, extent })
+            }
         };
         leftover(part, sink)?;
         Some(Coordinate { name, length, unit })

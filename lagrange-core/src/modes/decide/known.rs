@@ -1,0 +1,66 @@
+//! What a decision starts from: what is known exactly at the instant, and the instant.
+
+use crate::modes::guard::Guard;
+use crate::system::Description;
+
+/// What is known exactly at the instant.
+#[derive(Clone, Debug, Default)]
+pub struct Known {
+    /// Per contact: gap and gap rate vanish, so that it may be closed or open.
+    pub touching: Vec<bool>,
+    /// Per contact: the gap has just come to vanish, so that it may be hit.
+    pub arriving: Vec<bool>,
+    /// Per contact: the gap vanishes and grows.
+    pub parting: Vec<bool>,
+    /// Per friction: the slip vanishes, so that it may stick or slip either way.
+    pub resting: Vec<bool>,
+    /// Per branch: its guard vanishes.
+    pub balanced: Vec<bool>,
+    /// Velocities have just jumped.
+    pub jumped: bool,
+    /// Guards of the present mode that have just been located as roots: the present mode cannot go on.
+    pub located: Vec<Guard>,
+    /// What evaluation leaves of the forces that have been located as zero, relative to the terms that they are made of.
+    pub residue: f64,
+}
+
+impl Known {
+    /// Nothing is known.
+    pub fn clear(&mut self, d: &Description) {
+        for flags in [&mut self.touching, &mut self.arriving, &mut self.parting] {
+            flags.clear();
+            flags.resize(d.contacts.len(), false);
+        }
+        self.resting.clear();
+        self.resting.resize(d.frictions.len(), false);
+        self.balanced.clear();
+        self.balanced.resize(d.branches.len(), false);
+        self.jumped = false;
+        self.located.clear();
+        self.residue = 0.0;
+    }
+}
+
+/// The instant at which a mode is looked for.
+#[derive(Clone, Copy, Debug)]
+pub struct Moment<'a, T> {
+    /// Time, s.
+    pub t: T,
+    /// Positions.
+    pub q: &'a [T],
+    /// Velocities.
+    pub v: &'a [T],
+    /// Order of the series that decide what values do not.
+    pub order: usize,
+    /// Error that the state may have.
+    pub tolerance: f64,
+}
+
+impl<T> Moment<'_, T> {
+    /// How far forces located as zero, and what follows from them, are from it, relative to what they are made of.
+    pub fn blur(&self, known: &Known) -> f64 {
+        // Where all forces vanish at once a residue has nothing to be compared with.
+        let residue = known.residue.min(self.tolerance.max(1e-6));
+        self.tolerance.max(1e-14).max(4.0 * residue)
+    }
+}

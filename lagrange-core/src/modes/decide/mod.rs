@@ -1,0 +1,294 @@
+//! Which mode comes next: complementarity just after an instant.
+//!
+//! At the instant itself inequalities decide nothing: at a smooth lift-off λ = 0 and g̈ = 0 together. A candidate
+//! mode is therefore solved as a Taylor series, and it is feasible only if each of its guards is positive *just
+//! after* the instant: the first coefficient that does not vanish is positive (Brogliato 2016, section 5.4;
+//! Lötstedt 1982). What is known to vanish (a gap that was closed, a located root) is never read.
+//!
+//! [`candidates`] writes down the modes that what is known allows, [`examine`] says of one whether it is feasible; where they are
+//! many, [`pivot`] goes from one to the next.
+
+mod candidates;
+mod examine;
+mod guess;
+mod incipient;
+mod known;
+mod pivot;
+
+use crate::arithmetic::Scalar;
+use crate::dynamics::{Dynamics, EvaluationError, NeedSet};
+use crate::error::Error;
+use crate::mode::{FrictionMode, Mode};
+use crate::modes::guard::{self, Guard};
+use crate::modes::reading::Reading;
+use crate::modes::scale::Sizes;
+use crate::modes::sharing::{Joint, Sharing};
+use crate::modes::table::Table;
+use crate::pool::Pool;
+use crate::system::{Description, System};
+use candidates::list_candidates;
+pub use known::{Known, Moment};
+
+/// The mode that goes on.
+#[derive(Clone, Debug)]
+pub struct Decision {
+    /// The mode.
+    pub mode: Mode,
+    /// Guards with leading coefficients that vanish, and how many.
+    pub zeros: Vec<(Guard, usize)>,
+    /// Whether another mode with another motion was feasible too.
+    pub ambiguous: bool,
+    /// Joint guards that are at their border, or near it.
+    pub joints: Vec<Joint>,
+    /// Whether the dynamics hold the series of this mode at the moment, for the needs of its guards.
+    pub expanded: bool,
+}
+/// Memory of decisions, and the last one.
+#[derive(Clone, Debug)]
+pub struct Decider<T> {
+    /// What was found last.
+    pub decision: Decision,
+    candidates: Pool<Mode>,
+    questions: Vec<(Guard, usize)>,
+    zeros: Vec<(Guard, usize)>,
+    /// What forbids the candidate examined last.
+    violated: Vec<Guard>,
+    sharing: Sharing<T>,
+    joints: Vec<Joint>,
+    motion: Vec<f64>,
+    sizes: Sizes,
+    /// Modes tried so far.
+    tried: usize,
+    /// Needs of everything about every row.
+    rows: NeedSet,
+    /// These and what the motion needs in any mode.
+    everything: NeedSet,
+    /// The candidate under examination, with the directions in which its slips begin.
+    posed: Mode,
+    /// The same of the best one.
+    best: Mode,
+    /// Whether its slip could begin in another direction.
+    forks: bool,
+}
+
+impl<T: Scalar> Decider<T> {
+    /// Memory for a system.
+    pub fn new(description: &Description) -> Self {
+        let rows = guard::all_row_needs(description, &NeedSet::new(description));
+        let mut everything = rows.clone();
+        for row in description.rows {
+            everything.insert(row.needs.bias);
+        }
+        Self {
+            decision: Decision {
+                mode: Mode::open(description),
+                zeros: Vec::new(),
+                ambiguous: false,
+                joints: Vec::new(),
+                expanded: false,
+            },
+            candidates: Pool::default(),
+            questions: Vec::new(),
+            zeros: Vec::new(),
+            violated: Vec::new(),
+            sharing: Sharing::default(),
+            joints: Vec::new(),
+            motion: Vec::new(),
+            sizes: Sizes::default(),
+            tried: 0,
+            rows,
+            everything,
+            posed: Mode::open(description),
+            best: Mode::open(description),
+            forks: false,
+        }
+    }
+
+    /// Finds the mode in which the motion goes on from a moment, into [`Self::decision`].
+    ///
+    /// On success `dynamics` is left in that mode. Where a few modes are possible all are looked at; the order of preference among
+    /// feasible ones is: stick before slip, then the present mode, then the fewest changes. Where they are many, see
+    /// [`pivot`].
+    ///
+    /// # Errors
+    /// [`Error::NoMode`] if no candidate is feasible (Painlevé's paradox).
+    pub fn decide<S: System<Scalar = T>>(
+        &mut self,
+        dynamics: &mut Dynamics<S>,
+        table: &mut Table,
+        moment: Moment<'_, S::Scalar>,
+        present: &Mode,
+        known: &Known,
+    ) -> Result<(), Error> {
+        let d = S::DESCRIPTION;
+        let mut candidates = core::mem::take(&mut self.candidates);
+        let scratch = &mut self.decision.mode;
+        let few = list_candidates(
+            dynamics,
+            moment,
+            present,
+            known,
+            &self.rows,
+            scratch,
+            &mut candidates,
+        );
+        self.tried = 0;
+        let outcome = if few {
+            self.best(dynamics, table, moment, present, known, &candidates)
+        } else {
+            self.pivot(dynamics, table, moment, present, known)
+        };
+        self.candidates = candidates;
+        let time = moment.t.value();
+        match outcome {
+            Ok(true) => {
+                self.decision.mode.clone_from(&self.best);
+                dynamics.set_mode(&self.best);
+                Ok(())
+            }
+            Ok(false) => Err(Error::NoMode {
+                time,
+                mode: present.display(d).to_string(),
+                item: concerned::<S>(known),
+                tried: self.tried,
+            }),
+            Err(error) => Err(Error::from_evaluation(error, time, dynamics.mode(), d)),
+        }
+    }
+
+    /// See [`Known::residue`]; `dynamics` holds the values of the moment in the mode that ends.
+    pub fn residue<S: System<Scalar = T>>(
+        &mut self,
+        dynamics: &Dynamics<S>,
+        mode: &Mode,
+        located: &[Guard],
+    ) -> f64 {
+        self.sizes.take(dynamics);
+        let reading = Reading::Values(dynamics);
+        let relative = |&guard: &Guard| match guard {
+            Guard::Normal(_)
+            | Guard::StickUpper(_)
+            | Guard::StickLower(_)
+            | Guard::StickCone(_)
+            | Guard::Bearing(_) => {
+                let size = self.sizes.of(guard, dynamics);
+                guard::value(guard, mode, &reading).abs() / size.max(f64::MIN_POSITIVE)
+            }
+            _ => 0.0,
+        };
+        located.iter().map(relative).fold(0.0, f64::max)
+    }
+
+    /// Looks for the feasible candidate to be preferred, into `self.best`. False: there is none.
+    ///
+    /// # Errors
+    /// None is feasible, and one could not be evaluated.
+    fn best<S: System<Scalar = T>>(
+        &mut self,
+        dynamics: &mut Dynamics<S>,
+        table: &mut Table,
+        moment: Moment<'_, T>,
+        present: &Mode,
+        known: &Known,
+        candidates: &[Mode],
+    ) -> Result<bool, EvaluationError> {
+        let (mut best, mut failure) = (None, None);
+        // Without friction the accelerations are the only ones that Gauss's principle allows: no other mode has others.
+        let idle = |mode: &Mode| mode.frictions.iter().all(|f| *f == FrictionMode::Inactive);
+        let unique = S::DESCRIPTION.couplings.is_empty()
+            && !known.balanced.contains(&true)
+            && candidates.iter().all(idle);
+        for (index, mode) in candidates.iter().enumerate() {
+            self.tried += 1;
+            // A root of the present mode falls through zero: that mode is over.
+            if *mode == *present && !known.located.is_empty() {
+                continue;
+            }
+            // Stick is preferred to slip without being ambiguous (μs > μk allows both).
+            if best.is_some_and(|best: usize| unique || sticks(&candidates[best]) > sticks(mode)) {
+                continue;
+            }
+            // What is found of the last one serves the coming step.
+            let last = best.is_none() && index + 1 == candidates.len();
+            self.decision.expanded = false;
+            let outcome = self.examine(dynamics, table, moment, mode, known, last);
+            // Another than the best leaves its own series behind.
+            self.decision.expanded &= best.is_none();
+            match outcome {
+                Ok(true) if best.is_none() => {
+                    best = Some(index);
+                    self.decision.ambiguous = self.forks;
+                    self.keep(dynamics);
+                }
+                Ok(true) => {
+                    self.decision.ambiguous |= differ(&self.motion, dynamics.acceleration());
+                }
+                Ok(false) => {}
+                Err(error) => failure = Some((index, error)),
+            }
+        }
+        match (best, failure) {
+            (None, Some((index, error))) => {
+                dynamics.set_mode(&candidates[index]);
+                Err(error)
+            }
+            _ => Ok(best.is_some()),
+        }
+    }
+
+    /// Keeps the candidate examined last, which is feasible.
+    fn keep<S: System<Scalar = T>>(&mut self, dynamics: &Dynamics<S>) {
+        core::mem::swap(&mut self.best, &mut self.posed);
+        core::mem::swap(&mut self.decision.zeros, &mut self.zeros);
+        self.decision.joints.clone_from(&self.joints);
+        self.motion.clear();
+        let motion = dynamics.acceleration().iter().map(|a| a.value());
+        self.motion.extend(motion);
+    }
+}
+
+fn slips(mode: &Mode) -> usize {
+    mode.frictions
+        .iter()
+        .filter(|f| matches!(f, FrictionMode::Slip(_)))
+        .count()
+}
+
+fn sticks(mode: &Mode) -> usize {
+    mode.frictions
+        .iter()
+        .filter(|f| matches!(f, FrictionMode::Stick))
+        .count()
+}
+
+fn differ<T: Scalar>(a: &[f64], b: &[T]) -> bool {
+    let sizes = a.iter().copied().chain(b.iter().map(|x| x.value()));
+    let size = sizes.fold(0.0_f64, |m, x| m.max(x.abs()));
+    let mut pairs = a.iter().zip(b);
+    pairs.any(|(x, y)| (x - y.value()).abs() > 1e-9 * size)
+}
+
+fn concerned<S: System>(known: &Known) -> &'static str {
+    let d = S::DESCRIPTION;
+    let located = known.located.iter().find_map(|g| match *g {
+        Guard::Gap(c) | Guard::Normal(c) => Some(d.contacts[c].name),
+        Guard::StickUpper(f)
+        | Guard::StickLower(f)
+        | Guard::StickCone(f)
+        | Guard::Slip(f)
+        | Guard::Bearing(f) => Some(d.frictions[f].name),
+        Guard::Branch(b) => Some(d.branches[b].text),
+        Guard::Stop(..) | Guard::Mark(..) | Guard::Joint(_) => None,
+    });
+    let resting = known
+        .resting
+        .iter()
+        .position(|r| *r)
+        .map(|f| d.frictions[f].name);
+    let touching = known
+        .touching
+        .iter()
+        .position(|r| *r)
+        .map(|c| d.contacts[c].name);
+    located.or(resting).or(touching).unwrap_or(d.name)
+}
