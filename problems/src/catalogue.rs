@@ -44,6 +44,8 @@ pub static HARD: &[&dyn Scene] = &[
     &Entry::<HoopBead>::new("hoop-bead", 10.0),
     &Entry::<RodSleeve>::new("rod-sleeve", 2.0),
     &Entry::<Cradle>::new("cradle", 1.0),
+    &Entry::<FiveBallCradle>::new("five-ball-cradle", 1.0),
+    &Entry::<RockingBlock>::new("rocking-block", 10.0),
     &Entry::<PainleveRod>::new("painleve-rod", 1.0),
     &Entry::<StringPendulum>::new("string-pendulum", 3.0),
     &Entry::<SphericalPendulum>::new("spherical-pendulum", 5.0),
