@@ -81,7 +81,7 @@ impl<S: System> Run<S> {
     /// Where a guard of the mode falls through zero: (part of the step, half width of the enclosure).
     fn fall(&self, guard: Guard, curve: &[f64]) -> Option<(f64, f64)> {
         let curve = self.judged(guard, curve)?;
-        if falls_at_once(curve, RESOLUTION) {
+        if falls_at_once(curve) {
             return Some((0.0, 0.0));
         }
         let mut from = 0.0;
@@ -129,10 +129,7 @@ impl<S: System> Run<S> {
         let mut guards = self.guards.iter().enumerate();
         guards.any(|(k, &guard)| {
             let curve = self.judged(guard, self.curves.mode_guard(k));
-            curve.is_some_and(|curve| {
-                let begins = curve.iter().find(|c| **c != 0.0);
-                begins.is_some_and(|c| *c > 0.0) && falls_at_once(curve, CLEAR)
-            })
+            curve.is_some_and(|curve| hides_its_start(guard, curve))
         })
     }
 
@@ -212,14 +209,29 @@ impl<S: System> Run<S> {
     }
 }
 
-/// Whether a guard is negative from the start on, as far as can be told by numbers this much smaller than its largest.
-fn falls_at_once(curve: &[f64], resolution: f64) -> bool {
-    if curve.first().is_none_or(|start| *start < 0.0) {
-        return true;
-    }
+/// Whether a guard is negative from the start on, as far as rounding can tell.
+fn falls_at_once(curve: &[f64]) -> bool {
+    curve.first().is_none_or(|start| *start < 0.0)
+        || leading(curve, RESOLUTION).is_some_and(|k| k > 0 && curve[k] < 0.0)
+}
+
+/// Whether a guard that begins positive seems to fall at once, or to begin with one of its last coefficients, because these
+/// are so much larger over the whole step.
+fn hides_its_start(guard: Guard, curve: &[f64]) -> bool {
+    // A gap is a position: its first derivatives are not small unless the step is far too long.
+    let late = match guard {
+        Guard::Gap(_) => 3,
+        _ => curve.len() / 2,
+    };
+    let begin = curve.iter().position(|c| *c != 0.0);
+    begin.is_some_and(|begin| curve[begin] > 0.0)
+        && leading(curve, CLEAR).is_some_and(|k| Some(k) > begin && (curve[k] < 0.0 || k >= late))
+}
+
+/// The first coefficient that can be told from 0 by numbers this much smaller than all together.
+fn leading(curve: &[f64], resolution: f64) -> Option<usize> {
     let noise = resolution * curve.iter().map(|c| c.abs()).sum::<f64>();
-    let leading = curve.iter().position(|c| c.abs() > noise);
-    leading.is_some_and(|k| k > 0 && curve[k] < 0.0)
+    curve.iter().position(|c| c.abs() > noise)
 }
 
 /// First instant up to `end` at which a watch becomes true: a term rises through zero while the others are ≥ 0.
