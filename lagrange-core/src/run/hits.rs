@@ -223,9 +223,12 @@ fn hides_its_start(guard: Guard, curve: &[f64]) -> bool {
         Guard::Gap(_) => 3,
         _ => curve.len() / 2,
     };
-    let begin = curve.iter().position(|c| *c != 0.0);
-    begin.is_some_and(|begin| curve[begin] > 0.0)
-        && leading(curve, CLEAR).is_some_and(|k| Some(k) > begin && (curve[k] < 0.0 || k >= late))
+    let Some(begin) = curve.iter().position(|c| *c != 0.0) else {
+        return false;
+    };
+    let clear = leading(curve, CLEAR).unwrap_or(begin);
+    let falls = curve[begin..=clear.max(begin)].iter().any(|c| *c < 0.0);
+    curve[begin] > 0.0 && clear > begin && (falls || clear >= late)
 }
 
 /// The first coefficient that can be told from 0 by numbers this much smaller than all together.
