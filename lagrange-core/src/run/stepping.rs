@@ -238,8 +238,9 @@ impl<S: System> Run<S> {
             );
             sampled.map_err(|e| self.error(e))?;
             let hit = self.first_hit();
-            if hit.end() == 0.0 {
-                return Ok(hit);
+            // What happens close to the start is for a method that can make any step.
+            if hit.end() == 0.0 || self.hides_a_start() {
+                return self.taylor_step();
             }
             let hit = self.refined(hit)?;
             self.evaluate_end(hit.end()).map_err(|e| self.error(e))?;
