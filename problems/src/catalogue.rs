@@ -22,6 +22,8 @@ pub static SCENES: &[&dyn Scene] = &[
     &Entry::<SphereInBowl>::new("sphere-in-bowl", 10.0),
     &Entry::<DoublePendulum>::new("double-pendulum", 5.0),
     &Entry::<FiveLinkChain>::new("five-link-chain", 2.0),
+    &Entry::<Chain20>::new("chain", 2.0),
+    &Entry::<Net>::new("net", 2.0),
     &Entry::<CartesianPendulum>::new("cartesian-pendulum", 100.0)
         .known(CartesianPendulum::closed_form),
     &Entry::<Kepler>::new("kepler", 200.0 * PI).known(Kepler::closed_form),

@@ -198,7 +198,12 @@ impl<T: Scalar> Decider<T> {
                 Leading::Rises(0) => {}
                 Leading::Rises(k) => self.zeros.push((guard, k)),
                 Leading::Stays if !last => unclear = true,
-                Leading::Stays if is_held::<S>(guard, dynamics) => self.violated.push(guard),
+                Leading::Stays
+                    if self.sticks_first && matches!(guard, Guard::Slip(_))
+                        || is_held::<S>(guard, dynamics) =>
+                {
+                    self.violated.push(guard);
+                }
                 Leading::Stays => {
                     let blurred = concerns(guard, &self.joints, known);
                     if order_known > 0 || series.iter().all(|c| *c <= 0.0) || blurred {
