@@ -80,13 +80,17 @@ impl<S: System> Run<S> {
 
     /// Where a guard of the mode falls through zero: (part of the step, half width of the enclosure).
     fn fall(&self, guard: Guard, curve: &[f64]) -> Option<(f64, f64)> {
+        if self.is_edge_in_flight(guard) {
+            return None;
+        }
         let curve = self.judged(guard, curve)?;
-        if falls_at_once(curve) {
+        if falls_at_once(curve) && !self.is_below(guard) && self.within_region(guard, 0.0) {
             return Some((0.0, 0.0));
         }
         let mut from = 0.0;
         while let Some(root) = first_root(curve, from) {
-            if root.direction == Direction::Falling && !root.grazing {
+            let falls = root.direction == Direction::Falling && !root.grazing;
+            if falls && self.within_region(guard, root.s) {
                 return Some((root.s, 0.5 * root.width));
             }
             // A root that rounding puts at 0 must not be found again.
@@ -99,7 +103,7 @@ impl<S: System> Run<S> {
     }
 
     /// What of a guard's curve is judged: without leading coefficients that are known to vanish. Nothing if all do.
-    fn judged<'c>(&self, guard: Guard, curve: &'c [f64]) -> Option<&'c [f64]> {
+    pub(super) fn judged<'c>(&self, guard: Guard, curve: &'c [f64]) -> Option<&'c [f64]> {
         let zeros = self.zeros.iter().find(|(g, _)| *g == guard);
         let known = zeros.map_or(0, |(_, order)| *order);
         if known >= LENGTH {
@@ -128,6 +132,9 @@ impl<S: System> Run<S> {
     pub(super) fn hides_a_start(&self) -> bool {
         let mut guards = self.guards.iter().enumerate();
         guards.any(|(k, &guard)| {
+            if self.is_edge_in_flight(guard) || !self.within_region(guard, 0.0) {
+                return false;
+            }
             let curve = self.judged(guard, self.curves.mode_guard(k));
             curve.is_some_and(|curve| hides_its_start(guard, curve))
         })
@@ -286,7 +293,7 @@ pub(super) fn holds(watch: &Watch, mode: &Mode) -> bool {
     })
 }
 
-fn value(curve: &[f64], s: f64) -> f64 {
+pub(super) fn value(curve: &[f64], s: f64) -> f64 {
     if s == 1.0 {
         sum(curve)
     } else {
