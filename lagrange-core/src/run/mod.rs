@@ -4,6 +4,7 @@ mod accumulation;
 mod curves;
 mod hits;
 mod log;
+mod region;
 mod rest;
 mod runner;
 mod shares;
@@ -66,6 +67,8 @@ pub(crate) struct Run<S: System> {
     guards: Vec<Guard>,
     /// Whether a step can leave the rows of the mode.
     drifts: bool,
+    /// Per contact: the motion is beyond its surface, where it passed outside its region.
+    below: Vec<bool>,
     /// Guards whose leading coefficients vanish at the start of the coming step.
     zeros: Vec<(Guard, usize)>,
     /// Whether `dynamics` holds the Taylor series at the present state.
@@ -148,6 +151,7 @@ impl<S: System> Run<S> {
             table: Table::default(),
             guards: Vec::new(),
             drifts: true,
+            below: vec![false; d.contacts.len()],
             zeros: Vec::new(),
             expanded: false,
             valued: false,
@@ -240,6 +244,10 @@ impl<S: System> Run<S> {
         self.trajectory.modes.clear();
         self.trajectory.modes.push(&self.mode);
         self.hold_guards();
+        self.below.fill(false);
+        for &c in &self.survey.below {
+            self.below[c] = true;
+        }
         self.settle()?;
         while !self.finished && self.t.value() < self.end {
             if self.trajectory.work.steps >= self.settings.max_steps {
@@ -261,6 +269,7 @@ impl<S: System> Run<S> {
         }
         self.log_marks(end);
         self.remember_sides(end);
+        self.remember_regions(end);
         self.trajectory.push(&self.step, S::Scalar::from_f64(end));
         self.trajectory.work.steps += 1;
         if end > 0.0 {

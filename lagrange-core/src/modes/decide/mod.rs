@@ -267,7 +267,7 @@ fn differ<T: Scalar>(a: &[f64], b: &[T]) -> bool {
 fn concerned<S: System>(known: &Known) -> &'static str {
     let d = S::DESCRIPTION;
     let located = known.located.iter().find_map(|g| match *g {
-        Guard::Gap(c) | Guard::Normal(c) => Some(d.contacts[c].name),
+        Guard::Gap(c) | Guard::Normal(c) | Guard::Region(c) => Some(d.contacts[c].name),
         Guard::StickUpper(f)
         | Guard::StickLower(f)
         | Guard::StickCone(f)
