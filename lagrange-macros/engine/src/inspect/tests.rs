@@ -298,7 +298,7 @@ fn expressions_as_a_person_writes_them() {
     check(quote!(a * sqrt(x ^ 2 + y ^ 2)), "a √(x² + y²)");
     check(quote!(a / sqrt(x ^ 2 + y ^ 2)), "a/√(x² + y²)");
     check(quote!(cos(x) ^ 2 * a), "a cos² x");
-    check(quote!(sin(2 * x) * sin(y)), "sin y sin(2 x)");
+    check(quote!(sin(2 * x) * sin(y)), "sin(2 x) sin y");
     check(quote!(abs(x - y)), "|x − y|");
     check(quote!(max(x, y)), "max(x, y)");
     check(quote!(if(x >= 0, a*x, b*y)), "{a x if x ≥ 0, else b y}");
@@ -378,4 +378,19 @@ fn many_contacts_are_shown_in_part() {
     assert_eq!(d.mode_count, 1 << 29);
     assert!(d.modes.len() < 10 && d.notes.len() == 2, "{:?}", d.notes);
     assert!(print::plain(&d).len() < 40_000);
+}
+
+#[test]
+fn look() {
+    let Ok(wanted) = std::env::var("LOOK") else {
+        return;
+    };
+    for (name, tokens) in scenes() {
+        if name == wanted {
+            let t = std::time::Instant::now();
+            let d = derivation(tokens.clone());
+            println!("{:?}", t.elapsed());
+            println!("{}", print::plain(&d));
+        }
+    }
 }
