@@ -334,7 +334,7 @@ impl Work<'_> {
         known: &Known,
     ) -> Vec<Statement> {
         let system = &self.program.equations.system;
-        if system.coordinates.len() > MOST_SOLVED {
+        if !self.solves || system.coordinates.len() > MOST_SOLVED {
             return Vec::new();
         }
         let mut residuals = Vec::new();

@@ -7,6 +7,7 @@
 use super::formula::{Formula, Relation, Statement};
 use super::names::{Kind, Known, Names};
 use crate::symbolic::{ExprId, Function, Node, Pool, Rational};
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 
 /// Sums that would have more terms are not multiplied out.
@@ -28,6 +29,18 @@ pub struct Reader<'a> {
     /// Guards of the branches.
     guards: Vec<ExprId>,
     known: BTreeMap<ExprId, Formula>,
+    seen: RefCell<BTreeMap<ExprId, Contents>>,
+}
+
+/// What an expression is made of.
+#[derive(Clone, Copy)]
+struct Contents {
+    /// The last kind of its symbols.
+    latest: Option<Kind>,
+    /// The first of its symbols.
+    symbol: usize,
+    /// The first place that one of its symbols has among its kind.
+    order: usize,
 }
 
 /// Where a factor stands in a product, then among its like.
@@ -70,6 +83,7 @@ impl<'a> Reader<'a> {
             names,
             guards,
             known: BTreeMap::new(),
+            seen: RefCell::default(),
         }
     }
 
@@ -170,9 +184,37 @@ impl<'a> Reader<'a> {
 
     /// Whether all its symbols are of a kind before this one.
     fn is_below(&self, e: ExprId, kind: Kind) -> bool {
-        let symbols = self.pool.symbols(e);
-        let below = |s| self.names.symbol(s).is_some_and(|known| known.kind < kind);
-        symbols.into_iter().all(below)
+        self.contents(e).latest.is_none_or(|latest| latest < kind)
+    }
+
+    /// What an expression is made of; once for each.
+    fn contents(&self, e: ExprId) -> Contents {
+        if let Some(known) = self.seen.borrow().get(&e) {
+            return *known;
+        }
+        let mut contents = Contents {
+            latest: None,
+            symbol: usize::MAX,
+            order: usize::MAX,
+        };
+        if let Node::Symbol(symbol) = self.pool.node(e) {
+            let known = self.names.symbol(*symbol);
+            contents.latest = Some(known.map_or(Kind::Force, |known| known.kind));
+            contents.symbol = symbol.index();
+            contents.order = known.map_or(usize::MAX, |known| known.order);
+        }
+        let mut children = Vec::new();
+        self.pool
+            .node(e)
+            .for_each_child(|child| children.push(child));
+        for child in children {
+            let inner = self.contents(child);
+            contents.latest = contents.latest.max(inner.latest);
+            contents.symbol = contents.symbol.min(inner.symbol);
+            contents.order = contents.order.min(inner.order);
+        }
+        self.seen.borrow_mut().insert(e, contents);
+        contents
     }
 
     /// Products over moving sums multiplied out; `None` if that is too long.
@@ -493,17 +535,9 @@ impl<'a> Reader<'a> {
                 Some(known) => rank_of(known),
                 None => (9, symbol.index(), 0),
             },
-            Node::Call(..) => {
-                let first = self.pool.symbols(e).first().map_or(0, |s| s.index());
-                (FUNCTION, first, e.index())
-            }
+            Node::Call(..) => (FUNCTION, self.contents(e).symbol, e.index()),
             // A sum of masses stands where masses stand.
-            Node::Sum { .. } if self.is_still(e) => {
-                let symbols = self.pool.symbols(e);
-                let orders = symbols.iter().filter_map(|s| self.names.symbol(*s));
-                let first = orders.map(|known| known.order).min();
-                (PARAMETER, first.unwrap_or(usize::MAX), e.index())
-            }
+            Node::Sum { .. } if self.is_still(e) => (PARAMETER, self.contents(e).order, e.index()),
             _ => (MOVING_SUM, 0, e.index()),
         }
     }

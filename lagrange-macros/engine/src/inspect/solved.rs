@@ -6,7 +6,7 @@
 
 use super::formula::{Formula, Statement};
 use super::work::Work;
-use crate::symbolic::{ExprId, Node, Pool, Symbol};
+use crate::symbolic::{ExprId, Node, Symbol};
 
 /// More unknowns are not solved for.
 const MOST_UNKNOWNS: usize = 9;
@@ -18,7 +18,13 @@ const LONGEST: usize = 44;
 const SHORT: usize = 26;
 
 /// Entries with more parts end the attempt.
-const MOST_PARTS: usize = 400;
+const MOST_PARTS: usize = 80;
+
+/// So many unknowns that are tied by sums are solved for.
+const MOST_TIED: usize = 2;
+
+/// From here on a coefficient is a sum, or may vanish.
+const SUMS: u8 = 3;
 
 /// Σ coefficients · unknowns + rest = 0
 struct Line {
@@ -55,6 +61,7 @@ impl Work<'_> {
         if unknowns.len() > MOST_UNKNOWNS || residuals.len() != unknowns.len() {
             return None;
         }
+        let numbers = self.in_numbers(residuals, unknowns)?;
         let mut lines = Vec::new();
         for &residual in residuals {
             let (coefficients, rest) = self.pool().coefficients_linear(residual, unknowns)?;
@@ -63,7 +70,11 @@ impl Work<'_> {
         let mut solutions: Vec<(Symbol, ExprId)> = Vec::new();
         let mut left: Vec<usize> = (0..unknowns.len()).collect();
         while !left.is_empty() {
-            let (row, at) = self.pivot(&lines, &left)?;
+            let (doubt, row, at) = self.pivot(&lines, &left)?;
+            // Several unknowns that are tied by sums have no solution that anybody would read.
+            if doubt >= SUMS && left.len() > MOST_TIED {
+                break;
+            }
             let line = lines.swap_remove(row);
             let value = self.value(&line, at, unknowns)?;
             for other in &mut lines {
@@ -75,7 +86,7 @@ impl Work<'_> {
         // The last one stands alone; the others become so one after the other.
         for i in (0..solutions.len()).rev() {
             let (symbol, value) = solutions[i];
-            if !self.agrees(value, symbol, residuals, unknowns) {
+            if !self.agrees(value, symbol, unknowns, &numbers) {
                 return None;
             }
             for earlier in solutions[..i].iter_mut() {
@@ -92,12 +103,17 @@ impl Work<'_> {
     }
 
     /// The entry to eliminate by: a single term if there is one, with the least to do.
-    fn pivot(&mut self, lines: &[Line], left: &[usize]) -> Option<(usize, usize)> {
+    fn pivot(&mut self, lines: &[Line], left: &[usize]) -> Option<(u8, usize, usize)> {
         let mut best = None;
+        let entries: Vec<ExprId> = lines
+            .iter()
+            .flat_map(|line| left.iter().map(|&at| line.coefficients[at]))
+            .collect();
+        let mut numbers = self.evaluate(&entries, &sample).into_iter();
         for (row, line) in lines.iter().enumerate() {
             for &at in left {
                 let entry = line.coefficients[at];
-                if self.number_of(entry).abs() < 1e-9 {
+                if !numbers.next().is_some_and(|number| number.abs() > 1e-9) {
                     continue;
                 }
                 let filled = |line: &&Line| !self.names_zero(line.coefficients[at]);
@@ -112,7 +128,7 @@ impl Work<'_> {
                 }
             }
         }
-        best.map(|(_, _, row, at)| (row, at))
+        best.map(|(doubt, _, row, at)| (doubt, row, at))
     }
 
     /// How well it can be divided by: numbers, then parameters, then positions, then sums, then functions, which vanish.
@@ -138,7 +154,7 @@ impl Work<'_> {
                 4
             }
             Node::Call(..) => 4,
-            _ => 3,
+            _ => SUMS,
         }
     }
 
@@ -192,53 +208,50 @@ impl Work<'_> {
         let product = pool.mul(factor, b);
         let difference = pool.sub(a, product);
         let tidy = self.tidy(difference);
-        let parts = self.reader.peek().iter_reachable(&[tidy]).len();
-        (parts <= MOST_PARTS).then_some(tidy)
+        self.is_small(tidy).then_some(tidy)
+    }
+
+    /// Whether it has few parts.
+    fn is_small(&self, e: ExprId) -> bool {
+        let pool = self.reader.peek();
+        let mut stack = vec![e];
+        let mut parts = 0;
+        while let Some(e) = stack.pop() {
+            parts += 1;
+            if parts > MOST_PARTS {
+                return false;
+            }
+            pool.node(e).for_each_child(|child| stack.push(child));
+        }
+        true
     }
 
     /// Multiplied out where that is possible, so that terms cancel.
     fn tidy(&mut self, e: ExprId) -> ExprId {
-        let flat = self.reader.multiplied_out(e).unwrap_or(e);
-        let collected = self.reader.pool().simplify(flat);
-        let size = |pool: &Pool, e| pool.iter_reachable(&[e]).len();
-        let pool = self.reader.peek();
-        if size(pool, collected) < size(pool, flat) {
-            collected
-        } else {
-            flat
-        }
+        self.reader.multiplied_out(e).unwrap_or(e)
     }
 
-    /// Whether a value, put in for its unknown, is what elimination in numbers gives.
-    fn agrees(
-        &mut self,
-        value: ExprId,
-        symbol: Symbol,
-        residuals: &[ExprId],
-        unknowns: &[Symbol],
-    ) -> bool {
-        let Some(numbers) = self.in_numbers(residuals, unknowns) else {
-            return false;
-        };
+    /// Whether a value is what elimination in numbers gives.
+    fn agrees(&self, value: ExprId, symbol: Symbol, unknowns: &[Symbol], numbers: &[f64]) -> bool {
         let at = |s: Symbol| match unknowns.iter().position(|&u| u == s) {
             Some(i) => numbers[i],
             None => sample(s),
         };
-        let expected = at(symbol);
-        let found = self.evaluate(value, &at);
+        let (expected, found) = (at(symbol), self.evaluate(&[value], &at)[0]);
         (found - expected).abs() <= 1e-7 * (1.0 + expected.abs())
     }
 
     /// The unknowns at the sample point, by elimination with pivoting.
     fn in_numbers(&mut self, residuals: &[ExprId], unknowns: &[Symbol]) -> Option<Vec<f64>> {
         let n = unknowns.len();
-        let mut rows: Vec<Vec<f64>> = Vec::new();
+        let mut entries = Vec::new();
         for &residual in residuals {
             let (coefficients, rest) = self.pool().coefficients_linear(residual, unknowns)?;
-            let mut row: Vec<f64> = coefficients.iter().map(|&c| self.number_of(c)).collect();
-            row.push(-self.number_of(rest));
-            rows.push(row);
+            entries.extend(coefficients);
+            entries.push(self.pool().neg(rest));
         }
+        let values = self.evaluate(&entries, &sample);
+        let mut rows: Vec<Vec<f64>> = values.chunks(n + 1).map(<[f64]>::to_vec).collect();
         for column in 0..n {
             let largest = (column..n)
                 .max_by(|&a, &b| rows[a][column].abs().total_cmp(&rows[b][column].abs()))?;
@@ -259,12 +272,8 @@ impl Work<'_> {
         Some((0..n).map(|i| rows[i][n] / rows[i][i]).collect())
     }
 
-    fn number_of(&mut self, e: ExprId) -> f64 {
-        self.evaluate(e, &sample)
-    }
-
-    fn evaluate(&self, e: ExprId, at: &dyn Fn(Symbol) -> f64) -> f64 {
-        self.reader.peek().evaluate(&[e], at, &|_| true)[0]
+    fn evaluate(&self, list: &[ExprId], at: &dyn Fn(Symbol) -> f64) -> Vec<f64> {
+        self.reader.peek().evaluate(list, at, &|_| true)
     }
 }
 

@@ -194,6 +194,7 @@ fn equations_of_motion_balance() {
             program: &program,
             names: &names,
             reader: Reader::new(&mut pool, &names, guards.clone()),
+            solves: true,
         };
         let motion = work.motion();
         let multipliers = work.multipliers();
@@ -392,5 +393,32 @@ fn look() {
             println!("{:?}", t.elapsed());
             println!("{}", print::plain(&d));
         }
+    }
+}
+
+#[test]
+fn timing() {
+    if std::env::var("LOOK").is_err() {
+        return;
+    };
+    for (name, tokens) in scenes() {
+        let mut best = [f64::MAX; 3];
+        for _ in 0..7 {
+            let t0 = std::time::Instant::now();
+            let (declaration, mut program) = planned(tokens.clone());
+            let t = crate::emit::emit(&program).to_string().len();
+            let t1 = std::time::Instant::now();
+            let d = super::derivation(&declaration, &mut program, None).unwrap();
+            let t2 = std::time::Instant::now();
+            let tokens = crate::emit::derivation(&program.equations.system, &d, "").to_string();
+            let t3 = std::time::Instant::now();
+            for (b, x) in best.iter_mut().zip([t1 - t0, t2 - t1, t3 - t2]) {
+                *b = b.min(x.as_secs_f64() * 1e3);
+            }
+            if t == 0 || tokens.is_empty() {
+                panic!()
+            }
+        }
+        println!("{name:24} {:8.2} {:8.2} {:8.2}", best[0], best[1], best[2]);
     }
 }
