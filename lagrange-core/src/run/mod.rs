@@ -29,7 +29,7 @@ use crate::pool::Pool;
 use crate::simulation::Settings;
 use crate::system::{System, Watch};
 use crate::trajectory::{EventKind, State, Subject, Trajectory, Work};
-use accumulation::Impacts;
+use accumulation::{Impacts, Train};
 use core::ops::Range;
 use curves::Curves;
 use hits::Hit;
@@ -101,6 +101,9 @@ pub(crate) struct Run<S: System> {
     undetermined_after: Vec<bool>,
     /// Per contact: its impacts so far.
     impacts: Vec<Impacts>,
+    /// All impacts so far.
+    train: Train,
+    scratch_mode: Mode,
     /// Watches for positions where constraints lose rank.
     rank: Rank,
     /// Distance from such a position at the start of the coming step.
@@ -165,6 +168,8 @@ impl<S: System> Run<S> {
             sharing: Sharing::default(),
             joints: Vec::new(),
             impacts: vec![Impacts::default(); d.contacts.len()],
+            train: Train::default(),
+            scratch_mode: mode.clone(),
             rank: Rank::new::<S>(),
             distance: 1.0,
             stuck: Pool::default(),
@@ -208,6 +213,7 @@ impl<S: System> Run<S> {
             .iter_mut()
             .for_each(|terms| terms.fill(false));
         self.impacts.fill(Impacts::default());
+        self.train = Train::default();
         self.rank.restart();
         self.distance = 1.0;
         self.stuck.clear();

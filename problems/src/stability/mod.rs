@@ -11,6 +11,7 @@ mod frictions;
 mod kit;
 mod rolling;
 mod scales;
+mod slips;
 mod supports;
 
 pub use kit::Surprise;
@@ -141,6 +142,36 @@ pub static CASES: &[Case] = &[
         scene: "coulomb-oscillator",
         trouble: "creeps out of its dead band",
         measure: frictions::coulomb_oscillator,
+    },
+    Case {
+        name: "incline-block",
+        scene: "incline-block",
+        trouble: "slip turns ever faster and has no change of sign",
+        measure: slips::incline_block,
+    },
+    Case {
+        name: "cue-ball",
+        scene: "cue-ball",
+        trouble: "friction chatters in two directions where it rolls",
+        measure: slips::cue_ball,
+    },
+    Case {
+        name: "turning-push",
+        scene: "turning-push",
+        trouble: "0/0: where does a slip begin to?",
+        measure: slips::turning_push,
+    },
+    Case {
+        name: "hoop-bead",
+        scene: "hoop-bead",
+        trouble: "the wire pulls, then pushes: kink of |N|",
+        measure: slips::hoop_bead,
+    },
+    Case {
+        name: "rod-sleeve",
+        scene: "rod-sleeve",
+        trouble: "slip and normal force vanish together",
+        measure: slips::rod_sleeve,
     },
     Case {
         name: "painleve-rod",

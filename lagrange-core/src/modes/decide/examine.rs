@@ -149,7 +149,13 @@ impl<T: Scalar> Decider<T> {
             } else {
                 1e-6
             };
-            let clear = noise.max(1e-6) * sizes.of(guard, dynamics);
+            let size = sizes.of(guard, dynamics);
+            let incomparable = matches!(guard, Guard::Bearing(_)) && size <= value.abs();
+            if incomparable && concerns(guard, joints, known) {
+                // All forces may vanish at this instant.
+                return true;
+            }
+            let clear = noise.max(1e-6) * size;
             if value < -clear {
                 blame(guard, joints, violated);
             }
@@ -192,7 +198,12 @@ impl<T: Scalar> Decider<T> {
                 Leading::Rises(0) => {}
                 Leading::Rises(k) => self.zeros.push((guard, k)),
                 Leading::Stays if !last => unclear = true,
-                Leading::Stays if is_held::<S>(guard, dynamics) => self.violated.push(guard),
+                Leading::Stays
+                    if self.sticks_first && matches!(guard, Guard::Slip(_))
+                        || is_held::<S>(guard, dynamics) =>
+                {
+                    self.violated.push(guard);
+                }
                 Leading::Stays => {
                     let blurred = concerns(guard, &self.joints, known);
                     if order_known > 0 || series.iter().all(|c| *c <= 0.0) || blurred {
@@ -402,11 +413,13 @@ fn concerns(guard: Guard, joints: &[Joint], known: &Known) -> bool {
                     Guard::StickUpper(f)
                     | Guard::StickLower(f)
                     | Guard::StickCone(f)
-                    | Guard::Slip(f),
+                    | Guard::Slip(f)
+                    | Guard::Bearing(f),
                     Guard::Slip(g)
                     | Guard::StickUpper(g)
                     | Guard::StickLower(g)
-                    | Guard::StickCone(g),
+                    | Guard::StickCone(g)
+                    | Guard::Bearing(g),
                 ) => f == g,
                 _ => false,
             }

@@ -57,6 +57,8 @@ pub struct Decider<T> {
     joints: Vec<Joint>,
     motion: Vec<f64>,
     sizes: Sizes,
+    /// Whether a friction that would slip and yet stay at rest must stick.
+    sticks_first: bool,
     /// Modes tried so far.
     tried: usize,
     /// Needs of everything about every row.
@@ -95,6 +97,7 @@ impl<T: Scalar> Decider<T> {
             joints: Vec::new(),
             motion: Vec::new(),
             sizes: Sizes::default(),
+            sticks_first: false,
             tried: 0,
             rows,
             everything,

@@ -36,17 +36,24 @@ impl<T: Scalar> Decider<T> {
         known: &Known,
     ) -> Result<bool, EvaluationError> {
         self.decision.ambiguous = false;
-        let mut mode = present.clone();
         look_at_slips(dynamics, moment, present, known, &self.rows);
-        Exchange::new(dynamics, present, known).begin(&mut mode);
-        let near = self.pivot_from(dynamics, table, moment, present, known, mode);
-        if let Ok(true) = near {
-            return near;
+        let mut near = present.clone();
+        Exchange::new(dynamics, present, known).begin(&mut near);
+        let mut outcome = Ok(false);
+        for (guesses, sticks_first) in [(false, true), (true, true), (false, false), (true, false)]
+        {
+            let mut mode = near.clone();
+            if guesses {
+                self.guess(dynamics, moment, present, known, &mut mode);
+            }
+            self.sticks_first = sticks_first;
+            outcome = self.pivot_from(dynamics, table, moment, present, known, mode);
+            self.sticks_first = false;
+            if let Ok(true) = outcome {
+                break;
+            }
         }
-        let mut mode = present.clone();
-        Exchange::new(dynamics, present, known).begin(&mut mode);
-        self.guess(dynamics, moment, present, known, &mut mode);
-        self.pivot_from(dynamics, table, moment, present, known, mode)
+        outcome
     }
 
     fn pivot_from<S: System<Scalar = T>>(

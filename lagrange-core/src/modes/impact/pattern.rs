@@ -218,6 +218,9 @@ impl<T: Scalar> Pattern<T> {
     fn move_on(&mut self, c: &Collision<T>, phase: &Phase<T>) {
         self.after.clear();
         self.noise.clear();
+        // What an impulse does in other rows is known to rounding of what it does in its own.
+        let efforts = self.impulses.iter().enumerate();
+        let effort: f64 = efforts.map(|(j, x)| c.strength(j) * x.value().abs()).sum();
         for i in 0..c.size {
             let (mut rate, mut size) = (phase.rates[i], phase.rates[i].value().abs());
             for (j, &impulse) in self.impulses.iter().enumerate() {
@@ -226,7 +229,8 @@ impl<T: Scalar> Pattern<T> {
                 size += part.value().abs();
             }
             self.after.push(rate);
-            self.noise.push(ROUNDING * size + TERMS * c.terms[i]);
+            self.noise
+                .push(ROUNDING * size + TERMS * (c.terms[i] + c.strength(i) * effort));
         }
     }
 

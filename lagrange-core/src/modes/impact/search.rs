@@ -513,7 +513,7 @@ impl Linear {
     }
 
     /// Rows of a ray and its direction in them.
-    fn rows<T: Copy>(ray: Ray, c: &Collision<T>) -> [(usize, f64); 2] {
+    fn rows<T: Scalar>(ray: Ray, c: &Collision<T>) -> [(usize, f64); 2] {
         match ray {
             Ray::Press(k) => [(c.touches[k].row, 1.0), (0, 0.0)],
             Ray::Rub(r, [x, y]) => {

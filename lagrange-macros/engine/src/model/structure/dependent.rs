@@ -5,10 +5,10 @@
 //! Where parameters decide whether they contradict each other, that is a remark and not a mistake.
 //! Rows that are dependent on the constraints only, as in a parallelogram of three cranks, are left to the run.
 
-use super::{Pfaffian, STATES, ZERO, gradient, is_plain};
+use super::{Pfaffian, STATES, ZERO, gradient, is_plain, slopes};
 use crate::diagnostics::Code;
 use crate::model::elaborate::Elaboration;
-use crate::model::{Hint, Level};
+use crate::model::{Contact, Hint, Level};
 
 /// A row at one state: its numbers, and the combination of independent rows that they are.
 #[derive(Clone)]
@@ -122,6 +122,47 @@ impl Elaboration<'_> {
             }
             for i in conditional {
                 self.judge(&mut closed, Subject::Constraint(i), &rows[i]);
+            }
+        }
+    }
+
+    /// Reports gaps that are declared twice, and slips whose two components are one.
+    pub(super) fn same_twice(&mut self) {
+        let contacts = &self.system.contacts;
+        for (i, contact) in contacts.iter().enumerate() {
+            let same = |other: &&Contact| {
+                other.gap == contact.gap && other.region.is_none() && contact.region.is_none()
+            };
+            if let Some(first) = contacts[..i].iter().find(same) {
+                let (text, first) = (&contact.name.text, format!("`{}`", first.name.text));
+                self.sink
+                    .report(Code::Redundant, contact.name.span, &[text, &first]);
+            }
+        }
+        let velocities = self.velocities();
+        for i in 0..self.system.frictions.len() {
+            let components: Vec<_> = self.system.frictions[i]
+                .slip
+                .iter()
+                .map(|(e, _)| *e)
+                .collect();
+            let [first, second] = components[..] else {
+                continue;
+            };
+            let pool = &mut self.system.pool;
+            let rows = [first, second].map(|e| slopes(pool, e, &velocities));
+            let one = (1..=STATES).all(|state| {
+                let mut basis = Basis::default();
+                let values = (self.values(&rows[0], state), self.values(&rows[1], state));
+                let (Some(first), Some(second)) = values else {
+                    return false;
+                };
+                basis.take(first, 0).is_some() || basis.take(second, 1).is_some()
+            });
+            if one {
+                let name = &self.system.frictions[i].name;
+                self.sink
+                    .report(Code::SlipsParallel, name.span, &[&name.text]);
             }
         }
     }
