@@ -14,6 +14,7 @@ mod motion;
 mod names;
 pub mod print;
 mod readable;
+mod solved;
 mod switches;
 #[cfg(test)]
 mod tests;
@@ -136,6 +137,8 @@ pub struct Mode {
     pub unknowns: Vec<Letter>,
     /// What determines them.
     pub equations: Vec<Statement>,
+    /// Unknowns in closed form, those for which it is short.
+    pub solution: Vec<Statement>,
     /// What must hold, and what happens if it does not.
     pub guards: Vec<Guard>,
     /// Operations of its equations of motion, shared.
