@@ -149,6 +149,19 @@ impl Mode {
         self.incipient().next().is_some()
     }
 
+    /// The mode in which the motion goes on once the slips that begin in this one have begun.
+    #[must_use]
+    pub fn under_way(&self) -> Self {
+        let mut mode = self.clone();
+        for f in 0..mode.frictions.len() {
+            if matches!(mode.frictions[f], FrictionMode::Slip(s) if matches!(s.direction, Direction::Incipient(_)))
+            {
+                mode.turn(f, Direction::AlongSlip);
+            }
+        }
+        mode
+    }
+
     /// The frictions whose slip of two components begins, with its direction.
     pub(crate) fn incipient(&self) -> impl Iterator<Item = (usize, [f64; 2])> + '_ {
         let frictions = self.frictions.iter().enumerate();
@@ -157,6 +170,17 @@ impl Mode {
                 direction: Direction::Incipient(along),
                 ..
             }) => Some((f, *along)),
+            _ => None,
+        })
+    }
+
+    /// The frictions whose slip has two components and is under way.
+    pub(crate) fn in_space(&self) -> impl Iterator<Item = (usize, Sliding)> + '_ {
+        let frictions = self.frictions.iter().enumerate();
+        frictions.filter_map(|(f, state)| match state {
+            FrictionMode::Slip(sliding) if sliding.direction == Direction::AlongSlip => {
+                Some((f, *sliding))
+            }
             _ => None,
         })
     }

@@ -9,6 +9,9 @@
 //! Every number is an *output* of a tape or a parameter-only *constant*; a [`Place`] says which.
 
 use crate::arithmetic::{Arithmetic, Scalar};
+use crate::derivation::Derivation;
+use core::fmt;
+use core::str::FromStr;
 
 /// Where a number of the description is found after a tape has run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,6 +53,11 @@ pub trait System: Clone {
 
     /// The table of names, places and needs.
     const DESCRIPTION: &'static Description;
+
+    /// What was derived, to be read; [`Derivation::NONE`] of a system written by hand.
+    fn derivation() -> &'static Derivation {
+        &Derivation::NONE
+    }
 
     /// Parameter `index` of the description.
     fn parameter(&self, index: usize) -> Self::Scalar;
@@ -151,6 +159,8 @@ pub struct Description {
     pub starts: &'static [&'static str],
     /// Units of energies and forces.
     pub units: Units,
+    /// How contacts are solved that are hit at the same instant.
+    pub impacts: Impacts,
 }
 
 /// Units of what a run reports, beside those of parameters, coordinates and [`Observe`]: derived at build time from the
@@ -179,6 +189,36 @@ impl Units {
     /// Of the multiplier of this row.
     pub fn row(&self, row: usize) -> &'static str {
         self.rows.get(row).copied().unwrap_or_default()
+    }
+}
+
+/// How contacts are solved that are hit at the same instant, or while others are closed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Impacts {
+    /// All in one solution.
+    Together,
+    /// One after the other in order of declaration, again and again, until none approaches.
+    InTurn,
+}
+
+impl fmt::Display for Impacts {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Impacts::Together => "together",
+            Impacts::InTurn => "in_turn",
+        })
+    }
+}
+
+impl FromStr for Impacts {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match text {
+            "together" => Ok(Impacts::Together),
+            "in_turn" => Ok(Impacts::InTurn),
+            _ => Err("`together` or `in_turn`"),
+        }
     }
 }
 

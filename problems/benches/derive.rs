@@ -1,7 +1,10 @@
-//! What the derive macro takes per scene: declaration → tokens, in milliseconds, and how much Rust comes out.
+//! What the derive macro takes: declaration → tokens, in milliseconds, and how much Rust comes out; for the scenes, and
+//! for chains of n links, with the operations of their mass matrix and forcing.
 //!
-//! This is the macro's own share. What rustc makes of the result is seen with `cargo build --timings`.
+//! This is the macro's own share. What rustc makes of the result is seen with `cargo build --timings`. Users' builds run
+//! macros without optimisation: `cargo bench -p lagrange-problems --bench derive --profile unoptimized`.
 
+use lagrange_engine::derive::Stage;
 use proc_macro2::TokenStream;
 use quote::ToTokens;
 use std::time::{Duration, Instant};
@@ -32,29 +35,63 @@ const SCENES: [(&str, &str); 5] = [
     ),
 ];
 
+/// Numbers of links.
+const CHAINS: [usize; 8] = [2, 3, 5, 8, 10, 20, 30, 50];
+
 fn main() {
     println!(
-        "{:24} {:>10} {:>10} {:>10}",
-        "scene", "min ms", "median ms", "tokens"
+        "{:24} {:>10} {:>10} {:>10} {:>10}",
+        "scene", "min ms", "median ms", "tokens", "operations"
     );
     for (name, source) in SCENES {
-        let declaration = declaration(source);
-        let mut times = Vec::new();
-        let mut tokens = 0;
-        let begin = Instant::now();
-        while begin.elapsed() < BUDGET || times.len() < 3 {
-            let input = declaration.clone();
-            let start = Instant::now();
-            let output = lagrange_engine::expand(input);
-            times.push(start.elapsed().as_secs_f64() * 1e3);
-            tokens = count(output);
+        row(name, &declaration(source));
+    }
+    for links in CHAINS {
+        row(&format!("chain of {links}"), &chain(links));
+    }
+}
+
+/// Measures and prints.
+fn row(name: &str, declaration: &TokenStream) {
+    let mut times = Vec::new();
+    let mut tokens = 0;
+    let begin = Instant::now();
+    while begin.elapsed() < BUDGET || times.len() < 3 {
+        let input = declaration.clone();
+        let start = Instant::now();
+        let output = lagrange_engine::expand(input);
+        times.push(start.elapsed().as_secs_f64() * 1e3);
+        tokens = count(output);
+    }
+    times.sort_by(f64::total_cmp);
+    let program = lagrange_engine::program(declaration.clone()).expect("a scene is right");
+    let always = [1];
+    println!(
+        "{name:24} {:10.3} {:10.3} {tokens:10} {:10}",
+        times[0],
+        times[times.len() / 2],
+        program.operations(Stage::Motion, &always),
+    );
+}
+
+/// A plane chain of equal links, as the scene of five of them.
+fn chain(links: usize) -> TokenStream {
+    let n = proc_macro2::Literal::usize_unsuffixed(links);
+    quote::quote! {
+        #[lagrange(
+            coordinates(theta[#n]),
+            define(
+                x[k in 0..#n] = sum(i in 0..k+1: length * sin(theta[i])),
+                y[k in 0..#n] = sum(i in 0..k+1: -length * cos(theta[i])),
+            ),
+            kinetic   = sum(k in 0..#n: mass/2 * (der(x[k])^2 + der(y[k])^2)),
+            potential = sum(k in 0..#n: mass * gravity * y[k]),
+        )]
+        pub struct Chain {
+            pub mass: f64,
+            pub length: f64,
+            pub gravity: f64,
         }
-        times.sort_by(f64::total_cmp);
-        println!(
-            "{name:24} {:10.3} {:10.3} {tokens:10}",
-            times[0],
-            times[times.len() / 2]
-        );
     }
 }
 

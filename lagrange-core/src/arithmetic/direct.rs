@@ -3,27 +3,26 @@
 //! With everything inlined a tape over [`Value`] is the right-hand side that one would write by hand.
 
 use super::{Arithmetic, Dual, Scalar};
-use core::marker::PhantomData;
 
 /// Runs a tape on plain numbers.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Value<T>(PhantomData<T>);
+#[derive(Clone, Debug, Default)]
+pub struct Value<T>(Vec<T>);
 
 impl<T> Value<T> {
-    /// The arithmetic; it has no state.
+    /// The arithmetic; it keeps a list for tapes that are data.
     pub fn new() -> Self {
-        Self(PhantomData)
+        Self(Vec::new())
     }
 }
 
 /// Runs a tape of `T` on dual numbers: Jacobian columns with respect to its inputs, `N` at a time.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Derivative<T, const N: usize>(PhantomData<T>);
+#[derive(Clone, Debug, Default)]
+pub struct Derivative<T, const N: usize>(Vec<Dual<T, N>>);
 
 impl<T, const N: usize> Derivative<T, N> {
-    /// The arithmetic; it has no state.
+    /// The arithmetic; it keeps a list for tapes that are data.
     pub fn new() -> Self {
-        Self(PhantomData)
+        Self(Vec::new())
     }
 }
 
@@ -32,6 +31,14 @@ macro_rules! direct {
         impl<$($generics)*> Arithmetic for $reading {
             type Scalar = T;
             type Node = $node;
+            #[inline(always)]
+            fn lend(&mut self) -> Vec<$node> {
+                core::mem::take(&mut self.0)
+            }
+            #[inline(always)]
+            fn give_back(&mut self, list: Vec<$node>) {
+                self.0 = list;
+            }
             #[inline(always)]
             fn constant(&mut self, _: usize, c: T) -> $node {
                 $lift(c)

@@ -84,6 +84,16 @@ pub trait Arithmetic {
     fn origin(&mut self, base: usize) {
         let _ = base;
     }
+    /// An empty list to work in, for tapes that are [data](crate::code); the one that was given back last, if it is kept.
+    #[inline(always)]
+    fn lend(&mut self) -> Vec<Self::Node> {
+        Vec::new()
+    }
+    /// Takes back what was lent.
+    #[inline(always)]
+    fn give_back(&mut self, list: Vec<Self::Node>) {
+        drop(list);
+    }
     /// c
     fn constant(&mut self, to: usize, c: Self::Scalar) -> Self::Node;
     /// x + y

@@ -92,6 +92,22 @@ fn cross<T: Scalar>(a: [T; 2], b: [T; 2]) -> T {
     a[0] * b[1] - a[1] * b[0]
 }
 
+/// The direction in which a slip goes to zero, from the slip at parts of the way there, 1 its end: chords over ever shorter
+/// parts, extrapolated. None if it does not change.
+pub(crate) fn approach(mut slip: impl FnMut(f64) -> [f64; 2]) -> Option<[f64; 2]> {
+    const PART: f64 = 1e-3;
+    let end = slip(1.0);
+    let mut along = [0.0; 2];
+    for (weight, parts) in [(3.0, 1.0), (-1.5, 2.0), (1.0 / 3.0, 3.0)] {
+        let before = slip(1.0 - parts * PART);
+        for ((along, before), end) in along.iter_mut().zip(before).zip(end) {
+            *along += weight * (before - end);
+        }
+    }
+    let length = along[0].hypot(along[1]);
+    (length > 0.0).then(|| along.map(|x| x / length))
+}
+
 impl<S: System> Dynamics<S> {
     /// The direction in which friction `f` of two components slips, or begins to: that at the last [`Self::series`],
     /// [`Self::set_heading`] or [`Self::take_headings`].

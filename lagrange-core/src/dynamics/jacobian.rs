@@ -12,6 +12,9 @@ const LANES: usize = 4;
 /// Nodes of the derivative reading.
 pub(super) type Lanes<T> = Dual<T, LANES>;
 
+/// The arithmetic of them.
+pub(super) type Seeded<T> = Derivative<T, LANES>;
+
 impl<S: System> Dynamics<S> {
     /// ∂v̇/∂(q, v) at (t, q, v) in the present mode, written to `columns`: n columns for q, then n for v, of n elements
     /// each. The values of the state are evaluated on the way ([`Self::value`]).
@@ -92,10 +95,9 @@ impl<S: System> Dynamics<S> {
                 self.lane_nodes[node] = Dual::constant(x);
             }
         }
-        let mut a = Derivative::new();
         let outputs = &mut self.lane_nodes[..d.motion.outputs];
         self.scene.motion(
-            &mut a,
+            &mut self.lanes,
             &held,
             &compiled.constants,
             &self.lane_inputs,
@@ -104,7 +106,7 @@ impl<S: System> Dynamics<S> {
         compiled
             .plan
             .program
-            .run(&mut a, &compiled.constants, &mut self.lane_nodes);
+            .run(&mut self.lanes, &compiled.constants, &mut self.lane_nodes);
     }
 
     /// ∂b − ∂K w

@@ -19,10 +19,11 @@ pub(crate) mod tests;
 mod values;
 
 pub use error::{EvaluationError, row_name};
+pub(crate) use heading::approach;
 pub use needs::{NeedSet, add_branch_guards, add_guards};
 pub use projection::Residual;
 
-use crate::arithmetic::Scalar;
+use crate::arithmetic::{Scalar, Value};
 use crate::effects::Effects;
 use crate::linear::{SolveError, Solver};
 use crate::mode::Mode;
@@ -78,6 +79,9 @@ pub struct Dynamics<S: System> {
     energies: NeedSet,
     /// Whether the tape in use is that of the present mode and needs.
     selected: bool,
+    /// Runs tapes for values and derivatives.
+    plain: Value<S::Scalar>,
+    lanes: jacobian::Seeded<S::Scalar>,
     /// t, q, v, v̇, λ of all rows at the last value.
     inputs: Vec<S::Scalar>,
     /// Outputs of the motion tape at the last value.
@@ -117,6 +121,8 @@ impl<S: System> Dynamics<S> {
             reports: false,
             energies: needs::of_energies(d),
             selected: false,
+            plain: Value::new(),
+            lanes: jacobian::Seeded::new(),
             inputs: vec![zero; 1 + 3 * n + rows],
             nodes: vec![zero; d.motion.outputs],
             report_nodes: vec![zero; d.report.outputs],
@@ -188,6 +194,9 @@ impl<S: System> Dynamics<S> {
     /// Changes the mode. The first time in a mode parameter-only numbers and the plan of the linear system are made; they are
     /// kept. What was asked for beside the motion stays asked for.
     pub fn set_mode(&mut self, mode: &Mode) {
+        for (f, along) in mode.incipient() {
+            self.set_heading(f, along.map(S::Scalar::from_f64));
+        }
         if *self.mode() == *mode {
             return;
         }
@@ -196,9 +205,6 @@ impl<S: System> Dynamics<S> {
             .iter()
             .position(|compiled| compiled.mode.has_equations_of(mode));
         self.current = known.unwrap_or_else(|| self.compile(mode));
-        for (f, along) in mode.incipient() {
-            self.set_heading(f, along.map(S::Scalar::from_f64));
-        }
         self.modes[self.current].mode.clone_from(mode);
         self.hold();
     }

@@ -3,7 +3,7 @@
 use super::compiled::Compiled;
 use super::tape::{FORCES, MOTION, Tape};
 use super::{Dynamics, EvaluationError};
-use crate::arithmetic::{Scalar, Value};
+use crate::arithmetic::Scalar;
 use crate::linear::{Inertia, SolveError, epsilon};
 use crate::system::{Held, Place, System};
 
@@ -208,12 +208,18 @@ impl<S: System> Dynamics<S> {
             branches: &compiled.mode.branches,
         };
         self.scene.motion(
-            &mut Value::new(),
+            &mut self.plain,
             &held,
             &compiled.constants,
             &self.inputs[..1 + 2 * n],
             &mut self.nodes,
         );
+    }
+
+    /// Replaces the forces of all rows that [`Self::force`] and the report tape see until the next [`Self::value`].
+    pub(crate) fn replace_forces(&mut self, forces: &[S::Scalar]) {
+        let first = 1 + 3 * S::DESCRIPTION.coordinates.len();
+        self.inputs[first..].copy_from_slice(forces);
     }
 
     /// Runs the report tape at the state of the last [`Self::value`], for the needs given to
@@ -225,7 +231,7 @@ impl<S: System> Dynamics<S> {
             branches: &compiled.mode.branches,
         };
         self.scene.report(
-            &mut Value::new(),
+            &mut self.plain,
             &held,
             &compiled.constants,
             &self.inputs,

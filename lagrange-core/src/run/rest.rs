@@ -7,6 +7,7 @@
 
 use super::Run;
 use crate::arithmetic::Scalar;
+use crate::dynamics::approach;
 use crate::error::Error;
 use crate::mode::{Direction, FrictionMode, Sliding};
 use crate::modes::guard::Guard;
@@ -123,10 +124,22 @@ impl<S: System> Run<S> {
         if speed > rounding && self.scratch.v.iter().zip(&self.earlier).any(changes) {
             return None;
         }
+        let Self {
+            step,
+            dynamics,
+            scratch,
+            ..
+        } = self;
+        let along = approach(|part| {
+            let s = S::Scalar::from_f64(part * end);
+            step.state_into(s, &mut scratch.q, &mut scratch.v);
+            dynamics.tape(step.time(s), &scratch.q, &scratch.v);
+            dynamics.slip(f).map(|s| s.value())
+        })?;
         let interval = (1.0 - JUST_BEFORE) * end * self.step.h.value();
         Some(Rest {
             friction: f,
-            along: change.map(|c| -c / fall),
+            along,
             left: -dot(now, change) / (fall * fall) * interval,
         })
     }

@@ -5,6 +5,7 @@ pub mod check;
 pub mod derive;
 pub mod diagnostics;
 pub mod emit;
+pub mod inspect;
 pub mod interpret;
 pub mod model;
 pub mod parse;
@@ -21,16 +22,31 @@ use proc_macro2::TokenStream;
 pub fn expand(input: TokenStream) -> TokenStream {
     let mut sink = Diagnostics::new();
     let declaration = parse::declaration(input.clone(), &mut sink);
-    match declaration
+    let program = declaration
         .as_ref()
-        .and_then(|declaration| planned(declaration, &mut sink))
-    {
-        Some((program, verdicts)) if sink.is_empty() => emit::emit(&program, &verdicts),
+        .and_then(|declaration| planned(declaration, &mut sink));
+    match (&declaration, program) {
+        (Some(declaration), Some((mut program, verdicts))) if sink.is_empty() => {
+            let mut tokens = emit::emit(&program, &verdicts);
+            if let Ok(derivation) = inspect::derivation(declaration, &mut program, None) {
+                let system = &program.equations.system;
+                tokens.extend(emit::derivation(system, &derivation, &input.to_string()));
+            }
+            tokens
+        }
         _ => {
             let mut tokens = sink.into_compile_errors();
             tokens.extend(emit::fallback(input, declaration.as_ref()));
             tokens
         }
+    }
+}
+
+/// The expansion as formatted Rust.
+pub fn formatted(expansion: &TokenStream) -> String {
+    match syn::parse2::<syn::File>(expansion.clone()) {
+        Ok(file) => prettyplease::unparse(&file),
+        Err(_) => expansion.to_string(),
     }
 }
 
@@ -81,3 +97,42 @@ fn planned(declaration: &Declaration, sink: &mut Diagnostics) -> Option<(Program
         }
     }
 }
+
+/// What is derived from a struct with its `#[lagrange(…)]` attributes, to be read: in one mode, or in all.
+///
+/// # Errors
+/// The declaration has mistakes, or there is no such mode.
+pub fn inspect(input: TokenStream, mode: Option<&str>) -> Result<inspect::Derivation, Refusal> {
+    let mut sink = Diagnostics::new();
+    let declaration = parse::declaration(input, &mut sink);
+    let planned = declaration.and_then(|declaration| {
+        let (program, _) = planned(&declaration, &mut sink)?;
+        Some((declaration, program))
+    });
+    match planned {
+        Some((declaration, mut program)) if sink.is_empty() => {
+            inspect::derivation(&declaration, &mut program, mode).map_err(Refusal::Mode)
+        }
+        _ => Err(Refusal::Declaration(sink)),
+    }
+}
+
+/// Why there is nothing to inspect.
+#[derive(Debug)]
+pub enum Refusal {
+    /// Mistakes in the declaration.
+    Declaration(Diagnostics),
+    /// No such mode.
+    Mode(inspect::UnknownMode),
+}
+
+impl std::fmt::Display for Refusal {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Refusal::Declaration(mistakes) => mistakes.fmt(f),
+            Refusal::Mode(unknown) => unknown.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for Refusal {}

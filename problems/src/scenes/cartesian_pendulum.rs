@@ -26,16 +26,16 @@ use lagrange_core::prelude::*;
 )]
 pub struct CartesianPendulum<T = f64> {
     /// Mass, kg.
-    #[lagrange(unit = "kg")]
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Length of the rod, m.
-    #[lagrange(unit = "m")]
+    #[lagrange(unit = "m", symbol = "l")]
     pub length: T,
     /// Gravitational acceleration, m/s².
-    #[lagrange(unit = "m/s^2")]
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// Speed at the bottom in the start `kicked`, m/s.
-    #[lagrange(unit = "m/s")]
+    #[lagrange(unit = "m/s", symbol = "v_0")]
     pub start_speed: T,
 }
 

@@ -22,16 +22,16 @@ use lagrange_core::prelude::*;
 )]
 pub struct FiveLinkChain<T = f64> {
     /// Mass at the end of each link, kg.
-    #[lagrange(unit = "kg")]
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Length of each link, m.
-    #[lagrange(unit = "m")]
+    #[lagrange(unit = "m", symbol = "l")]
     pub length: T,
     /// Gravitational acceleration, m/s².
-    #[lagrange(unit = "m/s^2")]
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// Angle of a link at the start, rad from the downward vertical.
-    #[lagrange(unit = "rad")]
+    #[lagrange(unit = "rad", symbol = "alpha")]
     pub start_angle: [T; 5],
 }
 

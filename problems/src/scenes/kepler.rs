@@ -23,13 +23,13 @@ use lagrange_core::prelude::*;
 )]
 pub struct Kepler<T = f64> {
     /// μ, m³/s².
-    #[lagrange(unit = "m^3/s^2")]
+    #[lagrange(unit = "m^3/s^2", symbol = "mu")]
     pub attraction: T,
     /// a, half the long axis of the orbit, m.
-    #[lagrange(unit = "m")]
+    #[lagrange(unit = "m", symbol = "a")]
     pub semi_major_axis: T,
     /// Eccentricity of the orbit, at least 0 and below 1.
-    #[lagrange(unit = "1")]
+    #[lagrange(unit = "1", symbol = "e")]
     pub eccentricity: T,
 }
 

@@ -41,28 +41,28 @@ use lagrange_core::prelude::*;
 )]
 pub struct MassOnWheel<T = f64> {
     /// Mass of the wheel, kg.
-    #[lagrange(unit = "kg")]
+    #[lagrange(unit = "kg", symbol = "M")]
     pub wheel: T,
     /// Moment of inertia of the wheel about its centre, kg m²; ½ M R² for a disc.
-    #[lagrange(unit = "kg m^2")]
+    #[lagrange(unit = "kg m^2", symbol = "I")]
     pub inertia: T,
     /// The small mass, kg.
-    #[lagrange(unit = "kg")]
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Radius of the wheel, m.
-    #[lagrange(unit = "m")]
+    #[lagrange(unit = "m", symbol = "R")]
     pub radius: T,
     /// Gravitational acceleration, m/s².
-    #[lagrange(unit = "m/s^2")]
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// Coefficient of static friction.
-    #[lagrange(unit = "1")]
+    #[lagrange(unit = "1", symbol = "mu_s")]
     pub mu_static: T,
     /// Coefficient of kinetic friction.
-    #[lagrange(unit = "1")]
+    #[lagrange(unit = "1", symbol = "mu_k")]
     pub mu_kinetic: T,
     /// θ at the start, rad from the upward vertical.
-    #[lagrange(unit = "rad")]
+    #[lagrange(unit = "rad", symbol = "theta_0")]
     pub start_angle: T,
 }
 

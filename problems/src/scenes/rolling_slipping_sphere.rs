@@ -48,25 +48,25 @@ use lagrange_core::prelude::*;
 )]
 pub struct RollingSlippingSphere<T = f64> {
     /// Mass of the sphere, kg.
-    #[lagrange(unit = "kg")]
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Radius of the shell, m.
-    #[lagrange(unit = "m")]
+    #[lagrange(unit = "m", symbol = "R")]
     pub radius: T,
     /// Radius of the sphere, m.
-    #[lagrange(unit = "m")]
+    #[lagrange(unit = "m", symbol = "a")]
     pub sphere_radius: T,
     /// Gravitational acceleration, m/s².
-    #[lagrange(unit = "m/s^2")]
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// Coefficient of static friction.
-    #[lagrange(unit = "1")]
+    #[lagrange(unit = "1", symbol = "mu_s")]
     pub mu_static: T,
     /// Coefficient of kinetic friction.
-    #[lagrange(unit = "1")]
+    #[lagrange(unit = "1", symbol = "mu_k")]
     pub mu_kinetic: T,
     /// θ at the start, rad from the upward vertical.
-    #[lagrange(unit = "rad")]
+    #[lagrange(unit = "rad", symbol = "theta_0")]
     pub start_angle: T,
 }
 

@@ -24,16 +24,16 @@ use lagrange_core::prelude::*;
 )]
 pub struct StiffSpringPendulum<T = f64> {
     /// Mass, kg.
-    #[lagrange(unit = "kg")]
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Natural length of the spring, m.
-    #[lagrange(unit = "m")]
+    #[lagrange(unit = "m", symbol = "l")]
     pub length: T,
     /// Gravitational acceleration, m/s².
-    #[lagrange(unit = "m/s^2")]
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// Stiffness of the spring, N/m.
-    #[lagrange(unit = "N/m")]
+    #[lagrange(unit = "N/m", symbol = "k")]
     pub stiffness: T,
     /// θ at the start, rad from the downward vertical.
     #[lagrange(unit = "rad")]

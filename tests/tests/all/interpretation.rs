@@ -62,7 +62,7 @@ fn random_inputs<S: System>(random: &mut Random) -> Vec<f64> {
     (0..count).map(|_| random.between(0.2, 2.0)).collect()
 }
 
-fn check<S: System<Scalar = f64> + Default>(source: &str) {
+pub fn check<S: System<Scalar = f64> + Default>(source: &str) {
     let d = S::DESCRIPTION;
     let program = program(source, d.name);
     let mut random = Random::new(d.name.len() as u64);
@@ -85,13 +85,16 @@ fn check<S: System<Scalar = f64> + Default>(source: &str) {
             })
             .collect();
         let x = random_inputs::<S>(&mut random);
+        let branches: Vec<u64> = (0..d.branches.len().div_ceil(64))
+            .map(|_| random.bits())
+            .collect();
         let held = Held {
             needs: &needs,
-            branches: &[],
+            branches: &branches,
         };
         let interpreted = interpret::Held {
             needs: &needs,
-            branches: &[],
+            branches: &branches,
         };
         let motion = &x[..1 + 2 * d.coordinates.len()];
         let oracle = [
@@ -142,7 +145,7 @@ fn check_starts<S: System<Scalar = f64> + Default>(source: &str) {
 }
 
 /// The derivative reading of the motion tape against central differences of the interpretation.
-fn check_derivatives<S: System<Scalar = f64> + Default>(source: &str) {
+pub fn check_derivatives<S: System<Scalar = f64> + Default>(source: &str) {
     let d = S::DESCRIPTION;
     let program = program(source, d.name);
     let mut random = Random::new(11);
@@ -152,13 +155,14 @@ fn check_derivatives<S: System<Scalar = f64> + Default>(source: &str) {
         .collect();
     let machine = Machine::new(&program, &parameters);
     let needs = vec![u64::MAX; d.needs.div_ceil(64)];
+    let branches = vec![u64::MAX; d.branches.len().div_ceil(64)];
     let held = Held {
         needs: &needs,
-        branches: &[],
+        branches: &branches,
     };
     let interpreted = interpret::Held {
         needs: &needs,
-        branches: &[],
+        branches: &branches,
     };
     let mut constants = vec![0.0; d.constants];
     scene.constants(&held, &mut constants);

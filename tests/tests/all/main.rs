@@ -7,6 +7,7 @@ mod effects;
 mod efficiency;
 mod errors;
 mod interpretation;
+mod large;
 mod random;
 mod recording;
 mod runner;

@@ -132,6 +132,7 @@ pub static PENDULUM: Description = Description {
     marks: &[],
     starts: &[],
     units: crate::system::Units::NONE,
+    impacts: crate::system::Impacts::Together,
 };
 
 impl System for Pendulum {

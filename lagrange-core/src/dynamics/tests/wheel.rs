@@ -194,6 +194,7 @@ pub static WHEEL: Description = Description {
     marks: &[],
     starts: &[],
     units: crate::system::Units::NONE,
+    impacts: crate::system::Impacts::Together,
 };
 
 fn held(h: &Held, need: usize) -> bool {

@@ -26,11 +26,11 @@ struct Turn {
     across: f64,
 }
 
-impl Decider {
+impl<T: Scalar> Decider<T> {
     /// Finds the directions in which the slips of `self.posed` begin, and writes them there. False: there are none.
     ///
     /// Of several the one nearest to that of what made it stick is taken.
-    pub(super) fn find_directions<S: System>(
+    pub(super) fn find_directions<S: System<Scalar = T>>(
         &mut self,
         dynamics: &mut Dynamics<S>,
         table: &mut Table,
@@ -50,7 +50,7 @@ impl Decider {
     }
 
     /// Angles against the forces that would keep the slips at zero.
-    fn against_sticking<S: System>(
+    fn against_sticking<S: System<Scalar = T>>(
         &mut self,
         dynamics: &mut Dynamics<S>,
         moment: Moment<'_, S::Scalar>,
@@ -86,7 +86,7 @@ impl Decider {
     }
 
     /// All directions of one slip: that nearest to `angle`.
-    fn look_around<S: System>(
+    fn look_around<S: System<Scalar = T>>(
         &mut self,
         dynamics: &mut Dynamics<S>,
         moment: Moment<'_, S::Scalar>,

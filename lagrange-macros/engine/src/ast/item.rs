@@ -325,4 +325,6 @@ pub enum Impacts {
     /// In one solution.
     #[default]
     Together,
+    /// One after the other, in order of declaration, again and again, until none approaches.
+    InTurn,
 }

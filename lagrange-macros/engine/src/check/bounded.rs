@@ -280,6 +280,7 @@ impl Floating<'_> {
                 Bounded::rounded(y.value.atan2(x.value), error)
             }
             Node::Call(f, arguments) => call(*f, at(arguments[0])?)?,
+            Node::Group(e) => at(*e)?,
             Node::Select { .. } => at(self.side(pool, e, known)?)?,
         })
     }

@@ -3,8 +3,8 @@
 
 use super::euler_lagrange::Inertia;
 use super::sheet::Sheet;
-use crate::symbolic::{ExprId, Pool, Symbol};
-use std::collections::BTreeSet;
+use crate::symbolic::{ExprId, Node, Pool, Rational, Symbol};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Per coordinate: whether neither energies nor `others` (rows, forces, coefficients) depend on its position.
 pub(super) fn cyclic(sheet: &mut Sheet, inertias: &[Inertia], others: &[ExprId]) -> Vec<bool> {
@@ -17,7 +17,7 @@ pub(super) fn cyclic(sheet: &mut Sheet, inertias: &[Inertia], others: &[ExprId])
         .flat_map(|inertia| inertia.parts.iter().chain([&inertia.potential]))
     {
         present.extend(behind_guards(pool, &guards, *part));
-        energies.push((*part, pool.symbols(*part)));
+        energies.push(terms_with(pool, *part));
     }
     for &e in others {
         present.extend(behind_guards(pool, &guards, e));
@@ -25,9 +25,9 @@ pub(super) fn cyclic(sheet: &mut Sheet, inertias: &[Inertia], others: &[ExprId])
     }
     let mut free = |q: Symbol| {
         !present.contains(&q)
-            && energies.iter().all(|(part, symbols)| {
-                symbols.binary_search(&q).is_err() || is_flat(pool, *part, q)
-            })
+            && energies
+                .iter()
+                .all(|terms| terms.get(&q).is_none_or(|terms| is_flat(pool, terms, q)))
     };
     sheet.x.positions.iter().map(|&q| free(q)).collect()
 }
@@ -46,9 +46,26 @@ fn behind_guards(pool: &Pool, guards: &[ExprId], e: ExprId) -> BTreeSet<Symbol> 
     symbols
 }
 
-/// Whether an expression contains a position by form only.
-fn is_flat(pool: &mut Pool, e: ExprId, q: Symbol) -> bool {
-    let slope = pool.differentiate(e, q);
+/// The terms of a sum in which each symbol occurs: a large energy has many, each with few symbols.
+fn terms_with(pool: &Pool, e: ExprId) -> BTreeMap<Symbol, Vec<(ExprId, Rational)>> {
+    let mut terms_with: BTreeMap<_, Vec<_>> = BTreeMap::new();
+    let mut put = |term, number| {
+        for symbol in pool.symbols(term) {
+            terms_with.entry(symbol).or_default().push((term, number));
+        }
+    };
+    match pool.node(e) {
+        Node::Sum { terms, .. } => terms.iter().for_each(|&(term, c)| put(term, c)),
+        _ => put(e, Rational::ONE),
+    }
+    terms_with
+}
+
+/// Whether terms contain a position by form only.
+fn is_flat(pool: &mut Pool, terms: &[(ExprId, Rational)], q: Symbol) -> bool {
+    let slopes = terms.iter().map(|&(e, c)| (pool.differentiate(e, q), c));
+    let slopes = slopes.collect();
+    let slope = pool.linear(Rational::ZERO, slopes);
     let slope = pool.simplify(slope);
     pool.is_zero(slope)
 }

@@ -37,7 +37,8 @@ pub(super) fn energies(
         };
         kinetic.push((need, declared));
         potential.push((need, inertia.potential));
-        jacobi.push((need, pool.add(inertia.motional, inertia.potential)));
+        let parts = [inertia.motional, inertia.potential].map(|part| pool.group_sum(part));
+        jacobi.push((need, pool.sum(&parts)));
         let lagrangian = pool.sub(inertia.kinetic, inertia.potential);
         let explicit = pool.differentiate(lagrangian, sheet.system.time);
         let explicit = pool.neg(explicit);

@@ -12,8 +12,9 @@ use super::NeedId;
 use super::forms::{Variables, cheapest};
 use super::needs::{ALWAYS, Needs};
 use super::quadratic::Quadratic;
+use super::squares::Squares;
 use crate::model::System;
-use crate::symbolic::{ExprId, Pool};
+use crate::symbolic::{ExprId, Node, Pool, Rational};
 use std::collections::BTreeMap;
 
 /// With more coordinates than this, entries of f and p are not multiplied out: the terms grow like n³.
@@ -75,6 +76,11 @@ pub(super) fn groups(system: &mut System, needs: &Needs) -> Vec<Group> {
 /// The Euler–Lagrange equations of one group.
 pub(super) fn derive(pool: &mut Pool, x: &Variables, group: &Group) -> Inertia {
     let moving = x.velocities_in(pool, group.kinetic);
+    if moving.len() > LARGE
+        && let Some(squares) = Squares::of(pool, x, group.kinetic)
+    {
+        return large(pool, x, group, &squares);
+    }
     let raw_momenta: Vec<(usize, ExprId)> = moving
         .iter()
         .map(|&i| (i, pool.differentiate(group.kinetic, x.velocities[i])))
@@ -98,13 +104,7 @@ pub(super) fn derive(pool: &mut Pool, x: &Variables, group: &Group) -> Inertia {
         .all(|&entry| x.velocities_in(pool, entry).is_empty());
     let expansion = quadratic.then(|| Quadratic::new(pool, x, group.kinetic, &raw_momenta, &mass));
 
-    let potential = pool.simplify(group.potential);
-    let conservative: Vec<ExprId> = (0..x.len())
-        .map(|i| {
-            let slope = pool.differentiate(potential, x.positions[i]);
-            pool.neg(slope)
-        })
-        .collect();
+    let (potential, conservative) = conservative(pool, x, group.potential);
 
     let small = moving.len() <= LARGE;
     let mut forms = Vec::new();
@@ -158,13 +158,61 @@ pub(super) fn derive(pool: &mut Pool, x: &Variables, group: &Group) -> Inertia {
             .filter(|&(_, p)| !pool.is_zero(p))
             .collect(),
         mass,
-        forcing: forcing
-            .into_iter()
-            .enumerate()
-            .filter(|&(_, f)| !pool.is_zero(f))
-            .collect(),
+        forcing: present(pool, forcing),
         quadratic,
     }
+}
+
+/// The equations of motion of a large system whose T is a sum of squares.
+fn large(pool: &mut Pool, x: &Variables, group: &Group, squares: &Squares) -> Inertia {
+    let (potential, conservative) = conservative(pool, x, group.potential);
+    let inertial = squares.forcing(pool, x);
+    let forcing = total(pool, &inertial, &conservative, Pool::factor);
+    let mass = squares.mass(pool, x);
+    let kinetic = squares.energy(pool);
+    Inertia {
+        need: group.need,
+        kinetic,
+        motional: kinetic,
+        parts: mass.values().copied().collect(),
+        potential,
+        momenta: squares.momenta(pool),
+        mass,
+        forcing: present(pool, forcing),
+        quadratic: true,
+    }
+}
+
+/// V in its cheapest form, and −∂V/∂q.
+fn conservative(pool: &mut Pool, x: &Variables, potential: ExprId) -> (ExprId, Vec<ExprId>) {
+    let potential = pool.simplify(potential);
+    // Term by term: most terms of a large V know few of the positions.
+    let terms = match pool.node(potential) {
+        Node::Sum { terms, .. } => terms.clone(),
+        _ => vec![(potential, Rational::ONE)],
+    };
+    let mut slopes = vec![Vec::new(); x.len()];
+    for (term, number) in terms {
+        for i in x.positions_in(pool, term) {
+            let slope = pool.differentiate(term, x.positions[i]);
+            slopes[i].push(pool.scale(slope, number));
+        }
+    }
+    let forces = slopes.into_iter().map(|slopes| {
+        let slope = pool.sum(&slopes);
+        pool.neg(slope)
+    });
+    let forces = forces.collect();
+    (potential, forces)
+}
+
+/// (i, fᵢ), zeros left out.
+fn present(pool: &Pool, forcing: Vec<ExprId>) -> Vec<(usize, ExprId)> {
+    forcing
+        .into_iter()
+        .enumerate()
+        .filter(|&(_, f)| !pool.is_zero(f))
+        .collect()
 }
 
 /// ∂T/∂qᵢ − (d/dt ∂T/∂vᵢ) at v̇ = 0, term by term.

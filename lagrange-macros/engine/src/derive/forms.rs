@@ -65,6 +65,14 @@ impl Variables {
         indices_in(&self.positions, &pool.symbols(e))
     }
 
+    /// Whether e can change during a run: it is no expression of parameters alone.
+    pub fn changes(&self, pool: &Pool, e: ExprId) -> bool {
+        !pool.branches(e).is_empty()
+            || pool.depends_on_any(e, &[self.time])
+            || pool.depends_on_any(e, &self.positions)
+            || pool.depends_on_any(e, &self.velocities)
+    }
+
     /// e at v = 0.
     pub fn at_rest(&self, pool: &mut Pool, e: ExprId) -> ExprId {
         let rest: Vec<_> = self
@@ -85,10 +93,10 @@ impl Variables {
     }
 }
 
+/// Both are ascending.
 fn indices_in(symbols: &[Symbol], present: &[Symbol]) -> Vec<usize> {
-    (0..symbols.len())
-        .filter(|&i| present.binary_search(&symbols[i]).is_ok())
-        .collect()
+    let index = |symbol| symbols.binary_search(symbol).ok();
+    present.iter().filter_map(index).collect()
 }
 
 /// The form with the fewest operations when computed beside `company`; of equals the first.

@@ -1,6 +1,7 @@
 //! The table that says what the numbers of the tapes mean: `lagrange_core::system::Description`.
 
 use super::names::{self, index};
+use crate::ast::Impacts;
 use crate::derive::{Load, NeedId, OutputId};
 use crate::model::{Condition, ItemName, Normal, Restitution, System, Watch};
 use crate::plan::{Program, Tape};
@@ -85,6 +86,10 @@ pub fn description(program: &Program) -> TokenStream {
         .map(|(watch, numbers)| writer.watch(watch, numbers));
     let starts = system.starts.iter().map(|start| &start.name.text);
     let units = units(system);
+    let impacts = match system.impacts {
+        Impacts::Together => quote!(Together),
+        Impacts::InTurn => quote!(InTurn),
+    };
     quote! {
         #core::system::Description {
             name: #name,
@@ -114,6 +119,7 @@ pub fn description(program: &Program) -> TokenStream {
             marks: &[#(#marks),*],
             starts: &[#(#starts),*],
             units: #units,
+            impacts: #core::system::Impacts::#impacts,
         }
     }
 }

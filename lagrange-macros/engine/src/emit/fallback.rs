@@ -1,6 +1,7 @@
 //! What stands beside the errors of a declaration: an `impl System` that type-checks, so that one mistake does not
 //! become an error at every use of the struct.
 
+use super::derivation;
 use super::handles::{self, Indices};
 use super::names::plain;
 use crate::ast::{Declaration, Head, ItemKind, Name, Observe};
@@ -92,7 +93,9 @@ fn placeholders(declaration: &Declaration, core: &TokenStream) -> TokenStream {
     }
     let name = &declaration.name;
     let arguments = declaration.scalar.as_ref().map(|_| quote!(<f64>));
-    handles::inherent(quote!(#name #arguments), &constants)
+    let mut tokens = handles::inherent(quote!(#name #arguments), &constants);
+    tokens.extend(derivation::nothing(quote!(#name #arguments), core));
+    tokens
 }
 
 fn implementation(input: &DeriveInput, core: &TokenStream) -> TokenStream {
@@ -184,6 +187,8 @@ fn empty(core: &TokenStream) -> TokenStream {
             stops: &[],
             marks: &[],
             starts: &[],
+            impacts: #core::system::Impacts::Together,
+            units: #core::system::Units::NONE,
         }
     }
 }

@@ -2,6 +2,8 @@
 //! The only place that uses `quote`.
 
 mod checks;
+mod code;
+mod derivation;
 mod description;
 mod fallback;
 mod handles;
@@ -17,9 +19,10 @@ use crate::plan::Program;
 use proc_macro2::TokenStream;
 use quote::quote;
 
+pub use derivation::derivation;
 pub use fallback::fallback;
 
-/// `impl System` and the handles of a program.
+/// `impl System` and the handles of a program; [`derivation()`] belongs to it.
 pub fn emit(program: &Program, verdicts: &[Verdict]) -> TokenStream {
     let system = &program.equations.system;
     let (name, core) = (&system.name, &system.core);
@@ -30,6 +33,10 @@ pub fn emit(program: &Program, verdicts: &[Verdict]) -> TokenStream {
             quote!(#scalar),
         ),
         None => (quote!(), quote!(), quote!(f64)),
+    };
+    let inherent = match &system.scalar {
+        Some(_) => quote!(#name::<f64>),
+        None => quote!(#name),
     };
     let handles = handles::handles(program);
     let checks = checks::checks(program, verdicts);
@@ -48,6 +55,9 @@ pub fn emit(program: &Program, verdicts: &[Verdict]) -> TokenStream {
         impl #generics #core::system::System for #name #arguments {
             type Scalar = #scalar;
             const DESCRIPTION: &'static #core::system::Description = &#description;
+            fn derivation() -> &'static #core::Derivation {
+                #inherent::derivation()
+            }
             #access
             #start
             #constants

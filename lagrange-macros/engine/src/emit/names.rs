@@ -34,7 +34,11 @@ pub fn index(index: usize) -> Literal {
 
 /// An exact number as the nearest f64.
 pub fn float(number: Rational) -> TokenStream {
-    let number = number.to_f64();
+    f64(number.to_f64())
+}
+
+/// A number.
+pub fn f64(number: f64) -> TokenStream {
     let size = Literal::f64_suffixed(number.abs());
     if number < 0.0 {
         quote!(-#size)

@@ -1,5 +1,6 @@
 //! Programs on plain scalars: the constants, the starts, and access to the parameters.
 
+use super::code;
 use super::names::{self, local};
 use crate::model::System;
 use crate::plan::{Mode, Operation, Program, StartTarget, Tape, Value};
@@ -34,6 +35,24 @@ pub fn constants(program: &Program) -> TokenStream {
     let core = &system.core;
     let (held, c) = (local("held"), local("c"));
     let tape = &program.constants;
+    if code::is_large(tape) {
+        let (x, index) = (local("x"), local("index"));
+        let count = names::index(system.parameters.len());
+        let run = code::run(
+            system,
+            tape,
+            quote!(&mut #core::arithmetic::Value::new()),
+            quote!(&#x),
+            quote!(#c),
+            quote!(&[]),
+        );
+        return quote! {
+            fn constants(&self, #held: &#core::system::Held, #c: &mut [Self::Scalar]) {
+                let #x: [Self::Scalar; #count] = ::core::array::from_fn(|#index| self.parameter(#index));
+                #run
+            }
+        };
+    }
     let outputs = names::index(tape.outputs);
     let outputs = names::array(&c, quote!(#c.first_chunk_mut::<#outputs>()));
     let needs = names::needs(program.equations.needs.len());

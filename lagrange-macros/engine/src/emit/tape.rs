@@ -1,5 +1,6 @@
 //! A tape as a method generic over the arithmetic: one call per operation, one `if` per block.
 
+use super::code;
 use super::names::{self, local};
 use crate::derive::Stage;
 use crate::model::System;
@@ -25,8 +26,13 @@ pub fn tape(program: &Program, stage: Stage) -> TokenStream {
     );
     // A type parameter is not hygienic: the struct's own must not have this name.
     let arithmetic = names::plain("LagrangeArithmetic");
-    let prologue = prologue(program, tape);
-    let blocks = Writer::new(system, tape).blocks();
+    let body = if code::is_large(tape) {
+        code::run(system, tape, quote!(#a), quote!(#x), quote!(#y), quote!(#c))
+    } else {
+        let prologue = prologue(program, tape);
+        let blocks = Writer::new(system, tape).blocks();
+        quote!(#prologue #blocks)
+    };
     quote! {
         #[inline]
         fn #name<#arithmetic: #core::arithmetic::Arithmetic<Scalar = Self::Scalar>>(
@@ -37,8 +43,7 @@ pub fn tape(program: &Program, stage: Stage) -> TokenStream {
             #x: &[#arithmetic::Node],
             #y: &mut [#arithmetic::Node],
         ) {
-            #prologue
-            #blocks
+            #body
         }
     }
 }

@@ -218,6 +218,24 @@ fn pairs<A: Ord + Copy>(bag: &Bag<A>) -> Vec<Pair<A>> {
     pairs
 }
 
+/// Those of a bag's pairs in which one of the operands is.
+fn pairs_with<A: Ord + Copy>(bag: &Bag<A>, operands: &[A]) -> Vec<Pair<A>> {
+    let mut pairs = Vec::with_capacity(operands.len() * bag.len());
+    for (at, operand) in operands.iter().enumerate() {
+        let Some(&m) = bag.get(operand) else { continue };
+        if m >= 2 {
+            pairs.push((*operand, *operand, 1));
+        }
+        for (&other, &n) in bag {
+            if other != *operand && !operands[..at].contains(&other) {
+                let (first, second) = (other.min(*operand), other.max(*operand));
+                pairs.push((first, second, m.signum() * n.signum()));
+            }
+        }
+    }
+    pairs
+}
+
 /// How often the pair can be taken from the bag; negative for its negation.
 fn multiplicity<A: Ord + Copy>(bag: &Bag<A>, (first, second, sign): Pair<A>) -> i32 {
     let m = bag.get(&first).copied().unwrap_or(0);
@@ -274,7 +292,9 @@ fn extract<A: Ord + Copy>(
         for id in holders {
             let bag = bags.get_mut(&id).expect("holders are bags");
             let times = multiplicity(bag, pair);
-            for old in pairs(bag) {
+            let mut changing = vec![pair.0, pair.1, operand(node)];
+            changing.dedup();
+            for old in pairs_with(bag, &changing) {
                 census.count(old, id, false);
             }
             if id != node && times != 0 && !bag.contains_key(&operand(node)) {
@@ -282,7 +302,8 @@ fn extract<A: Ord + Copy>(
                 graph.reshape(id, shape(bag, Some(&graph.shape(id).clone())));
             }
             if id != node {
-                for new in pairs(bag).into_iter().filter(|new| *new != pair) {
+                let new = pairs_with(bag, &changing).into_iter();
+                for new in new.filter(|new| *new != pair) {
                     census.count(new, id, true);
                 }
             }

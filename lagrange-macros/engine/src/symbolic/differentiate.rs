@@ -95,6 +95,7 @@ impl Pool {
                 ];
                 self.derivative_of_call(e, f, arguments, derivatives)
             }
+            Node::Group(e) => of(e).unwrap_or(zero),
             Node::Select {
                 branch,
                 then,

@@ -27,6 +27,7 @@ impl Pool {
                 Node::Power(base, exponent) => at(*base).powf(at(*exponent)),
                 Node::Call(Function::Atan2, arguments) => at(arguments[0]).atan2(at(arguments[1])),
                 Node::Call(f, arguments) => apply(*f, at(arguments[0])),
+                Node::Group(e) => at(*e),
                 Node::Select {
                     branch,
                     then: first,

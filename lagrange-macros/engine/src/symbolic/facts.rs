@@ -23,6 +23,11 @@ impl Pool {
         self.facts[e.index()].symbols
     }
 
+    /// Whether a selection occurs.
+    pub(super) fn holds_selection(&self, e: ExprId) -> bool {
+        self.symbol_bits(e) >> 63 == 1
+    }
+
     /// Whether it is a product with a squared sin, cos, sinh or cosh.
     pub(super) fn has_square(&self, e: ExprId) -> bool {
         self.facts[e.index()].square

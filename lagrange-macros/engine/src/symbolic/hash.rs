@@ -92,6 +92,10 @@ pub(super) fn hash_of(node: &Node) -> u64 {
                 mix.word(u64::from(e.0));
             }
         }
+        Node::Group(e) => {
+            mix.word(9);
+            mix.word(u64::from(e.0));
+        }
         Node::Select {
             branch,
             then,

@@ -14,6 +14,7 @@ mod factor;
 mod facts;
 pub mod field;
 mod function;
+mod group;
 mod hash;
 mod linear;
 mod node;

@@ -109,6 +109,9 @@ pub enum Node {
     Power(ExprId, ExprId),
     /// f(arguments)
     Call(Function, Vec<ExprId>),
+    /// A part that is computed as a whole: its value is that of the expression, but sums and products around it do not
+    /// take it apart. See [`super::Pool::group`].
+    Group(ExprId),
     /// Branch `branch` on its `then` side: first, else second.
     Select {
         /// Number of the branch.
@@ -139,6 +142,7 @@ impl Node {
                     visit(e);
                 }
             }
+            Node::Group(e) => visit(*e),
             Node::Select {
                 then, otherwise, ..
             } => {

@@ -106,6 +106,7 @@ impl Count<'_> {
                     self.scaled_use(argument);
                 }
             }
+            Node::Group(e) => self.scaled_use(*e),
             Node::Select {
                 then, otherwise, ..
             } => {

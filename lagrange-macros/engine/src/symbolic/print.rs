@@ -37,6 +37,7 @@ impl Pool {
                     Tightness::Atom,
                 )
             }
+            Node::Group(e) => (format!("({})", self.print(*e)), Tightness::Atom),
             Node::Select {
                 branch,
                 then,

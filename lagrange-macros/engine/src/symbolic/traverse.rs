@@ -68,35 +68,46 @@ impl Pool {
 
     /// All symbols that occur, ascending.
     pub fn symbols(&self, e: ExprId) -> Vec<Symbol> {
-        let reachable = self.iter_reachable(&[e]).into_iter();
-        let mut symbols: Vec<Symbol> = reachable
-            .filter_map(|e| {
-                if let Node::Symbol(symbol) = self.node(e) {
-                    Some(*symbol)
-                } else {
-                    None
+        let mut symbols = Vec::new();
+        self.visit(
+            e,
+            |_| false,
+            |node| {
+                if let Node::Symbol(symbol) = node {
+                    symbols.push(*symbol);
                 }
-            })
-            .collect();
+            },
+        );
         symbols.sort();
         symbols
     }
 
     /// All branches that occur, ascending.
     pub fn branches(&self, e: ExprId) -> Vec<usize> {
-        let reachable = self.iter_reachable(&[e]).into_iter();
-        let mut branches: Vec<usize> = reachable
-            .filter_map(|e| {
-                if let Node::Select { branch, .. } = self.node(e) {
-                    Some(*branch)
-                } else {
-                    None
-                }
-            })
-            .collect();
+        let mut branches = Vec::new();
+        let whole = |e| !self.holds_selection(e);
+        self.visit(e, whole, |node| {
+            if let Node::Select { branch, .. } = node {
+                branches.push(*branch);
+            }
+        });
         branches.sort();
         branches.dedup();
         branches
+    }
+
+    /// Shows each distinct sub-expression once, in no particular order; what `skip` says is left out with all below it.
+    fn visit(&self, e: ExprId, skip: impl Fn(ExprId) -> bool, mut show: impl FnMut(&Node)) {
+        let mut seen = Flags::default();
+        let mut stack = vec![e];
+        while let Some(e) = stack.pop() {
+            if skip(e) || !seen.raise(e, 0) {
+                continue;
+            }
+            let node = self.node(e);
+            show(node);
+            node.for_each_child(|child| stack.push(child));
+        }
     }
 
     /// e with symbols replaced, all at once. Where that puts 0 under a negative power, the value is infinite.
@@ -188,6 +199,10 @@ impl Pool {
             Node::Call(f, arguments) => {
                 let (f, arguments) = (*f, arguments.iter().map(new).collect::<Vec<_>>());
                 self.call(f, &arguments)
+            }
+            Node::Group(e) => {
+                let e = new(e);
+                self.group(e)
             }
             Node::Select {
                 branch,

@@ -101,18 +101,24 @@ fn by_unit(curves: Vec<(&'static str, Curve)>, what: &str) -> Vec<Panel> {
 fn force_curves(outcome: &Outcome) -> Vec<(&'static str, Curve)> {
     let description = outcome.description;
     let mut curves = Vec::new();
-    for (colour, force) in forces(description).into_iter().enumerate() {
-        let friction = matches!(force.source, Source::Friction(_));
+    let mut forces = forces(description);
+    // A friction of two components is one curve, too.
+    forces.dedup_by_key(|force| force.source);
+    for (colour, force) in forces.into_iter().enumerate() {
         let value = |sample: &Sample| {
-            let value = sample.forces[force.row];
-            force
-                .acts(description, &sample.mode)
-                .then(|| if friction { value.abs() } else { value })
+            let value = match force.source {
+                Source::Friction(i) => {
+                    let components = description.frictions[i].components;
+                    let parts = &sample.forces[force.row..force.row + components];
+                    parts.iter().fold(0.0, |size, x| x.hypot(size))
+                }
+                _ => sample.forces[force.row],
+            };
+            force.acts(description, &sample.mode).then_some(value)
         };
-        let name = if friction {
-            format!("|{}|", force.name)
-        } else {
-            force.name.clone()
+        let name = match force.source {
+            Source::Friction(i) => format!("|{}|", description.frictions[i].name),
+            _ => force.name.clone(),
         };
         let unit = description.units.row(force.row);
         let curve = Curve {

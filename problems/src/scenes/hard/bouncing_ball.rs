@@ -23,10 +23,10 @@ use lagrange_core::prelude::*;
 )]
 pub struct BouncingBall<T = f64> {
     /// Mass, kg.
-    #[lagrange(unit = "kg")]
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Gravitational acceleration, m/s².
-    #[lagrange(unit = "m/s^2")]
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// Restitution e: speed after an impact over speed before.
     #[lagrange(unit = "1")]

@@ -19,13 +19,13 @@ use lagrange_core::prelude::*;
 )]
 pub struct Cradle<T = f64> {
     /// Mass of each ball, kg.
-    #[lagrange(unit = "kg")]
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Radius of each ball, m.
-    #[lagrange(unit = "m")]
+    #[lagrange(unit = "m", symbol = "R")]
     pub radius: T,
     /// Restitution e.
-    #[lagrange(unit = "1")]
+    #[lagrange(unit = "1", symbol = "e")]
     pub bounce: T,
     /// Speed of the first ball, m/s.
     #[lagrange(unit = "m/s")]

@@ -19,13 +19,13 @@ use lagrange_core::prelude::*;
 )]
 pub struct LongPendulum<T = f64> {
     /// Mass, kg.
-    #[lagrange(unit = "kg")]
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Length l, m.
-    #[lagrange(unit = "m")]
+    #[lagrange(unit = "m", symbol = "l")]
     pub length: T,
     /// Gravitational acceleration, m/s².
-    #[lagrange(unit = "m/s^2")]
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// Angle θ₀ at the start, rad from the bottom.
     #[lagrange(unit = "rad")]

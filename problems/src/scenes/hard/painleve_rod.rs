@@ -28,13 +28,13 @@ use lagrange_core::prelude::*;
 )]
 pub struct PainleveRod<T = f64> {
     /// Mass, kg.
-    #[lagrange(unit = "kg")]
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Half the length, m.
     #[lagrange(unit = "m")]
     pub half: T,
     /// Gravitational acceleration, m/s².
-    #[lagrange(unit = "m/s^2")]
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// Coefficient of friction, static and kinetic.
     #[lagrange(unit = "1")]

@@ -20,19 +20,19 @@ use lagrange_core::prelude::*;
 )]
 pub struct Parallelogram<T = f64> {
     /// Mass of the beam, kg.
-    #[lagrange(unit = "kg")]
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Moment of inertia of the beam about its middle, kg m².
-    #[lagrange(unit = "kg m^2")]
+    #[lagrange(unit = "kg m^2", symbol = "I")]
     pub inertia: T,
     /// Distance of neighbouring cranks, m.
     #[lagrange(unit = "m")]
     pub span: T,
     /// Length of the cranks, m.
-    #[lagrange(unit = "m")]
+    #[lagrange(unit = "m", symbol = "l")]
     pub length: T,
     /// Gravitational acceleration, m/s².
-    #[lagrange(unit = "m/s^2")]
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// Speed at the bottom, m/s; goes round if above √(4 g l).
     #[lagrange(unit = "m/s")]

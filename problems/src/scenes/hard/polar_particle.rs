@@ -22,7 +22,7 @@ use lagrange_core::prelude::*;
 )]
 pub struct PolarParticle<T = f64> {
     /// Mass, kg.
-    #[lagrange(unit = "kg")]
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Speed, m/s.
     #[lagrange(unit = "m/s")]

@@ -32,10 +32,10 @@ use lagrange_core::prelude::*;
 )]
 pub struct Rattleback<T = f64> {
     /// Mass, kg.
-    #[lagrange(unit = "kg")]
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Moments of inertia about the ellipsoid's axes, kg m².
-    #[lagrange(unit = "kg m^2")]
+    #[lagrange(unit = "kg m^2", symbol = "I")]
     pub inertia: [T; 3],
     /// Product of inertia I₁₂, kg m².
     #[lagrange(unit = "kg m^2")]
@@ -53,7 +53,7 @@ pub struct Rattleback<T = f64> {
     #[lagrange(unit = "m")]
     pub height: T,
     /// Gravitational acceleration, m/s².
-    #[lagrange(unit = "m/s^2")]
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// Spin at the start, rad/s.
     #[lagrange(unit = "rad/s")]

@@ -36,13 +36,13 @@ use lagrange_core::prelude::*;
 )]
 pub struct RollingDisk<T = f64> {
     /// Mass, kg.
-    #[lagrange(unit = "kg")]
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Radius R, m.
-    #[lagrange(unit = "m")]
+    #[lagrange(unit = "m", symbol = "R")]
     pub radius: T,
     /// Gravitational acceleration, m/s².
-    #[lagrange(unit = "m/s^2")]
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// θ at the start, rad from the floor.
     #[lagrange(unit = "rad")]

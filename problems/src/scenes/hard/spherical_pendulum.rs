@@ -22,13 +22,13 @@ use lagrange_core::prelude::*;
 )]
 pub struct SphericalPendulum<T = f64> {
     /// Mass, kg.
-    #[lagrange(unit = "kg")]
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Length, m.
-    #[lagrange(unit = "m")]
+    #[lagrange(unit = "m", symbol = "l")]
     pub length: T,
     /// Gravitational acceleration, m/s².
-    #[lagrange(unit = "m/s^2")]
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// Largest θ, rad.
     #[lagrange(unit = "rad")]

@@ -17,16 +17,16 @@ use lagrange_core::prelude::*;
 )]
 pub struct SpringPendulum<T = f64> {
     /// Mass, kg.
-    #[lagrange(unit = "kg")]
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Length l of the relaxed spring, m.
-    #[lagrange(unit = "m")]
+    #[lagrange(unit = "m", symbol = "l")]
     pub length: T,
     /// Gravitational acceleration, m/s².
-    #[lagrange(unit = "m/s^2")]
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// Stiffness k, N/m.
-    #[lagrange(unit = "N/m")]
+    #[lagrange(unit = "N/m", symbol = "k")]
     pub stiffness: T,
     /// θ at the start, rad from the bottom.
     #[lagrange(unit = "rad")]

@@ -23,19 +23,19 @@ use lagrange_core::prelude::*;
 )]
 pub struct Turntable<T = f64> {
     /// Mass of the ball, kg.
-    #[lagrange(unit = "kg")]
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Radius of the ball, m.
-    #[lagrange(unit = "m")]
+    #[lagrange(unit = "m", symbol = "R")]
     pub radius: T,
     /// Rate Ω of the table, rad/s.
-    #[lagrange(unit = "rad/s")]
+    #[lagrange(unit = "rad/s", symbol = "Omega")]
     pub rate: T,
     /// Distance from the axle at the start, m.
     #[lagrange(unit = "m")]
     pub start_x: T,
     /// Speed at the start, across the radius, m/s.
-    #[lagrange(unit = "m/s")]
+    #[lagrange(unit = "m/s", symbol = "v_0")]
     pub start_speed: T,
 }
 

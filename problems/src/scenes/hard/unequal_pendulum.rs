@@ -22,13 +22,13 @@ use lagrange_core::prelude::*;
 )]
 pub struct UnequalPendulum<T = f64> {
     /// The masses, upper and lower, kg.
-    #[lagrange(unit = "kg")]
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: [T; 2],
     /// Lengths of the links, m.
-    #[lagrange(unit = "m")]
+    #[lagrange(unit = "m", symbol = "l")]
     pub length: [T; 2],
     /// Gravitational acceleration, m/s².
-    #[lagrange(unit = "m/s^2")]
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// Angle of the upper link at the start, rad from the downward vertical.
     #[lagrange(unit = "rad")]

@@ -83,6 +83,61 @@ struct LongChain {
     gravity: f64,
 }
 
+/// Twelve links: the derivation of large systems, and a tape that is data.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(theta[12]),
+    define(
+        x[k in 0..12] = sum(i in 0..k+1: length[i] * sin(theta[i])),
+        y[k in 0..12] = sum(i in 0..k+1: -length[i] * cos(theta[i])),
+    ),
+    kinetic = sum(k in 0..12: mass[k]/2 * (der(x[k])^2 + der(y[k])^2)),
+    potential = sum(k in 0..12: mass[k] * gravity * y[k]),
+)]
+struct LongestChain {
+    mass: [f64; 12],
+    length: [f64; 12],
+    gravity: f64,
+}
+
+#[test]
+fn a_chain_of_twelve_is_that_of_the_hand_formulas() {
+    let mut random = Random::new(43);
+    for _ in 0..50 {
+        let chain = LongestChain {
+            mass: [(); 12].map(|()| random.between(0.1, 3.0)),
+            length: [(); 12].map(|()| random.between(0.1, 2.0)),
+            gravity: 9.81,
+        };
+        let q = [(); 12].map(|()| random.between(-3.0, 3.0));
+        let v = [(); 12].map(|()| random.between(-3.0, 3.0));
+        let (m, f) = by_hand((&chain.mass, &chain.length), 9.81, &q, &v);
+        let found = Equations::of(&chain, &flight::<LongestChain>(), &q, &v);
+        for (found, m) in found.mass.iter().zip(&m) {
+            all_agree("M", found, m, 1e-12);
+        }
+        all_agree("f", &found.forcing, &f, 1e-12);
+    }
+}
+
+#[test]
+fn a_chain_of_twelve_keeps_its_energy() {
+    let chain = LongestChain {
+        mass: [0.3; 12],
+        length: [0.25; 12],
+        gravity: 9.81,
+    };
+    let bent: Vec<f64> = (0..12).map(|i| 0.8 - 0.1 * f64::from(i)).collect();
+    for (method, accuracy) in [("taylor", 1e-11), ("dop853", 1e-8)] {
+        let run = Simulation::new(&chain)
+            .method(method.parse().expect("a method"))
+            .tolerance(1e-12)
+            .run(state(&bent, &[0.0; 12]), 0.0..2.0)
+            .expect("smooth");
+        assert!(closure(&run) < accuracy, "{method}: {}", closure(&run));
+    }
+}
+
 /// With μᵢⱼ the mass below both joints: Mᵢⱼ = μᵢⱼ lᵢ lⱼ cos(θᵢ − θⱼ), fᵢ = −Σⱼ μᵢⱼ lᵢ lⱼ sin(θᵢ − θⱼ) θ̇ⱼ² − μᵢᵢ g lᵢ sin θᵢ.
 fn by_hand<const N: usize>(
     (mass, length): (&[f64; N], &[f64; N]),

@@ -32,8 +32,15 @@ const BALL: CueBall = CueBall {
 #[test]
 fn the_path_is_a_parabola_until_it_rolls() {
     let r = BALL.radius;
-    for (v, spin) in [([2.0, 0.0], [60.0, 40.0]), ([1.0, 1.5], [-30.0, 80.0]), ([0.0, 0.0], [50.0, 0.0])] {
-        let start = state(&[0.0, 0.0, r, 0.0, 0.0], &[v[0], v[1], 0.0, spin[0], spin[1]]);
+    for (v, spin) in [
+        ([2.0, 0.0], [60.0, 40.0]),
+        ([1.0, 1.5], [-30.0, 80.0]),
+        ([0.0, 0.0], [50.0, 0.0]),
+    ] {
+        let start = state(
+            &[0.0, 0.0, r, 0.0, 0.0],
+            &[v[0], v[1], 0.0, spin[0], spin[1]],
+        );
         let trajectory = run(&BALL, start, 3.0);
         assert_eq!(words(&trajectory), ["grip sticks"]);
         let slip = [v[0] - r * spin[1], v[1] + r * spin[0]];
@@ -41,7 +48,6 @@ fn the_path_is_a_parabola_until_it_rolls() {
         let (mu_g, u) = (0.2 * 9.81, slip.map(|s| s / size));
         let time = 2.0 / 7.0 * size / mu_g;
         let rolls = event(&trajectory, "grip", "sticks");
-        println!("{:?}", trajectory.work());
         agree("time until it rolls", rolls.time, time, 1e-13);
         let velocity = [0, 1].map(|i| v[i] - mu_g * time * u[i]);
         all_agree("velocity", &rolls.state_after.v[..2], &velocity, 1e-13);

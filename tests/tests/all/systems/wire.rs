@@ -2,7 +2,7 @@
 
 use super::{PI, state};
 use lagrange_core::prelude::*;
-use lagrange_tests::{agree, closure, event, root, run, words};
+use lagrange_tests::{agree, all_agree, closure, event, root, run, words};
 
 /// A bead on a circle in a plane that is inclined by `slope`, x downhill.
 #[derive(Lagrangian, Clone, Debug)]
@@ -167,5 +167,94 @@ fn a_sleeve_on_a_rod_slides_like_a_block() {
         let kind = if stays { "sticks" } else { "reverses" };
         agree("turn", event(&trajectory, "rub", kind).time, turn, 1e-11);
         assert!(closure(&trajectory) < 1e-11);
+    }
+}
+
+/// A sleeve on a rod that turns at a constant rate in a level plane.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2),
+    constraint(rod: y * cos(rate * t) == x * sin(rate * t)),
+    friction(rub on rod: slip = der(x) * cos(rate * t) + der(y) * sin(rate * t), static = mu),
+    observe(r = x * cos(rate * t) + y * sin(rate * t)),
+)]
+struct Turning {
+    mass: f64,
+    rate: f64,
+    mu: f64,
+}
+
+/// N = 2 m ω ṙ: r̈ + 2 μ ω ṙ − ω² r = 0 whichever way it slips; where it turns, slip and normal force vanish together. From
+/// rest λ = 0 exactly at the start.
+#[test]
+fn a_sleeve_on_a_turning_rod() {
+    let scene = Turning {
+        mass: 0.3,
+        rate: 2.0,
+        mu: 0.4,
+    };
+    let (w, mu, r0) = (scene.rate, scene.mu, 0.5);
+    let root = (mu * mu + 1.0_f64).sqrt();
+    let (k1, k2) = (w * (root - mu), -w * (root + mu));
+    for inward in [0.0, 0.3, -0.3, 0.8] {
+        let start = state(&[r0, 0.0], &[-inward, w * r0]);
+        let trajectory = run(&scene, start, 2.0);
+        // r = a exp(k₁ t) + b exp(k₂ t)
+        let b = (-inward - k1 * r0) / (k2 - k1);
+        let a = r0 - b;
+        println!("{inward} {:?} {:?}", words(&trajectory), trajectory.work());
+        let mut sampler = trajectory.sampler();
+        for k in 0..=20 {
+            let t = 0.1 * f64::from(k);
+            let r = a * (k1 * t).exp() + b * (k2 * t).exp();
+            agree(
+                "r",
+                sampler.at(t).expect("in the run").observes[0],
+                r,
+                1e-11,
+            );
+        }
+        assert!(closure(&trajectory) < 1e-11);
+        if inward > 0.0 {
+            let turn = ((-b * k2) / (a * k1)).ln() / (k1 - k2);
+            agree(
+                "turn",
+                event(&trajectory, "rub", "reverses").time,
+                turn,
+                1e-9,
+            );
+        }
+    }
+}
+
+/// All methods go through the change of sides and come to rest.
+#[test]
+fn all_methods_follow_the_bead() {
+    let bead = Bead {
+        slope: PI / 2.0,
+        ..BEAD
+    };
+    let start = || state(&[0.8, 1.2], &[0.0, 3.0]);
+    let trajectory = run(&bead, start(), 10.0);
+    for (method, tolerance, bound) in [
+        ("dopri5", 1e-10, 1e-7),
+        ("dop853", 1e-11, 1e-9),
+        ("verner98", 1e-11, 1e-9),
+        ("radau5", 1e-10, 1e-7),
+        ("rk4:1e-3", 1e-9, 1e-6),
+        ("gauss6:1e-2", 1e-9, 1e-6),
+    ] {
+        let simulation = Simulation::new(&bead).tolerance(tolerance);
+        let simulation = simulation.method(method.parse().expect("a method"));
+        let other = simulation.run(start(), 0.0..10.0);
+        let other = other.unwrap_or_else(|e| panic!("{method}: {e}"));
+        assert_eq!(words(&trajectory), words(&other), "{method}");
+        all_agree(
+            method,
+            &trajectory.final_state().q,
+            &other.final_state().q,
+            bound,
+        );
     }
 }

@@ -84,6 +84,7 @@ pub fn evaluate(
 ) -> HyperDual {
     let go = |e: ExprId| evaluate(pool, e, at, then);
     match pool.node(e) {
+        Node::Group(e) => go(*e),
         Node::Number(n) => HyperDual::constant(n.to_f64()),
         Node::Pi => HyperDual::constant(std::f64::consts::PI),
         Node::Symbol(s) => {

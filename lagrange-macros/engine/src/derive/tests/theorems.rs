@@ -167,6 +167,54 @@ fn euler_lagrange_on_standard_systems() {
     }
 }
 
+/// Nine coordinates, T a sum of squares of velocities that are no rates of positions, with weights of all kinds.
+fn large_system(random: &mut Random) -> Build {
+    let names: Vec<String> = (0..9).map(|i| format!("q{i}")).collect();
+    let q: Vec<&str> = names.iter().map(String::as_str).collect();
+    let mut energy = "0".to_owned();
+    for (i, name) in q.iter().enumerate() {
+        energy.push_str(&format!(" + J/2*der({name})^2"));
+        let mut speed = format!("{}*der({name})", random_position(random, &q));
+        for _ in 0..random.below(4) {
+            let other = q[random.below(q.len())];
+            speed.push_str(&format!(" - {}*der({other})", random_position(random, &q)));
+        }
+        let weight = ["m/2", "k*m", "3/2", "m/(k + J)"][i % 4];
+        energy.push_str(&format!(" + {weight}*({speed})^2"));
+    }
+    Build::new(&q.join(" "), "m J k")
+        .kinetic("", &energy)
+        .potential("", &random_position(random, &q))
+}
+
+#[test]
+fn euler_lagrange_on_large_random_systems() {
+    let mut random = Random(47);
+    for _ in 0..8 {
+        let d = large_system(&mut random).derive();
+        let point = d.point(&mut random);
+        check_euler_lagrange(&d, &point);
+        let (t, v, h, ..) = d.equations.structure.energy;
+        let declared: f64 = d
+            .equations
+            .system
+            .kinetic
+            .iter()
+            .map(|term| d.evaluate(term.energy, &point))
+            .sum();
+        close("T", d.value(t, &point), declared);
+        close("h", d.value(h, &point), declared + d.value(v, &point));
+        for (i, name) in names(&d).iter().enumerate() {
+            let p: f64 = names(&d)
+                .iter()
+                .enumerate()
+                .map(|(j, other)| d.mass(i, j, &point) * point[&format!("v_{other}")])
+                .sum();
+            close(name, d.value(d.equations.structure.momenta.0[i], &point), p);
+        }
+    }
+}
+
 /// n-link pendulum with point masses m and links l.
 pub fn chain(n: usize) -> Build {
     let list: Vec<String> = (0..n).map(|i| format!("q{i}")).collect();

@@ -145,6 +145,7 @@ impl<'a> Former<'a> {
             (Node::Sum { terms, .. }, _) => terms.iter().any(|(term, _)| self.varies(*term)),
             (Node::Product(factors), _) => factors.iter().any(|(base, _)| self.varies(*base)),
             (Node::Power(base, exponent), _) => self.varies(base) || self.varies(exponent),
+            (Node::Group(inner), _) => self.varies(inner),
             (Node::Call(_, arguments), _) => {
                 arguments.iter().any(|argument| self.varies(*argument))
             }
@@ -176,6 +177,16 @@ impl<'a> Former<'a> {
                     nodes.push(self.node(form));
                 }
                 self.graph.node(call(function, &nodes))
+            }
+            Node::Group(inner) => {
+                let form = self.form(inner);
+                // A scaled product is wanted as such; the scale of a sum may join those around it.
+                match self.pool.node(inner) {
+                    Node::Sum { constant, terms } if terms.len() > 1 || !constant.is_zero() => {
+                        return form;
+                    }
+                    _ => self.node(form),
+                }
             }
             Node::Select {
                 branch,

@@ -101,6 +101,7 @@ impl Pool {
                         below: own,
                     }
                 }
+                Node::Group(e) => at(*e),
                 Node::Select {
                     then, otherwise, ..
                 } => {

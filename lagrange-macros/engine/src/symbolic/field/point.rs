@@ -320,6 +320,7 @@ impl Values<'_> {
                 Ok(square(field, point.random(OPAQUE + 14, key)))
             }
             Node::Call(f, arguments) => self.call(*f, arguments, point),
+            Node::Group(e) => self.at(*e),
             Node::Select {
                 branch,
                 then,

@@ -1,5 +1,6 @@
-//! Random small systems with contacts and friction, from random starts: what must hold in every run, whatever happens.
+//! Chains over a floor, rods on it, balls between walls, blocks on blocks.
 
+use super::{Tally, Trial};
 use lagrange_core::prelude::*;
 use lagrange_tests::Random;
 
@@ -81,90 +82,10 @@ pub struct Blocks {
     pub rate: f64,
 }
 
-/// What must hold whatever happened; `mu` is the coefficient of every friction.
-#[track_caller]
-pub fn obeys<S: System<Scalar = f64> + core::fmt::Debug>(
-    scene: &S,
-    start: State<f64>,
-    until: f64,
-    mu: f64,
-) -> usize {
-    const STEPS: usize = 10_000;
-    let run = Simulation::new(scene)
-        .tolerance(1e-10)
-        .max_steps(STEPS)
-        .run(start.clone(), 0.0..until);
-    let trajectory = match run {
-        Ok(trajectory) => trajectory,
-        Err(Failure {
-            error: Error::Limit { what: "steps", .. } | Error::NoMode { .. },
-            trajectory,
-        }) => *trajectory,
-        Err(failure) => panic!("{failure}\n{scene:?}\n{start:?}"),
-    };
-    let d = S::DESCRIPTION;
-    let mut sampler = trajectory.sampler();
-    let times: Vec<f64> = trajectory
-        .step_times()
-        .chain([trajectory.last_time()])
-        .collect();
-    let between = times.windows(2).map(|t| 0.5 * (t[0] + t[1]));
-    for t in times.iter().copied().chain(between) {
-        let Ok(now) = sampler.at(t) else {
-            panic!("no forces at t = {t}\n{scene:?}\n{start:?}");
-        };
-        let numbers = now.q.iter().chain(&now.v).chain(&now.forces);
-        let finite = numbers.clone().all(|x| x.is_finite());
-        assert!(finite, "t = {t}: not finite\n{scene:?}\n{start:?}");
-        let weight = now.forces.iter().fold(1.0_f64, |m, x| m.max(x.abs()));
-        for (c, contact) in d.contacts.iter().enumerate() {
-            let (gap, force) = (now.gaps[c], now.forces[contact.row]);
-            let name = contact.name;
-            assert!(
-                gap > -1e-9,
-                "t = {t}: {name} penetrates by {gap:e}\n{scene:?}\n{start:?}"
-            );
-            if now.mode.contacts[c] {
-                assert!(
-                    gap < 1e-9,
-                    "t = {t}: {name} is closed and {gap:e} away\n{scene:?}\n{start:?}"
-                );
-                assert!(
-                    force > -1e-7 * weight,
-                    "t = {t}: {name} pulls with {force}\n{scene:?}\n{start:?}"
-                );
-            } else {
-                assert_eq!(force, 0.0, "t = {t}: {name} is open\n{scene:?}\n{start:?}");
-            }
-        }
-        for friction in d.frictions {
-            let lagrange_core::system::Normal::Contact(c) = friction.normal else {
-                continue;
-            };
-            let (normal, force) = (now.forces[d.contacts[c].row], now.forces[friction.row]);
-            assert!(
-                force.abs() <= mu * normal + 1e-7 * weight,
-                "t = {t}: {} gives {force} with N = {normal}\n{scene:?}\n{start:?}",
-                friction.name
-            );
-        }
-    }
-    let ledger = trajectory.ledger().expect("every step can be evaluated");
-    let closure = ledger.closure.abs() / ledger.scale.max(1.0);
-    assert!(
-        closure < 1e-6,
-        "the ledger is off by {closure:e}\n{scene:?}\n{start:?}"
-    );
-    trajectory.work().steps
-}
-
-fn state(q: Vec<f64>, v: Vec<f64>) -> State<f64> {
-    State { q, v }
-}
-
 #[test]
 fn chains_over_a_floor() {
     let mut random = Random::new(101);
+    let mut tally = Tally::default();
     for _ in 0..40 {
         let chain = Chain {
             mass: [(); 3].map(|()| random.between(0.2, 2.0)),
@@ -178,13 +99,15 @@ fn chains_over_a_floor() {
             .map(|_| random.sign() * random.between(1.7, 2.6))
             .collect();
         let v: Vec<f64> = (0..3).map(|_| random.between(-2.0, 2.0)).collect();
-        obeys(&chain, state(q, v), 2.0, chain.mu);
+        tally.run(&chain, &State { q, v }, Trial::until(2.0).rough(chain.mu));
     }
+    tally.check();
 }
 
 #[test]
 fn rods_on_a_floor() {
     let mut random = Random::new(102);
+    let mut tally = Tally::default();
     for _ in 0..100 {
         let rod = Rod {
             mass: random.between(0.2, 2.0),
@@ -195,14 +118,15 @@ fn rods_on_a_floor() {
         };
         let q = vec![0.0, random.between(1.1, 2.0), random.between(-1.5, 1.5)];
         let v = (0..3).map(|_| random.between(-3.0, 3.0)).collect();
-        obeys(&rod, state(q, v), 3.0, rod.mu);
+        tally.run(&rod, &State { q, v }, Trial::until(3.0).rough(rod.mu));
     }
+    tally.check();
 }
 
 #[test]
 fn balls_between_walls() {
     let mut random = Random::new(103);
-    let mut longest = 0;
+    let mut tally = Tally::default();
     for k in 0..40 {
         let balls = Balls {
             mass: [(); 4].map(|()| random.between(0.1, 3.0)),
@@ -214,14 +138,16 @@ fn balls_between_walls() {
             .collect();
         let v = (0..4).map(|_| random.between(-3.0, 3.0)).collect();
         let until = if k < 2 { 1e4 } else { 5.0 };
-        longest = longest.max(obeys(&balls, state(q, v), until, 0.0));
+        tally.run(&balls, &State { q, v }, Trial::until(until));
     }
-    assert_eq!(longest, 10_000);
+    tally.check();
+    assert_eq!(tally.longest, 10_000);
 }
 
 #[test]
 fn blocks_on_blocks() {
     let mut random = Random::new(104);
+    let mut tally = Tally::default();
     for k in 0..40 {
         let blocks = Blocks {
             mass: [(); 2].map(|()| random.between(0.2, 3.0)),
@@ -243,11 +169,12 @@ fn blocks_on_blocks() {
             0.0,
             0.0,
         ];
-        obeys(
+        let until = if k < 2 { 200.0 } else { 10.0 };
+        tally.run(
             &blocks,
-            state(q, v),
-            if k < 2 { 200.0 } else { 10.0 },
-            blocks.mu,
+            &State { q, v },
+            Trial::until(until).rough(blocks.mu),
         );
     }
+    tally.check();
 }
