@@ -120,6 +120,8 @@ fn words(
     let [left_text, right_text] = distinct(left, right);
     if conserved {
         text += &format!(" its rate is {left_text}");
+    } else if left_text == right_text {
+        text += &format!(" both sides are {left_text} to within rounding, but they are not equal");
     } else {
         text += &format!(" the left side is {left_text}, the right side {right_text}");
     }

@@ -79,6 +79,11 @@ fn small_mistakes_count() {
             ),
         );
     }
+    let found = refuted(POINT, "m g", "x == x*(1 + 1e-30)");
+    assert!(
+        found.contains("to within rounding, but they are not equal"),
+        "{found}"
+    );
     // Multiples of the primes of both fields.
     refuted(
         POINT,
@@ -177,6 +182,8 @@ fn branches() {
     );
     refuted(bumper, "m k gap0", "der(der(x)) == -k/m*(x - gap0)");
     refuted(bumper, "m k gap0", "m*der(der(x)) == -k*abs(x - gap0)");
+    // Wrong only far away.
+    refuted(bumper, "m k gap0", "min(x, 500) == x");
     // A closed contact pushes.
     proven(SHELL, "m g radius", "abs(shell) == shell");
     proven(SHELL, "m g radius", "max(gap(shell), 0) == gap(shell)");
@@ -281,5 +288,27 @@ fn ways_to_write_it() {
             "check(a[i in 0..3]: der(der(x[i])) == (i + 1)*g/m), check(push[1] == 2*g)"
         ),
         ["proven in 1"; 4]
+    );
+}
+
+#[test]
+fn long_chains() {
+    let chain = "coordinates(theta[12]),
+        define(
+            x[k in 0..12] = sum(i in 0..k + 1: l*sin(theta[i])),
+            y[k in 0..12] = -sum(i in 0..k + 1: l*cos(theta[i]))),
+        kinetic = sum(k in 0..12: m/2*(der(x[k])^2 + der(y[k])^2)),
+        potential = sum(k in 0..12: m*g*y[k])";
+    proven(chain, "m g l", "conserved energy");
+    // The momentum of the whole about the support.
+    proven(
+        chain,
+        "m g l",
+        "der(sum(k in 0..12: m*(x[k]*der(y[k]) - y[k]*der(x[k])))) == -sum(k in 0..12: m*g*x[k])",
+    );
+    refuted(
+        chain,
+        "m g l",
+        "der(sum(k in 0..12: m*(x[k]*der(y[k]) - y[k]*der(x[k])))) == -sum(k in 0..11: m*g*x[k])",
     );
 }
