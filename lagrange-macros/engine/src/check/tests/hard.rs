@@ -84,6 +84,19 @@ fn small_mistakes_count() {
         found.contains("to within rounding, but they are not equal"),
         "{found}"
     );
+    let pendulum = "coordinates(x, y), kinetic = m/2*(der(x)^2 + der(y)^2), potential = m*g*y,
+        constraint(rod: sqrt(x^2 + y^2) == l)";
+    proven(pendulum, "m g l", "rod == m*(g*y - der(x)^2 - der(y)^2)/l");
+    refuted(
+        pendulum,
+        "m g l",
+        "rod == (1 + 1e-20)*m*(g*y - der(x)^2 - der(y)^2)/l",
+    );
+    refuted(
+        pendulum,
+        "m g l",
+        "rod == if(x >= 0, 1 + 1e-20, 1 - 1e-20)*m*(g*y - der(x)^2 - der(y)^2)/l",
+    );
     // Multiples of the primes of both fields.
     refuted(
         POINT,
