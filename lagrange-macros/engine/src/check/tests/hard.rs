@@ -325,3 +325,31 @@ fn long_chains() {
         "der(sum(k in 0..12: m*(x[k]*der(y[k]) - y[k]*der(x[k])))) == -sum(k in 0..11: m*g*x[k])",
     );
 }
+
+#[test]
+fn mistakes_in_writing_are_told() {
+    let told = |check: &str| judged(SHELL, "m g radius", &format!("check({check})")).join(" | ");
+    for (check, code) in [
+        ("", "E002"),
+        ("shell", "E001"),
+        ("shell = m*g", "E006"),
+        ("shell >= m*g", "E015 `>=` does not make a check"),
+        ("shell == m*g when", "E001"),
+        ("shell == m*g when closed", "E011"),
+        ("shell == m*g when shell", "E011"),
+        ("shell == m*g when closed(shell) or open(shell)", "E024"),
+        ("shell == m*g when closed(shell), 2", "E016"),
+        ("shell == m*g when sticks(shell)", "E206"),
+        (
+            "shell == m*g while closed(shell)",
+            "E001 expected `when`, found `while`",
+        ),
+        ("m: shell == m*g", "E202"),
+        ("conserved der(der(x))", "E404"),
+        ("conserved shell", "E404"),
+        ("[x, y] == [y, x]", "E302"),
+    ] {
+        let found = told(check);
+        assert!(found.contains(code), "{check}: {found}");
+    }
+}
