@@ -15,6 +15,8 @@ use crate::trajectory::State;
 
 /// Where rounding hides how a guard begins, the step is made shorter by this.
 const CLOSER_LOOK: f64 = 1e-3;
+/// But not beyond this share of the time that is left (close to time 0 its resolution is no limit).
+const CLOSEST: f64 = 1e-20;
 
 /// What makes the polynomials of a step.
 #[derive(Debug)]
@@ -72,8 +74,10 @@ impl<S: System> Run<S> {
             let guards = (&self.guards[..], &self.joints[..]);
             self.curves
                 .take_series(&self.dynamics, &self.mode, guards, &self.powers);
-            if self.hides_a_start() && self.t.value() + CLOSER_LOOK * h > self.t.value() {
-                h *= CLOSER_LOOK;
+            let shorter = CLOSER_LOOK * h;
+            let resolved = self.t.value() + shorter > self.t.value() && shorter > CLOSEST * longest;
+            if resolved && self.hides_a_start() {
+                h = shorter;
                 continue;
             }
             let hit = self.first_hit();

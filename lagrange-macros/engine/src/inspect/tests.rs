@@ -237,9 +237,9 @@ fn equations_of_motion_balance() {
 fn what_is_read_does_not_reach_what_is_emitted() {
     for (name, tokens) in scenes() {
         let (declaration, mut program) = planned(tokens);
-        let before = crate::emit::emit(&program).to_string();
+        let before = crate::emit::emit(&program, &[]).to_string();
         super::derivation(&declaration, &mut program, None).expect("all modes");
-        assert!(before == crate::emit::emit(&program).to_string(), "{name}");
+        assert!(before == crate::emit::emit(&program, &[]).to_string(), "{name}");
     }
 }
 

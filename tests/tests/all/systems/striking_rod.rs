@@ -9,11 +9,11 @@ macro_rules! rod {
         /// Half length h, turned by θ from the vertical; the lower end strikes.
         #[derive(Lagrangian, Clone, Debug)]
         #[lagrange(
-                    coordinates(x, y, theta),
-                    kinetic = mass/2 * (der(x)^2 + der(y)^2) + inertia/2 * der(theta)^2,
-                    contact(floor: y - half * cos(theta) >= 0, restitution = $restitution),
-                    friction(grip on floor: slip = der(x + half * sin(theta)), static = mu),
-                )]
+                            coordinates(x, y, theta),
+                            kinetic = mass/2 * (der(x)^2 + der(y)^2) + inertia/2 * der(theta)^2,
+                            contact(floor: y - half * cos(theta) >= 0, restitution = $restitution),
+                            friction(grip on floor: slip = der(x + half * sin(theta)), static = mu),
+                        )]
         struct $name {
             mass: f64,
             inertia: f64,
