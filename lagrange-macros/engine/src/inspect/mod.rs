@@ -61,7 +61,7 @@ pub struct Derivation {
     pub conserved: Vec<Conserved>,
     /// Number of operations of the equations of motion.
     pub costs: Vec<Cost>,
-    /// What was left out for length, and the like.
+    /// Remarks on the declaration; what was left out for length, and the like.
     pub notes: Vec<String>,
 }
 
