@@ -47,7 +47,16 @@ pub fn program(input: TokenStream) -> Result<Program, Diagnostics> {
 
 fn planned(declaration: &Declaration, sink: &mut Diagnostics) -> Option<Program> {
     let system = model::system(declaration, sink);
+    if system.as_ref().is_some_and(|system| system.pool.is_full()) {
+        return too_large(declaration, sink);
+    }
     let equations = system.and_then(|system| derive::equations(system, sink));
+    if equations
+        .as_ref()
+        .is_some_and(|equations| equations.system.pool.is_full())
+    {
+        return too_large(declaration, sink);
+    }
     let program = equations.map(plan::plan);
     match &program {
         Some(program) if program.equations.system.pool.overflowed() => {
@@ -57,4 +66,14 @@ fn planned(declaration: &Declaration, sink: &mut Diagnostics) -> Option<Program>
         _ => {}
     }
     program
+}
+
+fn too_large(declaration: &Declaration, sink: &mut Diagnostics) -> Option<Program> {
+    let most = symbolic::MOST_EXPRESSIONS;
+    sink.report(
+        Code::TooLarge,
+        &declaration.name,
+        &[&declaration.name, &most],
+    );
+    None
 }

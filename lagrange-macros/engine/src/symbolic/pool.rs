@@ -6,6 +6,10 @@ use super::table::Table;
 use super::trigonometry::Square;
 use super::{ExprId, Node, Rational, Symbol};
 
+/// With more expressions than these a pool is full: a derivation that needs them would take a build, unoptimised, half a
+/// minute and more.
+pub const MOST_EXPRESSIONS: usize = 200_000;
+
 /// All expressions of a system.
 pub struct Pool {
     pub(super) nodes: Vec<Node>,
@@ -163,6 +167,11 @@ impl Pool {
     /// Number of nodes.
     pub fn len(&self) -> usize {
         self.nodes.len()
+    }
+
+    /// Whether there are too many. Work that builds more stops then, and what it has built is of no use.
+    pub fn is_full(&self) -> bool {
+        self.nodes.len() > MOST_EXPRESSIONS
     }
 
     /// Whether nothing has been built.
