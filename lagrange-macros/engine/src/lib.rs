@@ -69,7 +69,7 @@ fn planned(declaration: &Declaration, sink: &mut Diagnostics) -> Option<Program>
 }
 
 fn too_large(declaration: &Declaration, sink: &mut Diagnostics) -> Option<Program> {
-    let most = symbolic::MOST_EXPRESSIONS;
+    let most = symbolic::MOST_OPERANDS;
     sink.report(
         Code::TooLarge,
         &declaration.name,

@@ -107,7 +107,7 @@ table! {
 
     NoInertia "E601" "the coordinate `{0}` has no inertia" "no kinetic energy contains `der({0})`, and no constraint ties it: add its kinetic energy or remove it";
     EquationCount "E602" "{0} equations for {1} unknowns" "{2}";
-    TooLarge "E603" "the equations of `{0}` outgrow {1} expressions" "declare fewer elements; or give each body coordinates of its own and tie them with `constraint`: then each equation knows its neighbours only";
+    TooLarge "E603" "the equations of `{0}` outgrow {1} operands" "declare fewer elements; or give each body coordinates of its own and tie them with `constraint`: then each equation knows its neighbours only";
 
     Bug "E999" "a bug in the derive: something was left out without a message" "please report it with the declaration";
 }

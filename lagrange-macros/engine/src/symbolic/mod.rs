@@ -30,7 +30,7 @@ mod traverse;
 mod trigonometry;
 
 pub use node::{ExprId, Function, Node, Symbol};
-pub use pool::{MOST_EXPRESSIONS, Pool};
+pub use pool::{MOST_OPERANDS, Pool};
 pub use rational::Rational;
 
 #[cfg(test)]

@@ -6,9 +6,9 @@ use super::table::Table;
 use super::trigonometry::Square;
 use super::{ExprId, Node, Rational, Symbol};
 
-/// With more expressions than these a pool is full: a derivation that needs them would take a build, unoptimised, half a
-/// minute and more.
-pub const MOST_EXPRESSIONS: usize = 200_000;
+/// With more expressions and operands than these a pool is full: a derivation that needs them would take a build,
+/// unoptimised, half a minute and more.
+pub const MOST_OPERANDS: usize = 1_000_000;
 
 /// All expressions of a system.
 pub struct Pool {
@@ -23,6 +23,8 @@ pub struct Pool {
     leaves: Vec<ExprId>,
     pub(super) pi: Option<ExprId>,
     pub(super) overflow: bool,
+    /// Nodes, and the operands of each.
+    size: usize,
     /// Work done by rewriting: terms and nodes looked at.
     pub(super) effort: u64,
     /// Per direction of differentiation: which memo.
@@ -58,6 +60,7 @@ impl Pool {
             leaves: Vec::new(),
             pi: None,
             overflow: false,
+            size: 0,
             effort: 0,
             directions: Memo::default(),
             derivatives: Vec::new(),
@@ -171,7 +174,7 @@ impl Pool {
 
     /// Whether there are too many. Work that builds more stops then, and what it has built is of no use.
     pub fn is_full(&self) -> bool {
-        self.nodes.len() > MOST_EXPRESSIONS
+        self.size > MOST_OPERANDS
     }
 
     /// Whether nothing has been built.
@@ -217,6 +220,8 @@ impl Pool {
         };
         let id = self.nodes.len() as u32;
         self.table[at] = id + 1;
+        self.size += 1;
+        node.for_each_child(|_| self.size += 1);
         let facts = self.facts_of(hash, &node);
         self.facts.push(facts);
         self.nodes.push(node);
