@@ -76,6 +76,24 @@ pub enum Error {
         /// Number of modes that were tried.
         tried: usize,
     },
+    /// Impacts in turn do not come to an end at one instant.
+    EndlessImpacts {
+        /// Time, s.
+        time: f64,
+        /// A contact that still approaches.
+        item: &'static str,
+        /// Number of impacts that were followed.
+        impacts: usize,
+    },
+    /// An impact would add energy although nothing supplies it.
+    EnergyGain {
+        /// Time, s.
+        time: f64,
+        /// A contact that is hit.
+        item: &'static str,
+        /// How much, J.
+        gain: f64,
+    },
     /// The step became too small to advance time.
     StepTooSmall {
         /// Time, s.
@@ -211,6 +229,19 @@ impl fmt::Display for Error {
                 f,
                 "t = {time} ({mode}): none of {tried} modes continues the motion at `{item}` \
                  (a paradox of rigid friction, Painlevé 1895); lower the friction coefficient or make the contact compliant"
+            ),
+            Error::EndlessImpacts {
+                time,
+                item,
+                impacts,
+            } => write!(
+                f,
+                "t = {time}: `{item}` still approaches after {impacts} impacts in turn; lower the restitutions or solve \
+                 impacts together"
+            ),
+            Error::EnergyGain { time, item, gain } => write!(
+                f,
+                "t = {time}: the impact at `{item}` would add {gain:.3e} J; lower its restitution or its friction"
             ),
             Error::StepTooSmall { time, step, mode } => write!(
                 f,

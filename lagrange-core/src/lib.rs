@@ -4,7 +4,9 @@
 extern crate self as lagrange_core;
 
 pub mod arithmetic;
+pub mod checks;
 pub mod code;
+mod derivation;
 pub mod dynamics;
 pub mod effects;
 pub mod error;
@@ -21,6 +23,7 @@ pub mod simulation;
 pub mod system;
 pub mod trajectory;
 
+pub use derivation::Derivation;
 pub use error::Error;
 #[cfg(feature = "derive")]
 pub use lagrange_macros::Lagrangian;

@@ -16,6 +16,20 @@ pub enum FrictionMode {
     Slip(Sliding),
 }
 
+impl FrictionMode {
+    /// Whether the slip is zero.
+    pub(crate) fn rests(&self) -> bool {
+        matches!(
+            self,
+            Self::Stick
+                | Self::Slip(Sliding {
+                    direction: Direction::Incipient(_),
+                    ..
+                })
+        )
+    }
+}
+
 /// State of a sliding friction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sliding {
@@ -32,9 +46,19 @@ pub enum Direction {
     Fixed([f64; 2]),
     /// The direction of the slip velocity itself, which turns (two components, slip not zero).
     AlongSlip,
+    /// The slip is zero and begins along this unit vector, from which it turns (two components).
+    Incipient([f64; 2]),
 }
 
 impl Sliding {
+    /// Slip with two components along itself, on a contact.
+    pub fn along_slip() -> Self {
+        Self {
+            direction: Direction::AlongSlip,
+            normal_sign: 1.0,
+        }
+    }
+
     /// Slip with one component, of this sign, on a contact.
     pub fn sign(sign: f64) -> Self {
         Self {
@@ -101,6 +125,70 @@ impl Mode {
             self.branches[index / 64] |= bit;
         } else {
             self.branches[index / 64] &= !bit;
+        }
+    }
+
+    /// Whether the same equations hold in both: they are one but for the directions in which slips begin.
+    pub(crate) fn has_equations_of(&self, other: &Self) -> bool {
+        let same = |(x, y): (&FrictionMode, &FrictionMode)| match (x, y) {
+            (FrictionMode::Slip(x), FrictionMode::Slip(y)) => {
+                let begin = |s: &Sliding| matches!(s.direction, Direction::Incipient(_));
+                (x.direction == y.direction || begin(x) && begin(y))
+                    && x.normal_sign == y.normal_sign
+            }
+            _ => x == y,
+        };
+        self.contacts == other.contacts
+            && self.branches == other.branches
+            && self.frictions.len() == other.frictions.len()
+            && self.frictions.iter().zip(&other.frictions).all(same)
+    }
+
+    /// Whether a slip of two components begins in it.
+    pub(crate) fn has_incipient_slip(&self) -> bool {
+        self.incipient().next().is_some()
+    }
+
+    /// The mode in which the motion goes on once the slips that begin in this one have begun.
+    #[must_use]
+    pub fn under_way(&self) -> Self {
+        let mut mode = self.clone();
+        for f in 0..mode.frictions.len() {
+            if matches!(mode.frictions[f], FrictionMode::Slip(s) if matches!(s.direction, Direction::Incipient(_)))
+            {
+                mode.turn(f, Direction::AlongSlip);
+            }
+        }
+        mode
+    }
+
+    /// The frictions whose slip of two components begins, with its direction.
+    pub(crate) fn incipient(&self) -> impl Iterator<Item = (usize, [f64; 2])> + '_ {
+        let frictions = self.frictions.iter().enumerate();
+        frictions.filter_map(|(f, state)| match state {
+            FrictionMode::Slip(Sliding {
+                direction: Direction::Incipient(along),
+                ..
+            }) => Some((f, *along)),
+            _ => None,
+        })
+    }
+
+    /// The frictions whose slip has two components and is under way.
+    pub(crate) fn in_space(&self) -> impl Iterator<Item = (usize, Sliding)> + '_ {
+        let frictions = self.frictions.iter().enumerate();
+        frictions.filter_map(|(f, state)| match state {
+            FrictionMode::Slip(sliding) if sliding.direction == Direction::AlongSlip => {
+                Some((f, *sliding))
+            }
+            _ => None,
+        })
+    }
+
+    /// Gives friction `f`, which slips, another direction.
+    pub(crate) fn turn(&mut self, f: usize, to: Direction) {
+        if let FrictionMode::Slip(sliding) = &mut self.frictions[f] {
+            sliding.direction = to;
         }
     }
 

@@ -3,6 +3,7 @@
 #[cfg(feature = "derive")]
 pub use crate::Lagrangian;
 pub use crate::arithmetic::Scalar;
+pub use crate::derivation::Derivation;
 pub use crate::effects::{Effects, Item};
 pub use crate::error::Error;
 pub use crate::handle::*;
@@ -10,7 +11,7 @@ pub use crate::integrate::Method;
 pub use crate::mode::{FrictionMode, Mode};
 pub use crate::run::Runner;
 pub use crate::simulation::{Failure, Held, Simulation};
-pub use crate::system::{Description, System};
+pub use crate::system::{Description, Impacts, System};
 pub use crate::trajectory::{
     Energies, Entry, Event, EventKind, Instant, Ledger, Phase, Sampler, Starts, State, Subject,
     Trajectory, Work,

@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::integrate::Method;
 use crate::modes::start;
 use crate::run::Runner;
-use crate::system::System;
+use crate::system::{Impacts, System};
 use crate::trajectory::{State, Trajectory};
 use core::fmt;
 use core::ops::Range;
@@ -26,6 +26,8 @@ pub(crate) struct Settings {
     pub method: Method,
     pub project_start: bool,
     pub record: bool,
+    /// As declared if `None`.
+    pub impacts: Option<Impacts>,
     pub max_events: usize,
     pub max_steps: usize,
 }
@@ -71,6 +73,7 @@ impl<'a, S: System> Simulation<'a, S> {
                 method: Method::Taylor,
                 project_start: false,
                 record: true,
+                impacts: None,
                 max_events: 100_000,
                 max_steps: 100_000_000,
             },
@@ -110,6 +113,13 @@ impl<'a, S: System> Simulation<'a, S> {
     #[must_use]
     pub fn record(mut self, yes: bool) -> Self {
         self.settings.record = yes;
+        self
+    }
+
+    /// How contacts are solved that are hit together, instead of what `impacts = …` declares.
+    #[must_use]
+    pub fn impacts(mut self, impacts: Impacts) -> Self {
+        self.settings.impacts = Some(impacts);
         self
     }
 
@@ -244,7 +254,6 @@ impl Settings {
     /// Refuses what the declaration may say but this version cannot run.
     fn supported<S: System>(&self) -> Result<(), Error> {
         use crate::effects::Item;
-        use crate::system::{Normal, Restitution};
         let d = S::DESCRIPTION;
         let takes_part = |item: Item| self.effects.includes(d, item);
         for (i, contact) in d
@@ -258,38 +267,6 @@ impl Settings {
                 let instead = "leave `where` out and stop the run at the edge";
                 return Err(Error::Unsupported {
                     what: "a contact limited to a region",
-                    item,
-                    instead,
-                });
-            }
-            if let Restitution::Poisson(_) = contact.restitution {
-                let instead = "use Newton's restitution";
-                return Err(Error::Unsupported {
-                    what: "Poisson's restitution",
-                    item,
-                    instead,
-                });
-            }
-        }
-        for (i, friction) in d
-            .frictions
-            .iter()
-            .enumerate()
-            .filter(|(i, _)| takes_part(Item::Friction(*i)))
-        {
-            let item = d.frictions[i].name;
-            if friction.components > 1 {
-                let instead = "give one slip component, or leave the friction out";
-                return Err(Error::Unsupported {
-                    what: "friction in two directions",
-                    item,
-                    instead,
-                });
-            }
-            if let Normal::Constraint(_) = friction.normal {
-                let instead = "give its normal force by `normal = …`";
-                return Err(Error::Unsupported {
-                    what: "friction on a constraint",
                     item,
                     instead,
                 });

@@ -9,6 +9,9 @@
 //! Every number is an *output* of a tape or a parameter-only *constant*; a [`Place`] says which.
 
 use crate::arithmetic::{Arithmetic, Scalar};
+use crate::derivation::Derivation;
+use core::fmt;
+use core::str::FromStr;
 
 /// Where a number of the description is found after a tape has run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,6 +53,11 @@ pub trait System: Clone {
 
     /// The table of names, places and needs.
     const DESCRIPTION: &'static Description;
+
+    /// What was derived, to be read; [`Derivation::NONE`] of a system written by hand.
+    fn derivation() -> &'static Derivation {
+        &Derivation::NONE
+    }
 
     /// Parameter `index` of the description.
     fn parameter(&self, index: usize) -> Self::Scalar;
@@ -149,6 +157,69 @@ pub struct Description {
     pub marks: &'static [Watch],
     /// Named starts.
     pub starts: &'static [&'static str],
+    /// Units of energies and forces.
+    pub units: Units,
+    /// How contacts are solved that are hit at the same instant.
+    pub impacts: Impacts,
+}
+
+/// Units of what a run reports, beside those of parameters, coordinates and [`Observe`]: derived at build time from the
+/// declared ones. An empty text is a plain number, or a unit that does not follow; all are empty if no unit is declared.
+#[derive(Clone, Copy, Debug)]
+pub struct Units {
+    /// Of kinetic and potential energy: `J`, unless all of them are declared per unit of mass.
+    pub energy: &'static str,
+    /// Of multipliers, one per row: `N` for a gap in m, `N m` for an angle, `N/m` for a constraint in m².
+    pub rows: &'static [&'static str],
+    /// Of the values of force items.
+    pub forces: &'static [&'static str],
+    /// Of the values of dissipations.
+    pub dissipations: &'static [&'static str],
+}
+
+impl Units {
+    /// No unit is declared.
+    pub const NONE: Units = Units {
+        energy: "",
+        rows: &[],
+        forces: &[],
+        dissipations: &[],
+    };
+
+    /// Of the multiplier of this row.
+    pub fn row(&self, row: usize) -> &'static str {
+        self.rows.get(row).copied().unwrap_or_default()
+    }
+}
+
+/// How contacts are solved that are hit at the same instant, or while others are closed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Impacts {
+    /// All in one solution.
+    Together,
+    /// One after the other in order of declaration, again and again, until none approaches.
+    InTurn,
+}
+
+impl fmt::Display for Impacts {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Impacts::Together => "together",
+            Impacts::InTurn => "in_turn",
+        })
+    }
+}
+
+impl FromStr for Impacts {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match text {
+            "together" => Ok(Impacts::Together),
+            "in_turn" => Ok(Impacts::InTurn),
+            _ => Err("`together` or `in_turn`"),
+        }
+    }
 }
 
 /// A field of the struct.
@@ -158,7 +229,7 @@ pub struct Parameter {
     pub name: &'static str,
     /// Doc comment.
     pub documentation: &'static str,
-    /// Unit as declared, or empty.
+    /// Unit as declared or inferred; empty for a plain number and where nothing is known.
     pub unit: &'static str,
     /// TeX symbol as declared, or empty.
     pub tex: &'static str,
@@ -169,7 +240,7 @@ pub struct Parameter {
 pub struct Coordinate {
     /// Name, `theta` or `theta[2]`.
     pub name: &'static str,
-    /// Unit as declared, or empty.
+    /// Unit as declared or inferred; empty for a plain number and where nothing is known.
     pub unit: &'static str,
     /// Whether no energy, row or force depends on it.
     pub cyclic: bool,
@@ -360,7 +431,7 @@ pub struct Observe {
     pub place: Place,
     /// Its need.
     pub need: usize,
-    /// Unit as declared, or empty.
+    /// Unit as declared or inferred; empty for a plain number and where nothing is known.
     pub unit: &'static str,
 }
 

@@ -1,14 +1,24 @@
 //! `#[derive(Lagrangian)]`: the entry point. Everything it does is in `lagrange-engine`.
 
+mod dump;
+
 use proc_macro::TokenStream;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Derives the equations of a mechanical system from its Lagrangian, constraints, contacts and frictions.
 ///
 /// See the documentation of `lagrange-core` for the language of `#[lagrange(…)]`.
+///
+/// With the environment variable `LAGRANGE_DUMP=Name` the expansion for the struct `Name` is written, formatted, to a
+/// file of the temporary folder, and the compiler's output says where. (Cargo expands only what it compiles: `touch` the file.)
 #[proc_macro_derive(Lagrangian, attributes(lagrange))]
 pub fn lagrangian(input: TokenStream) -> TokenStream {
-    let expand = || lagrange_engine::expand(input.into()).into();
+    let input = input.into();
+    let expand = || {
+        let expansion = lagrange_engine::expand(proc_macro2::TokenStream::clone(&input));
+        dump::dump(&input, &expansion);
+        expansion.into()
+    };
     catch_unwind(AssertUnwindSafe(expand)).unwrap_or_else(|panic| bug(&*panic))
 }
 

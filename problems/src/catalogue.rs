@@ -38,11 +38,19 @@ pub static HARD: &[&dyn Scene] = &[
     &Entry::<BackspinBall>::new("backspin-ball", 3.0),
     &Entry::<BeltOscillator>::new("belt-oscillator", 20.0),
     &Entry::<CoulombOscillator>::new("coulomb-oscillator", 10.0),
+    &Entry::<InclineBlock>::new("incline-block", 2.0),
+    &Entry::<CueBall>::new("cue-ball", 2.0),
+    &Entry::<TurningPush>::new("turning-push", 2.5),
+    &Entry::<HoopBead>::new("hoop-bead", 10.0),
+    &Entry::<RodSleeve>::new("rod-sleeve", 2.0),
     &Entry::<Cradle>::new("cradle", 1.0),
     &Entry::<PainleveRod>::new("painleve-rod", 1.0),
     &Entry::<StringPendulum>::new("string-pendulum", 3.0),
     &Entry::<SphericalPendulum>::new("spherical-pendulum", 5.0),
     &Entry::<PolarParticle>::new("polar-particle", 2.0),
+    &Entry::<RodOnSupports>::new("rod-on-supports", 10.0),
+    &Entry::<BeamOnSupports>::new("beam-on-supports", 10.0),
+    &Entry::<Sled>::new("sled", 2.0),
     &Entry::<Parallelogram>::new("parallelogram", 2.0),
     &Entry::<SliderCrank>::new("slider-crank", 2.0),
     &Entry::<RollingDisk>::new("rolling-disk", 5.0),
@@ -69,6 +77,9 @@ pub trait Scene: Sync {
 
     /// Names, documentation and structure.
     fn description(&self) -> &'static Description;
+
+    /// What was derived, to be read.
+    fn derivation(&self) -> &'static Derivation;
 
     /// Default value of every parameter, in the order of the description.
     fn defaults(&self) -> Vec<f64>;
@@ -138,6 +149,10 @@ impl<S: System<Scalar = f64> + Default> Scene for Entry<S> {
 
     fn description(&self) -> &'static Description {
         S::DESCRIPTION
+    }
+
+    fn derivation(&self) -> &'static Derivation {
+        S::derivation()
     }
 
     fn defaults(&self) -> Vec<f64> {

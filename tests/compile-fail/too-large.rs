@@ -9,4 +9,4 @@
     potential = sum(k in 0..400: mass * gravity * y[k]),
 )]
 struct S { mass: f64, gravity: f64, length: f64 }
-//~ 11:8 E603 the equations of `S` outgrow 1000000 operands; declare fewer elements; or give each body coordinates of its own and tie them with `constraint`: then each equation knows its neighbours only
+//~ 11:8 E607 the equations of `S` outgrow 1000000 operands; declare fewer elements; or give each body coordinates of its own and tie them with `constraint`: then each equation knows its neighbours only

@@ -89,6 +89,12 @@ impl<S: System> Dynamics<S> {
             needs: &self.held,
             branches: &compiled.mode.branches,
         };
+        for heading in &compiled.plan.headings {
+            let along = self.headings.of(heading.friction);
+            for (node, x) in heading.nodes.into_iter().zip(along) {
+                self.lane_nodes[node] = Dual::constant(x);
+            }
+        }
         let outputs = &mut self.lane_nodes[..d.motion.outputs];
         self.scene.motion(
             &mut self.lanes,

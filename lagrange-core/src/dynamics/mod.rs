@@ -6,6 +6,7 @@
 
 mod compiled;
 mod error;
+mod heading;
 mod jacobian;
 mod matrices;
 mod needs;
@@ -18,10 +19,11 @@ pub(crate) mod tests;
 mod values;
 
 pub use error::{EvaluationError, row_name};
+pub(crate) use heading::approach;
 pub use needs::{NeedSet, add_branch_guards, add_guards};
 pub use projection::Residual;
 
-use crate::arithmetic::Value;
+use crate::arithmetic::{Scalar, Value};
 use crate::effects::Effects;
 use crate::linear::{SolveError, Solver};
 use crate::mode::Mode;
@@ -87,6 +89,8 @@ pub struct Dynamics<S: System> {
     report_nodes: Vec<S::Scalar>,
     right: Vec<S::Scalar>,
     solution: Vec<S::Scalar>,
+    /// Directions of slips with two components.
+    headings: heading::Headings<S::Scalar>,
     projector: Solver<S::Scalar>,
     projection: projection::Scratch<S::Scalar>,
     /// Columns of a Jacobian, for a stepper that wants rows.
@@ -124,6 +128,7 @@ impl<S: System> Dynamics<S> {
             report_nodes: vec![zero; d.report.outputs],
             right: Vec::with_capacity(n + rows),
             solution: Vec::with_capacity(n + rows),
+            headings: heading::Headings::new(d.frictions.len()),
             projector,
             projection: projection::Scratch::new(n, rows),
             columns: Vec::new(),
@@ -189,14 +194,18 @@ impl<S: System> Dynamics<S> {
     /// Changes the mode. The first time in a mode parameter-only numbers and the plan of the linear system are made; they are
     /// kept. What was asked for beside the motion stays asked for.
     pub fn set_mode(&mut self, mode: &Mode) {
+        for (f, along) in mode.incipient() {
+            self.set_heading(f, along.map(S::Scalar::from_f64));
+        }
         if *self.mode() == *mode {
             return;
         }
         let known = self
             .modes
             .iter()
-            .position(|compiled| compiled.mode == *mode);
+            .position(|compiled| compiled.mode.has_equations_of(mode));
         self.current = known.unwrap_or_else(|| self.compile(mode));
+        self.modes[self.current].mode.clone_from(mode);
         self.hold();
     }
 

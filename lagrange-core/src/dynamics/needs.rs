@@ -121,7 +121,7 @@ pub(crate) fn of_motion(
         needs.insert(friction.coefficients_need);
         for row in &description.rows[friction.row..friction.row + friction.components] {
             needs.insert(row.needs.jacobian);
-            if sliding.direction == Direction::AlongSlip {
+            if !matches!(sliding.direction, Direction::Fixed(_)) {
                 needs.insert(row.needs.velocity);
             }
         }

@@ -32,11 +32,23 @@ impl<S: System> Dynamics<S> {
         self.work.series += 1;
         self.work.coefficients += order + 1;
         self.run(t, q, v, Extent::Everything, true)?;
-        self.start_series(order)?;
+        if self.compiled().plan.headings.is_empty() {
+            self.start_series(order)?;
+            self.expand(order);
+            self.take_headings_of_series();
+            Ok(())
+        } else {
+            self.expand_from_rest(order)
+        }
+    }
+
+    /// Coefficients 1…`order` of everything.
+    pub(super) fn expand(&mut self, order: usize) {
         let Self {
             modes,
             current,
             right,
+            headings,
             ..
         } = self;
         let (_, solver, tape) = modes[*current].parts();
@@ -46,14 +58,20 @@ impl<S: System> Dynamics<S> {
             expansion,
             integrals,
             unsolved,
+            headings: slots,
             ..
         } = tape;
+        for &(friction, _, rates) in &*slots {
+            for (rate, u) in rates.into_iter().zip(headings.coefficient(friction, 1)) {
+                registers[rate.index()] = u;
+            }
+        }
         expansion.run(
             program,
             registers,
             order,
             integrals,
-            |_, now, first, earlier| {
+            |k, now, first, earlier| {
                 let Some(unsolved) = unsolved.as_ref() else {
                     return;
                 };
@@ -68,13 +86,19 @@ impl<S: System> Dynamics<S> {
                 for (slot, &x) in unsolved.unknowns.iter().zip(&*right) {
                     now[slot.index()] = x;
                 }
+                let next = S::Scalar::from_f64((k + 1) as f64);
+                for &(friction, _, rates) in &*slots {
+                    let turn = headings.coefficient(friction, k + 1);
+                    for (rate, u) in rates.into_iter().zip(turn) {
+                        now[rate.index()] = next * u;
+                    }
+                }
             },
         );
-        Ok(())
     }
 
     /// Coefficients 0 of everything.
-    fn start_series(&mut self, order: usize) -> Result<(), EvaluationError> {
+    pub(super) fn start_series(&mut self, order: usize) -> Result<(), EvaluationError> {
         let (_, _, tape) = self.modes[self.current].parts();
         tape.order = order;
         tape.everything.evaluate(REPORT, &mut tape.registers);

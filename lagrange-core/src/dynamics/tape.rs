@@ -83,6 +83,8 @@ pub(super) struct Tape<T> {
     pub unsolved: Option<Unsolved>,
     /// What it divides by when it does.
     pub pivots: Vec<Pivot>,
+    /// Directions given from outside: (friction, components, their rates).
+    pub headings: Vec<(usize, [Slot; 2], [Slot; 2])>,
 }
 
 struct Layout {
@@ -162,6 +164,14 @@ impl<T: Scalar> Tape<T> {
         scene.motion(&mut a, &held, &compiled.constants, state, &mut nodes);
         nodes.resize(d.motion.outputs + plan.program.len(), Recorded::ZERO);
         a.origin(parts.program);
+        let mut headings = Vec::new();
+        for heading in &plan.headings {
+            let slots = heading.operations.map(|i| Slot::new(parts.program + i));
+            for (node, slot) in heading.nodes.into_iter().zip(slots) {
+                nodes[node] = Recorded::varying(slot);
+            }
+            headings.push((heading.friction, slots, [a.fresh(), a.fresh()]));
+        }
         plan.program.run(&mut a, &compiled.constants, &mut nodes);
         a.origin(0);
         let right = right_hand_sides(&mut a, plan, &nodes);
@@ -180,7 +190,7 @@ impl<T: Scalar> Tape<T> {
                 &mut report_nodes,
             );
         }
-        let solved = !pivots.is_empty() || plan.size() == 0;
+        let solved = plan.headings.is_empty() && (!pivots.is_empty() || plan.size() == 0);
         let unsolved = (!solved).then(|| Unsolved {
             right: right[..plan.size()].to_vec(),
             unknowns: unknowns.iter().map(|x| x.slot).collect(),
@@ -199,6 +209,13 @@ impl<T: Scalar> Tape<T> {
             }
         });
         wanted.extend_from_slice(&report_nodes);
+        for &(friction, ..) in &headings {
+            for row in d.frictions[friction].row..d.frictions[friction].row + 2 {
+                if let Place::Node(node) = d.rows[row].velocity {
+                    wanted.push(nodes[node]);
+                }
+            }
+        }
         let (sides, elements) = match &unsolved {
             Some(unsolved) => (&unsolved.right[..], &unsolved.elements[..]),
             None => (&[][..], &[][..]),
@@ -225,6 +242,10 @@ impl<T: Scalar> Tape<T> {
         let products = unsolved.is_some().then_some(&products[..]);
         let expansion = Expansion::new(&program, registers.len(), &wanted, products);
         let changes = (1..1 + 2 * n).filter(|&i| !inputs[i + n].is_zero());
+        let changes = changes.map(|i| (inputs[i].slot, inputs[i + n].slot));
+        let turns = headings
+            .iter()
+            .flat_map(|&(_, u, rates)| u.into_iter().zip(rates));
         Tape {
             extra: asked.extra.clone(),
             report: asked.report.cloned(),
@@ -235,14 +256,13 @@ impl<T: Scalar> Tape<T> {
             evaluated: false,
             expansion,
             order: 0,
-            integrals: changes
-                .map(|i| (inputs[i].slot, inputs[i + n].slot))
-                .collect(),
+            integrals: changes.chain(turns).collect(),
             inputs,
             nodes,
             report_nodes,
             unsolved,
             pivots,
+            headings,
         }
     }
 
@@ -324,7 +344,8 @@ fn solve<T: Scalar>(
 ) -> (Vec<Recorded>, Vec<Pivot>) {
     let plan = &compiled.plan;
     let size = plan.size();
-    if compiled.on_tape && plan.kept.is_empty() && (1..=MOST_ON_TAPE).contains(&size) {
+    let alone = compiled.on_tape && plan.headings.is_empty();
+    if alone && plan.kept.is_empty() && (1..=MOST_ON_TAPE).contains(&size) {
         return eliminate(a, plan, nodes, 2 + 2 * n, right);
     }
     let unknowns = (0..size).map(|column| {

@@ -67,6 +67,11 @@ impl<S: System> Dynamics<S> {
         tape.registers[1] = t;
         tape.registers[2..2 + n].copy_from_slice(q);
         tape.registers[2 + n..2 + 2 * n].copy_from_slice(v);
+        for &(friction, slots, _) in &tape.headings {
+            for (slot, along) in slots.into_iter().zip(self.headings.of(friction)) {
+                tape.registers[slot.index()] = along;
+            }
+        }
         tape.evaluate(extent, MOTION);
         if tape.unsolved.is_some() {
             self.solve_start(refined)?;
@@ -209,6 +214,12 @@ impl<S: System> Dynamics<S> {
             &self.inputs[..1 + 2 * n],
             &mut self.nodes,
         );
+    }
+
+    /// Replaces the forces of all rows that [`Self::force`] and the report tape see until the next [`Self::value`].
+    pub(crate) fn replace_forces(&mut self, forces: &[S::Scalar]) {
+        let first = 1 + 3 * S::DESCRIPTION.coordinates.len();
+        self.inputs[first..].copy_from_slice(forces);
     }
 
     /// Runs the report tape at the state of the last [`Self::value`], for the needs given to

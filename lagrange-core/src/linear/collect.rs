@@ -1,11 +1,14 @@
 //! The system of a mode before anything is eliminated: which rows act, their columns, the loads.
 
-use super::plan::Slide;
+use super::plan::{Heading, Slide};
 use super::program::Program;
 use crate::arithmetic::Scalar;
 use crate::effects::{Effects, Item};
 use crate::mode::{Direction, FrictionMode, Mode};
 use crate::system::{Description, Normal, Place};
+
+/// Added to the square of a slip before its root is taken: nothing beside any slip there is.
+const LEAST_SQUARE: f64 = 1e-300;
 
 /// Where an element of a force's column comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,6 +81,7 @@ impl Collected {
         constants: &mut Vec<T>,
         program: &mut Program<T>,
         slides: &mut Vec<Slide>,
+        headings: &mut Vec<Heading>,
     ) {
         self.acting.clear();
         self.acting.extend(
@@ -86,6 +90,7 @@ impl Collected {
         self.columns.clear();
         self.loads.clear();
         slides.clear();
+        headings.clear();
         self.loads
             .extend(description.forcing.iter().copied().enumerate());
         for (index, &row) in self.acting.iter().enumerate() {
@@ -98,7 +103,15 @@ impl Collected {
                     source: Source::Jacobian,
                 }));
         }
-        self.slide(description, effects, mode, constants, program, slides);
+        self.slide(
+            description,
+            effects,
+            mode,
+            constants,
+            program,
+            slides,
+            headings,
+        );
         for &Slide {
             row,
             factor,
@@ -136,6 +149,7 @@ impl Collected {
         constants: &mut Vec<T>,
         program: &mut Program<T>,
         slides: &mut Vec<Slide>,
+        headings: &mut Vec<Heading>,
     ) {
         for (i, friction) in description.frictions.iter().enumerate() {
             let FrictionMode::Slip(sliding) = mode.frictions[i] else {
@@ -171,10 +185,17 @@ impl Collected {
                     let s2 = program.mul(constants, slip(component), slip(component));
                     square = program.add(constants, square, s2);
                 }
+                // Of a slip of exactly zero the direction is zero, not 0/0.
+                let least = Program::constant(constants, T::from_f64(LEAST_SQUARE));
+                square = program.add(constants, square, least);
                 let inverse = program.inverse_root(constants, square);
                 strength = program.mul(constants, strength, inverse);
             }
             strength = program.scale(constants, -T::one(), strength);
+            let mut heading = Heading {
+                friction: i,
+                ..Heading::default()
+            };
             for component in 0..friction.components {
                 let row = friction.row + component;
                 let factor = match sliding.direction {
@@ -182,12 +203,21 @@ impl Collected {
                         program.scale(constants, T::from_f64(d[component]), strength)
                     }
                     Direction::AlongSlip => program.mul(constants, strength, slip(component)),
+                    Direction::Incipient(_) => {
+                        let (node, operation) = program.given();
+                        heading.nodes[component] = node;
+                        heading.operations[component] = operation;
+                        program.mul(constants, strength, Place::Node(node))
+                    }
                 };
                 slides.push(Slide {
                     row,
                     factor,
                     source,
                 });
+            }
+            if let Direction::Incipient(_) = sliding.direction {
+                headings.push(heading);
             }
         }
     }

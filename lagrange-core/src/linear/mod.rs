@@ -17,7 +17,6 @@ mod consistent;
 mod direct;
 mod eliminate;
 mod least_norm;
-#[allow(dead_code, reason = "impacts and switches of many contacts call it")]
 mod lemke;
 mod lu;
 mod plan;
@@ -38,8 +37,9 @@ pub(crate) fn epsilon<T: Scalar>() -> f64 {
 }
 
 pub(crate) use collect::acts;
-pub(crate) use consistent::solve_consistent;
+pub(crate) use consistent::{Equilibrated, SeveralSides};
 pub(crate) use direct::positive_definite;
-pub(crate) use least_norm::least_norm;
+pub(crate) use least_norm::{Freedom, least_norm};
+pub(crate) use lemke::{Lemke, Outcome as LemkeOutcome};
 pub(crate) use plan::Plan;
 pub(crate) use solver::{Inertia, SolveError, Solver};

@@ -35,6 +35,15 @@ pub(crate) struct Slide {
     pub source: Option<usize>,
 }
 
+/// A friction whose slip begins: the direction is given from outside.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Heading {
+    pub friction: usize,
+    /// Where the components of the direction are, among the nodes and among the operations of the program.
+    pub nodes: [usize; 2],
+    pub operations: [usize; 2],
+}
+
 /// One contribution to an element before like ones are summed.
 #[derive(Clone, Copy, Debug)]
 struct Term<T> {
@@ -56,6 +65,8 @@ pub(crate) struct Plan<T> {
     pub eliminated: Vec<usize>,
     /// Frictions that slide.
     pub slides: Vec<Slide>,
+    /// Of these, those whose slip begins.
+    pub headings: Vec<Heading>,
     /// Work after the motion tape.
     pub program: Program<T>,
     /// Elements that change, in the square system: accelerations first, forces after `first_force`.
@@ -126,6 +137,7 @@ impl<T: Scalar> Plan<T> {
             constants,
             &mut self.program,
             &mut self.slides,
+            &mut self.headings,
         );
         self.acting.clone_from(&self.collected.acting);
         self.eliminate(description, constants);

@@ -47,13 +47,35 @@ impl<T: Scalar> Sum for Recorder<'_, T> {
 /// An operation; nodes are indices into the tape's outputs followed by the results of this program.
 #[derive(Clone, Copy, Debug)]
 enum Op {
-    Scale { constant: usize, x: usize },
-    Offset { constant: usize, x: usize },
-    Add { x: usize, y: usize },
-    Mul { x: usize, y: usize },
-    Sqrt { x: usize },
-    Ratio { constant: usize, x: usize },
-    Sum { first: usize, end: usize },
+    Scale {
+        constant: usize,
+        x: usize,
+    },
+    Offset {
+        constant: usize,
+        x: usize,
+    },
+    Add {
+        x: usize,
+        y: usize,
+    },
+    Mul {
+        x: usize,
+        y: usize,
+    },
+    Sqrt {
+        x: usize,
+    },
+    Ratio {
+        constant: usize,
+        x: usize,
+    },
+    Sum {
+        first: usize,
+        end: usize,
+    },
+    /// What is in the node already.
+    Given,
 }
 
 /// Operations in order; the result of operation `i` is node `first + i`.
@@ -113,6 +135,12 @@ impl<T: Scalar> Program<T> {
             }
             (Place::Node(x), Place::Node(y)) => self.push(Op::Mul { x, y }),
         }
+    }
+
+    /// A number that is put into its node before the program runs: the node, and the operation that stands for it.
+    pub(crate) fn given(&mut self) -> (usize, usize) {
+        self.ops.push(Op::Given);
+        (self.first + self.ops.len() - 1, self.ops.len() - 1)
     }
 
     /// c x
@@ -196,6 +224,7 @@ impl<T: Scalar> Program<T> {
                 Op::Sqrt { x } => a.sqrt(to, nodes[x]),
                 Op::Sum { first, end } => a.sum(to, &self.terms[first..end], nodes),
                 Op::Ratio { constant, x } => a.ratio(to, constants[constant], nodes[x]),
+                Op::Given => continue,
             };
         }
     }

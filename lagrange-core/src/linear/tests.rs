@@ -222,6 +222,8 @@ fn random_system(seed: u64) -> (Description, Builder) {
         stops: &[],
         marks: &[],
         starts: &[],
+        units: crate::system::Units::NONE,
+        impacts: crate::system::Impacts::Together,
     };
     (description, b)
 }
@@ -244,6 +246,8 @@ fn random_mode(d: &Description, random: &mut Random) -> Mode {
         };
         let direction = if random.one_in(3) {
             Direction::AlongSlip
+        } else if friction.components > 1 && random.one_in(2) {
+            Direction::Incipient(fixed)
         } else {
             Direction::Fixed(fixed)
         };
@@ -293,7 +297,9 @@ fn by_definition(
                     let slip = |c: usize| read(d.rows[friction.row + c].velocity);
                     let speed = (0..friction.components).map(slip).fold(0.0, f64::hypot);
                     let direction = match sliding.direction {
-                        Direction::Fixed(direction) => direction[component],
+                        Direction::Fixed(direction) | Direction::Incipient(direction) => {
+                            direction[component]
+                        }
                         Direction::AlongSlip => slip(component) / speed,
                     };
                     slides[row] = Some(match friction.normal {
@@ -346,6 +352,12 @@ fn by_plan(d: &Description, mode: &Mode, b: &Builder) -> Option<Vec<f64>> {
     plan.set(d, &Effects::all(), mode, &mut constants);
     let mut nodes = b.nodes.clone();
     nodes.resize(b.nodes.len() + plan.program.len(), f64::NAN);
+    for (heading, (f, along)) in plan.headings.iter().zip(mode.incipient()) {
+        assert_eq!(heading.friction, f);
+        for (node, x) in heading.nodes.into_iter().zip(along) {
+            nodes[node] = x;
+        }
+    }
     plan.program.run(&mut Value::new(), &constants, &mut nodes);
     let (free, size) = (plan.free(), plan.size());
     let mut solver = Solver::default();

@@ -5,7 +5,7 @@
 //! | contact open | gap g ≥ 0 |
 //! | contact closed | normal multiplier λ ≥ 0 |
 //! | friction sticks | μs N − F ≥ 0 and μs N + F ≥ 0 |
-//! | friction slips in direction d | d·s ≥ 0 |
+//! | friction slips in direction d | d·s ≥ 0 (two components: d as at the start of the step; arrest where \|s\| vanishes with it) |
 //! | branch of a piecewise function | ± its guard ≥ 0 |
 //!
 //! N = λ·|∂g/∂p|. A guard is read from a [`Reading`] as Taylor coefficients; a plain value is a series of length one.
@@ -33,7 +33,7 @@ pub enum Guard {
     StickLower(usize),
     /// (μs N)² − |F|² of a sticking friction whose N has no known sign, or that has two components.
     StickCone(usize),
-    /// Slip of a sliding friction, along its direction.
+    /// Slip of a sliding friction, along its direction (of two components, that at the start of the step).
     Slip(usize),
     /// Multiplier of the constraint that carries a friction, times its held sign.
     Bearing(usize),
@@ -43,6 +43,8 @@ pub enum Guard {
     Stop(usize, usize),
     /// Term of a mark.
     Mark(usize, usize),
+    /// A sum of guards of undetermined forces: index into a list of [`Joint`](crate::modes::sharing::Joint)s.
+    Joint(usize),
 }
 
 /// Adds `factor` times a series.
@@ -133,14 +135,17 @@ pub fn series<S: System>(guard: Guard, mode: &Mode, reading: &Reading<'_, S>, ou
         Guard::StickCone(f) => stick_cone(f, mode, reading, out),
         Guard::Slip(f) => {
             let friction = &d.frictions[f];
-            if let FrictionMode::Slip(Sliding {
-                direction: Direction::Fixed(along),
-                ..
-            }) = mode.frictions[f]
-            {
-                for (k, &part) in along.iter().enumerate().take(friction.components) {
-                    add(out, part, reading.motion(d.rows[friction.row + k].velocity));
+            let FrictionMode::Slip(Sliding { direction, .. }) = mode.frictions[f] else {
+                return;
+            };
+            let along = match direction {
+                Direction::Fixed(along) => along,
+                Direction::AlongSlip | Direction::Incipient(_) => {
+                    reading.heading(f).map(|x| x.value())
                 }
+            };
+            for (k, &part) in along.iter().enumerate().take(friction.components) {
+                add(out, part, reading.motion(d.rows[friction.row + k].velocity));
             }
         }
         Guard::Bearing(f) => normal_force(f, mode, reading, out),
@@ -156,6 +161,8 @@ pub fn series<S: System>(guard: Guard, mode: &Mode, reading: &Reading<'_, S>, ou
         }
         Guard::Stop(i, k) => add(out, 1.0, reading.report(d.stops[i].terms[k])),
         Guard::Mark(i, k) => add(out, 1.0, reading.report(d.marks[i].terms[k])),
+        // Its parts are known to `sharing` only.
+        Guard::Joint(_) => {}
     }
 }
 

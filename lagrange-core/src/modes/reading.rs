@@ -56,6 +56,12 @@ impl<S: System> Reading<'_, S> {
         }
     }
 
+    /// Where the slip of friction `f` with two components points at the start of the step.
+    pub fn heading(&self, f: usize) -> [S::Scalar; 2] {
+        let (Reading::Values(dynamics) | Reading::Series(dynamics)) = self;
+        dynamics.heading(f)
+    }
+
     /// The force of a row.
     pub fn force(&self, row: usize) -> Terms<'_, S::Scalar> {
         match self {

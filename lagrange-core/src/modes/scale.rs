@@ -42,14 +42,21 @@ impl Sizes {
             Guard::Gap(c) => self.row(d.contacts[c].row, dynamics).acceleration,
             Guard::Normal(c) => self.row(d.contacts[c].row, dynamics).force,
             Guard::Slip(f) => {
-                let row = self.row(d.frictions[f].row, dynamics);
-                let coefficient = d.frictions[f].kinetic_coefficient;
-                row.acceleration + row.compliance * self.friction(f, coefficient, dynamics)
+                let friction = &d.frictions[f];
+                let force = self.friction(f, friction.kinetic_coefficient, dynamics);
+                let rows = friction.row..friction.row + friction.components;
+                let sizes = rows.map(|row| {
+                    let row = self.row(row, dynamics);
+                    row.acceleration + row.compliance * force
+                });
+                sizes.fold(0.0, f64::max)
             }
             Guard::StickUpper(f) | Guard::StickLower(f) => self.limit(f, dynamics),
             Guard::StickCone(f) => self.limit(f, dynamics).powi(2),
             Guard::Bearing(f) => self.normal(f, dynamics),
             Guard::Branch(_) | Guard::Stop(..) | Guard::Mark(..) => 0.0,
+            // It is relative already.
+            Guard::Joint(_) => 1.0,
         }
     }
 
@@ -92,8 +99,9 @@ impl Sizes {
 
     fn limit<S: System>(&self, f: usize, dynamics: &Dynamics<S>) -> f64 {
         let friction = &S::DESCRIPTION.frictions[f];
-        self.row(friction.row, dynamics).force
-            + self.friction(f, friction.static_coefficient, dynamics)
+        let rows = friction.row..friction.row + friction.components;
+        let force = rows.map(|row| self.row(row, dynamics).force);
+        force.fold(0.0, f64::max) + self.friction(f, friction.static_coefficient, dynamics)
     }
 }
 

@@ -155,12 +155,18 @@ impl Survey {
             {
                 continue;
             }
-            let slip = number(dynamics, d.rows[friction.row].velocity);
-            if slip.abs() <= near * speed(dynamics, friction.row) {
+            let rows = friction.row..friction.row + friction.components;
+            let slip = |row: usize| number(dynamics, d.rows[row].velocity);
+            let rests = |row: usize| slip(row).abs() <= near * speed(dynamics, row);
+            if rows.clone().all(rests) {
                 known.resting[f] = true;
                 mode.frictions[f] = FrictionMode::Stick;
             } else {
-                mode.frictions[f] = FrictionMode::Slip(Sliding::sign(slip.signum()));
+                mode.frictions[f] = FrictionMode::Slip(if friction.components > 1 {
+                    Sliding::along_slip()
+                } else {
+                    Sliding::sign(slip(friction.row).signum())
+                });
             }
         }
         for (i, constraint) in d.constraints.iter().enumerate() {

@@ -32,7 +32,10 @@ pub struct Table {
 impl Table {
     /// The present mode of `dynamics`.
     pub fn of<S: System>(&mut self, dynamics: &Dynamics<S>) -> &Watched {
-        let known = self.known.iter().position(|w| w.mode == *dynamics.mode());
+        let known = self
+            .known
+            .iter()
+            .position(|w| w.mode.has_equations_of(dynamics.mode()));
         let index = known.unwrap_or_else(|| {
             if self.known.len() == MOST_MODES {
                 self.known.remove(0);

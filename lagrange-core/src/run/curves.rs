@@ -7,8 +7,9 @@ use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError};
 use crate::integrate::StepPolynomial;
 use crate::mode::Mode;
-use crate::modes::guard::{self, Guard};
+use crate::modes::guard::Guard;
 use crate::modes::reading::Reading;
+use crate::modes::sharing::{self, Joint};
 use crate::system::System;
 
 /// The polynomials of all guards of a step.
@@ -77,7 +78,7 @@ impl Curves {
         &mut self,
         dynamics: &Dynamics<S>,
         mode: &Mode,
-        guards: &[Guard],
+        (guards, joints): (&[Guard], &[Joint]),
         powers: &[f64],
     ) {
         let reading = Reading::Series(dynamics);
@@ -85,7 +86,7 @@ impl Curves {
         let all = guards.iter().chain(&self.watches);
         let curves = self.coefficients.chunks_exact_mut(self.width);
         for (curve, &g) in curves.zip(all) {
-            guard::series(g, mode, &reading, curve);
+            sharing::series(g, joints, mode, &reading, curve);
             for (c, power) in curve.iter_mut().zip(powers) {
                 *c *= power;
             }
@@ -93,7 +94,7 @@ impl Curves {
     }
 
     /// How far the polynomials are off at part `s` of the step, in units of what is allowed; `dynamics` holds the values of
-    /// the state there.
+    /// the state there, `located` tells the guards whose root it is.
     ///
     /// The step is chosen for the coordinates, but a guard is a function of them whose series may converge no further than
     /// a part of it: in free flight the coordinates are polynomials, the distance √(x² + y²) is not.
@@ -101,22 +102,37 @@ impl Curves {
         &self,
         dynamics: &mut Dynamics<S>,
         mode: &Mode,
-        guards: &[Guard],
+        (guards, joints): (&[Guard], &[Joint]),
         s: f64,
         tolerance: f64,
+        located: impl Fn(Guard) -> bool,
     ) -> f64 {
         let all = guards.iter().chain(&self.watches);
         let curves = self.coefficients.chunks_exact(self.width);
         let mut worst = 0.0;
         let mut reported = false;
         for (curve, &g) in curves.zip(all) {
-            // Forces are second derivatives, and the worse for it.
+            let located = located(g);
+            // Forces are second derivatives, and the worse for it. Where a guard has been located it has to be exact, else it
+            // only must not be missed.
             let (share, floor) = match g {
                 Guard::Normal(_)
                 | Guard::StickUpper(_)
                 | Guard::StickLower(_)
                 | Guard::StickCone(_)
-                | Guard::Bearing(_) => (1e4, 1e-10),
+                | Guard::Bearing(_)
+                | Guard::Joint(_)
+                    if located =>
+                {
+                    (10.0, 1e-12)
+                }
+                Guard::Normal(_)
+                | Guard::StickUpper(_)
+                | Guard::StickLower(_)
+                | Guard::StickCone(_)
+                | Guard::Bearing(_)
+                | Guard::Joint(_) => (1e4, 1e-10),
+                _ if located => (0.1, 1e-14),
                 _ => (10.0, 1e-13),
             };
             let share = (share * tolerance).max(floor);
@@ -127,13 +143,11 @@ impl Curves {
                 dynamics.report_value();
                 reported = true;
             }
-            let value = guard::value(g, mode, &Reading::Values(dynamics));
-            let (mut found, mut size) = (0.0, 0.0);
-            for c in curve.iter().rev() {
-                found = found * s + c;
-                size = size * s + c.abs();
-            }
-            let allowed = share * (size + value.abs());
+            let value = sharing::value(g, joints, mode, &Reading::Values(dynamics));
+            let found = curve.iter().rev().fold(0.0, |sum, c| sum * s + c);
+            // Not all coefficients: where the series has stopped converging they are large and cancel.
+            let size = value.abs() + curve.iter().take(2).map(|c| c.abs()).sum::<f64>();
+            let allowed = share * size;
             let ratio = (found - value).abs() / (allowed + 64.0 * f64::EPSILON);
             worst = if ratio > worst || ratio.is_nan() {
                 ratio
@@ -152,7 +166,7 @@ impl Curves {
         &mut self,
         dynamics: &mut Dynamics<S>,
         mode: &Mode,
-        guards: &[Guard],
+        (guards, joints): (&[Guard], &[Joint]),
         step: &StepPolynomial<S::Scalar>,
         q: &mut [S::Scalar],
         v: &mut [S::Scalar],
@@ -168,13 +182,16 @@ impl Curves {
             let s = self.nodes[j];
             step.state_into(S::Scalar::from_f64(s), q, v);
             dynamics.value(step.t + step.h * S::Scalar::from_f64(s), q, v)?;
+            if j == 0 {
+                dynamics.take_headings();
+            }
             // Stops and marks read the tape after the solve.
             dynamics.report_value();
             let reading = Reading::Values(dynamics);
             let all = guards.iter().chain(&self.watches);
             let curves = self.coefficients.chunks_exact_mut(m);
             for (curve, &g) in curves.zip(all) {
-                let sample = guard::value(g, mode, &reading);
+                let sample = sharing::value(g, joints, mode, &reading);
                 for (c, row) in curve.iter_mut().zip(self.matrix.chunks_exact(m)) {
                     *c += row[j] * sample;
                 }

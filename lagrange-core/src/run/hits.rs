@@ -1,11 +1,17 @@
 //! What ends a step early: the earliest root among the guards of the mode and the stops.
 
 use super::Run;
+use crate::arithmetic::Scalar;
 use crate::events::{Direction, RootList, deflate, first_root, roots};
 use crate::integrate::polynomial_sum as sum;
 use crate::mode::{FrictionMode, Mode};
 use crate::modes::guard::{Guard, LENGTH};
 use crate::system::{Condition, System, Watch};
+
+/// Coefficients this much smaller than all together cannot be told from 0: some degrees times rounding.
+const RESOLUTION: f64 = 1e-13;
+/// From here on they can.
+const CLEAR: f64 = 1e-10;
 
 /// What happens first within a step.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,6 +20,8 @@ pub(super) enum Hit {
     Nothing,
     /// Guards of the mode fall through zero (in [`Run::fallen`]) at this part of the step.
     Guards(f64),
+    /// A slip of two components has turned by a quarter within the step, which ends at this part of it.
+    Turned(f64),
     /// Stop `index` becomes true at this part of the step.
     Stop(usize, f64),
 }
@@ -23,7 +31,7 @@ impl Hit {
     pub(super) fn end(&self) -> f64 {
         match *self {
             Hit::Nothing => 1.0,
-            Hit::Guards(s) | Hit::Stop(_, s) => s,
+            Hit::Guards(s) | Hit::Turned(s) | Hit::Stop(_, s) => s,
         }
     }
 }
@@ -40,7 +48,10 @@ impl<S: System> Run<S> {
                 first = first.min(s + width);
             }
         }
-        // Roots whose enclosures overlap with that of the earliest cannot be told apart from it.
+        // Roots whose enclosures overlap with that of the earliest cannot be told apart from it, nor can those at a
+        // distance that time does not resolve.
+        let h = self.step.h.value();
+        first += 8.0 * f64::EPSILON * (self.t.value() / h).abs().max(1.0);
         self.fallen.clear();
         let mut at = f64::INFINITY;
         for &(guard, s, width) in &self.falls {
@@ -50,9 +61,15 @@ impl<S: System> Run<S> {
             }
         }
         let guards = if self.fallen.is_empty() {
+            self.rests.clear();
             Hit::Nothing
         } else {
-            Hit::Guards(at)
+            self.tell_rest_from_turn(at);
+            if self.fallen.is_empty() {
+                Hit::Turned(at)
+            } else {
+                Hit::Guards(at)
+            }
         };
         // A stop at the instant of an impact ends the run before it; rounding may see it a little later.
         match self.first_stop((guards.end() * (1.0 + 1e-13)).min(1.0)) {
@@ -63,22 +80,9 @@ impl<S: System> Run<S> {
 
     /// Where a guard of the mode falls through zero: (part of the step, half width of the enclosure).
     fn fall(&self, guard: Guard, curve: &[f64]) -> Option<(f64, f64)> {
-        let known = self
-            .zeros
-            .iter()
-            .find(|(g, _)| *g == guard)
-            .map_or(0, |(_, order)| *order);
-        if known >= LENGTH {
-            return None;
-        }
-        let curve = deflate(curve, known);
-        // A root that rounding has moved across the border between two steps shows as a negative start.
-        if known == 0 && curve.first().is_some_and(|c| *c < 0.0) {
-            let size: f64 = curve.iter().map(|c| c.abs()).sum();
-            let rises = curve[0] > -1e-13 * size && curve.get(1).is_some_and(|c| *c > 0.0);
-            if !rises {
-                return Some((0.0, 0.0));
-            }
+        let curve = self.judged(guard, curve)?;
+        if falls_at_once(curve, RESOLUTION) {
+            return Some((0.0, 0.0));
         }
         let mut from = 0.0;
         while let Some(root) = first_root(curve, from) {
@@ -92,6 +96,44 @@ impl<S: System> Run<S> {
             }
         }
         None
+    }
+
+    /// What of a guard's curve is judged: without leading coefficients that are known to vanish. Nothing if all do.
+    fn judged<'c>(&self, guard: Guard, curve: &'c [f64]) -> Option<&'c [f64]> {
+        let zeros = self.zeros.iter().find(|(g, _)| *g == guard);
+        let known = zeros.map_or(0, |(_, order)| *order);
+        if known >= LENGTH {
+            return None;
+        }
+        let judged = deflate(curve, known);
+        if let (0, [start, rate, ..]) = (known, judged)
+            && *start < 0.0
+            && *rate > 0.0
+        {
+            // A root that rounding has moved across the border between two steps, or a gap that parts from where it was
+            // located, shows as a negative start from which the guard rises.
+            let size: f64 = judged.iter().map(|c| c.abs()).sum();
+            let blur = match guard {
+                Guard::Gap(_) => self.settings.tolerance.max(1e-13) * size.max(1.0),
+                _ => 1e-13 * size,
+            };
+            if *start > -blur {
+                return Some(deflate(judged, 1));
+            }
+        }
+        Some(judged)
+    }
+
+    /// Whether the step is so long that rounding hides how a guard begins that falls in it.
+    pub(super) fn hides_a_start(&self) -> bool {
+        let mut guards = self.guards.iter().enumerate();
+        guards.any(|(k, &guard)| {
+            let curve = self.judged(guard, self.curves.mode_guard(k));
+            curve.is_some_and(|curve| {
+                let begins = curve.iter().find(|c| **c != 0.0);
+                begins.is_some_and(|c| *c > 0.0) && falls_at_once(curve, CLEAR)
+            })
+        })
     }
 
     /// The earliest stop up to part `end` of the step.
@@ -168,6 +210,16 @@ impl<S: System> Run<S> {
             }
         }
     }
+}
+
+/// Whether a guard is negative from the start on, as far as can be told by numbers this much smaller than its largest.
+fn falls_at_once(curve: &[f64], resolution: f64) -> bool {
+    if curve.first().is_none_or(|start| *start < 0.0) {
+        return true;
+    }
+    let noise = resolution * curve.iter().map(|c| c.abs()).sum::<f64>();
+    let leading = curve.iter().position(|c| c.abs() > noise);
+    leading.is_some_and(|k| k > 0 && curve[k] < 0.0)
 }
 
 /// First instant up to `end` at which a watch becomes true: a term rises through zero while the others are ≥ 0.

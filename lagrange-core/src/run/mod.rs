@@ -4,7 +4,9 @@ mod accumulation;
 mod curves;
 mod hits;
 mod log;
+mod rest;
 mod runner;
+mod shares;
 mod singular;
 mod stepping;
 mod switch;
@@ -18,18 +20,21 @@ use crate::integrate::{StepPolynomial, Tolerance};
 use crate::mode::Mode;
 use crate::modes::decide::Decider;
 use crate::modes::guard::{self, Guard};
+use crate::modes::impact::Collider;
 use crate::modes::reading::Reading;
+use crate::modes::sharing::{Joint, Sharing};
 use crate::modes::start::{self, Survey};
 use crate::modes::table::Table;
 use crate::pool::Pool;
 use crate::simulation::Settings;
 use crate::system::{System, Watch};
 use crate::trajectory::{EventKind, State, Subject, Trajectory, Work};
-use accumulation::Impacts;
+use accumulation::{Impacts, Train};
 use core::ops::Range;
 use curves::Curves;
 use hits::Hit;
 use log::Before;
+use rest::Rest;
 pub use runner::Runner;
 use singular::Rank;
 use stepping::Stepper;
@@ -70,6 +75,10 @@ pub(crate) struct Run<S: System> {
     /// Falling guards found in the present step: (guard, part of the step, half width).
     falls: Vec<(Guard, f64, f64)>,
     fallen: Vec<Guard>,
+    /// Slips of two components that come to rest with it.
+    rests: Vec<Rest>,
+    /// Velocities a little before that.
+    earlier: Vec<S::Scalar>,
     stop_below: Vec<Vec<bool>>,
     mark_below: Vec<Vec<bool>>,
     marks: Vec<(usize, f64)>,
@@ -79,11 +88,22 @@ pub(crate) struct Run<S: System> {
     curves: Curves,
     scratch: State<S::Scalar>,
     survey: Survey,
-    decider: Decider,
+    collider: Collider<S::Scalar>,
+    /// Contacts whose gap vanishes at an impact.
+    near: Vec<usize>,
+    decider: Decider<S::Scalar>,
+    /// Of undetermined forces at the present state.
+    sharing: Sharing<S::Scalar>,
+    /// Guards of such forces that have been met in this mode.
+    joints: Vec<Joint>,
     before: Before<S::Scalar>,
     forces_after: Vec<S::Scalar>,
+    undetermined_after: Vec<bool>,
     /// Per contact: its impacts so far.
     impacts: Vec<Impacts>,
+    /// All impacts so far.
+    train: Train,
+    scratch_mode: Mode,
     /// Watches for positions where constraints lose rank.
     rank: Rank,
     /// Distance from such a position at the start of the coming step.
@@ -121,8 +141,10 @@ impl<S: System> Run<S> {
                 mode: mode.clone(),
                 state: state.clone(),
                 forces: vec![zero; rows],
+                undetermined: Vec::with_capacity(rows),
             },
             forces_after: vec![zero; rows],
+            undetermined_after: Vec::with_capacity(rows),
             table: Table::default(),
             guards: Vec::new(),
             drifts: true,
@@ -131,6 +153,8 @@ impl<S: System> Run<S> {
             valued: false,
             falls: Vec::new(),
             fallen: Vec::new(),
+            rests: Vec::new(),
+            earlier: vec![zero; n],
             stop_below: d.stops.iter().map(|w| vec![false; w.terms.len()]).collect(),
             mark_below: d.marks.iter().map(|w| vec![false; w.terms.len()]).collect(),
             marks: Vec::new(),
@@ -139,7 +163,13 @@ impl<S: System> Run<S> {
             curves: Curves::new::<S>(),
             survey: Survey::new(d),
             decider: Decider::new(d),
+            collider: Collider::default(),
+            near: Vec::with_capacity(d.contacts.len()),
+            sharing: Sharing::default(),
+            joints: Vec::new(),
             impacts: vec![Impacts::default(); d.contacts.len()],
+            train: Train::default(),
+            scratch_mode: mode.clone(),
             rank: Rank::new::<S>(),
             distance: 1.0,
             stuck: Pool::default(),
@@ -183,9 +213,12 @@ impl<S: System> Run<S> {
             .iter_mut()
             .for_each(|terms| terms.fill(false));
         self.impacts.fill(Impacts::default());
+        self.train = Train::default();
         self.rank.restart();
         self.distance = 1.0;
         self.stuck.clear();
+        self.joints.clear();
+        self.sharing.clear();
         self.finished = false;
         let outcome = self.go();
         self.close();
@@ -224,7 +257,7 @@ impl<S: System> Run<S> {
         if end > 0.0 {
             // The step left there the state at its end, evaluated.
             core::mem::swap(&mut self.state, &mut self.scratch);
-            (self.valued, self.expanded) = (true, false);
+            (self.valued, self.expanded) = (self.rests.is_empty(), false);
         }
         self.log_marks(end);
         self.remember_sides(end);
@@ -248,8 +281,18 @@ impl<S: System> Run<S> {
                 self.project(near)?;
             }
         }
+        if end > 0.0 {
+            self.slips_have_begun();
+        }
         match hit {
-            Hit::Nothing => Ok(()),
+            Hit::Nothing | Hit::Turned(_) => {
+                if self.slips_come_to_rest(end) {
+                    self.count_switch()?;
+                    self.stepper.restart();
+                    self.switch()?;
+                }
+                Ok(())
+            }
             Hit::Stop(stop, _) => {
                 if !self.valued {
                     self.evaluate()?;
@@ -307,7 +350,7 @@ impl<S: System> Run<S> {
             self.step.state_into(s, &mut state.q, &mut state.v);
             let time = self.step.time(s);
             self.valued = false;
-            if self.dynamics.value(time, &state.q, &state.v).is_ok() {
+            if self.dynamics.value_along(time, &state.q, &state.v).is_ok() {
                 self.log_watch(Subject::Mark(mark), EventKind::Mark, time, &state);
             }
             self.scratch = state;
@@ -350,6 +393,7 @@ impl<S: System> Run<S> {
     fn set_mode_decided(&mut self) {
         self.mode.clone_from(&self.decider.decision.mode);
         self.trajectory.enter(&self.mode);
+        self.joints.clone_from(&self.decider.decision.joints);
         (self.expanded, self.valued) = (false, false);
         self.hold_guards();
     }
@@ -358,6 +402,7 @@ impl<S: System> Run<S> {
     fn hold_guards(&mut self) {
         let watched = self.table.of(&self.dynamics);
         self.guards.clone_from(&watched.guards);
+        self.guards.extend((0..self.joints.len()).map(Guard::Joint));
         self.drifts = watched.drifts;
         self.dynamics.set_extra_needs(&watched.needs);
     }

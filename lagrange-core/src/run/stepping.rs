@@ -2,14 +2,21 @@
 
 use super::Run;
 use super::hits::Hit;
+use super::rest::JUST_BEFORE;
 use super::singular::{MOST_RETREATS, RETREAT};
 use crate::arithmetic::Scalar;
 use crate::dynamics::EvaluationError;
 use crate::error::Error;
 use crate::integrate::taylor::{self, DefectControl, Verdict};
 use crate::integrate::{Integrator, Method, StepError};
+use crate::modes::guard::Guard;
 use crate::system::System;
 use crate::trajectory::State;
+
+/// Where rounding hides how a guard begins, the step is made shorter by this.
+const CLOSER_LOOK: f64 = 1e-3;
+/// But not beyond this share of the time that is left (close to time 0 its resolution is no limit).
+const CLOSEST: f64 = 1e-20;
 
 /// What makes the polynomials of a step.
 #[derive(Debug)]
@@ -56,25 +63,45 @@ impl<S: System> Run<S> {
             .ok_or_else(|| self.not_finite("a Taylor coefficient"))?
             .min(longest);
         let mut closer = 0;
+        let mut corrections = 0;
+        // Of a step that another method left to this one.
+        let mut control = DefectControl::default();
         loop {
             if self.t.value() + h <= self.t.value() {
                 return Err(self.step_too_small(h));
             }
             self.write_polynomial(h, self.order);
+            let guards = (&self.guards[..], &self.joints[..]);
             self.curves
-                .take_series(&self.dynamics, &self.mode, &self.guards, &self.powers);
+                .take_series(&self.dynamics, &self.mode, guards, &self.powers);
+            let shorter = CLOSER_LOOK * h;
+            let resolved = self.t.value() + shorter > self.t.value() && shorter > CLOSEST * longest;
+            if resolved && self.hides_a_start() {
+                h = shorter;
+                continue;
+            }
             let hit = self.first_hit();
             let end = hit.end();
             if end == 0.0 {
                 return Ok(hit);
             }
-            // Evaluated here, the end of the step also serves the event log.
-            let defect = if self.evaluate_end(end).is_ok() {
+            // Evaluated here, the end of the step also serves the event log. A slip that vanishes there has no direction.
+            let looked = if self.rests.is_empty() {
+                end
+            } else {
+                JUST_BEFORE * end
+            };
+            let defect = if self.evaluate_end(looked).is_ok() {
                 let accelerations = self.dynamics.acceleration();
-                let motion = taylor::defect(&self.step, end, accelerations, self.tolerance);
-                let (guards, tolerance) = (&self.guards, self.tolerance.relative);
-                let curves = &self.curves;
-                let guards = curves.defect(&mut self.dynamics, &self.mode, guards, end, tolerance);
+                let motion = taylor::defect(&self.step, looked, accelerations, self.tolerance);
+                let guards = (&self.guards[..], &self.joints[..]);
+                let tolerance = self.tolerance.relative;
+                let (curves, fallen) = (&self.curves, &self.fallen);
+                let stops = matches!(hit, Hit::Stop(..));
+                let located = |g| fallen.contains(&g) || stops && matches!(g, Guard::Stop(..));
+                let dynamics = &mut self.dynamics;
+                let guards =
+                    curves.defect(dynamics, &self.mode, guards, looked, tolerance, located);
                 // Not the larger of a number and a NaN, which would be the number.
                 if guards <= motion { motion } else { guards }
             } else {
@@ -91,12 +118,20 @@ impl<S: System> Run<S> {
                 h *= RETREAT;
                 continue;
             }
-            let Stepper::Taylor(control) = &mut self.stepper else {
-                return Ok(hit);
+            let control = match &mut self.stepper {
+                Stepper::Taylor(control) => control,
+                Stepper::Other(..) => &mut control,
             };
-            match control.judge(h, defect, self.order) {
+            // The polynomial is as good at its root however long the step: the next try ends before it.
+            match control.judge(h * end, defect, self.order) {
                 Verdict::Accept => {
+                    if self.corrects_joints(&hit, &mut corrections) {
+                        continue;
+                    }
                     self.distance = distance;
+                    if looked != end {
+                        self.state_at_end(end);
+                    }
                     return Ok(hit);
                 }
                 Verdict::Redo { h: smaller } => {
@@ -109,10 +144,16 @@ impl<S: System> Run<S> {
 
     /// The state at part `end` of the step, in `scratch`, and the equations of motion there.
     pub(super) fn evaluate_end(&mut self, end: f64) -> Result<(), EvaluationError> {
-        let s = S::Scalar::from_f64(end);
+        self.state_at_end(end);
+        let State { q, v } = &self.scratch;
+        let time = self.step.time(S::Scalar::from_f64(end));
+        self.dynamics.value_along(time, q, v)
+    }
+
+    /// The state at part `end` of the step, in `scratch`.
+    pub(super) fn state_at_end(&mut self, end: f64) {
         let State { q, v } = &mut self.scratch;
-        self.step.state_into(s, q, v);
-        self.dynamics.value(self.step.time(s), q, v)
+        self.step.state_into(S::Scalar::from_f64(end), q, v);
     }
 
     /// Scales the series, up to `degree`, onto a step of length `h`.
@@ -147,6 +188,15 @@ impl<S: System> Run<S> {
             Some(h) => Ok(h),
             None => method.first_step(&mut self.dynamics, self.t, q, v, longest, self.tolerance),
         };
+        if let Ok(h) = first
+            && self.slip_may_vanish(h)
+        {
+            return self.taylor_step();
+        }
+        let Stepper::Other(method, wanted) = &mut self.stepper else {
+            return Ok(Hit::Nothing);
+        };
+        let (q, v) = (&self.state.q, &self.state.v);
         let outcome = first.and_then(|h| {
             let h = h.min(longest);
             method.step(
@@ -175,20 +225,26 @@ impl<S: System> Run<S> {
                 });
             }
         }
-        let sampled = self.curves.sample(
-            &mut self.dynamics,
-            &self.mode,
-            &self.guards,
-            &self.step,
-            &mut self.scratch.q,
-            &mut self.scratch.v,
-        );
-        sampled.map_err(|e| self.error(e))?;
-        let hit = self.first_hit();
-        if hit.end() > 0.0 {
+        let mut corrections = 0;
+        loop {
+            let sampled = self.curves.sample(
+                &mut self.dynamics,
+                &self.mode,
+                (&self.guards, &self.joints),
+                &self.step,
+                &mut self.scratch.q,
+                &mut self.scratch.v,
+            );
+            sampled.map_err(|e| self.error(e))?;
+            let hit = self.first_hit();
+            if hit.end() == 0.0 {
+                return Ok(hit);
+            }
             self.evaluate_end(hit.end()).map_err(|e| self.error(e))?;
+            if !self.corrects_joints(&hit, &mut corrections) {
+                return Ok(hit);
+            }
         }
-        Ok(hit)
     }
 
     fn step_too_small(&self, step: f64) -> Error {

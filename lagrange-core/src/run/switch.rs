@@ -7,14 +7,16 @@ use crate::error::Error;
 use crate::mode::FrictionMode;
 use crate::modes::decide::{Known, Moment};
 use crate::modes::guard::Guard;
-use crate::modes::impact::{Impact, impact};
+use crate::modes::impact::Impact;
 use crate::system::{Normal, System};
-use crate::trajectory::{EventKind, Subject};
 
 impl<S: System> Run<S> {
     /// Leaves the present mode because the guards in `self.fallen` fell through zero.
     pub(super) fn switch(&mut self) -> Result<(), Error> {
         let d = S::DESCRIPTION;
+        if !self.rests.is_empty() {
+            self.come_to_rest()?;
+        }
         if !self.valued {
             self.evaluate()?;
         }
@@ -25,7 +27,7 @@ impl<S: System> Run<S> {
             .residue(&self.dynamics, &self.mode, &self.fallen);
         known.touching.copy_from_slice(&self.mode.contacts);
         for (resting, friction) in known.resting.iter_mut().zip(&self.mode.frictions) {
-            *resting = *friction == FrictionMode::Stick;
+            *resting = friction.rests();
         }
         for &guard in &self.fallen {
             match guard {
@@ -36,6 +38,15 @@ impl<S: System> Run<S> {
             }
         }
         known.located.extend_from_slice(&self.fallen);
+        for guard in &self.fallen {
+            if let Guard::Joint(k) = *guard {
+                let parts = self.joints[k].parts.iter().map(|&(part, _)| part);
+                self.survey.known.located.extend(parts);
+                let residue = self.joint_residue(&self.joints[k]);
+                let known = &mut self.survey.known;
+                known.residue = known.residue.max(residue);
+            }
+        }
         self.settle()
     }
 
@@ -52,12 +63,8 @@ impl<S: System> Run<S> {
             self.evaluate()?;
         }
         self.remember_before();
-        let impact = if known.arriving.contains(&true) {
-            self.hit(known)?
-        } else {
-            None
-        };
-        if impact.is_none() {
+        let hit = known.arriving.contains(&true) && self.hit(known)?;
+        if !hit {
             self.rest_where_slip_vanishes(known)?;
         }
         let moment = Moment {
@@ -77,34 +84,59 @@ impl<S: System> Run<S> {
         self.zeros.clone_from(&self.decider.decision.zeros);
         self.set_mode_decided();
         self.expanded = self.decider.decision.expanded;
-        if impact.is_some() || self.rows_have_joined() {
+        if hit || self.rows_have_joined() {
             self.project(true)?;
         }
         self.expand()?;
-        let impulses = impact.map(|outcome| outcome.impulses).unwrap_or_default();
-        self.log_changes(&impulses, self.decider.decision.ambiguous);
+        if self.dynamics.has_dependent_rows() {
+            let valued = self.valued;
+            self.evaluate()?;
+            self.valued = valued;
+            self.note_shares();
+        } else {
+            self.sharing.clear();
+        }
+        let outcome = core::mem::take(&mut self.collider.outcome);
+        let impulses = if hit { &outcome.impulses[..] } else { &[] };
+        self.log_changes(impulses, self.decider.decision.ambiguous);
+        self.collider.outcome = outcome;
         self.stops_of_the_mode()
     }
 
-    /// The impact of the contacts whose gaps close.
-    fn hit(&mut self, known: &mut Known) -> Result<Option<Impact<S::Scalar>>, Error> {
+    /// The impact of the contacts whose gaps close, if there is one.
+    fn hit(&mut self, known: &mut Known) -> Result<bool, Error> {
         let d = S::DESCRIPTION;
         self.evaluate_all_rows()?;
-        let hit: Vec<usize> = (0..d.contacts.len())
-            .filter(|&c| known.arriving[c] && self.approaching(c))
-            .collect();
-        if hit.is_empty() {
-            return Ok(None);
+        for c in (0..d.contacts.len()).filter(|&c| !self.mode.contacts[c]) {
+            // A gap that rounding has left below zero may be growing.
+            let (rate, size) = self.rate(d.contacts[c].row);
+            if known.arriving[c] && rate > 1e-12 * size {
+                (known.touching[c], known.arriving[c], known.parting[c]) = (false, false, true);
+                known.located.retain(|guard| *guard != Guard::Gap(c));
+            }
         }
-        let near: Vec<usize> = (0..d.contacts.len())
-            .filter(|&c| known.touching[c])
-            .collect();
-        let outcome = impact(&self.dynamics, self.t.value(), &self.state.v, &near)?;
+        if !(0..d.contacts.len()).any(|c| known.arriving[c] && self.approaching(c)) {
+            return Ok(false);
+        }
+        // What has just parted may be pushed back.
+        let mut near = core::mem::take(&mut self.near);
+        near.clear();
+        near.extend((0..d.contacts.len()).filter(|&c| known.touching[c] || known.parting[c]));
+        let impacts = self.settings.impacts.unwrap_or(d.impacts);
+        let time = self.t.value();
+        let solved = self
+            .collider
+            .solve(&self.dynamics, time, &self.state.v, &near, impacts);
+        self.near = near;
+        solved?;
+        let outcome = core::mem::take(&mut self.collider.outcome);
         self.state.v.copy_from_slice(&outcome.v);
-        self.log_impacts(&outcome, &hit);
-        self.after_impact(&outcome, &near, known);
-        self.close_accumulated(&outcome, known)?;
-        Ok(Some(outcome))
+        self.log_impacts(&outcome, known);
+        self.after_impact(&outcome, known);
+        let closed = self.close_accumulated(&outcome, known);
+        self.collider.outcome = outcome;
+        closed?;
+        Ok(true)
     }
 
     /// Whether the switch has brought rows that the state need not satisfy to rounding.
@@ -128,58 +160,40 @@ impl<S: System> Run<S> {
                 < 0.0
     }
 
-    /// Ends the infinitely many impacts of contacts that bounce ever less.
-    fn close_accumulated(
-        &mut self,
-        outcome: &Impact<S::Scalar>,
-        known: &mut Known,
-    ) -> Result<(), Error> {
+    /// What is known after an impact; `dynamics` still holds the state before.
+    fn after_impact(&self, outcome: &Impact<S::Scalar>, known: &mut Known) {
         let d = S::DESCRIPTION;
-        for c in 0..d.contacts.len() {
-            if !outcome.struck[c] || !known.parting[c] {
-                continue;
-            }
-            let Some(count) = self.accumulate(c, known) else {
-                continue;
-            };
-            let mut closed = self.mode.clone();
-            for (contact, touching) in closed.contacts.iter_mut().zip(&known.touching) {
-                *contact = *touching;
-            }
-            self.dynamics.set_mode(&closed);
-            self.project(true)?;
-            self.evaluate_all_rows()?;
-            for (f, friction) in d.frictions.iter().enumerate() {
-                if matches!(friction.normal, Normal::Contact(on) if known.touching[on]) {
-                    let (slip, size) = self.slip(friction.row);
-                    known.resting[f] = slip.abs() <= 1e-13 * size;
-                }
-            }
-            let state = core::mem::take(&mut self.state);
-            let kind = EventKind::Accumulates { impacts: count };
-            self.log_watch(Subject::Contact(c), kind, self.t, &state);
-            self.state = state;
-        }
-        Ok(())
-    }
-
-    /// What is known after an impact.
-    fn after_impact(&self, outcome: &Impact<S::Scalar>, near: &[usize], known: &mut Known) {
-        let d = S::DESCRIPTION;
-        for &c in near {
+        for &c in &self.near {
             known.touching[c] = outcome.stays[c];
             known.parting[c] = !outcome.stays[c];
         }
-        for f in 0..d.frictions.len() {
-            if let Normal::Contact(c) = d.frictions[f].normal
-                && near.contains(&c)
-            {
-                known.resting[f] = outcome.sticks[f];
-            }
+        for (f, friction) in d.frictions.iter().enumerate() {
+            known.resting[f] = match friction.normal {
+                Normal::Contact(c) if !self.near.contains(&c) => known.resting[f],
+                Normal::Contact(_) | Normal::Constraint(_) => outcome.sticks[f],
+                // No impulse acts there, but the impact may have begun or ended its slip.
+                Normal::Given(_) => self.rests_after(outcome, f),
+            };
         }
         // Velocities have jumped: what was located for the old ones says nothing about the new.
         known.jumped = true;
         known.located.clear();
+    }
+
+    /// Whether the slip of friction `f` vanishes after an impact.
+    fn rests_after(&self, outcome: &Impact<S::Scalar>, f: usize) -> bool {
+        let friction = &S::DESCRIPTION.frictions[f];
+        (friction.row..friction.row + friction.components).all(|row| {
+            let (mut slip, mut size) = self.rate(row);
+            let jacobian = S::DESCRIPTION.rows[row].jacobian.iter();
+            for &(j, place) in jacobian {
+                let jump = (outcome.v[j] - self.before.state.v[j]).value();
+                let part = self.dynamics.motion(place).value() * jump;
+                slip += part;
+                size += part.abs();
+            }
+            slip.abs() <= 1e-13 * size
+        })
     }
 
     /// A contact that closes without impact carries frictions whose slip nobody has looked at.
@@ -199,24 +213,31 @@ impl<S: System> Run<S> {
             return Ok(());
         }
         self.evaluate_all_rows()?;
-        for (f, friction) in d.frictions.iter().enumerate() {
+        for f in 0..d.frictions.len() {
             if wakes(self, known, f) {
-                let (slip, size) = self.slip(friction.row);
-                known.resting[f] = slip.abs() <= 1e-13 * size;
+                known.resting[f] = self.slip_vanishes(f);
             }
         }
         Ok(())
     }
 
-    /// Slip of a friction row and the size of the terms that make it.
-    pub(super) fn slip(&self, row: usize) -> (f64, f64) {
+    /// Whether the slip of friction `f` is zero beside the terms that make it.
+    pub(super) fn slip_vanishes(&self, f: usize) -> bool {
+        let friction = &S::DESCRIPTION.frictions[f];
+        let rows = friction.row..friction.row + friction.components;
+        let rates = || rows.clone().map(|row| self.rate(row));
+        let size = rates().map(|(_, size)| size).fold(0.0, f64::max);
+        rates().all(|(rate, _)| rate.abs() <= 1e-13 * size)
+    }
+
+    /// Rate of a row (slip, rate of a gap) and the size of the terms that make it; a velocity that is zero is so only to some
+    /// 1e-16 of the unit, as projections leave it.
+    pub(super) fn rate(&self, row: usize) -> (f64, f64) {
         let row = &S::DESCRIPTION.rows[row];
         let number = |place| self.dynamics.motion(place).value();
-        let size = row
-            .jacobian
-            .iter()
-            .map(|&(j, place)| (number(place) * self.state.v[j].value()).abs())
-            .sum();
-        (number(row.velocity), size)
+        let size = |j: usize| self.state.v[j].value().abs() + 1e-2;
+        let terms = row.jacobian.iter();
+        let sizes = terms.map(|&(j, place)| number(place).abs() * size(j));
+        (number(row.velocity), sizes.sum())
     }
 }

@@ -8,6 +8,7 @@ pub(crate) use event::Around;
 pub use event::{Event, EventKind, Starts, State, Subject};
 pub use ledger::{Energies, Entry, Ledger};
 pub use sampler::{Instant, Sampler};
+pub(crate) use sampler::{instant, report_everything};
 
 use crate::arithmetic::Scalar;
 use crate::effects::Effects;
@@ -214,12 +215,20 @@ impl<S: System> Trajectory<S> {
         let mut last = None;
         for segment in &self.segments {
             let to = (segment.t + segment.h * segment.end).value();
+            let mode = &self.modes[segment.mode];
             match phases.last_mut() {
                 Some(phase) if last == Some(segment.mode) => phase.to = to,
+                // The first step of a slip in space is of the same phase as those that follow.
+                Some(phase)
+                    if last.is_some_and(|last: usize| self.modes[last].has_incipient_slip())
+                        && phase.mode == *mode =>
+                {
+                    phase.to = to
+                }
                 _ => phases.push(Phase {
                     from: segment.t.value(),
                     to,
-                    mode: self.modes[segment.mode].clone(),
+                    mode: mode.under_way(),
                 }),
             }
             last = Some(segment.mode);

@@ -1,11 +1,12 @@
 //! The trajectory at any time: state, accelerations, forces, energies, outputs.
 
-use super::{State, Trajectory};
+use super::{Segment, State, Trajectory};
 use crate::arithmetic::Scalar;
-use crate::dynamics::{Dynamics, NeedSet};
+use crate::dynamics::{Dynamics, NeedSet, approach};
 use crate::error::Error;
-use crate::mode::Mode;
+use crate::mode::{Direction, Mode};
 use crate::modes::guard;
+use crate::modes::sharing::Sharing;
 use crate::system::{Place, System};
 
 /// Everything known at one time.
@@ -21,8 +22,11 @@ pub struct Instant<T> {
     pub v: Vec<T>,
     /// Accelerations.
     pub acceleration: Vec<T>,
-    /// λ of every row; 0 where it does not act; for frictions the force along +slip.
+    /// λ of every row; 0 where it does not act; for frictions the force along +slip. Where the motion leaves forces open: the
+    /// shares of least norm among those that contacts and friction allow.
     pub forces: Vec<T>,
+    /// Per row: whether the motion leaves its force open. Empty where all forces are determined.
+    pub undetermined: Vec<bool>,
     /// Gap of every contact.
     pub gaps: Vec<T>,
     /// Slip of every friction component, in the order of the rows.
@@ -44,25 +48,23 @@ pub struct Instant<T> {
 pub struct Sampler<'a, S: System> {
     trajectory: &'a Trajectory<S>,
     dynamics: Dynamics<S>,
+    sharing: Sharing<S::Scalar>,
     mode: Option<usize>,
+    /// Whether slips have been given directions for the present state.
+    headed: bool,
     state: State<S::Scalar>,
 }
 
 impl<'a, S: System> Sampler<'a, S> {
     pub(super) fn new(trajectory: &'a Trajectory<S>) -> Self {
-        let d = S::DESCRIPTION;
         let mut dynamics = Dynamics::new(&trajectory.scene, &trajectory.effects);
-        let mut needs = NeedSet::new(d);
-        needs.insert(d.energy.need);
-        let loads = d.forces.iter().chain(d.dissipations).map(|l| l.report_need);
-        loads
-            .chain(d.observes.iter().map(|o| o.need))
-            .for_each(|need| needs.insert(need));
-        dynamics.set_report_needs(&needs);
+        report_everything(&mut dynamics);
         Self {
             trajectory,
             dynamics,
+            sharing: Sharing::default(),
             mode: None,
+            headed: false,
             state: trajectory.start.clone(),
         }
     }
@@ -95,11 +97,66 @@ impl<'a, S: System> Sampler<'a, S> {
                 let s = S::Scalar::from_f64(s.min(segment.end.value()));
                 let mut state = core::mem::take(&mut self.state);
                 trajectory.state_at(segment, s, &mut state.q, &mut state.v);
-                let instant = self.evaluate(S::Scalar::from_f64(t), segment.mode, &state);
+                self.enter(segment.mode);
+                let time = S::Scalar::from_f64(t);
+                self.headed = self.head_into_rest(segment, s, time, &state);
+                let instant = self.evaluate(time, segment.mode, &state);
+                if core::mem::take(&mut self.headed) {
+                    self.mode = None;
+                }
                 self.state = state;
                 instant
             }
         }
+    }
+
+    fn enter(&mut self, mode: usize) {
+        if self.mode != Some(mode) {
+            self.mode = Some(mode);
+            self.dynamics.set_mode(&self.trajectory.modes[mode]);
+            let d = S::DESCRIPTION;
+            let needs = guard::all_row_needs(d, &NeedSet::new(d));
+            self.dynamics.set_extra_needs(&needs);
+        }
+    }
+
+    /// Where slips of two components come to rest at the end of a segment, rounding leaves them no direction there: they get
+    /// that in which they have been going. False if there is none.
+    fn head_into_rest(
+        &mut self,
+        segment: &Segment<S::Scalar>,
+        s: S::Scalar,
+        time: S::Scalar,
+        state: &State<S::Scalar>,
+    ) -> bool {
+        /// Beside what makes a slip, it has no direction below this.
+        const VANISHING: f64 = 1e-10;
+        let mode = &self.trajectory.modes[segment.mode];
+        let mut along = None;
+        for (f, _) in mode.in_space() {
+            let dynamics = &mut self.dynamics;
+            dynamics.tape(time, &state.q, &state.v);
+            let slip = dynamics.slip(f).map(|s| s.value());
+            if slip[0].hypot(slip[1]) > VANISHING * dynamics.slip_size(f, &state.v) {
+                continue;
+            }
+            let mut there = state.clone();
+            let came = approach(|part| {
+                let s = S::Scalar::from_f64(part) * s;
+                self.trajectory
+                    .state_at(segment, s, &mut there.q, &mut there.v);
+                dynamics.tape(segment.t + segment.h * s, &there.q, &there.v);
+                dynamics.slip(f).map(|s| s.value())
+            });
+            if let Some(direction) = came {
+                let along = along.get_or_insert_with(|| mode.clone());
+                along.turn(f, Direction::Incipient(direction));
+            }
+        }
+        along.is_some_and(|mode| {
+            self.dynamics.set_mode(&mode);
+            true
+        })
     }
 
     /// Everything about a state in mode `mode` of the trajectory.
@@ -110,43 +167,15 @@ impl<'a, S: System> Sampler<'a, S> {
         state: &State<S::Scalar>,
     ) -> Result<Instant<S::Scalar>, Error> {
         let d = S::DESCRIPTION;
-        if self.mode != Some(mode) {
-            self.mode = Some(mode);
-            self.dynamics.set_mode(&self.trajectory.modes[mode]);
-            let needs = guard::all_row_needs(d, &NeedSet::new(d));
-            self.dynamics.set_extra_needs(&needs);
-        }
+        self.enter(mode);
         let dynamics = &mut self.dynamics;
-        let outcome = dynamics.value(t, &state.q, &state.v);
-        outcome
-            .map_err(|e| Error::from_evaluation(e, t.value(), &self.trajectory.modes[mode], d))?;
-        dynamics.report_value();
-        let contacts = d
-            .contacts
-            .iter()
-            .map(|c| d.rows[c.row].position.unwrap_or(Place::Zero));
-        let frictions = d.frictions.iter().flat_map(|f| f.row..f.row + f.components);
-        Ok(Instant {
-            time: t,
-            mode: self.trajectory.modes[mode].clone(),
-            q: state.q.clone(),
-            v: state.v.clone(),
-            acceleration: dynamics.acceleration().to_vec(),
-            forces: (0..d.rows.len()).map(|row| dynamics.force(row)).collect(),
-            gaps: contacts.map(|place| dynamics.motion(place)).collect(),
-            slips: frictions
-                .map(|row| dynamics.motion(d.rows[row].velocity))
-                .collect(),
-            kinetic: dynamics.report(d.energy.kinetic),
-            potential: dynamics.report(d.energy.potential),
-            jacobi: dynamics.report(d.energy.jacobi),
-            loads: d.forces.iter().map(|f| dynamics.report(f.value)).collect(),
-            observes: d
-                .observes
-                .iter()
-                .map(|o| dynamics.report(o.place))
-                .collect(),
-        })
+        let outcome = if self.headed {
+            dynamics.value(t, &state.q, &state.v)
+        } else {
+            dynamics.value_along(t, &state.q, &state.v)
+        };
+        let outcome = outcome.map(|()| instant(dynamics, &mut self.sharing, t, state));
+        outcome.map_err(|e| Error::from_evaluation(e, t.value(), &self.trajectory.modes[mode], d))
     }
 
     /// Power of every force, dissipation and row, and of explicit time, at part `s` of a segment; in the order of
@@ -186,5 +215,58 @@ impl<'a, S: System> Sampler<'a, S> {
             *out = power;
         }
         Ok(())
+    }
+}
+
+/// Asks the report tape for all that an [`Instant`] holds.
+pub(crate) fn report_everything<S: System>(dynamics: &mut Dynamics<S>) {
+    let d = S::DESCRIPTION;
+    let mut needs = NeedSet::new(d);
+    needs.insert(d.energy.need);
+    let loads = d.forces.iter().chain(d.dissipations).map(|l| l.report_need);
+    loads
+        .chain(d.observes.iter().map(|o| o.need))
+        .for_each(|need| needs.insert(need));
+    dynamics.set_report_needs(&needs);
+}
+
+/// Everything about a state in the present mode; all numbers of the rows and the report must have been asked for.
+pub(crate) fn instant<S: System>(
+    dynamics: &mut Dynamics<S>,
+    sharing: &mut Sharing<S::Scalar>,
+    t: S::Scalar,
+    state: &State<S::Scalar>,
+) -> Instant<S::Scalar> {
+    let d = S::DESCRIPTION;
+    let mut undetermined = Vec::new();
+    let forces = sharing.report(dynamics, &mut undetermined);
+    dynamics.replace_forces(&forces);
+    dynamics.report_value();
+    let contacts = d
+        .contacts
+        .iter()
+        .map(|c| d.rows[c.row].position.unwrap_or(Place::Zero));
+    let frictions = d.frictions.iter().flat_map(|f| f.row..f.row + f.components);
+    Instant {
+        time: t,
+        mode: dynamics.mode().under_way(),
+        q: state.q.clone(),
+        v: state.v.clone(),
+        acceleration: dynamics.acceleration().to_vec(),
+        forces,
+        undetermined,
+        gaps: contacts.map(|place| dynamics.motion(place)).collect(),
+        slips: frictions
+            .map(|row| dynamics.motion(d.rows[row].velocity))
+            .collect(),
+        kinetic: dynamics.report(d.energy.kinetic),
+        potential: dynamics.report(d.energy.potential),
+        jacobi: dynamics.report(d.energy.jacobi),
+        loads: d.forces.iter().map(|f| dynamics.report(f.value)).collect(),
+        observes: d
+            .observes
+            .iter()
+            .map(|o| dynamics.report(o.place))
+            .collect(),
     }
 }

@@ -1,9 +1,11 @@
 //! Symbolic mechanics: tokens of a declaration → equations → tokens of Rust.
 
 pub mod ast;
+pub mod check;
 pub mod derive;
 pub mod diagnostics;
 pub mod emit;
+pub mod inspect;
 pub mod interpret;
 pub mod model;
 pub mod parse;
@@ -11,6 +13,7 @@ pub mod plan;
 pub mod symbolic;
 
 use ast::Declaration;
+use check::Verdict;
 use diagnostics::{Code, Diagnostics};
 use plan::Program;
 use proc_macro2::TokenStream;
@@ -19,11 +22,18 @@ use proc_macro2::TokenStream;
 pub fn expand(input: TokenStream) -> TokenStream {
     let mut sink = Diagnostics::new();
     let declaration = parse::declaration(input.clone(), &mut sink);
-    match declaration
+    let program = declaration
         .as_ref()
-        .and_then(|declaration| planned(declaration, &mut sink))
-    {
-        Some(program) if sink.is_empty() => emit::emit(&program),
+        .and_then(|declaration| planned(declaration, &mut sink));
+    match (&declaration, program) {
+        (Some(declaration), Some((mut program, verdicts))) if sink.is_empty() => {
+            let mut tokens = emit::emit(&program, &verdicts);
+            if let Ok(derivation) = inspect::derivation(declaration, &mut program, None) {
+                let system = &program.equations.system;
+                tokens.extend(emit::derivation(system, &derivation, &input.to_string()));
+            }
+            tokens
+        }
         _ => {
             let mut tokens = sink.into_compile_errors();
             tokens.extend(emit::fallback(input, declaration.as_ref()));
@@ -32,43 +42,75 @@ pub fn expand(input: TokenStream) -> TokenStream {
     }
 }
 
+/// The expansion as formatted Rust.
+pub fn formatted(expansion: &TokenStream) -> String {
+    match syn::parse2::<syn::File>(expansion.clone()) {
+        Ok(file) => prettyplease::unparse(&file),
+        Err(_) => expansion.to_string(),
+    }
+}
+
 /// The program of a struct with its `#[lagrange(…)]` attributes.
 ///
 /// # Errors
 /// All mistakes that the first stage with mistakes has found.
 pub fn program(input: TokenStream) -> Result<Program, Diagnostics> {
+    Ok(checked(input)?.0)
+}
+
+/// The program of a struct with its `#[lagrange(…)]` attributes, and what is known of its checks.
+///
+/// # Errors
+/// All mistakes that the first stage with mistakes has found; a check that is false is one.
+pub fn checked(input: TokenStream) -> Result<(Program, Vec<Verdict>), Diagnostics> {
     let mut sink = Diagnostics::new();
     let declaration = parse::declaration(input, &mut sink);
     match declaration.and_then(|declaration| planned(&declaration, &mut sink)) {
-        Some(program) if sink.is_empty() => Ok(program),
+        Some(found) if sink.is_empty() => Ok(found),
         _ => Err(sink),
     }
 }
 
-fn planned(declaration: &Declaration, sink: &mut Diagnostics) -> Option<Program> {
-    let system = model::system(declaration, sink);
-    if system.as_ref().is_some_and(|system| system.pool.is_full()) {
-        return too_large(declaration, sink);
-    }
-    let equations = system.and_then(|system| derive::equations(system, sink));
-    if equations
+fn planned(declaration: &Declaration, sink: &mut Diagnostics) -> Option<(Program, Vec<Verdict>)> {
+    let system = model::scoped(declaration, sink);
+    if system
         .as_ref()
-        .is_some_and(|equations| equations.system.pool.is_full())
+        .is_some_and(|(system, _)| system.pool.is_full())
     {
         return too_large(declaration, sink);
     }
-    let program = equations.map(plan::plan);
-    match &program {
-        Some(program) if program.equations.system.pool.overflowed() => {
-            sink.report(Code::Overflow, &declaration.name, &[]);
-        }
-        None if sink.is_empty() => sink.report(Code::Bug, &declaration.name, &[]),
-        _ => {}
+    let equations = system.and_then(|(system, scope)| {
+        let equations = derive::equations(system, sink)?;
+        Some((equations, scope))
+    });
+    if equations
+        .as_ref()
+        .is_some_and(|(equations, _)| equations.system.pool.is_full())
+    {
+        return too_large(declaration, sink);
     }
-    program
+    match equations.map(|(equations, scope)| (plan::plan(equations), scope)) {
+        Some((program, _)) if program.equations.system.pool.overflowed() => {
+            sink.report(Code::Overflow, &declaration.name, &[]);
+            None
+        }
+        Some((mut program, scope)) => {
+            // What is planned does not change any more, so checks cannot change what is emitted.
+            let (equations, verdicts) =
+                check::verdicts(declaration, program.equations, scope, sink);
+            program.equations = equations;
+            Some((program, verdicts))
+        }
+        None => {
+            if sink.is_empty() {
+                sink.report(Code::Bug, &declaration.name, &[]);
+            }
+            None
+        }
+    }
 }
 
-fn too_large(declaration: &Declaration, sink: &mut Diagnostics) -> Option<Program> {
+fn too_large<T>(declaration: &Declaration, sink: &mut Diagnostics) -> Option<T> {
     let most = symbolic::MOST_OPERANDS;
     sink.report(
         Code::TooLarge,
@@ -77,3 +119,42 @@ fn too_large(declaration: &Declaration, sink: &mut Diagnostics) -> Option<Progra
     );
     None
 }
+
+/// What is derived from a struct with its `#[lagrange(…)]` attributes, to be read: in one mode, or in all.
+///
+/// # Errors
+/// The declaration has mistakes, or there is no such mode.
+pub fn inspect(input: TokenStream, mode: Option<&str>) -> Result<inspect::Derivation, Refusal> {
+    let mut sink = Diagnostics::new();
+    let declaration = parse::declaration(input, &mut sink);
+    let planned = declaration.and_then(|declaration| {
+        let (program, _) = planned(&declaration, &mut sink)?;
+        Some((declaration, program))
+    });
+    match planned {
+        Some((declaration, mut program)) if sink.is_empty() => {
+            inspect::derivation(&declaration, &mut program, mode).map_err(Refusal::Mode)
+        }
+        _ => Err(Refusal::Declaration(sink)),
+    }
+}
+
+/// Why there is nothing to inspect.
+#[derive(Debug)]
+pub enum Refusal {
+    /// Mistakes in the declaration.
+    Declaration(Diagnostics),
+    /// No such mode.
+    Mode(inspect::UnknownMode),
+}
+
+impl std::fmt::Display for Refusal {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Refusal::Declaration(mistakes) => mistakes.fmt(f),
+            Refusal::Mode(unknown) => unknown.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for Refusal {}

@@ -6,6 +6,7 @@
 mod accuracy;
 mod course;
 mod effects;
+mod inspect;
 mod list;
 mod output;
 mod run;
@@ -29,6 +30,7 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     List(list::List),
+    Inspect(inspect::Inspect),
     Run(run::Run),
     Accuracy(accuracy::Measure),
     Effects(effects::Effects),
@@ -76,6 +78,7 @@ pub(crate) fn main() -> ExitCode {
     };
     let result = match arguments.command {
         Command::List(list) => list.execute(),
+        Command::Inspect(inspect) => inspect.execute(),
         Command::Run(run) => run.execute(),
         Command::Accuracy(accuracy) => accuracy.execute(),
         Command::Effects(effects) => effects.execute(),

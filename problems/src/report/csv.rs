@@ -1,10 +1,11 @@
 //! Outcome → CSV: one line per sample, two (before and after) per event, in order of time.
 //!
 //! Columns: `t`, `event` (empty for a sample, else `grip slips`, `grip slips (after)`), coordinates, velocities,
-//! `force(item)`, `kinetic`, `potential`, `observe`d names, `mode`. Lines of events leave out the last but one group.
+//! `force(item)`, `kinetic`, `potential`, `observe`d names, `mode`; each with its unit where it is known, `x [m]`. Lines of events leave out the last but one group.
 
-use super::named_state;
+use super::{rate_unit, with_unit};
 use crate::outcome::{Outcome, Sample, forces};
+use crate::request::velocity_name;
 use lagrange_core::prelude::*;
 use std::io::{self, Write};
 
@@ -29,24 +30,22 @@ pub fn write(outcome: &Outcome, out: impl Write) -> io::Result<()> {
 
 fn header(outcome: &Outcome) -> Vec<String> {
     let description = outcome.description;
-    let none = vec![0.0; description.coordinates.len()];
-    let mut names = vec!["t".to_owned(), "event".to_owned()];
-    names.extend(
-        named_state(description, &none, &none)
-            .into_iter()
-            .map(|(name, _)| name),
-    );
+    let units = &description.units;
+    let coordinates = description.coordinates.iter();
+    let mut names = vec!["t [s]".to_owned(), "event".to_owned()];
+    names.extend(coordinates.clone().map(|c| with_unit(c.name, c.unit)));
+    names.extend(coordinates.map(|c| with_unit(&velocity_name(c.name), &rate_unit(c.unit))));
     names.extend(
         forces(description)
             .into_iter()
-            .map(|force| format!("force({})", force.name)),
+            .map(|force| with_unit(&format!("force({})", force.name), units.row(force.row))),
     );
-    names.extend(["kinetic".to_owned(), "potential".to_owned()]);
+    names.extend(["kinetic", "potential"].map(|name| with_unit(name, units.energy)));
     names.extend(
         description
             .observes
             .iter()
-            .map(|observe| observe.name.to_owned()),
+            .map(|observe| with_unit(observe.name, observe.unit)),
     );
     names.push("mode".to_owned());
     names

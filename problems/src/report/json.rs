@@ -1,7 +1,8 @@
 //! Outcome → JSON: everything, every number in full precision, names in the order of the declaration.
 
-use super::named_state;
+use super::{named_state, rate_unit};
 use crate::outcome::{Outcome, forces};
+use crate::request::velocity_name;
 use lagrange_core::prelude::*;
 use lagrange_core::system::Description;
 use serde::{Serialize, Serializer};
@@ -17,6 +18,8 @@ pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
 struct Report {
     scene: &'static str,
     parameters: Numbers,
+    #[serde(skip_serializing_if = "Texts::is_empty")]
+    units: Texts,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     without: Vec<&'static str>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -37,6 +40,9 @@ struct Instant {
     mode: String,
     state: Numbers,
     forces: Numbers,
+    /// Names of the forces that the motion leaves open.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    undetermined: Vec<String>,
 }
 
 #[derive(Serialize)]
@@ -48,8 +54,12 @@ struct Happening {
     to: String,
     state: Numbers,
     forces: Numbers,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    undetermined: Vec<String>,
     state_after: Numbers,
     forces_after: Numbers,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    undetermined_after: Vec<String>,
     impulses: Numbers,
     #[serde(skip_serializing_if = "is_false")]
     restitution_lowered: bool,
@@ -101,6 +111,41 @@ impl Serialize for Numbers {
     }
 }
 
+/// A JSON object of texts that keeps its order; what has no text is left out.
+struct Texts(Vec<(String, String)>);
+
+impl Texts {
+    fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
+impl Serialize for Texts {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(name, text)| (name, text)))
+    }
+}
+
+/// Units by name: of parameters, the state, forces, observed quantities and energies, as far as they are known.
+fn units(description: &Description) -> Texts {
+    let units = &description.units;
+    let parameters = description.parameters.iter();
+    let mut texts: Vec<(String, String)> = parameters
+        .map(|parameter| (parameter.name.to_owned(), parameter.unit.to_owned()))
+        .collect();
+    for coordinate in description.coordinates {
+        texts.push((coordinate.name.to_owned(), coordinate.unit.to_owned()));
+        texts.push((velocity_name(coordinate.name), rate_unit(coordinate.unit)));
+    }
+    let forces = forces(description).into_iter();
+    texts.extend(forces.map(|force| (force.name, units.row(force.row).to_owned())));
+    let observes = description.observes.iter();
+    texts.extend(observes.map(|observe| (observe.name.to_owned(), observe.unit.to_owned())));
+    texts.push(("energy".to_owned(), units.energy.to_owned()));
+    texts.retain(|(_, unit)| !unit.is_empty());
+    Texts(texts)
+}
+
 fn is_false(flag: &bool) -> bool {
     !flag
 }
@@ -113,11 +158,13 @@ fn report(outcome: &Outcome) -> Report {
         mode: sample.mode.display(description).to_string(),
         state: state(description, &sample.state),
         forces: rows(description, &sample.forces),
+        undetermined: flagged(description, &sample.undetermined),
     };
     Report {
         scene: outcome.scene,
         parameters: Numbers(names.zip(outcome.parameters.iter().copied()).collect()),
         without: outcome.left_out(),
+        units: units(description),
         start: outcome.first().map(instant),
         events: outcome
             .events
@@ -140,8 +187,10 @@ fn happening(description: &'static Description, event: &Event<f64>) -> Happening
         to: event.after.display(description).to_string(),
         state: state(description, &event.state),
         forces: rows(description, &event.forces),
+        undetermined: flagged(description, &event.undetermined),
         state_after: state(description, &event.state_after),
         forces_after: rows(description, &event.forces_after),
+        undetermined_after: flagged(description, &event.undetermined_after),
         impulses: rows(description, &event.impulses),
         restitution_lowered: event.restitution_lowered,
         ambiguous: event.ambiguous,
@@ -163,6 +212,14 @@ fn rows(description: &Description, values: &[f64]) -> Numbers {
             .map(|force| (force.name, values[force.row]))
             .collect(),
     )
+}
+
+/// Names of the flagged rows.
+fn flagged(description: &Description, flags: &[bool]) -> Vec<String> {
+    let all = forces(description).into_iter();
+    all.filter(|force| flags.get(force.row) == Some(&true))
+        .map(|force| force.name)
+        .collect()
 }
 
 fn energy(ledger: &Ledger) -> Energy {

@@ -40,6 +40,23 @@ pub fn is_angle(coordinate: &Coordinate) -> bool {
     LETTERS.contains(&stem)
 }
 
+/// The unit of a velocity: `m/s`, `rad/s`; empty for a coordinate without a unit.
+pub(crate) fn rate_unit(unit: &str) -> String {
+    match unit {
+        "" => String::new(),
+        unit if unit.contains(['/', ' ']) => format!("({unit})/s"),
+        unit => format!("{unit}/s"),
+    }
+}
+
+/// A name with its unit, `x [m]`, or the name alone.
+pub(crate) fn with_unit(name: &str, unit: &str) -> String {
+    match unit {
+        "" => name.to_owned(),
+        unit => format!("{name} [{unit}]"),
+    }
+}
+
 /// A state as (name, value) pairs in the order of the coordinates: positions, then velocities.
 pub(crate) fn named_state(description: &Description, q: &[f64], v: &[f64]) -> Vec<(String, f64)> {
     let names = || description.coordinates.iter().map(|c| c.name);

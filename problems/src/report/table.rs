@@ -23,13 +23,24 @@ pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
         writeln!(out, "Without {}.\n", left_out.join(", "))?;
     }
     writeln!(out, "{}", story(outcome).trim_fmt())?;
-    if let Some(ledger) = &outcome.ledger {
-        writeln!(out, "\n{}", energy(ledger).trim_fmt())?;
+    let open = outcome.undetermined();
+    if !open.is_empty() {
         writeln!(
             out,
-            "The ledger closes to {:.1e} of its scale, {} J.",
+            "\nNot determined: {}. What moves does not depend on how these forces are shared out; \
+             shown are the least that contacts and friction allow.",
+            open.join(", ")
+        )?;
+    }
+    if let Some(ledger) = &outcome.ledger {
+        let unit = outcome.description.units.energy;
+        writeln!(out, "\n{}", energy(ledger, unit).trim_fmt())?;
+        writeln!(
+            out,
+            "The ledger closes to {:.1e} of its scale, {}{}{unit}.",
             ledger.closure.abs() / ledger.scale.max(f64::MIN_POSITIVE),
-            Decimals::of([ledger.scale]).show(ledger.scale)
+            Decimals::of([ledger.scale]).show(ledger.scale),
+            if unit.is_empty() { "" } else { " " }
         )?;
     }
     writeln!(out, "\n{}", work(outcome))
@@ -120,7 +131,7 @@ fn entries(outcome: &Outcome, items: &[Force]) -> Vec<Line> {
 fn story(outcome: &Outcome) -> Table {
     let items = forces(outcome.description);
     let lines = entries(outcome, &items);
-    let coordinates = outcome.description.coordinates;
+    let (coordinates, units) = (outcome.description.coordinates, &outcome.description.units);
     let angles: Vec<usize> = (0..coordinates.len())
         .filter(|&i| is_angle(&coordinates[i]))
         .collect();
@@ -147,7 +158,11 @@ fn story(outcome: &Outcome) -> Table {
         };
         format!("{}\n{unit}", symbol(coordinates[i].name))
     }));
-    header.extend(items.iter().map(|item| format!("{}\nN", item.name)));
+    header.extend(
+        items
+            .iter()
+            .map(|item| format!("{}\n{}", item.name, units.row(item.row))),
+    );
     header.push("mode".to_owned());
     table.set_header(header);
 
@@ -175,7 +190,13 @@ fn story(outcome: &Outcome) -> Table {
         );
         row.extend((0..items.len()).map(|k| {
             let show = |values: &[Option<f64>]| match values.get(k).copied().flatten() {
-                Some(value) if line.impulse => format!("{} Ns", of_forces[k].show(value)),
+                Some(value) if line.impulse => format!(
+                    "{} {}",
+                    of_forces[k].show(value),
+                    impulse_unit(units.row(items[k].row))
+                )
+                .trim_end()
+                .to_owned(),
                 Some(value) => of_forces[k].show(value),
                 None => String::new(),
             };
@@ -193,6 +214,9 @@ fn story(outcome: &Outcome) -> Table {
             column.set_cell_alignment(CellAlignment::Right);
             column.set_constraint(ColumnConstraint::ContentWidth);
         }
+        if index == 1 {
+            column.set_constraint(ColumnConstraint::LowerBoundary(Width::Fixed(10)));
+        }
         if index == numbers {
             column.set_constraint(ColumnConstraint::LowerBoundary(Width::Fixed(18)));
         }
@@ -200,7 +224,17 @@ fn story(outcome: &Outcome) -> Table {
     table
 }
 
-fn energy(ledger: &Ledger) -> Table {
+/// Of a force's impulse, `Ns`.
+fn impulse_unit(force: &str) -> String {
+    match force {
+        "" => String::new(),
+        "N" => "Ns".to_owned(),
+        unit if unit.contains('/') => format!("({unit}) s"),
+        unit => format!("{unit} s"),
+    }
+}
+
+fn energy(ledger: &Ledger, unit: &str) -> Table {
     let (start, end) = (&ledger.start, &ledger.end);
     let lines = [
         ("kinetic", start.kinetic, end.kinetic),
@@ -218,7 +252,11 @@ fn energy(ledger: &Ledger) -> Table {
     let works = shown.iter().map(|entry| entry.work);
     let decimals = Decimals::of(lines.iter().flat_map(|(_, a, b)| [*a, *b]).chain(works));
     let mut table = page();
-    table.set_header(["energy, J", "start", "end", "change"]);
+    let heading = match unit {
+        "" => "energy".to_owned(),
+        unit => format!("energy, {unit}"),
+    };
+    table.set_header([&heading, "start", "end", "change"]);
     for (name, a, b) in lines {
         table.add_row([
             name.to_owned(),

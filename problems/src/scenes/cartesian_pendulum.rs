@@ -17,7 +17,7 @@ use lagrange_core::prelude::*;
 /// Of rounding and truncation, only what moves the mass along its circle stays: x² + y² = l² is kept after each step.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    coordinates(x, y),
+    coordinates(x: "m", y: "m"),
     kinetic   = mass/2 * (der(x)^2 + der(y)^2),
     potential = mass * gravity * y,
     constraint(rod: x^2 + y^2 == length^2),
@@ -26,12 +26,16 @@ use lagrange_core::prelude::*;
 )]
 pub struct CartesianPendulum<T = f64> {
     /// Mass, kg.
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Length of the rod, m.
+    #[lagrange(unit = "m", symbol = "l")]
     pub length: T,
     /// Gravitational acceleration, m/s².
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// Speed at the bottom in the start `kicked`, m/s.
+    #[lagrange(unit = "m/s", symbol = "v_0")]
     pub start_speed: T,
 }
 

@@ -11,7 +11,7 @@ use lagrange_core::prelude::*;
 /// t = 5 s an error grows about a thousand times, so that double precision cannot give better than some 1e-13.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    coordinates(theta1, theta2),
+    coordinates(theta1: "rad", theta2: "rad"),
     define(
         x1 = upper_length * sin(theta1),
         y1 = -upper_length * cos(theta1),
@@ -25,18 +25,25 @@ use lagrange_core::prelude::*;
 )]
 pub struct DoublePendulum<T = f64> {
     /// The mass between the rods, kg.
+    #[lagrange(unit = "kg", symbol = "m_1")]
     pub upper_mass: T,
     /// The mass at the end, kg.
+    #[lagrange(unit = "kg", symbol = "m_2")]
     pub lower_mass: T,
     /// Length of the upper rod, m.
+    #[lagrange(unit = "m", symbol = "l_1")]
     pub upper_length: T,
     /// Length of the lower rod, m.
+    #[lagrange(unit = "m", symbol = "l_2")]
     pub lower_length: T,
     /// Gravitational acceleration, m/s².
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// θ₁ at the start, rad from the downward vertical.
+    #[lagrange(unit = "rad", symbol = "alpha_1")]
     pub upper_angle: T,
     /// θ₂ at the start, rad from the downward vertical.
+    #[lagrange(unit = "rad", symbol = "alpha_2")]
     pub lower_angle: T,
 }
 

@@ -10,7 +10,7 @@ use lagrange_core::prelude::*;
 /// What to expect: energy is conserved; without gravity (`--set gravity=0`) the angular momentum about the pivot too.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    coordinates(theta[5]),
+    coordinates(theta[5]: "rad"),
     define(
         x[k in 0..5] = sum(i in 0..k+1: length * sin(theta[i])),
         y[k in 0..5] = sum(i in 0..k+1: -length * cos(theta[i])),
@@ -22,12 +22,16 @@ use lagrange_core::prelude::*;
 )]
 pub struct FiveLinkChain<T = f64> {
     /// Mass at the end of each link, kg.
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Length of each link, m.
+    #[lagrange(unit = "m", symbol = "l")]
     pub length: T,
     /// Gravitational acceleration, m/s².
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// Angle of a link at the start, rad from the downward vertical.
+    #[lagrange(unit = "rad", symbol = "alpha")]
     pub start_angle: [T; 5],
 }
 

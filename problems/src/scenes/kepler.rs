@@ -14,7 +14,7 @@ use lagrange_core::prelude::*;
 /// conserved.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    coordinates(x, y),
+    coordinates(x: "m", y: "m"),
     kinetic   = 1/2 * (der(x)^2 + der(y)^2),
     potential = -attraction / sqrt(x^2 + y^2),
     start(pericentre:
@@ -23,10 +23,13 @@ use lagrange_core::prelude::*;
 )]
 pub struct Kepler<T = f64> {
     /// μ, m³/s².
+    #[lagrange(unit = "m^3/s^2", symbol = "mu")]
     pub attraction: T,
     /// a, half the long axis of the orbit, m.
+    #[lagrange(unit = "m", symbol = "a")]
     pub semi_major_axis: T,
     /// Eccentricity of the orbit, at least 0 and below 1.
+    #[lagrange(unit = "1", symbol = "e")]
     pub eccentricity: T,
 }
 

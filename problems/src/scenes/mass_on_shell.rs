@@ -18,7 +18,7 @@ use lagrange_core::prelude::*;
 /// neither of which depends on the mass, the radius or gravity. Then a parabola.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    coordinates(r, theta),
+    coordinates(r: "m", theta: "rad"),
     define(
         x = r * sin(theta),
         y = r * cos(theta),
@@ -29,15 +29,24 @@ use lagrange_core::prelude::*;
     start(rest: r = radius, theta = start_angle),
     observe(x, y),
     stop(floor: y <= -radius),
+    check(normal: shell == mass * gravity * cos(theta) - mass * radius * der(theta)^2 when closed(shell)),
+    check(from_rest: shell == mass * gravity * (3*cos(theta) - 2*cos(start_angle))
+        when closed(shell) and energy == mass * gravity * radius * cos(start_angle)),
+    check(falling: der(der(y)) == -gravity when open(shell)),
+    check(conserved energy),
 )]
 pub struct MassOnShell<T = f64> {
     /// Mass, kg.
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Radius of the shell, m.
+    #[lagrange(unit = "m", symbol = "R")]
     pub radius: T,
     /// Gravitational acceleration, m/s².
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// θ at the start, rad from the upward vertical.
+    #[lagrange(unit = "rad", symbol = "theta_0")]
     pub start_angle: T,
 }
 

@@ -16,7 +16,7 @@ use lagrange_core::prelude::*;
 /// mass can neither stay on nor leave, and the run ends with an error that says so.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    coordinates(x, phi, r, theta),
+    coordinates(x: "m", phi: "rad", r: "m", theta: "rad"),
     define(
         px = x + r * sin(theta),
         py = r * cos(theta),
@@ -29,23 +29,40 @@ use lagrange_core::prelude::*;
     start(rest: r = radius, theta = start_angle),
     observe(px, py),
     stop(floor: py <= -radius),
+    check(stuck: der(der(theta)) * (wheel*radius^2 + inertia + 2*mass*radius^2*(1 + cos(theta)))
+        == mass * radius * sin(theta) * (gravity + radius * der(theta)^2) when sticks(grip)),
+    check(normal: rim == mass * (gravity*cos(theta) - radius*der(theta)^2 + der(der(x))*sin(theta)) when closed(rim)),
+    check(pushed: (wheel + inertia/radius^2) * der(der(x)) == -rim*sin(theta) - grip*(1 + cos(theta)) when closed(rim)),
+    // Where the factor of N vanishes, rigid friction has no answer.
+    check(slipping: rim * (wheel + inertia/radius^2 + mass*sin(theta) * (sin(theta) - mu_kinetic*(1 + cos(theta))))
+        == mass * (wheel + inertia/radius^2) * (gravity*cos(theta) - radius*der(theta)^2)
+        when slips(grip) and slip(grip) >= 0),
+    check(thrown: conserved der(px) when open(rim)),
 )]
 pub struct MassOnWheel<T = f64> {
     /// Mass of the wheel, kg.
+    #[lagrange(unit = "kg", symbol = "M")]
     pub wheel: T,
     /// Moment of inertia of the wheel about its centre, kg m²; ½ M R² for a disc.
+    #[lagrange(unit = "kg m^2", symbol = "I")]
     pub inertia: T,
     /// The small mass, kg.
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Radius of the wheel, m.
+    #[lagrange(unit = "m", symbol = "R")]
     pub radius: T,
     /// Gravitational acceleration, m/s².
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// Coefficient of static friction.
+    #[lagrange(unit = "1", symbol = "mu_s")]
     pub mu_static: T,
     /// Coefficient of kinetic friction.
+    #[lagrange(unit = "1", symbol = "mu_k")]
     pub mu_kinetic: T,
     /// θ at the start, rad from the upward vertical.
+    #[lagrange(unit = "rad", symbol = "theta_0")]
     pub start_angle: T,
 }
 

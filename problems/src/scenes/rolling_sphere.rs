@@ -21,7 +21,7 @@ use lagrange_core::prelude::*;
 /// Later than a sliding mass, since part of the energy has gone into the spin.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    coordinates(r, theta, phi),
+    coordinates(r: "m", theta: "rad", phi: "rad"),
     define(
         x = r * sin(theta),
         y = r * cos(theta),
@@ -34,17 +34,27 @@ use lagrange_core::prelude::*;
     start(rest: r = radius + sphere_radius, theta = start_angle),
     observe(x, y),
     stop(floor: y <= -radius),
+    check(rolls: der(der(theta)) == 5/7 * gravity * sin(theta) / (radius + sphere_radius) when closed(shell)),
+    check(normal: shell == mass * gravity / 7 * (17*cos(theta) - 10*cos(start_angle))
+        when closed(shell) and energy == mass * gravity * (radius + sphere_radius) * cos(start_angle)),
+    check(uphill: rolling == -2/7 * mass * gravity * sin(theta) when closed(shell)),
+    check(conserved energy),
 )]
 pub struct RollingSphere<T = f64> {
     /// Mass of the sphere, kg.
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Radius of the shell, m.
+    #[lagrange(unit = "m", symbol = "R")]
     pub radius: T,
     /// Radius of the sphere, m.
+    #[lagrange(unit = "m", symbol = "a")]
     pub sphere_radius: T,
     /// Gravitational acceleration, m/s².
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// θ at the start, rad from the upward vertical.
+    #[lagrange(unit = "rad", symbol = "theta_0")]
     pub start_angle: T,
 }
 

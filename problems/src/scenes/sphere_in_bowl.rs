@@ -21,7 +21,7 @@ use lagrange_core::prelude::*;
 /// (`--set mu_static=10 --set mu_kinetic=10`) to see it never slip.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    coordinates(r, theta, phi),
+    coordinates(r: "m", theta: "rad", phi: "rad"),
     define(
         x = r * sin(theta),
         y = -r * cos(theta),
@@ -39,23 +39,38 @@ use lagrange_core::prelude::*;
         der(theta) = start_speed / (radius - sphere_radius),
         der(phi) = -start_speed / sphere_radius),
     observe(x, y),
+    check(swings: der(der(theta)) == -5/7 * gravity * sin(theta) / (radius - sphere_radius) when sticks(grip)),
+    check(needed: grip == 2/7 * mass * gravity * sin(theta) when sticks(grip)),
+    check(from_rest: bowl == mass * gravity / 7 * (17*cos(theta) - 10*cos(start_angle))
+        when sticks(grip) and energy == -mass * gravity * (radius - sphere_radius) * cos(start_angle)),
+    // At the top it still presses if v₀² ≥ (27/7) g (R − a).
+    check(from_kick: bowl == mass * start_speed^2/(radius - sphere_radius) + mass * gravity / 7 * (17*cos(theta) - 10)
+        when sticks(grip) and energy == 7/10 * mass * start_speed^2 - mass * gravity * (radius - sphere_radius)),
 )]
 pub struct SphereInBowl<T = f64> {
     /// Mass of the sphere, kg.
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Inner radius of the bowl, m.
+    #[lagrange(unit = "m", symbol = "R")]
     pub radius: T,
     /// Radius of the sphere, m.
+    #[lagrange(unit = "m", symbol = "a")]
     pub sphere_radius: T,
     /// Gravitational acceleration, m/s².
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// Coefficient of static friction.
+    #[lagrange(unit = "1", symbol = "mu_s")]
     pub mu_static: T,
     /// Coefficient of kinetic friction.
+    #[lagrange(unit = "1", symbol = "mu_k")]
     pub mu_kinetic: T,
     /// θ of the start `rest`, rad from the bottom.
+    #[lagrange(unit = "rad", symbol = "theta_0")]
     pub start_angle: T,
     /// Speed of the centre in the start `kicked`, m/s.
+    #[lagrange(unit = "m/s", symbol = "v_0")]
     pub start_speed: T,
 }
 

@@ -11,7 +11,7 @@ use lagrange_core::prelude::*;
 /// What to expect: energy is conserved; without gravity (`--set gravity=0`) the angular momentum m r² θ̇ too.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    coordinates(r, theta),
+    coordinates(r: "m", theta: "rad"),
     define(
         x = r * sin(theta),
         y = -r * cos(theta),
@@ -24,14 +24,19 @@ use lagrange_core::prelude::*;
 )]
 pub struct StiffSpringPendulum<T = f64> {
     /// Mass, kg.
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Natural length of the spring, m.
+    #[lagrange(unit = "m", symbol = "l")]
     pub length: T,
     /// Gravitational acceleration, m/s².
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// Stiffness of the spring, N/m.
+    #[lagrange(unit = "N/m", symbol = "k")]
     pub stiffness: T,
     /// θ at the start, rad from the downward vertical.
+    #[lagrange(unit = "rad")]
     pub start_angle: T,
 }
 

@@ -11,6 +11,8 @@ mod frictions;
 mod kit;
 mod rolling;
 mod scales;
+mod slips;
+mod supports;
 
 pub use kit::Surprise;
 
@@ -142,10 +144,58 @@ pub static CASES: &[Case] = &[
         measure: frictions::coulomb_oscillator,
     },
     Case {
+        name: "incline-block",
+        scene: "incline-block",
+        trouble: "slip turns ever faster and has no change of sign",
+        measure: slips::incline_block,
+    },
+    Case {
+        name: "cue-ball",
+        scene: "cue-ball",
+        trouble: "friction chatters in two directions where it rolls",
+        measure: slips::cue_ball,
+    },
+    Case {
+        name: "turning-push",
+        scene: "turning-push",
+        trouble: "0/0: where does a slip begin to?",
+        measure: slips::turning_push,
+    },
+    Case {
+        name: "hoop-bead",
+        scene: "hoop-bead",
+        trouble: "the wire pulls, then pushes: kink of |N|",
+        measure: slips::hoop_bead,
+    },
+    Case {
+        name: "rod-sleeve",
+        scene: "rod-sleeve",
+        trouble: "slip and normal force vanish together",
+        measure: slips::rod_sleeve,
+    },
+    Case {
         name: "painleve-rod",
         scene: "painleve-rod",
         trouble: "no answer, or two: silently wrong",
         measure: frictions::painleve_rod,
+    },
+    Case {
+        name: "rod-on-supports",
+        scene: "rod-on-supports",
+        trouble: "two grips, one sum: slips too early, one by one",
+        measure: supports::rod_on_supports,
+    },
+    Case {
+        name: "beam-on-supports",
+        scene: "beam-on-supports",
+        trouble: "three supports: singular, or lets go too early",
+        measure: supports::beam_on_supports,
+    },
+    Case {
+        name: "sled",
+        scene: "sled",
+        trouble: "one runner too many: singular, or one pulls",
+        measure: supports::sled,
     },
     Case {
         name: "parallelogram",

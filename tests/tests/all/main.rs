@@ -8,6 +8,7 @@ mod efficiency;
 mod errors;
 mod interpretation;
 mod large;
+mod random;
 mod recording;
 mod runner;
 mod stability;

@@ -131,6 +131,8 @@ pub static PENDULUM: Description = Description {
     stops: &[],
     marks: &[],
     starts: &[],
+    units: crate::system::Units::NONE,
+    impacts: crate::system::Impacts::Together,
 };
 
 impl System for Pendulum {

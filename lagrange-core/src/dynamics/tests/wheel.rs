@@ -193,6 +193,8 @@ pub static WHEEL: Description = Description {
     stops: &[],
     marks: &[],
     starts: &[],
+    units: crate::system::Units::NONE,
+    impacts: crate::system::Impacts::Together,
 };
 
 fn held(h: &Held, need: usize) -> bool {

@@ -59,6 +59,8 @@ pub struct Moment<'a, T> {
 impl<T> Moment<'_, T> {
     /// How far forces located as zero, and what follows from them, are from it, relative to what they are made of.
     pub fn blur(&self, known: &Known) -> f64 {
-        self.tolerance.max(1e-14).max(4.0 * known.residue)
+        // Where all forces vanish at once a residue has nothing to be compared with.
+        let residue = known.residue.min(self.tolerance.max(1e-6));
+        self.tolerance.max(1e-14).max(4.0 * residue)
     }
 }

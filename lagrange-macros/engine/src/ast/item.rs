@@ -1,6 +1,7 @@
 //! Items of a declaration.
 
-use super::{Comparison, Expr, Head, Index, Name, Reference};
+use super::{Comparison, Expr, Head, Index, Name, Reference, Unit};
+use crate::diagnostics::Extent;
 use proc_macro2::Span;
 
 /// An item of a declaration.
@@ -43,6 +44,8 @@ pub enum ItemKind {
     Stop(Watch),
     /// `mark(name: …)`
     Mark(Watch),
+    /// `check(name: a == b when …)`
+    Check(Box<Check>),
     /// `attitude(body: q)`
     Attitude(Attitude),
     /// `impacts = together | in_turn`
@@ -56,8 +59,8 @@ pub struct Coordinate {
     pub name: Name,
     /// Number of elements.
     pub length: Option<Expr>,
-    /// Unit, or empty.
-    pub unit: String,
+    /// Unit.
+    pub unit: Option<Unit>,
 }
 
 /// A named expression.
@@ -274,6 +277,39 @@ impl ModeWord {
     ];
 }
 
+/// The user's own derivation, to be proven or refuted.
+#[derive(Clone, Debug)]
+pub struct Check {
+    /// Name, if it has one.
+    pub head: Option<Head>,
+    /// What is said to hold.
+    pub claim: Claim,
+    /// Where that is written.
+    pub claimed: Extent,
+    /// When it holds: all of these.
+    pub premises: Vec<Premise>,
+}
+
+/// What a check says.
+#[derive(Clone, Debug)]
+pub enum Claim {
+    /// `a == b`
+    Equal(Expr, Expr),
+    /// `conserved e`: der(e) == 0
+    Conserved(Expr),
+}
+
+/// A condition of a check.
+#[derive(Clone, Debug)]
+pub enum Premise {
+    /// `closed(c)` and the like
+    Mode(ModeWord, Reference),
+    /// `a >= b` or `a <= b`
+    AtLeast(Comparison),
+    /// `a == b`
+    Equal(Expr, Expr),
+}
+
 /// `attitude(body: q)`
 #[derive(Clone, Debug)]
 pub struct Attitude {
@@ -289,4 +325,6 @@ pub enum Impacts {
     /// In one solution.
     #[default]
     Together,
+    /// One after the other, in order of declaration, again and again, until none approaches.
+    InTurn,
 }

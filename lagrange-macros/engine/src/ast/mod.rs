@@ -12,9 +12,9 @@ use proc_macro2::{Ident, Span, TokenStream};
 
 pub use expression::{Comparison, Decimal, Expr, ExprKind, Factor, Relation, Sign};
 pub use item::{
-    Action, Attitude, Clause, Constraint, Contact, Coordinate, Definition, Dissipation, Element,
-    Energy, Force, Friction, FrictionLaw, Impacts, Item, ItemKind, ModeWord, Observe, Order,
-    Restitution, Start, StartValue, Trigger, Watch,
+    Action, Attitude, Check, Claim, Clause, Constraint, Contact, Coordinate, Definition,
+    Dissipation, Element, Energy, Force, Friction, FrictionLaw, Impacts, Item, ItemKind, ModeWord,
+    Observe, Order, Premise, Restitution, Start, StartValue, Trigger, Watch,
 };
 
 /// A struct with its declaration.
@@ -45,10 +45,19 @@ pub struct Field {
     pub documentation: String,
     /// `tex = "…"`, or empty.
     pub tex: String,
-    /// `unit = "…"`, or empty.
-    pub unit: String,
+    /// `unit = "…"`
+    pub unit: Option<Unit>,
     /// `symbol = "…"`, or empty.
     pub letter: String,
+}
+
+/// A unit as written.
+#[derive(Clone, Debug)]
+pub struct Unit {
+    /// Without the quotation marks.
+    pub text: String,
+    /// Where it is.
+    pub extent: Extent,
 }
 
 /// A name as written; `r#type` reads as `type`.

@@ -111,7 +111,9 @@ pub fn equations(system: System, sink: &mut Diagnostics) -> Option<Equations> {
     };
     // Of equations that are not finished nothing can be said.
     let unfinished = sheet.system.pool.is_full();
-    (unfinished || regular::check(&sheet.system, &inertias, &structure, sink)).then(|| Equations {
+    let regular =
+        unfinished || regular::check(&sheet.system, &inertias, &structure, &sheet.outputs, sink);
+    regular.then(|| Equations {
         needs: sheet.needs.labels,
         system: sheet.system,
         outputs: sheet.outputs,

@@ -129,6 +129,11 @@ impl Diagnostics {
         }
     }
 
+    /// Takes over everything that another collector has found.
+    pub fn append(&mut self, other: Diagnostics) {
+        self.found.extend(other.found);
+    }
+
     /// Whether nothing is wrong.
     pub fn is_empty(&self) -> bool {
         self.found.is_empty()

@@ -1,6 +1,6 @@
 //! Every message of the macro: its code, what is wrong, and what to do next. `{0}`, `{1}`, … are blanks.
 //!
-//! E0xx notation · E1xx the struct · E2xx names · E3xx values · E4xx what may stand where · E5xx mechanics
+//! E0xx notation · E1xx the struct · E2xx names · E3xx values · E4xx what may stand where · E5xx, E6xx mechanics · E7xx units · E8xx checks
 
 /// A row of the table.
 pub(super) struct Row {
@@ -57,6 +57,11 @@ table! {
     Exclusive "E023" "`{0}` and `{1}` exclude each other" "{2}";
     Operator "E024" "`{0}` is not an operator here" "{1}";
 
+    NoName "E025" "this {0} has no name" "{1}";
+    MissingOperator "E026" "an operator is missing before {0}" "{1}";
+    FunctionPower "E027" "`{0}^…` is not a power of a value" "write `{0}(…)^2`";
+    FunctionDefined "E028" "`{0}(…)` cannot be defined: there are no functions of one's own" "`define` names an expression; indexed it is `{0}[k in 0..n] = …`";
+
     NotAStruct "E101" "Lagrangian is derived for a struct with named fields" "write `struct {0} { mass: f64, … }`: every field is a parameter";
     Generics "E102" "{0}" "the struct is plain (`f64` fields) or has exactly one type parameter: `struct {1}<T = f64>`";
     FieldType "E103" "a parameter cannot have this type" "fields are `{0}` or `[{0}; N]` with a number N";
@@ -71,6 +76,8 @@ table! {
     WrongKind "E206" "`{0}` is a {1}, not a {2}" "{3}";
     Unusable "E207" "`{0}` is a {1} and has no value" "{2}";
 
+    HandleClash "E208" "`{0}` and `{1}` become one constant, `{2}`" "names of coordinates and items become constants in capitals: choose another";
+
     ArgumentCount "E301" "`{0}` takes {1}, not {2}" "";
     ListForScalar "E302" "a list of {0} where a single value is expected" "take one element `e[i]`, or `dot`, `norm`, `sum`";
     ScalarForList "E303" "a single value where a list is expected" "{0}";
@@ -82,16 +89,19 @@ table! {
     NoSuchMember "E309" "`{0}` has no member `{1}`" "{2}";
     EmptyRange "E310" "the range {0}..{1} is empty" "the upper bound must be larger than the lower one";
     TooMany "E311" "{0} elements are too many" "a declaration may unroll to {1}";
-    Overflow "E312" "the exact numbers of this item outgrow 38 digits" "pass such numbers as fields of the struct";
+    Overflow "E312" "the exact numbers here outgrow 38 digits" "pass such numbers as fields of the struct";
     ListProduct "E313" "`{0}` of two lists has no single meaning" "write `dot(a, b)`, `cross(a, b)`, or single elements";
 
+    NoValue "E314" "`{0}` has no value" "the numbers are outside of where it is defined";
+    HighPower "E315" "this exponent is too large" "numerators and denominators of exponents go up to {0}";
+
     VelocityHere "E401" "{0} depends on positions only, and `{1}` is a velocity" "{2}";
-    AccelerationHere "E402" "`{0}` is an acceleration" "accelerations are known after the equations are solved: in `observe`, `stop` and `mark` only";
+    AccelerationHere "E402" "`{0}` is an acceleration" "accelerations are known after the equations are solved: in `observe`, `stop`, `mark` and `check` only";
     CoordinateHere "E403" "{0} depends on parameters and t only, and `{1}` depends on the motion" "{2}";
     HigherDerivative "E404" "the derivative of an acceleration or force is not available" "";
-    OutputOnly "E405" "`{0}` has a value after the equations are solved" "use it in `observe`, `stop` or `mark`";
+    OutputOnly "E405" "`{0}` has a value after the equations are solved" "use it in `observe`, `stop`, `mark` or `check`";
     ForceHere "E406" "`{0}` is a {1}, whose force is not known here" "a force item may contain contacts and constraints; every output may contain all";
-    ConditionHere "E407" "`{0}(…)` is a condition, not a value" "use it in `stop` or `mark`, joined by `and`";
+    ConditionHere "E407" "`{0}(…)` is a condition, not a value" "use it in `stop` or `mark`, or behind `when` in a `check`, joined by `and`";
 
     NoCoordinates "E501" "no coordinates are declared" "add `coordinates(x, …)`";
     NoKinetic "E502" "no kinetic energy is declared" "add `kinetic = mass/2 * der(x)^2`, or a whole `lagrangian = …`";
@@ -105,9 +115,31 @@ table! {
     SameTwice "E510" "`{0}` is given twice" "keep one";
     UnnamedTwice "E511" "a second `{0} =` without a name" "name the terms: `{0}(name: …)`";
 
+    NegativeFriction "E512" "friction is not negative" "its sign follows from the slip: write the magnitude";
+    FrictionGrows "E513" "kinetic friction {0} is larger than static friction {1}" "the kinetic coefficient is at most the static one: are they exchanged?";
+    RestitutionRange "E514" "{0} is no restitution" "it lies between 0 (no bounce) and 1 (no loss)";
+
     NoInertia "E601" "the coordinate `{0}` has no inertia" "no kinetic energy contains `der({0})`, and no constraint ties it: add its kinetic energy or remove it";
     EquationCount "E602" "{0} equations for {1} unknowns" "{2}";
-    TooLarge "E603" "the equations of `{0}` outgrow {1} operands" "declare fewer elements; or give each body coordinates of its own and tie them with `constraint`: then each equation knows its neighbours only";
+    Redundant "E603" "`{0}` says nothing that {1} does not say already" "take one of them away: their forces cannot be told apart";
+    Contradiction "E604" "`{0}` cannot hold together with {1}" "they restrict the same motion in two ways: take one away";
+
+    SlipsParallel "E605" "the two components of the slip of `{0}` are one" "write velocities in two directions, or a slip of one component";
+    SingularInertia "E606" "{0} can move together without kinetic energy" "add the kinetic energy of that motion, or a constraint that forbids it";
+    TooLarge "E607" "the equations of `{0}` outgrow {1} operands" "declare fewer elements; or give each body coordinates of its own and tie them with `constraint`: then each equation knows its neighbours only";
+
+    UnknownUnit "E701" "`{0}` is not a unit" "{1}";
+    UnitMultiple "E702" "`{0}` is a multiple of {1}" "numbers are not converted: write `{1}`, and give the values in it";
+    UnitForm "E703" "{0}" "{1}";
+    UnitExpected "E704" "{0} is {1}, and this is {2}" "{3}";
+    UnitsAdded "E705" "adds {0} to {1}" "{2}";
+    UnitsCompared "E706" "compares {0} with {1}" "{2}";
+    PressedBy "E707" "the force of `{0}` is {1}, and what presses is {2}" "{3}";
+
+    CheckFalse "E801" "`{0}` does not hold{1}" "{2}";
+    CheckNever "E802" "no state fulfils the condition of this check" "{0}";
+    CheckModes "E803" "the condition leaves {0} modes open" "say of more contacts whether they are `open` or `closed`; `open(name)` of an indexed contact means all its elements that are not named otherwise";
+    CheckPremise "E804" "`{0}` is known after the equations are solved" "the condition of a check is made of positions, velocities, `closed(…)`, `open(…)`, `sticks(…)` and `slips(…)`";
 
     Bug "E999" "a bug in the derive: something was left out without a message" "please report it with the declaration";
 }

@@ -1,8 +1,9 @@
 //! The table that says what the numbers of the tapes mean: `lagrange_core::system::Description`.
 
 use super::names::{self, index};
+use crate::ast::Impacts;
 use crate::derive::{Load, NeedId, OutputId};
-use crate::model::{Condition, ItemName, Normal, Restitution, Watch};
+use crate::model::{Condition, ItemName, Normal, Restitution, System, Watch};
 use crate::plan::{Program, Tape};
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -63,15 +64,16 @@ pub fn description(program: &Program) -> TokenStream {
     let (branches, energy) = (writer.branches(), writer.energy());
     let momenta = writer.places(&structure.momenta.0);
     let momenta_need = index(structure.momenta.1.0);
-    let observes =
-        system
-            .observes
-            .iter()
-            .zip(&structure.observes)
-            .map(|(observe, (place, need))| {
-                let (name, place, need) = (&observe.name.text, writer.place(*place), index(need.0));
-                quote!(#core::system::Observe { name: #name, place: #place, need: #need, unit: "" })
-            });
+    let observes = system
+        .observes
+        .iter()
+        .zip(&structure.observes)
+        .enumerate()
+        .map(|(i, (observe, (place, need)))| {
+            let unit = system.units.observes.get(i).map_or("", String::as_str);
+            let (name, place, need) = (&observe.name.text, writer.place(*place), index(need.0));
+            quote!(#core::system::Observe { name: #name, place: #place, need: #need, unit: #unit })
+        });
     let stops = system
         .stops
         .iter()
@@ -83,6 +85,11 @@ pub fn description(program: &Program) -> TokenStream {
         .zip(&structure.marks)
         .map(|(watch, numbers)| writer.watch(watch, numbers));
     let starts = system.starts.iter().map(|start| &start.name.text);
+    let units = units(system);
+    let impacts = match system.impacts {
+        Impacts::Together => quote!(Together),
+        Impacts::InTurn => quote!(InTurn),
+    };
     quote! {
         #core::system::Description {
             name: #name,
@@ -111,6 +118,26 @@ pub fn description(program: &Program) -> TokenStream {
             stops: &[#(#stops),*],
             marks: &[#(#marks),*],
             starts: &[#(#starts),*],
+            units: #units,
+            impacts: #core::system::Impacts::#impacts,
+        }
+    }
+}
+
+/// `Units { … }`
+fn units(system: &System) -> TokenStream {
+    let (core, units) = (&system.core, &system.units);
+    let (energy, forces, dissipations) = (&units.energy, &units.forces, &units.dissipations);
+    let frictions = system.frictions.iter().zip(&units.frictions);
+    let frictions = frictions.flat_map(|(friction, unit)| friction.slip.iter().map(move |_| unit));
+    let rows = units
+        .constraints
+        .iter()
+        .chain(&units.contacts)
+        .chain(frictions);
+    quote! {
+        #core::system::Units {
+            energy: #energy, rows: &[#(#rows),*], forces: &[#(#forces),*], dissipations: &[#(#dissipations),*],
         }
     }
 }

@@ -1,6 +1,7 @@
 //! What stands beside the errors of a declaration: an `impl System` that type-checks, so that one mistake does not
 //! become an error at every use of the struct.
 
+use super::derivation;
 use super::handles::{self, Indices};
 use super::names::plain;
 use crate::ast::{Declaration, Head, ItemKind, Name, Observe};
@@ -75,7 +76,10 @@ fn placeholders(declaration: &Declaration, core: &TokenStream) -> TokenStream {
                 Some(head) => ("PotentialId", head),
                 None => continue,
             },
-            ItemKind::Define(_) | ItemKind::Lagrangian(_) | ItemKind::Impacts(_) => continue,
+            ItemKind::Define(_)
+            | ItemKind::Lagrangian(_)
+            | ItemKind::Impacts(_)
+            | ItemKind::Check(_) => continue,
             ItemKind::Constraint(item) => ("ConstraintId", &item.head),
             ItemKind::Contact(item) => ("ContactId", &item.head),
             ItemKind::Friction(item) => ("FrictionId", &item.head),
@@ -89,7 +93,9 @@ fn placeholders(declaration: &Declaration, core: &TokenStream) -> TokenStream {
     }
     let name = &declaration.name;
     let arguments = declaration.scalar.as_ref().map(|_| quote!(<f64>));
-    handles::inherent(quote!(#name #arguments), &constants)
+    let mut tokens = handles::inherent(quote!(#name #arguments), &constants);
+    tokens.extend(derivation::nothing(quote!(#name #arguments), core));
+    tokens
 }
 
 fn implementation(input: &DeriveInput, core: &TokenStream) -> TokenStream {
@@ -181,6 +187,8 @@ fn empty(core: &TokenStream) -> TokenStream {
             stops: &[],
             marks: &[],
             starts: &[],
+            impacts: #core::system::Impacts::Together,
+            units: #core::system::Units::NONE,
         }
     }
 }

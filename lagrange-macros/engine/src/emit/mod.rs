@@ -1,7 +1,9 @@
 //! [`Program`] → tokens: the tapes, the table that says what their numbers mean, and the handles.
 //! The only place that uses `quote`.
 
+mod checks;
 mod code;
+mod derivation;
 mod description;
 mod fallback;
 mod handles;
@@ -11,15 +13,17 @@ mod tape;
 #[cfg(test)]
 mod tests;
 
+use crate::check::Verdict;
 use crate::derive::Stage;
 use crate::plan::Program;
 use proc_macro2::TokenStream;
 use quote::quote;
 
+pub use derivation::derivation;
 pub use fallback::fallback;
 
-/// `impl System` and the handles of a program.
-pub fn emit(program: &Program) -> TokenStream {
+/// `impl System` and the handles of a program; [`derivation()`] belongs to it.
+pub fn emit(program: &Program, verdicts: &[Verdict]) -> TokenStream {
     let system = &program.equations.system;
     let (name, core) = (&system.name, &system.core);
     let (generics, arguments, scalar) = match &system.scalar {
@@ -30,7 +34,12 @@ pub fn emit(program: &Program) -> TokenStream {
         ),
         None => (quote!(), quote!(), quote!(f64)),
     };
+    let inherent = match &system.scalar {
+        Some(_) => quote!(#name::<f64>),
+        None => quote!(#name),
+    };
     let handles = handles::handles(program);
+    let checks = checks::checks(program, verdicts);
     let description = description::description(program);
     let access = scalar::access(system);
     let start = scalar::starts(program);
@@ -39,12 +48,16 @@ pub fn emit(program: &Program) -> TokenStream {
     let report = tape::tape(program, Stage::Report);
     quote! {
         #handles
+        #checks
 
         #[automatically_derived]
         #[allow(unused, clippy::all, clippy::pedantic, clippy::nursery)]
         impl #generics #core::system::System for #name #arguments {
             type Scalar = #scalar;
             const DESCRIPTION: &'static #core::system::Description = &#description;
+            fn derivation() -> &'static #core::Derivation {
+                #inherent::derivation()
+            }
             #access
             #start
             #constants

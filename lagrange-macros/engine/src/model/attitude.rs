@@ -25,7 +25,7 @@ const MEMBERS: [&str; 3] = ["axes", "space_rate", "body_rate"];
 impl Elaboration<'_> {
     /// The four coordinates of a body.
     pub fn declare_attitude(&mut self, attitude: &ast::Attitude) {
-        let first = self.declare_array(&attitude.coordinates, Some(4), "");
+        let first = self.declare_array(&attitude.coordinates, Some(4));
         if let Some(first) = first {
             self.bodies.insert(attitude.body.text.clone(), first);
         }

@@ -61,7 +61,7 @@ impl Elaboration<'_> {
                 name,
                 symbol,
                 documentation: field.documentation.clone(),
-                unit: field.unit.clone(),
+                unit: String::new(),
                 tex: field.tex.clone(),
                 letter: field.letter.clone(),
             });
@@ -81,7 +81,7 @@ impl Elaboration<'_> {
         };
         match length {
             Some(length) => {
-                self.declare_array(&coordinate.name, length, &coordinate.unit);
+                self.declare_array(&coordinate.name, length);
             }
             None => {
                 self.dropped = true;
@@ -91,21 +91,16 @@ impl Elaboration<'_> {
     }
 
     /// Enters a coordinate or an array of them; gives the first.
-    pub fn declare_array(
-        &mut self,
-        name: &Name,
-        length: Option<usize>,
-        unit: &str,
-    ) -> Option<usize> {
+    pub fn declare_array(&mut self, name: &Name, length: Option<usize>) -> Option<usize> {
         self.enter(name, Kind::Coordinate, Meaning::Poisoned)?;
         let first = self.system.coordinates.len();
         let value = match length {
-            None => self.add_coordinate(item_name(name, None), unit),
+            None => self.add_coordinate(item_name(name, None)),
             Some(length) => {
                 let element = |k| item_name(name, Some((k as i64, k, length)));
                 Value::List(
                     (0..length)
-                        .map(|k| self.add_coordinate(element(k), unit))
+                        .map(|k| self.add_coordinate(element(k)))
                         .collect(),
                 )
             }
@@ -145,7 +140,7 @@ impl Elaboration<'_> {
         usize::try_from(count).ok().filter(|&count| count > 0)
     }
 
-    fn add_coordinate(&mut self, name: ItemName, unit: &str) -> Value {
+    fn add_coordinate(&mut self, name: ItemName) -> Value {
         let position = self.symbol(&name.text, Depth::Position);
         let velocity = self.symbol(&format!("der({})", name.text), Depth::Velocity);
         let acceleration = self.symbol(&format!("der(der({}))", name.text), Depth::Acceleration);
@@ -159,7 +154,7 @@ impl Elaboration<'_> {
             position,
             velocity,
             acceleration,
-            unit: unit.to_string(),
+            unit: String::new(),
         });
         Value::Scalar(self.system.pool.leaf(position))
     }
@@ -210,6 +205,10 @@ impl Elaboration<'_> {
             ItemKind::Start(item) => (&item.head, Kind::Start),
             ItemKind::Stop(item) => (&item.head, Kind::Stop),
             ItemKind::Mark(item) => (&item.head, Kind::Mark),
+            ItemKind::Check(item) => match &item.head {
+                None => return true,
+                Some(head) => (head, Kind::Check),
+            },
         };
         let elements = Vec::new();
         self.enter(
@@ -263,7 +262,7 @@ impl Elaboration<'_> {
             return Some(found);
         }
         match self.names.get(&name.text).map(|entry| entry.kind) {
-            None => self.unknown(name),
+            None => self.unknown_of(name, &[Kind::Coordinate]),
             Some(Kind::Coordinate) => {} // poisoned
             Some(kind) => {
                 let known: Vec<String> = self

@@ -5,7 +5,7 @@
 use super::names::{Kind, Meaning, Names};
 use super::reach::{Context, Depth, Reach};
 use super::value::Value;
-use super::{ItemName, System};
+use super::{ItemName, System, Units};
 use crate::ast::{Declaration, Expr, Head, Impacts, Item, ItemKind, Name};
 use crate::diagnostics::{Code, Diagnostics};
 use crate::symbolic::{ExprId, Pool, Symbol};
@@ -17,6 +17,8 @@ pub(super) struct Elaboration<'a> {
     pub system: System,
     pub sink: &'a mut Diagnostics,
     pub names: Names,
+    /// Names by the constant that they become.
+    pub handles: BTreeMap<String, String>,
     /// Bound indices, innermost last.
     pub indices: Vec<(String, i64)>,
     /// Kind of each symbol, by its index.
@@ -43,8 +45,23 @@ pub(super) struct Pending {
     pub context: Context,
 }
 
+/// What the names of a declaration mean, kept for what is read once everything is derived.
+pub struct Scope {
+    names: Names,
+    depths: Vec<Depth>,
+    directions: Vec<(Symbol, ExprId)>,
+    definitions: Vec<Pending>,
+    coordinate_names: BTreeMap<String, (usize, Option<usize>)>,
+    bodies: BTreeMap<String, usize>,
+}
+
 /// Resolves all names of a declaration; mistakes go to the sink.
 pub fn system(declaration: &Declaration, sink: &mut Diagnostics) -> Option<System> {
+    Some(scoped(declaration, sink)?.0)
+}
+
+/// Resolves all names of a declaration, and keeps them; mistakes go to the sink.
+pub fn scoped(declaration: &Declaration, sink: &mut Diagnostics) -> Option<(System, Scope)> {
     let before = sink.count();
     let mut elaboration = Elaboration::new(declaration, sink);
     let accepted = elaboration.declare(declaration);
@@ -65,8 +82,12 @@ pub fn system(declaration: &Declaration, sink: &mut Diagnostics) -> Option<Syste
     }
     elaboration.check_quadratic(declaration);
     elaboration.check_dropped(declaration);
-    let system = elaboration.system;
-    (sink.count() == before).then_some(system)
+    if elaboration.sink.count() == before {
+        elaboration.units(declaration);
+        elaboration.structure(declaration);
+    }
+    let (system, scope) = elaboration.close();
+    (sink.count() == before).then_some((system, scope))
 }
 
 /// Items are read in this order: each needs only what comes before it.
@@ -124,11 +145,14 @@ impl<'a> Elaboration<'a> {
             stops: Vec::new(),
             marks: Vec::new(),
             impacts: Impacts::default(),
+            units: Units::default(),
+            hints: Vec::new(),
         };
         Elaboration {
             system,
             sink,
             names: Names::new(),
+            handles: BTreeMap::new(),
             indices: Vec::new(),
             depths: vec![Depth::Parameter; time.index() + 1],
             directions: vec![(time, one)],
@@ -138,6 +162,37 @@ impl<'a> Elaboration<'a> {
             dropped: false,
             overflowed: false,
         }
+    }
+
+    /// Goes on with a system that has been closed.
+    pub fn reopen(system: System, scope: Scope, sink: &'a mut Diagnostics) -> Elaboration<'a> {
+        Elaboration {
+            overflowed: system.pool.overflowed(),
+            system,
+            sink,
+            names: scope.names,
+            handles: BTreeMap::new(),
+            indices: Vec::new(),
+            depths: scope.depths,
+            directions: scope.directions,
+            definitions: scope.definitions,
+            coordinate_names: scope.coordinate_names,
+            bodies: scope.bodies,
+            dropped: false,
+        }
+    }
+
+    /// The system, and what its names mean.
+    pub fn close(self) -> (System, Scope) {
+        let scope = Scope {
+            names: self.names,
+            depths: self.depths,
+            directions: self.directions,
+            definitions: self.definitions,
+            coordinate_names: self.coordinate_names,
+            bodies: self.bodies,
+        };
+        (self.system, scope)
     }
 
     /// A new symbol of this kind.

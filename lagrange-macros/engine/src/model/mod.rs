@@ -7,6 +7,7 @@
 
 mod attitude;
 mod calls;
+mod checks;
 mod constraints;
 mod contacts;
 mod declare;
@@ -21,15 +22,20 @@ mod outputs;
 mod piecewise;
 mod reach;
 mod starts;
+mod structure;
 #[cfg(test)]
 pub(crate) mod tests;
+mod units;
 mod value;
 
 use crate::ast::Impacts;
+use crate::diagnostics::Extent;
 use crate::symbolic::{ExprId, Pool, Symbol};
 use proc_macro2::{Ident, Span};
 
-pub use elaborate::system;
+pub use checks::{Check, Premise, checks};
+pub use elaborate::{Scope, scoped, system};
+pub(crate) use names::shouting;
 
 /// A mechanical system with all names resolved.
 pub struct System {
@@ -77,6 +83,39 @@ pub struct System {
     pub marks: Vec<Watch>,
     /// How simultaneous impacts are resolved.
     pub impacts: Impacts,
+    /// Units of what a run reports.
+    pub units: Units,
+    /// What is right but may not be meant.
+    pub hints: Vec<Hint>,
+}
+
+/// Units of what a run reports, beside those of parameters and coordinates; in the order of the system's lists. Empty
+/// lists if no units are declared, empty texts for plain numbers and for what does not follow.
+#[derive(Clone, Default, Debug)]
+pub struct Units {
+    /// `J`, but for energies per unit of mass.
+    pub energy: String,
+    /// Of multipliers.
+    pub constraints: Vec<String>,
+    /// Of multipliers.
+    pub contacts: Vec<String>,
+    /// Of the force along each slip component.
+    pub frictions: Vec<String>,
+    /// Of values.
+    pub forces: Vec<String>,
+    /// Of Rayleigh's function.
+    pub dissipations: Vec<String>,
+    /// Of values.
+    pub observes: Vec<String>,
+}
+
+/// A remark on a declaration that is not wrong: shown with what was derived, never an error.
+#[derive(Clone, Debug)]
+pub struct Hint {
+    /// What is to be said.
+    pub text: String,
+    /// What it is about.
+    pub extent: Extent,
 }
 
 /// Name of an item, `rim` or `ball[3]`.
@@ -104,7 +143,7 @@ pub struct Parameter {
     pub symbol: Symbol,
     /// Doc comment.
     pub documentation: String,
-    /// `#[lagrange(unit = …)]`, or empty.
+    /// As declared or inferred; empty for a plain number and where nothing is known.
     pub unit: String,
     /// `#[lagrange(tex = …)]`, or empty.
     pub tex: String,
@@ -122,7 +161,7 @@ pub struct Coordinate {
     pub velocity: Symbol,
     /// dv/dt, in outputs after the solve only.
     pub acceleration: Symbol,
-    /// Unit, or empty.
+    /// As declared or inferred; empty for a plain number and where nothing is known.
     pub unit: String,
 }
 
@@ -228,6 +267,7 @@ pub struct Dissipation {
 }
 
 /// Guard of a piecewise branch.
+#[derive(Clone)]
 pub struct Branch {
     /// ≥ 0 selects `then`.
     pub guard: ExprId,

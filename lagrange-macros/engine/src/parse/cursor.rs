@@ -18,6 +18,7 @@ const OPERATORS: &[&str] = &[
 const DEEPEST: usize = 100;
 
 /// Tokens and a position among them.
+#[derive(Clone)]
 pub(super) struct Cursor {
     tokens: Vec<TokenTree>,
     at: usize,
@@ -202,6 +203,14 @@ impl Cursor {
     /// The word here, without stepping.
     pub fn word(&self) -> Option<Name> {
         match self.peek() {
+            Some(TokenTree::Ident(ident)) => Some(Name::new(ident)),
+            _ => None,
+        }
+    }
+
+    /// The word that was stepped over last.
+    pub fn word_behind(&self) -> Option<Name> {
+        match self.at.checked_sub(1).and_then(|i| self.tokens.get(i)) {
             Some(TokenTree::Ident(ident)) => Some(Name::new(ident)),
             _ => None,
         }

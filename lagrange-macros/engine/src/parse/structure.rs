@@ -2,7 +2,7 @@
 
 use super::cursor::Cursor;
 use super::item;
-use crate::ast::{Declaration, Field, Name};
+use crate::ast::{Declaration, Field, Name, Unit};
 use crate::diagnostics::{Code, Diagnostics, Extent};
 use proc_macro2::{Ident, TokenStream};
 use syn::spanned::Spanned;
@@ -49,6 +49,9 @@ fn scalar(input: &DeriveInput, sink: &mut Diagnostics) -> Option<Ident> {
         sink.report(Code::Generics, at, &[&what, &input.ident]);
     };
     let mut scalar = None;
+    for bound in input.generics.type_params().flat_map(|ty| &ty.bounds) {
+        refuse("a bound on the type parameter", bound.span().into());
+    }
     for parameter in &input.generics.params {
         let at = parameter.span().into();
         match parameter {
@@ -88,7 +91,7 @@ fn field(field: &syn::Field, scalar: Option<&Ident>, sink: &mut Diagnostics) -> 
         length,
         documentation: documentation(&field.attrs),
         tex: String::new(),
-        unit: String::new(),
+        unit: None,
         letter: String::new(),
     };
     for attribute in field.attrs.iter().filter(|a| a.path().is_ident("lagrange")) {
@@ -123,10 +126,19 @@ fn length(length: &Expr) -> Option<usize> {
 fn field_attribute(part: &mut Cursor, field: &mut Field, sink: &mut Diagnostics) -> Option<()> {
     let keys = ["tex", "unit", "symbol"];
     let key = item::key(part, "a field", &keys, sink)?;
+    let extent = part.here();
     let text = item::text(part, sink)?;
+    let given = match key.text.as_str() {
+        "tex" => !field.tex.is_empty(),
+        "unit" => field.unit.is_some(),
+        _ => !field.letter.is_empty(),
+    };
+    if given {
+        sink.report(Code::RepeatedPart, &key, &[&key.text]);
+    }
     match key.text.as_str() {
         "tex" => field.tex = text,
-        "unit" => field.unit = text,
+        "unit" => field.unit = Some(Unit { text, extent }),
         _ => field.letter = text,
     }
     super::relation::leftover(part, sink)

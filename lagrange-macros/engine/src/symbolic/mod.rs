@@ -12,6 +12,7 @@ mod evaluate;
 mod expand;
 mod factor;
 mod facts;
+pub mod field;
 mod function;
 mod group;
 mod hash;

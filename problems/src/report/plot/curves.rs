@@ -45,79 +45,102 @@ pub(super) fn bands(outcome: &Outcome) -> Bands {
 }
 
 pub(super) fn panels(outcome: &Outcome) -> Vec<Panel> {
-    let mut panels = vec![Panel {
-        title: "force, N".to_owned(),
-        curves: force_curves(outcome),
-    }];
-    let coordinates = outcome.description.coordinates;
-    let of_kind = |angle: bool| -> Vec<Curve> {
-        coordinates
-            .iter()
-            .enumerate()
-            .filter(|(_, coordinate)| is_angle(coordinate) == angle)
-            .enumerate()
-            .map(|(colour, (i, coordinate))| {
-                let scale = if angle {
-                    180.0 / core::f64::consts::PI
-                } else {
-                    1.0
-                };
-                let value = |sample: &Sample| Some(sample.state.q[i] * scale);
-                Curve {
-                    name: symbol(coordinate.name),
-                    pieces: pieces(outcome, value),
-                    dashed: false,
-                    colour,
-                }
-            })
-            .collect()
-    };
-    panels.push(Panel {
-        title: "angle, °".to_owned(),
-        curves: of_kind(true),
+    let description = outcome.description;
+    let mut panels: Vec<Panel> = by_unit(force_curves(outcome), "force");
+    let coordinates = description.coordinates.iter().enumerate();
+    let curves = coordinates.map(|(i, coordinate)| {
+        let angle = is_angle(coordinate);
+        let scale = if angle {
+            180.0 / core::f64::consts::PI
+        } else {
+            1.0
+        };
+        let value = |sample: &Sample| Some(sample.state.q[i] * scale);
+        let curve = Curve {
+            name: symbol(coordinate.name),
+            pieces: pieces(outcome, value),
+            dashed: false,
+            colour: 0,
+        };
+        (if angle { "°" } else { coordinate.unit }, curve)
     });
-    panels.push(Panel {
-        title: "position, m".to_owned(),
-        curves: of_kind(false),
-    });
-    panels.retain(|panel| !panel.curves.is_empty());
+    let (angles, others): (Vec<_>, Vec<_>) = curves.partition(|(unit, _)| *unit == "°");
+    panels.extend(by_unit(recoloured(angles), "angle"));
+    panels.extend(by_unit(recoloured(others), "position"));
     panels
 }
 
-fn force_curves(outcome: &Outcome) -> Vec<Curve> {
+/// Colours in order.
+fn recoloured(curves: Vec<(&'static str, Curve)>) -> Vec<(&'static str, Curve)> {
+    let curves = curves.into_iter().enumerate();
+    curves
+        .map(|(colour, (unit, curve))| (unit, Curve { colour, ..curve }))
+        .collect()
+}
+
+/// One panel for each unit.
+fn by_unit(curves: Vec<(&'static str, Curve)>, what: &str) -> Vec<Panel> {
+    let mut panels: Vec<Panel> = Vec::new();
+    for (unit, curve) in curves {
+        let title = match unit {
+            "" => what.to_owned(),
+            unit => format!("{what}, {unit}"),
+        };
+        match panels.iter_mut().find(|panel| panel.title == title) {
+            Some(panel) => panel.curves.push(curve),
+            None => panels.push(Panel {
+                title,
+                curves: vec![curve],
+            }),
+        }
+    }
+    panels
+}
+
+/// Curves with their units.
+fn force_curves(outcome: &Outcome) -> Vec<(&'static str, Curve)> {
     let description = outcome.description;
     let mut curves = Vec::new();
-    for (colour, force) in forces(description).into_iter().enumerate() {
-        let friction = matches!(force.source, Source::Friction(_));
+    let mut forces = forces(description);
+    // A friction of two components is one curve, too.
+    forces.dedup_by_key(|force| force.source);
+    for (colour, force) in forces.into_iter().enumerate() {
         let value = |sample: &Sample| {
-            let value = sample.forces[force.row];
-            force
-                .acts(description, &sample.mode)
-                .then(|| if friction { value.abs() } else { value })
+            let value = match force.source {
+                Source::Friction(i) => {
+                    let components = description.frictions[i].components;
+                    let parts = &sample.forces[force.row..force.row + components];
+                    parts.iter().fold(0.0, |size, x| x.hypot(size))
+                }
+                _ => sample.forces[force.row],
+            };
+            force.acts(description, &sample.mode).then_some(value)
         };
-        let name = if friction {
-            format!("|{}|", force.name)
-        } else {
-            force.name.clone()
+        let name = match force.source {
+            Source::Friction(i) => format!("|{}|", description.frictions[i].name),
+            _ => force.name.clone(),
         };
-        curves.push(Curve {
+        let unit = description.units.row(force.row);
+        let curve = Curve {
             name,
             pieces: pieces(outcome, value),
             dashed: false,
             colour,
-        });
+        };
+        curves.push((unit, curve));
         if let Source::Friction(i) = force.source {
             let limit = |sample: &Sample| sample.limits[i];
             let name = format!("μN of {}", description.frictions[i].name);
-            curves.push(Curve {
+            let curve = Curve {
                 name,
                 pieces: pieces(outcome, limit),
                 dashed: true,
                 colour,
-            });
+            };
+            curves.push((unit, curve));
         }
     }
-    curves.retain(|curve| !curve.pieces.is_empty());
+    curves.retain(|(_, curve)| !curve.pieces.is_empty());
     curves
 }
 

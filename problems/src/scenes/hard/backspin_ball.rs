@@ -14,7 +14,7 @@ use lagrange_core::prelude::*;
 /// ```
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    coordinates(x, y, phi),
+    coordinates(x: "m", y: "m", phi: "rad"),
     kinetic   = mass/2 * (der(x)^2 + der(y)^2) + (2/5 * mass * radius^2)/2 * der(phi)^2,
     potential = mass * gravity * y,
     contact(floor: y >= radius),
@@ -23,16 +23,22 @@ use lagrange_core::prelude::*;
 )]
 pub struct BackspinBall<T = f64> {
     /// Mass, kg.
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Radius a, m.
+    #[lagrange(unit = "m", symbol = "R")]
     pub radius: T,
     /// Gravitational acceleration, m/s².
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// Coefficient of friction, static and kinetic.
+    #[lagrange(unit = "1")]
     pub mu: T,
     /// Speed v₀ at the start, m/s.
+    #[lagrange(unit = "m/s")]
     pub speed: T,
     /// Backspin ω₀ at the start, rad/s.
+    #[lagrange(unit = "rad/s")]
     pub spin: T,
 }
 

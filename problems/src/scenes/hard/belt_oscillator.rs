@@ -14,7 +14,7 @@ use lagrange_core::prelude::*;
 /// time of the last one.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    coordinates(s, n),
+    coordinates(s: "m", n: "m"),
     kinetic   = mass/2 * (der(s)^2 + der(n)^2),
     potential(weight: mass * gravity * n),
     potential(spring: stiffness/2 * s^2),
@@ -24,16 +24,22 @@ use lagrange_core::prelude::*;
 )]
 pub struct BeltOscillator<T = f64> {
     /// Mass, kg.
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Gravitational acceleration, m/s².
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// Stiffness k of the spring, N/m.
+    #[lagrange(unit = "N/m", symbol = "k")]
     pub stiffness: T,
     /// Speed of the belt, m/s.
+    #[lagrange(unit = "m/s")]
     pub speed: T,
     /// Coefficient of static friction.
+    #[lagrange(unit = "1", symbol = "mu_s")]
     pub mu_static: T,
     /// Coefficient of kinetic friction.
+    #[lagrange(unit = "1", symbol = "mu_k")]
     pub mu_kinetic: T,
 }
 

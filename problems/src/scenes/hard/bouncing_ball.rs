@@ -15,7 +15,7 @@ use lagrange_core::prelude::*;
 /// ```
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    coordinates(y),
+    coordinates(y: "m"),
     kinetic   = mass/2 * der(y)^2,
     potential = mass * gravity * y,
     contact(floor: y >= 0, restitution = bounce),
@@ -23,12 +23,16 @@ use lagrange_core::prelude::*;
 )]
 pub struct BouncingBall<T = f64> {
     /// Mass, kg.
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Gravitational acceleration, m/s².
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// Restitution e: speed after an impact over speed before.
+    #[lagrange(unit = "1")]
     pub bounce: T,
     /// Height at the start, m.
+    #[lagrange(unit = "m")]
     pub height: T,
 }
 

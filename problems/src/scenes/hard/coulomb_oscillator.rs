@@ -11,7 +11,7 @@ use lagrange_core::prelude::*;
 /// What to expect: turning points xₙ = (−1)ⁿ (x₀ − 2 n μₖ m g/k), at rest at the first that lies in the dead band.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    coordinates(x, y),
+    coordinates(x: "m", y: "m"),
     kinetic   = mass/2 * (der(x)^2 + der(y)^2),
     potential(weight: mass * gravity * y),
     potential(spring: stiffness/2 * x^2),
@@ -21,16 +21,22 @@ use lagrange_core::prelude::*;
 )]
 pub struct CoulombOscillator<T = f64> {
     /// Mass, kg.
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Gravitational acceleration, m/s².
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// Stiffness k of the spring, N/m.
+    #[lagrange(unit = "N/m", symbol = "k")]
     pub stiffness: T,
     /// Coefficient of static friction.
+    #[lagrange(unit = "1", symbol = "mu_s")]
     pub mu_static: T,
     /// Coefficient of kinetic friction.
+    #[lagrange(unit = "1", symbol = "mu_k")]
     pub mu_kinetic: T,
     /// x₀, m.
+    #[lagrange(unit = "m")]
     pub amplitude: T,
 }
 

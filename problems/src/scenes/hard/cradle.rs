@@ -12,19 +12,23 @@ use lagrange_core::prelude::*;
 /// ```
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    coordinates(x[3]),
+    coordinates(x[3]: "m"),
     kinetic = sum(k in 0..3: mass/2 * der(x[k])^2),
     contact(pair[k in 0..2]: x[k+1] - x[k] >= 2 * radius, restitution = bounce),
     start(struck: x[0] = -4 * radius, x[1] = 0, x[2] = 2 * radius, der(x[0]) = speed),
 )]
 pub struct Cradle<T = f64> {
     /// Mass of each ball, kg.
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Radius of each ball, m.
+    #[lagrange(unit = "m", symbol = "R")]
     pub radius: T,
     /// Restitution e.
+    #[lagrange(unit = "1", symbol = "e")]
     pub bounce: T,
     /// Speed of the first ball, m/s.
+    #[lagrange(unit = "m/s")]
     pub speed: T,
 }
 

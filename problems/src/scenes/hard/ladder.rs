@@ -16,7 +16,7 @@ use lagrange_core::prelude::*;
 /// and the upper end meets the floor with the angular velocity that energy gives.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    coordinates(x, y, theta),
+    coordinates(x: "m", y: "m", theta: "rad"),
     kinetic   = mass/2 * (der(x)^2 + der(y)^2) + mass * length^2 / 24 * der(theta)^2,
     potential = mass * gravity * y,
     contact(wall: x >= length/2 * cos(theta)),
@@ -29,12 +29,16 @@ use lagrange_core::prelude::*;
 )]
 pub struct Ladder<T = f64> {
     /// Mass, kg.
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Length l, m.
+    #[lagrange(unit = "m", symbol = "l")]
     pub length: T,
     /// Gravitational acceleration, m/s².
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// θ at the start, rad from the floor.
+    #[lagrange(unit = "rad")]
     pub start_angle: T,
 }
 

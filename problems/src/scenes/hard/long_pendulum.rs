@@ -11,7 +11,7 @@ use lagrange_core::prelude::*;
 /// 2π √(l/g)/agm(1, cos ½θ₀) (Gauss).
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    coordinates(x, y),
+    coordinates(x: "m", y: "m"),
     kinetic   = mass/2 * (der(x)^2 + der(y)^2),
     potential = mass * gravity * y,
     constraint(rod: x^2 + y^2 == length^2),
@@ -19,12 +19,16 @@ use lagrange_core::prelude::*;
 )]
 pub struct LongPendulum<T = f64> {
     /// Mass, kg.
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Length l, m.
+    #[lagrange(unit = "m", symbol = "l")]
     pub length: T,
     /// Gravitational acceleration, m/s².
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// Angle θ₀ at the start, rad from the bottom.
+    #[lagrange(unit = "rad")]
     pub start_angle: T,
 }
 

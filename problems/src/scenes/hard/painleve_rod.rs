@@ -15,7 +15,7 @@ use lagrange_core::prelude::*;
 /// N ≥ 0. A < 0, b < 0: neither, with any N; a rigid floor has no answer.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    coordinates(x, y, theta),
+    coordinates(x: "m", y: "m", theta: "rad"),
     kinetic   = mass/2 * (der(x)^2 + der(y)^2) + mass * half^2 / 6 * der(theta)^2,
     potential = mass * gravity * y,
     contact(tip: y >= half * sin(theta)),
@@ -28,18 +28,25 @@ use lagrange_core::prelude::*;
 )]
 pub struct PainleveRod<T = f64> {
     /// Mass, kg.
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Half the length, m.
+    #[lagrange(unit = "m")]
     pub half: T,
     /// Gravitational acceleration, m/s².
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// Coefficient of friction, static and kinetic.
+    #[lagrange(unit = "1")]
     pub mu: T,
     /// θ at the start, rad from the floor.
+    #[lagrange(unit = "rad")]
     pub start_angle: T,
     /// θ̇ at the start, rad/s.
+    #[lagrange(unit = "rad/s")]
     pub rate: T,
     /// Speed of the tip to the left at the start, m/s.
+    #[lagrange(unit = "m/s")]
     pub speed: T,
 }
 

@@ -11,7 +11,7 @@ use lagrange_core::prelude::*;
 /// What to expect: the beam does not turn, and its middle is a pendulum of the crank's length.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    coordinates(x, y, psi),
+    coordinates(x: "m", y: "m", psi: "rad"),
     kinetic   = mass/2 * (der(x)^2 + der(y)^2) + inertia/2 * der(psi)^2,
     potential = mass * gravity * y,
     constraint(crank[k in 0..3]:
@@ -20,16 +20,22 @@ use lagrange_core::prelude::*;
 )]
 pub struct Parallelogram<T = f64> {
     /// Mass of the beam, kg.
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Moment of inertia of the beam about its middle, kg m².
+    #[lagrange(unit = "kg m^2", symbol = "I")]
     pub inertia: T,
     /// Distance of neighbouring cranks, m.
+    #[lagrange(unit = "m")]
     pub span: T,
     /// Length of the cranks, m.
+    #[lagrange(unit = "m", symbol = "l")]
     pub length: T,
     /// Gravitational acceleration, m/s².
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// Speed at the bottom, m/s; goes round if above √(4 g l).
+    #[lagrange(unit = "m/s")]
     pub speed: T,
 }
 

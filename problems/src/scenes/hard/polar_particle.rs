@@ -10,22 +10,29 @@ use lagrange_core::prelude::*;
 /// What to expect: x = v t − 1, y = d.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    coordinates(r, phi),
+    coordinates(r: "m", phi: "rad"),
     define(x = r * cos(phi), y = r * sin(phi)),
     kinetic = mass/2 * (der(x)^2 + der(y)^2),
     start(passing:
-        r = sqrt(1 + distance^2), phi = pi - atan(distance),
-        der(r) = -speed / sqrt(1 + distance^2), der(phi) = -speed * distance / (1 + distance^2)),
+        r = sqrt(lead^2 + distance^2), phi = pi - atan(distance / lead),
+        der(r) = -speed * lead / sqrt(lead^2 + distance^2),
+        der(phi) = -speed * distance / (lead^2 + distance^2)),
     start(origin: r = 0, der(r) = speed),
     observe(x, y),
 )]
 pub struct PolarParticle<T = f64> {
     /// Mass, kg.
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Speed, m/s.
+    #[lagrange(unit = "m/s")]
     pub speed: T,
     /// Distance d at which the particle passes the origin, m.
+    #[lagrange(unit = "m")]
     pub distance: T,
+    /// Distance along the path from the start to that point, m.
+    #[lagrange(unit = "m")]
+    pub lead: T,
 }
 
 impl Default for PolarParticle {
@@ -34,6 +41,7 @@ impl Default for PolarParticle {
             mass: 1.0,
             speed: 1.0,
             distance: 1e-6,
+            lead: 1.0,
         }
     }
 }

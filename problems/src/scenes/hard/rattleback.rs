@@ -12,7 +12,7 @@ use lagrange_core::prelude::*;
 /// International Journal of Non-Linear Mechanics 17 (1982), without their damping.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    coordinates(x, y, z),
+    coordinates(x: "m", y: "m", z: "m"),
     attitude(body: q),
     define(
         u = [body.axes[0][2], body.axes[1][2], body.axes[2][2]],
@@ -32,24 +32,34 @@ use lagrange_core::prelude::*;
 )]
 pub struct Rattleback<T = f64> {
     /// Mass, kg.
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Moments of inertia about the ellipsoid's axes, kg m².
+    #[lagrange(unit = "kg m^2", symbol = "I")]
     pub inertia: [T; 3],
     /// Product of inertia I₁₂, kg m².
+    #[lagrange(unit = "kg m^2")]
     pub skew: T,
     /// Semi-axis along, m.
+    #[lagrange(unit = "m")]
     pub a: T,
     /// Semi-axis across, m.
+    #[lagrange(unit = "m")]
     pub b: T,
     /// Semi-axis down, m.
+    #[lagrange(unit = "m")]
     pub c: T,
     /// Height of the ellipsoid's centre above the mass centre, m.
+    #[lagrange(unit = "m")]
     pub height: T,
     /// Gravitational acceleration, m/s².
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// Spin at the start, rad/s.
+    #[lagrange(unit = "rad/s")]
     pub spin: T,
     /// Rate of rocking about the long axis at the start, rad/s.
+    #[lagrange(unit = "rad/s")]
     pub rock: T,
 }
 

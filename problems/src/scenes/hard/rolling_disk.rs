@@ -19,7 +19,7 @@ use lagrange_core::prelude::*;
 /// (Appell 1900; Neimark & Fufaev 1972).
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    coordinates(x, y, phi, theta, psi),
+    coordinates(x: "m", y: "m", phi: "rad", theta: "rad", psi: "rad"),
     define(
         cx = x - radius * cos(theta) * sin(phi),
         cy = y + radius * cos(theta) * cos(phi),
@@ -36,16 +36,22 @@ use lagrange_core::prelude::*;
 )]
 pub struct RollingDisk<T = f64> {
     /// Mass, kg.
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Radius R, m.
+    #[lagrange(unit = "m", symbol = "R")]
     pub radius: T,
     /// Gravitational acceleration, m/s².
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// θ at the start, rad from the floor.
+    #[lagrange(unit = "rad")]
     pub start_angle: T,
     /// φ̇ at the start, rad/s.
+    #[lagrange(unit = "rad/s")]
     pub turn: T,
     /// ψ̇ at the start, rad/s.
+    #[lagrange(unit = "rad/s")]
     pub spin: T,
 }
 

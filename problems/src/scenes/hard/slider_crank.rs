@@ -12,21 +12,26 @@ use lagrange_core::prelude::*;
 /// lengths x = 2 r cos θ.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    coordinates(theta, x),
+    coordinates(theta: "rad", x: "m"),
     kinetic = inertia/2 * der(theta)^2 + mass/2 * der(x)^2,
     constraint(rod: (x - crank * cos(theta))^2 + (crank * sin(theta))^2 == rod_length^2),
     start(spun: x = crank + rod_length, der(theta) = rate),
 )]
 pub struct SliderCrank<T = f64> {
     /// Moment of inertia of crank and flywheel, kg m².
+    #[lagrange(unit = "kg m^2", symbol = "I")]
     pub inertia: T,
     /// Mass of the slider, kg.
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Length of the crank, m.
+    #[lagrange(unit = "m", symbol = "r")]
     pub crank: T,
     /// Length of the rod, m.
+    #[lagrange(unit = "m", symbol = "l")]
     pub rod_length: T,
     /// Rate of the crank at the start, rad/s.
+    #[lagrange(unit = "rad/s", symbol = "omega")]
     pub rate: T,
 }
 

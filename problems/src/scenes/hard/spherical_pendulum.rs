@@ -11,7 +11,7 @@ use lagrange_core::prelude::*;
 /// advance of the azimuth are elliptic integrals (Whittaker 1904, section 55).
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    coordinates(theta, phi),
+    coordinates(theta: "rad", phi: "rad"),
     kinetic   = mass/2 * length^2 * (der(theta)^2 + sin(theta)^2 * der(phi)^2),
     potential = -mass * gravity * length * cos(theta),
     start(turning:
@@ -22,14 +22,19 @@ use lagrange_core::prelude::*;
 )]
 pub struct SphericalPendulum<T = f64> {
     /// Mass, kg.
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Length, m.
+    #[lagrange(unit = "m", symbol = "l")]
     pub length: T,
     /// Gravitational acceleration, m/s².
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// Largest θ, rad.
+    #[lagrange(unit = "rad")]
     pub amplitude: T,
     /// Smallest θ, rad.
+    #[lagrange(unit = "rad")]
     pub nearest: T,
 }
 

@@ -9,7 +9,7 @@ use lagrange_core::prelude::*;
 /// What to expect: energy is conserved; the swing is that of a rigid pendulum but for terms of the order m g/(k l).
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    coordinates(r, theta),
+    coordinates(r: "m", theta: "rad"),
     kinetic   = mass/2 * (der(r)^2 + r^2 * der(theta)^2),
     potential(weight: -mass * gravity * r * cos(theta)),
     potential(spring: stiffness/2 * (r - length)^2),
@@ -17,14 +17,19 @@ use lagrange_core::prelude::*;
 )]
 pub struct SpringPendulum<T = f64> {
     /// Mass, kg.
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Length l of the relaxed spring, m.
+    #[lagrange(unit = "m", symbol = "l")]
     pub length: T,
     /// Gravitational acceleration, m/s².
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// Stiffness k, N/m.
+    #[lagrange(unit = "N/m", symbol = "k")]
     pub stiffness: T,
     /// θ at the start, rad from the bottom.
+    #[lagrange(unit = "rad")]
     pub start_angle: T,
 }
 

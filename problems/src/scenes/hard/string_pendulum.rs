@@ -15,7 +15,7 @@ use lagrange_core::prelude::*;
 /// parabola that osculates a circle meets it again there). The pull along the string is lost, the rest swings on.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    coordinates(x, y),
+    coordinates(x: "m", y: "m"),
     kinetic   = mass/2 * (der(x)^2 + der(y)^2),
     potential = mass * gravity * y,
     contact(string: sqrt(x^2 + y^2) <= length),
@@ -23,12 +23,16 @@ use lagrange_core::prelude::*;
 )]
 pub struct StringPendulum<T = f64> {
     /// Mass, kg.
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Length l of the string, m.
+    #[lagrange(unit = "m", symbol = "l")]
     pub length: T,
     /// Gravitational acceleration, m/s².
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// Speed v₀ at the bottom, m/s.
+    #[lagrange(unit = "m/s")]
     pub speed: T,
 }
 

@@ -12,7 +12,7 @@ use lagrange_core::prelude::*;
 /// μ, e and the number of bounces are. The impacts accumulate at √(2h/g) (1 + e)/(1 − e) while the ball moves on.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    coordinates(x, y, phi),
+    coordinates(x: "m", y: "m", phi: "rad"),
     kinetic   = mass/2 * (der(x)^2 + der(y)^2) + (2/5 * mass * radius^2)/2 * der(phi)^2,
     potential = mass * gravity * y,
     contact(floor: y >= radius, restitution = bounce),
@@ -21,18 +21,25 @@ use lagrange_core::prelude::*;
 )]
 pub struct ThrownBall<T = f64> {
     /// Mass, kg.
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Radius, m.
+    #[lagrange(unit = "m", symbol = "R")]
     pub radius: T,
     /// Gravitational acceleration, m/s².
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// Restitution e.
+    #[lagrange(unit = "1")]
     pub bounce: T,
     /// Coefficient of friction, static and kinetic.
+    #[lagrange(unit = "1")]
     pub mu: T,
     /// Height of the lowest point at the start, m.
+    #[lagrange(unit = "m")]
     pub height: T,
     /// Speed at the start, m/s.
+    #[lagrange(unit = "m/s")]
     pub speed: T,
 }
 

@@ -18,10 +18,13 @@ use lagrange_core::prelude::*;
 )]
 pub struct TumblingBody<T = f64> {
     /// Principal moments of inertia, kg m², ascending.
+    #[lagrange(unit = "kg m^2", symbol = "I")]
     pub inertia: [T; 3],
     /// Rate about the middle axis at the start, rad/s.
+    #[lagrange(unit = "rad/s")]
     pub rate: T,
     /// Rate about the first axis at the start, rad/s.
+    #[lagrange(unit = "rad/s")]
     pub nudge: T,
 }
 

@@ -11,7 +11,7 @@ use lagrange_core::prelude::*;
 /// a centre that depends on where and how it was put down.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    coordinates(x, y),
+    coordinates(x: "m", y: "m"),
     attitude(ball: q),
     kinetic = mass/2 * (der(x)^2 + der(y)^2)
         + (2/5 * mass * radius^2)/2 * sum(k in 0..3: ball.body_rate[k]^2),
@@ -23,14 +23,19 @@ use lagrange_core::prelude::*;
 )]
 pub struct Turntable<T = f64> {
     /// Mass of the ball, kg.
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Radius of the ball, m.
+    #[lagrange(unit = "m", symbol = "R")]
     pub radius: T,
     /// Rate Ω of the table, rad/s.
+    #[lagrange(unit = "rad/s", symbol = "Omega")]
     pub rate: T,
     /// Distance from the axle at the start, m.
+    #[lagrange(unit = "m")]
     pub start_x: T,
     /// Speed at the start, across the radius, m/s.
+    #[lagrange(unit = "m/s", symbol = "v_0")]
     pub start_speed: T,
 }
 

@@ -11,7 +11,7 @@ use lagrange_core::prelude::*;
 /// heavy mass below and the links aligned, both swing as one pendulum of the whole length.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    coordinates(theta[2]),
+    coordinates(theta[2]: "rad"),
     define(
         x[k in 0..2] = sum(i in 0..k+1: length[i] * sin(theta[i])),
         y[k in 0..2] = sum(i in 0..k+1: -length[i] * cos(theta[i])),
@@ -22,14 +22,19 @@ use lagrange_core::prelude::*;
 )]
 pub struct UnequalPendulum<T = f64> {
     /// The masses, upper and lower, kg.
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: [T; 2],
     /// Lengths of the links, m.
+    #[lagrange(unit = "m", symbol = "l")]
     pub length: [T; 2],
     /// Gravitational acceleration, m/s².
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// Angle of the upper link at the start, rad from the downward vertical.
+    #[lagrange(unit = "rad")]
     pub start_angle: T,
     /// Angle of the lower link at the start, rad from the downward vertical.
+    #[lagrange(unit = "rad")]
     pub lower_angle: T,
 }
 

@@ -82,6 +82,8 @@ impl Build {
             stops: vec![],
             marks: vec![],
             impacts: crate::ast::Impacts::default(),
+            units: crate::model::Units::default(),
+            hints: Vec::new(),
         };
         Self { system, names }
     }

@@ -1,5 +1,6 @@
 //! Items of a declaration: dispatch on their keyword, and what several of them share.
 
+mod check;
 mod contact;
 mod force;
 mod output;
@@ -142,14 +143,7 @@ fn grouped(
         "start" => "a start: `rest: x = 1`",
         "observe" => "an output: `height = y`",
         "stop" | "mark" => "a condition: `ground: y <= 0`",
-        "check" => {
-            sink.report(
-                Code::Later,
-                keyword,
-                &[&"check", &"leave it out, or use `observe`"],
-            );
-            return None;
-        }
+        "check" => "an equation, as in `check(floor == m*g when closed(floor))`",
         _ => "a body and its coordinates: `body: q`",
     };
     if inside.is_at_end() {
@@ -169,6 +163,7 @@ fn grouped(
         "force" => force::force(parts, sink),
         "start" => start::start(parts, sink),
         "observe" => output::observe(parts, sink),
+        "check" => check::check(parts, sink),
         "stop" | "mark" => output::watch(&keyword.text, parts, sink),
         _ => attitude(parts.first_mut()?, sink),
     }
@@ -185,15 +180,9 @@ fn attitude(part: &mut Cursor, sink: &mut Diagnostics) -> Option<ItemKind> {
 
 /// `together` or `in_turn`
 fn impacts(part: &mut Cursor, sink: &mut Diagnostics) -> Option<Impacts> {
-    let at = part.here();
     let impacts = match part.word()?.text.as_str() {
         "together" => Impacts::Together,
-        "in_turn" => {
-            let advice = "leave it out: contacts that are hit together are solved together";
-            sink.report(Code::Later, at, &[&"impacts = in_turn", &advice]);
-            part.skip_all();
-            return None;
-        }
+        "in_turn" => Impacts::InTurn,
         _ => {
             part.expected("`together` or `in_turn`", sink);
             part.skip_all();
@@ -233,10 +222,26 @@ fn head(part: &mut Cursor, what: &str, sink: &mut Diagnostics) -> Option<Head> {
 }
 
 /// `name:` or `name[k in a..b]:`
-fn head_and_colon(part: &mut Cursor, what: &str, sink: &mut Diagnostics) -> Option<Head> {
+fn head_and_colon(
+    part: &mut Cursor,
+    item: &str,
+    what: &str,
+    sink: &mut Diagnostics,
+) -> Option<Head> {
+    named(part, item, sink)?;
     let head = head(part, what, sink)?;
     part.require(":", sink)?;
     Some(head)
+}
+
+/// Whether the part begins with a name and a colon somewhere after it.
+fn named(part: &Cursor, item: &str, sink: &mut Diagnostics) -> Option<()> {
+    if part.word().is_none() || part.has_operator(&[":"]) {
+        return Some(());
+    }
+    let hint = format!("write `{item}(name: …)`");
+    sink.report(Code::NoName, part.here(), &[&item, &hint]);
+    None
 }
 
 /// `name` or `name[e]`
@@ -259,6 +264,7 @@ pub(super) fn key(
     let key = part.name("a part `name = …`", sink)?;
     if !keys.contains(&key.text.as_str()) {
         let hint = match nearest(&key.text, keys.iter().copied()) {
+            _ if key.text == "poisson" => "write `restitution = poisson(e)`".to_string(),
             Some(known) => format!("did you mean `{known}`?"),
             None => format!("its parts are {}", keys.join(", ")),
         };

@@ -4,8 +4,8 @@ use super::super::cursor::Cursor;
 use super::super::expression::whole;
 use super::super::relation::{comparison, holds_relation, leftover};
 use super::{head, head_and_colon, no_more, reference};
-use crate::ast::{Clause, ItemKind, ModeWord, Observe, Trigger, Watch};
-use crate::diagnostics::Diagnostics;
+use crate::ast::{Clause, ItemKind, ModeWord, Observe, Reference, Trigger, Watch};
+use crate::diagnostics::{Code, Diagnostics};
 use proc_macro2::{Delimiter, TokenTree};
 
 /// `height = y, px`
@@ -14,6 +14,11 @@ pub(super) fn observe(parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<Item
         let head = head(part, "a name", sink)?;
         if part.is_at_end() && head.index.is_none() {
             return Some(Observe::Known(head.name));
+        }
+        if part.operator() != Some("=") {
+            let hint = "write `observe(name = …)`";
+            sink.report(Code::NoName, &head.name, &[&"output", &hint]);
+            return None;
         }
         part.require("=", sink)?;
         let value = whole(part, sink)?;
@@ -29,7 +34,7 @@ pub(super) fn watch(
     sink: &mut Diagnostics,
 ) -> Option<ItemKind> {
     let (first, others) = parts.split_first_mut()?;
-    let head = head_and_colon(first, "a name, as in `name: a >= b`", sink)?;
+    let head = head_and_colon(first, keyword, "a name, as in `name: a >= b`", sink)?;
     let trigger = if keyword == "mark" && mode(first).is_none() && !holds_relation(first) {
         Trigger::Zero(whole(first, sink)?)
     } else {
@@ -62,13 +67,25 @@ fn mode(part: &Cursor) -> Option<ModeWord> {
 }
 
 fn clause(part: &mut Cursor, sink: &mut Diagnostics) -> Option<Clause> {
-    let Some(word) = mode(part) else {
-        return comparison(part, "`a >= b`", sink).map(Clause::Comparison);
-    };
+    match mode_clause(part, sink) {
+        Some(clause) => clause.map(|(word, item)| Clause::Mode(word, item)),
+        None => comparison(part, "`a >= b`", sink).map(Clause::Comparison),
+    }
+}
+
+/// `closed(c)` and the like; None if something else stands here, Some(None) if it is wrong.
+pub(super) fn mode_clause(
+    part: &mut Cursor,
+    sink: &mut Diagnostics,
+) -> Option<Option<(ModeWord, Reference)>> {
+    let word = mode(part)?;
     part.next();
     let group = part.take_group(Delimiter::Parenthesis)?;
-    let mut inside = part.inside(&group, sink)?;
-    let item = reference(&mut inside, "the name of an item", sink)?;
-    leftover(&mut inside, sink)?;
-    Some(Clause::Mode(word, item))
+    let mut item = || {
+        let mut inside = part.inside(&group, sink)?;
+        let item = reference(&mut inside, "the name of an item", sink)?;
+        leftover(&mut inside, sink)?;
+        Some((word, item))
+    };
+    Some(item())
 }

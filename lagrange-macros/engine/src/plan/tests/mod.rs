@@ -88,6 +88,8 @@ fn bare(parameters: &[&str], coordinates: &[&str]) -> System {
         stops: Vec::new(),
         marks: Vec::new(),
         impacts: crate::ast::Impacts::default(),
+        units: crate::model::Units::default(),
+        hints: Vec::new(),
     }
 }
 

@@ -1,0 +1,128 @@
+//! A derived number against a formula at many states, and the state where they differ most.
+
+use super::state::{Checks, Moment};
+use crate::error::Error;
+use crate::system::System;
+use core::fmt;
+
+/// The result of a comparison.
+#[derive(Clone, Debug)]
+pub struct Comparison {
+    /// Number of states.
+    pub states: usize,
+    /// Largest difference that counts as rounding.
+    pub tolerance: f64,
+    /// Where they differ most.
+    pub worst: Worst,
+    /// (name, value) there: parameters, coordinates, velocities.
+    pub state: Vec<(String, f64)>,
+    /// The mode there, `shell closed`.
+    pub mode: String,
+}
+
+/// Two numbers that should be one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Worst {
+    /// What the derived equations give.
+    pub derived: f64,
+    /// What the formula gives.
+    pub by_hand: f64,
+    /// |derived − by hand| over the larger of both and 1; infinite where one is not a number.
+    pub difference: f64,
+}
+
+impl Comparison {
+    /// Whether no state shows more than rounding.
+    pub fn holds(&self) -> bool {
+        self.worst.difference <= self.tolerance
+    }
+}
+
+impl fmt::Display for Comparison {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Worst {
+            derived,
+            by_hand,
+            difference,
+        } = self.worst;
+        write!(
+            f,
+            "derived {derived}, by hand {by_hand} (difference {difference:.1e}, the worst of {} states, {}) at",
+            self.states, self.mode
+        )?;
+        for (i, (name, value)) in self.state.iter().enumerate() {
+            write!(f, "{} {name} = {value}", if i == 0 { "" } else { "," })?;
+        }
+        Ok(())
+    }
+}
+
+/// For each state wanted, so many are tried.
+const TRIES: usize = 20;
+
+/// Compares at the states of `checks`.
+pub(super) fn compare<S: System<Scalar = f64>>(
+    checks: &Checks<S>,
+    both: impl Fn(&S, &Moment) -> (f64, f64),
+) -> Result<Comparison, Error> {
+    let mut worst: Option<(Worst, S, Moment)> = None;
+    let mut states = 0;
+    for number in 0..TRIES * checks.states.max(1) {
+        if states == checks.states.max(1) {
+            break;
+        }
+        let (scene, moment) = match checks.draw(number) {
+            Ok(drawn) => drawn,
+            // Some states have no neighbour on the constraints.
+            Err(error) if number + 1 == TRIES * checks.states.max(1) && states == 0 => {
+                return Err(error);
+            }
+            Err(_) => continue,
+        };
+        states += 1;
+        let (a, b) = both(&scene, &moment);
+        let size = a.abs().max(b.abs()).max(1.0);
+        let difference = (a - b).abs() / size;
+        let difference = if difference.is_finite() {
+            difference
+        } else {
+            f64::INFINITY
+        };
+        if worst
+            .as_ref()
+            .is_none_or(|(worst, ..)| difference > worst.difference)
+        {
+            let here = Worst {
+                derived: a,
+                by_hand: b,
+                difference,
+            };
+            worst = Some((here, scene, moment));
+        }
+    }
+    let Some((worst, scene, moment)) = worst else {
+        return Err(Error::Projection {
+            time: 0.0,
+            residual: f64::INFINITY,
+            item: S::DESCRIPTION.name,
+        });
+    };
+    let d = S::DESCRIPTION;
+    let mut state = Vec::new();
+    for (i, parameter) in d.parameters.iter().enumerate() {
+        state.push((parameter.name.to_owned(), scene.parameter(i)));
+    }
+    for (coordinate, &q) in d.coordinates.iter().zip(&moment.now.q) {
+        state.push((coordinate.name.to_owned(), q));
+    }
+    for (coordinate, &v) in d.coordinates.iter().zip(&moment.now.v) {
+        state.push((format!("der({})", coordinate.name), v));
+    }
+    Ok(Comparison {
+        states,
+        tolerance: checks.tolerance,
+        worst,
+        state,
+        mode: moment.now.mode.display(d).to_string(),
+    })
+}

@@ -1,0 +1,324 @@
+//! Random states on the constraint surface of a mode, with accelerations and forces.
+
+use super::compare::{Comparison, compare};
+use crate::dynamics::Dynamics;
+use crate::effects::{Effects, Item};
+use crate::error::Error;
+use crate::handle::{ContactId, CoordinateId, FrictionId, ObserveId};
+use crate::mode::{FrictionMode, Mode, Sliding};
+use crate::modes::guard;
+use crate::modes::sharing::Sharing;
+use crate::system::{Normal, Place, System};
+use crate::trajectory::{Instant, State, instant, report_everything};
+
+/// Where formulas are compared: a mode, and how its states are drawn.
+///
+/// Contacts that are not closed are open, and frictions that are not said to stick or slip do not act.
+#[derive(Clone, Debug)]
+pub struct Checks<'a, S: System<Scalar = f64>> {
+    pub(super) scene: &'a S,
+    pub(super) mode: Mode,
+    slipping: Vec<usize>,
+    around: State<f64>,
+    spread: f64,
+    variation: f64,
+    seed: u64,
+    pub(super) states: usize,
+    pub(super) tolerance: f64,
+}
+
+impl<'a, S: System<Scalar = f64>> Checks<'a, S> {
+    /// 100 states around zero with a spread of 1, all contacts open, tolerance 1e-9.
+    pub fn new(scene: &'a S) -> Self {
+        let d = S::DESCRIPTION;
+        let n = d.coordinates.len();
+        Self {
+            scene,
+            mode: Mode::open(d),
+            slipping: Vec::new(),
+            around: State {
+                q: vec![0.0; n],
+                v: vec![0.0; n],
+            },
+            spread: 1.0,
+            variation: 0.0,
+            seed: 1,
+            states: 100,
+            tolerance: 1e-9,
+        }
+    }
+
+    /// In a mode where this contact is closed.
+    #[must_use]
+    pub fn closed(mut self, contact: ContactId) -> Self {
+        self.mode.contacts[contact.0] = true;
+        self
+    }
+
+    /// In a mode where this friction sticks (and its contact is closed).
+    #[must_use]
+    pub fn sticks(mut self, friction: FrictionId) -> Self {
+        self.mode.frictions[friction.0] = FrictionMode::Stick;
+        self.close_under(friction)
+    }
+
+    /// In modes where this friction slips, to the side that the state has (and its contact is closed).
+    #[must_use]
+    pub fn slips(mut self, friction: FrictionId) -> Self {
+        self.slipping.push(friction.0);
+        self.close_under(friction)
+    }
+
+    fn close_under(mut self, friction: FrictionId) -> Self {
+        let d = S::DESCRIPTION;
+        let contact = match d.frictions[friction.0].normal {
+            Normal::Contact(contact) => Some(contact),
+            Normal::Constraint(constraint) => d.constraints[constraint].while_contact,
+            Normal::Given(_) => None,
+        };
+        if let Some(contact) = contact {
+            self.mode.contacts[contact] = true;
+        }
+        self
+    }
+
+    /// Draws states around this one (before they are moved onto the constraints).
+    #[must_use]
+    pub fn around(mut self, state: State<f64>) -> Self {
+        self.around = state;
+        self
+    }
+
+    /// How far positions and velocities lie from the middle at most, in their own units.
+    #[must_use]
+    pub fn spread(mut self, spread: f64) -> Self {
+        self.spread = spread;
+        self
+    }
+
+    /// Multiplies every parameter by a random factor between 1 − share and 1 + share.
+    #[must_use]
+    pub fn vary_parameters(mut self, share: f64) -> Self {
+        self.variation = share;
+        self
+    }
+
+    /// Seed of the random numbers.
+    #[must_use]
+    pub fn seed(mut self, seed: u64) -> Self {
+        self.seed = seed;
+        self
+    }
+
+    /// Number of states.
+    #[must_use]
+    pub fn states(mut self, states: usize) -> Self {
+        self.states = states;
+        self
+    }
+
+    /// Largest difference that counts as rounding, relative to the larger side, or to 1 where both are smaller.
+    #[must_use]
+    pub fn tolerance(mut self, tolerance: f64) -> Self {
+        self.tolerance = tolerance;
+        self
+    }
+
+    /// Compares a derived number with a formula: (derived, by hand) from the scene with its parameters and the moment.
+    ///
+    /// # Errors
+    /// [`Error::Projection`] and the like if the mode has no states near.
+    pub fn compare(&self, both: impl Fn(&S, &Moment) -> (f64, f64)) -> Result<Comparison, Error> {
+        compare(self, both)
+    }
+
+    /// The state of a number, if there is one.
+    pub(super) fn draw(&self, number: usize) -> Result<(S, Moment), Error> {
+        let d = S::DESCRIPTION;
+        let mut random =
+            Random(self.seed ^ (number as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
+        let mut scene = self.scene.clone();
+        for index in 0..d.parameters.len() {
+            let factor = 1.0 + self.variation * random.signed();
+            scene.set_parameter(index, self.scene.parameter(index) * factor);
+        }
+        let mut near = |center: &[f64]| -> Vec<f64> {
+            let moved = center.iter();
+            moved.map(|x| x + self.spread * random.signed()).collect()
+        };
+        let (mut q, mut v) = (near(&self.around.q), near(&self.around.v));
+        let mut mode = self.mode.clone();
+        let mut dynamics = Dynamics::new(&scene, &Effects::all());
+        report_everything(&mut dynamics);
+        dynamics.set_mode(&mode);
+        let failed = |e, mode: &Mode| Error::from_evaluation(e, 0.0, mode, d);
+        dynamics
+            .project(0.0, &mut q, &mut v, 0.0)
+            .map_err(|e| failed(e, &mode))?;
+        // Slips and branches go with the state; the force of a constraint only shows when it has been solved for.
+        for round in 0..2 + d.branches.len() {
+            let needs = guard::all_row_needs(d, dynamics.motion_needs());
+            dynamics.set_extra_needs(&needs);
+            dynamics.value(0.0, &q, &v).map_err(|e| failed(e, &mode))?;
+            let before = mode.clone();
+            for &f in &self.slipping {
+                let friction = &d.frictions[f];
+                let mut sliding = match friction.components {
+                    1 => {
+                        let slip = dynamics.motion(d.rows[friction.row].velocity);
+                        Sliding::sign(if slip < 0.0 { -1.0 } else { 1.0 })
+                    }
+                    _ => Sliding::along_slip(),
+                };
+                if let Normal::Constraint(c) = friction.normal
+                    && dynamics.force(d.constraints[c].row) < 0.0
+                {
+                    sliding.normal_sign = -1.0;
+                }
+                mode.frictions[f] = FrictionMode::Slip(sliding);
+            }
+            for (b, branch) in d
+                .branches
+                .iter()
+                .enumerate()
+                .filter(|(_, b)| !b.after_solve)
+            {
+                mode.set_branch(b, dynamics.motion(branch.guard) >= 0.0);
+            }
+            if mode == before && round > 0 {
+                break;
+            }
+            dynamics.set_mode(&mode);
+        }
+        let outcome = dynamics.value_along(0.0, &q, &v);
+        outcome.map_err(|e| failed(e, &mode))?;
+        let now = instant(&mut dynamics, &mut Sharing::default(), 0.0, &State { q, v });
+        let margins = (0..d.frictions.len())
+            .map(|f| margin(&dynamics, f))
+            .collect();
+        let rows = d.contacts.iter().map(|c| c.row);
+        let contacts = rows.collect();
+        Ok((
+            scene,
+            Moment {
+                constraints: d.constraints.iter().map(|c| c.row).collect(),
+                contacts,
+                frictions: d.frictions.iter().map(|f| f.row).collect(),
+                slips: slips_of::<S>(),
+                margins,
+                now,
+            },
+        ))
+    }
+}
+
+/// Place of each friction's first slip in [`Instant::slips`].
+fn slips_of<S: System>() -> Vec<usize> {
+    let mut place = 0;
+    let components = S::DESCRIPTION.frictions.iter().map(|f| f.components);
+    components
+        .map(|count| {
+            place += count;
+            place - count
+        })
+        .collect()
+}
+
+/// μs N − |F|
+fn margin<S: System<Scalar = f64>>(dynamics: &Dynamics<S>, f: usize) -> f64 {
+    let d = S::DESCRIPTION;
+    let friction = &d.frictions[f];
+    let normal = match friction.normal {
+        Normal::Contact(c) => {
+            let factor = d.contacts[c].normal_factor;
+            let factor = factor.map_or(1.0, |place: Place| dynamics.motion(place));
+            factor * dynamics.force(d.contacts[c].row)
+        }
+        Normal::Constraint(c) => dynamics.force(d.constraints[c].row).abs(),
+        Normal::Given(place) => dynamics.motion(place),
+    };
+    let rows = friction.row..friction.row + friction.components;
+    let square: f64 = rows.map(|row| dynamics.force(row).powi(2)).sum();
+    dynamics.motion(friction.static_coefficient) * normal - square.sqrt()
+}
+
+/// A state of a mode with everything derived.
+#[derive(Clone, Debug)]
+pub struct Moment {
+    /// All numbers by index.
+    pub now: Instant<f64>,
+    constraints: Vec<usize>,
+    contacts: Vec<usize>,
+    frictions: Vec<usize>,
+    slips: Vec<usize>,
+    margins: Vec<f64>,
+}
+
+impl Moment {
+    /// Position.
+    pub fn q(&self, coordinate: CoordinateId) -> f64 {
+        self.now.q[coordinate.0]
+    }
+
+    /// Velocity.
+    pub fn v(&self, coordinate: CoordinateId) -> f64 {
+        self.now.v[coordinate.0]
+    }
+
+    /// Acceleration.
+    pub fn a(&self, coordinate: CoordinateId) -> f64 {
+        self.now.acceleration[coordinate.0]
+    }
+
+    /// Force of a contact, constraint, friction (first component) or applied force; 0 for other items.
+    pub fn force(&self, item: impl Into<Item>) -> f64 {
+        match item.into() {
+            Item::Constraint(i) => self.now.forces[self.constraints[i]],
+            Item::Contact(i) => self.now.forces[self.contacts[i]],
+            Item::Friction(i) => self.now.forces[self.frictions[i]],
+            Item::Force(i) => self.now.loads[i],
+            _ => 0.0,
+        }
+    }
+
+    /// The guard of an open contact.
+    pub fn gap(&self, contact: ContactId) -> f64 {
+        self.now.gaps[contact.0]
+    }
+
+    /// The guard of a slipping friction (first component).
+    pub fn slip(&self, friction: FrictionId) -> f64 {
+        self.now.slips[self.slips[friction.0]]
+    }
+
+    /// The guard of a sticking friction: μs N − |F|.
+    pub fn margin(&self, friction: FrictionId) -> f64 {
+        self.margins[friction.0]
+    }
+
+    /// A declared output.
+    pub fn observe(&self, output: ObserveId) -> f64 {
+        self.now.observes[output.0]
+    }
+
+    /// T + V as declared.
+    pub fn energy(&self) -> f64 {
+        self.now.kinetic + self.now.potential
+    }
+}
+
+/// Seeded random numbers.
+struct Random(u64);
+
+impl Random {
+    /// Between −1 and 1.
+    fn signed(&mut self) -> f64 {
+        // splitmix64 (Steele, Lea & Flood, OOPSLA 2014)
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut x = self.0;
+        x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        x ^= x >> 31;
+        (x >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+}

@@ -1,0 +1,358 @@
+//! Slips of two components that begin: the direction of the friction, and how it turns.
+//!
+//! At rest s/|s| is 0/0. The direction u is then an unknown of its own beside the accelerations, and
+//!
+//! ```text
+//! s(τ) × u(τ) = 0,   |u| = 1,   u(0) = u₀ with ṡ(0) ∥ u₀
+//! ```
+//!
+//! determines its coefficients order by order: uₖ = ψₖ u₀⊥ + (what |u| = 1 asks), and coefficient k + 1 of s × u is linear in
+//! ψₖ, directly by s₁ = ṡ(0) and, through the friction force, by D/(k + 1), D the response of ṡ × u₀ to a turn. Because of D
+//! this also holds where the slip begins as τ², at the limit of equal coefficients of friction; there the series is asymptotic
+//! (the equation is of the kind of τ² y′ = τ − y) and good for a first step.
+
+use super::{Dynamics, EvaluationError};
+use crate::arithmetic::{MAX_ORDER, Operation, Scalar};
+use crate::mode::{Direction, FrictionMode, Sliding};
+use crate::system::System;
+use num_traits::Zero;
+
+/// A slip smaller than this, in units of what it is made of, has no direction.
+const VANISHING: f64 = 1e-13;
+
+/// Coefficients of a direction.
+type Series<T> = [[T; 2]; MAX_ORDER + 2];
+
+/// The directions of frictions with two components, one for every friction.
+#[derive(Clone, Debug)]
+pub(super) struct Headings<T> {
+    /// Where the slip points, or begins to.
+    now: Vec<[T; 2]>,
+    /// How it turns, where it begins.
+    series: Vec<Series<T>>,
+    /// D by rows, and the system of one order.
+    response: Vec<T>,
+    matrix: Vec<T>,
+    right: Vec<T>,
+}
+
+impl<T: Scalar> Headings<T> {
+    pub(super) fn new(frictions: usize) -> Self {
+        let zero = [T::zero(); 2];
+        Self {
+            now: vec![zero; frictions],
+            series: vec![[zero; MAX_ORDER + 2]; frictions],
+            response: Vec::with_capacity(frictions * frictions),
+            matrix: Vec::with_capacity(frictions * frictions),
+            right: Vec::with_capacity(frictions),
+        }
+    }
+
+    /// Of friction `f`.
+    #[inline]
+    pub(super) fn of(&self, f: usize) -> [T; 2] {
+        self.now[f]
+    }
+
+    /// Coefficient `k` of that of friction `f`.
+    #[inline]
+    pub(super) fn coefficient(&self, f: usize, k: usize) -> [T; 2] {
+        self.series[f][k]
+    }
+
+    /// u₀ and its normal u₀⊥, a quarter turn on.
+    fn frame(&self, f: usize) -> ([T; 2], [T; 2]) {
+        let [x, y] = self.series[f][0];
+        ([x, y], [-y, x])
+    }
+
+    /// Coefficient `k` ≥ 1 without a turn: what |u| = 1 asks.
+    fn keep_length(&mut self, f: usize, k: usize) {
+        let u = &mut self.series[f];
+        let mut sum = T::zero();
+        for j in 1..k {
+            sum += dot(u[j], u[k - j]);
+        }
+        let along = -T::from_f64(0.5) * sum;
+        u[k] = u[0].map(|x| along * x);
+    }
+
+    fn turn(&mut self, f: usize, k: usize, by: T) {
+        let (_, normal) = self.frame(f);
+        let u = &mut self.series[f][k];
+        *u = [u[0] + by * normal[0], u[1] + by * normal[1]];
+    }
+}
+
+fn dot<T: Scalar>(a: [T; 2], b: [T; 2]) -> T {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+fn cross<T: Scalar>(a: [T; 2], b: [T; 2]) -> T {
+    a[0] * b[1] - a[1] * b[0]
+}
+
+/// The direction in which a slip goes to zero, from the slip at parts of the way there, 1 its end: chords over ever shorter
+/// parts, extrapolated. None if it does not change.
+pub(crate) fn approach(mut slip: impl FnMut(f64) -> [f64; 2]) -> Option<[f64; 2]> {
+    const PART: f64 = 1e-3;
+    let end = slip(1.0);
+    let mut along = [0.0; 2];
+    for (weight, parts) in [(3.0, 1.0), (-1.5, 2.0), (1.0 / 3.0, 3.0)] {
+        let before = slip(1.0 - parts * PART);
+        for ((along, before), end) in along.iter_mut().zip(before).zip(end) {
+            *along += weight * (before - end);
+        }
+    }
+    let length = along[0].hypot(along[1]);
+    (length > 0.0).then(|| along.map(|x| x / length))
+}
+
+impl<S: System> Dynamics<S> {
+    /// The direction in which friction `f` of two components slips, or begins to: that at the last [`Self::series`],
+    /// [`Self::set_heading`] or [`Self::take_headings`].
+    pub fn heading(&self, f: usize) -> [S::Scalar; 2] {
+        self.headings.of(f)
+    }
+
+    /// The direction, a unit vector, in which friction `f` of two components begins to slip ([`Direction::Incipient`]).
+    pub fn set_heading(&mut self, f: usize, along: [S::Scalar; 2]) {
+        self.headings.now[f] = along;
+    }
+
+    /// Slip of friction `f` of two components at the last [`Self::tape`] or [`Self::value`]; its need must have been held.
+    pub fn slip(&self, f: usize) -> [S::Scalar; 2] {
+        let row = S::DESCRIPTION.frictions[f].row;
+        [row, row + 1].map(|row| self.motion(S::DESCRIPTION.rows[row].velocity))
+    }
+
+    /// [`Self::value`] at a state of a step in which slips begin: the directions are those of the slips, where they do not
+    /// vanish; afterwards the headings are those of the mode again.
+    ///
+    /// # Errors
+    /// Those of [`Self::value`].
+    pub fn value_along(
+        &mut self,
+        t: S::Scalar,
+        q: &[S::Scalar],
+        v: &[S::Scalar],
+    ) -> Result<(), EvaluationError> {
+        let count = self.compiled().plan.headings.len();
+        if count == 0 {
+            return self.value(t, q, v);
+        }
+        self.select(v);
+        self.tape(t, q, v);
+        for i in 0..count {
+            let f = self.beginning(i);
+            let slip = self.slip(f);
+            if dot(slip, slip).value().sqrt() > VANISHING * self.slip_size(f, v) {
+                self.head_along(f, slip);
+            }
+        }
+        let outcome = self.value(t, q, v);
+        for i in 0..count {
+            let f = self.beginning(i);
+            let sliding = self.mode().frictions[f];
+            if let FrictionMode::Slip(Sliding {
+                direction: Direction::Incipient(along),
+                ..
+            }) = sliding
+            {
+                self.set_heading(f, along.map(S::Scalar::from_f64));
+            }
+        }
+        outcome
+    }
+
+    /// The size of what makes the slip of friction `f`, at least 1, from the numbers of the last [`Self::tape`].
+    pub fn slip_size(&self, f: usize, v: &[S::Scalar]) -> f64 {
+        let friction = &S::DESCRIPTION.frictions[f];
+        let rows = &S::DESCRIPTION.rows[friction.row..friction.row + friction.components];
+        let terms = rows.iter().flat_map(|row| row.jacobian);
+        let sizes = terms.map(|&(j, place)| (self.motion(place) * v[j]).value().abs());
+        1.0 + sizes.sum::<f64>()
+    }
+
+    /// Takes the headings of all sliding frictions of two components from their slips at the last value.
+    pub fn take_headings(&mut self) {
+        for f in 0..S::DESCRIPTION.frictions.len() {
+            if self.turns(f) {
+                self.head_along(f, self.slip(f));
+            }
+        }
+    }
+
+    /// The same from the series.
+    pub(super) fn take_headings_of_series(&mut self) {
+        for f in 0..S::DESCRIPTION.frictions.len() {
+            if self.turns(f) {
+                self.head_along(f, self.slip_coefficient(f, 0));
+            }
+        }
+    }
+
+    /// Whether friction `f` slips along itself.
+    fn turns(&self, f: usize) -> bool {
+        let state = self.mode().frictions[f];
+        matches!(
+            state,
+            FrictionMode::Slip(Sliding {
+                direction: Direction::AlongSlip,
+                ..
+            })
+        )
+    }
+
+    fn head_along(&mut self, f: usize, slip: [S::Scalar; 2]) {
+        let speed = dot(slip, slip).sqrt();
+        if speed.value() > 0.0 {
+            self.headings.now[f] = slip.map(|s| s / speed);
+        }
+    }
+
+    /// Coefficient `k` of the slip.
+    fn slip_coefficient(&self, f: usize, k: usize) -> [S::Scalar; 2] {
+        let row = S::DESCRIPTION.frictions[f].row;
+        [row, row + 1].map(|row| {
+            let series = self.motion_series(S::DESCRIPTION.rows[row].velocity);
+            series.get(k).copied().unwrap_or_default()
+        })
+    }
+
+    /// Coefficients up to `order` in a mode where slips begin, from values in the registers.
+    pub(super) fn expand_from_rest(&mut self, order: usize) -> Result<(), EvaluationError> {
+        let count = self.compiled().plan.headings.len();
+        for i in 0..count {
+            let f = self.beginning(i);
+            self.headings.series[f] = [[S::Scalar::zero(); 2]; MAX_ORDER + 2];
+            self.headings.series[f][0] = self.headings.now[f];
+        }
+        for k in 1..(order + 1).min(MAX_ORDER) {
+            for i in 0..count {
+                let f = self.beginning(i);
+                self.headings.keep_length(f, k);
+            }
+            self.start_series(k + 1)?;
+            self.expand(k + 1);
+            self.ask(k);
+            if k == 1 {
+                self.respond()?;
+            }
+            self.turn_all(k)?;
+        }
+        self.start_series(order)?;
+        self.expand(order);
+        Ok(())
+    }
+
+    /// The friction of heading `i` of the plan.
+    fn beginning(&self, i: usize) -> usize {
+        self.compiled().plan.headings[i].friction
+    }
+
+    /// Coefficient k + 1 of s × u without a turn of order k, into the right-hand side.
+    fn ask(&mut self, k: usize) {
+        self.headings.right.clear();
+        for i in 0..self.compiled().plan.headings.len() {
+            let f = self.beginning(i);
+            let mut sum = S::Scalar::zero();
+            for j in 1..=k + 1 {
+                let u = self.headings.coefficient(f, k + 1 - j);
+                sum += cross(self.slip_coefficient(f, j), u);
+            }
+            self.headings.right.push(-sum);
+        }
+    }
+
+    /// D, from what a turn of order 1 does to the slip of order 2.
+    fn respond(&mut self) -> Result<(), EvaluationError> {
+        let count = self.compiled().plan.headings.len();
+        self.headings.response.clear();
+        self.headings
+            .response
+            .resize(count * count, S::Scalar::zero());
+        let across = |dynamics: &Self, i: usize| {
+            let f = dynamics.beginning(i);
+            let (along, _) = dynamics.headings.frame(f);
+            let twice = cross(dynamics.slip_coefficient(f, 2), along);
+            twice + twice
+        };
+        for i in 0..count {
+            for j in 0..count {
+                self.headings.response[i * count + j] = -across(self, i);
+            }
+        }
+        for j in 0..count {
+            let f = self.beginning(j);
+            self.headings.turn(f, 1, num_traits::one());
+            self.start_series(2)?;
+            self.expand(2);
+            for i in 0..count {
+                let after = across(self, i);
+                self.headings.response[i * count + j] += after;
+            }
+            self.headings.keep_length(f, 1);
+        }
+        Ok(())
+    }
+
+    /// Solves for the turns of order `k`.
+    fn turn_all(&mut self, k: usize) -> Result<(), EvaluationError> {
+        let count = self.compiled().plan.headings.len();
+        let share = S::Scalar::from_f64(1.0 / (k + 1) as f64);
+        for i in 0..count {
+            let f = self.beginning(i);
+            let (along, _) = self.headings.frame(f);
+            let growth = dot(self.slip_coefficient(f, 1), along);
+            let Headings {
+                response, matrix, ..
+            } = &mut self.headings;
+            if i == 0 {
+                matrix.clear();
+                matrix.extend(response.iter().map(|&x| share * x));
+            }
+            matrix[i * count + i] += growth;
+        }
+        let Headings { matrix, right, .. } = &mut self.headings;
+        if !solve(matrix, right) {
+            let operation = Operation::SquareRoot;
+            return Err(EvaluationError::NoSeries { operation });
+        }
+        for i in 0..count {
+            let f = self.beginning(i);
+            let by = self.headings.right[i];
+            self.headings.turn(f, k, by);
+        }
+        Ok(())
+    }
+}
+
+/// Solves a small system in place, by Gauss elimination with row exchanges. False if it is singular.
+fn solve<T: Scalar>(matrix: &mut [T], right: &mut [T]) -> bool {
+    let n = right.len();
+    for step in 0..n {
+        let size = |i: &usize| matrix[i * n + step].value().abs();
+        let Some(best) = (step..n).max_by(|a, b| size(a).total_cmp(&size(b))) else {
+            return false;
+        };
+        for j in 0..n {
+            matrix.swap(step * n + j, best * n + j);
+        }
+        right.swap(step, best);
+        let pivot = matrix[step * n + step];
+        for i in (0..n).filter(|i| *i != step) {
+            let factor = matrix[i * n + step] / pivot;
+            for j in step..n {
+                let x = matrix[step * n + j];
+                matrix[i * n + j] -= factor * x;
+            }
+            let x = right[step];
+            right[i] -= factor * x;
+        }
+    }
+    for (i, x) in right.iter_mut().enumerate() {
+        *x /= matrix[i * n + i];
+    }
+    right.iter().all(|x| x.value().is_finite())
+}

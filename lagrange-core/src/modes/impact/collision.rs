@@ -1,0 +1,92 @@
+//! An impact in the space of its rows: what an impulse in one row does to the rates of all.
+//!
+//! ```text
+//! rates⁺ = rates⁻ + G Λ,   G = A M⁻¹ Aᵀ        (Delassus' matrix)
+//! ```
+//!
+//! Bilateral rows whose impulse nothing depends on are taken into M⁻¹ beforehand: M may be singular as long as they make the
+//! whole regular. Rows come in this order: constraints that carry friction, `while` rows, contacts, slip components.
+
+use crate::arithmetic::Scalar;
+
+/// A contact whose gap vanishes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Touch<T> {
+    /// Index into the description.
+    pub contact: usize,
+    /// Its row here.
+    pub row: usize,
+    /// e.
+    pub restitution: T,
+    /// Whether e multiplies the impulse of compression (Poisson) instead of the speed (Newton).
+    pub poisson: bool,
+}
+
+/// What presses the surfaces of a friction together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Bearer {
+    /// A contact, by its place among the touches.
+    Touch(usize),
+    /// A constraint, by its row here.
+    Link(usize),
+}
+
+/// A friction that an impact can act on.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rub<T> {
+    /// Index into the description.
+    pub friction: usize,
+    /// First of its rows here.
+    pub row: usize,
+    /// 1 or 2.
+    pub components: usize,
+    /// Where N comes from.
+    pub bearer: Bearer,
+    /// N over the impulse of the bearer.
+    pub factor: T,
+    /// μs.
+    pub stick: T,
+    /// μk.
+    pub slide: T,
+}
+
+/// The data of an impact.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Collision<T> {
+    /// Number of rows.
+    pub size: usize,
+    /// G, row-major.
+    pub response: Vec<T>,
+    /// Rates before.
+    pub rates: Vec<T>,
+    /// Per row: size of the terms that its rate cancels from.
+    pub terms: Vec<f64>,
+    /// The first so many rows are constraints that always act.
+    pub links: usize,
+    /// `while` rows with the place of their contact among the touches.
+    pub conditional: Vec<(usize, usize)>,
+    /// Contacts whose gap vanishes, in order of declaration.
+    pub touches: Vec<Touch<T>>,
+    /// Frictions on them and on constraints.
+    pub rubs: Vec<Rub<T>>,
+}
+
+impl<T: Scalar> Collision<T> {
+    /// √Gᵢᵢ
+    pub fn strength(&self, i: usize) -> f64 {
+        self.g(i, i).value().max(0.0).sqrt()
+    }
+
+    /// Gᵢⱼ
+    pub fn g(&self, i: usize, j: usize) -> T {
+        self.response[i * self.size + j]
+    }
+
+    /// Row of the bearer of a friction.
+    pub fn bearing_row(&self, rub: &Rub<T>) -> usize {
+        match rub.bearer {
+            Bearer::Touch(k) => self.touches[k].row,
+            Bearer::Link(row) => row,
+        }
+    }
+}

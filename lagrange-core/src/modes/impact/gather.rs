@@ -1,0 +1,231 @@
+//! From the equations of motion at one state to a [`Collision`], and from its impulses back to velocities.
+
+use super::Impact;
+use super::collision::{Bearer, Collision, Rub, Touch};
+use crate::arithmetic::Scalar;
+use crate::dynamics::Dynamics;
+use crate::effects::Item;
+use crate::linear::{Equilibrated, least_norm};
+use crate::mode::FrictionMode;
+use crate::system::{Normal, Place, Restitution, System};
+
+/// What stands between coordinates and rows; the memory is reused.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Gathering<T> {
+    /// Description's row of every row of the collision.
+    rows: Vec<usize>,
+    /// Per row: the rate vanishes before the impact, whatever rounding says.
+    at_rest: Vec<bool>,
+    /// Bilateral rows that are solved with M.
+    bilateral: Vec<usize>,
+    /// Dense Jacobian of `rows`, then of `bilateral`.
+    jacobian: Vec<T>,
+    matrix: Vec<T>,
+    factors: Equilibrated<T>,
+    /// (Δv, Λ of `bilateral`) of a unit impulse in every row.
+    answers: Vec<T>,
+}
+
+impl<T: Scalar> Gathering<T> {
+    /// Describes the impact of the contacts `near` at velocities `v`. False if an impulse has no finite effect.
+    pub fn collect<S: System<Scalar = T>>(
+        &mut self,
+        dynamics: &Dynamics<S>,
+        v: &[T],
+        near: &[usize],
+        out: &mut Collision<T>,
+    ) -> bool {
+        self.list_rows(dynamics, near, out);
+        let d = S::DESCRIPTION;
+        let n = d.coordinates.len();
+        let bilateral = self.bilateral.len();
+        let size = n + bilateral;
+        out.size = self.rows.len();
+        self.jacobian.clear();
+        self.jacobian.resize((out.size + bilateral) * n, T::zero());
+        let all = self.rows.iter().chain(&self.bilateral);
+        for (&row, a) in all.zip(self.jacobian.chunks_exact_mut(n.max(1))) {
+            for &(j, place) in d.rows[row].jacobian {
+                a[j] = dynamics.motion(place);
+            }
+        }
+        // [M −Bᵀ; B 0]
+        self.matrix.clear();
+        self.matrix.resize(size * size, T::zero());
+        for &(i, j, place) in d.mass {
+            self.matrix[i * size + j] = dynamics.motion(place);
+            self.matrix[j * size + i] = dynamics.motion(place);
+        }
+        for k in 0..bilateral {
+            for j in 0..n {
+                let a = self.jacobian[(out.size + k) * n + j];
+                self.matrix[(n + k) * size + j] = a;
+                self.matrix[j * size + n + k] = -a;
+            }
+        }
+        self.factors.factor(&mut self.matrix, size);
+        self.answers.clear();
+        self.answers.resize(out.size * size, T::zero());
+        for k in 0..out.size {
+            let answer = &mut self.answers[k * size..(k + 1) * size];
+            answer[..n].copy_from_slice(&self.jacobian[k * n..(k + 1) * n]);
+            if !self.factors.solve(answer) {
+                return false;
+            }
+        }
+        out.response.clear();
+        out.rates.clear();
+        out.terms.clear();
+        for i in 0..out.size {
+            let a = &self.jacobian[i * n..(i + 1) * n];
+            for k in 0..out.size {
+                let change = &self.answers[k * size..k * size + n];
+                out.response.push(dot(a, change));
+            }
+            out.rates.push(if self.at_rest[i] {
+                T::zero()
+            } else {
+                dynamics.motion(d.rows[self.rows[i]].velocity)
+            });
+            let terms = a.iter().zip(v).map(|(&a, &v)| (a * v).value().abs());
+            out.terms.push(terms.sum());
+        }
+        true
+    }
+
+    /// Which rows there are.
+    fn list_rows<S: System<Scalar = T>>(
+        &mut self,
+        dynamics: &Dynamics<S>,
+        near: &[usize],
+        out: &mut Collision<T>,
+    ) {
+        let d = S::DESCRIPTION;
+        let effects = dynamics.effects();
+        let mode = dynamics.mode();
+        self.rows.clear();
+        self.at_rest.clear();
+        self.bilateral.clear();
+        out.conditional.clear();
+        out.touches.clear();
+        out.rubs.clear();
+        let rubs = |f: &usize| effects.includes(d, Item::Friction(*f));
+        let frictions = || (0..d.frictions.len()).filter(rubs);
+        let carries = |i: usize| {
+            frictions().any(|f| matches!(d.frictions[f].normal, Normal::Constraint(c) if c == i))
+        };
+        let constraints = (0..d.constraints.len())
+            .filter(|i| effects.includes(d, Item::Constraint(*i)))
+            .filter(|i| d.constraints[*i].while_contact.is_none());
+        for i in constraints {
+            if carries(i) {
+                self.rows.push(d.constraints[i].row);
+            } else {
+                self.bilateral.push(d.constraints[i].row);
+            }
+        }
+        out.links = self.rows.len();
+        self.at_rest.resize(out.links, true);
+        for (i, constraint) in d.constraints.iter().enumerate() {
+            let place = |c| near.iter().position(|n| *n == c);
+            if let Some(touch) = constraint.while_contact.and_then(place)
+                && effects.includes(d, Item::Constraint(i))
+            {
+                out.conditional.push((self.rows.len(), touch));
+                self.rows.push(constraint.row);
+                self.at_rest.push(mode.contacts[near[touch]]);
+            }
+        }
+        for &c in near {
+            let (restitution, poisson) = match d.contacts[c].restitution {
+                Restitution::Newton(place) => (place, false),
+                Restitution::Poisson(place) => (place, true),
+            };
+            out.touches.push(Touch {
+                contact: c,
+                row: self.rows.len(),
+                restitution: dynamics.motion(restitution),
+                poisson,
+            });
+            self.rows.push(d.contacts[c].row);
+            self.at_rest.push(mode.contacts[c]);
+        }
+        for f in frictions() {
+            let friction = &d.frictions[f];
+            let (bearer, factor) = match friction.normal {
+                Normal::Contact(c) => (
+                    near.iter().position(|n| *n == c).map(Bearer::Touch),
+                    d.contacts[c].normal_factor,
+                ),
+                Normal::Constraint(i) => {
+                    let row = d.constraints[i].row;
+                    let among = self.rows[..out.links].iter().position(|r| *r == row);
+                    (among.map(Bearer::Link), None)
+                }
+                // A given force is finite: it does nothing in no time.
+                Normal::Given(_) => (None, None),
+            };
+            let Some(bearer) = bearer else {
+                continue;
+            };
+            out.rubs.push(Rub {
+                friction: f,
+                row: self.rows.len(),
+                components: friction.components,
+                bearer,
+                factor: factor.map_or(T::one(), |place: Place| dynamics.motion(place)),
+                stick: dynamics.motion(friction.static_coefficient),
+                slide: dynamics.motion(friction.kinetic_coefficient),
+            });
+            let components = friction.row..friction.row + friction.components;
+            self.rows.extend(components);
+            let sticks = mode.frictions[f] == FrictionMode::Stick;
+            self.at_rest.resize(self.rows.len(), sticks);
+        }
+    }
+
+    /// Velocities after the impulses of the rows, and the impulses of all rows of the description.
+    pub fn apply(&self, impulses: &[T], v: &[T], out: &mut Impact<T>) {
+        let n = v.len();
+        let bilateral = self.bilateral.len();
+        let size = n + bilateral;
+        out.v.clear();
+        out.v.extend_from_slice(v);
+        out.impulses.fill(T::zero());
+        for (k, answer) in self.answers.chunks_exact(size.max(1)).enumerate() {
+            let share = impulses[k];
+            if share.is_zero() {
+                continue;
+            }
+            for (v, &change) in out.v.iter_mut().zip(answer) {
+                *v += share * change;
+            }
+            for (&row, &impulse) in self.bilateral.iter().zip(&answer[n..]) {
+                out.impulses[row] += share * impulse;
+            }
+        }
+        for (&row, &impulse) in self.rows.iter().zip(impulses) {
+            out.impulses[row] = impulse;
+        }
+        if self.factors.is_deficient() {
+            // Of constraints that depend on each other.
+            let columns = &self.jacobian[self.rows.len() * n..];
+            let mut shared: Vec<T> = self
+                .bilateral
+                .iter()
+                .map(|&row| out.impulses[row])
+                .collect();
+            least_norm(columns, n, &mut shared);
+            for (&row, impulse) in self.bilateral.iter().zip(shared) {
+                out.impulses[row] = impulse;
+            }
+            out.undetermined = true;
+        }
+    }
+}
+
+fn dot<T: Scalar>(a: &[T], b: &[T]) -> T {
+    a.iter()
+        .zip(b)
+        .fold(T::zero(), |sum, (&a, &b)| a.mul_add(b, sum))
+}

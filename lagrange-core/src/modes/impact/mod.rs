@@ -1,0 +1,204 @@
+//! Impacts: velocities jump, positions do not.
+//!
+//! ```text
+//! M (v⁺ − v⁻) = Σ aᵢᵀ Λᵢ
+//! contact   Λₙ ≥ 0 ⟂ ġ⁺ + e ġ⁻ ≥ 0            (Newton's restitution, contacts together)
+//! friction  s⁺ = 0 with |Λₜ| ≤ μs N, else Λₜ = −μk N s⁺/|s⁺|     N = Λₙ of a contact, |Λ| of a constraint
+//! bilateral ġ⁺ = 0
+//! ```
+//!
+//! Coefficients are those of the state before. Moreau (1988); Glocker (2001), chapter 6; Brogliato (2016), chapter 4.
+//! [`gather`] brings the impact into the space of its rows, [`law`] has the laws, [`turn`] impacts one after the other,
+//! [`search`] finds which contacts take part and which frictions stick, [`pattern`] solves and judges one such combination.
+
+mod collision;
+mod gather;
+mod law;
+mod pattern;
+mod relaxation;
+mod search;
+#[cfg(test)]
+mod tests;
+mod turn;
+
+use crate::arithmetic::Scalar;
+use crate::dynamics::Dynamics;
+use crate::error::Error;
+use crate::system::{Description, Impacts, System};
+use collision::Collision;
+use gather::Gathering;
+use law::Law;
+use pattern::length;
+use turn::{MOST_IMPACTS, Stuck, Turns};
+
+/// An impact may miss its energy balance by this share, and no more.
+const GAIN: f64 = 1e-9;
+
+/// What an impact does.
+#[derive(Clone, Debug, Default)]
+pub struct Impact<T> {
+    /// Velocities after it.
+    pub v: Vec<T>,
+    /// Impulse of every row.
+    pub impulses: Vec<T>,
+    /// Per contact: the gap rate vanishes afterwards.
+    pub stays: Vec<bool>,
+    /// Per contact: takes part with an impulse.
+    pub struck: Vec<bool>,
+    /// Per friction that can act: the slip vanishes afterwards.
+    pub sticks: Vec<bool>,
+    /// Whether the restitution was lowered.
+    pub lowered: bool,
+    /// Whether dependent rows leave some impulses undetermined; those given are of least norm.
+    pub undetermined: bool,
+}
+
+/// Solves impacts; the memory is reused.
+#[derive(Clone, Debug, Default)]
+pub struct Collider<T> {
+    /// What the last impact has done.
+    pub outcome: Impact<T>,
+    collision: Collision<T>,
+    gathering: Gathering<T>,
+    law: Law<T>,
+    turns: Turns<T>,
+}
+
+impl<T: Scalar> Collider<T> {
+    /// Solves the impact of the contacts `near` (gap zero) at velocities `v`; `dynamics` holds the values of the state,
+    /// with the Jacobians of all rows.
+    ///
+    /// # Errors
+    /// [`Error::NoMode`] if no combination satisfies the law, [`Error::EndlessImpacts`] if impacts in turn do not end,
+    /// [`Error::EnergyGain`] if the solution adds energy.
+    pub fn solve<S: System<Scalar = T>>(
+        &mut self,
+        dynamics: &Dynamics<S>,
+        t: f64,
+        v: &[T],
+        near: &[usize],
+        impacts: Impacts,
+    ) -> Result<(), Error> {
+        let d = S::DESCRIPTION;
+        let contact = |k: usize| d.contacts[near.get(k).copied().unwrap_or(0)].name;
+        self.law.search.tried = 0;
+        let collected = self
+            .gathering
+            .collect(dynamics, v, near, &mut self.collision);
+        let solved = if collected {
+            self.solve_rows(impacts)
+        } else {
+            Err(Stuck::Unsolved(0))
+        };
+        match solved {
+            Ok(()) => {}
+            Err(Stuck::Unsolved(k)) => {
+                return Err(Error::NoMode {
+                    time: t,
+                    mode: dynamics.mode().display(d).to_string(),
+                    item: contact(k),
+                    tried: self.law.search.tried,
+                });
+            }
+            Err(Stuck::Endless(k)) => {
+                return Err(Error::EndlessImpacts {
+                    time: t,
+                    item: contact(k),
+                    impacts: MOST_IMPACTS,
+                });
+            }
+        }
+        self.write_outcome(d, v);
+        let (gain, size) = self.balance(dynamics, v);
+        if gain > GAIN * size {
+            return Err(Error::EnergyGain {
+                time: t,
+                item: contact(0),
+                gain,
+            });
+        }
+        Ok(())
+    }
+
+    fn solve_rows(&mut self, impacts: Impacts) -> Result<(), Stuck> {
+        let Self {
+            collision,
+            law,
+            turns,
+            ..
+        } = self;
+        match impacts {
+            Impacts::InTurn => turns.solve(collision, law),
+            Impacts::Together => {
+                law.phase.within.clear();
+                law.phase.within.resize(collision.touches.len(), true);
+                if !law.solve(collision, &collision.rates) {
+                    return Err(Stuck::Unsolved(0));
+                }
+                turns.impulses.clone_from(&law.impulses);
+                turns.rates.clone_from(&law.after);
+                turns.noise.clone_from(&law.noise);
+                (turns.undetermined, turns.lowered) = (law.undetermined, law.lowered);
+                Ok(())
+            }
+        }
+    }
+
+    fn write_outcome(&mut self, d: &Description, v: &[T]) {
+        let Self {
+            outcome,
+            collision: c,
+            turns,
+            ..
+        } = self;
+        outcome.lowered = turns.lowered;
+        outcome.undetermined = turns.undetermined;
+        outcome.impulses.clear();
+        outcome.impulses.resize(d.rows.len(), T::zero());
+        self.gathering.apply(&turns.impulses, v, outcome);
+        for (flags, count) in [
+            (&mut outcome.stays, d.contacts.len()),
+            (&mut outcome.struck, d.contacts.len()),
+            (&mut outcome.sticks, d.frictions.len()),
+        ] {
+            flags.clear();
+            flags.resize(count, false);
+        }
+        for touch in &c.touches {
+            let row = touch.row;
+            outcome.stays[touch.contact] = turns.rates[row].value().abs() <= turns.noise[row];
+            let effect = turns.impulses[row].value() * c.g(row, row).value();
+            outcome.struck[touch.contact] = effect > turns.noise[row];
+        }
+        for rub in &c.rubs {
+            let slip = length(&turns.rates[rub.row..rub.row + rub.components]);
+            outcome.sticks[rub.friction] = slip <= turns.noise[rub.row];
+        }
+    }
+
+    /// Kinetic energy that is not work of moving surfaces, from velocities and impulses: (gain, size of its terms).
+    fn balance<S: System<Scalar = T>>(&self, dynamics: &Dynamics<S>, v: &[T]) -> (f64, f64) {
+        let d = S::DESCRIPTION;
+        let (mut gain, mut size) = (0.0, 0.0);
+        for &(i, j, place) in d.mass {
+            let m = dynamics.motion(place).value() * if i == j { 0.5 } else { 1.0 };
+            let after = m * (self.outcome.v[i] * self.outcome.v[j]).value();
+            let before = m * (v[i] * v[j]).value();
+            gain += after - before;
+            size += after.abs() + before.abs();
+        }
+        // A row a v + b does −b Λ.
+        for (row, impulse) in d.rows.iter().zip(&self.outcome.impulses) {
+            if impulse.is_zero() {
+                continue;
+            }
+            let along: T = row.jacobian.iter().fold(T::zero(), |sum, &(j, place)| {
+                sum + dynamics.motion(place) * v[j]
+            });
+            let own = dynamics.motion(row.velocity) - along;
+            gain += (own * *impulse).value();
+            size += (own * *impulse).value().abs();
+        }
+        (gain, size)
+    }
+}

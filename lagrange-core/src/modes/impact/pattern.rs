@@ -1,0 +1,479 @@
+//! One combination of what each contact and friction does in a phase of an impact: solved as equations, then judged.
+//!
+//! | state | equation | condition |
+//! |---|---|---|
+//! | contact pressed | rate⁺ = aim | Λ ≥ least |
+//! | contact free | Λ = least | rate⁺ ≥ aim |
+//! | friction sticks | s⁺ = 0 | \|Λₜ\| ≤ μs N |
+//! | friction slides | Λₜ = −μk N s⁺/\|s⁺\| | |
+//!
+//! With two slip components the direction s⁺/|s⁺| is an unknown too: Newton's method from a given direction.
+
+use super::collision::{Bearer, Collision, Rub};
+use crate::arithmetic::Scalar;
+use crate::linear::{Equilibrated, least_norm};
+
+/// Rounding relative to the terms that a rate is summed from.
+pub(super) const ROUNDING: f64 = 1e-13;
+/// The same for the terms a·v, which are summed before.
+pub(super) const TERMS: f64 = 4e-16;
+/// Newton steps for directions of slip.
+const MOST_STEPS: usize = 30;
+
+/// What a friction does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Slide {
+    /// Nothing presses it.
+    Idle,
+    Stick,
+    /// One component: s⁺ has this sign (times that of the bearing impulse, on a constraint).
+    Along(f64),
+    /// Two components, from this direction on.
+    Turning([f64; 2]),
+}
+
+/// What is asked of a phase.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Phase<T> {
+    /// Rates at its beginning.
+    pub rates: Vec<T>,
+    /// Per touch: least rate after it.
+    pub aims: Vec<T>,
+    /// Per touch: least impulse.
+    pub least: Vec<T>,
+    /// Per touch: has had an impulse before, so that its `while` rows hold.
+    pub struck: Vec<bool>,
+    /// Per touch: takes part.
+    pub within: Vec<bool>,
+}
+
+/// What does not hold.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Violation {
+    Touch(usize),
+    Rub(usize),
+}
+
+/// A combination and its solution.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Pattern<T> {
+    pub pressed: Vec<bool>,
+    pub slides: Vec<Slide>,
+    /// Λ of every row.
+    pub impulses: Vec<T>,
+    /// Rates after.
+    pub after: Vec<T>,
+    /// What rounding leaves of them.
+    pub noise: Vec<f64>,
+    /// Whether impulses are not determined (they are then of least norm).
+    pub undetermined: bool,
+    unknowns: Vec<usize>,
+    matrix: Vec<T>,
+    right: Vec<T>,
+    factors: Equilibrated<T>,
+}
+
+impl<T: Scalar> Pattern<T> {
+    /// Whether friction `rub` can have an impulse.
+    pub fn bears(&self, rub: &Rub<T>, phase: &Phase<T>) -> bool {
+        match rub.bearer {
+            Bearer::Touch(k) => {
+                phase.within[k] && (self.pressed[k] || phase.least[k].value() > 0.0)
+            }
+            Bearer::Link(_) => true,
+        }
+    }
+
+    /// Solves the equations, from the given directions of slip; false if they have no solution.
+    pub fn solve(&mut self, c: &Collision<T>, phase: &Phase<T>) -> bool {
+        let turning = self.slides.iter().any(|s| matches!(s, Slide::Turning(_)));
+        self.solve_held(c, phase) && (!turning || self.turn(c, phase)) && self.is_finite()
+    }
+
+    /// Solves the equations with these directions of slip, whether the slip is along them or not.
+    pub fn solve_held(&mut self, c: &Collision<T>, phase: &Phase<T>) -> bool {
+        self.begin(c, phase);
+        self.solve_linear(c, phase) && self.is_finite()
+    }
+
+    fn is_finite(&self) -> bool {
+        self.impulses.iter().all(|x| x.value().is_finite())
+    }
+
+    /// Lists the unknown impulses and sets the others.
+    fn begin(&mut self, c: &Collision<T>, phase: &Phase<T>) {
+        self.undetermined = false;
+        self.impulses.clear();
+        self.impulses.resize(c.size, T::zero());
+        self.unknowns.clear();
+        self.unknowns.extend(0..c.links);
+        let live = |k: usize| phase.within[k] && (self.pressed[k] || phase.struck[k]);
+        let conditional = c.conditional.iter().filter(|(_, k)| live(*k));
+        self.unknowns.extend(conditional.map(|(row, _)| *row));
+        for (k, touch) in c.touches.iter().enumerate() {
+            if !phase.within[k] {
+                continue;
+            } else if self.pressed[k] {
+                self.unknowns.push(touch.row);
+            } else {
+                self.impulses[touch.row] = phase.least[k];
+            }
+        }
+        for (rub, slide) in c.rubs.iter().zip(&self.slides) {
+            if *slide == Slide::Stick {
+                self.unknowns.extend(rub.row..rub.row + rub.components);
+            }
+        }
+    }
+
+    /// What a unit impulse of `row` does to rate `i`, with the sliding friction that it brings along.
+    fn effect(&self, c: &Collision<T>, i: usize, row: usize) -> T {
+        let mut effect = c.g(i, row);
+        for (rub, slide) in c.rubs.iter().zip(&self.slides) {
+            if c.bearing_row(rub) == row
+                && let Some(direction) = fixed(slide)
+            {
+                for (k, part) in direction.into_iter().enumerate().take(rub.components) {
+                    let share = T::from_f64(-part) * rub.slide * rub.factor;
+                    effect += share * c.g(i, rub.row + k);
+                }
+            }
+        }
+        effect
+    }
+
+    /// Directions of slip held: a linear system, with one step of refinement.
+    fn solve_linear(&mut self, c: &Collision<T>, phase: &Phase<T>) -> bool {
+        let count = self.unknowns.len();
+        let mut matrix = core::mem::take(&mut self.matrix);
+        matrix.clear();
+        for &i in &self.unknowns {
+            matrix.extend(self.unknowns.iter().map(|&row| self.effect(c, i, row)));
+        }
+        self.factors.factor(&mut matrix, count);
+        self.matrix = matrix;
+        for &row in &self.unknowns {
+            self.impulses[row] = T::zero();
+        }
+        for _ in 0..2 {
+            self.slide(c);
+            self.move_on(c, phase);
+            self.right.clear();
+            let missing = self
+                .unknowns
+                .iter()
+                .map(|&i| aim(c, phase, i) - self.after[i]);
+            self.right.extend(missing);
+            let mut right = core::mem::take(&mut self.right);
+            self.factors.solve(&mut right);
+            for (&row, &x) in self.unknowns.iter().zip(&right) {
+                self.impulses[row] += x;
+            }
+            self.right = right;
+        }
+        if self.factors.is_deficient() {
+            self.undetermined = true;
+            self.share(c);
+        }
+        self.slide(c);
+        self.move_on(c, phase);
+        // Equations that depend on each other may contradict each other.
+        let far =
+            |&i: &usize| (self.after[i] - aim(c, phase, i)).value().abs() > 10.0 * self.noise[i];
+        !self.unknowns.iter().any(far)
+    }
+
+    /// Impulses that are not determined: of all with the same effect those of least norm.
+    fn share(&mut self, c: &Collision<T>) {
+        let columns: Vec<T> = self
+            .unknowns
+            .iter()
+            .flat_map(|&row| (0..c.size).map(move |i| (i, row)))
+            .map(|(i, row)| self.effect(c, i, row))
+            .collect();
+        let mut shared: Vec<T> = self
+            .unknowns
+            .iter()
+            .map(|&row| self.impulses[row])
+            .collect();
+        least_norm(&columns, c.size, &mut shared);
+        for (&row, impulse) in self.unknowns.iter().zip(shared) {
+            self.impulses[row] = impulse;
+        }
+    }
+
+    /// Friction impulses of what slides in a held direction.
+    fn slide(&mut self, c: &Collision<T>) {
+        for (rub, slide) in c.rubs.iter().zip(&self.slides) {
+            if let Some(direction) = fixed(slide) {
+                let normal = rub.factor * self.impulses[c.bearing_row(rub)];
+                for (k, part) in direction.into_iter().enumerate().take(rub.components) {
+                    self.impulses[rub.row + k] = T::from_f64(-part) * rub.slide * normal;
+                }
+            }
+        }
+    }
+
+    /// Rates after the impulses, and what rounding leaves of them.
+    fn move_on(&mut self, c: &Collision<T>, phase: &Phase<T>) {
+        self.after.clear();
+        self.noise.clear();
+        // What an impulse does in other rows is known to rounding of what it does in its own.
+        let efforts = self.impulses.iter().enumerate();
+        let effort: f64 = efforts.map(|(j, x)| c.strength(j) * x.value().abs()).sum();
+        for i in 0..c.size {
+            let (mut rate, mut size) = (phase.rates[i], phase.rates[i].value().abs());
+            for (j, &impulse) in self.impulses.iter().enumerate() {
+                let part = c.g(i, j) * impulse;
+                rate += part;
+                size += part.value().abs();
+            }
+            self.after.push(rate);
+            self.noise
+                .push(ROUNDING * size + TERMS * (c.terms[i] + c.strength(i) * effort));
+        }
+    }
+
+    /// Puts the direction of each turning friction along the slip that it leaves.
+    pub fn align(&mut self, c: &Collision<T>) {
+        for (rub, slide) in c.rubs.iter().zip(&mut self.slides) {
+            if let Slide::Turning(direction) = slide {
+                let s = lead(rub, &self.impulses, &self.after);
+                let length = s[0].hypot(s[1]);
+                if length > 0.0 {
+                    // Half-way: a direction that turns round would swing for ever.
+                    let mean = [0, 1].map(|k| direction[k] + s[k] / length);
+                    let size = mean[0].hypot(mean[1]);
+                    if size > 1e-3 {
+                        *direction = mean.map(|x| x / size);
+                    }
+                }
+            }
+        }
+    }
+
+    /// How far the slip of turning friction `r` is from the direction that is held: (across it, along it).
+    pub fn deviation(&self, c: &Collision<T>, r: usize) -> (f64, f64) {
+        let s = lead(&c.rubs[r], &self.impulses, &self.after);
+        match self.slides[r] {
+            Slide::Turning([x, y]) => (x * s[1] - y * s[0], x * s[0] + y * s[1]),
+            _ => (0.0, 0.0),
+        }
+    }
+
+    /// Newton's method for Λₜ + μ N s⁺/|s⁺| = 0 together with all other equations.
+    fn turn(&mut self, c: &Collision<T>, phase: &Phase<T>) -> bool {
+        let linear = self.unknowns.len();
+        for (rub, slide) in c.rubs.iter().zip(&self.slides) {
+            if matches!(slide, Slide::Turning(_)) {
+                self.unknowns.extend([rub.row, rub.row + 1]);
+            }
+        }
+        let converged = self.newton(c, phase, linear);
+        self.unknowns.truncate(linear);
+        converged
+    }
+
+    fn newton(&mut self, c: &Collision<T>, phase: &Phase<T>, linear: usize) -> bool {
+        let count = self.unknowns.len();
+        let mut last = f64::INFINITY;
+        for _ in 0..MOST_STEPS {
+            let mut matrix = core::mem::take(&mut self.matrix);
+            let mut right = core::mem::take(&mut self.right);
+            matrix.clear();
+            right.clear();
+            // A turning friction brings nothing along here: its impulses are unknowns.
+            for &i in &self.unknowns[..linear] {
+                let row = self
+                    .unknowns
+                    .iter()
+                    .map(|&row| self.plain_effect(c, i, row));
+                matrix.extend(row);
+                right.push(aim(c, phase, i) - self.after[i]);
+            }
+            let mut regular = true;
+            for (rub, slide) in c.rubs.iter().zip(&self.slides) {
+                if matches!(slide, Slide::Turning(_)) {
+                    regular &= self.linearize(c, rub, &mut matrix, &mut right);
+                }
+            }
+            if regular {
+                self.factors.factor(&mut matrix, count);
+            }
+            let solved = regular && self.factors.solve(&mut right);
+            (self.matrix, self.right) = (matrix, right);
+            if !solved {
+                return false;
+            }
+            let mut change = 0.0;
+            let mut size = 0.0;
+            for (&row, &x) in self.unknowns.iter().zip(&self.right) {
+                let scale = c.g(row, row).value().abs();
+                change = f64::max(change, scale * x.value().abs());
+                size = f64::max(size, scale * self.impulses[row].value().abs());
+                self.impulses[row] += x;
+            }
+            self.slide_fixed(c);
+            self.move_on(c, phase);
+            // Quadratic: what is left after a step this small is rounding.
+            if change <= 1e-15 * size || (change <= 1e-12 * size && change >= 0.5 * last) {
+                return true;
+            }
+            last = change;
+        }
+        false
+    }
+
+    /// [`Self::slide`] for what has one component.
+    fn slide_fixed(&mut self, c: &Collision<T>) {
+        for (rub, slide) in c.rubs.iter().zip(&self.slides) {
+            if let Slide::Along(sign) = *slide {
+                let normal = rub.factor * self.impulses[c.bearing_row(rub)];
+                self.impulses[rub.row] = T::from_f64(-sign) * rub.slide * normal;
+            }
+        }
+    }
+
+    /// [`Self::effect`] without the turning frictions.
+    fn plain_effect(&self, c: &Collision<T>, i: usize, row: usize) -> T {
+        let mut effect = c.g(i, row);
+        for (rub, slide) in c.rubs.iter().zip(&self.slides) {
+            if let Slide::Along(sign) = *slide
+                && c.bearing_row(rub) == row
+            {
+                effect += T::from_f64(-sign) * rub.slide * rub.factor * c.g(i, rub.row);
+            }
+        }
+        effect
+    }
+
+    /// Rows of Newton's matrix for a turning friction; false where it does not slip.
+    fn linearize(
+        &self,
+        c: &Collision<T>,
+        rub: &Rub<T>,
+        matrix: &mut Vec<T>,
+        right: &mut Vec<T>,
+    ) -> bool {
+        let s = [0, 1].map(|k| self.after[rub.row + k]);
+        let length = (s[0] * s[0] + s[1] * s[1]).sqrt();
+        if !(length.value() > 0.0) {
+            return false;
+        }
+        let along = s.map(|x| x / length);
+        let bearer = c.bearing_row(rub);
+        let press = self.impulses[bearer];
+        let sign = match rub.bearer {
+            Bearer::Link(_) if press.value() < 0.0 => -T::one(),
+            _ => T::one(),
+        };
+        let coefficient = rub.slide * rub.factor * sign;
+        let normal = coefficient * press;
+        for k in 0..2 {
+            for &row in &self.unknowns {
+                let ds = [0, 1].map(|l| self.plain_effect(c, rub.row + l, row));
+                let across = ds[k] - along[k] * (along[0] * ds[0] + along[1] * ds[1]);
+                let mut entry = normal * across / length;
+                if row == bearer {
+                    entry += coefficient * along[k];
+                }
+                if row == rub.row + k {
+                    entry += T::one();
+                }
+                matrix.push(entry);
+            }
+            right.push(-(self.impulses[rub.row + k] + normal * along[k]));
+        }
+        true
+    }
+
+    /// The worst inequality that does not hold, rounding apart.
+    pub fn violation(&self, c: &Collision<T>, phase: &Phase<T>) -> Option<Violation> {
+        let mut worst: Option<(f64, Violation)> = None;
+        let mut judge = |excess: f64, noise: f64, what: Violation| {
+            let relative = excess / noise.max(f64::MIN_POSITIVE);
+            if excess > noise && worst.is_none_or(|(w, _)| relative > w) {
+                worst = Some((relative, what));
+            }
+        };
+        for (k, touch) in c.touches.iter().enumerate() {
+            let i = touch.row;
+            if !phase.within[k] {
+                continue;
+            }
+            let excess = if self.pressed[k] {
+                (phase.least[k] - self.impulses[i]).value() * c.g(i, i).value()
+            } else {
+                (phase.aims[k] - self.after[i]).value()
+            };
+            judge(excess, self.noise[i], Violation::Touch(k));
+        }
+        for (r, (rub, slide)) in c.rubs.iter().zip(&self.slides).enumerate() {
+            let bearer = c.bearing_row(rub);
+            let press = self.impulses[bearer].value();
+            let normal = rub.factor.value() * press.abs();
+            let impulse = length(&self.impulses[rub.row..rub.row + rub.components]);
+            let noise = |mu: f64| {
+                let own = c.g(rub.row, rub.row).value();
+                let bearing = c.g(bearer, bearer).value().max(f64::MIN_POSITIVE);
+                self.noise[rub.row] + mu * rub.factor.value() * own / bearing * self.noise[bearer]
+            };
+            match *slide {
+                Slide::Idle => {}
+                Slide::Stick => {
+                    let mu = rub.stick.value();
+                    let excess = (impulse - mu * normal) * c.g(rub.row, rub.row).value();
+                    judge(excess, noise(mu), Violation::Rub(r));
+                }
+                Slide::Along(sign) => {
+                    let sign = match rub.bearer {
+                        Bearer::Link(_) if press < 0.0 => -sign,
+                        _ => sign,
+                    };
+                    let excess = -sign * self.after[rub.row].value();
+                    judge(excess, self.noise[rub.row], Violation::Rub(r));
+                }
+                Slide::Turning(_) => {
+                    let mu = rub.slide.value();
+                    let excess = (impulse - mu * normal).abs() * c.g(rub.row, rub.row).value();
+                    judge(excess, noise(mu), Violation::Rub(r));
+                }
+            }
+        }
+        worst.map(|(_, what)| what)
+    }
+}
+
+/// Direction of a sliding friction that is held while a linear system is solved.
+fn fixed(slide: &Slide) -> Option<[f64; 2]> {
+    match *slide {
+        Slide::Along(sign) => Some([sign, 0.0]),
+        Slide::Turning(direction) => Some(direction),
+        Slide::Idle | Slide::Stick => None,
+    }
+}
+
+/// Where the friction impulse of a rub with two components points away from: its slip, times the sign of the bearing impulse
+/// on a constraint.
+fn lead<T: Scalar>(rub: &Rub<T>, impulses: &[T], after: &[T]) -> [f64; 2] {
+    let against = matches!(rub.bearer, Bearer::Link(row) if impulses[row].value() < 0.0);
+    let sign = if against { -1.0 } else { 1.0 };
+    [0, 1].map(|k| sign * after[rub.row + k].value())
+}
+
+/// The rate that row `i` is to have if it is an equation.
+fn aim<T: Scalar>(c: &Collision<T>, phase: &Phase<T>, i: usize) -> T {
+    let first = c.touches.first().map_or(usize::MAX, |touch| touch.row);
+    match i.checked_sub(first).and_then(|k| phase.aims.get(k)) {
+        Some(&aim) => aim,
+        None => T::zero(),
+    }
+}
+
+/// √Σ x²
+pub(super) fn length<T: Scalar>(x: &[T]) -> f64 {
+    match x {
+        [x] => x.value().abs(),
+        x => x.iter().map(|x| x.value() * x.value()).sum::<f64>().sqrt(),
+    }
+}

@@ -1,0 +1,94 @@
+//! Impacts one after the other: in order of declaration, again and again, until no contact approaches.
+//!
+//! A ball that two others squeeze with e < 1 is hit infinitely often, by speeds that shrink geometrically: what remains
+//! is followed until it is below rounding, its limit. Where it does not shrink there is no end, and that is an error.
+
+use super::collision::Collision;
+use super::law::Law;
+use super::pattern::{ROUNDING, TERMS};
+use crate::arithmetic::Scalar;
+
+/// More impacts than this at one instant have no end.
+pub(super) const MOST_IMPACTS: usize = 200_000;
+
+/// Why impacts in turn could not be solved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Stuck {
+    /// The impact of this touch has no solution.
+    Unsolved(usize),
+    /// After [`MOST_IMPACTS`] this touch still approaches.
+    Endless(usize),
+}
+
+/// Impacts in turn; the memory is reused.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Turns<T> {
+    pub impulses: Vec<T>,
+    pub rates: Vec<T>,
+    /// Below which a rate is rounding.
+    pub noise: Vec<f64>,
+    pub undetermined: bool,
+    pub lowered: bool,
+    /// Number of impacts.
+    pub count: usize,
+    /// Largest rate so far.
+    spans: Vec<f64>,
+}
+
+impl<T: Scalar> Turns<T> {
+    /// Solves `c` by single impacts.
+    pub fn solve(&mut self, c: &Collision<T>, law: &mut Law<T>) -> Result<(), Stuck> {
+        self.rates.clone_from(&c.rates);
+        self.impulses.clear();
+        self.impulses.resize(c.size, T::zero());
+        self.spans.clear();
+        self.spans.resize(c.size, 0.0);
+        (self.undetermined, self.lowered, self.count) = (false, false, 0);
+        law.phase.within.clear();
+        law.phase.within.resize(c.touches.len(), false);
+        let mut at_rest = 0;
+        for k in (0..c.touches.len()).cycle() {
+            self.measure(c);
+            let row = c.touches[k].row;
+            if self.rates[row].value() >= -self.noise[row] {
+                at_rest += 1;
+                if at_rest == c.touches.len() {
+                    break;
+                }
+                continue;
+            }
+            at_rest = 0;
+            if self.count == MOST_IMPACTS {
+                return Err(Stuck::Endless(k));
+            }
+            law.phase.within[k] = true;
+            let solved = law.solve(c, &self.rates);
+            law.phase.within[k] = false;
+            if !solved {
+                return Err(Stuck::Unsolved(k));
+            }
+            self.count += 1;
+            self.undetermined |= law.undetermined;
+            self.lowered |= law.lowered;
+            self.rates.copy_from_slice(&law.after);
+            for (sum, &impulse) in self.impulses.iter_mut().zip(&law.impulses) {
+                *sum += impulse;
+            }
+        }
+        Ok(())
+    }
+
+    fn measure(&mut self, c: &Collision<T>) {
+        self.noise.clear();
+        for ((span, rate), terms) in self.spans.iter_mut().zip(&self.rates).zip(&c.terms) {
+            *span = span.max(rate.value().abs());
+            self.noise.push(ROUNDING * *span + TERMS * terms);
+        }
+        // What an impulse does in other rows is known to rounding of what it does in its own.
+        let impulses = self.impulses.iter().enumerate();
+        let effort: f64 = impulses.map(|(j, x)| c.strength(j) * x.value().abs()).sum();
+        for (i, noise) in self.noise.iter_mut().enumerate() {
+            *noise += TERMS * c.strength(i) * effort;
+        }
+    }
+}

@@ -1,0 +1,210 @@
+//! Slips of two components: they begin with a step of their own, and come to rest where both components vanish at once.
+//!
+//! Along a straight line the slip falls through zero like any guard. On a curved path |s| has no sign change, and near its
+//! end the direction turns like a power of the time that is left: Taylor series reach no further than that end, steps shrink
+//! with what is left, and the slip is at rest once all that can still change is below the tolerance. A slip that only
+//! passes near zero is followed through.
+
+use super::Run;
+use crate::arithmetic::Scalar;
+use crate::dynamics::approach;
+use crate::error::Error;
+use crate::mode::{Direction, FrictionMode, Sliding};
+use crate::modes::guard::Guard;
+use crate::system::System;
+use crate::trajectory::State;
+
+/// A slip close to its rest is looked at from this part of the way.
+pub(super) const JUST_BEFORE: f64 = 0.999;
+/// What may still change until rest, in units of the tolerance.
+const LEFT: f64 = 1.0;
+/// Other methods leave a step to Taylor series if it would be longer than this part of the time to rest.
+const NEAR: f64 = 0.5;
+
+/// A slip that comes to rest.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rest {
+    friction: usize,
+    /// Its last direction.
+    along: [f64; 2],
+    /// Time that is left, s.
+    left: f64,
+}
+
+impl<S: System> Run<S> {
+    /// Whether friction `f` slips with two components along itself.
+    fn turns(&self, f: usize) -> bool {
+        matches!(
+            self.mode.frictions[f],
+            FrictionMode::Slip(Sliding {
+                direction: Direction::AlongSlip | Direction::Incipient(_),
+                ..
+            })
+        )
+    }
+
+    /// Takes the slips that have only turned out of the fallen guards; the others are listed in `rests`.
+    pub(super) fn tell_rest_from_turn(&mut self, end: f64) {
+        self.rests.clear();
+        let mut fallen = core::mem::take(&mut self.fallen);
+        fallen.retain(|&guard| match guard {
+            Guard::Slip(f) if self.turns(f) => {
+                let rest = self.rest(f, end);
+                self.rests.extend(rest);
+                rest.is_some()
+            }
+            _ => true,
+        });
+        self.fallen = fallen;
+    }
+
+    /// After a step up to part `end` in which nothing was hit: whether slips come to rest now. The state then is that at rest,
+    /// and the guards of the slips are the fallen ones.
+    pub(super) fn slips_come_to_rest(&mut self, end: f64) -> bool {
+        self.rests.clear();
+        if end == 0.0 {
+            return false;
+        }
+        self.fallen.clear();
+        let mut left = 0.0_f64;
+        for f in 0..S::DESCRIPTION.frictions.len() {
+            if self.turns(f)
+                && let Some(rest) = self.rest(f, end)
+            {
+                left = left.max(rest.left);
+                self.rests.push(rest);
+                self.fallen.push(Guard::Slip(f));
+            }
+        }
+        if self.rests.is_empty() {
+            return false;
+        }
+        let left = left.min(self.end - self.t.value()).max(0.0);
+        let time = S::Scalar::from_f64(left);
+        let half = S::Scalar::from_f64(0.5 * left);
+        // From the difference over the last part of the step to that over what is left.
+        let back = (1.0 - JUST_BEFORE) * end * self.step.h.value();
+        let share = S::Scalar::from_f64(left / back);
+        let State { q, v } = &mut self.state;
+        for ((q, v), &earlier) in q.iter_mut().zip(v).zip(&self.earlier) {
+            let change = share * (*v - earlier);
+            *q += time * *v + half * change;
+            *v += change;
+        }
+        self.t += time;
+        (self.valued, self.expanded) = (false, false);
+        true
+    }
+
+    /// Whether friction `f` comes to rest at part `end` of the step, or so soon after it that nothing changes any more.
+    fn rest(&mut self, f: usize, end: f64) -> Option<Rest> {
+        let mut slips = [[0.0; 2]; 2];
+        for (slip, s) in slips.iter_mut().zip([JUST_BEFORE * end, end]) {
+            self.earlier.copy_from_slice(&self.scratch.v);
+            self.state_at_end(s);
+            let State { q, v } = &self.scratch;
+            let time = self.step.time(S::Scalar::from_f64(s));
+            self.dynamics.tape(time, q, v);
+            *slip = self.dynamics.slip(f).map(|s| s.value());
+        }
+        let [before, now] = slips;
+        let change = [now[0] - before[0], now[1] - before[1]];
+        let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
+        let (speed, fall) = (dot(now, now).sqrt(), dot(change, change).sqrt());
+        let rounding = 1e-15 * self.dynamics.slip_size(f, &self.scratch.v);
+        if !(fall > 0.0) || (speed > rounding && dot(now, change) > 0.0) {
+            return None;
+        }
+        let parts = speed / fall;
+        let allowed = LEFT * self.settings.tolerance;
+        let changes = |(now, before): (&S::Scalar, &S::Scalar)| {
+            let (now, before) = (now.value(), before.value());
+            (now - before).abs() * parts > allowed * now.abs().max(1.0)
+        };
+        if speed > rounding && self.scratch.v.iter().zip(&self.earlier).any(changes) {
+            return None;
+        }
+        let Self {
+            step,
+            dynamics,
+            scratch,
+            ..
+        } = self;
+        let along = approach(|part| {
+            let s = S::Scalar::from_f64(part * end);
+            step.state_into(s, &mut scratch.q, &mut scratch.v);
+            dynamics.tape(step.time(s), &scratch.q, &scratch.v);
+            dynamics.slip(f).map(|s| s.value())
+        })?;
+        let interval = (1.0 - JUST_BEFORE) * end * self.step.h.value();
+        Some(Rest {
+            friction: f,
+            along,
+            left: -dot(now, change) / (fall * fall) * interval,
+        })
+    }
+
+    /// The state at rest exactly, and the forces just before, in the directions that the slips had.
+    pub(super) fn come_to_rest(&mut self) -> Result<(), Error> {
+        let mut resting = self.mode.clone();
+        for rest in &self.rests {
+            resting.frictions[rest.friction] = FrictionMode::Stick;
+        }
+        self.dynamics.set_mode(&resting);
+        self.project(true)?;
+        resting.clone_from(&self.mode);
+        for rest in &self.rests {
+            resting.turn(rest.friction, Direction::Incipient(rest.along));
+        }
+        self.dynamics.set_mode(&resting);
+        self.rests.clear();
+        self.evaluate()
+    }
+
+    /// After the first step of slips that begin: from here on they go along themselves.
+    pub(super) fn slips_have_begun(&mut self) {
+        if !self.mode.has_incipient_slip() {
+            return;
+        }
+        for f in 0..self.mode.frictions.len() {
+            if self.turns(f) {
+                self.mode.turn(f, Direction::AlongSlip);
+            }
+        }
+        self.dynamics.set_mode(&self.mode);
+        self.trajectory.enter(&self.mode);
+        (self.valued, self.expanded) = (false, false);
+        self.hold_guards();
+    }
+
+    /// Whether the slip of a friction with two components vanishes at the start of a step of length `h`, or may in it:
+    /// such a step is left to Taylor series.
+    pub(super) fn slip_may_vanish(&mut self, h: f64) -> bool {
+        if !(0..self.mode.frictions.len()).any(|f| self.turns(f)) {
+            return false;
+        }
+        if self.mode.has_incipient_slip() {
+            return true;
+        }
+        let State { q, v } = &self.state;
+        if self.dynamics.value(self.t, q, v).is_err() {
+            return true;
+        }
+        (0..self.mode.frictions.len()).any(|f| {
+            let row = S::DESCRIPTION.frictions[f].row;
+            let falls = |row: usize| {
+                let terms = S::DESCRIPTION.rows[row].jacobian.iter();
+                let size = |&(j, place)| {
+                    let term = self.dynamics.motion(place) * self.dynamics.acceleration()[j];
+                    term.value().abs()
+                };
+                terms.map(size).sum::<f64>()
+            };
+            self.turns(f) && {
+                let slip = self.dynamics.slip(f).map(|s| s.value());
+                let speed = slip[0].hypot(slip[1]);
+                NEAR * speed < h * falls(row).hypot(falls(row + 1))
+            }
+        })
+    }
+}

@@ -1,0 +1,280 @@
+//! Is a claim zero on the whole surface of a mode? Values at random points of two finite fields.
+//!
+//! The claim's numerator has some degree d (bounded by [`crate::symbolic::field::Degree`]; velocities and forces come
+//! from linear equations, so theirs follow from Cramer's rule). k points let a wrong claim pass with probability
+//! ≤ (d/2^61)^k; k is as large as it takes to bring that below 2^-120.
+
+use super::arithmetic::{Arithmetic, Exact};
+use super::mechanics::Mechanics;
+use super::modes::{Grip, Mode};
+use super::motion::{Stuck, Tie, accelerations, rank, velocities};
+use crate::model::Normal;
+use crate::symbolic::field::{Angles, Degree, PRIMES, Point, Trouble};
+use crate::symbolic::{ExprId, Node, Pool, Symbol};
+use std::collections::BTreeSet;
+
+/// What values at points say about a claim.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) enum Finding {
+    /// It holds.
+    Zero,
+    /// It does not hold for independent atoms; `certain` if these cannot depend on each other.
+    Different { certain: bool },
+    /// Nothing: why.
+    Open(String),
+    /// The mode has no states.
+    Impossible,
+}
+
+/// Everything in the free symbols of a sheet.
+pub(super) struct Case<'a> {
+    pub mechanics: &'a Mechanics,
+    pub mode: &'a Mode,
+    pub ties: &'a [Tie],
+    /// Independent rows on position level.
+    pub positions: &'a [usize],
+    /// left − right
+    pub claim: ExprId,
+    /// Branches that the mode and the conditions decide.
+    pub decided: &'a [(usize, bool)],
+}
+
+/// A wrong claim passes with at most this probability, as a power of 2.
+const ASSURANCE: f64 = 120.0;
+
+/// A root of a square has a random sign: as many points make a wrong sign as improbable.
+const POINTS_WITH_ROOTS: usize = 120;
+
+/// Branches that are not decided double the work.
+const MOST_BRANCHES: usize = 6;
+
+/// Points that are looked at for each one that is needed: roots need squares.
+const TRIES: usize = 1 << 12;
+
+/// Tests a claim.
+pub(super) fn exact(pool: &mut Pool, case: &Case) -> Finding {
+    let mut all = case.mechanics.expressions();
+    for tie in case.ties {
+        all.extend(tie.jacobian.iter().map(|&(_, e)| e).chain([tie.whole]));
+    }
+    all.push(case.claim);
+    let mechanics = case.mechanics;
+    let moving = mechanics.coordinates.iter().flat_map(|q| &q[1..]).copied();
+    let forces = mechanics.rows.iter().map(|row| row.force);
+    let dependent: Vec<Symbol> = moving.chain(forces).collect();
+    let angles = pool.angles(&all, &dependent);
+    let mut undecided = branches(pool, &all);
+    undecided.retain(|branch| case.decided.iter().all(|(known, _)| known != branch));
+    if undecided.len() > MOST_BRANCHES {
+        return Finding::Open(format!("it has {} branches", undecided.len()));
+    }
+    let degree = degree(pool, case, &angles);
+    let bits = 61.0 - degree.max(2.0).log2();
+    if bits < 8.0 {
+        return Finding::Open("its degree is too large".to_owned());
+    }
+    let points = (ASSURANCE / bits).ceil().max(2.0) as usize;
+    let mut impossible = true;
+    for choice in 0..1_u32 << undecided.len() {
+        let mut chosen: Vec<usize> = Vec::new();
+        chosen.extend(case.decided.iter().filter(|d| d.1).map(|d| d.0));
+        let bits = undecided.iter().enumerate();
+        chosen.extend(bits.filter(|(i, _)| choice >> i & 1 == 1).map(|(_, &b)| b));
+        match at_points(pool, case, &angles, &chosen, points) {
+            Finding::Zero => impossible = false,
+            Finding::Impossible => {}
+            Finding::Different { certain } => {
+                let certain = certain && undecided.is_empty() && angles.are_independent();
+                return Finding::Different { certain };
+            }
+            open => return open,
+        }
+    }
+    if impossible {
+        Finding::Impossible
+    } else {
+        Finding::Zero
+    }
+}
+
+/// All branches in the expressions.
+fn branches(pool: &Pool, all: &[ExprId]) -> Vec<usize> {
+    let reachable = pool.iter_reachable(all).into_iter();
+    let branches = reachable.filter_map(|e| match pool.node(e) {
+        Node::Select { branch, .. } => Some(*branch),
+        _ => None,
+    });
+    let found: BTreeSet<usize> = branches.collect();
+    found.into_iter().collect()
+}
+
+fn at_points(
+    pool: &Pool,
+    case: &Case,
+    angles: &Angles,
+    chosen: &[usize],
+    points: usize,
+) -> Finding {
+    let (mut needed, mut seen, mut tried) = (points, 0, 0);
+    while seen < needed {
+        if tried >= TRIES.max(8 * needed) {
+            return Finding::Open("its roots have no values in the field".to_owned());
+        }
+        let field = PRIMES[seen % 2];
+        let mut point = Point::new(field, 0x6c61_6772 + tried as u64, angles);
+        tried += 1;
+        for &branch in chosen {
+            point.choose(branch);
+        }
+        // Fields are positive.
+        for &symbol in &case.mechanics.parameters {
+            let root = point.symbol(symbol);
+            point.bind(symbol, field.mul(root, root));
+        }
+        let mut point = Exact(point);
+        match at_point(pool, case, &mut point) {
+            Ok((0, _)) => {
+                seen += 1;
+                if point.0.has_roots() {
+                    needed = needed.max(POINTS_WITH_ROOTS);
+                }
+            }
+            Ok((_, Some(name))) => {
+                return Finding::Open(format!("the mode does not determine `{name}`"));
+            }
+            Ok((_, None)) => {
+                return Finding::Different {
+                    certain: point.0.is_exact() && !point.0.has_roots(),
+                };
+            }
+            Err(Stuck::Impossible) => return Finding::Impossible,
+            Err(Stuck::Trouble(Trouble::Beyond)) => {
+                return Finding::Open("it holds numbers that the field does not have".to_owned());
+            }
+            Err(Stuck::Trouble(Trouble::Division | Trouble::NotSquare)) => {}
+        }
+    }
+    Finding::Zero
+}
+
+/// Value of the claim, and something it contains that the mode does not determine.
+fn at_point(pool: &Pool, case: &Case, point: &mut Exact) -> Result<(u64, Option<String>), Stuck> {
+    let mechanics = case.mechanics;
+    if rank(point, pool, mechanics, case.positions)? < case.positions.len() {
+        return Err(Stuck::Impossible);
+    }
+    let active = case.mode.active(mechanics);
+    velocities(point, pool, mechanics, &active, case.ties)?;
+    let undetermined = accelerations(point, pool, mechanics, case.mode)?;
+    let value = point.values(pool, &[case.claim])?[0];
+    let open = undetermined
+        .into_iter()
+        .find(|&symbol| pool.depends_on(case.claim, symbol));
+    Ok((value, open.map(|symbol| pool.name(symbol).to_owned())))
+}
+
+/// A bound of the degree of the claim's numerator.
+fn degree(pool: &Pool, case: &Case, angles: &Angles) -> f64 {
+    let mechanics = case.mechanics;
+    let active = case.mode.active(mechanics);
+    // Fields are squares of random elements.
+    let base = |symbol: Symbol| {
+        Degree::polynomial(if mechanics.parameters.contains(&symbol) {
+            2.0
+        } else {
+            1.0
+        })
+    };
+    let of = |e: &[ExprId], symbol: &dyn Fn(Symbol) -> Degree| pool.degrees(e, angles, symbol);
+    let sum = |rows: &[Vec<Degree>]| {
+        // Cramer: determinants of rows that are brought to common denominators.
+        let heights = rows.iter().map(|row| Degree::of_sum(row).above);
+        let total: f64 = heights.sum();
+        Degree {
+            above: total,
+            below: total,
+        }
+    };
+    let row = |row: usize| &mechanics.rows[row];
+    let mut rows = Vec::new();
+    for &r in &active {
+        let entries = row(r).jacobian.iter().map(|&(_, e)| e);
+        rows.push(of(
+            &entries.chain([row(r).velocity]).collect::<Vec<_>>(),
+            &base,
+        ));
+    }
+    for tie in case.ties {
+        let entries = tie.jacobian.iter().map(|&(_, e)| e);
+        rows.push(of(&entries.chain([tie.whole]).collect::<Vec<_>>(), &base));
+    }
+    let velocity = if rows.is_empty() {
+        Degree::polynomial(1.0)
+    } else {
+        sum(&rows)
+    };
+    let moving = |symbol: Symbol| {
+        if mechanics.coordinates.iter().any(|q| q[1] == symbol) {
+            velocity
+        } else {
+            base(symbol)
+        }
+    };
+    // What a slipping friction multiplies its row by.
+    let mut factors = vec![Degree::NUMBER; mechanics.rows.len()];
+    for (friction, grip) in mechanics.frictions.iter().zip(&case.mode.grips) {
+        if !matches!(grip, Grip::Slips { .. }) {
+            continue;
+        }
+        let mut parts = vec![friction.kinetic_coefficient];
+        match friction.normal {
+            Normal::Given(e) => parts.push(e),
+            Normal::Contact(contact) => parts.extend(mechanics.contacts[contact].0),
+            Normal::Constraint(_) => {}
+        }
+        if friction.rows.len() > 1 {
+            parts.extend(friction.rows.iter().map(|&r| row(r).velocity));
+            parts.extend(friction.rows.iter().map(|&r| row(r).velocity));
+        }
+        let parts = of(&parts, &moving).into_iter();
+        let factor = parts.fold(Degree::NUMBER, Degree::times);
+        for &r in &friction.rows {
+            factors[r] = factor;
+        }
+    }
+    let n = mechanics.coordinates.len();
+    let forcing = of(&mechanics.forcing, &moving);
+    let mut rows: Vec<Vec<Degree>> = forcing.into_iter().map(|f| vec![f]).collect();
+    let mass: Vec<ExprId> = mechanics.mass.iter().map(|m| m.2).collect();
+    for (&(i, j, _), degree) in mechanics.mass.iter().zip(of(&mass, &moving)) {
+        rows[i].push(degree);
+        if i != j {
+            rows[j].push(degree);
+        }
+    }
+    for (r, factor) in factors.iter().enumerate() {
+        let entries: Vec<ExprId> = row(r).jacobian.iter().map(|&(_, e)| e).collect();
+        let entries = of(&entries, &moving);
+        for (&(j, _), degree) in row(r).jacobian.iter().zip(&entries) {
+            rows[j].push(degree.times(*factor));
+        }
+        if active.contains(&r) {
+            let mut equation = entries;
+            equation.extend(of(&[row(r).bias], &moving));
+            rows.push(equation);
+        }
+    }
+    for &(i, r, e) in &mechanics.couplings {
+        rows[i].push(of(&[e], &moving)[0].times(factors[r]));
+    }
+    debug_assert_eq!(rows.len(), n + active.len());
+    let solved = sum(&rows);
+    let known = |symbol: Symbol| {
+        if mechanics.coordinates.iter().any(|q| q[2] == symbol) {
+            return solved;
+        }
+        let own = mechanics.rows.iter().position(|r| r.force == symbol);
+        own.map_or_else(|| moving(symbol), |r| solved.times(factors[r]))
+    };
+    of(&[case.claim], &known)[0].above
+}

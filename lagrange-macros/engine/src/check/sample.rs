@@ -1,0 +1,238 @@
+//! Random real states of a mode, in floating point with error bounds: where a claim can be seen to fail.
+
+use super::arithmetic::Arithmetic;
+use super::bounded::{Bounded, Floating};
+use super::linear::solve;
+use super::mechanics::Mechanics;
+use super::modes::{Grip, Mode};
+use super::motion::{Stuck, Tie, accelerations, velocities};
+use super::surface::Sheet;
+use crate::model::{Normal, Premise};
+use crate::symbolic::field::Trouble;
+use crate::symbolic::{ExprId, Pool, Symbol};
+use std::collections::BTreeMap;
+
+/// Where states are looked for.
+pub(super) struct Region<'a> {
+    pub mechanics: &'a Mechanics,
+    pub mode: &'a Mode,
+    pub ties: &'a [Tie],
+    pub premises: &'a [Premise],
+    /// Guards of all branches.
+    pub guards: &'a [ExprId],
+    pub time: Symbol,
+    /// How positions are found.
+    pub positions: Positions<'a>,
+}
+
+/// How positions on the surface are found.
+pub(super) enum Positions<'a> {
+    /// As solved exactly.
+    Solved(&'a [Sheet]),
+    /// By Newton's iteration.
+    Iterated(&'a Newton),
+}
+
+/// Equations and their derivatives with respect to the coordinates.
+pub(super) struct Newton {
+    pub equations: Vec<ExprId>,
+    pub slopes: Vec<Vec<ExprId>>,
+}
+
+/// A state with its accelerations and forces.
+pub(super) struct State<'a> {
+    pub numbers: Floating<'a>,
+    /// Gaps are open, forces push, and friction holds.
+    pub feasible: bool,
+    /// What the mode does not determine.
+    pub undetermined: Vec<Symbol>,
+}
+
+/// The state of a seed; not every seed has one.
+pub(super) fn sample<'a>(pool: &Pool, region: &Region<'a>, seed: u64) -> Result<State<'a>, Stuck> {
+    let mechanics = region.mechanics;
+    let mut random = Random(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1);
+    let mut numbers = Floating {
+        symbols: BTreeMap::new(),
+        guards: region.guards,
+    };
+    for &symbol in &mechanics.parameters {
+        numbers.bind(symbol, random.two_digits(0.3, 2.5));
+    }
+    numbers.bind(region.time, random.two_digits(0.0, 2.0));
+    // Every other state is a small and slow one.
+    let reach = if seed.is_multiple_of(2) { 0.6 } else { 2.0 };
+    for &[q, v, a] in &mechanics.coordinates {
+        numbers.bind(q, random.two_digits(-reach, reach));
+        numbers.bind(v, random.two_digits(-reach, reach));
+        numbers.bind(a, Bounded::exactly(0.0));
+    }
+    for row in &mechanics.rows {
+        numbers.bind(row.force, Bounded::exactly(0.0));
+    }
+    let speeds: Vec<Symbol> = mechanics.coordinates.iter().map(|q| q[1]).collect();
+    let moves = |e: ExprId| pool.depends_on_any(e, &speeds);
+    let active = region.mode.active(mechanics);
+    match region.positions {
+        Positions::Iterated(newton) => {
+            iterate(pool, mechanics, newton, &mut numbers)?;
+            velocities(&mut numbers, pool, mechanics, &active, region.ties)?;
+        }
+        Positions::Solved(sheets) => {
+            let sheet = &sheets[(seed / 2) as usize % sheets.len()];
+            for moving in [false, true] {
+                for &(symbol, e) in sheet.solved.iter().filter(|&&(_, e)| moves(e) == moving) {
+                    let value = numbers.values(pool, &[e])?[0];
+                    if mechanics.parameters.contains(&symbol) && value.value <= 0.0 {
+                        return Err(Trouble::NotSquare.into());
+                    }
+                    numbers.bind(symbol, value);
+                }
+                if !moving {
+                    velocities(&mut numbers, pool, mechanics, &active, region.ties)?;
+                }
+            }
+        }
+    }
+    let undetermined = accelerations(&mut numbers, pool, mechanics, region.mode)?;
+    for premise in region.premises {
+        if let Premise::AtLeast(e) = *premise
+            && numbers.values(pool, &[e])?[0].value < 0.0
+        {
+            return Err(Trouble::NotSquare.into());
+        }
+    }
+    let feasible = feasible(pool, region, &mut numbers)?;
+    Ok(State {
+        numbers,
+        feasible,
+        undetermined,
+    })
+}
+
+/// Positions on the surface near those that are bound (Gauss–Newton, least change).
+fn iterate(
+    pool: &Pool,
+    mechanics: &Mechanics,
+    newton: &Newton,
+    numbers: &mut Floating,
+) -> Result<(), Stuck> {
+    const STEPS: usize = 30;
+    const CLOSE: f64 = 1e-13;
+    let places: Vec<Symbol> = mechanics.coordinates.iter().map(|q| q[0]).collect();
+    let slopes: Vec<ExprId> = newton.slopes.iter().flatten().copied().collect();
+    let plain = |values: Vec<Bounded>| values.into_iter().map(|b| Bounded::exactly(b.value));
+    for _ in 0..STEPS {
+        let defects: Vec<Bounded> = plain(numbers.values(pool, &newton.equations)?).collect();
+        let slopes: Vec<Bounded> = plain(numbers.values(pool, &slopes)?).collect();
+        let rows: Vec<&[Bounded]> = slopes.chunks(places.len()).collect();
+        let dot = |a: &[Bounded], b: &[Bounded]| {
+            let sum: f64 = a.iter().zip(b).map(|(a, b)| a.value * b.value).sum();
+            Bounded::exactly(sum)
+        };
+        let gram = rows.iter().zip(&defects).map(|(row, defect)| {
+            let products = rows.iter().map(|other| dot(row, other));
+            products.chain([*defect]).collect()
+        });
+        let zeros = vec![Bounded::exactly(0.0); rows.len()];
+        let weights = solve(numbers, gram.collect(), &zeros)?.ok_or(Stuck::Impossible)?;
+        let mut largest: f64 = 0.0;
+        for (j, &place) in places.iter().enumerate() {
+            let rows = rows.iter().zip(&weights.x);
+            let change: f64 = rows.map(|(row, y)| row[j].value * y.value).sum();
+            let value = numbers.symbol(place).value - change;
+            largest = largest.max(change.abs() / (1.0 + value.abs()));
+            numbers.bind(
+                place,
+                Bounded {
+                    value,
+                    error: CLOSE * (1.0 + value.abs()),
+                },
+            );
+        }
+        if largest < 0.1 * CLOSE {
+            return Ok(());
+        }
+    }
+    Err(Trouble::Division.into())
+}
+
+fn feasible(pool: &Pool, region: &Region, numbers: &mut Floating) -> Result<bool, Stuck> {
+    let (mechanics, mode) = (region.mechanics, region.mode);
+    let mut at_least =
+        |e: ExprId| -> Result<bool, Stuck> { Ok(numbers.values(pool, &[e])?[0].value >= 0.0) };
+    for (i, &closed) in mode.closed.iter().enumerate() {
+        let row = &mechanics.rows[mechanics.constraints + i];
+        let gap = row.position.filter(|_| !closed);
+        let edge = mechanics.contacts[i].1.filter(|_| closed);
+        for e in gap.into_iter().chain(edge) {
+            if !at_least(e)? {
+                return Ok(false);
+            }
+        }
+    }
+    let force = |numbers: &Floating, row: usize| numbers.symbol(mechanics.rows[row].force).value;
+    for (i, &closed) in mode.closed.iter().enumerate() {
+        if closed && force(numbers, mechanics.constraints + i) < 0.0 {
+            return Ok(false);
+        }
+    }
+    for (friction, grip) in mechanics.frictions.iter().zip(&mode.grips) {
+        let normal = match friction.normal {
+            Normal::Given(e) => numbers.values(pool, &[e])?[0].value,
+            Normal::Contact(i) => {
+                let factor = match mechanics.contacts[i].0 {
+                    None => 1.0,
+                    Some(e) => numbers.values(pool, &[e])?[0].value,
+                };
+                factor * force(numbers, mechanics.constraints + i)
+            }
+            Normal::Constraint(i) => {
+                if matches!(grip, Grip::Slips { .. })
+                    && (force(numbers, i) >= 0.0) != mode.positive[i]
+                {
+                    return Ok(false);
+                }
+                force(numbers, i).abs()
+            }
+        };
+        match grip {
+            Grip::Inactive => {}
+            Grip::Sticks => {
+                let most = numbers.values(pool, &[friction.static_coefficient])?[0].value * normal;
+                let rows = friction.rows.iter();
+                let square: f64 = rows.map(|&row| force(numbers, row).powi(2)).sum();
+                if square.sqrt() > most {
+                    return Ok(false);
+                }
+            }
+            Grip::Slips { forward } => {
+                if let &[row] = &friction.rows[..] {
+                    let slip = numbers.values(pool, &[mechanics.rows[row].velocity])?[0].value;
+                    if (slip > 0.0) != *forward {
+                        return Ok(false);
+                    }
+                }
+            }
+        }
+    }
+    Ok(true)
+}
+
+/// Random numbers for states that a person can read.
+struct Random(u64);
+
+impl Random {
+    /// Between two numbers, rounded to hundredths, and not 0.
+    fn two_digits(&mut self, from: f64, to: f64) -> Bounded {
+        // xorshift64* (Vigna, ACM Trans. Math. Softw. 42, 2016)
+        self.0 ^= self.0 >> 12;
+        self.0 ^= self.0 << 25;
+        self.0 ^= self.0 >> 27;
+        let bits = self.0.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 11;
+        let unit = bits as f64 / (1_u64 << 53) as f64;
+        let hundredths = ((from + (to - from) * unit) * 100.0).round();
+        let hundredths = if hundredths == 0.0 { 1.0 } else { hundredths };
+        Bounded::exactly(hundredths / 100.0)
+    }
+}

@@ -1,0 +1,59 @@
+//! What was derived, as strings: `MassOnWheel::derivation()`, and the equations in the documentation.
+
+use crate::inspect::{Derivation, print};
+use crate::model::System;
+use proc_macro2::TokenStream;
+use quote::quote;
+
+/// `impl X { pub fn derivation() … }`, with the equations of motion as MathML in its documentation.
+///
+/// The strings are in a function that is not generic, so that a program that never asks for them does not contain them.
+pub fn derivation(system: &System, derivation: &Derivation, declaration: &str) -> TokenStream {
+    let (name, core) = (&system.name, &system.core);
+    let arguments = system.scalar.as_ref().map(|_| quote!(<f64>));
+    let title = name.to_string();
+    let text = print::plain(derivation);
+    let latex = print::paper(derivation);
+    let equations = print::equations(derivation);
+    let graph = match derivation.modes.len() {
+        0 | 1 => String::new(),
+        _ => print::mermaid(derivation),
+    };
+    let on_page = format!("Equations of motion, as derived:\n\n{equations}");
+    let hover = format!(
+        "What was derived: equations of motion, rows, modes, impacts, conserved quantities.\n\n```text\n{}```",
+        print::brief(derivation)
+    );
+    quote! {
+        #[doc = #on_page]
+        #[automatically_derived]
+        #[allow(dead_code, clippy::all, clippy::pedantic)]
+        impl #name #arguments {
+            #[doc = #hover]
+            pub fn derivation() -> &'static #core::Derivation {
+                &#core::Derivation {
+                    name: #title,
+                    declaration: #declaration,
+                    text: #text,
+                    latex: #latex,
+                    equations: #equations,
+                    graph: #graph,
+                }
+            }
+        }
+    }
+}
+
+/// The same where nothing was derived.
+pub fn nothing(target: TokenStream, core: &TokenStream) -> TokenStream {
+    quote! {
+        #[automatically_derived]
+        #[allow(dead_code)]
+        impl #target {
+            #[doc = "Not derived."]
+            pub fn derivation() -> &'static #core::Derivation {
+                &#core::Derivation::NONE
+            }
+        }
+    }
+}

@@ -1,0 +1,215 @@
+//! What does not change: momenta of cyclic coordinates, and energy; and what changes them where something does.
+
+use super::Conserved;
+use super::formula::{Formula, Statement};
+use super::letter::Letter;
+use super::motion::MOST_CYCLIC;
+use super::work::Work;
+use crate::symbolic::ExprId;
+
+impl Work<'_> {
+    /// Momenta of cyclic coordinates and the energy.
+    pub fn conserved(&mut self) -> Vec<Conserved> {
+        let structure = &self.program.equations.structure;
+        let cyclic: Vec<usize> = (0..structure.cyclic.len())
+            .filter(|&i| structure.cyclic[i])
+            .collect();
+        let mut list: Vec<Conserved> = cyclic
+            .into_iter()
+            .take(MOST_CYCLIC)
+            .map(|i| self.momentum(i))
+            .collect();
+        list.push(self.energy());
+        list
+    }
+
+    /// ∂L/∂v of a cyclic coordinate: changed by the forces on it alone.
+    fn momentum(&mut self, i: usize) -> Conserved {
+        let structure = &self.program.equations.structure;
+        let system = &self.program.equations.system;
+        let letter = self.names.letter(system.coordinates[i].position);
+        let quantity = self.formula_of(structure.momenta.0[i]);
+        let name = Letter::of("p", &subscript(&letter));
+        let rows: Vec<usize> = (0..structure.rows.len()).collect();
+        let pushing: Vec<usize> = rows
+            .iter()
+            .copied()
+            .filter(|&row| structure.rows[row].jacobian.iter().any(|&(j, _)| j == i))
+            .collect();
+        let force = self.generalized_load(i, &rows);
+        let rate = match self.pool().is_zero(force) {
+            true => None,
+            false => {
+                let force = self.reader.formula(force);
+                let rate = Formula::Letter(name.clone().rate(1));
+                Some(Statement::equal(rate, force))
+            }
+        };
+        let bilateral = pushing.iter().any(|&row| {
+            system
+                .constraints
+                .get(row)
+                .is_some_and(|c| c.while_contact.is_none())
+        });
+        let forced = {
+            let applied = self.generalized_load(i, &[]);
+            !self.pool().is_zero(applied)
+        };
+        let when = match (bilateral || forced, pushing.is_empty()) {
+            (true, _) => "never on its own".to_owned(),
+            (false, true) => "always".to_owned(),
+            (false, false) => {
+                let mut names: Vec<&str> = Vec::new();
+                for &row in &pushing {
+                    let name = self.row_name(row);
+                    if !names.contains(&name) {
+                        names.push(name);
+                    }
+                }
+                format!("while nothing acts at {}", names.join(", "))
+            }
+        };
+        Conserved {
+            name: format!("momentum of {}", system.coordinates[i].name.text),
+            quantity: Statement::equal(Formula::Letter(name), quantity),
+            rate,
+            when,
+        }
+    }
+
+    /// What changes the momentum of a cyclic coordinate: ṗ = ∂L/∂q + Q, and ∂L/∂q = 0.
+    fn generalized_load(&mut self, i: usize, rows: &[usize]) -> ExprId {
+        let system = &self.program.equations.system;
+        let mut terms = Vec::new();
+        for force in &system.forces {
+            let own = force.generalized.iter().filter(|&&(j, _)| j == i);
+            terms.extend(own.map(|&(_, q)| q));
+        }
+        for dissipation in &system.dissipations {
+            let velocity = system.coordinates[i].velocity;
+            let pool = self.pool();
+            let slope = pool.differentiate(dissipation.rayleigh, velocity);
+            terms.push(pool.neg(slope));
+        }
+        let multipliers = self.multipliers();
+        for &row in rows {
+            for &(j, entry) in &self.program.equations.structure.rows[row].jacobian {
+                if j == i {
+                    let entry = self.output(entry);
+                    let pool = self.pool();
+                    let multiplier = pool.leaf(multipliers[row]);
+                    terms.push(pool.mul(entry, multiplier));
+                }
+            }
+        }
+        self.pool().sum(&terms)
+    }
+
+    /// The Jacobi integral; T + V where T is quadratic in the velocities.
+    fn energy(&mut self) -> Conserved {
+        let structure = &self.program.equations.structure;
+        let system = &self.program.equations.system;
+        let (kinetic, potential, jacobi, time_power, _) = structure.energy;
+        let [t, v, h, power] = [kinetic, potential, jacobi, time_power].map(|o| self.output(o));
+        let pool = self.pool();
+        let total = pool.add(t, v);
+        let beyond = pool.sub(h, total);
+        let beyond = pool.simplify(beyond);
+        let same = pool.is_zero(beyond);
+        let quantity = match same {
+            true => Formula::Sum(vec![
+                (false, Formula::Letter(Letter::new("T"))),
+                (false, Formula::Letter(Letter::new("V"))),
+            ]),
+            false => self.reader.formula(h),
+        };
+        let name = Letter::new(if same { "E" } else { "h" });
+        let rate = match self.pool().is_zero(power) {
+            true => None,
+            false => {
+                let power = self.reader.formula(power);
+                let rate = Formula::Letter(name.clone().rate(1));
+                Some(Statement::equal(rate, power))
+            }
+        };
+        let mut takers: Vec<String> = Vec::new();
+        takers.extend(
+            system
+                .forces
+                .iter()
+                .map(|f| format!("{} acts", f.name.text)),
+        );
+        let drains = system.dissipations.iter();
+        takers.extend(drains.map(|d| format!("{} acts", d.name.text)));
+        for (i, constraint) in system.constraints.iter().enumerate() {
+            if self.does_work(i) {
+                takers.push(format!("{} moves", constraint.name.text));
+            }
+        }
+        for (i, contact) in system.contacts.iter().enumerate() {
+            if self.does_work(self.contact_row(i)) {
+                takers.push(format!("{} moves", contact.name.text));
+            }
+        }
+        takers.extend(
+            system
+                .frictions
+                .iter()
+                .map(|f| format!("{} slips", f.name.text)),
+        );
+        if !system.contacts.is_empty() {
+            takers.push("an impact takes some".to_owned());
+        }
+        let shown = takers.len().min(8);
+        let mut list = takers[..shown].join(", ");
+        if shown < takers.len() {
+            list.push_str(", …");
+        }
+        let when = match (&rate, takers.is_empty()) {
+            (Some(_), true) => "changes with explicit time only".to_owned(),
+            (Some(_), false) => format!("changes with explicit time, and where {list}"),
+            (None, true) => "always".to_owned(),
+            (None, false) => format!("except where {list}"),
+        };
+        Conserved {
+            name: "energy".to_owned(),
+            quantity: Statement::equal(Formula::Letter(name), quantity),
+            rate,
+            when,
+        }
+    }
+
+    /// Whether a row holds something that moves by itself: its rate is not linear in v alone.
+    fn does_work(&mut self, row: usize) -> bool {
+        let numbers = &self.program.equations.structure.rows[row];
+        let velocity = self.output(numbers.velocity);
+        let system = &self.program.equations.system;
+        let velocities: Vec<_> = system.coordinates.iter().map(|c| c.velocity).collect();
+        let pool = self.pool();
+        let zero = pool.integer(0);
+        let rest: Vec<_> = velocities.into_iter().map(|v| (v, zero)).collect();
+        let drift = pool.substitute(velocity, &rest);
+        !pool.is_zero(drift)
+    }
+
+    /// Name of the item that a row belongs to.
+    fn row_name(&self, row: usize) -> &str {
+        let system = &self.program.equations.system;
+        let contacts = system.constraints.len();
+        if let Some(constraint) = system.constraints.get(row) {
+            return &constraint.name.text;
+        }
+        if let Some(contact) = system.contacts.get(row - contacts) {
+            return &contact.name.text;
+        }
+        let friction = (0..system.frictions.len()).find(|&f| self.slip_rows(f).contains(&row));
+        friction.map_or("", |f| &system.frictions[f].name.text)
+    }
+}
+
+fn subscript(letter: &Letter) -> String {
+    match letter.subscript.as_str() {
+        "" => letter.base.clone(),
+        own => format!("{},{own}", letter.base),
+    }
+}

@@ -1,0 +1,262 @@
+//! Items of the declaration, as written, in order.
+
+use super::formula::{Formula, Relation, Statement};
+use super::letter::Letter;
+use super::names::Names;
+use super::{Item, Part};
+use crate::ast::{
+    Action, Clause, Contact, Declaration, Element, Friction, FrictionLaw, Head, Index, ItemKind,
+    ModeWord, Observe, Order, Restitution, Start, Trigger, Watch,
+};
+
+/// All items that say something about the system.
+pub(super) fn items(declaration: &Declaration, names: &Names) -> Vec<Item> {
+    let mut items = Vec::new();
+    for item in &declaration.items {
+        written(&item.kind, names, &mut items);
+    }
+    items
+}
+
+fn written(kind: &ItemKind, names: &Names, items: &mut Vec<Item>) {
+    let mut add = |keyword, name: String, parts| {
+        items.push(Item {
+            keyword,
+            name,
+            parts,
+        })
+    };
+    let formula = |e| Part::Formula(names.written(e));
+    match kind {
+        ItemKind::Coordinates(coordinates) => {
+            let mut parts = Vec::new();
+            for coordinate in coordinates {
+                let letter = Letter::new(&coordinate.name.text);
+                let Some(length) = &coordinate.length else {
+                    parts.push(Part::Formula(Formula::Letter(letter)));
+                    continue;
+                };
+                let length = length.to_string();
+                let last = match length.parse::<usize>() {
+                    Ok(count) => count.saturating_sub(1).to_string(),
+                    Err(_) => format!("{length}-1"),
+                };
+                parts.push(Part::Formula(Formula::Letter(letter.clone().element("0"))));
+                parts.push(Part::Word("…".to_owned()));
+                parts.push(Part::Formula(Formula::Letter(letter.element(&last))));
+            }
+            add("coordinates", String::new(), parts);
+        }
+        ItemKind::Define(definitions) => {
+            for definition in definitions {
+                let letter = head_letter(&definition.head, names);
+                let statement =
+                    Statement::equal(Formula::Letter(letter), names.written(&definition.value));
+                let parts = vec![Part::Statement(statement)];
+                add("define", range(&definition.head.index), parts);
+            }
+        }
+        ItemKind::Kinetic(energy) => {
+            add("kinetic", name(&energy.head), vec![formula(&energy.value)])
+        }
+        ItemKind::Potential(energy) => {
+            add(
+                "potential",
+                name(&energy.head),
+                vec![formula(&energy.value)],
+            );
+        }
+        ItemKind::Lagrangian(value) => add("lagrangian", String::new(), vec![formula(value)]),
+        ItemKind::Constraint(constraint) => {
+            let mut title = head_name(&constraint.head);
+            if let Some((_, contact)) = &constraint.while_contact {
+                title.push_str(&format!(" while {}", contact.name.text));
+            }
+            let statement = Statement::equal(
+                names.written(&constraint.left),
+                names.written(&constraint.right),
+            );
+            add("constraint", title, vec![Part::Statement(statement)]);
+        }
+        ItemKind::Contact(item) => add("contact", head_name(&item.head), contact(item, names)),
+        ItemKind::Friction(item) => {
+            let on = item.on.as_ref().map(|on| format!(" on {}", on.name.text));
+            let title = head_name(&item.head) + &on.unwrap_or_default();
+            add("friction", title, friction(item, names));
+        }
+        ItemKind::Force(force) => {
+            let parts = match &force.action {
+                Action::Generalized(coordinate, value) => vec![
+                    Part::Word("on".to_owned()),
+                    Part::Formula(names.reference(coordinate)),
+                    Part::Word(":".to_owned()),
+                    formula(value),
+                ],
+                Action::At(value, point) => {
+                    vec![formula(value), Part::Word("at".to_owned()), formula(point)]
+                }
+                Action::Along(value, speed) => {
+                    vec![
+                        formula(value),
+                        Part::Word("along".to_owned()),
+                        formula(speed),
+                    ]
+                }
+            };
+            add("force", head_name(&force.head), parts);
+        }
+        ItemKind::Dissipation(item) => {
+            add(
+                "dissipation",
+                head_name(&item.head),
+                vec![formula(&item.value)],
+            );
+        }
+        ItemKind::Start(item) => add("start", head_name(&item.head), start(item, names)),
+        ItemKind::Observe(observes) => {
+            let parts = observes.iter().map(|observe| match observe {
+                Observe::Known(name) => Part::Formula(Formula::Letter(names.declared(&name.text))),
+                Observe::New(head, value) => Part::Statement(Statement::equal(
+                    Formula::Letter(head_letter(head, names)),
+                    names.written(value),
+                )),
+            });
+            add("observe", String::new(), parts.collect());
+        }
+        ItemKind::Stop(watch) => add("stop", head_name(&watch.head), trigger(watch, names)),
+        ItemKind::Mark(watch) => add("mark", head_name(&watch.head), trigger(watch, names)),
+        ItemKind::Attitude(attitude) => {
+            let quaternion = Formula::Letter(Letter::new(&attitude.coordinates.text));
+            add(
+                "attitude",
+                attitude.body.text.clone(),
+                vec![Part::Formula(quaternion)],
+            );
+        }
+        // What does not change the equations.
+        _ => {}
+    }
+}
+
+fn contact(contact: &Contact, names: &Names) -> Vec<Part> {
+    let mut parts = vec![Part::Statement(names.comparison(&contact.gap))];
+    let word = |text: &str, parts: &mut Vec<Part>| parts.push(Part::Word(text.to_owned()));
+    if let Some(point) = &contact.at {
+        word("at", &mut parts);
+        parts.push(Part::Formula(names.written(point)));
+    }
+    if let Some(region) = &contact.region {
+        word("where", &mut parts);
+        parts.push(Part::Statement(names.comparison(region)));
+    }
+    match &contact.restitution {
+        Some(Restitution::Newton(e)) => {
+            word("restitution", &mut parts);
+            parts.push(Part::Formula(names.written(e)));
+        }
+        Some(Restitution::Poisson(e)) => {
+            word("restitution (Poisson)", &mut parts);
+            parts.push(Part::Formula(names.written(e)));
+        }
+        None => {}
+    }
+    parts
+}
+
+fn friction(friction: &Friction, names: &Names) -> Vec<Part> {
+    let equal = |name: &str, e| {
+        Part::Statement(Statement::equal(
+            Formula::Letter(Letter::of(name, "")),
+            names.written(e),
+        ))
+    };
+    let mut parts = vec![equal("slip", &friction.slip)];
+    match &friction.law {
+        FrictionLaw::Coefficients {
+            normal,
+            stick,
+            slide,
+        } => {
+            parts.extend(normal.iter().map(|e| equal("normal", e)));
+            parts.push(equal("static", stick));
+            parts.extend(slide.iter().map(|e| equal("kinetic", e)));
+        }
+        FrictionLaw::Limit(limit) => parts.push(equal("limit", limit)),
+    }
+    parts
+}
+
+fn start(start: &Start, names: &Names) -> Vec<Part> {
+    let values = start.values.iter().map(|value| {
+        let letter = names.declared(&value.name.text);
+        let letter = match &value.element {
+            Element::Whole => letter,
+            Element::One(index) => letter.element(&index.to_string()),
+            Element::Each(index) => letter.element(&index.name.text),
+        };
+        let rate = match value.order {
+            Order::Position => 0,
+            Order::Velocity => 1,
+        };
+        Part::Statement(Statement::equal(
+            Formula::Letter(letter.rate(rate)),
+            names.written(&value.value),
+        ))
+    });
+    values.collect()
+}
+
+fn trigger(watch: &Watch, names: &Names) -> Vec<Part> {
+    match &watch.trigger {
+        Trigger::Zero(value) => vec![Part::Statement(Statement::new(
+            names.written(value),
+            Relation::Equal,
+            Formula::ZERO,
+        ))],
+        Trigger::All(clauses) => {
+            let clause = |clause: &Clause| match clause {
+                Clause::Comparison(comparison) => Part::Statement(names.comparison(comparison)),
+                Clause::Mode(word, item) => {
+                    let verb = match word {
+                        ModeWord::Closed => "closed",
+                        ModeWord::Open => "open",
+                        ModeWord::Sticks => "sticks",
+                        ModeWord::Slips => "slips",
+                    };
+                    Part::Word(format!("{} {verb}", item.name.text))
+                }
+            };
+            clauses.iter().map(clause).collect()
+        }
+    }
+}
+
+fn name(head: &Option<Head>) -> String {
+    head.as_ref().map(head_name).unwrap_or_default()
+}
+
+fn head_name(head: &Head) -> String {
+    match &head.index {
+        Some(index) => format!("{}[{}]", head.name.text, span(index)),
+        None => head.name.text.clone(),
+    }
+}
+
+fn head_letter(head: &Head, names: &Names) -> Letter {
+    let letter = names.declared(&head.name.text);
+    match &head.index {
+        Some(index) => letter.element(&index.name.text),
+        None => letter,
+    }
+}
+
+fn range(index: &Option<Index>) -> String {
+    index.as_ref().map(span).unwrap_or_default()
+}
+
+fn span(index: &Index) -> String {
+    format!(
+        "{} in {}..{}",
+        index.name.text, index.range.from, index.range.to
+    )
+}

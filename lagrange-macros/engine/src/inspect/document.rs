@@ -1,0 +1,268 @@
+//! A derivation as a sequence of blocks, which the printers of whole documents share.
+
+use super::formula::{Formula, Statement};
+use super::letter::Letter;
+use super::{Derivation, Item, Mode, Part};
+
+/// Headings that printers look for.
+pub(super) const ENERGIES: &str = "Energies";
+pub(super) const MOTION: &str = "Equations of motion (Euler–Lagrange)";
+
+/// A piece of a line.
+#[derive(Clone, Debug)]
+pub(super) enum Piece {
+    /// Words.
+    Words(String),
+    /// A formula.
+    Formula(Formula),
+    /// An equation or inequality.
+    Statement(Statement),
+}
+
+/// A part of a document.
+#[derive(Clone, Debug)]
+pub(super) enum Block {
+    /// A heading of this depth, 1 or 2.
+    Heading(usize, String),
+    /// A paragraph.
+    Paragraph(Vec<Piece>),
+    /// Rows of cells that stand below each other.
+    Table(Vec<Vec<Vec<Piece>>>),
+    /// Equations below each other, each with a label or none.
+    Equations(Vec<(Vec<Piece>, Statement)>),
+}
+
+fn words(text: impl Into<String>) -> Piece {
+    Piece::Words(text.into())
+}
+
+fn letter(letter: &Letter) -> Piece {
+    Piece::Formula(Formula::Letter(letter.clone()))
+}
+
+impl Derivation {
+    /// The document.
+    pub(super) fn blocks(&self) -> Vec<Block> {
+        let mut blocks = vec![Block::Heading(1, self.name.clone())];
+        if !self.summary.is_empty() {
+            blocks.push(Block::Paragraph(vec![words(&self.summary)]));
+        }
+        if self.single_mode {
+            for mode in &self.modes {
+                mode_blocks(mode, &mut blocks);
+            }
+            return blocks;
+        }
+        self.declaration(&mut blocks);
+        self.equations(&mut blocks);
+        self.all_modes(&mut blocks);
+        self.impact_blocks(&mut blocks);
+        self.conservation(&mut blocks);
+        self.cost_blocks(&mut blocks);
+        for note in &self.notes {
+            blocks.push(Block::Paragraph(vec![words(note)]));
+        }
+        blocks
+    }
+
+    fn declaration(&self, blocks: &mut Vec<Block>) {
+        blocks.push(Block::Heading(2, "Declared".to_owned()));
+        let rows = self.declared.iter().map(|item| {
+            vec![
+                vec![words(item.keyword)],
+                vec![words(&item.name)],
+                said(item),
+            ]
+        });
+        blocks.push(Block::Table(rows.collect()));
+        let rows: Vec<_> = self
+            .symbols
+            .iter()
+            .map(|meaning| {
+                let name = match meaning.unit.as_str() {
+                    "" => meaning.name.clone(),
+                    unit => format!("{} ({unit})", meaning.name),
+                };
+                vec![
+                    vec![letter(&meaning.letter)],
+                    vec![words(name)],
+                    vec![words(&meaning.text)],
+                ]
+            })
+            .collect();
+        if !rows.is_empty() {
+            blocks.push(Block::Heading(2, "Parameters".to_owned()));
+            blocks.push(Block::Table(rows));
+        }
+    }
+
+    fn equations(&self, blocks: &mut Vec<Block>) {
+        blocks.push(Block::Heading(2, ENERGIES.to_owned()));
+        let energy = |name: &str, value: &Formula| {
+            let left = Formula::Letter(Letter::new(name));
+            (Vec::new(), Statement::equal(left, value.clone()))
+        };
+        blocks.push(Block::Equations(vec![
+            energy("T", &self.kinetic),
+            energy("V", &self.potential),
+        ]));
+        blocks.push(Block::Heading(2, MOTION.to_owned()));
+        let equations = self.motion.iter();
+        blocks.push(Block::Equations(
+            equations
+                .map(|equation| (vec![letter(&equation.label)], equation.statement.clone()))
+                .collect(),
+        ));
+        if self.rows.is_empty() {
+            return;
+        }
+        blocks.push(Block::Heading(
+            2,
+            "Constraints, contacts and slips".to_owned(),
+        ));
+        let rows = self.rows.iter().map(|row| {
+            vec![
+                vec![words(&row.name)],
+                vec![Piece::Statement(row.declared.clone())],
+                vec![Piece::Statement(row.acceleration.clone())],
+                vec![letter(&row.multiplier)],
+                vec![words(&row.when)],
+            ]
+        });
+        let header = ["", "declared", "accelerations", "multiplier", "acts"];
+        let header = header.map(|title| vec![words(title)]).to_vec();
+        blocks.push(Block::Table([header].into_iter().chain(rows).collect()));
+    }
+
+    fn all_modes(&self, blocks: &mut Vec<Block>) {
+        if self.mode_count < 2 {
+            return;
+        }
+        let count = match self.mode_count {
+            few @ 0..1_000_000 => few.to_string(),
+            u128::MAX => "more than 1e38".to_owned(),
+            many => format!("about {:.0e}", many as f64),
+        };
+        blocks.push(Block::Heading(2, format!("Modes ({count})")));
+        for mode in &self.modes {
+            mode_blocks(mode, blocks);
+        }
+    }
+
+    fn impact_blocks(&self, blocks: &mut Vec<Block>) {
+        if !self.impacts.is_empty() {
+            blocks.push(Block::Heading(2, "Impacts".to_owned()));
+        }
+        for impact in &self.impacts {
+            let [gap, rate] = &impact.when;
+            blocks.push(Block::Paragraph(vec![
+                words(format!("{}: when ", impact.contact)),
+                Piece::Statement(gap.clone()),
+                words(" and "),
+                Piece::Statement(rate.clone()),
+            ]));
+            let equations = impact.equations.iter();
+            blocks.push(Block::Equations(
+                equations.map(|e| (Vec::new(), e.clone())).collect(),
+            ));
+            if !impact.note.is_empty() {
+                blocks.push(Block::Paragraph(vec![words(&impact.note)]));
+            }
+        }
+    }
+
+    fn conservation(&self, blocks: &mut Vec<Block>) {
+        blocks.push(Block::Heading(2, "Conserved".to_owned()));
+        let rows = self.conserved.iter().map(|item| {
+            let rate = item.rate.iter().cloned().map(Piece::Statement);
+            vec![
+                vec![words(&item.name)],
+                vec![Piece::Statement(item.quantity.clone())],
+                rate.collect(),
+                vec![words(&item.when)],
+            ]
+        });
+        blocks.push(Block::Table(rows.collect()));
+    }
+
+    fn cost_blocks(&self, blocks: &mut Vec<Block>) {
+        blocks.push(Block::Heading(2, "Operations".to_owned()));
+        let header = ["effect", "every formula alone", "shared"];
+        let header = header.map(|title| vec![words(title)]).to_vec();
+        let rows = self.costs.iter().map(|cost| {
+            vec![
+                vec![words(&cost.name)],
+                vec![words(cost.before.to_string())],
+                vec![words(cost.after.to_string())],
+            ]
+        });
+        blocks.push(Block::Table([header].into_iter().chain(rows).collect()));
+        let header = ["mode", "equations of motion", "with guards"];
+        let header = header.map(|title| vec![words(title)]).to_vec();
+        let rows = self.modes.iter().map(|mode| {
+            vec![
+                vec![words(&mode.name)],
+                vec![words(mode.operations.to_string())],
+                vec![words(mode.with_guards.to_string())],
+            ]
+        });
+        blocks.push(Block::Table([header].into_iter().chain(rows).collect()));
+    }
+}
+
+fn mode_blocks(mode: &Mode, blocks: &mut Vec<Block>) {
+    blocks.push(Block::Heading(3, mode.name.clone()));
+    if !mode.known.is_empty() {
+        let mut pieces = vec![words("held: ")];
+        for (i, known) in mode.known.iter().enumerate() {
+            if i > 0 {
+                pieces.push(words(", "));
+            }
+            pieces.push(Piece::Statement(known.clone()));
+        }
+        blocks.push(Block::Paragraph(pieces));
+    }
+    let mut pieces = vec![words("unknown: ")];
+    for (i, unknown) in mode.unknowns.iter().enumerate() {
+        if i > 0 {
+            pieces.push(words(", "));
+        }
+        pieces.push(letter(unknown));
+    }
+    blocks.push(Block::Paragraph(pieces));
+    let equations = mode.equations.iter();
+    blocks.push(Block::Equations(
+        equations.map(|e| (Vec::new(), e.clone())).collect(),
+    ));
+    if !mode.guards.is_empty() {
+        let rows = mode.guards.iter().map(|guard| {
+            vec![
+                vec![words("while")],
+                vec![Piece::Statement(guard.statement.clone())],
+                vec![words(format!("else {}", guard.otherwise))],
+            ]
+        });
+        blocks.push(Block::Table(rows.collect()));
+    }
+}
+
+fn said(item: &Item) -> Vec<Piece> {
+    let mut pieces = Vec::new();
+    for (i, part) in item.parts.iter().enumerate() {
+        let after_word = i > 0 && matches!(item.parts[i - 1], Part::Word(_));
+        let piece = match part {
+            Part::Word(word) => words(word),
+            Part::Formula(formula) => Piece::Formula(formula.clone()),
+            Part::Statement(statement) => Piece::Statement(statement.clone()),
+        };
+        match (i, part) {
+            (0, _) => {}
+            (_, Part::Word(word)) if word == ":" => {}
+            (_, Part::Word(_)) => pieces.push(words(" ")),
+            _ if after_word => pieces.push(words(" ")),
+            _ => pieces.push(words(", ")),
+        }
+        pieces.push(piece);
+    }
+    pieces
+}

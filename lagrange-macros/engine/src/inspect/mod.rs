@@ -1,0 +1,218 @@
+//! Declaration, equations and program → [`Derivation`]: all that was derived, as a person would write it down.
+//!
+//! A derivation is plain data; [`print`] has the languages in which it can be said. It is read off the finished program:
+//! forms that are made for reading never reach the emitted code.
+
+mod conserved;
+mod costs;
+mod declared;
+mod document;
+mod formula;
+mod letter;
+mod modes;
+mod motion;
+mod names;
+pub mod print;
+mod readable;
+mod switches;
+#[cfg(test)]
+mod tests;
+mod work;
+mod written;
+
+use crate::ast::Declaration;
+use crate::plan::Program;
+
+pub use formula::{Formula, Relation, Statement};
+pub use letter::{Letter, Mark};
+pub use modes::UnknownMode;
+
+/// Everything that was derived from one declaration.
+#[derive(Clone, Debug)]
+pub struct Derivation {
+    /// Name of the struct.
+    pub name: String,
+    /// First paragraph of its documentation, in one line.
+    pub summary: String,
+    /// What the letters mean: coordinates, then fields.
+    pub symbols: Vec<Meaning>,
+    /// Items as written.
+    pub declared: Vec<Item>,
+    /// T
+    pub kinetic: Formula,
+    /// V
+    pub potential: Formula,
+    /// One per coordinate: inertia = forces.
+    pub motion: Vec<Equation>,
+    /// Constraints, contacts and slips on the level of accelerations.
+    pub rows: Vec<Row>,
+    /// The modes, all of them or those that are [chosen](Self::shown).
+    pub modes: Vec<Mode>,
+    /// How many modes there are in all.
+    pub mode_count: u128,
+    /// Whether one mode was asked for.
+    pub single_mode: bool,
+    /// Switches between the modes that are shown.
+    pub switches: Vec<Switch>,
+    /// What happens at an impact, contact by contact.
+    pub impacts: Vec<Impact>,
+    /// What does not change, or why it changes.
+    pub conserved: Vec<Conserved>,
+    /// Number of operations of the equations of motion.
+    pub costs: Vec<Cost>,
+    /// What was left out for length, and the like.
+    pub notes: Vec<String>,
+}
+
+/// What a letter means.
+#[derive(Clone, Debug)]
+pub struct Meaning {
+    /// On paper.
+    pub letter: Letter,
+    /// In the declaration.
+    pub name: String,
+    /// First line of its documentation, or what it is.
+    pub text: String,
+    /// Unit, or empty.
+    pub unit: String,
+}
+
+/// An item of the declaration.
+#[derive(Clone, Debug)]
+pub struct Item {
+    /// `kinetic`, `contact`, …
+    pub keyword: &'static str,
+    /// Its name with `on` or `while`, or empty.
+    pub name: String,
+    /// What it says.
+    pub parts: Vec<Part>,
+}
+
+/// A part of an item: `static = μ`.
+#[derive(Clone, Debug)]
+pub enum Part {
+    /// A word.
+    Word(String),
+    /// A formula.
+    Formula(Formula),
+    /// An equation or inequality.
+    Statement(Statement),
+}
+
+/// An equation with its name.
+#[derive(Clone, Debug)]
+pub struct Equation {
+    /// Whose it is.
+    pub label: Letter,
+    /// What it says.
+    pub statement: Statement,
+}
+
+/// A row of the constrained system.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// Name of the item.
+    pub name: String,
+    /// `constraint`, `contact` or `friction`.
+    pub kind: &'static str,
+    /// On the level on which it is declared, = 0 or ≥ 0.
+    pub declared: Statement,
+    /// On the level of accelerations.
+    pub acceleration: Statement,
+    /// Its multiplier.
+    pub multiplier: Letter,
+    /// When it acts: `always`, `rim closed`, `grip sticks`.
+    pub when: String,
+}
+
+/// A mode with its equations.
+#[derive(Clone, Debug)]
+pub struct Mode {
+    /// `rim closed, grip sticks`
+    pub name: String,
+    /// Coordinates that contacts and constraints hold fixed.
+    pub known: Vec<Statement>,
+    /// Accelerations and multipliers.
+    pub unknowns: Vec<Letter>,
+    /// What determines them.
+    pub equations: Vec<Statement>,
+    /// What must hold, and what happens if it does not.
+    pub guards: Vec<Guard>,
+    /// Operations of its equations of motion, shared.
+    pub operations: usize,
+    /// The same with its guards.
+    pub with_guards: usize,
+}
+
+/// What must hold in a mode.
+#[derive(Clone, Debug)]
+pub struct Guard {
+    /// What must hold.
+    pub statement: Statement,
+    /// What happens where it ceases to hold.
+    pub otherwise: String,
+}
+
+/// A switch between two modes.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Switch {
+    /// Index of a mode.
+    pub from: usize,
+    /// Index of a mode.
+    pub to: usize,
+    /// What causes it.
+    pub label: String,
+}
+
+/// The reset at an impact.
+#[derive(Clone, Debug)]
+pub struct Impact {
+    /// Name of the contact.
+    pub contact: String,
+    /// When it takes place: gap = 0, approaching.
+    pub when: [Statement; 2],
+    /// Momentum balances and the laws of impact.
+    pub equations: Vec<Statement>,
+    /// In words: what friction does.
+    pub note: String,
+}
+
+/// A conserved quantity.
+#[derive(Clone, Debug)]
+pub struct Conserved {
+    /// `momentum of x`, `energy`
+    pub name: String,
+    /// What it is.
+    pub quantity: Statement,
+    /// Its rate, where it is not always conserved.
+    pub rate: Option<Statement>,
+    /// When it is conserved.
+    pub when: String,
+}
+
+/// Operations of one effect or of all.
+#[derive(Clone, Debug)]
+pub struct Cost {
+    /// `energies`, `rim closed`, `grip slips`, …
+    pub name: String,
+    /// As a tree: every formula on its own.
+    pub before: u64,
+    /// After sharing, alone or beside what it needs.
+    pub after: usize,
+}
+
+/// Reads off what was derived. With a mode, only that one is looked at, and numerous ones too.
+///
+/// # Errors
+/// There is no such mode.
+pub fn derivation(
+    declaration: &Declaration,
+    program: &mut Program,
+    mode: Option<&str>,
+) -> Result<Derivation, UnknownMode> {
+    // Reading needs the pool for itself; it is put back as it was, but for forms that nothing refers to.
+    let mut pool = std::mem::take(&mut program.equations.system.pool);
+    let result = work::derivation(declaration, program, &mut pool, mode);
+    program.equations.system.pool = pool;
+    result
+}

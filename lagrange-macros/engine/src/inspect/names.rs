@@ -1,0 +1,160 @@
+//! Which letter stands for what, and in which order letters are written.
+
+use super::letter::Letter;
+use crate::ast::Declaration;
+use crate::model::System;
+use crate::symbolic::Symbol;
+use std::collections::BTreeMap;
+
+/// What a symbol of the pool is, in the order in which factors are written.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum Kind {
+    /// A field.
+    Parameter,
+    /// t
+    Time,
+    /// q
+    Position,
+    /// v
+    Velocity,
+    /// v̇
+    Acceleration,
+    /// A multiplier, or an applied force in an output.
+    Force,
+}
+
+/// How a symbol is written.
+#[derive(Clone, Debug)]
+pub struct Known {
+    /// The letter.
+    pub letter: Letter,
+    /// What it is.
+    pub kind: Kind,
+    /// Its place among its kind.
+    pub order: usize,
+}
+
+/// Letters of a system.
+pub struct Names {
+    symbols: BTreeMap<Symbol, Known>,
+    declared: BTreeMap<String, Letter>,
+}
+
+/// Letters that physicists write before others in a product, class by class.
+const FIRST: [&str; 3] = ["mMIJ", "kc", "g"];
+
+impl Names {
+    /// Letters of everything that a system names.
+    pub fn of(declaration: &Declaration, system: &System) -> Names {
+        let mut declared = BTreeMap::new();
+        let mut taken: Vec<Letter> = Vec::new();
+        for coordinate in &system.coordinates {
+            taken.push(Letter::new(&coordinate.name.text));
+        }
+        for field in &declaration.fields {
+            let name = &field.name.text;
+            let mut letter = match field.letter.as_str() {
+                "" => Letter::new(name),
+                letter => Letter::new(letter),
+            };
+            letter.tex = field.tex.clone();
+            // A letter stands for one thing only; the second keeps its name.
+            if taken.contains(&letter) {
+                letter = Letter::new(name);
+            }
+            taken.push(letter.clone());
+            declared.insert(name.clone(), letter);
+        }
+        let mut names = Names {
+            symbols: BTreeMap::new(),
+            declared,
+        };
+        names.enter(system.time, Letter::new("t"), Kind::Time, 0);
+        for (i, parameter) in system.parameters.iter().enumerate() {
+            let field = parameter.name.split('[').next().unwrap_or_default();
+            let whole = names.declared(field);
+            let letter = match parameter.element {
+                Some(element) => whole.element(&element.to_string()),
+                None => whole,
+            };
+            let early = match letter.base.chars().next() {
+                Some(c) if letter.is_single() => FIRST.iter().position(|class| class.contains(c)),
+                _ => None,
+            };
+            let order = early.unwrap_or(FIRST.len()) * system.parameters.len() + i;
+            names.enter(parameter.symbol, letter, Kind::Parameter, order);
+        }
+        for (i, coordinate) in system.coordinates.iter().enumerate() {
+            let letter = Letter::new(&coordinate.name.text);
+            let kinds = [Kind::Position, Kind::Velocity, Kind::Acceleration];
+            let symbols = [
+                coordinate.position,
+                coordinate.velocity,
+                coordinate.acceleration,
+            ];
+            for (rate, (kind, symbol)) in (0..).zip(kinds.into_iter().zip(symbols)) {
+                names.enter(symbol, letter.clone().rate(rate), kind, i);
+            }
+        }
+        let mut forces = Vec::new();
+        for constraint in &system.constraints {
+            forces.push((constraint.force, Letter::of("λ", &constraint.name.text)));
+        }
+        for contact in &system.contacts {
+            let base = if contact.normal_factor.is_some() {
+                "λ"
+            } else {
+                "N"
+            };
+            forces.push((contact.force, Letter::of(base, &contact.name.text)));
+        }
+        for friction in &system.frictions {
+            for (k, &(_, force)) in friction.slip.iter().enumerate() {
+                let letter = Letter::of("F", &friction.name.text);
+                let letter = match friction.slip.len() {
+                    1 => letter,
+                    _ => letter.element(&(k + 1).to_string()),
+                };
+                forces.push((force, letter));
+            }
+        }
+        for force in &system.forces {
+            forces.push((force.force, Letter::of("F", &force.name.text)));
+        }
+        for (i, (symbol, letter)) in forces.into_iter().enumerate() {
+            names.enter(symbol, letter, Kind::Force, i);
+        }
+        names
+    }
+
+    fn enter(&mut self, symbol: Symbol, letter: Letter, kind: Kind, order: usize) {
+        self.symbols.insert(
+            symbol,
+            Known {
+                letter,
+                kind,
+                order,
+            },
+        );
+    }
+
+    /// How a symbol is written.
+    pub fn symbol(&self, symbol: Symbol) -> Option<&Known> {
+        self.symbols.get(&symbol)
+    }
+
+    /// The letter of a symbol.
+    pub fn letter(&self, symbol: Symbol) -> Letter {
+        self.symbols
+            .get(&symbol)
+            .map_or_else(|| Letter::new("?"), |known| known.letter.clone())
+    }
+
+    /// The letter of a name in the declaration.
+    pub fn declared(&self, name: &str) -> Letter {
+        self.declared
+            .get(name)
+            .cloned()
+            .unwrap_or_else(|| Letter::new(name))
+    }
+}

@@ -1,0 +1,188 @@
+//! A derivation as JSON. The layout is a contract: what is there stays; more may be added. Its name is in `schema`.
+//!
+//! ```text
+//! { "schema": "lagrange.derivation.1", "name", "summary",
+//!   "symbols":   [{ "name", "letter": F, "text", "unit" }],
+//!   "declared":  [{ "item", "name", "parts": [text | F | S] }],
+//!   "energies":  { "kinetic": F, "potential": F },
+//!   "motion":    [{ "coordinate": F, "equation": S }],
+//!   "rows":      [{ "name", "kind", "declared": S, "acceleration": S, "multiplier": F, "acts" }],
+//!   "mode_count", "modes": [{ "name", "known": [S], "unknowns": [F], "equations": [S],
+//!                 "guards": [{ "while": S, "otherwise" }], "operations", "operations_with_guards" }],
+//!   "switches":  [{ "from", "to", "label" }]        indices of modes
+//!   "impacts":   [{ "contact", "when": [S, S], "equations": [S], "note" }],
+//!   "conserved": [{ "name", "quantity": S, "rate": S | null, "when" }],
+//!   "operations": [{ "effect", "alone", "shared" }],
+//!   "notes":     [text] }
+//!
+//! F = { "text", "latex" }        S = { "left": F, "relation": "=" | ">=" | "<=" | ">" | "<", "right": F }
+//! ```
+
+use super::{latex, text};
+use crate::inspect::formula::{Formula, Relation, Statement};
+use crate::inspect::letter::Letter;
+use crate::inspect::{Derivation, Part};
+
+/// The whole derivation as JSON.
+pub fn json(d: &Derivation) -> String {
+    let symbols = d.symbols.iter().map(|s| {
+        object(&[
+            ("name", quoted(&s.name)),
+            ("letter", letter(&s.letter)),
+            ("text", quoted(&s.text)),
+            ("unit", quoted(&s.unit)),
+        ])
+    });
+    let declared = d.declared.iter().map(|item| {
+        let parts = item.parts.iter().map(|part| match part {
+            Part::Word(word) => quoted(word),
+            Part::Formula(f) => formula(f),
+            Part::Statement(s) => statement(s),
+        });
+        object(&[
+            ("item", quoted(item.keyword)),
+            ("name", quoted(&item.name)),
+            ("parts", list(parts)),
+        ])
+    });
+    let energies = object(&[
+        ("kinetic", formula(&d.kinetic)),
+        ("potential", formula(&d.potential)),
+    ]);
+    let motion = d.motion.iter().map(|equation| {
+        object(&[
+            ("coordinate", letter(&equation.label)),
+            ("equation", statement(&equation.statement)),
+        ])
+    });
+    let rows = d.rows.iter().map(|row| {
+        object(&[
+            ("name", quoted(&row.name)),
+            ("kind", quoted(row.kind)),
+            ("declared", statement(&row.declared)),
+            ("acceleration", statement(&row.acceleration)),
+            ("multiplier", letter(&row.multiplier)),
+            ("acts", quoted(&row.when)),
+        ])
+    });
+    let modes = d.modes.iter().map(|mode| {
+        let guards = mode.guards.iter().map(|guard| {
+            object(&[
+                ("while", statement(&guard.statement)),
+                ("otherwise", quoted(&guard.otherwise)),
+            ])
+        });
+        object(&[
+            ("name", quoted(&mode.name)),
+            ("known", list(mode.known.iter().map(statement))),
+            ("unknowns", list(mode.unknowns.iter().map(letter))),
+            ("equations", list(mode.equations.iter().map(statement))),
+            ("guards", list(guards)),
+            ("operations", mode.operations.to_string()),
+            ("operations_with_guards", mode.with_guards.to_string()),
+        ])
+    });
+    let switches = d.switches.iter().map(|switch| {
+        object(&[
+            ("from", switch.from.to_string()),
+            ("to", switch.to.to_string()),
+            ("label", quoted(&switch.label)),
+        ])
+    });
+    let impacts = d.impacts.iter().map(|impact| {
+        object(&[
+            ("contact", quoted(&impact.contact)),
+            ("when", list(impact.when.iter().map(statement))),
+            ("equations", list(impact.equations.iter().map(statement))),
+            ("note", quoted(&impact.note)),
+        ])
+    });
+    let conserved = d.conserved.iter().map(|item| {
+        object(&[
+            ("name", quoted(&item.name)),
+            ("quantity", statement(&item.quantity)),
+            (
+                "rate",
+                item.rate.as_ref().map_or("null".to_owned(), statement),
+            ),
+            ("when", quoted(&item.when)),
+        ])
+    });
+    let operations = d.costs.iter().map(|cost| {
+        object(&[
+            ("effect", quoted(&cost.name)),
+            ("alone", cost.before.to_string()),
+            ("shared", cost.after.to_string()),
+        ])
+    });
+    let whole = object(&[
+        ("schema", quoted("lagrange.derivation.1")),
+        ("name", quoted(&d.name)),
+        ("summary", quoted(&d.summary)),
+        ("symbols", list(symbols)),
+        ("declared", list(declared)),
+        ("energies", energies),
+        ("motion", list(motion)),
+        ("rows", list(rows)),
+        ("mode_count", d.mode_count.to_string()),
+        ("modes", list(modes)),
+        ("switches", list(switches)),
+        ("impacts", list(impacts)),
+        ("conserved", list(conserved)),
+        ("operations", list(operations)),
+        ("notes", list(d.notes.iter().map(|note| quoted(note)))),
+    ]);
+    whole + "\n"
+}
+
+fn letter(l: &Letter) -> String {
+    formula(&Formula::Letter(l.clone()))
+}
+
+fn formula(f: &Formula) -> String {
+    let (text, latex) = (text::formula(f), latex::formula(f));
+    object(&[("text", quoted(&text)), ("latex", quoted(&latex))])
+}
+
+fn statement(s: &Statement) -> String {
+    let relation = match s.relation {
+        Relation::Equal => "=",
+        Relation::AtLeast => ">=",
+        Relation::AtMost => "<=",
+        Relation::Above => ">",
+        Relation::Below => "<",
+    };
+    object(&[
+        ("left", formula(&s.left)),
+        ("relation", quoted(relation)),
+        ("right", formula(&s.right)),
+    ])
+}
+
+fn object(fields: &[(&str, String)]) -> String {
+    let fields: Vec<String> = fields
+        .iter()
+        .map(|(name, value)| format!("\"{name}\":{value}"))
+        .collect();
+    format!("{{{}}}", fields.join(","))
+}
+
+fn list(elements: impl Iterator<Item = String>) -> String {
+    format!("[{}]", elements.collect::<Vec<_>>().join(","))
+}
+
+fn quoted(text: &str) -> String {
+    let mut out = String::with_capacity(text.len() + 2);
+    out.push('"');
+    for c in text.chars() {
+        match c {
+            '"' => out.push_str("\\\""),
+            '\\' => out.push_str("\\\\"),
+            '\n' => out.push_str("\\n"),
+            c if c < ' ' => out.push_str(&format!("\\u{:04x}", c as u32)),
+            c => out.push(c),
+        }
+    }
+    out.push('"');
+    out
+}

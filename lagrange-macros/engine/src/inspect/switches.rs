@@ -1,0 +1,59 @@
+//! Which mode can follow which: one item changes at a time.
+
+use super::Switch;
+use super::modes::{Choice, State, acts, states};
+use super::work::Work;
+use crate::model::System;
+
+impl Work<'_> {
+    /// Switches between modes that are shown, in their order.
+    pub(super) fn switches(&self, shown: &[Choice]) -> Vec<Switch> {
+        let system = self.system();
+        let mut switches = Vec::new();
+        for (from, before) in shown.iter().enumerate() {
+            for (to, after) in shown.iter().enumerate() {
+                if let Some(label) = label(system, before, after) {
+                    switches.push(Switch { from, to, label });
+                }
+            }
+        }
+        switches
+    }
+}
+
+/// What leads from one mode to another, if one event can.
+fn label(system: &System, before: &Choice, after: &Choice) -> Option<String> {
+    let contacts = 0..system.contacts.len();
+    let changed: Vec<usize> = contacts
+        .filter(|&i| before.contacts[i] != after.contacts[i])
+        .collect();
+    let frictions = 0..system.frictions.len();
+    let other: Vec<usize> = frictions
+        .filter(|&i| before.frictions[i] != after.frictions[i])
+        .collect();
+    match (changed.as_slice(), other.as_slice()) {
+        ([contact], _) => {
+            // Frictions of other contacts go on as they were.
+            let own = other
+                .iter()
+                .all(|&f| acts(system, f, &before.contacts) != acts(system, f, &after.contacts));
+            let name = &system.contacts[*contact].name.text;
+            own.then(|| match after.contacts[*contact] {
+                true => format!("impact at {name}"),
+                false => format!("{name} lost"),
+            })
+        }
+        ([], [friction]) => {
+            let name = &system.frictions[*friction].name.text;
+            let (was, is) = (before.frictions[*friction], after.frictions[*friction]);
+            let known = states(system, *friction);
+            debug_assert!(known.contains(&was) && known.contains(&is));
+            Some(match (was, is) {
+                (_, State::Sticks) => format!("{name} sticks"),
+                (State::Sticks, _) => format!("{name} slips"),
+                _ => format!("{name} reverses"),
+            })
+        }
+        _ => None,
+    }
+}

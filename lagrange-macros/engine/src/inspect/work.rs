@@ -1,0 +1,164 @@
+//! What the parts of the derivation share while it is read off.
+
+use super::formula::Formula;
+use super::modes::UnknownMode;
+use super::names::Names;
+use super::readable::Reader;
+use super::{Derivation, Meaning, modes};
+use crate::ast::Declaration;
+use crate::derive::OutputId;
+use crate::model::System;
+use crate::plan::Program;
+use crate::symbolic::{ExprId, Pool, Symbol};
+
+/// Branches that are told of.
+const MOST_BRANCHES: usize = 12;
+
+/// A derivation on its way.
+pub(super) struct Work<'a> {
+    pub program: &'a Program,
+    pub names: &'a Names,
+    pub reader: Reader<'a>,
+}
+
+impl Work<'_> {
+    /// The system, without its pool.
+    pub fn system(&self) -> &System {
+        &self.program.equations.system
+    }
+
+    /// The pool.
+    pub fn pool(&mut self) -> &mut Pool {
+        self.reader.pool()
+    }
+
+    /// An output as one expression.
+    pub fn output(&mut self, output: OutputId) -> ExprId {
+        let terms: Vec<ExprId> = self.program.equations.outputs[output.0]
+            .terms
+            .iter()
+            .map(|&(_, term)| term)
+            .collect();
+        self.pool().sum(&terms)
+    }
+
+    /// An output on paper.
+    pub fn formula_of(&mut self, output: OutputId) -> Formula {
+        let e = self.output(output);
+        self.reader.formula(e)
+    }
+
+    /// Multipliers, row by row.
+    pub fn multipliers(&self) -> Vec<Symbol> {
+        let system = self.system();
+        let constraints = system.constraints.iter().map(|c| c.force);
+        let contacts = system.contacts.iter().map(|c| c.force);
+        let slips = system
+            .frictions
+            .iter()
+            .flat_map(|f| f.slip.iter().map(|&(_, force)| force));
+        constraints.chain(contacts).chain(slips).collect()
+    }
+
+    /// Number of the row of a contact.
+    pub fn contact_row(&self, contact: usize) -> usize {
+        self.system().constraints.len() + contact
+    }
+}
+
+/// The whole derivation.
+pub(super) fn derivation(
+    declaration: &Declaration,
+    program: &Program,
+    pool: &mut Pool,
+    mode: Option<&str>,
+) -> Result<Derivation, UnknownMode> {
+    let system = &program.equations.system;
+    let names = Names::of(declaration, system);
+    let guards = system.branches.iter().map(|branch| branch.guard).collect();
+    let mut work = Work {
+        program,
+        names: &names,
+        reader: Reader::new(pool, &names, guards),
+    };
+    let chosen = modes::choose(&work, mode)?;
+    let structure = &program.equations.structure;
+    let kinetic = work.kinetic();
+    let potential = work.formula_of(structure.energy.1);
+    let motion = work.motion();
+    let rows = work.rows();
+    let impacts = work.impacts();
+    let conserved = work.conserved();
+    let costs = work.costs();
+    let modes: Vec<_> = chosen.shown.iter().map(|mode| work.mode(mode)).collect();
+    let switches = work.switches(&chosen.shown);
+    let mut notes = Vec::new();
+    if (modes.len() as u128) < chosen.count && mode.is_none() {
+        notes.push(format!(
+            "{} of {} modes are shown: all contacts open, one of them closed, and all of them closed and sticking.",
+            modes.len(),
+            chosen.count
+        ));
+    }
+    let coordinates = system.coordinates.len();
+    if motion.len() < coordinates {
+        notes.push(format!(
+            "{} of {coordinates} equations of motion are shown: the first ones and the last one.",
+            motion.len()
+        ));
+    }
+    for branch in system.branches.iter().take(MOST_BRANCHES) {
+        notes.push(format!(
+            "Piecewise: {} has two sides; each side is smooth, and changing sides is an event.",
+            branch.text
+        ));
+    }
+    Ok(Derivation {
+        name: declaration.name.to_string(),
+        summary: summary(&declaration.documentation),
+        symbols: meanings(declaration, system, &names),
+        declared: super::declared::items(declaration, &names),
+        kinetic,
+        potential,
+        motion,
+        rows,
+        modes,
+        mode_count: chosen.count,
+        single_mode: mode.is_some(),
+        switches,
+        impacts,
+        conserved,
+        costs,
+        notes,
+    })
+}
+
+/// The first paragraph in one line.
+fn summary(documentation: &str) -> String {
+    let lines = documentation
+        .lines()
+        .take_while(|line| !line.trim().is_empty());
+    lines.map(str::trim).collect::<Vec<_>>().join(" ")
+}
+
+fn meanings(declaration: &Declaration, system: &System, names: &Names) -> Vec<Meaning> {
+    let mut meanings = Vec::new();
+    for field in &declaration.fields {
+        let name = match field.length {
+            Some(length) => format!("{}[{length}]", field.name.text),
+            None => field.name.text.clone(),
+        };
+        meanings.push(Meaning {
+            letter: names.declared(&field.name.text),
+            name,
+            text: summary(&field.documentation),
+            unit: field
+                .unit
+                .as_ref()
+                .map(|unit| unit.text.clone())
+                .unwrap_or_default(),
+        });
+    }
+    let _ = system;
+    meanings
+}

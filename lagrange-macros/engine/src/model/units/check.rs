@@ -1,0 +1,451 @@
+//! The units of all items of a declaration.
+//!
+//! ```text
+//! energies            E (J)                 dissipation   E/s
+//! gap of a contact    any unit u            its force     E/u
+//! constraint          any unit u            its force     E/u on positions, E s⁻¹/u on velocities
+//! slip                u                     its force     E s⁻¹/u; on a contact: gap in m, slip in m/s
+//! force along x       E/x                   (fx, fy) at (px, py): fᵢ in E/pᵢ; f along s: E s⁻¹/s
+//! ```
+
+use super::dimension::Dimension;
+use super::infer::{Role, Shape, is_number};
+use super::quantity::{Quantity, Unknowns};
+use crate::ast::{
+    self, Action, Clause, Declaration, Expr, FrictionLaw, Head, ItemKind, Observe, Order,
+    Reference, Restitution, Trigger,
+};
+use crate::diagnostics::{Code, Diagnostics};
+use crate::model::elaborate::Elaboration;
+use crate::model::names::{Kind, Meaning};
+use crate::model::{Level, Normal};
+use crate::symbolic::Rational;
+use std::collections::BTreeMap;
+
+/// Units of the forces of items, by their place in the system's lists.
+#[derive(Default)]
+pub(super) struct Forces {
+    /// Of a multiplier.
+    pub constraints: BTreeMap<usize, Quantity>,
+    /// Of a multiplier.
+    pub contacts: BTreeMap<usize, Quantity>,
+    /// Of the normal force, if it is not the multiplier.
+    pub normals: BTreeMap<usize, Quantity>,
+    /// Per component.
+    pub frictions: BTreeMap<usize, Vec<Quantity>>,
+    pub forces: BTreeMap<usize, Quantity>,
+    /// R
+    pub dissipations: BTreeMap<usize, Quantity>,
+}
+
+impl Forces {
+    /// What the name of an item stands for.
+    pub fn of(&self, kind: Kind, element: usize) -> Option<Shape> {
+        let one = |quantity: Option<&Quantity>| quantity.cloned().map(Shape::One);
+        match kind {
+            Kind::Constraint => one(self.constraints.get(&element)),
+            Kind::Contact => {
+                let normal = self.normals.get(&element);
+                one(normal.or(self.contacts.get(&element)))
+            }
+            Kind::Force => one(self.forces.get(&element)),
+            _ => {
+                let mut components = self.frictions.get(&element)?.clone();
+                Some(match components.len() {
+                    1 => Shape::One(components.pop()?),
+                    _ => Shape::List(components.into_iter().map(Shape::One).collect()),
+                })
+            }
+        }
+    }
+}
+
+/// Units on their way.
+pub(super) struct Checker<'a, 'b> {
+    pub elaboration: &'a mut Elaboration<'b>,
+    pub sink: Diagnostics,
+    pub unknowns: Unknowns,
+    /// Of fields, coordinates and definitions; `None` after a mistake.
+    pub names: BTreeMap<String, Option<Shape>>,
+    /// Of fields and coordinates without a unit.
+    pub inferred: BTreeMap<String, Quantity>,
+    /// E
+    pub energy: Quantity,
+    pub forces: Forces,
+    /// Of gaps, by contact.
+    pub gaps: BTreeMap<usize, Quantity>,
+    /// Of slips, by friction.
+    pub slips: BTreeMap<usize, Shape>,
+}
+
+impl Checker<'_, '_> {
+    /// All items, in the order in which they need each other.
+    pub fn items(&mut self, declaration: &Declaration) {
+        for pass in 0..9 {
+            for item in &declaration.items {
+                self.item(&item.kind, pass);
+            }
+        }
+        for definition in self.elaboration.definitions.clone() {
+            let name = &definition.head.name.text;
+            if !self.names.contains_key(name) {
+                self.definition(name);
+            }
+        }
+    }
+
+    /// One item in its pass. What is wrong has been reported, so the result does not matter.
+    fn item(&mut self, item: &ItemKind, pass: usize) -> Option<()> {
+        let energy = self.energy.clone();
+        match (pass, item) {
+            (0, ItemKind::Lagrangian(value)) => self.expect(value, &energy, "a Lagrangian"),
+            (0, ItemKind::Kinetic(term)) => self.energy_term(term, "a kinetic energy"),
+            (0, ItemKind::Potential(term)) => self.energy_term(term, "a potential energy"),
+            (1, ItemKind::Contact(contact)) => self.each(&contact.head, |this, element| {
+                this.contact(contact, element)
+            }),
+            (2, ItemKind::Attitude(attitude)) => {
+                for element in self.elements(&attitude.body.text) {
+                    self.forces.constraints.insert(element, energy.clone());
+                }
+                Some(())
+            }
+            (2, ItemKind::Constraint(constraint)) => {
+                self.each(&constraint.head, |this, element| {
+                    let residual = this.sides(&constraint.left, &constraint.right)?;
+                    let level = this.elaboration.system.constraints.get(element)?.level;
+                    let work = match level {
+                        Level::Position => energy.clone(),
+                        Level::Velocity => this.times_time(&energy, -1),
+                    };
+                    let force = this.unknowns.times(&work, &residual, Rational::MINUS_ONE);
+                    this.forces.constraints.insert(element, force);
+                    Some(())
+                })
+            }
+            (3, ItemKind::Friction(friction)) => self.each(&friction.head, |this, element| {
+                this.friction(friction, element)
+            }),
+            (4, ItemKind::Force(force)) => {
+                self.each(&force.head, |this, element| this.force(force, element))
+            }
+            (4, ItemKind::Dissipation(item)) => {
+                let power = self.times_time(&energy, -1);
+                self.each(&item.head, |this, element| {
+                    this.forces.dissipations.insert(element, power.clone());
+                    this.expect(&item.value, &power, "a dissipation")
+                })
+            }
+            (5, ItemKind::Start(start)) => self.each(&start.head, |this, _| {
+                for value in &start.values {
+                    this.start_value(value)?;
+                }
+                Some(())
+            }),
+            (6, ItemKind::Observe(observes)) => {
+                for observe in observes {
+                    if let Observe::New(head, _) = observe
+                        && !self.names.contains_key(&head.name.text)
+                    {
+                        self.definition(&head.name.text);
+                    }
+                }
+                Some(())
+            }
+            (7, ItemKind::Stop(watch) | ItemKind::Mark(watch)) => {
+                self.each(&watch.head, |this, _| match &watch.trigger {
+                    Trigger::Zero(value) => this.one(value, None).map(|_| ()),
+                    Trigger::All(clauses) => {
+                        for clause in clauses {
+                            if let Clause::Comparison(comparison) = clause {
+                                this.loosely(comparison)?;
+                            }
+                        }
+                        Some(())
+                    }
+                })
+            }
+            (8, ItemKind::Check(check)) => self.check(check),
+            _ => Some(()),
+        }
+    }
+
+    /// Both sides of a claim and of its premises.
+    fn check(&mut self, check: &ast::Check) -> Option<()> {
+        let index = check.head.as_ref().and_then(|head| head.index.as_ref());
+        let Some(index) = index else {
+            return self.claim(check);
+        };
+        let (from, to) = self.elaboration.bounds(&index.range)?;
+        (from..to).try_for_each(|k| self.with_index(&index.name, k, |this| this.claim(check)))
+    }
+
+    fn claim(&mut self, check: &ast::Check) -> Option<()> {
+        match &check.claim {
+            ast::Claim::Equal(left, right) => self.sides(left, right).map(|_| ())?,
+            ast::Claim::Conserved(value) => self.one(value, None).map(|_| ())?,
+        }
+        check.premises.iter().try_for_each(|premise| match premise {
+            ast::Premise::Mode(..) => Some(()),
+            ast::Premise::AtLeast(comparison) => self.loosely(comparison).map(|_| ()),
+            ast::Premise::Equal(left, right) => self.sides(left, right).map(|_| ()),
+        })
+    }
+
+    /// The places of a name's elements in the system's list.
+    fn elements(&self, name: &str) -> Vec<usize> {
+        match self.elaboration.names.get(name).map(|entry| &entry.meaning) {
+            Some(Meaning::Item { elements, .. }) => elements.clone(),
+            _ => Vec::new(),
+        }
+    }
+
+    /// Runs `body` for every element of an item, up to the first mistake.
+    fn each(
+        &mut self,
+        head: &Head,
+        mut body: impl FnMut(&mut Self, usize) -> Option<()>,
+    ) -> Option<()> {
+        let elements = self.elements(&head.name.text);
+        match &head.index {
+            None => elements
+                .into_iter()
+                .try_for_each(|element| body(self, element)),
+            Some(index) => {
+                let (from, _) = self.elaboration.bounds(&index.range)?;
+                (from..).zip(elements).try_for_each(|(k, element)| {
+                    self.with_index(&index.name, k, |this| body(this, element))
+                })
+            }
+        }
+    }
+
+    fn energy_term(&mut self, term: &ast::Energy, what: &str) -> Option<()> {
+        let energy = self.energy.clone();
+        match &term.head {
+            None => self.expect(&term.value, &energy, what),
+            Some(head) => self.each(head, |this, _| this.expect(&term.value, &energy, what)),
+        }
+    }
+
+    fn contact(&mut self, contact: &ast::Contact, element: usize) -> Option<()> {
+        let gap = self.comparison(&contact.gap);
+        let restitution = match &contact.restitution {
+            None => Some(()),
+            Some(Restitution::Newton(e) | Restitution::Poisson(e)) => {
+                self.plain(e, "a restitution")
+            }
+        };
+        let region = match &contact.region {
+            None => Some(()),
+            Some(region) => self.loosely(region).map(|_| ()),
+        };
+        let gap = gap?;
+        let force = self.unknowns.times(&self.energy, &gap, Rational::MINUS_ONE);
+        self.forces.contacts.insert(element, force);
+        self.gaps.insert(element, gap);
+        if let Some(point) = &contact.at {
+            let mut components = self.shape(point, None)?.quantities().into_iter();
+            let first = components.next()?;
+            for component in components {
+                self.equal(
+                    &first,
+                    &component,
+                    "the first coordinate of this point",
+                    point,
+                )?;
+            }
+            let normal = self
+                .unknowns
+                .times(&self.energy, &first, Rational::MINUS_ONE);
+            self.forces.normals.insert(element, normal);
+        }
+        restitution.and(region)
+    }
+
+    fn friction(&mut self, friction: &ast::Friction, element: usize) -> Option<()> {
+        let power = self.times_time(&self.energy.clone(), -1);
+        let slip = self.shape(&friction.slip, None)?;
+        let components = slip.quantities();
+        let forces: Vec<Quantity> = components
+            .iter()
+            .map(|slip| self.unknowns.times(&power, slip, Rational::MINUS_ONE))
+            .collect();
+        self.slips.insert(element, slip);
+        self.forces.frictions.insert(element, forces.clone());
+        let force = forces.first()?;
+        for other in &forces {
+            let (one, another) = (self.unknowns.read(force)?, self.unknowns.read(other)?);
+            if self.unknowns.equate(&one, &another).is_err() {
+                let (one, another) = (self.phrase(&one, true), self.phrase(&another, true));
+                let hint = "both components of a slip are velocities, in m/s";
+                self.mistake(
+                    Code::UnitExpected,
+                    friction.slip.extent,
+                    &[
+                        &"the force along the first component",
+                        &one,
+                        &another,
+                        &hint,
+                    ],
+                );
+                return None;
+            }
+        }
+        let normal = self.elaboration.system.frictions.get(element)?.normal;
+        let pressing = match (normal, &friction.on) {
+            (Normal::Contact(contact), Some(on)) => Some((Kind::Contact, contact, on)),
+            (Normal::Constraint(constraint), Some(on)) => Some((Kind::Constraint, constraint, on)),
+            _ => None,
+        };
+        if let Some((kind, item, on)) = pressing {
+            self.pressed(kind, item, on)?;
+            let speed: Quantity = Dimension::mechanical(0, 1, -1).into();
+            for slip in components {
+                self.equal(&speed, &slip, "a slip", &friction.slip)?;
+            }
+        }
+        match &friction.law {
+            FrictionLaw::Limit(limit) => match &limit.kind {
+                ast::ExprKind::List(limits) => limits.iter().try_for_each(|limit| {
+                    self.expect(
+                        limit,
+                        force,
+                        Role::force("the friction force along this slip"),
+                    )
+                }),
+                _ => self.expect(
+                    limit,
+                    force,
+                    Role::force("the friction force along this slip"),
+                ),
+            },
+            FrictionLaw::Coefficients {
+                normal,
+                stick,
+                slide,
+            } => {
+                let what = "a coefficient of friction";
+                let stick = self.plain(stick, what);
+                let slide = slide
+                    .as_ref()
+                    .map_or(Some(()), |slide| self.plain(slide, what));
+                let normal = normal.as_ref().map_or(Some(()), |normal| {
+                    self.expect(normal, force, Role::force("the normal force for this slip"))
+                });
+                stick.and(slide).and(normal)
+            }
+        }
+    }
+
+    /// What presses is a force: the gap or the constraint is a distance.
+    fn pressed(&mut self, kind: Kind, item: usize, on: &Reference) -> Option<()> {
+        let Some(Shape::One(force)) = self.forces.of(kind, item) else {
+            return None;
+        };
+        let newton =
+            self.unknowns
+                .times(&self.energy, &Dimension::LENGTH.into(), Rational::MINUS_ONE);
+        let Err((newton, force)) = self.unknowns.equate(&newton, &force) else {
+            return Some(());
+        };
+        let hint = match kind {
+            Kind::Contact => {
+                "write the gap as a distance, in m; or say where it acts: `contact(… at (px, py))`"
+            }
+            _ => "write both sides of the constraint as distances, in m, or as velocities, in m/s",
+        };
+        let (force, newton) = (self.phrase(&force, true), self.phrase(&newton, true));
+        self.mistake(
+            Code::PressedBy,
+            &on.name,
+            &[&on.name.text, &force, &newton, &hint],
+        );
+        None
+    }
+
+    fn force(&mut self, force: &ast::Force, element: usize) -> Option<()> {
+        let energy = self.energy.clone();
+        let per = |this: &mut Self, work: &Quantity, along: &Quantity| {
+            this.unknowns.times(work, along, Rational::MINUS_ONE)
+        };
+        let unit = match &force.action {
+            Action::Generalized(reference, value) => {
+                let coordinate = self.coordinate(reference)?;
+                let unit = per(self, &energy, &coordinate);
+                let what = format!("a force along `{}`", reference.name.text);
+                self.forces.forces.insert(element, unit.clone());
+                return self.expect(value, &unit, Role::force(&what));
+            }
+            Action::Along(value, speed) => {
+                let speed = self.one(speed, None)?;
+                let power = self.times_time(&energy, -1);
+                let unit = per(self, &power, &speed);
+                self.expect(value, &unit, Role::force("a force along this velocity"))?;
+                unit
+            }
+            Action::At(value, point) => {
+                let points = self.shape(point, None)?.quantities();
+                let values: Vec<&Expr> = match &value.kind {
+                    ast::ExprKind::List(values) => values.iter().collect(),
+                    _ => vec![value],
+                };
+                let units: Vec<Quantity> = points
+                    .iter()
+                    .map(|point| per(self, &energy, point))
+                    .collect();
+                let what = Role::force("a force at this point");
+                if values.len() == units.len() {
+                    for (value, unit) in values.into_iter().zip(&units) {
+                        self.expect(value, unit, what)?;
+                    }
+                } else {
+                    let found = self.shape(value, None)?.quantities();
+                    for (found, unit) in found.iter().zip(&units) {
+                        self.equal(unit, found, what, value)?;
+                    }
+                }
+                units.into_iter().next()?
+            }
+        };
+        self.forces.forces.insert(element, unit);
+        Some(())
+    }
+
+    /// The unit of a coordinate.
+    pub fn coordinate(&mut self, reference: &Reference) -> Option<Quantity> {
+        let shape = self.names.get(&reference.name.text)?.as_ref()?;
+        shape.quantities().into_iter().next()
+    }
+
+    fn start_value(&mut self, value: &ast::StartValue) -> Option<()> {
+        let shape = self.names.get(&value.name.text)?.as_ref()?;
+        let mut unit = shape.quantities().into_iter().next()?;
+        let name = &value.name.text;
+        let mut what = format!("`{name}`");
+        if value.order == Order::Velocity {
+            unit = self.times_time(&unit, -1);
+            what = format!("`der({name})`");
+        }
+        let expect = |this: &mut Self| match &value.value.kind {
+            ast::ExprKind::List(values) => values
+                .iter()
+                .filter(|value| !is_number(value))
+                .try_for_each(|value| this.expect(value, &unit, what.as_str())),
+            _ if is_number(&value.value) => Some(()),
+            _ => {
+                let found = this.shape(&value.value, Some(&unit))?.quantities();
+                found
+                    .iter()
+                    .try_for_each(|found| this.equal(&unit, found, what.as_str(), &value.value))
+            }
+        };
+        match &value.element {
+            ast::Element::Each(index) => {
+                let (from, to) = self.elaboration.bounds(&index.range)?;
+                (from..to).try_for_each(|k| self.with_index(&index.name, k, expect))
+            }
+            _ => expect(self),
+        }
+    }
+}

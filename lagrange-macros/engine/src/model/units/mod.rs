@@ -1,0 +1,282 @@
+//! Units: read from their texts, inferred where they are not given, checked in every item, and told for every output.
+//!
+//! * As soon as one field or coordinate has a unit other than a plain number or angle, everything is checked. Without
+//!   any, nothing is.
+//! * A field or coordinate without a unit is an unknown, and found from what it is added to, compared with, or an energy
+//!   of; what stays free fits everything.
+//! * Numbers are plain numbers, `0` fits everything, `t` is in s, angles are plain numbers. In starts, stops, marks and
+//!   regions, which describe a run, a value that is nothing but a number is in the unit that belongs there.
+//! * Energies are in J. Where no given unit contains kg, they may all be per unit of mass instead (a hint says so).
+//! * Units are coherent: a multiple like `mm` is refused, since numbers are never converted.
+
+mod check;
+mod dimension;
+mod grammar;
+mod infer;
+mod quantity;
+
+use super::elaborate::Elaboration;
+use super::{Hint, Units};
+use crate::ast::{self, Declaration, ItemKind, Name};
+use crate::diagnostics::{Code, Diagnostics};
+use check::{Checker, Forces};
+use dimension::Dimension;
+use grammar::{Refusal, Unit};
+use infer::Shape;
+use quantity::{Quantity, Unknowns};
+use std::collections::BTreeMap;
+
+/// A name with its number of elements and its unit.
+struct Given<'a> {
+    name: &'a Name,
+    length: Option<usize>,
+    unit: Option<Unit>,
+}
+
+impl Elaboration<'_> {
+    /// Checks the units of a declaration without mistakes, and writes down those of all quantities.
+    pub fn units(&mut self, declaration: &Declaration) {
+        let before = self.sink.count();
+        let given = self.given(declaration);
+        if self.sink.count() > before {
+            return;
+        }
+        self.write_given(&given);
+        let dimensions = || {
+            given
+                .iter()
+                .filter_map(|one| Some(one.unit.as_ref()?.dimension))
+        };
+        if dimensions().all(Dimension::is_one) {
+            return;
+        }
+        let per_mass = !dimensions().any(Dimension::has_mass);
+        let mistakes = self.check_units(declaration, &given, false);
+        if mistakes.is_empty() {
+            return;
+        }
+        if per_mass && self.check_units(declaration, &given, true).is_empty() {
+            let text = format!(
+                "energies are in {}, not in J; forces are in units that follow from that",
+                self.system.units.energy
+            );
+            let extent = (&declaration.name).into();
+            self.system.hints.push(Hint { text, extent });
+            return;
+        }
+        self.sink.append(mistakes);
+    }
+
+    /// The units as declared.
+    fn given<'a>(&mut self, declaration: &'a Declaration) -> Vec<Given<'a>> {
+        let mut given = Vec::new();
+        for field in &declaration.fields {
+            let (name, length) = (&field.name, field.length);
+            let unit = self.unit(field.unit.as_ref());
+            given.push(Given { name, length, unit });
+        }
+        for item in &declaration.items {
+            match &item.kind {
+                ItemKind::Coordinates(coordinates) => {
+                    for coordinate in coordinates {
+                        let name = &coordinate.name;
+                        let length = self.coordinate_names.get(&name.text);
+                        let length = length.and_then(|(_, length)| *length);
+                        let unit = self.unit(coordinate.unit.as_ref());
+                        given.push(Given { name, length, unit });
+                    }
+                }
+                ItemKind::Attitude(attitude) => given.push(Given {
+                    name: &attitude.coordinates,
+                    length: Some(4),
+                    unit: Some(Unit {
+                        dimension: Dimension::ONE,
+                        text: String::new(),
+                    }),
+                }),
+                _ => {}
+            }
+        }
+        given
+    }
+
+    fn unit(&mut self, written: Option<&ast::Unit>) -> Option<Unit> {
+        let ast::Unit { text, extent } = written?;
+        match grammar::unit(text) {
+            Ok(unit) => return Some(unit),
+            Err(Refusal::Unknown(symbol, hint)) => {
+                self.sink
+                    .report(Code::UnknownUnit, *extent, &[&symbol, &hint]);
+            }
+            Err(Refusal::Multiple(coherent)) => {
+                self.sink
+                    .report(Code::UnitMultiple, *extent, &[text, &coherent]);
+            }
+            Err(Refusal::Form(what, hint)) => {
+                self.sink.report(Code::UnitForm, *extent, &[&what, &hint]);
+            }
+        }
+        None
+    }
+
+    /// Units in the words of the declaration.
+    fn write_given(&mut self, given: &[Given]) {
+        for one in given {
+            if let Some(unit) = &one.unit {
+                self.write(&one.name.text, &unit.text);
+            }
+        }
+    }
+
+    /// The unit of a field or coordinate becomes this text.
+    fn write(&mut self, name: &str, text: &str) {
+        let system = &mut self.system;
+        for parameter in &mut system.parameters {
+            if super::names::plain(&parameter.field) == name {
+                parameter.unit = text.to_string();
+            }
+        }
+        if let Some(&(first, length)) = self.coordinate_names.get(name) {
+            let coordinates = system.coordinates.iter_mut().skip(first);
+            for coordinate in coordinates.take(length.unwrap_or(1)) {
+                coordinate.unit = text.to_string();
+            }
+        }
+    }
+
+    /// Checks all items; if nothing is wrong, writes down what follows.
+    fn check_units(
+        &mut self,
+        declaration: &Declaration,
+        given: &[Given],
+        per_mass: bool,
+    ) -> Diagnostics {
+        let mut unknowns = Unknowns::default();
+        let (mut names, mut inferred) = (BTreeMap::new(), BTreeMap::new());
+        for one in given {
+            let quantity: Quantity = match &one.unit {
+                Some(unit) => unit.dimension.into(),
+                None => {
+                    let unknown = unknowns.fresh(&one.name.text);
+                    inferred.insert(one.name.text.clone(), unknown.clone());
+                    unknown
+                }
+            };
+            let shape = match one.length {
+                None => Shape::One(quantity),
+                Some(length) => Shape::List(vec![Shape::One(quantity); length]),
+            };
+            names.insert(one.name.text.clone(), Some(shape));
+        }
+        let energy = match per_mass {
+            false => Dimension::ENERGY.into(),
+            true => unknowns.fresh("energy"),
+        };
+        let before = self.sink.count();
+        let mut checker = Checker {
+            elaboration: self,
+            sink: Diagnostics::new(),
+            unknowns,
+            names,
+            inferred,
+            energy,
+            forces: Forces::default(),
+            gaps: BTreeMap::new(),
+            slips: BTreeMap::new(),
+        };
+        checker.items(declaration);
+        let Checker {
+            sink,
+            unknowns,
+            names,
+            energy,
+            forces,
+            ..
+        } = checker;
+        if sink.is_empty() && self.sink.count() == before {
+            for one in given.iter().filter(|one| one.unit.is_none()) {
+                let text =
+                    |shape: &Shape| Some(unknowns.dimension(shape.quantities().first()?)?.text());
+                let found = names.get(&one.name.text).and_then(Option::as_ref);
+                if let Some(text) = found.and_then(text) {
+                    self.write(&one.name.text, &text);
+                }
+            }
+            self.system.units = self.outputs(&unknowns, &names, &energy, &forces);
+        }
+        sink
+    }
+
+    /// Units of everything that a run reports.
+    fn outputs(
+        &mut self,
+        unknowns: &Unknowns,
+        names: &BTreeMap<String, Option<Shape>>,
+        energy: &Quantity,
+        forces: &Forces,
+    ) -> Units {
+        let text = |quantity: &Quantity| unknowns.dimension(quantity).map(Dimension::text);
+        let force = |quantity: Option<&Quantity>| {
+            let dimension = quantity.and_then(|quantity| unknowns.dimension(quantity));
+            dimension.map(Dimension::as_force).unwrap_or_default()
+        };
+        let system = &self.system;
+        let all = |found: &BTreeMap<usize, Quantity>, count: usize| -> Vec<String> {
+            (0..count).map(|k| force(found.get(&k))).collect()
+        };
+        let frictions = (0..system.frictions.len()).map(|k| {
+            let components = forces.frictions.get(&k);
+            force(components.and_then(|components| components.first()))
+        });
+        let observes = system.observes.iter().map(|observe| {
+            let name = observe.name.ident.as_ref().map(super::names::plain)?;
+            let position = observe.name.element.map_or(0, |(position, _)| position);
+            let declared = self.declared(&name, position);
+            if declared.is_some() {
+                return declared;
+            }
+            let shape = match names.get(&name) {
+                Some(shape) => shape.clone()?,
+                None => {
+                    let Some(super::names::Entry {
+                        kind,
+                        meaning: super::names::Meaning::Item { elements, .. },
+                    }) = self.names.get(&name)
+                    else {
+                        return None;
+                    };
+                    let shape = forces.of(*kind, *elements.get(position).or(elements.first())?)?;
+                    return Some(force(
+                        shape
+                            .quantities()
+                            .get(position)
+                            .or(shape.quantities().first()),
+                    ));
+                }
+            };
+            text(shape.quantities().get(position)?)
+        });
+        Units {
+            energy: text(energy).unwrap_or_default(),
+            constraints: all(&forces.constraints, system.constraints.len()),
+            contacts: all(&forces.contacts, system.contacts.len()),
+            frictions: frictions.collect(),
+            forces: all(&forces.forces, system.forces.len()),
+            dissipations: all(&forces.dissipations, system.dissipations.len()),
+            observes: observes.map(Option::unwrap_or_default).collect(),
+        }
+    }
+
+    /// The unit of a field or coordinate as it has been written down.
+    fn declared(&self, name: &str, position: usize) -> Option<String> {
+        if let Some(&(first, _)) = self.coordinate_names.get(name) {
+            let coordinate = self.system.coordinates.get(first + position)?;
+            return Some(coordinate.unit.clone());
+        }
+        let parameters = &self.system.parameters;
+        let found = parameters
+            .iter()
+            .find(|parameter| super::names::plain(&parameter.field) == name)?;
+        Some(found.unit.clone())
+    }
+}

@@ -1,0 +1,71 @@
+//! `check`: `name: a == b when closed(c) and u >= w`, `conserved e when …`.
+
+use super::super::cursor::Cursor;
+use super::super::expression::expression;
+use super::super::relation::{equation, equation_or_comparison, leftover};
+use super::output::mode_clause;
+use super::{head, no_more};
+use crate::ast::{Check, Claim, ItemKind, Premise};
+use crate::diagnostics::{Diagnostics, Extent};
+use proc_macro2::{Delimiter, TokenTree};
+
+/// `name: a == b when …`, name and condition as the user likes.
+pub(super) fn check(mut parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<ItemKind> {
+    let (first, others) = parts.split_first_mut()?;
+    let head = match is_named(first) {
+        false => None,
+        true => {
+            let head = head(first, "a name", sink)?;
+            first.require(":", sink)?;
+            Some(head)
+        }
+    };
+    let start = first.here();
+    let claim = claim(first, sink)?;
+    let claimed = Extent::new(start, first.behind());
+    let mut premises = Vec::new();
+    if first.take_word("when").is_some() {
+        premises.push(premise(first, sink)?);
+        while first.take_word("and").is_some() {
+            premises.push(premise(first, sink)?);
+        }
+    }
+    leftover(first, sink)?;
+    no_more(others, "check", "write an item for each check", sink)?;
+    Some(ItemKind::Check(Box::new(Check {
+        head,
+        claim,
+        claimed,
+        premises,
+    })))
+}
+
+/// Whether `name:` or `name[…]:` is ahead.
+fn is_named(part: &Cursor) -> bool {
+    let colon = |token: Option<TokenTree>| matches!(token, Some(TokenTree::Punct(punct)) if punct.as_char() == ':');
+    if part.word().is_none() {
+        return false;
+    }
+    let mut ahead = part.clone();
+    ahead.next();
+    ahead.take_group(Delimiter::Bracket);
+    colon(ahead.next())
+}
+
+fn claim(part: &mut Cursor, sink: &mut Diagnostics) -> Option<Claim> {
+    // A quantity of that name would be followed by an operator.
+    let prefix = part.word().is_some_and(|word| word.text == "conserved")
+        && !matches!(part.second(), None | Some(TokenTree::Punct(_)));
+    if prefix {
+        part.next();
+        return expression(part, sink).map(Claim::Conserved);
+    }
+    equation(part, sink).map(|(left, right)| Claim::Equal(left, right))
+}
+
+fn premise(part: &mut Cursor, sink: &mut Diagnostics) -> Option<Premise> {
+    match mode_clause(part, sink) {
+        Some(clause) => clause.map(|(word, item)| Premise::Mode(word, item)),
+        None => equation_or_comparison(part, sink),
+    }
+}

@@ -1,0 +1,527 @@
+//! A random point: what every atom is worth there, and the values of expressions made of them.
+
+use super::super::{ExprId, Function, Node, Pool, Rational, Symbol};
+use super::Prime;
+use super::complex::Turn;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Why an expression has no value at a point.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum Trouble {
+    /// A divisor is 0 here.
+    Division,
+    /// What is under a root is no square here; about half of all points are better.
+    NotSquare,
+    /// Nothing in the field stands for it.
+    Beyond,
+}
+
+/// A value, or why there is none.
+pub type FieldValue = Result<u64, Trouble>;
+
+/// How the arguments of circular functions and exponentials are made of basis terms.
+#[derive(Clone, Default, Debug)]
+pub struct Angles {
+    /// D: every coefficient times D is an integer; None if D does not fit.
+    denominator: Option<i128>,
+    /// Argument → multiplied out.
+    arguments: BTreeMap<ExprId, ExprId>,
+    /// Whether all basis terms are products of free symbols.
+    independent: bool,
+    /// Those that are.
+    plain: BTreeSet<ExprId>,
+}
+
+impl Angles {
+    /// Whether all basis terms are products of free symbols. Different ones are then linearly independent, and so
+    /// functions of them are independent (Ax, Annals of Mathematics 93, 1971).
+    pub fn are_independent(&self) -> bool {
+        self.independent
+    }
+}
+
+/// Longer common denominators make degrees that prove little.
+const LARGEST_DENOMINATOR: i128 = 1 << 40;
+
+impl Pool {
+    /// The basis for all arguments in the expressions. `dependent`: symbols that will be bound to what depends on others.
+    pub fn angles(&mut self, roots: &[ExprId], dependent: &[Symbol]) -> Angles {
+        let mut angles = Angles {
+            denominator: Some(1),
+            arguments: BTreeMap::new(),
+            independent: true,
+            plain: BTreeSet::new(),
+        };
+        for e in self.iter_reachable(roots) {
+            if let Node::Call(f, arguments) = self.node(e)
+                && is_additive(*f)
+            {
+                let argument = arguments[0];
+                let expanded = self.expand(argument);
+                angles.arguments.insert(argument, expanded);
+                let (constant, terms) = self.affine(expanded);
+                let coefficients = terms.iter().map(|&(_, c)| c).chain([constant]);
+                for c in coefficients {
+                    angles.denominator = angles.denominator.and_then(|d| common(d, c));
+                }
+                for (term, _) in terms {
+                    if self.is_plain(term, dependent) {
+                        angles.plain.insert(term);
+                    } else {
+                        angles.independent = false;
+                    }
+                }
+            }
+        }
+        angles
+    }
+
+    /// Whether it is a product of whole powers of free symbols.
+    fn is_plain(&self, term: ExprId, dependent: &[Symbol]) -> bool {
+        let is_free = |e: ExprId| match self.node(e) {
+            Node::Symbol(symbol) => !dependent.contains(symbol),
+            Node::Pi => true,
+            _ => false,
+        };
+        match self.node(term) {
+            Node::Product(factors) => factors
+                .iter()
+                .all(|&(base, r)| r.is_integer() && is_free(base)),
+            _ => is_free(term),
+        }
+    }
+
+    /// Degree of a function of the argument in the atoms: 2 Σ |cᵢ| D.
+    pub(super) fn turns(&self, argument: ExprId, angles: &Angles) -> f64 {
+        let expanded = angles.arguments.get(&argument).copied();
+        let Some(expanded) = expanded else {
+            return 2.0;
+        };
+        let (constant, terms) = self.affine(expanded);
+        let sizes = terms.iter().map(|&(_, c)| c).chain([constant]);
+        let sum: f64 = sizes.map(|c| c.to_f64().abs()).sum();
+        2.0 * sum * angles.denominator.unwrap_or(i128::MAX) as f64
+    }
+
+    /// constant + Σ cᵢ tᵢ
+    fn affine(&self, e: ExprId) -> (Rational, Vec<(ExprId, Rational)>) {
+        match self.node(e) {
+            Node::Number(n) => (*n, Vec::new()),
+            Node::Sum { constant, terms } => (*constant, terms.clone()),
+            _ => (Rational::ZERO, vec![(e, Rational::ONE)]),
+        }
+    }
+
+    /// Values at a point, whose [`Angles`] must have been made of these expressions (and others).
+    pub fn at_point(&self, e: &[ExprId], point: &mut Point) -> Vec<FieldValue> {
+        let mut values = Values {
+            pool: self,
+            pages: Vec::new(),
+        };
+        if !point.angles.independent {
+            for &term in &point.angles.plain {
+                values.fill(term, point);
+            }
+        }
+        for &e in e {
+            values.fill(e, point);
+        }
+        e.iter().map(|&e| values.at(e)).collect()
+    }
+}
+
+/// Functions of a sum that are made of functions of its terms.
+fn is_additive(f: Function) -> bool {
+    matches!(
+        f,
+        Function::Sin
+            | Function::Cos
+            | Function::Tan
+            | Function::Sinh
+            | Function::Cosh
+            | Function::Tanh
+            | Function::Exp
+    )
+}
+
+/// Least common multiple of d and the denominator of c.
+fn common(d: i128, c: Rational) -> Option<i128> {
+    let shared = Rational::new(d, c.denominator())?.denominator();
+    d.checked_mul(shared).filter(|&d| d <= LARGEST_DENOMINATOR)
+}
+
+/// A random point of a field.
+#[derive(Clone, Debug)]
+pub struct Point<'a> {
+    field: Prime,
+    seed: u64,
+    angles: &'a Angles,
+    bound: BTreeMap<Symbol, u64>,
+    /// Branches on their `then` side; the others are on the other.
+    branches: Vec<usize>,
+    exact: bool,
+    roots: bool,
+}
+
+impl<'a> Point<'a> {
+    /// The point of a seed.
+    pub fn new(field: Prime, seed: u64, angles: &'a Angles) -> Point<'a> {
+        Point {
+            field,
+            seed,
+            angles,
+            bound: BTreeMap::new(),
+            branches: Vec::new(),
+            exact: true,
+            roots: false,
+        }
+    }
+
+    /// The field.
+    pub fn field(&self) -> Prime {
+        self.field
+    }
+
+    /// A random element, always the same for the same words.
+    pub fn random(&self, kind: u64, key: u64) -> u64 {
+        let mut x = self.seed ^ kind.wrapping_mul(0xd6e8_feb8_6659_fd93);
+        for word in [key, key.rotate_left(32), kind] {
+            // splitmix64 (Steele, Lea & Flood, OOPSLA 2014)
+            x = (x ^ word).wrapping_add(0x9e37_79b9_7f4a_7c15);
+            x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+            x ^= x >> 31;
+        }
+        self.field.element(x)
+    }
+
+    /// Gives a symbol a value.
+    pub fn bind(&mut self, symbol: Symbol, value: u64) {
+        self.bound.insert(symbol, value);
+    }
+
+    /// Value of a symbol: bound, or random.
+    pub fn symbol(&self, symbol: Symbol) -> u64 {
+        match self.bound.get(&symbol) {
+            Some(&value) => value,
+            None => self.random(SYMBOL, symbol.index() as u64),
+        }
+    }
+
+    /// Puts a branch on its `then` side.
+    pub fn choose(&mut self, branch: usize) {
+        self.branches.push(branch);
+    }
+
+    /// Whether all values so far were made of independent atoms: then an expression that is not zero here is not zero.
+    /// Values of inverse functions, logarithms and general powers are atoms that may depend on others.
+    pub fn is_exact(&self) -> bool {
+        self.exact
+    }
+
+    /// Whether roots of what is not a number have been taken. A root of a perfect square has a random sign, so such
+    /// expressions need as many points as there should be signs.
+    pub fn has_roots(&self) -> bool {
+        self.roots
+    }
+}
+
+const SYMBOL: u64 = 1;
+const TURN: u64 = 2;
+const GROWTH: u64 = 3;
+const PI: u64 = 4;
+const OPAQUE: u64 = 16;
+
+/// Values on their way, on pages: few expressions of a large pool are needed.
+struct Values<'a> {
+    pool: &'a Pool,
+    pages: Vec<Option<Page>>,
+}
+
+const PAGE: usize = 64;
+
+type Page = Box<[Option<FieldValue>; PAGE]>;
+
+impl Values<'_> {
+    fn known(&self, e: ExprId) -> Option<FieldValue> {
+        let page = self.pages.get(e.index() / PAGE)?.as_ref()?;
+        page[e.index() % PAGE]
+    }
+
+    fn at(&self, e: ExprId) -> FieldValue {
+        self.known(e).unwrap_or(Err(Trouble::Beyond))
+    }
+
+    fn set(&mut self, e: ExprId, value: FieldValue) {
+        let page = e.index() / PAGE;
+        if page >= self.pages.len() {
+            self.pages.resize(page + 1, None);
+        }
+        self.pages[page].get_or_insert_with(|| Box::new([None; PAGE]))[e.index() % PAGE] =
+            Some(value);
+    }
+
+    /// The value of e; children first, as far as they are not known.
+    fn fill(&mut self, e: ExprId, point: &mut Point) {
+        let mut stack = vec![e];
+        while let Some(&top) = stack.last() {
+            if self.known(top).is_none() {
+                let height = stack.len();
+                let missing = |e: ExprId| self.known(e).is_none();
+                match self.pool.node(top) {
+                    Node::Call(f, arguments) if is_additive(*f) => {
+                        let argument = point.angles.arguments.get(&arguments[0]);
+                        let argument = argument.copied().unwrap_or(arguments[0]);
+                        let (_, terms) = self.pool.affine(argument);
+                        stack.extend(terms.iter().map(|&(t, _)| t).filter(|&t| missing(t)));
+                    }
+                    node => node.for_each_child(|child| {
+                        if missing(child) {
+                            stack.push(child);
+                        }
+                    }),
+                }
+                if stack.len() > height {
+                    continue;
+                }
+                let value = self.value(top, point);
+                self.set(top, value);
+            }
+            stack.pop();
+        }
+    }
+
+    fn value(&self, e: ExprId, point: &mut Point) -> FieldValue {
+        let field = point.field;
+        match self.pool.node(e) {
+            Node::Number(n) => field.rational(*n).ok_or(Trouble::Beyond),
+            Node::Pi => Ok(point.random(PI, 0)),
+            Node::Symbol(symbol) => Ok(point.symbol(*symbol)),
+            Node::Sum { constant, terms } => {
+                let mut sum = field.rational(*constant).ok_or(Trouble::Beyond)?;
+                for &(term, c) in terms {
+                    let c = field.rational(c).ok_or(Trouble::Beyond)?;
+                    sum = field.add(sum, field.mul(c, self.at(term)?));
+                }
+                Ok(sum)
+            }
+            Node::Product(factors) => {
+                let mut product = 1;
+                for &(base, exponent) in factors {
+                    product = field.mul(product, self.power(base, exponent, point)?);
+                }
+                Ok(product)
+            }
+            Node::Power(base, exponent) => {
+                point.exact = false;
+                let key = field.mul(self.at(*base)?, 3);
+                let key = point.random(OPAQUE + 15, key) ^ self.at(*exponent)?;
+                // A general power is positive.
+                Ok(square(field, point.random(OPAQUE + 14, key)))
+            }
+            Node::Call(f, arguments) => self.call(*f, arguments, point),
+            Node::Group(e) => self.at(*e),
+            Node::Select {
+                branch,
+                then,
+                otherwise,
+            } => self.at(if point.branches.contains(branch) {
+                *then
+            } else {
+                *otherwise
+            }),
+        }
+    }
+
+    fn power(&self, base: ExprId, exponent: Rational, point: &mut Point) -> FieldValue {
+        let a = self.at(base)?;
+        if a == 0 && exponent.is_negative() {
+            return Err(Trouble::Division);
+        }
+        if exponent.is_integer() {
+            return point.field.power(a, exponent).ok_or(Trouble::Beyond);
+        }
+        let is_number = matches!(self.pool.node(base), Node::Number(_));
+        point.roots |= !is_number;
+        let never = if is_number {
+            Trouble::Beyond
+        } else {
+            Trouble::NotSquare
+        };
+        point.field.power(a, exponent).ok_or(never)
+    }
+
+    fn call(&self, f: Function, arguments: &[ExprId], point: &mut Point) -> FieldValue {
+        let field = point.field;
+        let quotient = |a: u64, b: u64| {
+            let below = field.inverse(b).ok_or(Trouble::Division)?;
+            Ok(field.mul(a, below))
+        };
+        let u = arguments[0];
+        match f {
+            Function::Sin => Ok(self.turn(u, point)?.sin),
+            Function::Cos => Ok(self.turn(u, point)?.cos),
+            Function::Tan => {
+                let turn = self.turn(u, point)?;
+                quotient(turn.sin, turn.cos)
+            }
+            Function::Exp => self.growth(u, point),
+            Function::Sinh | Function::Cosh | Function::Tanh => {
+                let up = self.growth(u, point)?;
+                let down = quotient(1, up)?;
+                let (sum, difference) = (field.add(up, down), field.sub(up, down));
+                match f {
+                    Function::Sinh => quotient(difference, 2),
+                    Function::Cosh => quotient(sum, 2),
+                    _ => quotient(difference, sum),
+                }
+            }
+            Function::Asin | Function::Atan => {
+                point.exact = false;
+                let (key, negative) = unsigned(field, self.at(u)?);
+                let value = if key == 0 {
+                    0
+                } else {
+                    point.random(OPAQUE + f as u64, key)
+                };
+                Ok(if negative { field.neg(value) } else { value })
+            }
+            Function::Acos | Function::Ln => {
+                point.exact = false;
+                Ok(point.random(OPAQUE + f as u64, self.at(u)?))
+            }
+            Function::Atan2 => {
+                point.exact = false;
+                let (y, x) = (self.at(u)?, self.at(arguments[1])?);
+                let key = point.random(OPAQUE + 13, y) ^ x;
+                Ok(point.random(OPAQUE + f as u64, key))
+            }
+        }
+    }
+
+    /// The argument as Σ nᵢ tᵢ/D: (constant · D, [(tᵢ, nᵢ)]).
+    fn whole(&self, u: ExprId, point: &Point) -> Result<Whole, Trouble> {
+        let u = point.angles.arguments.get(&u).copied().unwrap_or(u);
+        let (constant, terms) = self.pool.affine(u);
+        let d = point.angles.denominator.ok_or(Trouble::Beyond)?;
+        let d = Rational::new(d, 1).ok_or(Trouble::Beyond)?;
+        let times = |c: Rational| {
+            let n = c.checked_mul(d).filter(|n| n.is_integer());
+            n.map(Rational::numerator).ok_or(Trouble::Beyond)
+        };
+        let mut whole = Vec::with_capacity(terms.len());
+        for (term, c) in terms {
+            whole.push((term, c, times(c)?));
+        }
+        self.recognize(&mut whole, point);
+        Ok((times(constant)?, whole))
+    }
+
+    /// Terms that are no products of free symbols may add up to one that is: θ (1/cos² − tan²) = θ.
+    fn recognize(&self, whole: &mut Vec<(ExprId, Rational, i128)>, point: &Point) {
+        const LARGEST: u64 = 64;
+        let field = point.field;
+        let is_plain = |term: &ExprId| point.angles.plain.contains(term);
+        if whole.iter().all(|(term, ..)| is_plain(term)) {
+            return;
+        }
+        let mut sum = 0;
+        for (term, _, n) in whole.iter().filter(|(term, ..)| !is_plain(term)) {
+            let Ok(value) = self.at(*term) else {
+                return;
+            };
+            sum = field.add(sum, field.mul(field.integer(*n), value));
+        }
+        for &term in &point.angles.plain {
+            let Some(below) = self.at(term).ok().and_then(|value| field.inverse(value)) else {
+                continue;
+            };
+            let (ratio, negative) = unsigned(field, field.mul(sum, below));
+            if ratio <= LARGEST {
+                let n = i128::from(ratio);
+                whole.retain(|(term, ..)| is_plain(term));
+                whole.push((term, Rational::ZERO, if negative { -n } else { n }));
+                return;
+            }
+        }
+    }
+
+    fn turn(&self, u: ExprId, point: &Point) -> Result<Turn, Trouble> {
+        let field = point.field;
+        let atom = |key: u64| Turn::parametrized(field, point.random(TURN, key));
+        let (constant, terms) = self.whole(u, point)?;
+        let mut turn = atom(1).times(field, constant);
+        for (term, c, n) in terms {
+            let part = if matches!(self.pool.node(term), Node::Pi) {
+                of_pi(field, c)?
+            } else {
+                let (key, negative) = unsigned(field, self.at(term)?);
+                let n = if negative { -n } else { n };
+                if key == 0 {
+                    continue;
+                }
+                atom(key).times(field, n)
+            };
+            turn = turn.and(field, part);
+        }
+        Ok(turn)
+    }
+
+    fn growth(&self, u: ExprId, point: &Point) -> FieldValue {
+        let field = point.field;
+        let order = i128::from(field.modulus() - 1);
+        let atom = |key: u64, n: i128| {
+            let base = square(field, point.random(GROWTH, key));
+            field.pow(base, n.rem_euclid(order) as u64)
+        };
+        let (constant, terms) = self.whole(u, point)?;
+        let mut growth = atom(1, constant);
+        for (term, _, n) in terms {
+            let (key, negative) = unsigned(field, self.at(term)?);
+            if key != 0 {
+                growth = field.mul(growth, atom(key, if negative { -n } else { n }));
+            }
+        }
+        Ok(growth)
+    }
+}
+
+/// (constant · D, [(term, its coefficient c, c · D)])
+type Whole = (i128, Vec<(ExprId, Rational, i128)>);
+
+/// A positive element: a square that is not 0.
+fn square(field: Prime, a: u64) -> u64 {
+    let a = if a == 0 { 1 } else { a };
+    field.mul(a, a)
+}
+
+/// One of a and −a, always the same, and whether it is −a.
+fn unsigned(field: Prime, a: u64) -> (u64, bool) {
+    let opposite = field.neg(a);
+    if opposite < a {
+        (opposite, true)
+    } else {
+        (a, false)
+    }
+}
+
+/// The turn by c π, for c a multiple of 1/12: √2 and √3 are in the field, and the same as elsewhere.
+fn of_pi(field: Prime, c: Rational) -> Result<Turn, Trouble> {
+    let twelfths = c.checked_mul(Rational::integer(12));
+    let Some(twelfths) = twelfths.filter(|n| n.is_integer()) else {
+        return Err(Trouble::Beyond);
+    };
+    let root = |n: u64| field.power(n, Rational::HALF).ok_or(Trouble::Beyond);
+    let half = field.power(2, Rational::MINUS_ONE).ok_or(Trouble::Beyond)?;
+    let third = Turn {
+        cos: half,
+        sin: field.mul(root(3)?, half),
+    };
+    let diagonal = field.mul(root(2)?, half);
+    let fourth_back = Turn {
+        cos: diagonal,
+        sin: field.neg(diagonal),
+    };
+    let twelfth = third.and(field, fourth_back);
+    Ok(twelfth.times(field, twelfths.numerator().rem_euclid(24)))
+}

@@ -1,0 +1,165 @@
+//! Starts exactly on a boundary, tolerances from loose to tight, every method.
+
+use super::contacts::{Balls, Blocks, Rod};
+use super::{Tally, Trial};
+use lagrange_core::prelude::*;
+use lagrange_tests::Random;
+
+/// A block on an incline.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(s, n),
+    kinetic = mass/2 * (der(s)^2 + der(n)^2),
+    potential = mass * 9.81 * (n * cos(slope) - s * sin(slope)),
+    contact(plane: n >= 0),
+    friction(grip on plane: slip = der(s), static = mu),
+)]
+struct Block {
+    mass: f64,
+    slope: f64,
+    mu: f64,
+}
+
+fn rod(random: &mut Random) -> Rod {
+    Rod {
+        mass: random.between(0.2, 2.0),
+        inertia: random.between(0.05, 0.5),
+        half: random.between(0.2, 1.0),
+        bounce: random.between(0.0, 0.8),
+        mu: random.between(0.0, 0.8),
+    }
+}
+
+#[test]
+fn rods_that_start_on_the_floor() {
+    let mut random = Random::new(401);
+    let mut tally = Tally::default();
+    for k in 0..60 {
+        let rod = rod(&mut random);
+        // Lying on both ends, or standing on one, at rest, sliding, or with an end that just lifts off.
+        let angle = if k % 2 == 0 {
+            0.0
+        } else {
+            random.between(0.1, 1.5)
+        };
+        let q = vec![0.0, rod.half * angle.sin(), angle];
+        let (slide, turn) = match k % 3 {
+            0 => (0.0, 0.0),
+            1 => (random.between(-1.0, 1.0), 0.0),
+            _ => (0.0, random.between(-1.0, 1.0)),
+        };
+        // The left end stays on the floor; without sliding it also stays where it is.
+        let (sine, cosine) = angle.sin_cos();
+        let v = vec![
+            slide - rod.half * sine * turn,
+            rod.half * cosine * turn,
+            turn,
+        ];
+        tally.run(&rod, &State { q, v }, Trial::until(3.0).rough(rod.mu));
+    }
+    tally.check();
+}
+
+#[test]
+fn blocks_whose_friction_just_suffices() {
+    let mut random = Random::new(402);
+    let mut tally = Tally::default();
+    for k in 0..30 {
+        let slope: f64 = random.between(0.1, 1.2);
+        // Exactly the coefficient that holds it, or off by rounding.
+        let mu = slope.tan() * (1.0 + f64::from(k % 3 - 1) * f64::EPSILON);
+        let block = Block {
+            mass: random.between(0.1, 10.0),
+            slope,
+            mu,
+        };
+        let v = vec![
+            if k % 2 == 0 {
+                0.0
+            } else {
+                random.between(-1.0, 1.0)
+            },
+            0.0,
+        ];
+        tally.run(
+            &block,
+            &State { q: vec![0.0; 2], v },
+            Trial::until(3.0).rough(mu),
+        );
+    }
+    tally.check();
+}
+
+#[test]
+fn every_tolerance() {
+    let mut random = Random::new(403);
+    let mut tally = Tally::default();
+    for k in 0..42 {
+        let tolerance = 10_f64.powi(-6 - k % 7);
+        let rod = rod(&mut random);
+        let q = vec![0.0, random.between(1.1, 2.0), random.between(-1.5, 1.5)];
+        let v = (0..3).map(|_| random.between(-3.0, 3.0)).collect();
+        let trial = Trial {
+            tolerance,
+            ..Trial::until(3.0).rough(rod.mu)
+        };
+        tally.run(&rod, &State { q, v }, trial);
+    }
+    tally.check();
+}
+
+#[test]
+fn every_method() {
+    let mut random = Random::new(404);
+    let mut tally = Tally::default();
+    let methods = [
+        Method::DormandPrince54,
+        Method::DormandPrince853,
+        Method::Verner98,
+        Method::Radau5,
+    ];
+    for k in 0..24 {
+        let method = methods[k % 4];
+        let trial = Trial {
+            method,
+            tolerance: 1e-8,
+            ..Trial::until(2.0)
+        };
+        let rod = rod(&mut random);
+        let q = vec![0.0, random.between(1.1, 2.0), random.between(-1.5, 1.5)];
+        let v = (0..3).map(|_| random.between(-3.0, 3.0)).collect();
+        tally.run(&rod, &State { q, v }, trial.rough(rod.mu));
+        let balls = Balls {
+            mass: [(); 4].map(|()| random.between(0.1, 3.0)),
+            stiffness: random.between(0.0, 50.0),
+            bounce: random.between(0.1, 1.0),
+        };
+        let q = (0..4)
+            .map(|i| 0.3 + f64::from(i) + random.between(0.0, 0.4))
+            .collect();
+        let v = (0..4).map(|_| random.between(-3.0, 3.0)).collect();
+        tally.run(&balls, &State { q, v }, trial);
+        let blocks = Blocks {
+            mass: [(); 2].map(|()| random.between(0.2, 3.0)),
+            slope: random.between(-0.5, 0.5),
+            stiffness: random.between(5.0, 100.0),
+            mu: random.between(0.05, 0.8),
+            drive: random.between(0.0, 30.0),
+            rate: random.between(1.0, 20.0),
+        };
+        let q = vec![
+            random.between(-0.5, 0.5),
+            random.between(-0.5, 0.5),
+            0.0,
+            0.0,
+        ];
+        let v = vec![
+            random.between(-1.0, 1.0),
+            random.between(-1.0, 1.0),
+            0.0,
+            0.0,
+        ];
+        tally.run(&blocks, &State { q, v }, trial.rough(blocks.mu));
+    }
+    tally.check();
+}

@@ -1,0 +1,260 @@
+//! Friction on a constraint: beads on wires, a sleeve on a rod. N = |λ|, and λ may change its sign.
+
+use super::{PI, state};
+use lagrange_core::prelude::*;
+use lagrange_tests::{agree, all_agree, closure, event, root, run, words};
+
+/// A bead on a circle in a plane that is inclined by `slope`, x downhill.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(r, theta),
+    kinetic = mass/2 * (der(r)^2 + r^2 * der(theta)^2),
+    potential = -mass * gravity * sin(slope) * r * cos(theta),
+    constraint(wire: r == radius),
+    friction(rub on wire: slip = radius * der(theta), static = mu_static, kinetic = mu_kinetic),
+)]
+struct Bead {
+    mass: f64,
+    radius: f64,
+    gravity: f64,
+    slope: f64,
+    mu_static: f64,
+    mu_kinetic: f64,
+}
+
+const BEAD: Bead = Bead {
+    mass: 0.4,
+    radius: 0.8,
+    gravity: 9.81,
+    slope: 0.0,
+    mu_static: 0.3,
+    mu_kinetic: 0.3,
+};
+
+/// On a horizontal circle N = m v²/r, so that v = v₀ e^(−μθ) and θ = ln(1 + μ v₀ t/r)/μ: it never stops.
+#[test]
+fn a_bead_on_a_horizontal_circle_loses_speed_by_the_angle() {
+    for way in [1.0, -1.0] {
+        let start = state(&[0.8, 0.0], &[0.0, way * 5.0]);
+        let trajectory = run(&BEAD, start, 30.0);
+        assert!(words(&trajectory).is_empty());
+        let end = trajectory.final_state();
+        let theta = (1.0_f64 + 0.3 * 5.0 * 30.0).ln() / 0.3;
+        agree("angle", end.q[1], way * theta, 1e-11);
+        agree("speed", end.v[1], way * 5.0 * (-0.3 * theta).exp(), 1e-12);
+        assert!(closure(&trajectory) < 1e-11);
+    }
+}
+
+/// In a vertical plane u = v² obeys du/dθ = −2 g r sin θ ∓ 2 μ r |N|/m, N/m = v²/r + g cos θ, linear wherever N has one sign.
+/// Kicked from the bottom (θ = 0): up to where N = 0, beyond with N < 0.
+#[test]
+fn the_wire_pulls_then_pushes() {
+    let bead = Bead {
+        slope: PI / 2.0,
+        mu_static: 0.2,
+        mu_kinetic: 0.2,
+        ..BEAD
+    };
+    let (g, r, mu, w0) = (9.81_f64, 0.8_f64, 0.2_f64, 7.0_f64);
+    let trajectory = run(&bead, state(&[0.8, 0.0], &[0.0, w0]), 0.75);
+    // w = θ̇²: dw/dθ + 2 σ μ w = −(2 g/r)(sin θ + σ μ cos θ) with σ the sign of N; a particular solution A cos θ + B sin θ.
+    let speed = |sign: f64, from: f64, start: f64, theta: f64| {
+        let m = sign * mu;
+        let k = 2.0 * g / r / (1.0 + 4.0 * m * m);
+        let particular = |x: f64| k * ((1.0 - 2.0 * m * m) * x.cos() - 3.0 * m * x.sin());
+        (start - particular(from)) * (-2.0 * m * (theta - from)).exp() + particular(theta)
+    };
+    let first = |theta: f64| speed(1.0, 0.0, w0 * w0, theta);
+    let turn = root(|x| first(x) + g / r * x.cos(), PI / 2.0, PI);
+    println!(
+        "{:?} turn {turn} {:?}",
+        words(&trajectory),
+        trajectory.final_state()
+    );
+    let mut sampler = trajectory.sampler();
+    let mut seen = [false; 2];
+    for k in 1..=50 {
+        let instant = sampler.at(0.75 * f64::from(k) / 50.0).expect("in the run");
+        let (theta, w) = (instant.q[1], instant.v[1]);
+        if w < 0.1 {
+            break;
+        }
+        let expected = if theta < turn {
+            first(theta)
+        } else {
+            speed(-1.0, turn, first(turn), theta)
+        };
+        seen[usize::from(theta > turn)] = true;
+        agree("speed", w * w, expected, 1e-10);
+    }
+    assert_eq!(seen, [true, true]);
+    assert!(closure(&trajectory) < 1e-11);
+}
+
+/// In a vertical plane a resting bead stays within the angle of friction of the bottom (and of the top).
+#[test]
+fn a_bead_rests_within_the_angle_of_friction() {
+    let bead = Bead {
+        slope: PI / 2.0,
+        ..BEAD
+    };
+    let angle = 0.3_f64.atan();
+    for (theta, stays) in [
+        (0.99 * angle, true),
+        (1.01 * angle, false),
+        (PI - 0.99 * angle, true),
+        (PI - 1.01 * angle, false),
+    ] {
+        let trajectory = run(&bead, state(&[0.8, theta], &[0.0; 2]), 0.05);
+        let moved = trajectory.final_state().q[1] != theta;
+        assert_eq!(moved, !stays, "{theta}: {:?}", words(&trajectory));
+    }
+    // And one that slides to and fro ends there.
+    let trajectory = run(&bead, state(&[0.8, 1.2], &[0.0; 2]), 20.0);
+    let last = trajectory.events().last().expect("events");
+    assert_eq!(last.kind, EventKind::Sticks);
+    assert!(trajectory.final_state().q[1].abs() <= angle);
+    assert!(closure(&trajectory) < 1e-11);
+}
+
+/// A sleeve on a rod at an angle, in Cartesian coordinates: a block on an incline, whichever way the rod pushes.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2),
+    potential = mass * gravity * y,
+    constraint(rod: x * sin(slope) + y * cos(slope) == 0),
+    friction(rub on rod: slip = der(x) * cos(slope) - der(y) * sin(slope), static = mu),
+    force(push: (lift * sin(slope), lift * cos(slope)) at (x, y)),
+)]
+struct Sleeve {
+    mass: f64,
+    gravity: f64,
+    slope: f64,
+    mu: f64,
+    lift: f64,
+}
+
+#[test]
+fn a_sleeve_on_a_rod_slides_like_a_block() {
+    let (g, slope, mass) = (9.81_f64, 0.5_f64, 1.3_f64);
+    let weight = mass * g * slope.cos();
+    // Pressed down by its weight, held by a push, pressed up by a larger one.
+    for lift in [0.0, 0.5 * weight, weight, 1.7 * weight, 4.0 * weight] {
+        let sleeve = Sleeve {
+            mass,
+            gravity: g,
+            slope,
+            mu: 0.35,
+            lift,
+        };
+        let start = state(&[0.0; 2], &[-2.0 * slope.cos(), 2.0 * slope.sin()]);
+        let trajectory = run(&sleeve, start, 2.0);
+        let drag = 0.35 * (weight - lift).abs() / mass;
+        let pull = g * slope.sin();
+        let turn = 2.0 / (pull + drag);
+        let along = |state: &State<f64>| state.q[0] * slope.cos() - state.q[1] * slope.sin();
+        let up = -2.0 / (pull + drag);
+        let left = 2.0 - turn;
+        let stays = drag > pull;
+        let down = if stays {
+            0.0
+        } else {
+            0.5 * (pull - drag) * left * left
+        };
+        agree("way", along(trajectory.final_state()), up + down, 1e-11);
+        let kind = if stays { "sticks" } else { "reverses" };
+        agree("turn", event(&trajectory, "rub", kind).time, turn, 1e-11);
+        assert!(closure(&trajectory) < 1e-11);
+    }
+}
+
+/// A sleeve on a rod that turns at a constant rate in a level plane.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2),
+    constraint(rod: y * cos(rate * t) == x * sin(rate * t)),
+    friction(rub on rod: slip = der(x) * cos(rate * t) + der(y) * sin(rate * t), static = mu),
+    observe(r = x * cos(rate * t) + y * sin(rate * t)),
+)]
+struct Turning {
+    mass: f64,
+    rate: f64,
+    mu: f64,
+}
+
+/// N = 2 m ω ṙ: r̈ + 2 μ ω ṙ − ω² r = 0 whichever way it slips; where it turns, slip and normal force vanish together. From
+/// rest λ = 0 exactly at the start.
+#[test]
+fn a_sleeve_on_a_turning_rod() {
+    let scene = Turning {
+        mass: 0.3,
+        rate: 2.0,
+        mu: 0.4,
+    };
+    let (w, mu, r0) = (scene.rate, scene.mu, 0.5);
+    let root = (mu * mu + 1.0_f64).sqrt();
+    let (k1, k2) = (w * (root - mu), -w * (root + mu));
+    for inward in [0.0, 0.3, -0.3, 0.8] {
+        let start = state(&[r0, 0.0], &[-inward, w * r0]);
+        let trajectory = run(&scene, start, 2.0);
+        // r = a exp(k₁ t) + b exp(k₂ t)
+        let b = (-inward - k1 * r0) / (k2 - k1);
+        let a = r0 - b;
+        println!("{inward} {:?} {:?}", words(&trajectory), trajectory.work());
+        let mut sampler = trajectory.sampler();
+        for k in 0..=20 {
+            let t = 0.1 * f64::from(k);
+            let r = a * (k1 * t).exp() + b * (k2 * t).exp();
+            agree(
+                "r",
+                sampler.at(t).expect("in the run").observes[0],
+                r,
+                1e-11,
+            );
+        }
+        assert!(closure(&trajectory) < 1e-11);
+        if inward > 0.0 {
+            let turn = ((-b * k2) / (a * k1)).ln() / (k1 - k2);
+            agree(
+                "turn",
+                event(&trajectory, "rub", "reverses").time,
+                turn,
+                1e-9,
+            );
+        }
+    }
+}
+
+/// All methods go through the change of sides and come to rest.
+#[test]
+fn all_methods_follow_the_bead() {
+    let bead = Bead {
+        slope: PI / 2.0,
+        ..BEAD
+    };
+    let start = || state(&[0.8, 1.2], &[0.0, 3.0]);
+    let trajectory = run(&bead, start(), 10.0);
+    for (method, tolerance, bound) in [
+        ("dopri5", 1e-10, 1e-7),
+        ("dop853", 1e-11, 1e-9),
+        ("verner98", 1e-11, 1e-9),
+        ("radau5", 1e-10, 1e-7),
+        ("rk4:1e-3", 1e-9, 1e-6),
+        ("gauss6:1e-2", 1e-9, 1e-6),
+    ] {
+        let simulation = Simulation::new(&bead).tolerance(tolerance);
+        let simulation = simulation.method(method.parse().expect("a method"));
+        let other = simulation.run(start(), 0.0..10.0);
+        let other = other.unwrap_or_else(|e| panic!("{method}: {e}"));
+        assert_eq!(words(&trajectory), words(&other), "{method}");
+        all_agree(
+            method,
+            &trajectory.final_state().q,
+            &other.final_state().q,
+            bound,
+        );
+    }
+}
