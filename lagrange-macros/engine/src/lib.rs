@@ -28,7 +28,10 @@ pub fn expand(input: TokenStream) -> TokenStream {
     match (&declaration, program) {
         (Some(declaration), Some((mut program, verdicts))) if sink.is_empty() => {
             let mut tokens = emit::emit(&program, &verdicts);
-            if let Ok(derivation) = inspect::derivation(declaration, &mut program, None) {
+            if emit::is_large(&program) {
+                let system = &program.equations.system;
+                tokens.extend(emit::derivation_on_request(system, &input.to_string()));
+            } else if let Ok(derivation) = inspect::derivation(declaration, &mut program, None) {
                 let system = &program.equations.system;
                 tokens.extend(emit::derivation(system, &derivation, &input.to_string()));
             }
