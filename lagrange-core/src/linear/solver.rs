@@ -15,6 +15,9 @@ fn consistent<T: Scalar>() -> f64 {
     6.0 * epsilon::<T>().sqrt()
 }
 
+/// Accelerations of this size are none.
+const SQUARE_OF_ROUNDING: f64 = 1e-20;
+
 /// What is wrong with a system; indices are unknowns and equations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum SolveError {
@@ -239,6 +242,8 @@ impl<T: Scalar> Solver<T> {
                 residual += term;
                 largest = largest.max(term.abs());
             }
+            // Of a system at rest nothing is left but squares of the rounding of its velocities.
+            let largest = largest.max(SQUARE_OF_ROUNDING);
             if residual.abs() > consistent::<T>() * largest {
                 return Err(SolveError::Inconsistent {
                     row,

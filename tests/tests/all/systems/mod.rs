@@ -12,8 +12,10 @@ mod incline;
 mod kepler;
 mod pendulum;
 mod piecewise;
+mod plate;
 mod skate;
 mod sling;
+mod slips;
 mod turntable;
 mod wire;
 
