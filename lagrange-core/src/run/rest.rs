@@ -168,18 +168,19 @@ impl<S: System> Run<S> {
 
     /// The state at rest exactly, and the forces just before, in the directions that the slips had.
     pub(super) fn come_to_rest(&mut self) -> Result<(), Error> {
-        let mut resting = self.mode.clone();
+        self.resting.clone_from(&self.mode);
         for rest in &self.rests {
-            resting.frictions[rest.friction] = FrictionMode::Stick;
+            self.resting.frictions[rest.friction] = FrictionMode::Stick;
         }
-        self.dynamics.set_mode(&resting);
+        self.dynamics.set_mode(&self.resting);
         self.project(true)?;
         self.rest_of_necessity();
-        resting.clone_from(&self.mode);
+        self.resting.clone_from(&self.mode);
         for rest in &self.rests {
-            resting.turn(rest.friction, Direction::Incipient(rest.along));
+            let last = Direction::Incipient(rest.along);
+            self.resting.turn(rest.friction, last);
         }
-        self.dynamics.set_mode(&resting);
+        self.dynamics.set_mode(&self.resting);
         self.rests.clear();
         self.evaluate()
     }

@@ -24,6 +24,7 @@ use crate::modes::table::Table;
 use crate::pool::Pool;
 use crate::system::{Description, System};
 use candidates::list_candidates;
+use incipient::Beginning;
 pub use known::{Known, Moment};
 
 /// The mode that goes on.
@@ -56,6 +57,7 @@ pub struct Decider {
     best: Mode,
     /// Whether its slip could begin in another direction.
     forks: bool,
+    beginning: Beginning,
 }
 
 impl Decider {
@@ -77,6 +79,7 @@ impl Decider {
             posed: Mode::open(description),
             best: Mode::open(description),
             forks: false,
+            beginning: Beginning::default(),
         }
     }
 
