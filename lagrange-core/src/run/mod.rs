@@ -80,6 +80,8 @@ pub(crate) struct Run<S: System> {
     fallen: Vec<Guard>,
     /// Slips of two components that come to rest with it.
     rests: Vec<Rest>,
+    /// The mode with those at rest.
+    resting: Mode,
     /// Velocities a little before that.
     earlier: Vec<S::Scalar>,
     stop_below: Vec<Vec<bool>>,
@@ -158,6 +160,7 @@ impl<S: System> Run<S> {
             falls: Vec::new(),
             fallen: Vec::new(),
             rests: Vec::new(),
+            resting: mode.clone(),
             earlier: vec![zero; n],
             stop_below: d.stops.iter().map(|w| vec![false; w.terms.len()]).collect(),
             mark_below: d.marks.iter().map(|w| vec![false; w.terms.len()]).collect(),
