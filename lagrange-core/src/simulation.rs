@@ -259,30 +259,6 @@ impl Settings {
                 });
             }
         }
-        self.supported::<S>()
-    }
-
-    /// Refuses what the declaration may say but this version cannot run.
-    fn supported<S: System>(&self) -> Result<(), Error> {
-        use crate::effects::Item;
-        let d = S::DESCRIPTION;
-        let takes_part = |item: Item| self.effects.includes(d, item);
-        for (i, contact) in d
-            .contacts
-            .iter()
-            .enumerate()
-            .filter(|(i, _)| takes_part(Item::Contact(*i)))
-        {
-            let item = d.contacts[i].name;
-            if contact.region.is_some() {
-                let instead = "leave `where` out and stop the run at the edge";
-                return Err(Error::Unsupported {
-                    what: "a contact limited to a region",
-                    item,
-                    instead,
-                });
-            }
-        }
         Ok(())
     }
 }

@@ -26,6 +26,8 @@ pub struct Request {
     pub method: Method,
     /// Whether a start off a constraint is moved onto it.
     pub project: bool,
+    /// How impacts at one instant are solved; as declared if `None`.
+    pub impacts: Option<Impacts>,
     /// Number of intervals to sample the trajectory at; 0 samples its ends only.
     pub samples: usize,
 }
@@ -41,6 +43,7 @@ impl Default for Request {
             tolerance: 1e-9,
             method: Method::Taylor,
             project: false,
+            impacts: None,
             samples: 0,
         }
     }
@@ -145,11 +148,15 @@ impl Request {
         &self,
         system: &'a S,
     ) -> Result<Simulation<'a, S>, Refusal> {
-        Ok(Simulation::new(system)
+        let simulation = Simulation::new(system)
             .tolerance(self.tolerance)
             .method(self.method)
             .effects(self.effects(S::DESCRIPTION)?)
-            .project_start(self.project))
+            .project_start(self.project);
+        Ok(match self.impacts {
+            Some(impacts) => simulation.impacts(impacts),
+            None => simulation,
+        })
     }
 
     /// What takes part.

@@ -4,6 +4,7 @@ mod accumulation;
 mod curves;
 mod hits;
 mod log;
+mod region;
 mod rest;
 mod runner;
 mod shares;
@@ -29,7 +30,7 @@ use crate::pool::Pool;
 use crate::simulation::{Held, Settings};
 use crate::system::{System, Watch};
 use crate::trajectory::{EventKind, State, Subject, Trajectory, Work};
-use accumulation::Impacts;
+use accumulation::{Impacts, Train};
 use core::ops::Range;
 use curves::Curves;
 use hits::Hit;
@@ -66,6 +67,8 @@ pub(crate) struct Run<S: System> {
     guards: Vec<Guard>,
     /// Whether a step can leave the rows of the mode.
     drifts: bool,
+    /// Per contact: the motion is beyond its surface, where it passed outside its region.
+    below: Vec<bool>,
     /// Guards whose leading coefficients vanish at the start of the coming step.
     zeros: Vec<(Guard, usize)>,
     /// Whether `dynamics` holds the Taylor series at the present state.
@@ -77,6 +80,8 @@ pub(crate) struct Run<S: System> {
     fallen: Vec<Guard>,
     /// Slips of two components that come to rest with it.
     rests: Vec<Rest>,
+    /// The mode with those at rest.
+    resting: Mode,
     /// Velocities a little before that.
     earlier: Vec<S::Scalar>,
     stop_below: Vec<Vec<bool>>,
@@ -101,6 +106,9 @@ pub(crate) struct Run<S: System> {
     undetermined_after: Vec<bool>,
     /// Per contact: its impacts so far.
     impacts: Vec<Impacts>,
+    /// All impacts so far.
+    train: Train,
+    scratch_mode: Mode,
     /// Watches for positions where constraints lose rank.
     rank: Rank,
     /// Distance from such a position at the start of the coming step.
@@ -145,12 +153,14 @@ impl<S: System> Run<S> {
             table: Table::default(),
             guards: Vec::new(),
             drifts: true,
+            below: vec![false; d.contacts.len()],
             zeros: Vec::new(),
             expanded: false,
             valued: false,
             falls: Vec::new(),
             fallen: Vec::new(),
             rests: Vec::new(),
+            resting: mode.clone(),
             earlier: vec![zero; n],
             stop_below: d.stops.iter().map(|w| vec![false; w.terms.len()]).collect(),
             mark_below: d.marks.iter().map(|w| vec![false; w.terms.len()]).collect(),
@@ -165,6 +175,8 @@ impl<S: System> Run<S> {
             sharing: Sharing::default(),
             joints: Vec::new(),
             impacts: vec![Impacts::default(); d.contacts.len()],
+            train: Train::default(),
+            scratch_mode: mode.clone(),
             rank: Rank::new::<S>(),
             distance: 1.0,
             stuck: Pool::default(),
@@ -220,6 +232,7 @@ impl<S: System> Run<S> {
             .iter_mut()
             .for_each(|terms| terms.fill(false));
         self.impacts.fill(Impacts::default());
+        self.train = Train::default();
         self.rank.restart();
         self.distance = 1.0;
         self.stuck.clear();
@@ -246,6 +259,10 @@ impl<S: System> Run<S> {
         self.trajectory.modes.clear();
         self.trajectory.modes.push(&self.mode);
         self.hold_guards();
+        self.below.fill(false);
+        for &c in &self.survey.below {
+            self.below[c] = true;
+        }
         self.settle()?;
         self.finished |= self.has_seen_all();
         while !self.finished && self.t.value() < self.end {
@@ -268,6 +285,7 @@ impl<S: System> Run<S> {
         }
         self.log_marks(end);
         self.remember_sides(end);
+        self.remember_regions(end);
         self.trajectory.push(&self.step, S::Scalar::from_f64(end));
         self.trajectory.work.steps += 1;
         if end > 0.0 {

@@ -9,7 +9,6 @@ use crate::modes::decide::{Known, Moment};
 use crate::modes::guard::Guard;
 use crate::modes::impact::Impact;
 use crate::system::{Normal, System};
-use crate::trajectory::{EventKind, Subject};
 
 impl<S: System> Run<S> {
     /// Leaves the present mode because the guards in `self.fallen` fell through zero.
@@ -35,13 +34,16 @@ impl<S: System> Run<S> {
                 Guard::Gap(c) => (known.touching[c], known.arriving[c]) = (true, true),
                 Guard::Slip(f) => known.resting[f] = true,
                 Guard::Branch(b) => known.balanced[b] = true,
+                Guard::Region(c) => known.touching[c] = false,
                 _ => {}
             }
         }
+        self.hand_over();
+        let known = &mut self.survey.known;
         known.located.extend_from_slice(&self.fallen);
         for guard in &self.fallen {
             if let Guard::Joint(k) = *guard {
-                let parts = self.joints[k].parts.iter().map(|&(part, _)| part);
+                let parts = self.joints[k].parts.iter().map(|part| part.guard);
                 self.survey.known.located.extend(parts);
                 let residue = self.joint_residue(&self.joints[k]);
                 let known = &mut self.survey.known;
@@ -83,6 +85,8 @@ impl<S: System> Run<S> {
             known,
         )?;
         self.zeros.clone_from(&self.decider.decision.zeros);
+        let edges = self.fallen.iter().filter(|g| matches!(g, Guard::Region(_)));
+        self.zeros.extend(edges.map(|&edge| (edge, 1)));
         self.set_mode_decided();
         self.expanded = self.decider.decision.expanded;
         if hit || self.rows_have_joined() {
@@ -161,40 +165,6 @@ impl<S: System> Run<S> {
                 < 0.0
     }
 
-    /// Ends the infinitely many impacts of contacts that bounce ever less.
-    fn close_accumulated(
-        &mut self,
-        outcome: &Impact<S::Scalar>,
-        known: &mut Known,
-    ) -> Result<(), Error> {
-        let d = S::DESCRIPTION;
-        for c in 0..d.contacts.len() {
-            if !outcome.struck[c] || !known.parting[c] {
-                continue;
-            }
-            let Some(count) = self.accumulate(c, known) else {
-                continue;
-            };
-            let mut closed = self.mode.clone();
-            for (contact, touching) in closed.contacts.iter_mut().zip(&known.touching) {
-                *contact = *touching;
-            }
-            self.dynamics.set_mode(&closed);
-            self.project(true)?;
-            self.evaluate_all_rows()?;
-            for (f, friction) in d.frictions.iter().enumerate() {
-                if matches!(friction.normal, Normal::Contact(on) if known.touching[on]) {
-                    known.resting[f] = self.slip_vanishes(f);
-                }
-            }
-            let state = core::mem::take(&mut self.state);
-            let kind = EventKind::Accumulates { impacts: count };
-            self.log_watch(Subject::Contact(c), kind, self.t, &state);
-            self.state = state;
-        }
-        Ok(())
-    }
-
     /// What is known after an impact; `dynamics` still holds the state before.
     fn after_impact(&self, outcome: &Impact<S::Scalar>, known: &mut Known) {
         let d = S::DESCRIPTION;
@@ -267,7 +237,7 @@ impl<S: System> Run<S> {
 
     /// Rate of a row (slip, rate of a gap) and the size of the terms that make it; a velocity that is zero is so only to some
     /// 1e-16 of the unit, as projections leave it.
-    fn rate(&self, row: usize) -> (f64, f64) {
+    pub(super) fn rate(&self, row: usize) -> (f64, f64) {
         let row = &S::DESCRIPTION.rows[row];
         let number = |place| self.dynamics.motion(place).value();
         let size = |j: usize| self.state.v[j].value().abs() + 1e-2;

@@ -22,8 +22,8 @@ use crate::catalogue::Scene;
 use crate::request::{Refusal, Request};
 use core::ops::Range;
 
-/// Points of a chunk: a second's work or less, and a few hundred kilobytes at most.
-pub const CHUNK: usize = 4096;
+/// Points of a chunk: a second's work or less.
+pub const CHUNK: usize = 1024;
 
 /// A sweep as asked for.
 #[derive(Clone)]

@@ -27,6 +27,7 @@ use crate::modes::table::Table;
 use crate::pool::Pool;
 use crate::system::{Description, System};
 use candidates::list_candidates;
+use incipient::Beginning;
 pub use known::{Known, Moment};
 
 /// The mode that goes on.
@@ -57,6 +58,8 @@ pub struct Decider<T> {
     joints: Vec<Joint>,
     motion: Vec<f64>,
     sizes: Sizes,
+    /// Whether a friction that would slip and yet stay at rest must stick.
+    sticks_first: bool,
     /// Modes tried so far.
     tried: usize,
     /// Needs of everything about every row.
@@ -69,6 +72,7 @@ pub struct Decider<T> {
     best: Mode,
     /// Whether its slip could begin in another direction.
     forks: bool,
+    beginning: Beginning,
 }
 
 impl<T: Scalar> Decider<T> {
@@ -95,19 +99,21 @@ impl<T: Scalar> Decider<T> {
             joints: Vec::new(),
             motion: Vec::new(),
             sizes: Sizes::default(),
+            sticks_first: false,
             tried: 0,
             rows,
             everything,
             posed: Mode::open(description),
             best: Mode::open(description),
             forks: false,
+            beginning: Beginning::default(),
         }
     }
 
     /// Finds the mode in which the motion goes on from a moment, into [`Self::decision`].
     ///
     /// On success `dynamics` is left in that mode. Where a few modes are possible all are looked at; the order of preference among
-    /// feasible ones is: stick before slip, then the present mode, then the fewest changes. Where they are many, see
+    /// feasible ones is: closed before open, stick before slip, then the present mode, then the fewest changes. Where they are many, see
     /// [`pivot`].
     ///
     /// # Errors
@@ -247,13 +253,6 @@ impl<T: Scalar> Decider<T> {
     }
 }
 
-fn slips(mode: &Mode) -> usize {
-    mode.frictions
-        .iter()
-        .filter(|f| matches!(f, FrictionMode::Slip(_)))
-        .count()
-}
-
 fn sticks(mode: &Mode) -> usize {
     mode.frictions
         .iter()
@@ -271,7 +270,7 @@ fn differ<T: Scalar>(a: &[f64], b: &[T]) -> bool {
 fn concerned<S: System>(known: &Known) -> &'static str {
     let d = S::DESCRIPTION;
     let located = known.located.iter().find_map(|g| match *g {
-        Guard::Gap(c) | Guard::Normal(c) => Some(d.contacts[c].name),
+        Guard::Gap(c) | Guard::Normal(c) | Guard::Region(c) => Some(d.contacts[c].name),
         Guard::StickUpper(f)
         | Guard::StickLower(f)
         | Guard::StickCone(f)

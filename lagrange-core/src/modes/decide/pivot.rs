@@ -36,17 +36,24 @@ impl<T: Scalar> Decider<T> {
         known: &Known,
     ) -> Result<bool, EvaluationError> {
         self.decision.ambiguous = false;
-        let mut mode = present.clone();
         look_at_slips(dynamics, moment, present, known, &self.rows);
-        Exchange::new(dynamics, present, known).begin(&mut mode);
-        let near = self.pivot_from(dynamics, table, moment, present, known, mode);
-        if let Ok(true) = near {
-            return near;
+        let mut near = present.clone();
+        Exchange::new(dynamics, present, known).begin(&mut near);
+        let mut outcome = Ok(false);
+        for (guesses, sticks_first) in [(false, true), (true, true), (false, false), (true, false)]
+        {
+            let mut mode = near.clone();
+            if guesses {
+                self.guess(dynamics, moment, present, known, &mut mode);
+            }
+            self.sticks_first = sticks_first;
+            outcome = self.pivot_from(dynamics, table, moment, present, known, mode);
+            self.sticks_first = false;
+            if let Ok(true) = outcome {
+                break;
+            }
         }
-        let mut mode = present.clone();
-        Exchange::new(dynamics, present, known).begin(&mut mode);
-        self.guess(dynamics, moment, present, known, &mut mode);
-        self.pivot_from(dynamics, table, moment, present, known, mode)
+        outcome
     }
 
     fn pivot_from<S: System<Scalar = T>>(
@@ -97,7 +104,7 @@ impl<T: Scalar> Decider<T> {
 /// A fixed order of the guards.
 fn order(guard: &Guard) -> (usize, usize) {
     match *guard {
-        Guard::Gap(c) | Guard::Normal(c) => (0, c),
+        Guard::Gap(c) | Guard::Normal(c) | Guard::Region(c) => (0, c),
         Guard::StickUpper(f) | Guard::StickLower(f) | Guard::StickCone(f) | Guard::Slip(f) => {
             (1, f)
         }
@@ -162,6 +169,7 @@ impl<'a, S: System> Exchange<'a, S> {
                 | Guard::Normal(_)
                 | Guard::Stop(..)
                 | Guard::Mark(..)
+                | Guard::Region(_)
                 | Guard::Joint(_) => {}
             }
         }

@@ -79,7 +79,17 @@ pub(super) fn search(
     }
     let found = first.or_else(|| largest.map(|(_, found)| found));
     match found {
-        Some(found) => Search::Counterexample(words(pool, region, &sides, &found, &ratios)),
+        Some(found) => Search::Counterexample(words(
+            pool,
+            region,
+            &sides,
+            check.is_conserved,
+            &found,
+            &ratios,
+        )),
+        None if certain => Search::Counterexample(
+            "the difference shows in exact arithmetic; no state to show it was found".to_owned(),
+        ),
         None => Search::Nothing(states),
     }
 }
@@ -98,6 +108,7 @@ fn words(
     pool: &Pool,
     region: &Region,
     sides: &[ExprId; 2],
+    conserved: bool,
     found: &Found,
     ratios: &[f64],
 ) -> String {
@@ -107,17 +118,25 @@ fn words(
         let comma = if i == 0 { "" } else { ", " };
         text += &format!("{comma}{} = {}", pool.name(symbol), short(value));
     }
+    text += ":";
     let (left, right) = (found.left.value, found.right.value);
     let [left_text, right_text] = distinct(left, right);
-    if pool.is_zero(sides[1]) {
-        text += &format!(" it is {left_text}, not 0");
+    if conserved {
+        text += &format!(" its rate is {left_text}");
+    } else if left_text == right_text {
+        text += &format!(" both sides are {left_text} to within rounding, but they are not equal");
     } else {
         text += &format!(" the left side is {left_text}, the right side {right_text}");
+    }
+    if !found.state.feasible {
+        text +=
+            "; no such state was found in which gaps are open, contacts press and friction holds";
     }
     if let [first, rest @ ..] = ratios
         && rest.len() >= 2
         && rest.iter().all(|ratio| (ratio / first - 1.0).abs() < 1e-9)
         && first.is_finite()
+        && !conserved
         && *first != 0.0
     {
         text += &match *first {

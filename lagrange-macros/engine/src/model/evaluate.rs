@@ -6,10 +6,13 @@ use super::reach::{Context, Reach};
 use super::value::Value;
 use crate::ast::{Decimal, Expr, ExprKind, Factor, Index, Name, Range, Reference, Sign};
 use crate::diagnostics::{Code, Extent};
-use crate::symbolic::{ExprId, Rational};
+use crate::symbolic::{ExprId, MOST_OPERANDS, Rational};
 
 /// What sums and indexed items may unroll to.
 const MOST_ELEMENTS: i64 = 10_000;
+
+/// Numerators and denominators of exponents are at most this.
+const HIGHEST_POWER: i64 = 1_000;
 
 impl Elaboration<'_> {
     /// A single value.
@@ -31,6 +34,15 @@ impl Elaboration<'_> {
 
     /// A value of any shape.
     pub fn value(&mut self, expr: &Expr, context: Context) -> Option<Value> {
+        let value = self.form(expr, context);
+        if self.system.pool.overflowed() && !self.overflowed {
+            self.overflowed = true;
+            self.sink.report(Code::Overflow, expr.extent, &[]);
+        }
+        value
+    }
+
+    fn form(&mut self, expr: &Expr, context: Context) -> Option<Value> {
         match &expr.kind {
             ExprKind::Number(decimal) => {
                 let number = self.exact(*decimal, expr.extent)?;
@@ -44,8 +56,10 @@ impl Elaboration<'_> {
                 Some(value.map(&mut |e| self.system.pool.neg(e)))
             }
             ExprKind::Power(base, exponent) => {
-                let (base, exponent) = (self.scalar(base, context), self.scalar(exponent, context));
-                let power = self.system.pool.pow(base?, exponent?);
+                let (b, e) = (self.scalar(base, context), self.scalar(exponent, context));
+                let (b, e) = (b?, e?);
+                self.power_exists(expr, exponent.extent, b, e)?;
+                let power = self.system.pool.pow(b, e);
                 if power.is_none() {
                     self.sink.report(Code::DivisionByZero, expr.extent, &[]);
                 }
@@ -67,6 +81,32 @@ impl Elaboration<'_> {
             ExprKind::Element(base, index) => self.element(base, index, context),
             ExprKind::Member(base, name) => self.member(base, name, context),
         }
+    }
+
+    /// Whether numbers have this power, and it is not absurdly high.
+    fn power_exists(
+        &mut self,
+        expr: &Expr,
+        at: Extent,
+        base: ExprId,
+        exponent: ExprId,
+    ) -> Option<()> {
+        let pool = &self.system.pool;
+        let Some(power) = pool.as_number(exponent) else {
+            return Some(());
+        };
+        let zero = pool.is_zero(base) && power.is_zero();
+        let negative = pool.as_number(base).is_some_and(Rational::is_negative);
+        if zero || negative && !power.is_integer() {
+            self.sink.report(Code::NoValue, expr.extent, &[expr]);
+            return None;
+        }
+        let most = i128::from(HIGHEST_POWER);
+        if power.numerator().unsigned_abs() > most.unsigned_abs() || power.denominator() > most {
+            self.sink.report(Code::HighPower, at, &[&HIGHEST_POWER]);
+            return None;
+        }
+        Some(())
     }
 
     fn exact(&mut self, decimal: Decimal, at: Extent) -> Option<Rational> {
@@ -351,6 +391,11 @@ impl Elaboration<'_> {
         let (from, to) = self.bounds(&index.range)?;
         let mut values = Vec::new();
         for k in from..to {
+            if self.system.pool.is_full() {
+                let (name, most) = (self.system.name.clone(), MOST_OPERANDS);
+                self.sink.report(Code::TooLarge, at, &[&name, &most]);
+                return None;
+            }
             let value = self.with_index(&index.name, k, |this| this.value(body, context))?;
             if let Some(first) = values.first() {
                 self.fits(first, &value, at)?;

@@ -35,6 +35,7 @@ use proc_macro2::{Ident, Span};
 
 pub use checks::{Check, Premise, checks};
 pub use elaborate::{Scope, scoped, system};
+pub(crate) use names::shouting;
 
 /// A mechanical system with all names resolved.
 pub struct System {

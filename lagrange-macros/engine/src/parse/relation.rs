@@ -1,7 +1,7 @@
 //! Equations, comparisons, and what is left over where a part should have ended.
 
 use super::cursor::Cursor;
-use super::expression::expression;
+use super::expression::{FUNCTIONS, expression};
 use super::item::is_keyword;
 use crate::ast::{Comparison, Expr, Premise, Relation};
 use crate::diagnostics::{Code, Diagnostics};
@@ -53,10 +53,25 @@ pub(super) fn comparison(
     })
 }
 
-/// `left == right`
-pub(super) fn equation(cursor: &mut Cursor, sink: &mut Diagnostics) -> Option<(Expr, Expr)> {
+/// For [`equation`]: what is read, and what to do where another relation stands.
+pub(super) const CONSTRAINT: (&str, &str) = (
+    "constraint",
+    "an equation is written `a == b`; one-sided conditions are contacts: `contact(name: a >= b)`",
+);
+/// The same for a check.
+pub(super) const CHECK: (&str, &str) = (
+    "check",
+    "what is to be proven is an equation `a == b`; conditions stand behind it: `when a >= b`",
+);
+
+/// `left == right` of a constraint or check; `hint` says what to do where another relation stands.
+pub(super) fn equation(
+    cursor: &mut Cursor,
+    (of, hint): (&str, &str),
+    sink: &mut Diagnostics,
+) -> Option<(Expr, Expr)> {
     if let Some(mut inside) = invisible(cursor, sink) {
-        let found = equation(&mut inside, sink)?;
+        let found = equation(&mut inside, (of, hint), sink)?;
         leftover(&mut inside, sink)?;
         return Some(found);
     }
@@ -66,12 +81,7 @@ pub(super) fn equation(cursor: &mut Cursor, sink: &mut Diagnostics) -> Option<(E
     } else if cursor.take("==").is_none() {
         match cursor.operator() {
             Some(other @ (">=" | "<=" | ">" | "<" | "!=")) => {
-                let hint = "an equation is written `a == b`; one-sided conditions are contacts: `contact(name: a >= b)`";
-                sink.report(
-                    Code::WrongRelation,
-                    cursor.here(),
-                    &[&other, &"constraint", &hint],
-                );
+                sink.report(Code::WrongRelation, cursor.here(), &[&other, &of, &hint]);
             }
             _ if cursor.is_at_end() => {
                 sink.report(
@@ -111,7 +121,7 @@ pub(super) fn equation_or_comparison(
         }
     };
     if is_equation {
-        equation(cursor, sink).map(|(left, right)| Premise::Equal(left, right))
+        equation(cursor, CHECK, sink).map(|(left, right)| Premise::Equal(left, right))
     } else {
         comparison(cursor, "`a >= b` or `a == b`", sink).map(Premise::AtLeast)
     }
@@ -175,13 +185,48 @@ pub(super) fn leftover(cursor: &mut Cursor, sink: &mut Diagnostics) -> Option<()
                 &[&operator, &"there is no remainder in the language"],
             );
         }
+        (_, Some(operator @ ";")) => {
+            sink.report(
+                Code::Operator,
+                cursor.here(),
+                &[&operator, &"parts are separated by commas"],
+            );
+        }
         (TokenTree::Ident(word), _) if starts_part(cursor) => {
             sink.report(Code::MissingComma, word.span(), &[word]);
+        }
+        (TokenTree::Ident(word), _) if word == "or" => {
+            let hint =
+                "conditions are joined by `and`; alternatives are several `stop` or `mark` items";
+            sink.report(Code::Operator, cursor.here(), &[word, &hint]);
+        }
+        (TokenTree::Ident(word), _) if word == "as" => {
+            let hint = "numbers have no types: leave it away";
+            sink.report(Code::RustNotation, cursor.here(), &[word, &hint]);
+        }
+        (TokenTree::Ident(_) | TokenTree::Literal(_), _) => missing_operator(cursor, sink),
+        (TokenTree::Group(group), _) if group.delimiter() == Delimiter::Parenthesis => {
+            missing_operator(cursor, sink);
         }
         _ => cursor.expected("an operator or a comma", sink),
     }
     cursor.skip_all();
     None
+}
+
+/// Reports a value that follows another one.
+fn missing_operator(cursor: &Cursor, sink: &mut Diagnostics) {
+    let hint = match cursor.word_behind() {
+        Some(word) if FUNCTIONS.contains(&word.text.as_str()) => {
+            format!("arguments stand in parentheses: `{}(…)`", word.text)
+        }
+        _ => "a product is written with `*`".to_string(),
+    };
+    sink.report(
+        Code::MissingOperator,
+        cursor.here(),
+        &[&cursor.found(), &hint],
+    );
 }
 
 /// Whether what is here looks like the next part or item.

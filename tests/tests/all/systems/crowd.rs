@@ -51,7 +51,7 @@ fn accelerations(crowd: &Crowd) -> Vec<f64> {
 #[test]
 fn a_crowd_that_is_pushed_parts_and_slides_as_it_must() {
     let mut modes = 0;
-    for seed in 1..40 {
+    for seed in 1..14 {
         for strength in [0.2, 0.5, 1.0, 2.0, 5.0] {
             let wave = |k: usize| ((seed * (k + 1) * (k + 1)) as f64 * 0.37).sin();
             let crowd = Crowd {
@@ -77,7 +77,7 @@ fn a_crowd_that_is_pushed_parts_and_slides_as_it_must() {
             modes += usize::from(expected.iter().any(|a| *a != 0.0));
         }
     }
-    assert!(modes > 100, "{modes}");
+    assert!(modes > 40, "{modes}");
 }
 
 /// Plates on each other on a floor that is jerked away.
@@ -100,7 +100,8 @@ struct Plates<T = f64> {
     mu: [T; 16],
 }
 
-/// All that lies above a face moves with it until its friction can no more: at jerk t = μ g for the least μ below.
+/// A face slips when friction there can no longer move the plate above it and hold against what drags on that one from above:
+/// m a + μ' N' = μ N, where N is the weight above the face and primes belong to the next one.
 #[test]
 fn plates_slip_one_after_the_other() {
     let plates = Plates {
@@ -112,11 +113,13 @@ fn plates_slip_one_after_the_other() {
     };
     let simulation = Simulation::new(&plates).tolerance(1e-12);
     let start = plates.at(Plates::RESTING);
-    let trajectory = simulation.run(start, 0.0..1.2).expect("a run");
+    let trajectory = simulation.run(start, 0.0..2.0).expect("a run");
     let slips: Vec<f64> = trajectory.events().iter().map(|e| e.time).collect();
     assert_eq!(slips.len(), 16);
     for (k, time) in slips.iter().enumerate() {
-        let expected = plates.mu[15 - k] * plates.gravity / plates.jerk;
+        let (mu, above) = (&plates.mu, k as f64);
+        let drag = above * mu.get(16 - k).unwrap_or(&0.0);
+        let expected = (mu[15 - k] * (above + 1.0) - drag) * plates.gravity / plates.jerk;
         assert!((time / expected - 1.0).abs() < 1e-12, "{time} {expected}");
     }
 }

@@ -5,10 +5,15 @@
 //! Where parameters decide whether they contradict each other, that is a remark and not a mistake.
 //! Rows that are dependent on the constraints only, as in a parallelogram of three cranks, are left to the run.
 
-use super::{Pfaffian, STATES, ZERO, gradient, is_plain};
+use super::{Pfaffian, STATES, ZERO, gradient, is_plain, slopes};
 use crate::diagnostics::Code;
 use crate::model::elaborate::Elaboration;
 use crate::model::{Hint, Level};
+use crate::symbolic::ExprId;
+use std::collections::BTreeMap;
+
+/// Elimination of larger systems of constraints would take longer than the derivation.
+const MOST_OPERATIONS: usize = 3_000_000;
 
 /// A row at one state: its numbers, and the combination of independent rows that they are.
 #[derive(Clone)]
@@ -88,6 +93,9 @@ enum Subject {
 impl Elaboration<'_> {
     /// Reports constraints that say nothing new, and those that contradict others.
     pub(super) fn dependent(&mut self, rows: &[Pfaffian]) {
+        if rows.len() * rows.len() * self.system.coordinates.len() > MOST_OPERATIONS {
+            return;
+        }
         let mut always = Together {
             basis: vec![Basis::default(); STATES as usize],
             independent: Vec::new(),
@@ -122,6 +130,46 @@ impl Elaboration<'_> {
             }
             for i in conditional {
                 self.judge(&mut closed, Subject::Constraint(i), &rows[i]);
+            }
+        }
+    }
+
+    /// Reports gaps that are declared twice, and slips whose two components are one.
+    pub(super) fn same_twice(&mut self) {
+        let mut gaps: BTreeMap<ExprId, usize> = BTreeMap::new();
+        let everywhere = self.system.contacts.iter().enumerate();
+        for (i, contact) in everywhere.filter(|(_, contact)| contact.region.is_none()) {
+            let first = *gaps.entry(contact.gap).or_insert(i);
+            if first != i {
+                let first = format!("`{}`", self.system.contacts[first].name.text);
+                let (text, at) = (&contact.name.text, contact.name.span);
+                self.sink.report(Code::Redundant, at, &[text, &first]);
+            }
+        }
+        let velocities = self.velocities();
+        for i in 0..self.system.frictions.len() {
+            let components: Vec<_> = self.system.frictions[i]
+                .slip
+                .iter()
+                .map(|(e, _)| *e)
+                .collect();
+            let [first, second] = components[..] else {
+                continue;
+            };
+            let pool = &mut self.system.pool;
+            let rows = [first, second].map(|e| slopes(pool, e, &velocities));
+            let one = (1..=STATES).all(|state| {
+                let mut basis = Basis::default();
+                let values = (self.values(&rows[0], state), self.values(&rows[1], state));
+                let (Some(first), Some(second)) = values else {
+                    return false;
+                };
+                basis.take(first, 0).is_some() || basis.take(second, 1).is_some()
+            });
+            if one {
+                let name = &self.system.frictions[i].name;
+                self.sink
+                    .report(Code::SlipsParallel, name.span, &[&name.text]);
             }
         }
     }

@@ -33,6 +33,7 @@ impl Elaboration<'_> {
         let before = self.sink.count();
         let rows = self.pfaffians();
         self.dependent(&rows);
+        self.same_twice();
         if self.sink.count() > before {
             return;
         }
