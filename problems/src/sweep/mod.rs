@@ -55,7 +55,7 @@ impl Sweep {
             points,
             observed: observed
                 .iter()
-                .map(|text| Observation::parse(scene.result(text), scene.description()))
+                .map(|text| Observation::new(text, scene))
                 .collect::<Result<_, _>>()?,
         };
         drop(scene.worker(&sweep)?);

@@ -7,6 +7,7 @@
 //! theta                      at the end of the run
 //! ```
 
+use crate::catalogue::Scene;
 use crate::outcome::{Force, forces};
 use crate::request::{Quantity, Refusal, find_state};
 use lagrange_core::prelude::*;
@@ -63,21 +64,27 @@ const KINDS: [EventKind; 10] = [
 ];
 
 impl Observation {
-    /// Reads an observation of a system.
+    /// Reads an observation of a scene, or the name of one of its results.
     ///
     /// # Errors
     /// A name that is not known.
-    pub fn parse(text: &str, description: &'static Description) -> Result<Self, Refusal> {
-        let name = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    pub fn new(text: &str, scene: &dyn Scene) -> Result<Self, Refusal> {
+        let description = scene.description();
+        let asked = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        let name = scene.result(&asked);
         let (what, at) = match (name.strip_prefix("count "), name.split_once(" at ")) {
             (Some(event), _) => (What::Count, event_of(event, description)?),
             (None, Some((quantity, event))) => (
                 quantity_of(quantity, description)?,
                 event_of(event, description)?,
             ),
-            (None, None) => (quantity_of(&name, description)?, At::End),
+            (None, None) => (quantity_of(name, description)?, At::End),
         };
-        Ok(Self { name, what, at })
+        Ok(Self {
+            name: asked.clone(),
+            what,
+            at,
+        })
     }
 
     /// The event after whose first occurrence a run has no more to say to this, if there is one.

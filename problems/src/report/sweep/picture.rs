@@ -202,7 +202,8 @@ fn map<'a>(root: &Area<'a>, x: &Axis, y: &Axis, values: &[f64]) -> Drawn<'a> {
         let corner = (left + column * width, bottom + row * height);
         let colour = shade((value - low) / (high - low));
         Rectangle::new(
-            [corner, (corner.0 + width, corner.1 + height)],
+            // Each a trifle too large: no line shows between them.
+            [corner, (corner.0 + 1.1 * width, corner.1 + 1.1 * height)],
             colour.filled(),
         )
     }))?;
@@ -220,7 +221,7 @@ fn scale<'a>(root: &Area<'a>, low: f64, high: f64) -> Drawn<'a> {
     let place = |step: i32| bottom - (bottom - top) * step / STEPS;
     for step in 0..STEPS {
         let colour = shade((f64::from(step) + 0.5) / f64::from(STEPS));
-        let corners = [(left, place(step + 1)), (left + px(16), place(step))];
+        let corners = [(left, place(step + 1) - 1), (left + px(16), place(step))];
         root.draw(&Rectangle::new(corners, colour.filled()))?;
     }
     for quarter in 0..=4 {
