@@ -409,7 +409,7 @@ fn timing() {
         for _ in 0..7 {
             let t0 = std::time::Instant::now();
             let (declaration, mut program) = planned(tokens.clone());
-            let t = crate::emit::emit(&program).to_string().len();
+            let t = crate::emit::emit(&program, &[]).to_string().len();
             let t1 = std::time::Instant::now();
             let d = super::derivation(&declaration, &mut program, None).unwrap();
             let t2 = std::time::Instant::now();
