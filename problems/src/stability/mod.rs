@@ -114,6 +114,18 @@ pub static CASES: &[Case] = &[
         measure: bounces::cradle,
     },
     Case {
+        name: "five-ball-cradle",
+        scene: "five-ball-cradle",
+        trouble: "blows passed on: all balls move a little",
+        measure: bounces::five_ball_cradle,
+    },
+    Case {
+        name: "rocking-block",
+        scene: "rocking-block",
+        trouble: "corners strike in turn, ever faster: never stands",
+        measure: bounces::rocking_block,
+    },
+    Case {
         name: "string-pendulum",
         scene: "string-pendulum",
         trouble: "the string pushes, or snaps back softly",

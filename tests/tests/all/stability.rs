@@ -41,6 +41,8 @@ cases! {
     bouncing_ball "bouncing-ball"
     thrown_ball "thrown-ball"
     cradle "cradle"
+    five_ball_cradle "five-ball-cradle"
+    rocking_block "rocking-block"
     string_pendulum "string-pendulum"
     ladder "ladder"
     backspin_ball "backspin-ball"

@@ -28,6 +28,7 @@ use crate::modes::table::Table;
 use crate::pool::Pool;
 use crate::system::{Description, System};
 use candidates::list_candidates;
+use incipient::Beginning;
 pub use known::{Known, Moment};
 
 /// The mode that goes on.
@@ -72,6 +73,7 @@ pub struct Decider<T> {
     best: Mode,
     /// Whether its slip could begin in another direction.
     forks: bool,
+    beginning: Beginning,
 }
 
 impl<T: Scalar> Decider<T> {
@@ -105,6 +107,7 @@ impl<T: Scalar> Decider<T> {
             posed: Mode::open(description),
             best: Mode::open(description),
             forks: false,
+            beginning: Beginning::default(),
         }
     }
 
@@ -268,7 +271,7 @@ fn differ<T: Scalar>(a: &[f64], b: &[T]) -> bool {
 fn concerned<S: System>(known: &Known) -> &'static str {
     let d = S::DESCRIPTION;
     let located = known.located.iter().find_map(|g| match *g {
-        Guard::Gap(c) | Guard::Normal(c) => Some(d.contacts[c].name),
+        Guard::Gap(c) | Guard::Normal(c) | Guard::Region(c) => Some(d.contacts[c].name),
         Guard::StickUpper(f)
         | Guard::StickLower(f)
         | Guard::StickCone(f)
