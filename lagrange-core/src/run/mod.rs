@@ -27,7 +27,7 @@ use crate::modes::sharing::{Joint, Sharing};
 use crate::modes::start::{self, Survey};
 use crate::modes::table::Table;
 use crate::pool::Pool;
-use crate::simulation::Settings;
+use crate::simulation::{Held, Settings};
 use crate::system::{System, Watch};
 use crate::trajectory::{EventKind, State, Subject, Trajectory, Work};
 use accumulation::{Impacts, Train};
@@ -80,6 +80,8 @@ pub(crate) struct Run<S: System> {
     fallen: Vec<Guard>,
     /// Slips of two components that come to rest with it.
     rests: Vec<Rest>,
+    /// The mode with those at rest.
+    resting: Mode,
     /// Velocities a little before that.
     earlier: Vec<S::Scalar>,
     stop_below: Vec<Vec<bool>>,
@@ -158,6 +160,7 @@ impl<S: System> Run<S> {
             falls: Vec::new(),
             fallen: Vec::new(),
             rests: Vec::new(),
+            resting: mode.clone(),
             earlier: vec![zero; n],
             stop_below: d.stops.iter().map(|w| vec![false; w.terms.len()]).collect(),
             mark_below: d.marks.iter().map(|w| vec![false; w.terms.len()]).collect(),
@@ -194,6 +197,18 @@ impl<S: System> Run<S> {
         self.work_before = self.dynamics.work();
         self.trajectory.scene.clone_from(scene);
         self.watch();
+    }
+
+    /// See [`crate::Simulation::consistent`].
+    fn consistent(
+        &mut self,
+        time: f64,
+        reference: &State<S::Scalar>,
+        wanted: &State<S::Scalar>,
+        held: &Held,
+    ) -> Result<State<S::Scalar>, Error> {
+        let tolerance = self.settings.tolerance;
+        start::consistent(&mut self.dynamics, time, tolerance, reference, wanted, held)
     }
 
     /// Runs from `start` over `span`.
@@ -249,6 +264,7 @@ impl<S: System> Run<S> {
             self.below[c] = true;
         }
         self.settle()?;
+        self.finished |= self.has_seen_all();
         while !self.finished && self.t.value() < self.end {
             if self.trajectory.work.steps >= self.settings.max_steps {
                 return Err(self.limit("steps", self.settings.max_steps));
@@ -300,21 +316,31 @@ impl<S: System> Run<S> {
                     self.stepper.restart();
                     self.switch()?;
                 }
-                Ok(())
             }
             Hit::Stop(stop, _) => {
                 if !self.valued {
                     self.evaluate()?;
                 }
                 self.finish(stop);
-                Ok(())
             }
             Hit::Guards(_) => {
                 self.count_switch()?;
                 self.stepper.restart();
-                self.switch()
+                self.switch()?;
             }
         }
+        self.finished |= self.has_seen_all();
+        Ok(())
+    }
+
+    /// Whether everything has happened that the run is to end after.
+    fn has_seen_all(&self) -> bool {
+        let happened = |(subject, kind): &(Subject, EventKind)| {
+            let mut events = self.trajectory.events.iter();
+            events.any(|e| e.subject == *subject && e.kind.word() == kind.word())
+        };
+        let last = &self.settings.last_events;
+        !last.is_empty() && last.iter().all(happened)
     }
 
     /// Counts a switch; too many at one time, or in all, end the run.

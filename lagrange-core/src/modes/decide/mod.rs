@@ -27,6 +27,7 @@ use crate::modes::table::Table;
 use crate::pool::Pool;
 use crate::system::{Description, System};
 use candidates::list_candidates;
+use incipient::Beginning;
 pub use known::{Known, Moment};
 
 /// The mode that goes on.
@@ -71,6 +72,7 @@ pub struct Decider<T> {
     best: Mode,
     /// Whether its slip could begin in another direction.
     forks: bool,
+    beginning: Beginning,
 }
 
 impl<T: Scalar> Decider<T> {
@@ -104,6 +106,7 @@ impl<T: Scalar> Decider<T> {
             posed: Mode::open(description),
             best: Mode::open(description),
             forks: false,
+            beginning: Beginning::default(),
         }
     }
 
