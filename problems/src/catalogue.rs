@@ -22,6 +22,8 @@ pub static SCENES: &[&dyn Scene] = &[
     &Entry::<SphereInBowl>::new("sphere-in-bowl", 10.0),
     &Entry::<DoublePendulum>::new("double-pendulum", 5.0),
     &Entry::<FiveLinkChain>::new("five-link-chain", 2.0),
+    &Entry::<Chain20>::new("chain", 2.0),
+    &Entry::<Net>::new("net", 2.0),
     &Entry::<CartesianPendulum>::new("cartesian-pendulum", 100.0)
         .known(CartesianPendulum::closed_form),
     &Entry::<Kepler>::new("kepler", 200.0 * PI).known(Kepler::closed_form),
@@ -46,6 +48,9 @@ pub static HARD: &[&dyn Scene] = &[
     &Entry::<StringPendulum>::new("string-pendulum", 3.0),
     &Entry::<SphericalPendulum>::new("spherical-pendulum", 5.0),
     &Entry::<PolarParticle>::new("polar-particle", 2.0),
+    &Entry::<RodOnSupports>::new("rod-on-supports", 10.0),
+    &Entry::<BeamOnSupports>::new("beam-on-supports", 10.0),
+    &Entry::<Sled>::new("sled", 2.0),
     &Entry::<Parallelogram>::new("parallelogram", 2.0),
     &Entry::<SliderCrank>::new("slider-crank", 2.0),
     &Entry::<RollingDisk>::new("rolling-disk", 5.0),

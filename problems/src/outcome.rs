@@ -44,6 +44,8 @@ pub struct Sample {
     pub state: State<f64>,
     /// λ of every row; for a friction its force along +slip.
     pub forces: Vec<f64>,
+    /// Per row: whether the motion leaves its force open, so that a share of least norm is given; empty where none is.
+    pub undetermined: Vec<bool>,
     /// What each friction can hold: μₛN while it sticks, μₖN while it slips, `None` while it is inactive.
     pub limits: Vec<Option<f64>>,
     /// Kinetic energy, J.
@@ -158,6 +160,22 @@ impl Outcome {
         items.map(|item| item.name(self.description)).collect()
     }
 
+    /// Names of the forces that the motion leaves open at some sample or event, in order of declaration.
+    pub fn undetermined(&self) -> Vec<String> {
+        let open = |row: usize| {
+            let is = |flags: &Vec<bool>| flags.get(row) == Some(&true);
+            let events = self.events.iter();
+            self.samples.iter().any(|s| is(&s.undetermined))
+                || events
+                    .clone()
+                    .any(|e| is(&e.undetermined) || is(&e.undetermined_after))
+        };
+        let all = forces(self.description).into_iter();
+        all.filter(|force| open(force.row))
+            .map(|force| force.name)
+            .collect()
+    }
+
     /// The first instant, if the run began.
     pub fn first(&self) -> Option<&Sample> {
         self.samples.first()
@@ -211,13 +229,14 @@ fn sample<S: System<Scalar = f64>>(trajectory: &Trajectory<S>, intervals: usize)
             samples.push(Sample {
                 time,
                 phase,
-                limits: limits.at(time, &instant.q, &instant.v),
+                limits: limits.at(time, &instant),
                 mode: instant.mode,
                 state: State {
                     q: instant.q,
                     v: instant.v,
                 },
                 forces: instant.forces,
+                undetermined: instant.undetermined,
                 kinetic: instant.kinetic,
                 potential: instant.potential,
                 observes: instant.observes,
@@ -254,9 +273,10 @@ impl<S: System<Scalar = f64>> Limits<S> {
         self.dynamics.set_mode(mode);
     }
 
-    fn at(&mut self, time: f64, q: &[f64], v: &[f64]) -> Vec<Option<f64>> {
+    fn at(&mut self, time: f64, instant: &Instant<f64>) -> Vec<Option<f64>> {
         let description = S::DESCRIPTION;
-        if self.dynamics.value_along(time, q, v).is_err() {
+        let along = self.dynamics.value_along(time, &instant.q, &instant.v);
+        if along.is_err() {
             return vec![None; description.frictions.len()];
         }
         let dynamics = &self.dynamics;
@@ -272,9 +292,9 @@ impl<S: System<Scalar = f64>> Limits<S> {
                     let factor = contact
                         .normal_factor
                         .map_or(1.0, |place| dynamics.motion(place));
-                    factor * dynamics.force(contact.row)
+                    factor * instant.forces[contact.row]
                 }
-                Normal::Constraint(i) => dynamics.force(description.constraints[i].row).abs(),
+                Normal::Constraint(i) => instant.forces[description.constraints[i].row].abs(),
                 Normal::Given(place) => dynamics.motion(place),
             };
             Some(dynamics.motion(coefficient) * normal)

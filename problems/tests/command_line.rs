@@ -36,6 +36,8 @@ fn list_has_every_scene_with_a_summary() {
         "sphere-in-bowl",
         "double-pendulum",
         "five-link-chain",
+        "chain",
+        "net",
         "cartesian-pendulum",
         "kepler",
         "stiff-spring-pendulum",

@@ -7,6 +7,7 @@ use crate::error::Error;
 use crate::handle::{ContactId, CoordinateId, FrictionId, ObserveId};
 use crate::mode::{FrictionMode, Mode, Sliding};
 use crate::modes::guard;
+use crate::modes::sharing::Sharing;
 use crate::system::{Normal, Place, System};
 use crate::trajectory::{Instant, State, instant, report_everything};
 
@@ -191,7 +192,7 @@ impl<'a, S: System<Scalar = f64>> Checks<'a, S> {
         }
         let outcome = dynamics.value_along(0.0, &q, &v);
         outcome.map_err(|e| failed(e, &mode))?;
-        let now = instant(&mut dynamics, 0.0, &State { q, v });
+        let now = instant(&mut dynamics, &mut Sharing::default(), 0.0, &State { q, v });
         let margins = (0..d.frictions.len())
             .map(|f| margin(&dynamics, f))
             .collect();

@@ -2,7 +2,7 @@
 
 use super::{Compiled, Dynamics};
 use crate::arithmetic::Value;
-use crate::linear::least_norm;
+use crate::linear::{Freedom, least_norm};
 use crate::system::{Place, System};
 use nalgebra::{DMatrix, DVector};
 
@@ -54,11 +54,73 @@ impl<S: System> Dynamics<S> {
     }
 
     /// The forces of all rows at the last [`Self::value`], where they are not determined those of least norm; and whether
-    /// each is determined (rows that do not act are).
+    /// each is determined (rows that do not act are). One-sided contacts and friction may not allow these: see
+    /// [`Instant::forces`](crate::trajectory::Instant::forces).
     pub fn least_norm_forces(&self) -> (Vec<S::Scalar>, Vec<bool>) {
-        let d = S::DESCRIPTION;
-        let n = d.coordinates.len();
+        let (acting_forces, freedom) = self.least_norm_of_acting();
+        let mut determined = vec![true; S::DESCRIPTION.rows.len()];
+        for (i, &row) in self.acting_rows().iter().enumerate() {
+            determined[row] = freedom.is_determined(i);
+        }
+        let forces = self.forces_of_acting(&acting_forces);
+        for slide in &self.compiled().plan.slides {
+            if let Some(source) = slide.source {
+                determined[slide.row] = determined[source];
+            }
+        }
+        (forces, determined)
+    }
+
+    /// Forces of the rows that act ([`Self::acting_rows`]), of least norm, and how else they could be.
+    pub(crate) fn least_norm_of_acting(&self) -> (Vec<S::Scalar>, Freedom) {
+        let n = S::DESCRIPTION.coordinates.len();
         let acting = self.acting_rows();
+        let plan = &self.compiled().plan;
+        let nodes = self.program_nodes();
+        let mut columns = vec![S::Scalar::default(); n * acting.len()];
+        for (index, coordinate, place) in plan.columns() {
+            columns[index * n + coordinate] += self.number(&nodes, place);
+        }
+        let mut forces: Vec<S::Scalar> = acting.iter().map(|&row| self.force(row)).collect();
+        let freedom = least_norm(&columns, n, &mut forces);
+        (forces, freedom)
+    }
+
+    /// Forces of all rows, sliding frictions included, given those of the rows that act.
+    pub(crate) fn forces_of_acting(&self, acting_forces: &[S::Scalar]) -> Vec<S::Scalar> {
+        let nodes = self.program_nodes();
+        let rows = 0..S::DESCRIPTION.rows.len();
+        let mut forces: Vec<S::Scalar> = rows.map(|row| self.force(row)).collect();
+        for (&row, &force) in self.acting_rows().iter().zip(acting_forces) {
+            forces[row] = force;
+        }
+        for slide in &self.compiled().plan.slides {
+            if let Some(source) = slide.source {
+                forces[slide.row] = self.number(&nodes, slide.factor) * forces[source];
+            }
+        }
+        forces
+    }
+
+    /// Whether row `row` says nothing new at the last [`Self::value`]: its Jacobian (which must have been asked for) is a
+    /// combination of those of the rows that act.
+    pub(crate) fn follows(&self, row: usize) -> bool {
+        let n = S::DESCRIPTION.coordinates.len();
+        let acting = self.acting_rows();
+        let count = acting.len();
+        let mut matrix = vec![S::Scalar::default(); n * (count + 1)];
+        for (k, &r) in acting.iter().chain([&row]).enumerate() {
+            for &(j, place) in S::DESCRIPTION.rows[r].jacobian {
+                matrix[k * n + j] = self.motion(place);
+            }
+        }
+        let mut forces = vec![S::Scalar::default(); count + 1];
+        // A column that others replace is not determined.
+        !least_norm(&matrix, n, &mut forces).is_determined(count)
+    }
+
+    /// The motion tape's nodes with those of the plan.
+    fn program_nodes(&self) -> Vec<S::Scalar> {
         let Compiled {
             plan, constants, ..
         } = self.compiled();
@@ -74,29 +136,14 @@ impl<S: System> Dynamics<S> {
             }
         }
         plan.program.run(&mut Value::new(), constants, &mut nodes);
-        let number = |place: Place| match place {
+        nodes
+    }
+
+    fn number(&self, nodes: &[S::Scalar], place: Place) -> S::Scalar {
+        match place {
             Place::Zero => S::Scalar::default(),
-            Place::Constant(i) => constants[i],
+            Place::Constant(i) => self.compiled().constants[i],
             Place::Node(i) => nodes[i],
-        };
-        let mut columns = vec![S::Scalar::default(); n * acting.len()];
-        for (index, coordinate, place) in plan.columns() {
-            columns[index * n + coordinate] += number(place);
         }
-        let mut acting_forces: Vec<S::Scalar> = acting.iter().map(|&row| self.force(row)).collect();
-        let acting_determined = least_norm(&columns, n, &mut acting_forces);
-        let mut forces: Vec<S::Scalar> = (0..d.rows.len()).map(|row| self.force(row)).collect();
-        let mut determined = vec![true; d.rows.len()];
-        for (i, &row) in acting.iter().enumerate() {
-            forces[row] = acting_forces[i];
-            determined[row] = acting_determined[i];
-        }
-        for slide in &plan.slides {
-            if let Some(source) = slide.source {
-                forces[slide.row] = number(slide.factor) * forces[source];
-                determined[slide.row] = determined[source];
-            }
-        }
-        (forces, determined)
     }
 }

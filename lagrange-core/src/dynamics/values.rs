@@ -216,6 +216,12 @@ impl<S: System> Dynamics<S> {
         );
     }
 
+    /// Replaces the forces of all rows that [`Self::force`] and the report tape see until the next [`Self::value`].
+    pub(crate) fn replace_forces(&mut self, forces: &[S::Scalar]) {
+        let first = 1 + 3 * S::DESCRIPTION.coordinates.len();
+        self.inputs[first..].copy_from_slice(forces);
+    }
+
     /// Runs the report tape at the state of the last [`Self::value`], for the needs given to
     /// [`Self::set_report_needs`]: then read [`Self::report`].
     pub fn report_value(&mut self) {

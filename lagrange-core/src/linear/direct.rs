@@ -29,6 +29,9 @@ pub(crate) struct Direct<T> {
     /// A pivot that the motion keeps constant (the l² of a rod) has the same rounding error in every solve. A force that is
     /// always too large by half a unit in the last place shows over very many steps.
     lost: Vec<T>,
+    /// Per row of the factors: where its first element is that is not zero, and where its last one ends. Masses that know
+    /// only their neighbours, or none, leave most of a large matrix empty.
+    filled: Vec<(usize, usize)>,
     /// Order of the rows of the Schur complement.
     rows: Vec<usize>,
     sizes: Vec<f64>,
@@ -41,6 +44,7 @@ impl<T: Scalar> Direct<T> {
         self.factors.reserve(size * size);
         self.inverses.reserve(size);
         self.lost.reserve(size);
+        self.filled.reserve(size);
         self.rows.reserve(size);
         self.sizes.reserve(size);
         self.scratch.reserve(size);
@@ -94,6 +98,14 @@ impl<T: Scalar> Direct<T> {
         }
         self.scratch.clear();
         self.scratch.resize(size - leading, T::zero());
+        self.filled.clear();
+        let rows = self.factors.chunks_exact(size.max(1)).enumerate();
+        self.filled.extend(rows.map(|(i, row)| {
+            // Full rows are found out at once. Below the diagonal of the symmetric block stand the factors.
+            let first = row[..i].iter().position(|x| !x.is_zero());
+            let last = row[i + 1..].iter().rposition(|x| !x.is_zero());
+            (first.unwrap_or(i), last.map_or(i + 1, |last| i + 2 + last))
+        }));
         true
     }
 
@@ -197,13 +209,14 @@ impl<T: Scalar> Direct<T> {
     /// L y = b, U x = y.
     fn substitute(&self, b: &mut [T]) {
         let size = self.size.max(1);
-        for (i, row) in self.factors.chunks_exact(size).enumerate().skip(1) {
+        let rows = self.factors.chunks_exact(size).zip(&self.filled);
+        for (i, (row, &(first, _))) in rows.clone().enumerate() {
             let (solved, open) = b.split_at_mut(i);
-            open[0] -= dot(&row[..i], solved);
+            open[0] -= dot(&row[first..i], &solved[first..]);
         }
-        for (i, row) in self.factors.chunks_exact(size).enumerate().rev() {
+        for (i, (row, &(_, last))) in rows.enumerate().rev() {
             let (open, solved) = b.split_at_mut(i + 1);
-            let y = open[i] - dot(&row[i + 1..], solved);
+            let y = open[i] - dot(&row[i + 1..last], solved);
             open[i] = y * self.inverses[i];
             if let Some(force) = i.checked_sub(self.leading) {
                 open[i] += y * self.lost[force];

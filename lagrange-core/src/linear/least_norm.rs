@@ -3,24 +3,44 @@
 //! Where rows depend on one another, C λ = Q leaves λ open. With B an independent subset of the rows of C that spans them all,
 //!
 //! ```text
-//! λ = Bᵀ (B Bᵀ)⁻¹ Q_B        λᵢ is determined where (Bᵀ (B Bᵀ)⁻¹ B)ᵢᵢ = 1
+//! λ = Bᵀ (B Bᵀ)⁻¹ Q_B        λᵢ is determined where (Bᵀ (B Bᵀ)⁻¹ B)ᵢᵢ = 1, that is Pᵢᵢ = 0
 //! ```
 //!
 //! Reference: Golub & Van Loan 2013, Matrix Computations, section 5.6.
 
+use super::direct::dot;
 use super::lu::Lu;
 use crate::arithmetic::Scalar;
 
-/// A diagonal element of the projector this close to 1 is 1.
+/// Forces that have no effect, as the row-major projector P = 1 − Bᵀ (B Bᵀ)⁻¹ B onto them: λ is as good as λ + P y.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Freedom {
+    size: usize,
+    projector: Vec<f64>,
+}
+
+/// A force that can be changed by no more than this share of a change is determined.
 const DETERMINED: f64 = 1e-9;
 
-/// Replaces `forces` by those of least norm with the same effect, and says which were determined all along. `columns` is C by
+impl Freedom {
+    /// Row `i` of P.
+    pub(crate) fn row(&self, i: usize) -> &[f64] {
+        &self.projector[i * self.size..(i + 1) * self.size]
+    }
+
+    /// Whether force `i` is determined.
+    pub(crate) fn is_determined(&self, i: usize) -> bool {
+        self.row(i)[i] <= DETERMINED
+    }
+}
+
+/// Replaces `forces` by those of least norm with the same effect, and says how else they could be. `columns` is C by
 /// columns: the generalized force of each unit force, `coordinates` elements each.
 pub(crate) fn least_norm<T: Scalar>(
     columns: &[T],
     coordinates: usize,
     forces: &mut [T],
-) -> Vec<bool> {
+) -> Freedom {
     let (n, m) = (coordinates, forces.len());
     let element = |i: usize, j: usize| columns[j * n + i];
     // Square with zeros, so that the same factorization serves; rows scaled to 1.
@@ -41,21 +61,39 @@ pub(crate) fn least_norm<T: Scalar>(
     lu.factor(wide, padded);
     let basis: Vec<usize> = lu.independent_rows().collect();
     let rank = basis.len();
-    let b = |i: usize, j: usize| scales[basis[i]] * element(basis[i], j);
-    let dot = |f: &dyn Fn(usize) -> T| (0..m).fold(T::zero(), |sum, j| sum + f(j));
-    let gram = (0..rank * rank).map(|at| dot(&|j| b(at / rank, j) * b(at % rank, j)));
-    lu.factor(rank, gram.collect::<Vec<_>>().into_iter());
-    let mut effect: Vec<T> = (0..rank).map(|i| dot(&|j| b(i, j) * forces[j])).collect();
-    lu.solve(&mut effect);
-    let mut determined = Vec::with_capacity(m);
-    for (j, force) in forces.iter_mut().enumerate() {
-        *force = (0..rank).fold(T::zero(), |sum, i| sum + b(i, j) * effect[i]);
-        let mut column: Vec<T> = (0..rank).map(|i| b(i, j)).collect();
-        lu.solve(&mut column);
-        let share = (0..rank).fold(T::zero(), |sum, i| sum + b(i, j) * column[i]);
-        determined.push((share.value() - 1.0).abs() <= DETERMINED);
+    // By columns.
+    let mut b = Vec::with_capacity(rank * m);
+    for j in 0..m {
+        b.extend(basis.iter().map(|&i| scales[i] * element(i, j)));
     }
-    determined
+    let mut gram = vec![T::zero(); rank * rank];
+    let mut effect = vec![T::zero(); rank];
+    for (column, &force) in b.chunks_exact(rank.max(1)).zip(&*forces) {
+        for (i, &x) in column.iter().enumerate().filter(|(_, x)| !x.is_zero()) {
+            effect[i] += x * force;
+            for (sum, &y) in gram[i * rank..].iter_mut().zip(column) {
+                *sum += x * y;
+            }
+        }
+    }
+    lu.factor(rank, gram.into_iter());
+    lu.solve(&mut effect);
+    let mut freedom = Freedom {
+        size: m,
+        projector: vec![0.0; m * m],
+    };
+    let mut solved = vec![T::zero(); rank];
+    for (j, force) in forces.iter_mut().enumerate() {
+        let column = &b[j * rank..(j + 1) * rank];
+        *force = dot(column, &effect);
+        solved.copy_from_slice(column);
+        lu.solve(&mut solved);
+        for i in 0..m {
+            let share = dot(&b[i * rank..(i + 1) * rank], &solved).value();
+            freedom.projector[i * m + j] = if i == j { 1.0 - share } else { -share };
+        }
+    }
+    freedom
 }
 
 #[cfg(test)]
@@ -67,11 +105,16 @@ mod tests {
         // Forces 0 and 1 along x, force 2 along y and force 3 none.
         let columns = [1.0, 0.0, 2.0, 0.0, 0.0, 3.0, 0.0, 0.0];
         let mut forces = [5.0, 0.0, 7.0, 1.0];
-        let determined = least_norm(&columns, 2, &mut forces);
+        let freedom = least_norm(&columns, 2, &mut forces);
         // Least norm of λ₀ + 2 λ₁ = 5.
         for (found, expected) in forces.into_iter().zip([1.0_f64, 2.0, 7.0, 0.0]) {
             assert!((found - expected).abs() < 1e-14, "{forces:?}");
         }
+        let determined: Vec<bool> = (0..4).map(|i| freedom.is_determined(i)).collect();
         assert_eq!(determined, [false, false, true, false]);
+        // What changes nothing: 2 λ₀ − λ₁, and λ₃.
+        for (found, expected) in freedom.row(0).iter().zip([0.8, -0.4, 0.0, 0.0]) {
+            assert!((found - expected).abs() < 1e-14);
+        }
     }
 }

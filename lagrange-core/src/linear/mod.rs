@@ -37,9 +37,9 @@ pub(crate) fn epsilon<T: Scalar>() -> f64 {
 }
 
 pub(crate) use collect::acts;
-pub(crate) use consistent::Equilibrated;
+pub(crate) use consistent::{Equilibrated, SeveralSides};
 pub(crate) use direct::positive_definite;
-pub(crate) use least_norm::least_norm;
+pub(crate) use least_norm::{Freedom, least_norm};
 pub(crate) use lemke::{Lemke, Outcome as LemkeOutcome};
 pub(crate) use plan::Plan;
 pub(crate) use solver::{Inertia, SolveError, Solver};

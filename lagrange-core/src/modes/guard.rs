@@ -43,6 +43,8 @@ pub enum Guard {
     Stop(usize, usize),
     /// Term of a mark.
     Mark(usize, usize),
+    /// A sum of guards of undetermined forces: index into a list of [`Joint`](crate::modes::sharing::Joint)s.
+    Joint(usize),
 }
 
 /// Adds `factor` times a series.
@@ -159,6 +161,8 @@ pub fn series<S: System>(guard: Guard, mode: &Mode, reading: &Reading<'_, S>, ou
         }
         Guard::Stop(i, k) => add(out, 1.0, reading.report(d.stops[i].terms[k])),
         Guard::Mark(i, k) => add(out, 1.0, reading.report(d.marks[i].terms[k])),
+        // Its parts are known to `sharing` only.
+        Guard::Joint(_) => {}
     }
 }
 

@@ -1,12 +1,14 @@
 //! Which mode comes next: contacts, friction, impact.
 //!
 //! [`guard`] says what ends a mode, [`decide`](mod@decide) finds the mode that goes on, [`impact`](mod@impact) what velocities do when
-//! a contact is hit, [`start`] what holds at the beginning.
+//! a contact is hit, [`start`] what holds at the beginning, [`sharing`] how
+//! forces that the motion leaves open are shared out.
 
 pub(crate) mod decide;
 pub(crate) mod guard;
 pub(crate) mod impact;
 pub(crate) mod reading;
 pub(crate) mod scale;
+pub(crate) mod sharing;
 pub(crate) mod start;
 pub(crate) mod table;

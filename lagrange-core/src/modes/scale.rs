@@ -55,6 +55,8 @@ impl Sizes {
             Guard::StickCone(f) => self.limit(f, dynamics).powi(2),
             Guard::Bearing(f) => self.normal(f, dynamics),
             Guard::Branch(_) | Guard::Stop(..) | Guard::Mark(..) => 0.0,
+            // It is relative already.
+            Guard::Joint(_) => 1.0,
         }
     }
 

@@ -3,16 +3,26 @@
 //! With Newton's restitution the intervals between impacts shrink by a factor ρ < 1, and what is left of them after an
 //! interval Δ lasts Δ ρ/(1 − ρ). Once all that can still move in that time is below the tolerance, and not earlier, the
 //! contact closes at the limit instant (Brogliato 2016, section 1.3; Goebel & Teel 2008).
+//!
+//! Of a cycle of several contacts (a rocking block alternates its corners) the impacts of each shrink by a factor; those that
+//! take part close together. Impacts of several contacts without a law (a ball in a groove) are followed as one train
+//! that gets shorter and shorter.
 
 use super::Run;
 use crate::arithmetic::Scalar;
+use crate::error::Error;
 use crate::modes::decide::Known;
-use crate::system::{Place, System};
+use crate::modes::impact::Impact;
+use crate::system::{Normal, Place, System};
+use crate::trajectory::{EventKind, Subject};
 
 /// Shrinking is believed after this many intervals.
 const FEWEST: usize = 3;
 /// Intervals that are remembered.
 const REMEMBERED: usize = 128;
+
+/// Time intervals below this share of the time itself cannot be told apart.
+const RESOLUTION: f64 = 64.0 * f64::EPSILON;
 
 /// The impacts of one contact.
 #[derive(Clone, Copy, Debug)]
@@ -25,6 +35,8 @@ pub(super) struct Impacts {
     interval: f64,
     /// Ratio of the last two intervals.
     ratio: f64,
+    /// How many of the last intervals were below the resolution of time.
+    unresolved: usize,
     /// The intervals before the last `REMEMBERED` of the `count` impacts, in a ring.
     intervals: [f64; REMEMBERED],
 }
@@ -36,6 +48,7 @@ impl Default for Impacts {
             last: 0.0,
             interval: 0.0,
             ratio: 0.0,
+            unresolved: 0,
             intervals: [0.0; REMEMBERED],
         }
     }
@@ -55,10 +68,17 @@ impl Impacts {
         };
         (self.last, self.interval, self.ratio) = (time, interval, ratio);
         self.intervals[self.count % REMEMBERED] = interval;
-        (steady && self.count >= FEWEST).then(|| {
+        self.unresolved = if interval <= RESOLUTION * time.abs() {
+            self.unresolved + 1
+        } else {
+            0
+        };
+        if steady && self.count >= FEWEST {
             let ratio = self.mean_ratio();
-            interval * ratio / (1.0 - ratio)
-        })
+            return Some(interval * ratio / (1.0 - ratio));
+        }
+        // No law in them, but time no longer tells them apart.
+        (self.unresolved >= FEWEST).then_some(0.0)
     }
 
     /// Mean ratio of the intervals since they were about e times as long: where they shrink slowly, the resolution of time
@@ -77,48 +97,176 @@ impl Impacts {
     }
 }
 
+/// Impacts in which a train must have become shorter.
+const WINDOW: usize = 64;
+/// What its second half may last at most, relative to the first.
+const SHORTER: f64 = 0.9;
+/// What is left of a train is only estimated: it must be below this share of the time itself.
+const ESTIMATED: f64 = 1e-9;
+
+/// The impacts of all contacts, one after the other.
+#[derive(Clone, Debug)]
+pub(super) struct Train {
+    count: usize,
+    /// Time and contact of the last ones, in a ring.
+    hits: [(f64, usize); WINDOW],
+}
+
+impl Default for Train {
+    fn default() -> Self {
+        Train {
+            count: 0,
+            hits: [(0.0, 0); WINDOW],
+        }
+    }
+}
+
+impl Train {
+    fn book(&mut self, time: f64, contact: usize) {
+        self.hits[self.count % WINDOW] = (time, contact);
+        self.count += 1;
+    }
+
+    /// How long it will go on, if the second half of the last impacts was shorter than the first.
+    fn remaining(&self) -> Option<f64> {
+        let ago = |k: usize| self.hits[(self.count + WINDOW - 1 - k) % WINDOW];
+        if self.count < WINDOW || self.hits.iter().all(|(_, c)| *c == self.hits[0].1) {
+            return None;
+        }
+        let (now, middle, first) = (ago(0).0, ago(WINDOW / 2).0, ago(WINDOW - 1).0);
+        if middle == first {
+            return Some(0.0);
+        }
+        let ratio = (now - middle) / (middle - first);
+        (ratio <= SHORTER).then(|| (now - middle) * ratio / (1.0 - ratio))
+    }
+
+    fn has(&self, contact: usize) -> bool {
+        self.hits.iter().any(|(_, c)| *c == contact)
+    }
+}
+
 impl<S: System> Run<S> {
-    /// After an impact of contact `c` that bounced: closes it if the bounces to come are below the tolerance. Returns
-    /// the number of impacts that led here.
-    pub(super) fn accumulate(&mut self, c: usize, known: &mut Known) -> Option<usize> {
+    /// Ends the infinitely many impacts of contacts that bounce ever less.
+    pub(super) fn close_accumulated(
+        &mut self,
+        outcome: &Impact<S::Scalar>,
+        known: &mut Known,
+    ) -> Result<(), Error> {
+        // A plastic impact after which nothing parts is no bounce; on a rocking block the corner that is hit stays and
+        // the other one parts.
+        if !known.parting.contains(&true) {
+            return Ok(());
+        }
+        for c in 0..S::DESCRIPTION.contacts.len() {
+            if !(outcome.struck[c] && known.arriving[c]) {
+                continue;
+            }
+            self.train.book(self.t.value(), c);
+            let ended = self.accumulate(c, known);
+            if let Some(count) = ended.or_else(|| self.die_out(known)) {
+                self.close_contacts(c, count, known)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// After an impact of contact `c`: closes it if the impacts to come are below the tolerance. Returns the number of
+    /// impacts that led here.
+    fn accumulate(&mut self, c: usize, known: &mut Known) -> Option<usize> {
         let remaining = self.impacts[c].book(self.t.value())?;
+        if !self.is_over(remaining) {
+            return None;
+        }
+        // Contacts that take part in the same cycle close with it.
+        let mut count = 0;
+        for other in 0..self.impacts.len() {
+            let impacts = &self.impacts[other];
+            let recent =
+                impacts.count >= FEWEST && self.t.value() - impacts.last <= 2.0 * impacts.interval;
+            if other == c || recent && self.vanishes(other) {
+                count += impacts.count;
+                self.end(other, known);
+            }
+        }
+        self.t += S::Scalar::from_f64(remaining);
+        Some(count)
+    }
+
+    /// The same for contacts that are hit without a law in it.
+    fn die_out(&mut self, known: &mut Known) -> Option<usize> {
+        let remaining = self.train.remaining()?;
+        if remaining > ESTIMATED * self.t.value().abs() || !self.is_over(remaining) {
+            return None;
+        }
+        for c in 0..self.impacts.len() {
+            if self.train.has(c) && self.vanishes(c) {
+                self.end(c, known);
+            }
+        }
+        self.t += S::Scalar::from_f64(remaining);
+        let count = self.train.count;
+        self.train = Train::default();
+        Some(count)
+    }
+
+    /// Whether all that can move in so much time is below the tolerance.
+    fn is_over(&self, remaining: f64) -> bool {
         let tolerance = self.settings.tolerance;
         let moves = |(q, v): (&S::Scalar, &S::Scalar)| {
             v.value().abs() * remaining > tolerance * q.value().abs().max(1.0)
         };
         // Below the resolution of time nothing can be told apart.
-        let resolved = remaining > 64.0 * f64::EPSILON * self.t.value().abs();
-        if resolved && self.state.q.iter().zip(&self.state.v).any(moves) {
-            return None;
-        }
+        let resolved = remaining > RESOLUTION * self.t.value().abs();
+        !(resolved && self.state.q.iter().zip(&self.state.v).any(moves))
+    }
+
+    /// Whether the gap of contact `c` is below the tolerance.
+    fn vanishes(&self, c: usize) -> bool {
+        let row = &S::DESCRIPTION.rows[S::DESCRIPTION.contacts[c].row];
+        let gap = self.dynamics.motion(row.position.unwrap_or(Place::Zero));
+        gap.value().abs() <= self.settings.tolerance
+    }
+
+    /// Contact `c` bounces no more.
+    fn end(&mut self, c: usize, known: &mut Known) {
+        (known.touching[c], known.parting[c]) = (true, false);
+        self.impacts[c] = Impacts::default();
+    }
+
+    /// Puts the state onto the contacts that have ended and logs it.
+    fn close_contacts(&mut self, c: usize, count: usize, known: &mut Known) -> Result<(), Error> {
         let d = S::DESCRIPTION;
-        known.touching[c] = true;
-        known.parting[c] = false;
-        // Contacts that take part in the same cycle (the other corner of a rocking block) close with it.
-        for (other, impacts) in self.impacts.iter().enumerate() {
-            let recent =
-                impacts.count >= FEWEST && self.t.value() - impacts.last <= 2.0 * impacts.interval;
-            let row = &d.rows[d.contacts[other].row];
-            let gap = self.dynamics.motion(row.position.unwrap_or(Place::Zero));
-            // One that parts for good closes again in its own time.
-            let still = self.rate_after(other) <= 8.0 * self.rate_after(c);
-            if other != c && recent && gap.value().abs() <= tolerance && still {
-                known.touching[other] = true;
-                known.parting[other] = false;
+        let vanishing = self.jump_of_gap(c);
+        self.scratch_mode.clone_from(&self.mode);
+        self.scratch_mode.contacts.copy_from_slice(&known.touching);
+        self.dynamics.set_mode(&self.scratch_mode);
+        self.project(true)?;
+        self.evaluate_all_rows()?;
+        for (f, friction) in d.frictions.iter().enumerate() {
+            if matches!(friction.normal, Normal::Contact(on) if known.touching[on]) {
+                // A slip no faster than the impacts vanishes with them.
+                let rows = friction.row..friction.row + friction.components;
+                known.resting[f] = rows.into_iter().all(|row| {
+                    let (slip, size) = self.rate(row);
+                    slip.abs() <= (1e-13 * size).max(vanishing)
+                });
             }
         }
-        self.t += S::Scalar::from_f64(remaining);
-        let count = self.impacts[c].count;
-        self.impacts[c] = Impacts::default();
-        Some(count)
+        let state = core::mem::take(&mut self.state);
+        let kind = EventKind::Accumulates { impacts: count };
+        self.log_watch(Subject::Contact(c), kind, self.t, &state);
+        self.state = state;
+        Ok(())
     }
-    /// Speed at which the gap of contact `c` changes after the impact that `dynamics` has evaluated.
-    fn rate_after(&self, c: usize) -> f64 {
+
+    /// How much the impact of this instant has changed the gap rate of contact `c`.
+    fn jump_of_gap(&self, c: usize) -> f64 {
         let row = &S::DESCRIPTION.rows[S::DESCRIPTION.contacts[c].row];
         let jump = row.jacobian.iter().map(|&(j, place)| {
-            let change = self.state.v[j] - self.before.state.v[j];
-            (self.dynamics.motion(place) * change).value()
+            let jump = self.before.state.v[j] - self.state.v[j];
+            (self.dynamics.motion(place) * jump).value()
         });
-        (self.dynamics.motion(row.velocity).value() + jump.sum::<f64>()).abs()
+        jump.sum::<f64>().abs()
     }
 }

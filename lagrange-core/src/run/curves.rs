@@ -7,8 +7,9 @@ use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError};
 use crate::integrate::StepPolynomial;
 use crate::mode::Mode;
-use crate::modes::guard::{self, Guard};
+use crate::modes::guard::Guard;
 use crate::modes::reading::Reading;
+use crate::modes::sharing::{self, Joint};
 use crate::system::System;
 
 /// The polynomials of all guards of a step.
@@ -77,7 +78,7 @@ impl Curves {
         &mut self,
         dynamics: &Dynamics<S>,
         mode: &Mode,
-        guards: &[Guard],
+        (guards, joints): (&[Guard], &[Joint]),
         powers: &[f64],
     ) {
         let reading = Reading::Series(dynamics);
@@ -85,7 +86,7 @@ impl Curves {
         let all = guards.iter().chain(&self.watches);
         let curves = self.coefficients.chunks_exact_mut(self.width);
         for (curve, &g) in curves.zip(all) {
-            guard::series(g, mode, &reading, curve);
+            sharing::series(g, joints, mode, &reading, curve);
             for (c, power) in curve.iter_mut().zip(powers) {
                 *c *= power;
             }
@@ -101,7 +102,7 @@ impl Curves {
         &self,
         dynamics: &mut Dynamics<S>,
         mode: &Mode,
-        guards: &[Guard],
+        (guards, joints): (&[Guard], &[Joint]),
         s: f64,
         tolerance: f64,
         located: impl Fn(Guard) -> bool,
@@ -120,6 +121,7 @@ impl Curves {
                 | Guard::StickLower(_)
                 | Guard::StickCone(_)
                 | Guard::Bearing(_)
+                | Guard::Joint(_)
                     if located =>
                 {
                     (10.0, 1e-12)
@@ -128,7 +130,8 @@ impl Curves {
                 | Guard::StickUpper(_)
                 | Guard::StickLower(_)
                 | Guard::StickCone(_)
-                | Guard::Bearing(_) => (1e4, 1e-10),
+                | Guard::Bearing(_)
+                | Guard::Joint(_) => (1e4, 1e-10),
                 _ if located => (0.1, 1e-14),
                 _ => (10.0, 1e-13),
             };
@@ -140,7 +143,7 @@ impl Curves {
                 dynamics.report_value();
                 reported = true;
             }
-            let value = guard::value(g, mode, &Reading::Values(dynamics));
+            let value = sharing::value(g, joints, mode, &Reading::Values(dynamics));
             let found = curve.iter().rev().fold(0.0, |sum, c| sum * s + c);
             // Not all coefficients: where the series has stopped converging they are large and cancel.
             let size = value.abs() + curve.iter().take(2).map(|c| c.abs()).sum::<f64>();
@@ -163,7 +166,7 @@ impl Curves {
         &mut self,
         dynamics: &mut Dynamics<S>,
         mode: &Mode,
-        guards: &[Guard],
+        (guards, joints): (&[Guard], &[Joint]),
         step: &StepPolynomial<S::Scalar>,
         q: &mut [S::Scalar],
         v: &mut [S::Scalar],
@@ -188,7 +191,7 @@ impl Curves {
             let all = guards.iter().chain(&self.watches);
             let curves = self.coefficients.chunks_exact_mut(m);
             for (curve, &g) in curves.zip(all) {
-                let sample = guard::value(g, mode, &reading);
+                let sample = sharing::value(g, joints, mode, &reading);
                 for (c, row) in curve.iter_mut().zip(self.matrix.chunks_exact(m)) {
                     *c += row[j] * sample;
                 }

@@ -1,6 +1,7 @@
 //! What ends a step early: the earliest root among the guards of the mode and the stops.
 
 use super::Run;
+use crate::arithmetic::Scalar;
 use crate::events::{Direction, RootList, deflate, first_root, roots};
 use crate::integrate::polynomial_sum as sum;
 use crate::mode::{FrictionMode, Mode};
@@ -47,7 +48,10 @@ impl<S: System> Run<S> {
                 first = first.min(s + width);
             }
         }
-        // Roots whose enclosures overlap with that of the earliest cannot be told apart from it.
+        // Roots whose enclosures overlap with that of the earliest cannot be told apart from it, nor can those at a
+        // distance that time does not resolve.
+        let h = self.step.h.value();
+        first += 8.0 * f64::EPSILON * (self.t.value() / h).abs().max(1.0);
         self.fallen.clear();
         let mut at = f64::INFINITY;
         for &(guard, s, width) in &self.falls {

@@ -14,6 +14,7 @@ pub(super) struct Before<T> {
     pub mode: Mode,
     pub state: State<T>,
     pub forces: Vec<T>,
+    pub undetermined: Vec<bool>,
 }
 
 impl<S: System> Run<S> {
@@ -32,6 +33,8 @@ impl<S: System> Run<S> {
                 state_after: &self.state,
                 forces: &before.forces,
                 forces_after: &before.forces,
+                undetermined: &before.undetermined,
+                undetermined_after: &before.undetermined,
                 impulses: &outcome.impulses,
             };
             event.write(self.t, Subject::Contact(c), EventKind::Impact, around);
@@ -43,10 +46,13 @@ impl<S: System> Run<S> {
     /// One entry per item whose state changed; frictions that come and go with their contact are not told apart.
     pub(super) fn log_changes(&mut self, impulses: &[S::Scalar], ambiguous: bool) {
         let d = S::DESCRIPTION;
-        write_forces(&mut self.forces_after, |row| {
-            let series = self.dynamics.force_series(row);
-            series.first().copied().unwrap_or_default()
-        });
+        if !self.dynamics.has_dependent_rows() {
+            write_forces(&mut self.forces_after, |row| {
+                let series = self.dynamics.force_series(row);
+                series.first().copied().unwrap_or_default()
+            });
+            self.undetermined_after.clear();
+        }
         let (before, after) = (&self.before.mode, &self.mode);
         // The impacts of this instant end in the mode that has now been found.
         for event in self.trajectory.events.iter_mut().rev() {
@@ -55,6 +61,9 @@ impl<S: System> Run<S> {
             }
             event.after.clone_from(after);
             event.forces_after.clone_from(&self.forces_after);
+            event
+                .undetermined_after
+                .clone_from(&self.undetermined_after);
         }
         let contacts =
             (0..d.contacts.len()).filter_map(|c| match (before.contacts[c], after.contacts[c]) {
@@ -83,6 +92,8 @@ impl<S: System> Run<S> {
             state_after: &self.state,
             forces: &self.before.forces,
             forces_after: &self.forces_after,
+            undetermined: &self.before.undetermined,
+            undetermined_after: &self.undetermined_after,
             impulses,
         };
         for (subject, kind) in contacts.chain(frictions).chain(branches) {
@@ -101,7 +112,8 @@ impl<S: System> Run<S> {
         state: &State<S::Scalar>,
     ) {
         let mut forces = core::mem::take(&mut self.forces_after);
-        write_forces(&mut forces, |row| self.dynamics.force(row));
+        let mut undetermined = core::mem::take(&mut self.undetermined_after);
+        self.reported_forces(&mut forces, &mut undetermined);
         let around = Around {
             before: &self.mode,
             after: &self.mode,
@@ -109,6 +121,8 @@ impl<S: System> Run<S> {
             state_after: state,
             forces: &forces,
             forces_after: &forces,
+            undetermined: &undetermined,
+            undetermined_after: &undetermined,
             impulses: &[],
         };
         let event = self
@@ -116,14 +130,17 @@ impl<S: System> Run<S> {
             .events
             .reuse(|| Event::blank(S::DESCRIPTION));
         event.write(time, subject, kind, around);
-        self.forces_after = forces;
+        (self.forces_after, self.undetermined_after) = (forces, undetermined);
     }
 
     /// Mode, state and forces of the last value, before they change.
     pub(super) fn remember_before(&mut self) {
         self.before.mode.clone_from(&self.mode);
         self.before.state.clone_from(&self.state);
-        write_forces(&mut self.before.forces, |row| self.dynamics.force(row));
+        let mut forces = core::mem::take(&mut self.before.forces);
+        let mut undetermined = core::mem::take(&mut self.before.undetermined);
+        self.reported_forces(&mut forces, &mut undetermined);
+        (self.before.forces, self.before.undetermined) = (forces, undetermined);
     }
 }
 

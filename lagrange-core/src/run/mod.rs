@@ -6,6 +6,7 @@ mod hits;
 mod log;
 mod rest;
 mod runner;
+mod shares;
 mod singular;
 mod stepping;
 mod switch;
@@ -21,13 +22,14 @@ use crate::modes::decide::Decider;
 use crate::modes::guard::{self, Guard};
 use crate::modes::impact::Collider;
 use crate::modes::reading::Reading;
+use crate::modes::sharing::{Joint, Sharing};
 use crate::modes::start::{self, Survey};
 use crate::modes::table::Table;
 use crate::pool::Pool;
 use crate::simulation::Settings;
 use crate::system::{System, Watch};
 use crate::trajectory::{EventKind, State, Subject, Trajectory, Work};
-use accumulation::Impacts;
+use accumulation::{Impacts, Train};
 use core::ops::Range;
 use curves::Curves;
 use hits::Hit;
@@ -88,14 +90,22 @@ pub(crate) struct Run<S: System> {
     curves: Curves,
     scratch: State<S::Scalar>,
     survey: Survey,
-    decider: Decider,
     collider: Collider<S::Scalar>,
     /// Contacts whose gap vanishes at an impact.
     near: Vec<usize>,
+    decider: Decider<S::Scalar>,
+    /// Of undetermined forces at the present state.
+    sharing: Sharing<S::Scalar>,
+    /// Guards of such forces that have been met in this mode.
+    joints: Vec<Joint>,
     before: Before<S::Scalar>,
     forces_after: Vec<S::Scalar>,
+    undetermined_after: Vec<bool>,
     /// Per contact: its impacts so far.
     impacts: Vec<Impacts>,
+    /// All impacts so far.
+    train: Train,
+    scratch_mode: Mode,
     /// Watches for positions where constraints lose rank.
     rank: Rank,
     /// Distance from such a position at the start of the coming step.
@@ -133,8 +143,10 @@ impl<S: System> Run<S> {
                 mode: mode.clone(),
                 state: state.clone(),
                 forces: vec![zero; rows],
+                undetermined: Vec::with_capacity(rows),
             },
             forces_after: vec![zero; rows],
+            undetermined_after: Vec::with_capacity(rows),
             table: Table::default(),
             guards: Vec::new(),
             drifts: true,
@@ -156,7 +168,11 @@ impl<S: System> Run<S> {
             decider: Decider::new(d),
             collider: Collider::default(),
             near: Vec::with_capacity(d.contacts.len()),
+            sharing: Sharing::default(),
+            joints: Vec::new(),
             impacts: vec![Impacts::default(); d.contacts.len()],
+            train: Train::default(),
+            scratch_mode: mode.clone(),
             rank: Rank::new::<S>(),
             distance: 1.0,
             stuck: Pool::default(),
@@ -200,9 +216,12 @@ impl<S: System> Run<S> {
             .iter_mut()
             .for_each(|terms| terms.fill(false));
         self.impacts.fill(Impacts::default());
+        self.train = Train::default();
         self.rank.restart();
         self.distance = 1.0;
         self.stuck.clear();
+        self.joints.clear();
+        self.sharing.clear();
         self.finished = false;
         let outcome = self.go();
         self.close();
@@ -377,6 +396,7 @@ impl<S: System> Run<S> {
     fn set_mode_decided(&mut self) {
         self.mode.clone_from(&self.decider.decision.mode);
         self.trajectory.enter(&self.mode);
+        self.joints.clone_from(&self.decider.decision.joints);
         (self.expanded, self.valued) = (false, false);
         self.hold_guards();
     }
@@ -385,6 +405,7 @@ impl<S: System> Run<S> {
     fn hold_guards(&mut self) {
         let watched = self.table.of(&self.dynamics);
         self.guards.clone_from(&watched.guards);
+        self.guards.extend((0..self.joints.len()).map(Guard::Joint));
         self.drifts = watched.drifts;
         self.dynamics.set_extra_needs(&watched.needs);
     }

@@ -15,6 +15,8 @@ use crate::trajectory::State;
 
 /// Where rounding hides how a guard begins, the step is made shorter by this.
 const CLOSER_LOOK: f64 = 1e-3;
+/// But not beyond this share of the time that is left (close to time 0 its resolution is no limit).
+const CLOSEST: f64 = 1e-20;
 
 /// What makes the polynomials of a step.
 #[derive(Debug)]
@@ -61,6 +63,7 @@ impl<S: System> Run<S> {
             .ok_or_else(|| self.not_finite("a Taylor coefficient"))?
             .min(longest);
         let mut closer = 0;
+        let mut corrections = 0;
         // Of a step that another method left to this one.
         let mut control = DefectControl::default();
         loop {
@@ -68,10 +71,13 @@ impl<S: System> Run<S> {
                 return Err(self.step_too_small(h));
             }
             self.write_polynomial(h, self.order);
+            let guards = (&self.guards[..], &self.joints[..]);
             self.curves
-                .take_series(&self.dynamics, &self.mode, &self.guards, &self.powers);
-            if self.hides_a_start() && self.t.value() + CLOSER_LOOK * h > self.t.value() {
-                h *= CLOSER_LOOK;
+                .take_series(&self.dynamics, &self.mode, guards, &self.powers);
+            let shorter = CLOSER_LOOK * h;
+            let resolved = self.t.value() + shorter > self.t.value() && shorter > CLOSEST * longest;
+            if resolved && self.hides_a_start() {
+                h = shorter;
                 continue;
             }
             let hit = self.first_hit();
@@ -88,7 +94,8 @@ impl<S: System> Run<S> {
             let defect = if self.evaluate_end(looked).is_ok() {
                 let accelerations = self.dynamics.acceleration();
                 let motion = taylor::defect(&self.step, looked, accelerations, self.tolerance);
-                let (guards, tolerance) = (&self.guards, self.tolerance.relative);
+                let guards = (&self.guards[..], &self.joints[..]);
+                let tolerance = self.tolerance.relative;
                 let (curves, fallen) = (&self.curves, &self.fallen);
                 let stops = matches!(hit, Hit::Stop(..));
                 let located = |g| fallen.contains(&g) || stops && matches!(g, Guard::Stop(..));
@@ -118,6 +125,9 @@ impl<S: System> Run<S> {
             // The polynomial is as good at its root however long the step: the next try ends before it.
             match control.judge(h * end, defect, self.order) {
                 Verdict::Accept => {
+                    if self.corrects_joints(&hit, &mut corrections) {
+                        continue;
+                    }
                     self.distance = distance;
                     if looked != end {
                         self.state_at_end(end);
@@ -215,20 +225,26 @@ impl<S: System> Run<S> {
                 });
             }
         }
-        let sampled = self.curves.sample(
-            &mut self.dynamics,
-            &self.mode,
-            &self.guards,
-            &self.step,
-            &mut self.scratch.q,
-            &mut self.scratch.v,
-        );
-        sampled.map_err(|e| self.error(e))?;
-        let hit = self.first_hit();
-        if hit.end() > 0.0 {
+        let mut corrections = 0;
+        loop {
+            let sampled = self.curves.sample(
+                &mut self.dynamics,
+                &self.mode,
+                (&self.guards, &self.joints),
+                &self.step,
+                &mut self.scratch.q,
+                &mut self.scratch.v,
+            );
+            sampled.map_err(|e| self.error(e))?;
+            let hit = self.first_hit();
+            if hit.end() == 0.0 {
+                return Ok(hit);
+            }
             self.evaluate_end(hit.end()).map_err(|e| self.error(e))?;
+            if !self.corrects_joints(&hit, &mut corrections) {
+                return Ok(hit);
+            }
         }
-        Ok(hit)
     }
 
     fn step_too_small(&self, step: f64) -> Error {

@@ -9,7 +9,6 @@ use crate::modes::decide::{Known, Moment};
 use crate::modes::guard::Guard;
 use crate::modes::impact::Impact;
 use crate::system::{Normal, System};
-use crate::trajectory::{EventKind, Subject};
 
 impl<S: System> Run<S> {
     /// Leaves the present mode because the guards in `self.fallen` fell through zero.
@@ -39,6 +38,15 @@ impl<S: System> Run<S> {
             }
         }
         known.located.extend_from_slice(&self.fallen);
+        for guard in &self.fallen {
+            if let Guard::Joint(k) = *guard {
+                let parts = self.joints[k].parts.iter().map(|&(part, _)| part);
+                self.survey.known.located.extend(parts);
+                let residue = self.joint_residue(&self.joints[k]);
+                let known = &mut self.survey.known;
+                known.residue = known.residue.max(residue);
+            }
+        }
         self.settle()
     }
 
@@ -80,6 +88,14 @@ impl<S: System> Run<S> {
             self.project(true)?;
         }
         self.expand()?;
+        if self.dynamics.has_dependent_rows() {
+            let valued = self.valued;
+            self.evaluate()?;
+            self.valued = valued;
+            self.note_shares();
+        } else {
+            self.sharing.clear();
+        }
         let outcome = core::mem::take(&mut self.collider.outcome);
         let impulses = if hit { &outcome.impulses[..] } else { &[] };
         self.log_changes(impulses, self.decider.decision.ambiguous);
@@ -142,40 +158,6 @@ impl<S: System> Run<S> {
                 .motion(d.rows[d.contacts[c].row].velocity)
                 .value()
                 < 0.0
-    }
-
-    /// Ends the infinitely many impacts of contacts that bounce ever less.
-    fn close_accumulated(
-        &mut self,
-        outcome: &Impact<S::Scalar>,
-        known: &mut Known,
-    ) -> Result<(), Error> {
-        let d = S::DESCRIPTION;
-        for c in 0..d.contacts.len() {
-            if !outcome.struck[c] || !known.parting[c] {
-                continue;
-            }
-            let Some(count) = self.accumulate(c, known) else {
-                continue;
-            };
-            let mut closed = self.mode.clone();
-            for (contact, touching) in closed.contacts.iter_mut().zip(&known.touching) {
-                *contact = *touching;
-            }
-            self.dynamics.set_mode(&closed);
-            self.project(true)?;
-            self.evaluate_all_rows()?;
-            for (f, friction) in d.frictions.iter().enumerate() {
-                if matches!(friction.normal, Normal::Contact(on) if known.touching[on]) {
-                    known.resting[f] = self.slip_vanishes(f);
-                }
-            }
-            let state = core::mem::take(&mut self.state);
-            let kind = EventKind::Accumulates { impacts: count };
-            self.log_watch(Subject::Contact(c), kind, self.t, &state);
-            self.state = state;
-        }
-        Ok(())
     }
 
     /// What is known after an impact; `dynamics` still holds the state before.
@@ -250,7 +232,7 @@ impl<S: System> Run<S> {
 
     /// Rate of a row (slip, rate of a gap) and the size of the terms that make it; a velocity that is zero is so only to some
     /// 1e-16 of the unit, as projections leave it.
-    fn rate(&self, row: usize) -> (f64, f64) {
+    pub(super) fn rate(&self, row: usize) -> (f64, f64) {
         let row = &S::DESCRIPTION.rows[row];
         let number = |place| self.dynamics.motion(place).value();
         let size = |j: usize| self.state.v[j].value().abs() + 1e-2;

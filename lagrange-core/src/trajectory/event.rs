@@ -142,6 +142,11 @@ pub struct Event<T> {
     pub forces: Vec<T>,
     /// λ of every row just after.
     pub forces_after: Vec<T>,
+    /// Per row: whether the motion leaves its force just before open, so that the one given is the share of least norm among
+    /// those that contacts and friction allow. Empty where all forces are determined.
+    pub undetermined: Vec<bool>,
+    /// The same for the forces just after.
+    pub undetermined_after: Vec<bool>,
     /// Impulse of every row, at an impact; else empty.
     pub impulses: Vec<T>,
     /// Whether the restitution was lowered so that the impact does not add energy.
@@ -161,6 +166,8 @@ pub(crate) struct Around<'a, T> {
     pub state_after: &'a State<T>,
     pub forces: &'a [T],
     pub forces_after: &'a [T],
+    pub undetermined: &'a [bool],
+    pub undetermined_after: &'a [bool],
     pub impulses: &'a [T],
 }
 
@@ -181,6 +188,8 @@ impl<T: crate::arithmetic::Scalar> Event<T> {
             state_after: state,
             forces: Vec::new(),
             forces_after: Vec::new(),
+            undetermined: Vec::new(),
+            undetermined_after: Vec::new(),
             impulses: Vec::new(),
             restitution_lowered: false,
             impulses_undetermined: false,
@@ -202,6 +211,11 @@ impl<T: crate::arithmetic::Scalar> Event<T> {
         copy(&mut self.forces, a.forces);
         copy(&mut self.forces_after, a.forces_after);
         copy(&mut self.impulses, a.impulses);
+        self.undetermined.clear();
+        self.undetermined.extend_from_slice(a.undetermined);
+        self.undetermined_after.clear();
+        self.undetermined_after
+            .extend_from_slice(a.undetermined_after);
         self.restitution_lowered = false;
         self.impulses_undetermined = false;
         self.ambiguous = false;

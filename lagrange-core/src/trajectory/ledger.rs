@@ -4,11 +4,11 @@
 //! dh/dt = Σ Q·v − ∂L/∂t (Goldstein, Poole & Safko 2002, section 2.7). Each power is integrated over the stored step
 //! polynomials by Gauss–Legendre quadrature; impacts add their jumps. What is left over is the closure error.
 
-use super::{EventKind, Trajectory};
+use super::{EventKind, Instant, Sampler, State, Trajectory};
 use crate::arithmetic::Scalar;
 use crate::dynamics::row_name;
 use crate::error::Error;
-use crate::system::System;
+use crate::system::{Description, System};
 
 /// Energies at one instant, J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -65,71 +65,134 @@ impl<S: System> Trajectory<S> {
     /// # Errors
     /// [`Error::NotRecorded`]; or the equations of motion could not be evaluated somewhere on the way.
     pub fn ledger(&self) -> Result<Ledger, Error> {
-        self.check_recorded()?;
-        let d = S::DESCRIPTION;
-        let mut sampler = self.sampler();
-        let loads = d.forces.len() + d.dissipations.len();
-        let items = loads + d.rows.len() + 1;
-        let mut totals = vec![0.0; items];
-        let mut power = vec![S::Scalar::default(); items];
-        for (k, segment) in self.segments.iter().enumerate() {
-            let half = 0.5 * segment.end.value();
-            for (node, weight) in GAUSS.into_iter().flat_map(|(x, w)| [(-x, w), (x, w)]) {
-                sampler.powers(k, S::Scalar::from_f64(half * (1.0 + node)), &mut power)?;
-                let factor = weight * half * segment.h.value();
-                for (total, power) in totals.iter_mut().zip(&power) {
-                    *total += factor * power.value();
-                }
+        let mut books = Books::open(self)?;
+        books.turn_to(self.segments.len(), None)?;
+        let end = self.state_of_energy(&mut books.sampler, self.last_time, &self.last)?;
+        Ok(books.balance(end))
+    }
+
+    /// Books the energy from the beginning to each of `times`, s, in the order given; with impacts up to and at that time.
+    /// Every ledger has the same entries.
+    ///
+    /// # Errors
+    /// [`Error::OutsideTrajectory`], [`Error::NotRecorded`]; or the equations of motion could not be evaluated somewhere on
+    /// the way.
+    pub fn ledgers(&self, times: &[f64]) -> Result<Vec<Ledger>, Error> {
+        let mut order: Vec<usize> = (0..times.len()).collect();
+        order.sort_by(|&i, &j| times[i].total_cmp(&times[j]));
+        let mut books = Books::open(self)?;
+        let mut ledgers = vec![None; times.len()];
+        for i in order {
+            let now = books.sampler.at(times[i])?;
+            let after = self.segments.partition_point(|s| s.t.value() <= times[i]);
+            books.turn_to(after.saturating_sub(1), Some(times[i]))?;
+            ledgers[i] = Some(books.balance(energies(&now)));
+        }
+        Ok(ledgers.into_iter().flatten().collect())
+    }
+
+    /// Energies of the last state.
+    fn state_of_energy(
+        &self,
+        sampler: &mut Sampler<'_, S>,
+        time: S::Scalar,
+        state: &State<S::Scalar>,
+    ) -> Result<Energies, Error> {
+        let mode = self.modes.len() - 1;
+        Ok(energies(&sampler.evaluate(time, mode, state)?))
+    }
+}
+
+/// The books of a trajectory, kept from its beginning to some time.
+struct Books<'a, S: System> {
+    trajectory: &'a Trajectory<S>,
+    sampler: Sampler<'a, S>,
+    start: Energies,
+    /// Every item, its work up to the begin of the first segment that is not booked.
+    booked: Vec<Entry>,
+    /// Segments that are booked.
+    segments: usize,
+    /// Work in a part of the next segment.
+    part: Vec<f64>,
+    /// Energy jumps: (time, entry, J), in order of time, and how many are booked.
+    jumps: Vec<(f64, usize, f64)>,
+    jumped: usize,
+    /// Entry of each power of [`Sampler::powers`].
+    entries: Vec<usize>,
+    power: Vec<S::Scalar>,
+}
+
+impl<'a, S: System> Books<'a, S> {
+    fn open(trajectory: &'a Trajectory<S>) -> Result<Self, Error> {
+        trajectory.check_recorded()?;
+        let mut sampler = trajectory.sampler();
+        let (mut booked, entries) = items(S::DESCRIPTION);
+        let jumps = jumps(trajectory, &mut sampler, &mut booked)?;
+        let mode = trajectory.segments.first().map_or(0, |s| s.mode);
+        let start = sampler.evaluate(trajectory.first_time, mode, &trajectory.start)?;
+        Ok(Books {
+            trajectory,
+            start: energies(&start),
+            part: vec![0.0; booked.len()],
+            booked,
+            segments: 0,
+            jumps,
+            jumped: 0,
+            power: vec![S::Scalar::default(); entries.len()],
+            entries,
+            sampler,
+        })
+    }
+
+    /// Books the segments before number `segment`, and the next one up to `time` if one is given.
+    fn turn_to(&mut self, segment: usize, time: Option<f64>) -> Result<(), Error> {
+        while self.segments < segment {
+            let whole = self.trajectory.segments[self.segments].end.value();
+            self.integrate(self.segments, whole)?;
+            for (entry, part) in self.booked.iter_mut().zip(&self.part) {
+                entry.work += part;
+            }
+            self.segments += 1;
+        }
+        self.part.fill(0.0);
+        if let (Some(time), Some(next)) = (time, self.trajectory.segments.get(segment)) {
+            let s = (time - next.t.value()) / next.h.value();
+            // A step that ended where it began has no length.
+            if s > 0.0 {
+                self.integrate(segment, s.min(next.end.value()))?;
             }
         }
-        let mut work: Vec<Entry> = Vec::new();
-        for (i, load) in d.forces.iter().enumerate() {
-            work.push(Entry {
-                name: load.name,
-                kind: "force",
-                work: totals[i],
-            });
+        let last = time.unwrap_or(f64::INFINITY);
+        while let Some(&(_, entry, energy)) = self.jumps.get(self.jumped).filter(|j| j.0 <= last) {
+            self.booked[entry].work += energy;
+            self.jumped += 1;
         }
-        for (i, load) in d.dissipations.iter().enumerate() {
-            work.push(Entry {
-                name: load.name,
-                kind: "dissipation",
-                work: totals[d.forces.len() + i],
-            });
-        }
-        for row in 0..d.rows.len() {
-            let friction = d
-                .frictions
-                .iter()
-                .find(|f| (f.row..f.row + f.components).contains(&row));
-            let kind = match friction {
-                Some(_) => "friction",
-                None if d.contacts.iter().any(|c| c.row == row) => "contact",
-                None => "constraint",
-            };
-            let name = row_name(d, row);
-            let amount = totals[loads + row];
-            match work.last_mut() {
-                Some(last) if kind == "friction" && last.kind == kind && last.name == name => {
-                    last.work += amount
-                }
-                _ => work.push(Entry {
-                    name,
-                    kind,
-                    work: amount,
-                }),
+        Ok(())
+    }
+
+    /// Work from the begin of a segment to part `end` of it, into `part`.
+    fn integrate(&mut self, segment: usize, end: f64) -> Result<(), Error> {
+        self.part.fill(0.0);
+        let h = self.trajectory.segments[segment].h.value();
+        let half = 0.5 * end;
+        for (node, weight) in GAUSS.into_iter().flat_map(|(x, w)| [(-x, w), (x, w)]) {
+            let s = S::Scalar::from_f64(half * (1.0 + node));
+            self.sampler.powers(segment, s, &mut self.power)?;
+            for (&entry, power) in self.entries.iter().zip(&self.power) {
+                self.part[entry] += weight * half * h * power.value();
             }
         }
-        work.push(Entry {
-            name: "explicit time",
-            kind: "time",
-            work: totals[items - 1],
-        });
-        self.book_impacts(&mut sampler, &mut work)?;
-        let mode = self.segments.first().map_or(0, |s| s.mode);
-        let start = energies(&sampler.evaluate(self.first_time, mode, &self.start)?);
-        let end = energies(&sampler.evaluate(self.last_time, self.modes.len() - 1, &self.last)?);
+        Ok(())
+    }
+
+    /// The ledger at the time turned to, with these energies then.
+    fn balance(&self, end: Energies) -> Ledger {
+        let mut work = self.booked.clone();
+        for (entry, part) in work.iter_mut().zip(&self.part) {
+            entry.work += part;
+        }
         let sum: f64 = work.iter().map(|e| e.work).sum();
+        let start = self.start;
         let sizes = [
             start.kinetic,
             end.kinetic,
@@ -140,57 +203,95 @@ impl<S: System> Trajectory<S> {
             .into_iter()
             .chain(work.iter().map(|e| e.work))
             .fold(0.0_f64, |m, x| m.max(x.abs()));
-        Ok(Ledger {
+        Ledger {
             start,
             end,
             scale,
             closure: end.jacobi - start.jacobi - sum,
             work,
-        })
-    }
-
-    /// Energy jumps at impacts; several events of one impact book it once.
-    fn book_impacts(
-        &self,
-        sampler: &mut super::Sampler<'_, S>,
-        work: &mut Vec<Entry>,
-    ) -> Result<(), Error> {
-        let d = S::DESCRIPTION;
-        let mut booked = None;
-        for event in self.events.iter().filter(|e| e.kind == EventKind::Impact) {
-            // Impacts that follow each other at one instant begin in different states.
-            if booked == Some(&event.state) {
-                continue;
-            }
-            booked = Some(&event.state);
-            let mode = self
-                .modes
-                .iter()
-                .position(|m| *m == event.before)
-                .unwrap_or(0);
-            let before = sampler.evaluate(event.time, mode, &event.state)?.jacobi;
-            let after = sampler
-                .evaluate(event.time, mode, &event.state_after)?
-                .jacobi;
-            let name = event.subject.name(d);
-            let amount = (after - before).value();
-            match work
-                .iter_mut()
-                .find(|e| e.kind == "impact" && e.name == name)
-            {
-                Some(entry) => entry.work += amount,
-                None => work.push(Entry {
-                    name,
-                    kind: "impact",
-                    work: amount,
-                }),
-            }
         }
-        Ok(())
     }
 }
 
-fn energies<T: Scalar>(instant: &super::Instant<T>) -> Energies {
+/// An entry for every item but impacts, and the entry of every power of [`Sampler::powers`].
+fn items(d: &'static Description) -> (Vec<Entry>, Vec<usize>) {
+    let mut work: Vec<Entry> = Vec::new();
+    let mut entries = Vec::new();
+    let loads = d.forces.iter().map(|load| (load.name, "force"));
+    let dampers = d.dissipations.iter().map(|load| (load.name, "dissipation"));
+    let rows = (0..d.rows.len()).map(|row| (row_name(d, row), kind(d, row)));
+    let time = [("explicit time", "time")];
+    for (name, kind) in loads.chain(dampers).chain(rows).chain(time) {
+        // A friction in space is one item with two rows.
+        let again = kind == "friction"
+            && work
+                .last()
+                .is_some_and(|e| e.kind == kind && e.name == name);
+        if !again {
+            work.push(Entry {
+                name,
+                kind,
+                work: 0.0,
+            });
+        }
+        entries.push(work.len() - 1);
+    }
+    (work, entries)
+}
+
+fn kind(d: &Description, row: usize) -> &'static str {
+    let mut frictions = d.frictions.iter();
+    if frictions.any(|f| (f.row..f.row + f.components).contains(&row)) {
+        "friction"
+    } else if d.contacts.iter().any(|c| c.row == row) {
+        "contact"
+    } else {
+        "constraint"
+    }
+}
+
+/// Energy jumps at impacts, (time, entry, J); several events of one impact book it once. Adds an entry for every item that
+/// was hit.
+fn jumps<S: System>(
+    trajectory: &Trajectory<S>,
+    sampler: &mut Sampler<'_, S>,
+    work: &mut Vec<Entry>,
+) -> Result<Vec<(f64, usize, f64)>, Error> {
+    let d = S::DESCRIPTION;
+    let mut jumps = Vec::new();
+    let mut booked = None;
+    for event in trajectory.events.iter() {
+        if event.kind != EventKind::Impact || booked == Some(&event.state) {
+            continue;
+        }
+        // Impacts that follow each other at one instant begin in different states.
+        booked = Some(&event.state);
+        let mut modes = trajectory.modes.iter();
+        let mode = modes.position(|m| *m == event.before).unwrap_or(0);
+        let before = sampler.evaluate(event.time, mode, &event.state)?;
+        let after = sampler.evaluate(event.time, mode, &event.state_after)?;
+        let name = event.subject.name(d);
+        let known = work
+            .iter()
+            .position(|e| e.kind == "impact" && e.name == name);
+        let entry = known.unwrap_or(work.len());
+        if known.is_none() {
+            work.push(Entry {
+                name,
+                kind: "impact",
+                work: 0.0,
+            });
+        }
+        jumps.push((
+            event.time.value(),
+            entry,
+            (after.jacobi - before.jacobi).value(),
+        ));
+    }
+    Ok(jumps)
+}
+
+fn energies<T: Scalar>(instant: &Instant<T>) -> Energies {
     Energies {
         kinetic: instant.kinetic.value(),
         potential: instant.potential.value(),

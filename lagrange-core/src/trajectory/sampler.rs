@@ -6,6 +6,7 @@ use crate::dynamics::{Dynamics, NeedSet, approach};
 use crate::error::Error;
 use crate::mode::{Direction, Mode};
 use crate::modes::guard;
+use crate::modes::sharing::Sharing;
 use crate::system::{Place, System};
 
 /// Everything known at one time.
@@ -21,8 +22,11 @@ pub struct Instant<T> {
     pub v: Vec<T>,
     /// Accelerations.
     pub acceleration: Vec<T>,
-    /// λ of every row; 0 where it does not act; for frictions the force along +slip.
+    /// λ of every row; 0 where it does not act; for frictions the force along +slip. Where the motion leaves forces open: the
+    /// shares of least norm among those that contacts and friction allow.
     pub forces: Vec<T>,
+    /// Per row: whether the motion leaves its force open. Empty where all forces are determined.
+    pub undetermined: Vec<bool>,
     /// Gap of every contact.
     pub gaps: Vec<T>,
     /// Slip of every friction component, in the order of the rows.
@@ -44,6 +48,7 @@ pub struct Instant<T> {
 pub struct Sampler<'a, S: System> {
     trajectory: &'a Trajectory<S>,
     dynamics: Dynamics<S>,
+    sharing: Sharing<S::Scalar>,
     mode: Option<usize>,
     /// Whether slips have been given directions for the present state.
     headed: bool,
@@ -57,6 +62,7 @@ impl<'a, S: System> Sampler<'a, S> {
         Self {
             trajectory,
             dynamics,
+            sharing: Sharing::default(),
             mode: None,
             headed: false,
             state: trajectory.start.clone(),
@@ -168,7 +174,7 @@ impl<'a, S: System> Sampler<'a, S> {
         } else {
             dynamics.value_along(t, &state.q, &state.v)
         };
-        let outcome = outcome.map(|()| instant(dynamics, t, state));
+        let outcome = outcome.map(|()| instant(dynamics, &mut self.sharing, t, state));
         outcome.map_err(|e| Error::from_evaluation(e, t.value(), &self.trajectory.modes[mode], d))
     }
 
@@ -227,10 +233,14 @@ pub(crate) fn report_everything<S: System>(dynamics: &mut Dynamics<S>) {
 /// Everything about a state in the present mode; all numbers of the rows and the report must have been asked for.
 pub(crate) fn instant<S: System>(
     dynamics: &mut Dynamics<S>,
+    sharing: &mut Sharing<S::Scalar>,
     t: S::Scalar,
     state: &State<S::Scalar>,
 ) -> Instant<S::Scalar> {
     let d = S::DESCRIPTION;
+    let mut undetermined = Vec::new();
+    let forces = sharing.report(dynamics, &mut undetermined);
+    dynamics.replace_forces(&forces);
     dynamics.report_value();
     let contacts = d
         .contacts
@@ -243,7 +253,8 @@ pub(crate) fn instant<S: System>(
         q: state.q.clone(),
         v: state.v.clone(),
         acceleration: dynamics.acceleration().to_vec(),
-        forces: (0..d.rows.len()).map(|row| dynamics.force(row)).collect(),
+        forces,
+        undetermined,
         gaps: contacts.map(|place| dynamics.motion(place)).collect(),
         slips: frictions
             .map(|row| dynamics.motion(d.rows[row].velocity))

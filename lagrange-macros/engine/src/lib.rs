@@ -26,8 +26,8 @@ pub fn expand(input: TokenStream) -> TokenStream {
         .as_ref()
         .and_then(|declaration| planned(declaration, &mut sink));
     match (&declaration, program) {
-        (Some(declaration), Some((mut program, _))) if sink.is_empty() => {
-            let mut tokens = emit::emit(&program);
+        (Some(declaration), Some((mut program, verdicts))) if sink.is_empty() => {
+            let mut tokens = emit::emit(&program, &verdicts);
             if let Ok(derivation) = inspect::derivation(declaration, &mut program, None) {
                 let system = &program.equations.system;
                 tokens.extend(emit::derivation(system, &derivation, &input.to_string()));

@@ -40,6 +40,9 @@ struct Instant {
     mode: String,
     state: Numbers,
     forces: Numbers,
+    /// Names of the forces that the motion leaves open.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    undetermined: Vec<String>,
 }
 
 #[derive(Serialize)]
@@ -51,8 +54,12 @@ struct Happening {
     to: String,
     state: Numbers,
     forces: Numbers,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    undetermined: Vec<String>,
     state_after: Numbers,
     forces_after: Numbers,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    undetermined_after: Vec<String>,
     impulses: Numbers,
     #[serde(skip_serializing_if = "is_false")]
     restitution_lowered: bool,
@@ -151,6 +158,7 @@ fn report(outcome: &Outcome) -> Report {
         mode: sample.mode.display(description).to_string(),
         state: state(description, &sample.state),
         forces: rows(description, &sample.forces),
+        undetermined: flagged(description, &sample.undetermined),
     };
     Report {
         scene: outcome.scene,
@@ -179,8 +187,10 @@ fn happening(description: &'static Description, event: &Event<f64>) -> Happening
         to: event.after.display(description).to_string(),
         state: state(description, &event.state),
         forces: rows(description, &event.forces),
+        undetermined: flagged(description, &event.undetermined),
         state_after: state(description, &event.state_after),
         forces_after: rows(description, &event.forces_after),
+        undetermined_after: flagged(description, &event.undetermined_after),
         impulses: rows(description, &event.impulses),
         restitution_lowered: event.restitution_lowered,
         ambiguous: event.ambiguous,
@@ -202,6 +212,14 @@ fn rows(description: &Description, values: &[f64]) -> Numbers {
             .map(|force| (force.name, values[force.row]))
             .collect(),
     )
+}
+
+/// Names of the flagged rows.
+fn flagged(description: &Description, flags: &[bool]) -> Vec<String> {
+    let all = forces(description).into_iter();
+    all.filter(|force| flags.get(force.row) == Some(&true))
+        .map(|force| force.name)
+        .collect()
 }
 
 fn energy(ledger: &Ledger) -> Energy {

@@ -23,6 +23,15 @@ pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
         writeln!(out, "Without {}.\n", left_out.join(", "))?;
     }
     writeln!(out, "{}", story(outcome).trim_fmt())?;
+    let open = outcome.undetermined();
+    if !open.is_empty() {
+        writeln!(
+            out,
+            "\nNot determined: {}. What moves does not depend on how these forces are shared out; \
+             shown are the least that contacts and friction allow.",
+            open.join(", ")
+        )?;
+    }
     if let Some(ledger) = &outcome.ledger {
         let unit = outcome.description.units.energy;
         writeln!(out, "\n{}", energy(ledger, unit).trim_fmt())?;
@@ -204,6 +213,9 @@ fn story(outcome: &Outcome) -> Table {
         if index == 0 || (2..numbers).contains(&index) {
             column.set_cell_alignment(CellAlignment::Right);
             column.set_constraint(ColumnConstraint::ContentWidth);
+        }
+        if index == 1 {
+            column.set_constraint(ColumnConstraint::LowerBoundary(Width::Fixed(10)));
         }
         if index == numbers {
             column.set_constraint(ColumnConstraint::LowerBoundary(Width::Fixed(18)));

@@ -29,6 +29,11 @@ use lagrange_core::prelude::*;
     start(rest: r = radius, theta = start_angle),
     observe(x, y),
     stop(floor: y <= -radius),
+    check(normal: shell == mass * gravity * cos(theta) - mass * radius * der(theta)^2 when closed(shell)),
+    check(from_rest: shell == mass * gravity * (3*cos(theta) - 2*cos(start_angle))
+        when closed(shell) and energy == mass * gravity * radius * cos(start_angle)),
+    check(falling: der(der(y)) == -gravity when open(shell)),
+    check(conserved energy),
 )]
 pub struct MassOnShell<T = f64> {
     /// Mass, kg.

@@ -29,6 +29,15 @@ use lagrange_core::prelude::*;
     start(rest: r = radius, theta = start_angle),
     observe(px, py),
     stop(floor: py <= -radius),
+    check(stuck: der(der(theta)) * (wheel*radius^2 + inertia + 2*mass*radius^2*(1 + cos(theta)))
+        == mass * radius * sin(theta) * (gravity + radius * der(theta)^2) when sticks(grip)),
+    check(normal: rim == mass * (gravity*cos(theta) - radius*der(theta)^2 + der(der(x))*sin(theta)) when closed(rim)),
+    check(pushed: (wheel + inertia/radius^2) * der(der(x)) == -rim*sin(theta) - grip*(1 + cos(theta)) when closed(rim)),
+    // Where the factor of N vanishes, rigid friction has no answer.
+    check(slipping: rim * (wheel + inertia/radius^2 + mass*sin(theta) * (sin(theta) - mu_kinetic*(1 + cos(theta))))
+        == mass * (wheel + inertia/radius^2) * (gravity*cos(theta) - radius*der(theta)^2)
+        when slips(grip) and slip(grip) >= 0),
+    check(thrown: conserved der(px) when open(rim)),
 )]
 pub struct MassOnWheel<T = f64> {
     /// Mass of the wheel, kg.

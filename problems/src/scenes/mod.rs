@@ -7,23 +7,27 @@
 //! The scenes without contacts are smooth: they are here to compare methods, and begin as in the literature.
 
 mod cartesian_pendulum;
+mod chain;
 mod double_pendulum;
 mod five_link_chain;
 pub mod hard;
 mod kepler;
 mod mass_on_shell;
 mod mass_on_wheel;
+mod net;
 mod rolling_slipping_sphere;
 mod rolling_sphere;
 mod sphere_in_bowl;
 mod stiff_spring_pendulum;
 
 pub use cartesian_pendulum::CartesianPendulum;
+pub use chain::{Chain10, Chain20, Chain50};
 pub use double_pendulum::DoublePendulum;
 pub use five_link_chain::FiveLinkChain;
 pub use kepler::Kepler;
 pub use mass_on_shell::MassOnShell;
 pub use mass_on_wheel::MassOnWheel;
+pub use net::Net;
 pub use rolling_slipping_sphere::RollingSlippingSphere;
 pub use rolling_sphere::RollingSphere;
 pub use sphere_in_bowl::SphereInBowl;

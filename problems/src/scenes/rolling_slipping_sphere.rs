@@ -34,6 +34,17 @@ use lagrange_core::prelude::*;
     start(rest: r = radius + sphere_radius, theta = start_angle),
     observe(x, y),
     stop(floor: y <= -radius),
+    check(rolls: der(der(theta)) == 5/7 * gravity * sin(theta) / (radius + sphere_radius) when sticks(grip)),
+    check(needed: grip == -2/7 * mass * gravity * sin(theta) when sticks(grip)),
+    check(normal: shell == mass * gravity / 7 * (17*cos(theta) - 10*cos(start_angle))
+        when sticks(grip) and energy == mass * gravity * (radius + sphere_radius) * cos(start_angle)),
+    // du/dθ = 2 θ̈
+    check(slides: 2*der(der(theta)) - 2*mu_kinetic * der(theta)^2
+        == 2*gravity/(radius + sphere_radius) * (sin(theta) - mu_kinetic * cos(theta))
+        when slips(grip) and slip(grip) >= 0),
+    check(leaves: shell == mass * gravity * cos(theta) - mass * (radius + sphere_radius) * der(theta)^2
+        when closed(shell)),
+    check(spin: conserved der(phi) when open(shell)),
 )]
 pub struct RollingSlippingSphere<T = f64> {
     /// Mass of the sphere, kg.

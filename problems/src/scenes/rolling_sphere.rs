@@ -34,6 +34,11 @@ use lagrange_core::prelude::*;
     start(rest: r = radius + sphere_radius, theta = start_angle),
     observe(x, y),
     stop(floor: y <= -radius),
+    check(rolls: der(der(theta)) == 5/7 * gravity * sin(theta) / (radius + sphere_radius) when closed(shell)),
+    check(normal: shell == mass * gravity / 7 * (17*cos(theta) - 10*cos(start_angle))
+        when closed(shell) and energy == mass * gravity * (radius + sphere_radius) * cos(start_angle)),
+    check(uphill: rolling == -2/7 * mass * gravity * sin(theta) when closed(shell)),
+    check(conserved energy),
 )]
 pub struct RollingSphere<T = f64> {
     /// Mass of the sphere, kg.

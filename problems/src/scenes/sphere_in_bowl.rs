@@ -39,6 +39,13 @@ use lagrange_core::prelude::*;
         der(theta) = start_speed / (radius - sphere_radius),
         der(phi) = -start_speed / sphere_radius),
     observe(x, y),
+    check(swings: der(der(theta)) == -5/7 * gravity * sin(theta) / (radius - sphere_radius) when sticks(grip)),
+    check(needed: grip == 2/7 * mass * gravity * sin(theta) when sticks(grip)),
+    check(from_rest: bowl == mass * gravity / 7 * (17*cos(theta) - 10*cos(start_angle))
+        when sticks(grip) and energy == -mass * gravity * (radius - sphere_radius) * cos(start_angle)),
+    // At the top it still presses if v₀² ≥ (27/7) g (R − a).
+    check(from_kick: bowl == mass * start_speed^2/(radius - sphere_radius) + mass * gravity / 7 * (17*cos(theta) - 10)
+        when sticks(grip) and energy == 7/10 * mass * start_speed^2 - mass * gravity * (radius - sphere_radius)),
 )]
 pub struct SphereInBowl<T = f64> {
     /// Mass of the sphere, kg.

@@ -12,6 +12,7 @@ mod kit;
 mod rolling;
 mod scales;
 mod slips;
+mod supports;
 
 pub use kit::Surprise;
 
@@ -177,6 +178,24 @@ pub static CASES: &[Case] = &[
         scene: "painleve-rod",
         trouble: "no answer, or two: silently wrong",
         measure: frictions::painleve_rod,
+    },
+    Case {
+        name: "rod-on-supports",
+        scene: "rod-on-supports",
+        trouble: "two grips, one sum: slips too early, one by one",
+        measure: supports::rod_on_supports,
+    },
+    Case {
+        name: "beam-on-supports",
+        scene: "beam-on-supports",
+        trouble: "three supports: singular, or lets go too early",
+        measure: supports::beam_on_supports,
+    },
+    Case {
+        name: "sled",
+        scene: "sled",
+        trouble: "one runner too many: singular, or one pulls",
+        measure: supports::sled,
     },
     Case {
         name: "parallelogram",

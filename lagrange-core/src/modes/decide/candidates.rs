@@ -4,15 +4,18 @@ use super::{Known, Moment, slips};
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, NeedSet};
 use crate::effects::Item;
-use crate::error::Error;
 use crate::mode::{Direction, FrictionMode, Mode, Sliding};
 use crate::pool::Pool;
 use crate::system::{Normal, System};
 
-/// More candidates than this are not enumerated.
-const MOST_CANDIDATES: usize = 20_000;
+/// More candidates than this are not enumerated: some five contacts with friction, or eight without, that may change at
+/// once. Beyond, [`pivot`](super::pivot) finds a mode without looking at all.
+const MOST_CANDIDATES: usize = 256;
 
-/// All modes that the known facts allow, in order of preference.
+/// Of one friction: stick, and two slips under each of two bearings.
+const MOST_STATES: usize = 5;
+
+/// All modes that the known facts allow, in order of preference; false if they are too many.
 pub fn list_candidates<S: System>(
     dynamics: &mut Dynamics<S>,
     moment: Moment<'_, S::Scalar>,
@@ -21,7 +24,34 @@ pub fn list_candidates<S: System>(
     rows: &NeedSet,
     scratch: &mut Mode,
     out: &mut Pool<Mode>,
-) -> Result<(), Error> {
+) -> bool {
+    look_at_slips(dynamics, moment, present, known, rows);
+    out.clear();
+    let mut listing = Listing {
+        choices: Choices {
+            dynamics,
+            present,
+            known,
+        },
+        out,
+    };
+    scratch.clone_from(present);
+    listing.contacts(scratch, 0);
+    if out.len() > MOST_CANDIDATES {
+        return false;
+    }
+    out.sort_by_key(|m| (slips(m), m != present, changes(m, present)));
+    true
+}
+
+/// Evaluates the slips whose direction is not known.
+pub fn look_at_slips<S: System>(
+    dynamics: &mut Dynamics<S>,
+    moment: Moment<'_, S::Scalar>,
+    present: &Mode,
+    known: &Known,
+    rows: &NeedSet,
+) {
     let d = S::DESCRIPTION;
     let slides_unknown = |f: usize| {
         let closes = match d.frictions[f].normal {
@@ -38,24 +68,6 @@ pub fn list_candidates<S: System>(
         dynamics.set_extra_needs(rows);
         dynamics.tape(moment.t, moment.q, moment.v);
     }
-    out.clear();
-    let mut listing = Listing {
-        dynamics,
-        present,
-        known,
-        out,
-    };
-    scratch.clone_from(present);
-    listing.contacts(scratch, 0);
-    if out.len() > MOST_CANDIDATES {
-        return Err(Error::Limit {
-            time: moment.t.value(),
-            what: "candidate modes",
-            limit: MOST_CANDIDATES,
-        });
-    }
-    out.sort_by_key(|m| (slips(m), m != present, changes(m, present)));
-    Ok(())
 }
 
 /// The way friction `f` has been sliding, if nothing has changed that.
@@ -69,37 +81,21 @@ fn slip_sign(f: usize, present: &Mode, known: &Known) -> Option<f64> {
     }
 }
 
-/// Writes down modes, choice after choice.
-struct Listing<'a, S: System> {
-    dynamics: &'a Dynamics<S>,
-    present: &'a Mode,
-    known: &'a Known,
-    out: &'a mut Pool<Mode>,
+/// What the items of a mode may do at an instant.
+pub struct Choices<'a, S: System> {
+    pub dynamics: &'a Dynamics<S>,
+    pub present: &'a Mode,
+    pub known: &'a Known,
 }
 
-impl<S: System> Listing<'_, S> {
-    /// Contact `c` closed and open, where both are possible.
-    fn contacts(&mut self, mode: &mut Mode, c: usize) {
-        if c == mode.contacts.len() {
-            return self.frictions(mode, 0);
-        }
-        if self.known.touching[c] {
-            mode.contacts[c] = true;
-            self.contacts(mode, c + 1);
-        }
-        mode.contacts[c] = false;
-        self.contacts(mode, c + 1);
-    }
-
-    /// What friction `f` may do: not act, stick, or slip in each direction that its slip can take.
-    fn frictions(&mut self, mode: &mut Mode, f: usize) {
+impl<S: System> Choices<'_, S> {
+    /// What friction `f` may do in a mode: not act, stick, or slip in each direction that its slip can take.
+    pub fn of_friction(&self, mode: &Mode, f: usize, mut put: impl FnMut(FrictionMode)) {
         let d = S::DESCRIPTION;
-        let Some(friction) = d.frictions.get(f) else {
-            return self.branches(mode, 0);
-        };
+        let friction = &d.frictions[f];
         let idle = matches!(friction.normal, Normal::Contact(c) if !mode.contacts[c]);
         if idle || !self.dynamics.effects().includes(d, Item::Friction(f)) {
-            return self.friction(mode, f, FrictionMode::Inactive);
+            return put(FrictionMode::Inactive);
         }
         let bearings: &[f64] = if let Normal::Constraint(_) = friction.normal {
             &[1.0, -1.0]
@@ -108,7 +104,7 @@ impl<S: System> Listing<'_, S> {
         };
         if friction.components > 1 {
             let direction = if self.known.resting[f] {
-                self.friction(mode, f, FrictionMode::Stick);
+                put(FrictionMode::Stick);
                 // Where to is found when the candidate is examined.
                 Direction::Incipient([0.0; 2])
             } else {
@@ -119,13 +115,13 @@ impl<S: System> Listing<'_, S> {
                     direction,
                     normal_sign,
                 };
-                self.friction(mode, f, FrictionMode::Slip(sliding));
+                put(FrictionMode::Slip(sliding));
             }
         } else if self.known.resting[f] {
-            self.friction(mode, f, FrictionMode::Stick);
+            put(FrictionMode::Stick);
             for &bearing in bearings {
-                self.friction(mode, f, slide(1.0, bearing));
-                self.friction(mode, f, slide(-1.0, bearing));
+                put(slide(1.0, bearing));
+                put(slide(-1.0, bearing));
             }
         } else {
             let sign = slip_sign(f, self.present, self.known).unwrap_or_else(|| {
@@ -133,14 +129,53 @@ impl<S: System> Listing<'_, S> {
                 if slip.value() < 0.0 { -1.0 } else { 1.0 }
             });
             for &bearing in bearings {
-                self.friction(mode, f, slide(sign, bearing));
+                put(slide(sign, bearing));
             }
         }
     }
+}
 
-    fn friction(&mut self, mode: &mut Mode, f: usize, state: FrictionMode) {
-        mode.frictions[f] = state;
-        self.frictions(mode, f + 1);
+/// Writes down modes, choice after choice.
+struct Listing<'a, S: System> {
+    choices: Choices<'a, S>,
+    out: &'a mut Pool<Mode>,
+}
+
+impl<S: System> Listing<'_, S> {
+    /// Contact `c` closed and open, where both are possible.
+    fn contacts(&mut self, mode: &mut Mode, c: usize) {
+        if c == mode.contacts.len() {
+            return self.frictions(mode, 0);
+        }
+        if self.out.len() > MOST_CANDIDATES {
+            return;
+        }
+        if self.choices.known.touching[c] {
+            mode.contacts[c] = true;
+            self.contacts(mode, c + 1);
+        }
+        mode.contacts[c] = false;
+        self.contacts(mode, c + 1);
+    }
+
+    /// Friction `f` in each state.
+    fn frictions(&mut self, mode: &mut Mode, f: usize) {
+        if f == mode.frictions.len() {
+            return self.branches(mode, 0);
+        }
+        let mut states = [FrictionMode::Inactive; MOST_STATES];
+        let mut count = 0;
+        self.choices.of_friction(mode, f, |state| {
+            states[count] = state;
+            count += 1;
+        });
+        for &state in &states[..count] {
+            if self.out.len() > MOST_CANDIDATES {
+                return;
+            }
+            mode.frictions[f] = state;
+            self.frictions(mode, f + 1);
+        }
     }
 
     /// Branch `b` on both sides, where its guard vanishes.
@@ -152,7 +187,7 @@ impl<S: System> Listing<'_, S> {
             return self.out.push(mode);
         }
         self.branches(mode, b + 1);
-        if self.known.balanced[b] {
+        if self.choices.known.balanced[b] {
             let side = mode.branch(b);
             mode.set_branch(b, !side);
             self.branches(mode, b + 1);
@@ -161,7 +196,7 @@ impl<S: System> Listing<'_, S> {
     }
 }
 
-fn slide(sign: f64, normal_sign: f64) -> FrictionMode {
+pub fn slide(sign: f64, normal_sign: f64) -> FrictionMode {
     FrictionMode::Slip(Sliding {
         normal_sign,
         ..Sliding::sign(sign)

@@ -7,19 +7,55 @@ use crate::integrate::{Tolerance, taylor};
 use crate::mode::{Direction, FrictionMode, Mode, Sliding};
 use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
+use crate::modes::sharing::{self, Joint};
 use crate::modes::table::Table;
 use crate::system::{Normal, System};
 
 /// Order of the series that are looked at first. Leading coefficients beyond it vanish rarely.
 const LOW_ORDER: usize = 4;
 
-impl Decider {
-    /// Whether `mode` is feasible; if so, `zeros` says which guards begin with how many vanishing coefficients.
-    pub(super) fn examine<S: System>(
+/// A joint guard above this (relative) is not about to fall.
+const BORDER: f64 = 1e-3;
+
+/// How far ahead guards at their border are looked at, in parts of the step.
+const AHEAD: f64 = 1e-2;
+
+/// So many joint guards at most begin at their border.
+const MOST_JOINTS: usize = 20;
+
+/// What a guard does just after the instant, with the number of leading coefficients that vanish.
+enum Leading {
+    Rises(usize),
+    Falls,
+    /// Identically zero, as far as the series goes: the boundary is not left.
+    Stays,
+}
+
+/// What happens after the moment, by a series of the order `order`, over times up to about `h`.
+struct Ahead<'a, S: System> {
+    dynamics: &'a Dynamics<S>,
+    moment: Moment<'a, S::Scalar>,
+    known: &'a Known,
+    order: usize,
+    h: f64,
+}
+
+impl<S: System> Clone for Ahead<'_, S> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S: System> Copy for Ahead<'_, S> {}
+
+impl<T: Scalar> Decider<T> {
+    /// Whether `mode` is feasible; if so, `zeros` says which guards begin with how many vanishing coefficients, and if not,
+    /// `violated` which guards forbid it.
+    pub(super) fn examine<S: System<Scalar = T>>(
         &mut self,
         dynamics: &mut Dynamics<S>,
         table: &mut Table,
-        moment: Moment<'_, S::Scalar>,
+        moment: Moment<'_, T>,
         mode: &Mode,
         known: &Known,
         last: bool,
@@ -39,45 +75,12 @@ impl Decider {
         // Most candidates are refused, and many accepted, by their values already.
         dynamics.value(t, q, v)?;
         self.sizes.take(dynamics);
-        let mut refused = false;
-        let Self {
-            sizes,
-            questions,
-            zeros,
-            ..
-        } = self;
-        zeros.clear();
-        questions.retain(|&(guard, order_known)| {
-            if matches!((guard, order_known), (Guard::Gap(_), 1)) {
-                // It parts: that is known.
-                zeros.push((guard, 1));
-                return false;
-            }
-            let Some(value) = leading(guard, order_known, mode, dynamics) else {
-                return true;
-            };
-            let noise = if concerns(guard, known) {
-                1e3 * moment.blur(known)
-            } else {
-                1e-6
-            };
-            let size = sizes.of(guard, dynamics);
-            if matches!(guard, Guard::Bearing(_)) && concerns(guard, known) && size <= value.abs() {
-                // Nothing to compare it with: all forces may vanish at this instant.
-                return true;
-            }
-            let clear = noise.max(1e-6) * size;
-            refused |= value < -clear;
-            let settled = clear > 0.0 && value > clear;
-            if settled && order_known > 0 {
-                zeros.push((guard, order_known));
-            }
-            !settled
-        });
-        if refused || questions.is_empty() {
-            return Ok(!refused);
+        self.share(dynamics);
+        self.ask_values(dynamics, moment, known);
+        if !self.violated.is_empty() || self.questions.is_empty() {
+            return Ok(self.violated.is_empty());
         }
-        let settled = zeros.len();
+        let settled = self.zeros.len();
         let low = if last {
             moment.order
         } else {
@@ -94,56 +97,215 @@ impl Decider {
         Ok(true)
     }
 
-    /// Looks at the guards in question just after the moment. `None`: one of them vanishes to this order, and more is to
-    /// be had.
-    fn judge<S: System>(
+    /// Puts joint guards in the place of those of undetermined forces.
+    fn share<S: System<Scalar = T>>(&mut self, dynamics: &Dynamics<S>) {
+        self.sharing.look(dynamics);
+        self.joints.clear();
+        let Self {
+            sharing,
+            joints,
+            questions,
+            ..
+        } = self;
+        if !sharing.has_open() {
+            return;
+        }
+        questions.retain(|&(guard, _)| !sharing.is_open(guard));
+        if let Some(joint) = sharing.critical(BORDER) {
+            joints.push(joint);
+            questions.push((Guard::Joint(0), 0));
+        }
+    }
+
+    /// Answers the questions that values answer: what remains is asked of the series.
+    fn ask_values<S: System<Scalar = T>>(
         &mut self,
         dynamics: &Dynamics<S>,
-        moment: Moment<'_, S::Scalar>,
+        moment: Moment<'_, T>,
+        known: &Known,
+    ) {
+        let Self {
+            sizes,
+            questions,
+            zeros,
+            violated,
+            joints,
+            posed: mode,
+            ..
+        } = self;
+        zeros.clear();
+        violated.clear();
+        questions.retain(|&(guard, order_known)| {
+            if matches!((guard, order_known), (Guard::Gap(_), 1)) {
+                // It parts: that is known.
+                zeros.push((guard, 1));
+                return false;
+            }
+            let Some(value) = leading(guard, order_known, joints, mode, dynamics) else {
+                return true;
+            };
+            let noise = if concerns(guard, joints, known) {
+                1e3 * moment.blur(known)
+            } else {
+                1e-6
+            };
+            let size = sizes.of(guard, dynamics);
+            let incomparable = matches!(guard, Guard::Bearing(_)) && size <= value.abs();
+            if incomparable && concerns(guard, joints, known) {
+                // All forces may vanish at this instant.
+                return true;
+            }
+            let clear = noise.max(1e-6) * size;
+            if value < -clear {
+                blame(guard, joints, violated);
+            }
+            let settled = clear > 0.0 && value > clear;
+            if settled && order_known > 0 {
+                zeros.push((guard, order_known));
+            }
+            !settled
+        });
+    }
+
+    /// Looks at the guards in question just after the moment. `None`: one of them vanishes to this order, and more is to
+    /// be had.
+    fn judge<S: System<Scalar = T>>(
+        &mut self,
+        dynamics: &Dynamics<S>,
+        moment: Moment<'_, T>,
         known: &Known,
         order: usize,
     ) -> Option<bool> {
-        let Moment { tolerance, .. } = moment;
         let last = order == moment.order;
         // A low order's last coefficient is small enough at the same step for a loose tolerance only.
-        let allowed = Tolerance::both(if last { tolerance } else { 1e-3 });
+        let allowed = Tolerance::both(if last { moment.tolerance } else { 1e-3 });
         let step = taylor::step_size(dynamics, order, allowed);
         let h = step.filter(|h| h.is_finite()).unwrap_or(1.0);
-        let mut series = [0.0; guard::LENGTH];
-        let series = &mut series[..=order];
+        let ahead = Ahead {
+            dynamics,
+            moment,
+            known,
+            order,
+            h,
+        };
         let mut unclear = false;
-        for &(guard, order_known) in &self.questions {
-            guard::series(guard, &self.posed, &Reading::Series(dynamics), series);
-            let mut power = 1.0;
-            let mut size = 0.0_f64;
-            for (k, c) in series.iter_mut().enumerate() {
-                *c = if k < order_known { 0.0 } else { *c * power };
-                power *= h;
-                size = size.max(c.abs());
-            }
-            // The residue of a located root, and what follows from it, has the size of the integration error.
-            let blurred = concerns(guard, known);
-            let (relative, absolute) = if blurred {
-                ((100.0 * tolerance).clamp(1e-11, 1e-3), moment.blur(known))
-            } else {
-                (1e-13, 1e-14)
-            };
-            let cancelling = self.sizes.of(guard, dynamics) * unit_of_order(guard, h);
-            let noise = (relative * size).max(absolute * cancelling);
-            match series.iter().position(|c| c.abs() > noise) {
-                None if !last => unclear = true,
-                // Identically zero: the boundary is not left.
-                None => {
+        let questions = core::mem::take(&mut self.questions);
+        for &(guard, order_known) in &questions {
+            let mut series = [0.0; guard::LENGTH];
+            let series = &mut series[..=order];
+            match self.just_after(guard, order_known, ahead, series) {
+                Leading::Falls => blame(guard, &self.joints, &mut self.violated),
+                Leading::Rises(0) => {}
+                Leading::Rises(k) => self.zeros.push((guard, k)),
+                Leading::Stays if !last => unclear = true,
+                Leading::Stays
+                    if self.sticks_first && matches!(guard, Guard::Slip(_))
+                        || is_held::<S>(guard, dynamics) =>
+                {
+                    self.violated.push(guard);
+                }
+                Leading::Stays => {
+                    let blurred = concerns(guard, &self.joints, known);
                     if order_known > 0 || series.iter().all(|c| *c <= 0.0) || blurred {
                         self.zeros.push((guard, guard::LENGTH));
                     }
                 }
-                Some(k) if series[k] < 0.0 => return Some(false),
-                Some(0) => {}
-                Some(k) => self.zeros.push((guard, k)),
             }
         }
-        (!unclear).then_some(true)
+        if self.violated.is_empty() && !unclear && !self.joints.is_empty() {
+            self.look_ahead(ahead);
+        }
+        self.questions = questions;
+        if self.violated.is_empty() && unclear {
+            return None;
+        }
+        Some(self.violated.is_empty())
+    }
+
+    /// At the border several joint guards may vanish together: a little later those that fall show.
+    fn look_ahead<S: System<Scalar = T>>(&mut self, ahead: Ahead<'_, S>) {
+        let mut series = [0.0; guard::LENGTH];
+        let series = &mut series[..=ahead.order];
+        let (reading, later) = (Reading::Series(ahead.dynamics), AHEAD * ahead.h);
+        for _ in 0..MOST_JOINTS {
+            let found = self.sharing.critical_at(|guard| {
+                guard::series(guard, &self.posed, &reading, series);
+                crate::trajectory::horner(series, later)
+            });
+            let Some(joint) = found else {
+                return;
+            };
+            let index = self.joints.len();
+            self.joints.push(joint);
+            match self.just_after(Guard::Joint(index), 0, ahead, series) {
+                Leading::Falls => {
+                    return blame(Guard::Joint(index), &self.joints, &mut self.violated);
+                }
+                Leading::Rises(0) => {}
+                Leading::Rises(k) => self.zeros.push((Guard::Joint(index), k)),
+                Leading::Stays => return self.zeros.push((Guard::Joint(index), guard::LENGTH)),
+            }
+        }
+    }
+
+    /// What a guard does just after the moment; its series, scaled onto the reach, is left in `series`.
+    fn just_after<S: System<Scalar = T>>(
+        &self,
+        guard: Guard,
+        order_known: usize,
+        ahead: Ahead<'_, S>,
+        series: &mut [f64],
+    ) -> Leading {
+        let Ahead {
+            dynamics,
+            moment,
+            known,
+            h,
+            ..
+        } = ahead;
+        let tolerance = moment.tolerance;
+        let reading = Reading::Series(dynamics);
+        sharing::series(guard, &self.joints, &self.posed, &reading, series);
+        let mut power = 1.0;
+        let mut size = 0.0_f64;
+        for (k, c) in series.iter_mut().enumerate() {
+            *c = if k < order_known { 0.0 } else { *c * power };
+            power *= h;
+            size = size.max(c.abs());
+        }
+        // The residue of a located root, and what follows from it, has the size of the integration error.
+        let (relative, absolute) = if concerns(guard, &self.joints, known) {
+            ((100.0 * tolerance).clamp(1e-11, 1e-3), moment.blur(known))
+        } else {
+            (1e-13, 1e-14)
+        };
+        let cancelling = self.sizes.of(guard, dynamics) * unit_of_order(guard, h);
+        let noise = (relative * size).max(absolute * cancelling);
+        match series.iter().position(|c| c.abs() > noise) {
+            None => Leading::Stays,
+            Some(k) if series[k] < 0.0 => Leading::Falls,
+            Some(k) => Leading::Rises(k),
+        }
+    }
+}
+
+/// Whether a contact cannot open because others are closed, or a friction cannot slip because others stick: then the mode
+/// in which it is closed, or sticks, has the same motion, and more forces to choose from.
+fn is_held<S: System>(guard: Guard, dynamics: &Dynamics<S>) -> bool {
+    let d = S::DESCRIPTION;
+    let mut rows = match guard {
+        Guard::Gap(c) => d.contacts[c].row..d.contacts[c].row + 1,
+        Guard::Slip(f) => d.frictions[f].row..d.frictions[f].row + d.frictions[f].components,
+        _ => return false,
+    };
+    rows.all(|row| dynamics.follows(row))
+}
+
+/// Books what forbids a mode: of a joint guard, its parts.
+fn blame(guard: Guard, joints: &[Joint], violated: &mut Vec<Guard>) {
+    match guard {
+        Guard::Joint(index) => violated.extend(joints[index].parts.iter().map(|(g, _)| *g)),
+        single => violated.push(single),
     }
 }
 
@@ -151,13 +313,19 @@ impl Decider {
 fn leading<S: System>(
     guard: Guard,
     order_known: usize,
+    joints: &[Joint],
     mode: &Mode,
     dynamics: &Dynamics<S>,
 ) -> Option<f64> {
     let d = S::DESCRIPTION;
     let acceleration = |row: usize| row_acceleration(row, dynamics);
     match (guard, order_known) {
-        (_, 0) => Some(guard::value(guard, mode, &Reading::Values(dynamics))),
+        (_, 0) => Some(sharing::value(
+            guard,
+            joints,
+            mode,
+            &Reading::Values(dynamics),
+        )),
         (Guard::Gap(c), 2) => Some(acceleration(d.contacts[c].row)),
         (Guard::Slip(f), 1) => match mode.frictions[f] {
             FrictionMode::Slip(Sliding {
@@ -232,7 +400,11 @@ fn list_questions<S: System>(
 
 /// Whether a guard's leading coefficients carry the error of a located root: it is that root, or belongs to the
 /// same contact (in the mode after, gap and slip accelerations vanish with the force that was located).
-fn concerns(guard: Guard, known: &Known) -> bool {
+fn concerns(guard: Guard, joints: &[Joint], known: &Known) -> bool {
+    if let Guard::Joint(index) = guard {
+        let mut parts = joints[index].parts.iter();
+        return parts.any(|&(part, _)| concerns(part, &[], known));
+    }
     known.located.iter().any(|root| {
         *root == guard
             || match (*root, guard) {

@@ -38,11 +38,11 @@ pub(super) struct Beginning {
     right: Vec<f64>,
 }
 
-impl Decider {
+impl<T: Scalar> Decider<T> {
     /// Finds the directions in which the slips of `self.posed` begin, and writes them there. False: there are none.
     ///
     /// Of several the one nearest to that of what made it stick is taken.
-    pub(super) fn find_directions<S: System>(
+    pub(super) fn find_directions<S: System<Scalar = T>>(
         &mut self,
         dynamics: &mut Dynamics<S>,
         table: &mut Table,
@@ -65,7 +65,7 @@ impl Decider {
     }
 
     /// Angles against the forces that would keep the slips at zero.
-    fn against_sticking<S: System>(
+    fn against_sticking<S: System<Scalar = T>>(
         &mut self,
         dynamics: &mut Dynamics<S>,
         moment: Moment<'_, S::Scalar>,
@@ -107,7 +107,7 @@ impl Decider {
     }
 
     /// All directions of one slip: that nearest to its angle.
-    fn look_around<S: System>(
+    fn look_around<S: System<Scalar = T>>(
         &mut self,
         dynamics: &mut Dynamics<S>,
         moment: Moment<'_, S::Scalar>,

@@ -4,14 +4,16 @@
 //! mode is therefore solved as a Taylor series, and it is feasible only if each of its guards is positive *just
 //! after* the instant: the first coefficient that does not vanish is positive (Brogliato 2016, section 5.4;
 //! Lötstedt 1982). What is known to vanish (a gap that was closed, a located root) is never read.
-
 //!
-//! [`candidates`] writes down the modes that what is known allows, [`examine`] says of one whether it is feasible.
+//! [`candidates`] writes down the modes that what is known allows, [`examine`] says of one whether it is feasible; where they are
+//! many, [`pivot`] goes from one to the next.
 
 mod candidates;
 mod examine;
+mod guess;
 mod incipient;
 mod known;
+mod pivot;
 
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError, NeedSet};
@@ -20,6 +22,7 @@ use crate::mode::{FrictionMode, Mode};
 use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
 use crate::modes::scale::Sizes;
+use crate::modes::sharing::{Joint, Sharing};
 use crate::modes::table::Table;
 use crate::pool::Pool;
 use crate::system::{Description, System};
@@ -36,21 +39,33 @@ pub struct Decision {
     pub zeros: Vec<(Guard, usize)>,
     /// Whether another mode with another motion was feasible too.
     pub ambiguous: bool,
+    /// Joint guards that are at their border, or near it.
+    pub joints: Vec<Joint>,
     /// Whether the dynamics hold the series of this mode at the moment, for the needs of its guards.
     pub expanded: bool,
 }
 /// Memory of decisions, and the last one.
 #[derive(Clone, Debug)]
-pub struct Decider {
+pub struct Decider<T> {
     /// What was found last.
     pub decision: Decision,
     candidates: Pool<Mode>,
     questions: Vec<(Guard, usize)>,
     zeros: Vec<(Guard, usize)>,
+    /// What forbids the candidate examined last.
+    violated: Vec<Guard>,
+    sharing: Sharing<T>,
+    joints: Vec<Joint>,
     motion: Vec<f64>,
     sizes: Sizes,
+    /// Whether a friction that would slip and yet stay at rest must stick.
+    sticks_first: bool,
+    /// Modes tried so far.
+    tried: usize,
     /// Needs of everything about every row.
     rows: NeedSet,
+    /// These and what the motion needs in any mode.
+    everything: NeedSet,
     /// The candidate under examination, with the directions in which its slips begin.
     posed: Mode,
     /// The same of the best one.
@@ -60,22 +75,34 @@ pub struct Decider {
     beginning: Beginning,
 }
 
-impl Decider {
+impl<T: Scalar> Decider<T> {
     /// Memory for a system.
     pub fn new(description: &Description) -> Self {
+        let rows = guard::all_row_needs(description, &NeedSet::new(description));
+        let mut everything = rows.clone();
+        for row in description.rows {
+            everything.insert(row.needs.bias);
+        }
         Self {
             decision: Decision {
                 mode: Mode::open(description),
                 zeros: Vec::new(),
                 ambiguous: false,
+                joints: Vec::new(),
                 expanded: false,
             },
             candidates: Pool::default(),
             questions: Vec::new(),
             zeros: Vec::new(),
+            violated: Vec::new(),
+            sharing: Sharing::default(),
+            joints: Vec::new(),
             motion: Vec::new(),
             sizes: Sizes::default(),
-            rows: guard::all_row_needs(description, &NeedSet::new(description)),
+            sticks_first: false,
+            tried: 0,
+            rows,
+            everything,
             posed: Mode::open(description),
             best: Mode::open(description),
             forks: false,
@@ -85,12 +112,13 @@ impl Decider {
 
     /// Finds the mode in which the motion goes on from a moment, into [`Self::decision`].
     ///
-    /// On success `dynamics` is left in that mode. The order of preference among feasible modes is: stick before slip,
-    /// then the present mode, then the fewest changes.
+    /// On success `dynamics` is left in that mode. Where a few modes are possible all are looked at; the order of preference among
+    /// feasible ones is: stick before slip, then the present mode, then the fewest changes. Where they are many, see
+    /// [`pivot`].
     ///
     /// # Errors
     /// [`Error::NoMode`] if no candidate is feasible (Painlevé's paradox).
-    pub fn decide<S: System>(
+    pub fn decide<S: System<Scalar = T>>(
         &mut self,
         dynamics: &mut Dynamics<S>,
         table: &mut Table,
@@ -101,7 +129,7 @@ impl Decider {
         let d = S::DESCRIPTION;
         let mut candidates = core::mem::take(&mut self.candidates);
         let scratch = &mut self.decision.mode;
-        let listed = list_candidates(
+        let few = list_candidates(
             dynamics,
             moment,
             present,
@@ -110,32 +138,32 @@ impl Decider {
             scratch,
             &mut candidates,
         );
-        let outcome = listed.and_then(|()| {
-            let (best, failure) = self.best(dynamics, table, moment, present, known, &candidates);
-            match (best, failure) {
-                (Some(_), _) => {
-                    self.decision.mode.clone_from(&self.best);
-                    dynamics.set_mode(&self.best);
-                    Ok(())
-                }
-                (None, Some((mode, error))) => {
-                    let time = moment.t.value();
-                    Err(Error::from_evaluation(error, time, &candidates[mode], d))
-                }
-                (None, None) => Err(Error::NoMode {
-                    time: moment.t.value(),
-                    mode: present.display(d).to_string(),
-                    item: concerned::<S>(known),
-                    tried: candidates.len(),
-                }),
-            }
-        });
+        self.tried = 0;
+        let outcome = if few {
+            self.best(dynamics, table, moment, present, known, &candidates)
+        } else {
+            self.pivot(dynamics, table, moment, present, known)
+        };
         self.candidates = candidates;
-        outcome
+        let time = moment.t.value();
+        match outcome {
+            Ok(true) => {
+                self.decision.mode.clone_from(&self.best);
+                dynamics.set_mode(&self.best);
+                Ok(())
+            }
+            Ok(false) => Err(Error::NoMode {
+                time,
+                mode: present.display(d).to_string(),
+                item: concerned::<S>(known),
+                tried: self.tried,
+            }),
+            Err(error) => Err(Error::from_evaluation(error, time, dynamics.mode(), d)),
+        }
     }
 
     /// See [`Known::residue`]; `dynamics` holds the values of the moment in the mode that ends.
-    pub fn residue<S: System>(
+    pub fn residue<S: System<Scalar = T>>(
         &mut self,
         dynamics: &Dynamics<S>,
         mode: &Mode,
@@ -157,16 +185,19 @@ impl Decider {
         located.iter().map(relative).fold(0.0, f64::max)
     }
 
-    /// The feasible candidate to be preferred, and the last that could not be evaluated.
-    fn best<S: System>(
+    /// Looks for the feasible candidate to be preferred, into `self.best`. False: there is none.
+    ///
+    /// # Errors
+    /// None is feasible, and one could not be evaluated.
+    fn best<S: System<Scalar = T>>(
         &mut self,
         dynamics: &mut Dynamics<S>,
         table: &mut Table,
-        moment: Moment<'_, S::Scalar>,
+        moment: Moment<'_, T>,
         present: &Mode,
         known: &Known,
         candidates: &[Mode],
-    ) -> (Option<usize>, Option<(usize, EvaluationError)>) {
+    ) -> Result<bool, EvaluationError> {
         let (mut best, mut failure) = (None, None);
         // Without friction the accelerations are the only ones that Gauss's principle allows: no other mode has others.
         let idle = |mode: &Mode| mode.frictions.iter().all(|f| *f == FrictionMode::Inactive);
@@ -174,6 +205,7 @@ impl Decider {
             && !known.balanced.contains(&true)
             && candidates.iter().all(idle);
         for (index, mode) in candidates.iter().enumerate() {
+            self.tried += 1;
             // A root of the present mode falls through zero: that mode is over.
             if *mode == *present && !known.located.is_empty() {
                 continue;
@@ -185,24 +217,39 @@ impl Decider {
             // What is found of the last one serves the coming step.
             let last = best.is_none() && index + 1 == candidates.len();
             self.decision.expanded = false;
-            match self.examine(dynamics, table, moment, mode, known, last) {
+            let outcome = self.examine(dynamics, table, moment, mode, known, last);
+            // Another than the best leaves its own series behind.
+            self.decision.expanded &= best.is_none();
+            match outcome {
                 Ok(true) if best.is_none() => {
                     best = Some(index);
                     self.decision.ambiguous = self.forks;
-                    core::mem::swap(&mut self.best, &mut self.posed);
-                    core::mem::swap(&mut self.decision.zeros, &mut self.zeros);
-                    self.motion.clear();
-                    let motion = dynamics.acceleration().iter().map(|a| a.value());
-                    self.motion.extend(motion);
+                    self.keep(dynamics);
                 }
                 Ok(true) => {
-                    self.decision.ambiguous |= differ(&self.motion, dynamics.acceleration())
+                    self.decision.ambiguous |= differ(&self.motion, dynamics.acceleration());
                 }
                 Ok(false) => {}
                 Err(error) => failure = Some((index, error)),
             }
         }
-        (best, failure)
+        match (best, failure) {
+            (None, Some((index, error))) => {
+                dynamics.set_mode(&candidates[index]);
+                Err(error)
+            }
+            _ => Ok(best.is_some()),
+        }
+    }
+
+    /// Keeps the candidate examined last, which is feasible.
+    fn keep<S: System<Scalar = T>>(&mut self, dynamics: &Dynamics<S>) {
+        core::mem::swap(&mut self.best, &mut self.posed);
+        core::mem::swap(&mut self.decision.zeros, &mut self.zeros);
+        self.decision.joints.clone_from(&self.joints);
+        self.motion.clear();
+        let motion = dynamics.acceleration().iter().map(|a| a.value());
+        self.motion.extend(motion);
     }
 }
 
@@ -237,7 +284,7 @@ fn concerned<S: System>(known: &Known) -> &'static str {
         | Guard::Slip(f)
         | Guard::Bearing(f) => Some(d.frictions[f].name),
         Guard::Branch(b) => Some(d.branches[b].text),
-        Guard::Stop(..) | Guard::Mark(..) => None,
+        Guard::Stop(..) | Guard::Mark(..) | Guard::Joint(_) => None,
     });
     let resting = known
         .resting

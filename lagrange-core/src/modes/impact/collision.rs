@@ -7,6 +7,8 @@
 //! Bilateral rows whose impulse nothing depends on are taken into M⁻¹ beforehand: M may be singular as long as they make the
 //! whole regular. Rows come in this order: constraints that carry friction, `while` rows, contacts, slip components.
 
+use crate::arithmetic::Scalar;
+
 /// A contact whose gap vanishes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Touch<T> {
@@ -69,7 +71,12 @@ pub(super) struct Collision<T> {
     pub rubs: Vec<Rub<T>>,
 }
 
-impl<T: Copy> Collision<T> {
+impl<T: Scalar> Collision<T> {
+    /// √Gᵢᵢ
+    pub fn strength(&self, i: usize) -> f64 {
+        self.g(i, i).value().max(0.0).sqrt()
+    }
+
     /// Gᵢⱼ
     pub fn g(&self, i: usize, j: usize) -> T {
         self.response[i * self.size + j]

@@ -6,6 +6,7 @@ use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
 use crate::effects::Item;
 use crate::linear::{Equilibrated, least_norm};
+use crate::mode::FrictionMode;
 use crate::system::{Normal, Place, Restitution, System};
 
 /// What stands between coordinates and rows; the memory is reused.
@@ -13,13 +14,15 @@ use crate::system::{Normal, Place, Restitution, System};
 pub(super) struct Gathering<T> {
     /// Description's row of every row of the collision.
     rows: Vec<usize>,
+    /// Per row: the rate vanishes before the impact, whatever rounding says.
+    at_rest: Vec<bool>,
     /// Bilateral rows that are solved with M.
     bilateral: Vec<usize>,
     /// Dense Jacobian of `rows`, then of `bilateral`.
     jacobian: Vec<T>,
     matrix: Vec<T>,
     factors: Equilibrated<T>,
-    /// (Δv, Λ of `bilateral`) of a unit impulse in every row, then of the bilateral rates themselves.
+    /// (Δv, Λ of `bilateral`) of a unit impulse in every row.
     answers: Vec<T>,
 }
 
@@ -62,20 +65,13 @@ impl<T: Scalar> Gathering<T> {
         }
         self.factors.factor(&mut self.matrix, size);
         self.answers.clear();
-        self.answers.resize((out.size + 1) * size, T::zero());
+        self.answers.resize(out.size * size, T::zero());
         for k in 0..out.size {
             let answer = &mut self.answers[k * size..(k + 1) * size];
             answer[..n].copy_from_slice(&self.jacobian[k * n..(k + 1) * n]);
             if !self.factors.solve(answer) {
                 return false;
             }
-        }
-        let kept = &mut self.answers[out.size * size..];
-        for (x, &row) in kept[n..].iter_mut().zip(&self.bilateral) {
-            *x = -dynamics.motion(d.rows[row].velocity);
-        }
-        if !self.factors.solve(kept) {
-            return false;
         }
         out.response.clear();
         out.rates.clear();
@@ -86,8 +82,11 @@ impl<T: Scalar> Gathering<T> {
                 let change = &self.answers[k * size..k * size + n];
                 out.response.push(dot(a, change));
             }
-            out.rates
-                .push(dynamics.motion(d.rows[self.rows[i]].velocity));
+            out.rates.push(if self.at_rest[i] {
+                T::zero()
+            } else {
+                dynamics.motion(d.rows[self.rows[i]].velocity)
+            });
             let terms = a.iter().zip(v).map(|(&a, &v)| (a * v).value().abs());
             out.terms.push(terms.sum());
         }
@@ -103,7 +102,9 @@ impl<T: Scalar> Gathering<T> {
     ) {
         let d = S::DESCRIPTION;
         let effects = dynamics.effects();
+        let mode = dynamics.mode();
         self.rows.clear();
+        self.at_rest.clear();
         self.bilateral.clear();
         out.conditional.clear();
         out.touches.clear();
@@ -124,6 +125,7 @@ impl<T: Scalar> Gathering<T> {
             }
         }
         out.links = self.rows.len();
+        self.at_rest.resize(out.links, true);
         for (i, constraint) in d.constraints.iter().enumerate() {
             let place = |c| near.iter().position(|n| *n == c);
             if let Some(touch) = constraint.while_contact.and_then(place)
@@ -131,6 +133,7 @@ impl<T: Scalar> Gathering<T> {
             {
                 out.conditional.push((self.rows.len(), touch));
                 self.rows.push(constraint.row);
+                self.at_rest.push(mode.contacts[near[touch]]);
             }
         }
         for &c in near {
@@ -145,6 +148,7 @@ impl<T: Scalar> Gathering<T> {
                 poisson,
             });
             self.rows.push(d.contacts[c].row);
+            self.at_rest.push(mode.contacts[c]);
         }
         for f in frictions() {
             let friction = &d.frictions[f];
@@ -175,6 +179,8 @@ impl<T: Scalar> Gathering<T> {
             });
             let components = friction.row..friction.row + friction.components;
             self.rows.extend(components);
+            let sticks = mode.frictions[f] == FrictionMode::Stick;
+            self.at_rest.resize(self.rows.len(), sticks);
         }
     }
 
@@ -187,7 +193,7 @@ impl<T: Scalar> Gathering<T> {
         out.v.extend_from_slice(v);
         out.impulses.fill(T::zero());
         for (k, answer) in self.answers.chunks_exact(size.max(1)).enumerate() {
-            let share = impulses.get(k).copied().unwrap_or(T::one());
+            let share = impulses[k];
             if share.is_zero() {
                 continue;
             }

@@ -91,6 +91,8 @@ impl<T: Scalar> Law<T> {
         self.phase.rates.extend_from_slice(rates);
         self.phase.least.clear();
         self.phase.least.resize(touches, T::zero());
+        self.phase.struck.clear();
+        self.phase.struck.resize(touches, false);
         self.phase.aims.clear();
         if newton {
             self.phase.aims.extend((0..touches).map(bounce));
@@ -102,6 +104,7 @@ impl<T: Scalar> Law<T> {
         }
         self.phase.rates.copy_from_slice(&self.after);
         for (k, touch) in c.touches.iter().enumerate() {
+            self.phase.struck[k] = self.impulses[touch.row].value() > 0.0;
             if touch.poisson {
                 self.phase.least[k] = share * touch.restitution * self.impulses[touch.row];
             } else {

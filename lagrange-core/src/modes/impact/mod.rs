@@ -15,6 +15,7 @@ mod collision;
 mod gather;
 mod law;
 mod pattern;
+mod relaxation;
 mod search;
 #[cfg(test)]
 mod tests;

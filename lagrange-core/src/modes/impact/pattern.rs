@@ -19,8 +19,6 @@ pub(super) const ROUNDING: f64 = 1e-13;
 pub(super) const TERMS: f64 = 4e-16;
 /// Newton steps for directions of slip.
 const MOST_STEPS: usize = 30;
-/// Steps that put each direction along the slip that it causes, before Newton's method.
-const ALIGNMENTS: usize = 3;
 
 /// What a friction does.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,6 +41,8 @@ pub(super) struct Phase<T> {
     pub aims: Vec<T>,
     /// Per touch: least impulse.
     pub least: Vec<T>,
+    /// Per touch: has had an impulse before, so that its `while` rows hold.
+    pub struck: Vec<bool>,
     /// Per touch: takes part.
     pub within: Vec<bool>,
 }
@@ -84,19 +84,20 @@ impl<T: Scalar> Pattern<T> {
         }
     }
 
-    /// Solves the equations; false if they have no solution.
+    /// Solves the equations, from the given directions of slip; false if they have no solution.
     pub fn solve(&mut self, c: &Collision<T>, phase: &Phase<T>) -> bool {
-        self.begin(c, phase);
         let turning = self.slides.iter().any(|s| matches!(s, Slide::Turning(_)));
-        let mut solved = self.solve_linear(c, phase);
-        if solved && turning {
-            for _ in 0..ALIGNMENTS {
-                self.align(c);
-                solved &= self.solve_linear(c, phase);
-            }
-            solved = solved && self.turn(c, phase);
-        }
-        solved && self.impulses.iter().all(|x| x.value().is_finite())
+        self.solve_held(c, phase) && (!turning || self.turn(c, phase)) && self.is_finite()
+    }
+
+    /// Solves the equations with these directions of slip, whether the slip is along them or not.
+    pub fn solve_held(&mut self, c: &Collision<T>, phase: &Phase<T>) -> bool {
+        self.begin(c, phase);
+        self.solve_linear(c, phase) && self.is_finite()
+    }
+
+    fn is_finite(&self) -> bool {
+        self.impulses.iter().all(|x| x.value().is_finite())
     }
 
     /// Lists the unknown impulses and sets the others.
@@ -106,7 +107,7 @@ impl<T: Scalar> Pattern<T> {
         self.impulses.resize(c.size, T::zero());
         self.unknowns.clear();
         self.unknowns.extend(0..c.links);
-        let live = |k: usize| phase.within[k] && (self.pressed[k] || phase.least[k].value() > 0.0);
+        let live = |k: usize| phase.within[k] && (self.pressed[k] || phase.struck[k]);
         let conditional = c.conditional.iter().filter(|(_, k)| live(*k));
         self.unknowns.extend(conditional.map(|(row, _)| *row));
         for (k, touch) in c.touches.iter().enumerate() {
@@ -164,15 +165,11 @@ impl<T: Scalar> Pattern<T> {
                 .map(|&i| aim(c, phase, i) - self.after[i]);
             self.right.extend(missing);
             let mut right = core::mem::take(&mut self.right);
-            // What refinement adds is rounding: only the first pass can contradict itself.
-            let solved = self.factors.solve(&mut right);
+            self.factors.solve(&mut right);
             for (&row, &x) in self.unknowns.iter().zip(&right) {
                 self.impulses[row] += x;
             }
             self.right = right;
-            if !solved && self.after_is_far(c, phase) {
-                return false;
-            }
         }
         if self.factors.is_deficient() {
             self.undetermined = true;
@@ -180,16 +177,10 @@ impl<T: Scalar> Pattern<T> {
         }
         self.slide(c);
         self.move_on(c, phase);
-        true
-    }
-
-    /// Whether the equations are violated by more than rounding.
-    fn after_is_far(&mut self, c: &Collision<T>, phase: &Phase<T>) -> bool {
-        self.slide(c);
-        self.move_on(c, phase);
+        // Equations that depend on each other may contradict each other.
         let far =
-            |&i: &usize| (self.after[i] - aim(c, phase, i)).value().abs() > 1e3 * self.noise[i];
-        self.unknowns.iter().any(far)
+            |&i: &usize| (self.after[i] - aim(c, phase, i)).value().abs() > 10.0 * self.noise[i];
+        !self.unknowns.iter().any(far)
     }
 
     /// Impulses that are not determined: of all with the same effect those of least norm.
@@ -227,6 +218,9 @@ impl<T: Scalar> Pattern<T> {
     fn move_on(&mut self, c: &Collision<T>, phase: &Phase<T>) {
         self.after.clear();
         self.noise.clear();
+        // What an impulse does in other rows is known to rounding of what it does in its own.
+        let efforts = self.impulses.iter().enumerate();
+        let effort: f64 = efforts.map(|(j, x)| c.strength(j) * x.value().abs()).sum();
         for i in 0..c.size {
             let (mut rate, mut size) = (phase.rates[i], phase.rates[i].value().abs());
             for (j, &impulse) in self.impulses.iter().enumerate() {
@@ -235,19 +229,16 @@ impl<T: Scalar> Pattern<T> {
                 size += part.value().abs();
             }
             self.after.push(rate);
-            self.noise.push(ROUNDING * size + TERMS * c.terms[i]);
+            self.noise
+                .push(ROUNDING * size + TERMS * (c.terms[i] + c.strength(i) * effort));
         }
     }
 
     /// Puts the direction of each turning friction along the slip that it leaves.
-    fn align(&mut self, c: &Collision<T>) {
+    pub fn align(&mut self, c: &Collision<T>) {
         for (rub, slide) in c.rubs.iter().zip(&mut self.slides) {
             if let Slide::Turning(direction) = slide {
-                // On a constraint the direction is that of the slip times the sign of the bearing impulse.
-                let against =
-                    matches!(rub.bearer, Bearer::Link(row) if self.impulses[row].value() < 0.0);
-                let sign = if against { -1.0 } else { 1.0 };
-                let s = [0, 1].map(|k| sign * self.after[rub.row + k].value());
+                let s = lead(rub, &self.impulses, &self.after);
                 let length = s[0].hypot(s[1]);
                 if length > 0.0 {
                     // Half-way: a direction that turns round would swing for ever.
@@ -258,6 +249,15 @@ impl<T: Scalar> Pattern<T> {
                     }
                 }
             }
+        }
+    }
+
+    /// How far the slip of turning friction `r` is from the direction that is held: (across it, along it).
+    pub fn deviation(&self, c: &Collision<T>, r: usize) -> (f64, f64) {
+        let s = lead(&c.rubs[r], &self.impulses, &self.after);
+        match self.slides[r] {
+            Slide::Turning([x, y]) => (x * s[1] - y * s[0], x * s[0] + y * s[1]),
+            _ => (0.0, 0.0),
         }
     }
 
@@ -297,7 +297,9 @@ impl<T: Scalar> Pattern<T> {
                     regular &= self.linearize(c, rub, &mut matrix, &mut right);
                 }
             }
-            self.factors.factor(&mut matrix, count);
+            if regular {
+                self.factors.factor(&mut matrix, count);
+            }
             let solved = regular && self.factors.solve(&mut right);
             (self.matrix, self.right) = (matrix, right);
             if !solved {
@@ -449,6 +451,14 @@ fn fixed(slide: &Slide) -> Option<[f64; 2]> {
         Slide::Turning(direction) => Some(direction),
         Slide::Idle | Slide::Stick => None,
     }
+}
+
+/// Where the friction impulse of a rub with two components points away from: its slip, times the sign of the bearing impulse
+/// on a constraint.
+fn lead<T: Scalar>(rub: &Rub<T>, impulses: &[T], after: &[T]) -> [f64; 2] {
+    let against = matches!(rub.bearer, Bearer::Link(row) if impulses[row].value() < 0.0);
+    let sign = if against { -1.0 } else { 1.0 };
+    [0, 1].map(|k| sign * after[rub.row + k].value())
 }
 
 /// The rate that row `i` is to have if it is an equation.

@@ -2,10 +2,12 @@
 //!
 //! Few: contacts pressed before free, frictions sticking before sliding, so that of several solutions the one with most
 //! contacts and stick is taken. Many: the linear complementarity problem of Stewart & Trinkle (1996), with a cone of eight
-//! sides where a slip has two components, says which combination it is; that one is then solved as equations.
+//! sides where a slip has two components, says which combination it is; that one is then solved as equations. Several
+//! frictions with two components: relaxation says which it is and where the slips are to be looked for.
 
 use super::collision::{Bearer, Collision};
 use super::pattern::{Pattern, Phase, Slide, Violation, length};
+use super::relaxation::Relaxation;
 use crate::arithmetic::Scalar;
 use crate::linear::{Equilibrated, Lemke, LemkeOutcome};
 use core::f64::consts::TAU;
@@ -18,6 +20,14 @@ const MOST: usize = 20_000;
 const SIDES: usize = 8;
 /// Friction that only has to keep a `while` row: a limit for the complementarity problem alone.
 const UNLIMITED: f64 = 1e6;
+/// Steps that put each direction along the slip that it causes, before Newton's method.
+const ALIGNMENTS: usize = 3;
+/// Shares of a correction that relaxation makes.
+const PACES: [f64; 3] = [1.0, 0.5, 0.15];
+/// Marks of a circle between which a direction is looked for.
+const MARKS: usize = 64;
+/// Bisections between two marks.
+const BISECTIONS: usize = 40;
 /// Repetitions of Lemke's method with coefficients of sliding, or new bounds on constraints.
 const MOST_PASSES: usize = 20;
 
@@ -29,12 +39,12 @@ pub(super) struct Search<T> {
     pub tried: usize,
     lemke: Lemke,
     problem: Linear,
+    relaxation: Relaxation,
     factors: Equilibrated<f64>,
     /// Touches that take part, and frictions that can act.
     taking: Vec<usize>,
     acting: Vec<usize>,
     choice: Vec<usize>,
-    starts: Vec<[f64; 2]>,
 }
 
 /// A linear complementarity problem whose unknowns are impulses along directions, and bounds on slip.
@@ -73,6 +83,12 @@ impl<T: Scalar> Search<T> {
         self.taking
             .extend((0..c.touches.len()).filter(|k| phase.within[*k]));
         let count = self.combinations(c);
+        let several = c.rubs.iter().filter(|rub| rub.components > 1).count() > 1;
+        if several {
+            return self.relax(c, phase)
+                || self.complement(c, phase)
+                || count.is_some_and(|n| n <= FEW) && self.enumerate(c, phase);
+        }
         if count.is_some_and(|n| n <= FEW) {
             return self.enumerate(c, phase) || self.complement(c, phase);
         }
@@ -150,14 +166,71 @@ impl<T: Scalar> Search<T> {
     fn attempt(&mut self, c: &Collision<T>, phase: &Phase<T>) -> bool {
         self.tried += 1;
         if !self.turns() {
-            return self.pattern.solve(c, phase) && self.pattern.violation(c, phase).is_none();
+            return self.holds(c, phase);
         }
-        self.starts.clear();
+        let turning = self
+            .pattern
+            .slides
+            .iter()
+            .filter(|s| matches!(s, Slide::Turning(_)));
+        let single = turning.count() == 1;
         for k in 0..=SIDES {
             self.direct(c, phase, k);
-            if self.pattern.solve(c, phase) && self.pattern.violation(c, phase).is_none() {
+            for _ in 0..ALIGNMENTS {
+                if self.pattern.solve_held(c, phase) {
+                    self.pattern.align(c);
+                }
+            }
+            if self.holds(c, phase) {
                 return true;
             }
+        }
+        single && self.turn_round(c, phase) && self.holds(c, phase)
+    }
+
+    /// Solves and judges the present combination.
+    fn holds(&mut self, c: &Collision<T>, phase: &Phase<T>) -> bool {
+        self.pattern.solve(c, phase) && self.pattern.violation(c, phase).is_none()
+    }
+
+    /// The direction of the only turning friction along which its slip is: bisection between the marks of a circle.
+    fn turn_round(&mut self, c: &Collision<T>, phase: &Phase<T>) -> bool {
+        let mut slides = self.pattern.slides.iter();
+        let Some(r) = slides.position(|s| matches!(s, Slide::Turning(_))) else {
+            return false;
+        };
+        let mut deviation = |turns: f64| {
+            let (sin, cos) = (TAU * turns).sin_cos();
+            self.pattern.slides[r] = Slide::Turning([cos, sin]);
+            let solved = self.pattern.solve_held(c, phase);
+            solved.then(|| self.pattern.deviation(c, r))
+        };
+        let mut before = deviation(0.0);
+        for mark in 1..=MARKS {
+            let here = deviation(mark as f64 / MARKS as f64);
+            if let (Some((a, along)), Some((b, also))) = (before, here)
+                && (a < 0.0) != (b < 0.0)
+                && (along > 0.0 || also > 0.0)
+            {
+                let (mut low, mut high) = ((mark - 1) as f64, mark as f64);
+                let mut last = 0.0;
+                for _ in 0..BISECTIONS {
+                    let middle = 0.5 * (low + high);
+                    let Some((across, along)) = deviation(middle / MARKS as f64) else {
+                        break;
+                    };
+                    last = along;
+                    if (across < 0.0) == (a < 0.0) {
+                        low = middle;
+                    } else {
+                        high = middle;
+                    }
+                }
+                if last > 0.0 {
+                    return true;
+                }
+            }
+            before = here;
         }
         false
     }
@@ -167,7 +240,7 @@ impl<T: Scalar> Search<T> {
         slides.any(|slide| matches!(slide, Slide::Turning(_)))
     }
 
-    /// Where slips are looked for: first along those before, then all round.
+    /// Where slips are looked for: along those before, then all round.
     fn direct(&mut self, c: &Collision<T>, phase: &Phase<T>, k: usize) {
         for (rub, slide) in c.rubs.iter().zip(&mut self.pattern.slides) {
             if let Slide::Turning(direction) = slide {
@@ -181,6 +254,23 @@ impl<T: Scalar> Search<T> {
                 };
             }
         }
+    }
+
+    /// Asks relaxation for the combination, more slowly where it swings.
+    fn relax(&mut self, c: &Collision<T>, phase: &Phase<T>) -> bool {
+        for pace in PACES {
+            self.relaxation.begin(c, phase, pace);
+            for _ in 0..MOST_PASSES {
+                self.relaxation.sweep(c, phase);
+                if !self.relaxation.read(c, phase, &mut self.pattern) {
+                    break;
+                }
+            }
+            if self.attempt_found(c, phase) || self.repair(c, phase) {
+                return true;
+            }
+        }
+        false
     }
 
     /// Asks Lemke's method for the combination.
@@ -281,7 +371,9 @@ impl<T: Scalar> Search<T> {
         let tight = |p: &Pattern<T>, k: usize| {
             let row = c.touches[k].row;
             let over = p.after[row] - phase.aims[k];
-            phase.within[k] && !p.pressed[k] && over.value() <= p.noise[row]
+            // With friction it would have to be decided what that does.
+            let rough = c.rubs.iter().any(|rub| rub.bearer == Bearer::Touch(k));
+            phase.within[k] && !p.pressed[k] && !rough && over.value() <= p.noise[row]
         };
         if !self.taking.iter().any(|&k| tight(&self.pattern, k)) {
             return true;
@@ -421,7 +513,7 @@ impl Linear {
     }
 
     /// Rows of a ray and its direction in them.
-    fn rows<T: Copy>(ray: Ray, c: &Collision<T>) -> [(usize, f64); 2] {
+    fn rows<T: Scalar>(ray: Ray, c: &Collision<T>) -> [(usize, f64); 2] {
         match ray {
             Ray::Press(k) => [(c.touches[k].row, 1.0), (0, 0.0)],
             Ray::Rub(r, [x, y]) => {
@@ -480,7 +572,15 @@ impl Linear {
                 };
                 self.coefficients[r] * rub.factor.value() * normal
             }
-            Ray::Held(i) => UNLIMITED * phase.least[c.conditional[i].1].value(),
+            Ray::Held(i) => {
+                let touch = c.conditional[i].1;
+                let before = if phase.struck[touch] {
+                    phase.rates[c.touches[touch].row].value().abs().max(1.0)
+                } else {
+                    0.0
+                };
+                UNLIMITED * before
+            }
             _ => {
                 let aim = match ray {
                     Ray::Press(k) => phase.aims[k].value(),

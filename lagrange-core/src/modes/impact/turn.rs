@@ -84,5 +84,11 @@ impl<T: Scalar> Turns<T> {
             *span = span.max(rate.value().abs());
             self.noise.push(ROUNDING * *span + TERMS * terms);
         }
+        // What an impulse does in other rows is known to rounding of what it does in its own.
+        let impulses = self.impulses.iter().enumerate();
+        let effort: f64 = impulses.map(|(j, x)| c.strength(j) * x.value().abs()).sum();
+        for (i, noise) in self.noise.iter_mut().enumerate() {
+            *noise += TERMS * c.strength(i) * effort;
+        }
     }
 }

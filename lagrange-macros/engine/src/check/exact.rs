@@ -10,7 +10,8 @@ use super::modes::{Grip, Mode};
 use super::motion::{Stuck, Tie, accelerations, rank, velocities};
 use crate::model::Normal;
 use crate::symbolic::field::{Angles, Degree, PRIMES, Point, Trouble};
-use crate::symbolic::{ExprId, Pool, Symbol};
+use crate::symbolic::{ExprId, Node, Pool, Symbol};
+use std::collections::BTreeSet;
 
 /// What values at points say about a claim.
 #[derive(Clone, PartialEq, Debug)]
@@ -62,9 +63,7 @@ pub(super) fn exact(pool: &mut Pool, case: &Case) -> Finding {
     let forces = mechanics.rows.iter().map(|row| row.force);
     let dependent: Vec<Symbol> = moving.chain(forces).collect();
     let angles = pool.angles(&all, &dependent);
-    let mut undecided: Vec<usize> = all.iter().flat_map(|&e| pool.branches(e)).collect();
-    undecided.sort_unstable();
-    undecided.dedup();
+    let mut undecided = branches(pool, &all);
     undecided.retain(|branch| case.decided.iter().all(|(known, _)| known != branch));
     if undecided.len() > MOST_BRANCHES {
         return Finding::Open(format!("it has {} branches", undecided.len()));
@@ -96,6 +95,17 @@ pub(super) fn exact(pool: &mut Pool, case: &Case) -> Finding {
     } else {
         Finding::Zero
     }
+}
+
+/// All branches in the expressions.
+fn branches(pool: &Pool, all: &[ExprId]) -> Vec<usize> {
+    let reachable = pool.iter_reachable(all).into_iter();
+    let branches = reachable.filter_map(|e| match pool.node(e) {
+        Node::Select { branch, .. } => Some(*branch),
+        _ => None,
+    });
+    let found: BTreeSet<usize> = branches.collect();
+    found.into_iter().collect()
 }
 
 fn at_points(

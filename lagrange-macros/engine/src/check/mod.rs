@@ -177,7 +177,10 @@ impl Court<'_> {
                 .name
                 .as_ref()
                 .map_or_else(String::new, |name| name.text.clone()),
-            claim: check.text.clone(),
+            claim: match check.when.is_empty() {
+                true => check.text.clone(),
+                false => format!("{} {}", check.text, check.when),
+            },
             outcome,
         })
     }

@@ -79,7 +79,14 @@ pub(super) fn search(
     }
     let found = first.or_else(|| largest.map(|(_, found)| found));
     match found {
-        Some(found) => Search::Counterexample(words(pool, region, &sides, &found, &ratios)),
+        Some(found) => Search::Counterexample(words(
+            pool,
+            region,
+            &sides,
+            check.is_conserved,
+            &found,
+            &ratios,
+        )),
         None => Search::Nothing(states),
     }
 }
@@ -98,6 +105,7 @@ fn words(
     pool: &Pool,
     region: &Region,
     sides: &[ExprId; 2],
+    conserved: bool,
     found: &Found,
     ratios: &[f64],
 ) -> String {
@@ -107,10 +115,11 @@ fn words(
         let comma = if i == 0 { "" } else { ", " };
         text += &format!("{comma}{} = {}", pool.name(symbol), short(value));
     }
+    text += ":";
     let (left, right) = (found.left.value, found.right.value);
     let [left_text, right_text] = distinct(left, right);
-    if pool.is_zero(sides[1]) {
-        text += &format!(" it is {left_text}, not 0");
+    if conserved {
+        text += &format!(" its rate is {left_text}");
     } else {
         text += &format!(" the left side is {left_text}, the right side {right_text}");
     }
@@ -118,6 +127,7 @@ fn words(
         && rest.len() >= 2
         && rest.iter().all(|ratio| (ratio / first - 1.0).abs() < 1e-9)
         && first.is_finite()
+        && !conserved
         && *first != 0.0
     {
         text += &match *first {

@@ -61,7 +61,7 @@ pub(super) fn sample<'a>(pool: &Pool, region: &Region<'a>, seed: u64) -> Result<
     }
     numbers.bind(region.time, random.two_digits(0.0, 2.0));
     // Every other state is a small and slow one.
-    let reach = if seed % 2 == 0 { 0.6 } else { 2.0 };
+    let reach = if seed.is_multiple_of(2) { 0.6 } else { 2.0 };
     for &[q, v, a] in &mechanics.coordinates {
         numbers.bind(q, random.two_digits(-reach, reach));
         numbers.bind(v, random.two_digits(-reach, reach));

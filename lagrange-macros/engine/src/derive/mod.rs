@@ -108,7 +108,7 @@ pub fn equations(system: System, sink: &mut Diagnostics) -> Option<Equations> {
         branches: outputs::branches(&mut sheet),
         cyclic,
     };
-    regular::check(&sheet.system, &inertias, &structure, sink).then(|| Equations {
+    regular::check(&sheet.system, &inertias, &structure, &sheet.outputs, sink).then(|| Equations {
         needs: sheet.needs.labels,
         system: sheet.system,
         outputs: sheet.outputs,

@@ -1,9 +1,14 @@
 //! The known name nearest to an unknown one.
 
-/// The candidate with the least edit distance to `name`, if that is at most a third of its length (at least 1).
+/// The candidate with the least edit distance to `name`, if that is at most a third of its length (at least 1; of one
+/// letter only the case may differ).
 /// Ties go to the first candidate.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let budget = (name.chars().count() / 3).max(1);
+    // Any two names of one letter are one edit apart: that is no likeness.
+    let budget = match name.chars().count() {
+        0 | 1 => 0,
+        count => (count / 3).max(1),
+    };
     let mut best: Option<(usize, &str)> = None;
     for candidate in candidates {
         let distance = if candidate.eq_ignore_ascii_case(name) {

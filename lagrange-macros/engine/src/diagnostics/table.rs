@@ -57,6 +57,11 @@ table! {
     Exclusive "E023" "`{0}` and `{1}` exclude each other" "{2}";
     Operator "E024" "`{0}` is not an operator here" "{1}";
 
+    NoName "E025" "this {0} has no name" "{1}";
+    MissingOperator "E026" "an operator is missing before {0}" "{1}";
+    FunctionPower "E027" "`{0}^…` is not a power of a value" "write `{0}(…)^2`";
+    FunctionDefined "E028" "`{0}(…)` cannot be defined: there are no functions of one's own" "`define` names an expression; indexed it is `{0}[k in 0..n] = …`";
+
     NotAStruct "E101" "Lagrangian is derived for a struct with named fields" "write `struct {0} { mass: f64, … }`: every field is a parameter";
     Generics "E102" "{0}" "the struct is plain (`f64` fields) or has exactly one type parameter: `struct {1}<T = f64>`";
     FieldType "E103" "a parameter cannot have this type" "fields are `{0}` or `[{0}; N]` with a number N";
@@ -71,6 +76,8 @@ table! {
     WrongKind "E206" "`{0}` is a {1}, not a {2}" "{3}";
     Unusable "E207" "`{0}` is a {1} and has no value" "{2}";
 
+    HandleClash "E208" "`{0}` and `{1}` become one constant, `{2}`" "names of coordinates and items become constants in capitals: choose another";
+
     ArgumentCount "E301" "`{0}` takes {1}, not {2}" "";
     ListForScalar "E302" "a list of {0} where a single value is expected" "take one element `e[i]`, or `dot`, `norm`, `sum`";
     ScalarForList "E303" "a single value where a list is expected" "{0}";
@@ -82,8 +89,11 @@ table! {
     NoSuchMember "E309" "`{0}` has no member `{1}`" "{2}";
     EmptyRange "E310" "the range {0}..{1} is empty" "the upper bound must be larger than the lower one";
     TooMany "E311" "{0} elements are too many" "a declaration may unroll to {1}";
-    Overflow "E312" "the exact numbers of this item outgrow 38 digits" "pass such numbers as fields of the struct";
+    Overflow "E312" "the exact numbers here outgrow 38 digits" "pass such numbers as fields of the struct";
     ListProduct "E313" "`{0}` of two lists has no single meaning" "write `dot(a, b)`, `cross(a, b)`, or single elements";
+
+    NoValue "E314" "`{0}` has no value" "the numbers are outside of where it is defined";
+    HighPower "E315" "this exponent is too large" "numerators and denominators of exponents go up to {0}";
 
     VelocityHere "E401" "{0} depends on positions only, and `{1}` is a velocity" "{2}";
     AccelerationHere "E402" "`{0}` is an acceleration" "accelerations are known after the equations are solved: in `observe`, `stop`, `mark` and `check` only";
@@ -105,8 +115,17 @@ table! {
     SameTwice "E510" "`{0}` is given twice" "keep one";
     UnnamedTwice "E511" "a second `{0} =` without a name" "name the terms: `{0}(name: …)`";
 
+    NegativeFriction "E512" "friction is not negative" "its sign follows from the slip: write the magnitude";
+    FrictionGrows "E513" "kinetic friction {0} is larger than static friction {1}" "the kinetic coefficient is at most the static one: are they exchanged?";
+    RestitutionRange "E514" "{0} is no restitution" "it lies between 0 (no bounce) and 1 (no loss)";
+
     NoInertia "E601" "the coordinate `{0}` has no inertia" "no kinetic energy contains `der({0})`, and no constraint ties it: add its kinetic energy or remove it";
     EquationCount "E602" "{0} equations for {1} unknowns" "{2}";
+    Redundant "E603" "`{0}` says nothing that {1} does not say already" "take one of them away: their forces cannot be told apart";
+    Contradiction "E604" "`{0}` cannot hold together with {1}" "they restrict the same motion in two ways: take one away";
+
+    SlipsParallel "E605" "the two components of the slip of `{0}` are one" "write velocities in two directions, or a slip of one component";
+    SingularInertia "E606" "{0} can move together without kinetic energy" "add the kinetic energy of that motion, or a constraint that forbids it";
 
     UnknownUnit "E701" "`{0}` is not a unit" "{1}";
     UnitMultiple "E702" "`{0}` is a multiple of {1}" "numbers are not converted: write `{1}`, and give the values in it";

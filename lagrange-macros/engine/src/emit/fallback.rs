@@ -188,6 +188,7 @@ fn empty(core: &TokenStream) -> TokenStream {
             marks: &[],
             starts: &[],
             impacts: #core::system::Impacts::Together,
+            units: #core::system::Units::NONE,
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Handles: one associated constant for each named item, `MassOnWheel::RIM`, with its equation as documentation.
 
-use crate::model::{ItemName, Normal, System};
+use crate::model::{ItemName, Normal, System, shouting};
 use crate::plan::Program;
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
@@ -226,14 +226,6 @@ fn items(system: &System) -> Vec<Handle<'_>> {
 /// `muStatic` and `mu_static` → `MU_STATIC`; `r#static` → `STATIC`.
 pub(super) fn screaming(ident: &Ident) -> Ident {
     let text = ident.to_string();
-    let mut name = String::with_capacity(text.len() + 4);
-    let mut lower = false;
-    for letter in text.strip_prefix("r#").unwrap_or(&text).chars() {
-        if lower && letter.is_uppercase() {
-            name.push('_');
-        }
-        lower = letter.is_lowercase() || letter.is_numeric();
-        name.extend(letter.to_uppercase());
-    }
+    let name = shouting(text.strip_prefix("r#").unwrap_or(&text));
     Ident::new(&name, ident.span())
 }

@@ -1,6 +1,7 @@
 //! [`Program`] → tokens: the tapes, the table that says what their numbers mean, and the handles.
 //! The only place that uses `quote`.
 
+mod checks;
 mod code;
 mod derivation;
 mod description;
@@ -12,6 +13,7 @@ mod tape;
 #[cfg(test)]
 mod tests;
 
+use crate::check::Verdict;
 use crate::derive::Stage;
 use crate::plan::Program;
 use proc_macro2::TokenStream;
@@ -21,7 +23,7 @@ pub use derivation::derivation;
 pub use fallback::fallback;
 
 /// `impl System` and the handles of a program; [`derivation()`] belongs to it.
-pub fn emit(program: &Program) -> TokenStream {
+pub fn emit(program: &Program, verdicts: &[Verdict]) -> TokenStream {
     let system = &program.equations.system;
     let (name, core) = (&system.name, &system.core);
     let (generics, arguments, scalar) = match &system.scalar {
@@ -37,6 +39,7 @@ pub fn emit(program: &Program) -> TokenStream {
         None => quote!(#name),
     };
     let handles = handles::handles(program);
+    let checks = checks::checks(program, verdicts);
     let description = description::description(program);
     let access = scalar::access(system);
     let start = scalar::starts(program);
@@ -45,6 +48,7 @@ pub fn emit(program: &Program) -> TokenStream {
     let report = tape::tape(program, Stage::Report);
     quote! {
         #handles
+        #checks
 
         #[automatically_derived]
         #[allow(unused, clippy::all, clippy::pedantic, clippy::nursery)]

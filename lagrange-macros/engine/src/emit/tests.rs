@@ -67,7 +67,7 @@ fn a_tape_has_one_call_per_operation_and_one_if_per_block() {
 
 #[test]
 fn constants_starts_and_handles() {
-    let emitted = emit(&program(spring()));
+    let emitted = emit(&program(spring()), &[]);
     check(
         &emitted,
         quote! { pub const FLOOR: ::lagrange_core::handle::ContactId = ::lagrange_core::handle::ContactId(0); },

@@ -300,7 +300,7 @@ impl Work<'_> {
             if own {
                 rows.extend(slip_row..slip_row + friction.slip.len());
                 note = format!(
-                    "The impulse of `{}` makes its slip zero if that takes no more than static friction allows, \
+                    "The impulse of {} makes its slip zero if that takes no more than static friction allows, \
                      else it is kinetic friction against the slip.",
                     friction.name.text
                 );

@@ -321,6 +321,15 @@ impl<'a> Reader<'a> {
             hidden = list.len() - MOST_SHOWN / 2;
             list.truncate(MOST_SHOWN / 2);
         }
+        let bases = list.iter().flat_map(|(_, factors)| factors).map(|f| f.0);
+        let inner_rank = match bases.clone().all(|base| self.is_still(base)) {
+            true => (
+                PARAMETER,
+                bases.map(|base| self.rank(base).1).min().unwrap_or(0),
+                0,
+            ),
+            false => (MOVING_SUM, 0, 0),
+        };
         let mut keyed: Vec<_> = list
             .into_iter()
             .map(|(c, factors)| (self.place(&factors), c, factors))
@@ -341,7 +350,7 @@ impl<'a> Reader<'a> {
         if c.is_one() && common.is_empty() {
             return inner;
         }
-        self.term(c, &common, Some(inner))
+        self.term(c, &common, Some((inner_rank, inner)))
     }
 
     /// Where a term stands in a sum: what moves most comes first, squares before products, numbers last.
@@ -379,7 +388,7 @@ impl<'a> Reader<'a> {
         &mut self,
         c: Rational,
         factors: &[(ExprId, Rational)],
-        extra: Option<Formula>,
+        extra: Option<(Rank, Formula)>,
     ) -> Formula {
         let mut above: Vec<(Rank, Formula)> = Vec::new();
         let mut below: Vec<(Rank, Formula)> = Vec::new();
@@ -406,7 +415,7 @@ impl<'a> Reader<'a> {
             list.push((rank, raised(formula, exponent)));
         }
         if let Some(extra) = extra {
-            above.push(((MOVING_SUM, 0, 0), extra));
+            above.push(extra);
         }
         above.sort_by_key(|(rank, _)| *rank);
         below.sort_by_key(|(rank, _)| *rank);
@@ -571,12 +580,23 @@ fn take_common(terms: &mut [(Rational, Factors)]) -> (Rational, Factors) {
     };
     let quotients: Option<Vec<Rational>> =
         terms.iter().map(|(c, _)| c.checked_div(number)).collect();
-    match quotients {
+    // Not ½ (a − 2 b): a fraction in front must spare more numbers than it makes.
+    let spares = |quotients: &Vec<Rational>| {
+        let units = quotients.iter().filter(|q| q.is_unit()).count();
+        number.is_integer() || 2 * units > quotients.len()
+    };
+    match quotients.filter(spares) {
         Some(quotients) => {
             for ((c, _), quotient) in terms.iter_mut().zip(quotients) {
                 *c = quotient;
             }
             (number, common)
+        }
+        None if minus => {
+            for (c, _) in terms.iter_mut() {
+                *c = c.checked_neg().unwrap_or(*c);
+            }
+            (Rational::MINUS_ONE, common)
         }
         None => (Rational::ONE, common),
     }

@@ -23,6 +23,8 @@ const ALIASES: &[(&str, &str)] = &[
     ("powf", "a^b"),
     ("sqr", "x^2"),
     ("diff", "der(…)"),
+    ("d", "der(…)"),
+    ("D", "der(…)"),
     ("ddt", "der(…)"),
     ("dt", "der(…)"),
     ("length", "norm(…)"),
@@ -45,6 +47,10 @@ impl Elaboration<'_> {
             };
             self.arity(name, arguments, function.arity()..=function.arity(), takes)?;
             let arguments = self.scalars(arguments, context)?;
+            if !self.has_value(text, &arguments) {
+                self.sink.report(Code::NoValue, expr.extent, &[expr]);
+                return None;
+            }
             return Some(Value::Scalar(self.system.pool.call(function, &arguments)));
         }
         match text {
@@ -55,6 +61,10 @@ impl Elaboration<'_> {
             "sqrt" | "abs" | "sign" => {
                 self.arity(name, arguments, 1..=1, "1 argument")?;
                 let u = self.scalar(&arguments[0], context)?;
+                if !self.has_value(text, &[u]) {
+                    self.sink.report(Code::NoValue, expr.extent, &[expr]);
+                    return None;
+                }
                 Some(Value::Scalar(match text {
                     "sqrt" => self.system.pool.sqrt(u),
                     "abs" => self.absolute(u, &expr.to_string(), expr.extent),
@@ -78,6 +88,22 @@ impl Elaboration<'_> {
                 self.not_a_function(name);
                 None
             }
+        }
+    }
+
+    /// Whether a function has a value at an argument that is a number.
+    fn has_value(&self, function: &str, arguments: &[ExprId]) -> bool {
+        let Some(number) = arguments
+            .first()
+            .and_then(|&u| self.system.pool.as_number(u))
+        else {
+            return true;
+        };
+        match function {
+            "sqrt" => !number.is_negative(),
+            "ln" => !number.is_negative() && !number.is_zero(),
+            "asin" | "acos" => number.to_f64().abs() <= 1.0,
+            _ => true,
         }
     }
 

@@ -18,8 +18,12 @@ pub struct Check {
     pub name: Option<ItemName>,
     /// `shell == m*g*cos(theta)`, as the user wrote it.
     pub text: String,
+    /// `when closed(shell)`, as the user wrote it, or empty.
+    pub when: String,
     /// Where.
     pub extent: Extent,
+    /// Whether it says that a quantity is conserved; the left side is then its rate, the right side 0.
+    pub is_conserved: bool,
     /// Left side.
     pub left: ExprId,
     /// Right side.
@@ -96,7 +100,9 @@ impl Elaboration<'_> {
         let mut check = Check {
             name,
             text,
+            when: when(&declared.premises),
             extent: declared.claimed,
+            is_conserved: matches!(declared.claim, Claim::Conserved(_)),
             left: left?,
             right: right?,
             conditions: Vec::new(),
@@ -194,6 +200,27 @@ impl Elaboration<'_> {
         }
         Some(vec![self.item(item, &[kind])?.1])
     }
+}
+
+/// Conditions as written.
+fn when(premises: &[ast::Premise]) -> String {
+    let mut text = String::new();
+    for (i, premise) in premises.iter().enumerate() {
+        text += if i == 0 { "when " } else { " and " };
+        text += &match premise {
+            ast::Premise::Mode(word, item) => {
+                let word = ModeWord::ALL.iter().find(|(_, known)| known == word);
+                let word = word.map_or("", |(text, _)| text);
+                match &item.element {
+                    None => format!("{word}({})", item.name.text),
+                    Some(element) => format!("{word}({}[{element}])", item.name.text),
+                }
+            }
+            ast::Premise::AtLeast(comparison) => comparison.to_string(),
+            ast::Premise::Equal(left, right) => format!("{left} == {right}"),
+        };
+    }
+    text
 }
 
 /// Which item a condition is about: (whether it is a contact, index).

@@ -35,6 +35,9 @@ impl Elaboration<'_> {
                 .region
                 .as_ref()
                 .map(|region| this.difference(region, REGION));
+            if let (Some(law), Some(value)) = (&declared.restitution, &restitution) {
+                this.sensible_restitution(law, *value)?;
+            }
             let gap = gap?;
             if this.depth(&[gap]) < Depth::Position {
                 let hint = "write a distance between coordinates: `contact(floor: y >= 0)`";
@@ -61,6 +64,19 @@ impl Elaboration<'_> {
             });
             Some(this.system.contacts.len() - 1)
         });
+    }
+
+    /// Whether a restitution that is a number is one.
+    fn sensible_restitution(&mut self, law: &ast::Restitution, value: Restitution) -> Option<()> {
+        let (ast::Restitution::Newton(expr) | ast::Restitution::Poisson(expr)) = law;
+        let (Restitution::Newton(value) | Restitution::Poisson(value)) = value;
+        let number = self.system.pool.as_number(value);
+        if number.is_some_and(|number| number.is_negative() || number.to_f64() > 1.0) {
+            self.sink
+                .report(Code::RestitutionRange, expr.extent, &[expr]);
+            return None;
+        }
+        Some(())
     }
 
     /// |∂gap/∂p|

@@ -262,7 +262,7 @@ impl Elaboration<'_> {
             return Some(found);
         }
         match self.names.get(&name.text).map(|entry| entry.kind) {
-            None => self.unknown(name),
+            None => self.unknown_of(name, &[Kind::Coordinate]),
             Some(Kind::Coordinate) => {} // poisoned
             Some(kind) => {
                 let known: Vec<String> = self

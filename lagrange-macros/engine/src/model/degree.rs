@@ -38,6 +38,9 @@ pub(super) fn degree(pool: &Pool, e: ExprId, symbols: &[Symbol]) -> Option<i64> 
 impl Elaboration<'_> {
     /// A symbol of these in which an expression is not linear.
     pub fn nonlinear_in(&mut self, e: ExprId, symbols: &[Symbol]) -> Option<Symbol> {
+        if let Some(symbol) = self.switched_by(e, symbols) {
+            return Some(symbol);
+        }
         if degree(&self.system.pool, e, symbols).is_some_and(|degree| degree <= 1) {
             return None;
         }
@@ -55,8 +58,26 @@ impl Elaboration<'_> {
         None
     }
 
+    /// A symbol of these that decides a branch of an expression, as in `abs(der(x))`: each side may be a polynomial,
+    /// the whole is not.
+    fn switched_by(&self, e: ExprId, symbols: &[Symbol]) -> Option<Symbol> {
+        let pool = &self.system.pool;
+        let guards = pool
+            .branches(e)
+            .into_iter()
+            .map(|branch| self.system.branches[branch].guard);
+        let deciding: Vec<Symbol> = guards.flat_map(|guard| pool.symbols(guard)).collect();
+        symbols
+            .iter()
+            .copied()
+            .find(|symbol| deciding.contains(symbol))
+    }
+
     /// A symbol of these in which an expression is not of second degree.
     pub fn not_quadratic_in(&mut self, e: ExprId, symbols: &[Symbol]) -> Option<Symbol> {
+        if let Some(symbol) = self.switched_by(e, symbols) {
+            return Some(symbol);
+        }
         if degree(&self.system.pool, e, symbols).is_some_and(|degree| degree <= 2) {
             return None;
         }

@@ -17,6 +17,8 @@ pub(super) struct Elaboration<'a> {
     pub system: System,
     pub sink: &'a mut Diagnostics,
     pub names: Names,
+    /// Names by the constant that they become.
+    pub handles: BTreeMap<String, String>,
     /// Bound indices, innermost last.
     pub indices: Vec<(String, i64)>,
     /// Kind of each symbol, by its index.
@@ -82,6 +84,7 @@ pub fn scoped(declaration: &Declaration, sink: &mut Diagnostics) -> Option<(Syst
     elaboration.check_dropped(declaration);
     if elaboration.sink.count() == before {
         elaboration.units(declaration);
+        elaboration.structure(declaration);
     }
     let (system, scope) = elaboration.close();
     (sink.count() == before).then_some((system, scope))
@@ -149,6 +152,7 @@ impl<'a> Elaboration<'a> {
             system,
             sink,
             names: Names::new(),
+            handles: BTreeMap::new(),
             indices: Vec::new(),
             depths: vec![Depth::Parameter; time.index() + 1],
             directions: vec![(time, one)],
@@ -167,6 +171,7 @@ impl<'a> Elaboration<'a> {
             system,
             sink,
             names: scope.names,
+            handles: BTreeMap::new(),
             indices: Vec::new(),
             depths: scope.depths,
             directions: scope.directions,

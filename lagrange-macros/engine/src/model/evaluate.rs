@@ -11,6 +11,9 @@ use crate::symbolic::{ExprId, Rational};
 /// What sums and indexed items may unroll to.
 const MOST_ELEMENTS: i64 = 10_000;
 
+/// Numerators and denominators of exponents are at most this.
+const HIGHEST_POWER: i64 = 1_000;
+
 impl Elaboration<'_> {
     /// A single value.
     pub fn scalar(&mut self, expr: &Expr, context: Context) -> Option<ExprId> {
@@ -31,6 +34,15 @@ impl Elaboration<'_> {
 
     /// A value of any shape.
     pub fn value(&mut self, expr: &Expr, context: Context) -> Option<Value> {
+        let value = self.form(expr, context);
+        if self.system.pool.overflowed() && !self.overflowed {
+            self.overflowed = true;
+            self.sink.report(Code::Overflow, expr.extent, &[]);
+        }
+        value
+    }
+
+    fn form(&mut self, expr: &Expr, context: Context) -> Option<Value> {
         match &expr.kind {
             ExprKind::Number(decimal) => {
                 let number = self.exact(*decimal, expr.extent)?;
@@ -44,8 +56,10 @@ impl Elaboration<'_> {
                 Some(value.map(&mut |e| self.system.pool.neg(e)))
             }
             ExprKind::Power(base, exponent) => {
-                let (base, exponent) = (self.scalar(base, context), self.scalar(exponent, context));
-                let power = self.system.pool.pow(base?, exponent?);
+                let (b, e) = (self.scalar(base, context), self.scalar(exponent, context));
+                let (b, e) = (b?, e?);
+                self.power_exists(expr, exponent.extent, b, e)?;
+                let power = self.system.pool.pow(b, e);
                 if power.is_none() {
                     self.sink.report(Code::DivisionByZero, expr.extent, &[]);
                 }
@@ -67,6 +81,32 @@ impl Elaboration<'_> {
             ExprKind::Element(base, index) => self.element(base, index, context),
             ExprKind::Member(base, name) => self.member(base, name, context),
         }
+    }
+
+    /// Whether numbers have this power, and it is not absurdly high.
+    fn power_exists(
+        &mut self,
+        expr: &Expr,
+        at: Extent,
+        base: ExprId,
+        exponent: ExprId,
+    ) -> Option<()> {
+        let pool = &self.system.pool;
+        let Some(power) = pool.as_number(exponent) else {
+            return Some(());
+        };
+        let zero = pool.is_zero(base) && power.is_zero();
+        let negative = pool.as_number(base).is_some_and(Rational::is_negative);
+        if zero || negative && !power.is_integer() {
+            self.sink.report(Code::NoValue, expr.extent, &[expr]);
+            return None;
+        }
+        let most = i128::from(HIGHEST_POWER);
+        if power.numerator().unsigned_abs() > most.unsigned_abs() || power.denominator() > most {
+            self.sink.report(Code::HighPower, at, &[&HIGHEST_POWER]);
+            return None;
+        }
+        Some(())
     }
 
     fn exact(&mut self, decimal: Decimal, at: Extent) -> Option<Rational> {

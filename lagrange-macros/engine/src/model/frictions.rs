@@ -5,9 +5,9 @@ use super::names::Kind;
 use super::reach::{Context, Depth, Reach};
 use super::value::Value;
 use super::{Friction, Normal};
-use crate::ast::{self, Expr, FrictionLaw};
+use crate::ast::{self, Expr, ExprKind, FrictionLaw};
 use crate::diagnostics::Code;
-use crate::symbolic::{ExprId, Symbol};
+use crate::symbolic::{ExprId, Rational, Symbol};
 
 const SLIP: Context = Context::new(Reach::Motion, "a slip velocity");
 const COEFFICIENT: Context = Context::new(Reach::Motion, "a coefficient of friction");
@@ -23,6 +23,7 @@ impl Elaboration<'_> {
                 .map(|on| this.item(on, &[Kind::Contact, Kind::Constraint]));
             let slip = this.slip(&declared.slip, &name.text);
             let (given, static_coefficient, kinetic_coefficient) = this.law(&declared.law)?;
+            this.sensible(&declared.law, static_coefficient, kinetic_coefficient)?;
             let normal = match (on, given) {
                 (Some(on), _) => match on? {
                     (Kind::Contact, contact) => Normal::Contact(contact),
@@ -77,6 +78,35 @@ impl Elaboration<'_> {
                 }
             }
         }
+    }
+
+    /// Whether coefficients that are numbers can be meant: not negative, and kinetic at most static.
+    fn sensible(&mut self, law: &FrictionLaw, stick: ExprId, slide: ExprId) -> Option<()> {
+        let (first, second) = match law {
+            FrictionLaw::Coefficients { stick, slide, .. } => (&**stick, slide.as_deref()),
+            FrictionLaw::Limit(limit) => match &limit.kind {
+                ExprKind::List(limits) => (limits.first()?, limits.get(1)),
+                _ => (limit, None),
+            },
+        };
+        let second = second.unwrap_or(first);
+        let pool = &self.system.pool;
+        let (stick, slide) = (pool.as_number(stick), pool.as_number(slide));
+        for (number, expr) in [(stick, first), (slide, second)] {
+            if number.is_some_and(Rational::is_negative) {
+                self.sink.report(Code::NegativeFriction, expr.extent, &[]);
+                return None;
+            }
+        }
+        let falls = stick
+            .zip(slide)
+            .and_then(|(stick, slide)| stick.checked_sub(slide));
+        if falls.is_some_and(Rational::is_negative) {
+            self.sink
+                .report(Code::FrictionGrows, second.extent, &[second, first]);
+            return None;
+        }
+        Some(())
     }
 
     /// One or two slip components with the symbols of the forces along them.

@@ -22,6 +22,7 @@ mod outputs;
 mod piecewise;
 mod reach;
 mod starts;
+mod structure;
 #[cfg(test)]
 pub(crate) mod tests;
 mod units;
@@ -34,6 +35,7 @@ use proc_macro2::{Ident, Span};
 
 pub use checks::{Check, Premise, checks};
 pub use elaborate::{Scope, scoped, system};
+pub(crate) use names::shouting;
 
 /// A mechanical system with all names resolved.
 pub struct System {

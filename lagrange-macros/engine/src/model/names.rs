@@ -61,7 +61,7 @@ impl Kind {
             Kind::Field => "field",
             Kind::Coordinate => "coordinate",
             Kind::Definition => "definition",
-            Kind::Output => "output",
+            Kind::Output => "quantity of `observe`",
             Kind::Kinetic => "kinetic energy",
             Kind::Potential => "potential energy",
             Kind::Constraint => "constraint",
@@ -74,6 +74,13 @@ impl Kind {
             Kind::Mark => "mark",
             Kind::Check => "check",
         }
+    }
+}
+
+impl Kind {
+    /// Whether its name becomes a constant of the struct. An output whose constant is taken goes without.
+    fn has_handle(self) -> bool {
+        !matches!(self, Kind::Field | Kind::Definition | Kind::Output)
     }
 }
 
@@ -122,6 +129,17 @@ impl Elaboration<'_> {
                 .report(Code::DuplicateName, name, &[&text, &first.kind.text()]);
             return None;
         }
+        if kind.has_handle() {
+            let handle = shouting(text);
+            match self.handles.get(&handle) {
+                Some(first) => self
+                    .sink
+                    .report(Code::HandleClash, name, &[&text, first, &handle]),
+                None => {
+                    self.handles.insert(handle, text.to_string());
+                }
+            }
+        }
         self.names.insert(text.to_string(), Entry { kind, meaning });
         Some(())
     }
@@ -140,11 +158,50 @@ impl Elaboration<'_> {
         self.sink.report(Code::UnknownName, name, &[&text, &hint]);
     }
 
+    /// Reports a name that should be that of an item of one of these kinds.
+    pub fn unknown_of(&mut self, name: &Name, kinds: &[Kind]) {
+        let text = name.text.as_str();
+        let of_kind = self
+            .names
+            .iter()
+            .filter(|(_, entry)| kinds.contains(&entry.kind));
+        let hint = match nearest(text, of_kind.map(|(known, _)| known.as_str())) {
+            Some(known) => format!("did you mean `{known}`?"),
+            None => self.known(kinds),
+        };
+        self.sink.report(Code::UnknownName, name, &[&text, &hint]);
+    }
+
     fn suggestion(&self, text: &str) -> String {
+        const GREEK: [(&str, &str); 12] = [
+            ("π", "pi"),
+            ("α", "alpha"),
+            ("β", "beta"),
+            ("γ", "gamma"),
+            ("θ", "theta"),
+            ("ϑ", "theta"),
+            ("λ", "lambda"),
+            ("μ", "mu"),
+            ("φ", "phi"),
+            ("ϕ", "phi"),
+            ("ψ", "psi"),
+            ("ω", "omega"),
+        ];
+        if text == "e" {
+            return "powers of Euler's number are written `exp(…)`".to_string();
+        }
+        if let Some((_, word)) = GREEK.iter().find(|(letter, _)| *letter == text) {
+            return format!("write `{word}`");
+        }
         let bases = [
             text.strip_suffix("_dot"),
             text.strip_suffix("dot"),
             text.strip_prefix('d'),
+            text.strip_suffix('\u{307}'),
+            text.strip_prefix('\u{1e8b}').map(|_| "x"),
+            text.strip_prefix('\u{1e8f}').map(|_| "y"),
+            text.strip_prefix('\u{17c}').map(|_| "z"),
+            text.strip_prefix('\u{1e59}').map(|_| "r"),
         ];
         let is_coordinate = |base: &&str| {
             self.names
@@ -160,7 +217,7 @@ impl Elaboration<'_> {
             .keys()
             .map(String::as_str)
             .chain(indices)
-            .chain(["pi"]);
+            .chain(["pi", "energy"]);
         match nearest(text, names) {
             Some(known) => format!("did you mean `{known}`?"),
             None => {
@@ -173,7 +230,7 @@ impl Elaboration<'_> {
     pub fn item(&mut self, reference: &Reference, kinds: &[Kind]) -> Option<(Kind, usize)> {
         let name = &reference.name;
         let Some(entry) = self.names.get(&name.text) else {
-            self.unknown(name);
+            self.unknown_of(name, kinds);
             return None;
         };
         let kind = entry.kind;
@@ -240,6 +297,20 @@ impl Elaboration<'_> {
 /// A name without `r#`.
 pub(super) fn plain(ident: &proc_macro2::Ident) -> String {
     Name::new(ident).text
+}
+
+/// A name as that of a constant: `muStatic` and `mu_static` are both `MU_STATIC`.
+pub(crate) fn shouting(name: &str) -> String {
+    let mut constant = String::with_capacity(name.len() + 4);
+    let mut lower = false;
+    for letter in name.chars() {
+        if lower && letter.is_uppercase() {
+            constant.push('_');
+        }
+        lower = letter.is_lowercase() || letter.is_numeric();
+        constant.extend(letter.to_uppercase());
+    }
+    constant
 }
 
 /// Whether a word cannot be a name.

@@ -2,10 +2,11 @@
 
 use super::elaborate::{Elaboration, item_name};
 use super::names::{Kind, Meaning};
-use super::reach::{Context, Reach};
+use super::reach::{Context, Depth, Reach};
 use super::value::Value;
 use super::{Condition, Observe, Watch};
 use crate::ast::{self, Clause, Expr, ExprKind, ModeWord, Name, Trigger};
+use crate::diagnostics::Code;
 
 const OUTPUT: Context = Context::new(Reach::Outputs, "an output");
 
@@ -60,14 +61,26 @@ impl Elaboration<'_> {
             match &declared.trigger {
                 Trigger::Zero(e) => watch.terms.push(this.scalar(e, OUTPUT)?),
                 Trigger::All(clauses) => {
-                    let before = this.sink.count();
-                    for clause in clauses {
-                        this.clause(clause, &mut watch);
-                    }
-                    if this.sink.count() > before {
-                        return None;
-                    }
+                    let read: Vec<Option<()>> = clauses
+                        .iter()
+                        .map(|clause| this.clause(clause, &mut watch))
+                        .collect();
+                    read.into_iter().collect::<Option<()>>()?;
                 }
+            }
+            let depends = |&e: &crate::symbolic::ExprId| {
+                this.depth(&[e]) > Depth::Parameter
+                    || this.system.pool.depends_on(e, this.system.time)
+            };
+            if watch.conditions.is_empty() && !watch.terms.iter().any(depends) {
+                let hint = "it never changes: compare something that moves, or `t`";
+                let what = kind.text();
+                this.sink.report(
+                    Code::ConstrainsNothing,
+                    &declared.head.name,
+                    &[&what, &"coordinate", &hint],
+                );
+                return None;
             }
             let list = match kind {
                 Kind::Stop => &mut this.system.stops,

@@ -208,6 +208,14 @@ impl Cursor {
         }
     }
 
+    /// The word that was stepped over last.
+    pub fn word_behind(&self) -> Option<Name> {
+        match self.at.checked_sub(1).and_then(|i| self.tokens.get(i)) {
+            Some(TokenTree::Ident(ident)) => Some(Name::new(ident)),
+            _ => None,
+        }
+    }
+
     /// Steps over this very word if it is here.
     pub fn take_word(&mut self, word: &str) -> Option<Name> {
         let name = self.word().filter(|name| name.text == word)?;

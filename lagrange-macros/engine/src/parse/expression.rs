@@ -90,6 +90,13 @@ fn signed(cursor: &mut Cursor, sink: &mut Diagnostics) -> Option<Expr> {
 
 fn power(cursor: &mut Cursor, sink: &mut Diagnostics) -> Option<Expr> {
     let base = postfix(cursor, sink)?;
+    if let ExprKind::Name(name) = &base.kind
+        && FUNCTIONS.contains(&name.text.as_str())
+        && cursor.operator() == Some("^")
+    {
+        sink.report(Code::FunctionPower, name, &[&name.text]);
+        return None;
+    }
     if let Some(stars) = cursor.take("**") {
         sink.report(Code::PowerStars, stars, &[]);
     } else if cursor.take("^").is_none() {
@@ -241,6 +248,16 @@ fn named(name: Name, cursor: &mut Cursor, sink: &mut Diagnostics) -> Option<Expr
         return postfix(cursor, sink);
     }
     let Some(group) = cursor.take_group(Delimiter::Parenthesis) else {
+        let form = match name.text.as_str() {
+            "if" => "if(a >= b, x, y)",
+            "sum" => "sum(i in 0..n: …)",
+            _ => "",
+        };
+        if !form.is_empty() {
+            let hint = format!("write `{form}`");
+            sink.report(Code::RustNotation, &name, &[&name.text, &hint]);
+            return None;
+        }
         let extent = (&name).into();
         return Some(Expr {
             kind: ExprKind::Name(name),

@@ -1,7 +1,7 @@
 //! Equations, comparisons, and what is left over where a part should have ended.
 
 use super::cursor::Cursor;
-use super::expression::expression;
+use super::expression::{FUNCTIONS, expression};
 use super::item::is_keyword;
 use crate::ast::{Comparison, Expr, Premise, Relation};
 use crate::diagnostics::{Code, Diagnostics};
@@ -175,13 +175,48 @@ pub(super) fn leftover(cursor: &mut Cursor, sink: &mut Diagnostics) -> Option<()
                 &[&operator, &"there is no remainder in the language"],
             );
         }
+        (_, Some(operator @ ";")) => {
+            sink.report(
+                Code::Operator,
+                cursor.here(),
+                &[&operator, &"parts are separated by commas"],
+            );
+        }
         (TokenTree::Ident(word), _) if starts_part(cursor) => {
             sink.report(Code::MissingComma, word.span(), &[word]);
+        }
+        (TokenTree::Ident(word), _) if word == "or" => {
+            let hint =
+                "conditions are joined by `and`; alternatives are several `stop` or `mark` items";
+            sink.report(Code::Operator, cursor.here(), &[word, &hint]);
+        }
+        (TokenTree::Ident(word), _) if word == "as" => {
+            let hint = "numbers have no types: leave it away";
+            sink.report(Code::RustNotation, cursor.here(), &[word, &hint]);
+        }
+        (TokenTree::Ident(_) | TokenTree::Literal(_), _) => missing_operator(cursor, sink),
+        (TokenTree::Group(group), _) if group.delimiter() == Delimiter::Parenthesis => {
+            missing_operator(cursor, sink);
         }
         _ => cursor.expected("an operator or a comma", sink),
     }
     cursor.skip_all();
     None
+}
+
+/// Reports a value that follows another one.
+fn missing_operator(cursor: &Cursor, sink: &mut Diagnostics) {
+    let hint = match cursor.word_behind() {
+        Some(word) if FUNCTIONS.contains(&word.text.as_str()) => {
+            format!("arguments stand in parentheses: `{}(…)`", word.text)
+        }
+        _ => "a product is written with `*`".to_string(),
+    };
+    sink.report(
+        Code::MissingOperator,
+        cursor.here(),
+        &[&cursor.found(), &hint],
+    );
 }
 
 /// Whether what is here looks like the next part or item.

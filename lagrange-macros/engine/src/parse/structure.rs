@@ -49,6 +49,9 @@ fn scalar(input: &DeriveInput, sink: &mut Diagnostics) -> Option<Ident> {
         sink.report(Code::Generics, at, &[&what, &input.ident]);
     };
     let mut scalar = None;
+    for bound in input.generics.type_params().flat_map(|ty| &ty.bounds) {
+        refuse("a bound on the type parameter", bound.span().into());
+    }
     for parameter in &input.generics.params {
         let at = parameter.span().into();
         match parameter {
@@ -125,6 +128,14 @@ fn field_attribute(part: &mut Cursor, field: &mut Field, sink: &mut Diagnostics)
     let key = item::key(part, "a field", &keys, sink)?;
     let extent = part.here();
     let text = item::text(part, sink)?;
+    let given = match key.text.as_str() {
+        "tex" => !field.tex.is_empty(),
+        "unit" => field.unit.is_some(),
+        _ => !field.letter.is_empty(),
+    };
+    if given {
+        sink.report(Code::RepeatedPart, &key, &[&key.text]);
+    }
     match key.text.as_str() {
         "tex" => field.tex = text,
         "unit" => field.unit = Some(Unit { text, extent }),

@@ -209,7 +209,7 @@ fn mistakes_point_at_their_token() {
         ),
         ("coordinates(x) kinetic = x", "2:16 E003"),
         ("kinetic = x potential = y", "2:13 E003"),
-        ("kinetic = x y", "2:13 E001"),
+        ("kinetic = x y", "2:13 E026"),
         ("coordinates()", "2:1 E002"),
         ("coordinates(x,,y)", "2:15 E002"),
         ("kinetic = ", "2:11 E001"),

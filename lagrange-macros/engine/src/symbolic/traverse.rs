@@ -11,16 +11,23 @@ impl Pool {
             return Vec::new();
         };
         let mut seen = vec![false; last.index() + 1];
+        let mut found = Vec::new();
         let mut stack = roots.to_vec();
         while let Some(e) = stack.pop() {
             if !seen[e.index()] {
                 seen[e.index()] = true;
+                found.push(e);
                 self.node(e).for_each_child(|child| {
                     if !seen[child.index()] {
                         stack.push(child);
                     }
                 });
             }
+        }
+        // Few expressions of a large pool are sorted faster than the pool is looked through.
+        if found.len() < seen.len() / 16 {
+            found.sort_unstable();
+            return found;
         }
         (0..=last.0)
             .filter(|&id| seen[id as usize])

@@ -3,6 +3,7 @@
 //! [`stability`](crate::stability) runs them and compares.
 
 mod backspin_ball;
+mod beam_on_supports;
 mod belt_oscillator;
 mod bouncing_ball;
 mod coulomb_oscillator;
@@ -16,8 +17,10 @@ mod painleve_rod;
 mod parallelogram;
 mod polar_particle;
 mod rattleback;
+mod rod_on_supports;
 mod rod_sleeve;
 mod rolling_disk;
+mod sled;
 mod slider_crank;
 mod spherical_pendulum;
 mod spring_pendulum;
@@ -29,6 +32,7 @@ mod turntable;
 mod unequal_pendulum;
 
 pub use backspin_ball::BackspinBall;
+pub use beam_on_supports::BeamOnSupports;
 pub use belt_oscillator::BeltOscillator;
 pub use bouncing_ball::BouncingBall;
 pub use coulomb_oscillator::CoulombOscillator;
@@ -42,8 +46,10 @@ pub use painleve_rod::PainleveRod;
 pub use parallelogram::Parallelogram;
 pub use polar_particle::PolarParticle;
 pub use rattleback::Rattleback;
+pub use rod_on_supports::RodOnSupports;
 pub use rod_sleeve::RodSleeve;
 pub use rolling_disk::RollingDisk;
+pub use sled::Sled;
 pub use slider_crank::SliderCrank;
 pub use spherical_pendulum::SphericalPendulum;
 pub use spring_pendulum::SpringPendulum;

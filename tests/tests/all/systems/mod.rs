@@ -2,20 +2,25 @@
 
 mod ball;
 mod block;
+mod blows;
 mod cart_pole;
 mod chain;
 mod cradle;
+mod crowd;
 mod cue_ball;
 mod damped;
+mod groove;
 mod hoop;
 mod incline;
 mod kepler;
 mod pendulum;
 mod piecewise;
 mod plate;
+mod rocking_block;
 mod skate;
 mod sling;
 mod slips;
+mod striking_rod;
 mod turntable;
 mod wire;
 

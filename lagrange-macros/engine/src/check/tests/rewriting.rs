@@ -275,7 +275,7 @@ fn mistake(e: &Expr, kind: usize, coin: usize) -> Option<Expr> {
             Some(with(e, ExprKind::Sum(terms)))
         }
         // A number, a little or a lot.
-        (2, ExprKind::Number(n)) => Some(if coin % 2 == 0 {
+        (2, ExprKind::Number(n)) => Some(if coin.is_multiple_of(2) {
             number(e, n.digits + 1)
         } else {
             expr(&format!("({e} + 1/1000000)"))

@@ -48,8 +48,9 @@ impl Notation for MathMl {
         let base = format!("<mi>{}</mi>", escaped(&letter.base));
         let dotted = match letter.rate {
             0 => base,
-            1 => format!("<mover accent=\"true\">{base}<mo>˙</mo></mover>"),
-            _ => format!("<mover accent=\"true\">{base}<mo>¨</mo></mover>"),
+            // Not as accents: with fonts that have no table of mathematics they touch the letter.
+            1 => format!("<mover>{base}<mo>˙</mo></mover>"),
+            _ => format!("<mover>{base}<mo>¨</mo></mover>"),
         };
         let subscript = match letter.subscript.as_str() {
             "" => String::new(),

@@ -144,8 +144,12 @@ pub fn terms(n: &dyn Notation, f: &Formula) -> Vec<String> {
             .iter()
             .enumerate()
             .map(|(i, (minus, term))| {
-                let sign = n.sign(*minus, i == 0).to_owned();
-                n.row(&[sign, bound(n, term, Strength::Product)])
+                // Side by side, so that a sign stands between two terms.
+                format!(
+                    "{}{}",
+                    n.sign(*minus, i == 0),
+                    bound(n, term, Strength::Product)
+                )
             })
             .collect(),
         other => vec![formula(n, other)],
@@ -235,9 +239,7 @@ fn bound(n: &dyn Notation, f: &Formula, least: Strength) -> String {
 
 fn strength(n: &dyn Notation, f: &Formula) -> Strength {
     match f {
-        Formula::Sum(_) | Formula::Negative(_) | Formula::More(_) | Formula::SumOver(..) => {
-            Strength::Sum
-        }
+        Formula::Sum(_) | Formula::Negative(_) | Formula::SumOver(..) => Strength::Sum,
         Formula::Number(number) if !number.is_integer() => Strength::Product,
         Formula::Product(_) => Strength::Product,
         Formula::Fraction(..) if n.in_line() => Strength::Product,

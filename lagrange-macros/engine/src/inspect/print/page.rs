@@ -53,7 +53,7 @@ pub fn equations(derivation: &Derivation) -> String {
 fn titled(statement: &Statement) -> String {
     let plain = mathml::escaped(&text::statement(statement));
     format!(
-        "<div title=\"{plain}\">{}</div>",
+        "<div style=\"margin:0.5em 0\" title=\"{plain}\">{}</div>",
         mathml::display(statement)
     )
 }

@@ -62,7 +62,7 @@ fn mistakes_point_at_their_token() {
         ("potential = x.axes", "2:15 E309"),
         ("define(u[k in 3..3] = x)", "2:15 E310"),
         ("define(u[k in 0..1000000000] = x)", "2:15 E311"),
-        ("potential = 10^30*10^30*x", "2:1 E312"),
+        ("potential = 10^30*10^30*x", "2:13 E312"),
         ("potential = der(der(x))", "2:13 E401"),
         ("kinetic(k: der(der(x)))", "2:12 E402"),
         ("define(w = der(der(x))), kinetic(k: w)", "2:37 E402"),

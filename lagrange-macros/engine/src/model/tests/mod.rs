@@ -6,6 +6,7 @@ use crate::symbolic::ExprId;
 
 mod items;
 mod mistakes;
+mod structure;
 mod units;
 
 /// DESIGN's example.
@@ -290,7 +291,7 @@ fn lagrangian_is_split_at_rest() {
 fn constraints_find_their_level() {
     let system = with(
         "constraint(rod: x^2 + y^2 == t^2), constraint(roll: der(x*y) == a*der(theta)),
-         contact(floor: y >= 0), constraint(pure while floor: der(x) == 0), constraint(d: der(p) == 0), define(p = x)",
+         contact(floor: y >= 0), constraint(pure while floor: der(x) == 0), constraint(d: der(p) == 0), define(p = theta)",
     )
     .unwrap();
     let levels: Vec<Level> = system

@@ -81,7 +81,7 @@ pub(super) struct Checker<'a, 'b> {
 impl Checker<'_, '_> {
     /// All items, in the order in which they need each other.
     pub fn items(&mut self, declaration: &Declaration) {
-        for pass in 0..8 {
+        for pass in 0..9 {
             for item in &declaration.items {
                 self.item(&item.kind, pass);
             }
@@ -165,8 +165,31 @@ impl Checker<'_, '_> {
                     }
                 })
             }
+            (8, ItemKind::Check(check)) => self.check(check),
             _ => Some(()),
         }
+    }
+
+    /// Both sides of a claim and of its premises.
+    fn check(&mut self, check: &ast::Check) -> Option<()> {
+        let index = check.head.as_ref().and_then(|head| head.index.as_ref());
+        let Some(index) = index else {
+            return self.claim(check);
+        };
+        let (from, to) = self.elaboration.bounds(&index.range)?;
+        (from..to).try_for_each(|k| self.with_index(&index.name, k, |this| this.claim(check)))
+    }
+
+    fn claim(&mut self, check: &ast::Check) -> Option<()> {
+        match &check.claim {
+            ast::Claim::Equal(left, right) => self.sides(left, right).map(|_| ())?,
+            ast::Claim::Conserved(value) => self.one(value, None).map(|_| ())?,
+        }
+        check.premises.iter().try_for_each(|premise| match premise {
+            ast::Premise::Mode(..) => Some(()),
+            ast::Premise::AtLeast(comparison) => self.loosely(comparison).map(|_| ()),
+            ast::Premise::Equal(left, right) => self.sides(left, right).map(|_| ()),
+        })
     }
 
     /// The places of a name's elements in the system's list.

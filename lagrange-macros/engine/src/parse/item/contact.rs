@@ -3,7 +3,7 @@
 use super::super::cursor::Cursor;
 use super::super::expression::{expression, whole};
 use super::super::relation::{comparison, equation, leftover};
-use super::{head, head_and_colon, key, no_more, once, reference};
+use super::{head, head_and_colon, key, named, no_more, once, reference};
 use crate::ast::{
     Comparison, Constraint, Contact, Friction, FrictionLaw, ItemKind, Name, Restitution,
 };
@@ -13,6 +13,7 @@ use proc_macro2::Delimiter;
 /// `name: a == b` or `name while contact: a == b`
 pub(super) fn constraint(mut parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<ItemKind> {
     let (first, others) = parts.split_first_mut()?;
+    named(first, "constraint", sink)?;
     let head = head(first, "the name of the constraint", sink)?;
     let while_contact = match first.take_word("while") {
         None => None,
@@ -39,7 +40,7 @@ pub(super) fn constraint(mut parts: Vec<Cursor>, sink: &mut Diagnostics) -> Opti
 /// `name: a >= b at p, restitution = e, where c >= d`
 pub(super) fn contact(mut parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<ItemKind> {
     let (first, others) = parts.split_first_mut()?;
-    let head = head_and_colon(first, "the name of the contact", sink)?;
+    let head = head_and_colon(first, "contact", "the name of the contact", sink)?;
     let gap = gap(first, sink);
     let (mut restitution, mut region) = (None, None);
     for part in others {
@@ -103,6 +104,7 @@ pub(super) fn friction(
 ) -> Option<ItemKind> {
     let before = sink.count();
     let first = parts.first_mut()?;
+    named(first, "friction", sink)?;
     let head = head(first, "the name of the friction", sink)?;
     let on = match first.take_word("on") {
         None => None,

@@ -9,7 +9,7 @@ use crate::diagnostics::{Code, Diagnostics};
 /// `name: theta = τ`, `name: (fx, fy) at (px, py)` or `name: f along s`
 pub(super) fn force(mut parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<ItemKind> {
     let (first, others) = parts.split_first_mut()?;
-    let head = head_and_colon(first, "the name of the force", sink)?;
+    let head = head_and_colon(first, "force", "the name of the force", sink)?;
     let value = expression(first, sink)?;
     let action = if first.take_word("at").is_some() {
         Action::At(value, whole(first, sink)?)

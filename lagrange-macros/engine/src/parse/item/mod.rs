@@ -222,10 +222,26 @@ fn head(part: &mut Cursor, what: &str, sink: &mut Diagnostics) -> Option<Head> {
 }
 
 /// `name:` or `name[k in a..b]:`
-fn head_and_colon(part: &mut Cursor, what: &str, sink: &mut Diagnostics) -> Option<Head> {
+fn head_and_colon(
+    part: &mut Cursor,
+    item: &str,
+    what: &str,
+    sink: &mut Diagnostics,
+) -> Option<Head> {
+    named(part, item, sink)?;
     let head = head(part, what, sink)?;
     part.require(":", sink)?;
     Some(head)
+}
+
+/// Whether the part begins with a name and a colon somewhere after it.
+fn named(part: &Cursor, item: &str, sink: &mut Diagnostics) -> Option<()> {
+    if part.word().is_none() || part.has_operator(&[":"]) {
+        return Some(());
+    }
+    let hint = format!("write `{item}(name: …)`");
+    sink.report(Code::NoName, part.here(), &[&item, &hint]);
+    None
 }
 
 /// `name` or `name[e]`
@@ -248,6 +264,7 @@ pub(super) fn key(
     let key = part.name("a part `name = …`", sink)?;
     if !keys.contains(&key.text.as_str()) {
         let hint = match nearest(&key.text, keys.iter().copied()) {
+            _ if key.text == "poisson" => "write `restitution = poisson(e)`".to_string(),
             Some(known) => format!("did you mean `{known}`?"),
             None => format!("its parts are {}", keys.join(", ")),
         };

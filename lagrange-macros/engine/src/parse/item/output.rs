@@ -5,7 +5,7 @@ use super::super::expression::whole;
 use super::super::relation::{comparison, holds_relation, leftover};
 use super::{head, head_and_colon, no_more, reference};
 use crate::ast::{Clause, ItemKind, ModeWord, Observe, Reference, Trigger, Watch};
-use crate::diagnostics::Diagnostics;
+use crate::diagnostics::{Code, Diagnostics};
 use proc_macro2::{Delimiter, TokenTree};
 
 /// `height = y, px`
@@ -14,6 +14,11 @@ pub(super) fn observe(parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<Item
         let head = head(part, "a name", sink)?;
         if part.is_at_end() && head.index.is_none() {
             return Some(Observe::Known(head.name));
+        }
+        if part.operator() != Some("=") {
+            let hint = "write `observe(name = …)`";
+            sink.report(Code::NoName, &head.name, &[&"output", &hint]);
+            return None;
         }
         part.require("=", sink)?;
         let value = whole(part, sink)?;
@@ -29,7 +34,7 @@ pub(super) fn watch(
     sink: &mut Diagnostics,
 ) -> Option<ItemKind> {
     let (first, others) = parts.split_first_mut()?;
-    let head = head_and_colon(first, "a name, as in `name: a >= b`", sink)?;
+    let head = head_and_colon(first, keyword, "a name, as in `name: a >= b`", sink)?;
     let trigger = if keyword == "mark" && mode(first).is_none() && !holds_relation(first) {
         Trigger::Zero(whole(first, sink)?)
     } else {

@@ -5,7 +5,7 @@ use super::super::expression::whole;
 use super::super::relation::leftover;
 use super::{head, head_and_colon, no_more, text};
 use crate::ast::{Coordinate, Definition, Dissipation, Energy, Expr, ItemKind, Unit};
-use crate::diagnostics::Diagnostics;
+use crate::diagnostics::{Code, Diagnostics};
 use proc_macro2::Delimiter;
 
 /// Reads every part; nothing if any of them is wrong.
@@ -47,6 +47,10 @@ pub(super) fn coordinates(parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<
 pub(super) fn define(parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<ItemKind> {
     let read = every(parts, sink, |part, sink| {
         let head = head(part, "a name", sink)?;
+        if part.group(Delimiter::Parenthesis).is_some() {
+            sink.report(Code::FunctionDefined, &head.name, &[&head.name.text]);
+            return None;
+        }
         part.require("=", sink)?;
         let value = whole(part, sink)?;
         Some(Definition { head, value })
@@ -70,7 +74,7 @@ pub(super) fn named_energy(
     sink: &mut Diagnostics,
 ) -> Option<ItemKind> {
     let (first, others) = parts.split_first_mut()?;
-    let head = head_and_colon(first, "a name, as in `name: …`", sink)?;
+    let head = head_and_colon(first, keyword, "a name, as in `name: …`", sink)?;
     let value = whole(first, sink)?;
     no_more(others, keyword, "write an item for each term", sink)?;
     Some(match keyword {

@@ -18,6 +18,9 @@ pub(super) fn start(mut parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<It
             values: Vec::new(),
         }));
     }
+    if first.operator() != Some(":") {
+        super::named(first, "start", sink)?;
+    }
     first.require(":", sink)?;
     let values = super::quantity::every(parts, sink, value)?;
     Some(ItemKind::Start(Start { head, values }))
@@ -30,6 +33,13 @@ fn value(part: &mut Cursor, sink: &mut Diagnostics) -> Option<StartValue> {
         Some(group) if word.text == "der" => {
             part.next();
             let mut inside = part.inside(&group, sink)?;
+            if inside.word().is_some_and(|word| word.text == "der") {
+                inside.expected(
+                    "a coordinate: a start gives positions `x = …` and velocities `der(x) = …`",
+                    sink,
+                );
+                return None;
+            }
             let name = inside.name("a coordinate", sink)?;
             let element = element(&mut inside, sink)?;
             leftover(&mut inside, sink)?;

@@ -114,22 +114,16 @@ impl Pool {
 
     /// Values at a point, whose [`Angles`] must have been made of these expressions (and others).
     pub fn at_point(&self, e: &[ExprId], point: &mut Point) -> Vec<FieldValue> {
-        let mut roots = e.to_vec();
-        for &e in &self.iter_reachable(e) {
-            if let Node::Call(_, arguments) = self.node(e) {
-                roots.extend(point.angles.arguments.get(&arguments[0]));
-            }
-        }
-        if !point.angles.independent {
-            roots.extend(&point.angles.plain);
-        }
-        let reachable = self.iter_reachable(&roots);
-        // Expanded arguments can be younger than the calls that use them.
         let mut values = Values {
             pool: self,
-            known: vec![None; roots.iter().map(|e| e.index() + 1).max().unwrap_or(0)],
+            pages: Vec::new(),
         };
-        for &e in &reachable {
+        if !point.angles.independent {
+            for &term in &point.angles.plain {
+                values.fill(term, point);
+            }
+        }
+        for &e in e {
             values.fill(e, point);
         }
         e.iter().map(|&e| values.at(e)).collect()
@@ -238,33 +232,48 @@ const GROWTH: u64 = 3;
 const PI: u64 = 4;
 const OPAQUE: u64 = 16;
 
-/// Values on their way.
+/// Values on their way, on pages: few expressions of a large pool are needed.
 struct Values<'a> {
     pool: &'a Pool,
-    known: Vec<Option<FieldValue>>,
+    pages: Vec<Option<Page>>,
 }
 
+const PAGE: usize = 64;
+
+type Page = Box<[Option<FieldValue>; PAGE]>;
+
 impl Values<'_> {
+    fn known(&self, e: ExprId) -> Option<FieldValue> {
+        let page = self.pages.get(e.index() / PAGE)?.as_ref()?;
+        page[e.index() % PAGE]
+    }
+
     fn at(&self, e: ExprId) -> FieldValue {
-        self.known[e.index()].unwrap_or(Err(Trouble::Beyond))
+        self.known(e).unwrap_or(Err(Trouble::Beyond))
+    }
+
+    fn set(&mut self, e: ExprId, value: FieldValue) {
+        let page = e.index() / PAGE;
+        if page >= self.pages.len() {
+            self.pages.resize(page + 1, None);
+        }
+        self.pages[page].get_or_insert_with(|| Box::new([None; PAGE]))[e.index() % PAGE] =
+            Some(value);
     }
 
     /// The value of e; children first, as far as they are not known.
     fn fill(&mut self, e: ExprId, point: &mut Point) {
         let mut stack = vec![e];
         while let Some(&top) = stack.last() {
-            if self.known[top.index()].is_none() {
+            if self.known(top).is_none() {
                 let height = stack.len();
-                let missing = |e: ExprId| self.known[e.index()].is_none();
+                let missing = |e: ExprId| self.known(e).is_none();
                 match self.pool.node(top) {
                     Node::Call(f, arguments) if is_additive(*f) => {
                         let argument = point.angles.arguments.get(&arguments[0]);
                         let argument = argument.copied().unwrap_or(arguments[0]);
                         let (_, terms) = self.pool.affine(argument);
-                        let terms = terms.iter().map(|&(t, _)| t);
-                        let plain = point.angles.plain.iter().copied();
-                        let plain = plain.filter(|_| !point.angles.independent);
-                        stack.extend(terms.chain(plain).filter(|&t| missing(t)));
+                        stack.extend(terms.iter().map(|&(t, _)| t).filter(|&t| missing(t)));
                     }
                     node => node.for_each_child(|child| {
                         if missing(child) {
@@ -275,7 +284,8 @@ impl Values<'_> {
                 if stack.len() > height {
                     continue;
                 }
-                self.known[top.index()] = Some(self.value(top, point));
+                let value = self.value(top, point);
+                self.set(top, value);
             }
             stack.pop();
         }

@@ -1,5 +1,7 @@
 //! The plan keeps the value of every output, whatever is held, and does not waste operations.
 
+mod peers;
+
 use super::*;
 use crate::derive::{NeedId, Output, Structure};
 use crate::interpret::{Held, Machine};

@@ -1,0 +1,210 @@
+//! Many contacts: principal pivoting in the place of enumeration.
+//!
+//! What is feasible just after an instant is a linear complementarity problem whose numbers are power series in time,
+//! ordered by their leading coefficients (van der Schaft & Schumacher 1998, IEEE Trans. Automatic Control 43, 483).
+//! Principal pivoting asks for signs alone: it takes a mode, sees which guards fall, and exchanges those. All at once as
+//! long as they become fewer (Kostreva 1978; Júdice & Pires 1994, Computers & Operations Research 21, 587), else the last
+//! one only, which cannot come back to a mode where contacts are independent and frictionless (Murty 1974).
+//!
+//! The search begins at the mode nearest to the present one, then where Lemke's method ends on the values at the instant.
+//! Frictions begin by sticking where they can, so that stick comes before slip as in the enumeration; whether another mode
+//! would do as well is not asked.
+
+use super::candidates::{Choices, look_at_slips, slide};
+use super::{Decider, Known, Moment};
+use crate::arithmetic::Scalar;
+use crate::dynamics::{Dynamics, EvaluationError};
+use crate::mode::{Direction, FrictionMode, Mode, Sliding};
+use crate::modes::guard::Guard;
+use crate::modes::table::Table;
+use crate::system::{Normal, System};
+
+/// Exchanges that do not make the violated guards fewer, before they are made one by one.
+const PATIENCE: usize = 8;
+
+impl<T: Scalar> Decider<T> {
+    /// Looks for a feasible mode near the present one, into `self.best`. False: none was found.
+    ///
+    /// # Errors
+    /// A mode on the way could not be evaluated.
+    pub(super) fn pivot<S: System<Scalar = T>>(
+        &mut self,
+        dynamics: &mut Dynamics<S>,
+        table: &mut Table,
+        moment: Moment<'_, T>,
+        present: &Mode,
+        known: &Known,
+    ) -> Result<bool, EvaluationError> {
+        self.decision.ambiguous = false;
+        look_at_slips(dynamics, moment, present, known, &self.rows);
+        let mut near = present.clone();
+        Exchange::new(dynamics, present, known).begin(&mut near);
+        let mut outcome = Ok(false);
+        for (guesses, sticks_first) in [(false, true), (true, true), (false, false), (true, false)]
+        {
+            let mut mode = near.clone();
+            if guesses {
+                self.guess(dynamics, moment, present, known, &mut mode);
+            }
+            self.sticks_first = sticks_first;
+            outcome = self.pivot_from(dynamics, table, moment, present, known, mode);
+            self.sticks_first = false;
+            if let Ok(true) = outcome {
+                break;
+            }
+        }
+        outcome
+    }
+
+    fn pivot_from<S: System<Scalar = T>>(
+        &mut self,
+        dynamics: &mut Dynamics<S>,
+        table: &mut Table,
+        moment: Moment<'_, T>,
+        present: &Mode,
+        known: &Known,
+        mut mode: Mode,
+    ) -> Result<bool, EvaluationError> {
+        let flags = [&known.touching, &known.resting, &known.balanced];
+        let open: usize = flags
+            .iter()
+            .map(|list| list.iter().filter(|f| **f).count())
+            .sum();
+        let (mut fewest, mut patience) = (usize::MAX, PATIENCE);
+        for _ in 0..20 + 4 * open {
+            self.tried += 1;
+            self.decision.expanded = false;
+            if mode == *present && !known.located.is_empty() {
+                // A root of the present mode falls through zero: that mode is over.
+                self.violated.clone_from(&known.located);
+            } else if self.examine(dynamics, table, moment, &mode, known, false)? {
+                self.decision.ambiguous = self.forks;
+                self.keep(dynamics);
+                return Ok(true);
+            }
+            let all = self.violated.len() < fewest || patience > 0;
+            if self.violated.len() < fewest {
+                (fewest, patience) = (self.violated.len(), PATIENCE);
+            } else {
+                patience = patience.saturating_sub(1);
+            }
+            let mut violated = core::mem::take(&mut self.violated);
+            if !all {
+                let last = violated.iter().copied().max_by_key(order);
+                violated.clear();
+                violated.extend(last);
+            }
+            Exchange::new(dynamics, present, known).apply(&violated, &mut mode);
+            self.violated = violated;
+        }
+        Ok(false)
+    }
+}
+
+/// A fixed order of the guards.
+fn order(guard: &Guard) -> (usize, usize) {
+    match *guard {
+        Guard::Gap(c) | Guard::Normal(c) => (0, c),
+        Guard::StickUpper(f) | Guard::StickLower(f) | Guard::StickCone(f) | Guard::Slip(f) => {
+            (1, f)
+        }
+        Guard::Bearing(f) => (2, f),
+        Guard::Branch(b) => (3, b),
+        Guard::Stop(..) | Guard::Mark(..) | Guard::Joint(_) => (4, 0),
+    }
+}
+
+/// Exchanges what violated guards forbid for its complement.
+struct Exchange<'a, S: System> {
+    choices: Choices<'a, S>,
+}
+
+impl<'a, S: System> Exchange<'a, S> {
+    fn new(dynamics: &'a Dynamics<S>, present: &'a Mode, known: &'a Known) -> Self {
+        Self {
+            choices: Choices {
+                dynamics,
+                present,
+                known,
+            },
+        }
+    }
+
+    /// From the present mode to the nearest that is not over: what was located is exchanged, what touches is closed.
+    fn begin(&self, mode: &mut Mode) {
+        let known = self.choices.known;
+        for (closed, touching) in mode.contacts.iter_mut().zip(&known.touching) {
+            *closed = *touching;
+        }
+        for f in 0..mode.frictions.len() {
+            self.set_first(mode, f);
+        }
+        let ended = |guard: &&Guard| !matches!(guard, Guard::Gap(_) | Guard::Slip(_));
+        let located: Vec<Guard> = known.located.iter().filter(ended).copied().collect();
+        self.apply(&located, mode);
+    }
+
+    /// The first choice of friction `f`.
+    fn set_first(&self, mode: &mut Mode, f: usize) {
+        let mut first = None;
+        self.choices
+            .of_friction(mode, f, |state| first = first.or(Some(state)));
+        mode.frictions[f] = first.unwrap_or(FrictionMode::Inactive);
+    }
+
+    fn apply(&self, violated: &[Guard], mode: &mut Mode) {
+        for &guard in violated {
+            match guard {
+                Guard::StickUpper(f) => mode.frictions[f] = slide(-1.0, 1.0),
+                Guard::StickLower(f) => mode.frictions[f] = slide(1.0, 1.0),
+                Guard::StickCone(f) => mode.frictions[f] = self.leaves_its_cone(f),
+                Guard::Slip(f) => mode.frictions[f] = FrictionMode::Stick,
+                Guard::Bearing(f) => {
+                    if let FrictionMode::Slip(sliding) = &mut mode.frictions[f] {
+                        sliding.normal_sign = -sliding.normal_sign;
+                    }
+                }
+                Guard::Branch(b) => mode.set_branch(b, !mode.branch(b)),
+                Guard::Gap(_)
+                | Guard::Normal(_)
+                | Guard::Stop(..)
+                | Guard::Mark(..)
+                | Guard::Joint(_) => {}
+            }
+        }
+        // A contact that opens takes its friction with it, whatever that did.
+        for &guard in violated {
+            let (c, closed) = match guard {
+                Guard::Normal(c) => (c, false),
+                Guard::Gap(c) => (c, true),
+                _ => continue,
+            };
+            mode.contacts[c] = closed;
+            for (f, friction) in S::DESCRIPTION.frictions.iter().enumerate() {
+                if matches!(friction.normal, Normal::Contact(on) if on == c) {
+                    self.set_first(mode, f);
+                }
+            }
+        }
+    }
+
+    /// How friction `f` slips when its force, at the last value, is too large.
+    fn leaves_its_cone(&self, f: usize) -> FrictionMode {
+        let friction = &S::DESCRIPTION.frictions[f];
+        let sign = |row: usize| {
+            let force = self.choices.dynamics.force(row).value();
+            if force < 0.0 { -1.0 } else { 1.0 }
+        };
+        let normal_sign = match friction.normal {
+            Normal::Constraint(i) => sign(S::DESCRIPTION.constraints[i].row),
+            _ => 1.0,
+        };
+        if friction.components == 1 {
+            return slide(-sign(friction.row), normal_sign);
+        }
+        FrictionMode::Slip(Sliding {
+            direction: Direction::Incipient([0.0; 2]),
+            normal_sign,
+        })
+    }
+}

@@ -1,0 +1,112 @@
+//! Undetermined forces along a run: which guards decide, and what is reported.
+//!
+//! Guards of single undetermined forces mean nothing; in their place stand joint guards, found where a step ends in a state
+//! that no admissible forces allow. The root of such a guard is the end of the mode. Where the dependence of the rows
+//! changes along the motion, the weights of the guard are taken again at its root until both agree.
+
+use super::Run;
+use super::hits::Hit;
+use crate::modes::guard::Guard;
+use crate::modes::reading::Reading;
+use crate::modes::sharing::{self, Joint};
+use crate::system::System;
+
+/// A joint guard above this (relative) is not about to fall.
+const BORDER: f64 = 1e-3;
+
+/// So far may the root of a joint guard be from the border, relative: beyond, its weights were those of another state.
+const ROOT: f64 = 1e-9;
+
+/// So often are the joint guards of one step found anew.
+const MOST_CORRECTIONS: usize = 12;
+
+impl<S: System> Run<S> {
+    /// Looks at the forces at the last value of the dynamics, in the mode of the run.
+    pub(super) fn look_at_shares(&mut self) {
+        let was_open = self.sharing.has_open();
+        self.sharing.look(&self.dynamics);
+        if was_open || self.sharing.has_open() {
+            self.list_guards();
+        }
+    }
+
+    /// After a switch: guards, and the forces to be logged.
+    pub(super) fn note_shares(&mut self) {
+        let mut forces = core::mem::take(&mut self.forces_after);
+        let mut undetermined = core::mem::take(&mut self.undetermined_after);
+        self.reported_forces(&mut forces, &mut undetermined);
+        (self.forces_after, self.undetermined_after) = (forces, undetermined);
+        self.list_guards();
+    }
+
+    /// The guards that decide.
+    fn list_guards(&mut self) {
+        let watched = self.table.of(&self.dynamics);
+        let Self {
+            guards,
+            sharing,
+            joints,
+            ..
+        } = self;
+        guards.clear();
+        let single = watched.guards.iter().copied();
+        guards.extend(single.filter(|&guard| !sharing.is_open(guard)));
+        guards.extend((0..joints.len()).map(Guard::Joint));
+    }
+
+    /// At the end of a step that the dynamics have evaluated, after `corrections` others: whether joint guards must be
+    /// looked at again, because that state allows no forces, or because the root of one was none.
+    pub(super) fn corrects_joints(&mut self, hit: &Hit, corrections: &mut usize) -> bool {
+        if !self.dynamics.has_dependent_rows() && !self.sharing.has_open() {
+            return false;
+        }
+        self.look_at_shares();
+        if *corrections == MOST_CORRECTIONS {
+            return false;
+        }
+        let critical = self.sharing.critical(BORDER);
+        let reading = Reading::Values(&self.dynamics);
+        let value = critical.as_ref().map(|joint| {
+            let joints = core::slice::from_ref(joint);
+            sharing::value(Guard::Joint(0), joints, &self.mode, &reading)
+        });
+        let fallen = self.fallen.iter().find_map(|guard| match (hit, guard) {
+            (Hit::Guards(_), Guard::Joint(k)) => Some(*k),
+            _ => None,
+        });
+        match (fallen, critical, value) {
+            (None, Some(joint), Some(value)) if value < -ROOT => self.joints.push(joint),
+            (Some(_), Some(_), Some(value)) if value.abs() <= ROOT => return false,
+            (Some(k), Some(joint), Some(_)) => self.joints[k] = joint,
+            (Some(k), ..) => _ = self.joints.remove(k),
+            _ => return false,
+        }
+        *corrections += 1;
+        self.list_guards();
+        true
+    }
+
+    /// The forces of all rows at the last value of the dynamics, to be reported; and which are undetermined (none: all
+    /// are determined).
+    pub(super) fn reported_forces(
+        &mut self,
+        forces: &mut Vec<S::Scalar>,
+        undetermined: &mut Vec<bool>,
+    ) {
+        if self.dynamics.has_dependent_rows() {
+            *forces = self.sharing.report(&self.dynamics, undetermined);
+        } else {
+            undetermined.clear();
+            forces.clear();
+            let rows = 0..S::DESCRIPTION.rows.len();
+            forces.extend(rows.map(|row| self.dynamics.force(row)));
+        }
+    }
+
+    /// How far a joint guard is from the zero that it was located as.
+    pub(super) fn joint_residue(&self, joint: &Joint) -> f64 {
+        let joints = core::slice::from_ref(joint);
+        let reading = Reading::Values(&self.dynamics);
+        sharing::value(Guard::Joint(0), joints, &self.mode, &reading).abs()
+    }
+}

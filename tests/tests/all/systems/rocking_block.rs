@@ -1,0 +1,102 @@
+//! A rocking block: its corners are hit in turn, infinitely often in finite time (Housner 1963).
+
+use super::state;
+use lagrange_core::prelude::*;
+use lagrange_tests::{agree, closure, integral, root, run};
+
+/// Half width b, half height h, turned by θ counter-clockwise about its center.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, theta),
+    kinetic   = mass/2 * (der(x)^2 + der(y)^2) + mass * (b^2 + h^2)/6 * der(theta)^2,
+    potential = mass * gravity * y,
+    define(
+        left_x = x - b * cos(theta) + h * sin(theta),
+        left_y = y - b * sin(theta) - h * cos(theta),
+        right_x = x + b * cos(theta) + h * sin(theta),
+        right_y = y + b * sin(theta) - h * cos(theta),
+    ),
+    contact(left: left_y >= 0),
+    contact(right: right_y >= 0),
+    friction(left_grip on left: slip = der(left_x), static = mu),
+    friction(right_grip on right: slip = der(right_x), static = mu),
+)]
+struct Block {
+    mass: f64,
+    gravity: f64,
+    b: f64,
+    h: f64,
+    mu: f64,
+}
+
+#[test]
+fn the_corners_alternate_until_the_block_rests() {
+    for (b, h) in [(0.2, 0.8), (0.3, 0.7)] {
+        let block = Block {
+            mass: 3.0,
+            gravity: 9.81,
+            b,
+            h,
+            mu: 5.0,
+        };
+        let alpha = (b / h).atan();
+        let p2 = 0.75 * block.gravity / b.hypot(h);
+        // Share of the rate that is left after an impact: moment of momentum about the corner that is hit.
+        let share = 1.0 - 1.5 * alpha.sin().powi(2);
+        // From level to level, at rate ω: ω(θ)² = 4 p² sin(α − (θ + m)/2) sin((m − θ)/2) with the greatest angle m.
+        let half_turn = |rate: f64| {
+            let lift = rate * rate / (4.0 * p2);
+            let most = root(
+                |m| (alpha - 0.5 * m).sin() * (0.5 * m).sin() - lift,
+                0.0,
+                alpha,
+            );
+            let slowness = |u: f64| {
+                let (back, ahead) = (most * u * u, alpha - most + 0.5 * most * u * u);
+                // u/√(sin(m u²/2)) is smooth.
+                let ratio = if back > 0.0 {
+                    (0.5 * back / (0.5 * back).sin() / (0.5 * most)).sqrt()
+                } else {
+                    (2.0 / most).sqrt()
+                };
+                2.0 * most * ratio / (4.0 * p2 * ahead.sin()).sqrt()
+            };
+            2.0 * integral(slowness, 0.0, 1.0)
+        };
+        let first = 0.4 * p2.sqrt() * alpha;
+        let (mut rate, mut limit) = (first, 0.0);
+        while rate > 1e-7 * first {
+            limit += half_turn(rate);
+            rate *= share;
+        }
+        // What is left is a geometric series.
+        limit += half_turn(rate) / (1.0 - share);
+        // Pivoting on the left corner: v = ω × r.
+        let start = state(&[0.0, h, 0.0], &[-h * first, b * first, first]);
+        let trajectory = run(&block, start, limit + 1.0);
+        let impacts: Vec<_> = trajectory
+            .events()
+            .iter()
+            .filter(|e| e.kind == EventKind::Impact)
+            .collect();
+        for (k, hit) in impacts.iter().take(20).enumerate() {
+            let name = hit.subject.name(trajectory.description());
+            assert_eq!(name, ["right", "left"][k % 2]);
+            let expected = -share * hit.state.v[2];
+            agree("rate", -hit.state_after.v[2] / expected, 1.0, 1e-10);
+        }
+        let mut ends = trajectory.events().iter();
+        let rest = ends.find(|e| matches!(e.kind, EventKind::Accumulates { .. }));
+        let rest = rest.expect("the impacts accumulate");
+        agree("time of rest", rest.time / limit, 1.0, 1e-12);
+        assert!(
+            matches!(rest.kind, EventKind::Accumulates { impacts: n } if n + 2 >= impacts.len())
+        );
+        assert!(trajectory.final_mode().contacts.iter().all(|c| *c));
+        let end = trajectory.final_state();
+        assert!(end.v.iter().all(|v| v.abs() < 1e-14), "{:?}", end.v);
+        assert!(end.q[2].abs() < 1e-12);
+        agree("height", end.q[1], h, 1e-12);
+        assert!(closure(&trajectory) < 1e-10);
+    }
+}
