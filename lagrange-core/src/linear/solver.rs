@@ -254,12 +254,12 @@ impl<T: Scalar> Solver<T> {
                 residual += term;
                 largest = largest.max(term.abs());
             }
+            // Of a system at rest nothing is left but squares of the rounding of its velocities.
+            let largest = largest.max(SQUARE_OF_ROUNDING);
             let elements = &self.matrix[(n + row) * size..][..n];
             let compliance = elements.iter().enumerate().map(|(j, &a)| weighted(j, a));
             let driven = (drive * compliance.sum::<f64>()).sqrt();
             let rounding = 1e4 * epsilon::<T>() * driven;
-            // Of a system at rest nothing is left but squares of the rounding of its velocities.
-            let largest = largest.max(SQUARE_OF_ROUNDING);
             if residual.abs() > consistent::<T>() * largest + rounding {
                 return Err(SolveError::Inconsistent {
                     row,

@@ -20,11 +20,22 @@ use crate::modes::reading::Reading;
 use crate::modes::scale::Sizes;
 use crate::system::{Normal, Place, System};
 
+/// A guard as a part of a joint one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Part {
+    /// The guard.
+    pub guard: Guard,
+    /// Of a friction cone: the direction u of the plane μs N − u·F ≥ 0 that touches it there.
+    pub along: [f64; 2],
+    /// Weight in the sum.
+    pub weight: f64,
+}
+
 /// Weighted guards whose sum is determined where they are not. The sum is relative to the terms that make it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Joint {
-    /// The guards and their weights, all positive.
-    pub parts: Vec<(Guard, f64)>,
+    /// The guards, with weights that are all positive.
+    pub parts: Vec<Part>,
 }
 
 /// [`guard::series`], also of joint guards.
@@ -41,10 +52,10 @@ pub fn series<S: System>(
     let mut part = [0.0; guard::LENGTH];
     let part = &mut part[..out.len()];
     out.fill(0.0);
-    for &(guard, weight) in &joints[index].parts {
-        guard::series(guard, mode, reading, part);
+    for each in &joints[index].parts {
+        side(each.guard, each.along, mode, reading, part);
         for (sum, x) in out.iter_mut().zip(&*part) {
-            *sum += weight * x;
+            *sum += each.weight * x;
         }
     }
 }
@@ -61,15 +72,42 @@ pub fn value<S: System>(
     value[0]
 }
 
-/// A guard that bounds undetermined forces, linear in them and relative to its size.
+/// [`guard::series`], but of a cone only the plane that touches it in direction `along`.
+pub fn side<S: System>(
+    guard: Guard,
+    along: [f64; 2],
+    mode: &Mode,
+    reading: &Reading<'_, S>,
+    out: &mut [f64],
+) {
+    match guard {
+        Guard::StickCone(f) => guard::cone_side(f, along, mode, reading, out),
+        _ => guard::series(guard, mode, reading, out),
+    }
+}
+
+/// A guard, or a side of a cone, that bounds undetermined forces: linear in them and relative to its size.
 #[derive(Clone, Copy, Debug)]
 struct Bound {
     guard: Guard,
+    along: [f64; 2],
     /// (index of an acting row, factor)
-    terms: [(usize, f64); 2],
+    terms: [(usize, f64); 3],
     size: f64,
     /// At the forces of least norm.
     value: f64,
+}
+
+/// A friction cone around undetermined forces.
+#[derive(Clone, Copy, Debug)]
+struct Cone {
+    friction: usize,
+    /// Indices of acting rows.
+    rows: [usize; 2],
+    /// (index of an acting row, factor): what it can hold, beside `constant`.
+    limit: (usize, f64),
+    constant: f64,
+    size: f64,
 }
 
 /// Undetermined forces at one state; the memory is reused.
@@ -78,9 +116,12 @@ pub struct Sharing<T> {
     least: Vec<T>,
     freedom: Freedom,
     bounds: Vec<Bound>,
+    cones: Vec<Cone>,
     /// G P Gᵀ
     matrix: Vec<f64>,
     q: Vec<f64>,
+    /// Forces of the rows that act, as found last.
+    shares: Vec<f64>,
     sizes: Sizes,
     lemke: Lemke,
 }
@@ -88,10 +129,17 @@ pub struct Sharing<T> {
 /// What rounding leaves of a bound, relative to its size.
 const ROUNDING: f64 = 1e-10;
 
+/// A force this far outside its cone, relative, is in it.
+const CONE: f64 = 1e-14;
+
+/// Cones are cut by so many sets of planes at most; they settle quadratically.
+const MOST_CUTS: usize = 40;
+
 impl<T: Scalar> Sharing<T> {
     /// Forgets everything: all forces are determined.
     pub fn clear(&mut self) {
         self.bounds.clear();
+        self.cones.clear();
         self.least.clear();
     }
 
@@ -104,20 +152,12 @@ impl<T: Scalar> Sharing<T> {
         (self.least, self.freedom) = dynamics.least_norm_of_acting();
         self.sizes.take(dynamics);
         self.list_bounds(dynamics);
-        let count = self.bounds.len();
-        self.matrix.clear();
-        for x in &self.bounds {
-            for y in &self.bounds {
-                let products = x.terms.iter().map(|&(i, a)| {
-                    let row = self.freedom.row(i);
-                    let sum: f64 = y.terms.iter().map(|&(j, b)| row[j] * b).sum();
-                    a * sum
-                });
-                let product: f64 = products.sum();
-                self.matrix.push(product / (x.size * y.size));
+        for index in 0..self.cones.len() {
+            for along in [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]] {
+                self.cut(index, along);
             }
         }
-        debug_assert_eq!(self.matrix.len(), count * count);
+        self.fill_matrix();
     }
 
     /// The bounds with a part that is open.
@@ -127,39 +167,20 @@ impl<T: Scalar> Sharing<T> {
         let index = |row: usize| acting.binary_search(&row).ok();
         let number = |place: Place| dynamics.motion(place).value();
         let mode = dynamics.mode();
-        let mut put = |guard: Guard, terms: [(usize, f64); 2], constant: f64| {
-            let open = |j: usize| {
-                let parts = terms.iter().map(|&(i, a)| a * self.freedom.row(i)[j]);
-                parts.sum::<f64>().abs()
-            };
-            let most = (0..acting.len()).map(open).fold(0.0, f64::max);
-            let coefficient = terms[0].1.abs().max(terms[1].1.abs());
-            if most <= 1e-9 * coefficient {
-                return;
-            }
-            let size = self.sizes.of(guard, dynamics).max(f64::MIN_POSITIVE);
-            let value: f64 = terms.iter().map(|&(i, a)| a * self.least[i].value()).sum();
-            self.bounds.push(Bound {
-                guard,
-                terms,
-                size,
-                value: (value + constant) / size,
-            });
-        };
         for (c, contact) in d.contacts.iter().enumerate() {
             if let Some(i) = index(contact.row) {
-                put(Guard::Normal(c), [(i, 1.0), (i, 0.0)], 0.0);
+                self.bound(Guard::Normal(c), [(i, 1.0), (i, 0.0)], 0.0, dynamics);
             }
         }
         for (f, friction) in d.frictions.iter().enumerate() {
-            if mode.frictions[f] != FrictionMode::Stick || friction.components > 1 {
+            if mode.frictions[f] != FrictionMode::Stick {
                 continue;
             }
             let Some(i) = index(friction.row) else {
                 continue;
             };
             let coefficient = number(friction.static_coefficient);
-            let (normal, constant) = match friction.normal {
+            let (limit, constant) = match friction.normal {
                 Normal::Contact(c) => {
                     let factor = d.contacts[c].normal_factor.map_or(1.0, number);
                     let Some(row) = index(d.contacts[c].row) else {
@@ -171,8 +192,94 @@ impl<T: Scalar> Sharing<T> {
                 // |λ| is no linear bound.
                 Normal::Constraint(_) => continue,
             };
-            put(Guard::StickUpper(f), [(i, -1.0), normal], constant);
-            put(Guard::StickLower(f), [(i, 1.0), normal], constant);
+            if friction.components == 1 {
+                self.bound(Guard::StickUpper(f), [(i, -1.0), limit], constant, dynamics);
+                self.bound(Guard::StickLower(f), [(i, 1.0), limit], constant, dynamics);
+            } else if let Some(j) = index(friction.row + 1)
+                && [limit.0, i, j]
+                    .iter()
+                    .any(|&i| !self.freedom.is_determined(i))
+            {
+                self.cones.push(Cone {
+                    friction: f,
+                    rows: [i, j],
+                    limit,
+                    constant,
+                    size: self.sizes.of(Guard::StickCone(f), dynamics).sqrt(),
+                });
+            }
+        }
+    }
+
+    /// Adds a bound, if it has a part that is open.
+    fn bound<S: System<Scalar = T>>(
+        &mut self,
+        guard: Guard,
+        [first, second]: [(usize, f64); 2],
+        constant: f64,
+        dynamics: &Dynamics<S>,
+    ) {
+        let open = |j: usize| {
+            let parts = [first, second].map(|(i, a)| a * self.freedom.row(i)[j]);
+            (parts[0] + parts[1]).abs()
+        };
+        let most = (0..self.least.len()).map(open).fold(0.0, f64::max);
+        if most > 1e-9 * first.1.abs().max(second.1.abs()) {
+            let size = self.sizes.of(guard, dynamics);
+            self.push(
+                guard,
+                [0.0; 2],
+                [first, second, (first.0, 0.0)],
+                constant,
+                size,
+            );
+        }
+    }
+
+    /// Adds the side of a cone in direction `along`.
+    fn cut(&mut self, cone: usize, along: [f64; 2]) {
+        let Cone {
+            friction,
+            rows,
+            limit,
+            constant,
+            size,
+        } = self.cones[cone];
+        let terms = [(rows[0], -along[0]), (rows[1], -along[1]), limit];
+        self.push(Guard::StickCone(friction), along, terms, constant, size);
+    }
+
+    fn push(
+        &mut self,
+        guard: Guard,
+        along: [f64; 2],
+        terms: [(usize, f64); 3],
+        constant: f64,
+        size: f64,
+    ) {
+        let size = size.max(f64::MIN_POSITIVE);
+        let value: f64 = terms.iter().map(|&(i, a)| a * self.least[i].value()).sum();
+        self.bounds.push(Bound {
+            guard,
+            along,
+            terms,
+            size,
+            value: (value + constant) / size,
+        });
+    }
+
+    fn fill_matrix(&mut self) {
+        self.matrix.clear();
+        for x in &self.bounds {
+            for y in &self.bounds {
+                let products = x.terms.iter().map(|&(i, a)| {
+                    let row = self.freedom.row(i);
+                    let sum: f64 = y.terms.iter().map(|&(j, b)| row[j] * b).sum();
+                    a * sum
+                });
+                let product: f64 = products.sum();
+                self.matrix.push(product / (x.size * y.size));
+            }
         }
     }
 
@@ -186,39 +293,102 @@ impl<T: Scalar> Sharing<T> {
         !self.bounds.is_empty()
     }
 
-    /// The joint guard that forbids the mode, or comes nearer to that than `margin` (relative).
-    pub fn critical(&mut self, margin: f64) -> Option<Joint> {
-        self.q.clear();
-        let values = self.bounds.iter().map(|bound| bound.value - margin);
-        self.q.extend(values);
-        self.certificate()
+    /// The joint guard that forbids the mode, or comes nearer to that than `margin` (relative): of all the smallest.
+    ///
+    /// Each guard found bounds the margin that all bounds together can keep; looking again at that margin finds a smaller one,
+    /// or that there is none (Dinkelbach 1967, Management Science 13, 492).
+    pub fn critical(&mut self, mut margin: f64) -> Option<Joint> {
+        let mut smallest = None;
+        for _ in 0..MOST_CUTS {
+            if self.find_shares(margin) {
+                break;
+            }
+            let Some((joint, value)) = self.certificate() else {
+                break;
+            };
+            smallest = Some(joint);
+            // Below that the search sees its own rounding.
+            if value > margin - ROUNDING {
+                break;
+            }
+            margin = value;
+        }
+        smallest
     }
 
     /// The same for guards with other values than those looked at, and the same rows.
-    pub fn critical_at(&mut self, mut value: impl FnMut(Guard) -> f64) -> Option<Joint> {
+    pub fn critical_at(&mut self, mut value: impl FnMut(Guard, [f64; 2]) -> f64) -> Option<Joint> {
         self.q.clear();
         let values = self
             .bounds
             .iter()
-            .map(|bound| value(bound.guard) / bound.size + ROUNDING);
+            .map(|bound| value(bound.guard, bound.along) / bound.size + ROUNDING);
         self.q.extend(values);
-        self.certificate()
+        let forbids = self.lemke.solve(&self.matrix, &self.q) == LemkeOutcome::Ray;
+        let (joint, _) = forbids.then(|| self.certificate())??;
+        Some(joint)
     }
 
-    fn certificate(&mut self) -> Option<Joint> {
-        if self.lemke.solve(&self.matrix, &self.q) != LemkeOutcome::Ray {
-            return None;
-        }
+    /// The joint guard that the last search, which has failed, ended with, and its value at the forces looked at.
+    fn certificate(&self) -> Option<(Joint, f64)> {
         let ray = self.lemke.ray();
         let sum: f64 = ray.iter().sum();
+        if sum <= 0.0 {
+            return None;
+        }
         let largest = ray.iter().copied().fold(0.0, f64::max);
         let weighted = self.bounds.iter().zip(ray);
         let parts = weighted.filter(|(_, w)| **w > 1e-9 * largest);
-        Some(Joint {
+        let value = parts.clone().map(|(bound, w)| w / sum * bound.value).sum();
+        let joint = Joint {
             parts: parts
-                .map(|(bound, w)| (bound.guard, w / (sum * bound.size)))
+                .map(|(bound, w)| Part {
+                    guard: bound.guard,
+                    along: bound.along,
+                    weight: w / (sum * bound.size),
+                })
                 .collect(),
-        })
+        };
+        Some((joint, value))
+    }
+
+    /// Finds the shares of least norm that keep all bounds by `margin`, into `self.shares`; cones are cut where they are
+    /// left, until none is. False: there are none.
+    fn find_shares(&mut self, margin: f64) -> bool {
+        for _ in 0..MOST_CUTS {
+            self.q.clear();
+            let values = self.bounds.iter().map(|bound| bound.value - margin);
+            self.q.extend(values);
+            if self.lemke.solve(&self.matrix, &self.q) != LemkeOutcome::Solved {
+                return false;
+            }
+            self.shares.clear();
+            self.shares.extend(self.least.iter().map(|x| x.value()));
+            for (bound, &w) in self.bounds.iter().zip(self.lemke.z()) {
+                for &(i, factor) in bound.terms.iter().filter(|_| w > 0.0) {
+                    let change = self.freedom.row(i).iter();
+                    for (force, p) in self.shares.iter_mut().zip(change) {
+                        *force += w * factor / bound.size * p;
+                    }
+                }
+            }
+            let mut settled = true;
+            for index in 0..self.cones.len() {
+                let cone = self.cones[index];
+                let [x, y] = cone.rows.map(|i| self.shares[i]);
+                let holds = cone.limit.1 * self.shares[cone.limit.0] + cone.constant;
+                let force = x.hypot(y);
+                if force > 0.0 && force - holds > (CONE - margin) * cone.size {
+                    self.cut(index, [x / force, y / force]);
+                    settled = false;
+                }
+            }
+            if settled {
+                return true;
+            }
+            self.fill_matrix();
+        }
+        true
     }
 
     /// The forces of all rows at the last value of `dynamics`, and which of them are undetermined (nothing where all are
@@ -244,19 +414,11 @@ impl<T: Scalar> Sharing<T> {
         }
         let mut forces = self.least.clone();
         // At its border a mode allows one share only, and rounding may take that away.
-        let solved = [0.0, ROUNDING].into_iter().any(|slack| {
-            self.q.clear();
-            let values = self.bounds.iter().map(|bound| bound.value + slack);
-            self.q.extend(values);
-            self.lemke.solve(&self.matrix, &self.q) == LemkeOutcome::Solved
-        });
-        if solved {
-            for (bound, &w) in self.bounds.iter().zip(self.lemke.z()) {
-                for &(i, factor) in bound.terms.iter().filter(|_| w > 0.0) {
-                    let change = self.freedom.row(i);
-                    for (force, p) in forces.iter_mut().zip(change) {
-                        *force += T::from_f64(w * factor / bound.size * p);
-                    }
+        if self.has_open() && [0.0, -ROUNDING].into_iter().any(|m| self.find_shares(m)) {
+            for (force, &share) in forces.iter_mut().zip(&self.shares) {
+                let change = share - force.value();
+                if change != 0.0 {
+                    *force += T::from_f64(change);
                 }
             }
         }

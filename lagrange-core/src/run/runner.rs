@@ -2,7 +2,7 @@
 
 use super::Run;
 use crate::error::Error;
-use crate::simulation::Settings;
+use crate::simulation::{Held, Settings};
 use crate::system::System;
 use crate::trajectory::{State, Trajectory};
 use core::ops::Range;
@@ -36,6 +36,20 @@ impl<S: System> Runner<S> {
     ) -> Result<&Trajectory<S>, Error> {
         self.run.execute(start, span)?;
         Ok(&self.run.trajectory)
+    }
+
+    /// As [`Simulation::consistent`](crate::Simulation::consistent).
+    ///
+    /// # Errors
+    /// [`Error::Projection`] if there is no such state.
+    pub fn consistent(
+        &mut self,
+        time: f64,
+        reference: &State<S::Scalar>,
+        wanted: &State<S::Scalar>,
+        held: &Held,
+    ) -> Result<State<S::Scalar>, Error> {
+        self.run.consistent(time, reference, wanted, held)
     }
 
     /// The trajectory of the last run.

@@ -98,7 +98,7 @@ fn a_step_does_not_allocate() {
     });
 }
 
-/// All modes of the textbook's scenes, events and recording included.
+/// All modes of the textbook's scenes and impacts, events and recording included.
 #[test]
 fn a_second_run_does_not_allocate() {
     fn check<S: System<Scalar = f64>>(scene: &S) {
@@ -117,6 +117,11 @@ fn a_second_run_does_not_allocate() {
     check(&RollingSlippingSphere::default());
     check(&MassOnWheel::default());
     check(&SphereInBowl::default());
+    // Impacts: infinitely many, with friction, in turn, of two contacts that alternate.
+    check(&hard::BouncingBall::default());
+    check(&hard::ThrownBall::default());
+    check(&hard::FiveBallCradle::default());
+    check(&hard::RockingBlock::default());
     check(&InclineBlock::default());
     check(&CueBall::default());
     check(&TurningPush::default());

@@ -228,8 +228,8 @@ impl<T: Scalar> Decider<T> {
         let series = &mut series[..=ahead.order];
         let (reading, later) = (Reading::Series(ahead.dynamics), AHEAD * ahead.h);
         for _ in 0..MOST_JOINTS {
-            let found = self.sharing.critical_at(|guard| {
-                guard::series(guard, &self.posed, &reading, series);
+            let found = self.sharing.critical_at(|guard, along| {
+                sharing::side(guard, along, &self.posed, &reading, series);
                 crate::trajectory::horner(series, later)
             });
             let Some(joint) = found else {
@@ -304,7 +304,7 @@ fn is_held<S: System>(guard: Guard, dynamics: &Dynamics<S>) -> bool {
 /// Books what forbids a mode: of a joint guard, its parts.
 fn blame(guard: Guard, joints: &[Joint], violated: &mut Vec<Guard>) {
     match guard {
-        Guard::Joint(index) => violated.extend(joints[index].parts.iter().map(|(g, _)| *g)),
+        Guard::Joint(index) => violated.extend(joints[index].parts.iter().map(|p| p.guard)),
         single => violated.push(single),
     }
 }
@@ -403,7 +403,7 @@ fn list_questions<S: System>(
 fn concerns(guard: Guard, joints: &[Joint], known: &Known) -> bool {
     if let Guard::Joint(index) = guard {
         let mut parts = joints[index].parts.iter();
-        return parts.any(|&(part, _)| concerns(part, &[], known));
+        return parts.any(|part| concerns(part.guard, &[], known));
     }
     known.located.iter().any(|root| {
         *root == guard

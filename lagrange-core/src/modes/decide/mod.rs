@@ -113,7 +113,7 @@ impl<T: Scalar> Decider<T> {
     /// Finds the mode in which the motion goes on from a moment, into [`Self::decision`].
     ///
     /// On success `dynamics` is left in that mode. Where a few modes are possible all are looked at; the order of preference among
-    /// feasible ones is: stick before slip, then the present mode, then the fewest changes. Where they are many, see
+    /// feasible ones is: closed before open, stick before slip, then the present mode, then the fewest changes. Where they are many, see
     /// [`pivot`].
     ///
     /// # Errors
@@ -253,13 +253,6 @@ impl<T: Scalar> Decider<T> {
     }
 }
 
-fn slips(mode: &Mode) -> usize {
-    mode.frictions
-        .iter()
-        .filter(|f| matches!(f, FrictionMode::Slip(_)))
-        .count()
-}
-
 fn sticks(mode: &Mode) -> usize {
     mode.frictions
         .iter()
@@ -277,7 +270,7 @@ fn differ<T: Scalar>(a: &[f64], b: &[T]) -> bool {
 fn concerned<S: System>(known: &Known) -> &'static str {
     let d = S::DESCRIPTION;
     let located = known.located.iter().find_map(|g| match *g {
-        Guard::Gap(c) | Guard::Normal(c) => Some(d.contacts[c].name),
+        Guard::Gap(c) | Guard::Normal(c) | Guard::Region(c) => Some(d.contacts[c].name),
         Guard::StickUpper(f)
         | Guard::StickLower(f)
         | Guard::StickCone(f)

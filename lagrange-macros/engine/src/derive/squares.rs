@@ -195,6 +195,9 @@ impl Squares {
         // How often a fixed factor meets a direction.
         let mut uses: BTreeMap<(ExprId, ExprId), usize> = BTreeMap::new();
         for i in 0..self.size {
+            if pool.is_full() {
+                break;
+            }
             for j in 0..=i {
                 for (own, set) in &self.directions[i] {
                     for (other, others) in &self.directions[j] {

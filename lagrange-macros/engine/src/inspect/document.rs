@@ -234,6 +234,13 @@ fn mode_blocks(mode: &Mode, blocks: &mut Vec<Block>) {
     blocks.push(Block::Equations(
         equations.map(|e| (Vec::new(), e.clone())).collect(),
     ));
+    if !mode.solution.is_empty() {
+        blocks.push(Block::Paragraph(vec![words("hence")]));
+        let solution = mode.solution.iter();
+        blocks.push(Block::Equations(
+            solution.map(|e| (Vec::new(), e.clone())).collect(),
+        ));
+    }
     if !mode.guards.is_empty() {
         let rows = mode.guards.iter().map(|guard| {
             vec![

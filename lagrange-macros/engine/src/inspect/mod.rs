@@ -14,6 +14,7 @@ mod motion;
 mod names;
 pub mod print;
 mod readable;
+mod solved;
 mod switches;
 #[cfg(test)]
 mod tests;
@@ -60,7 +61,7 @@ pub struct Derivation {
     pub conserved: Vec<Conserved>,
     /// Number of operations of the equations of motion.
     pub costs: Vec<Cost>,
-    /// What was left out for length, and the like.
+    /// Remarks on the declaration; what was left out for length, and the like.
     pub notes: Vec<String>,
 }
 
@@ -136,6 +137,8 @@ pub struct Mode {
     pub unknowns: Vec<Letter>,
     /// What determines them.
     pub equations: Vec<Statement>,
+    /// Unknowns in closed form, those for which it is short.
+    pub solution: Vec<Statement>,
     /// What must hold, and what happens if it does not.
     pub guards: Vec<Guard>,
     /// Operations of its equations of motion, shared.

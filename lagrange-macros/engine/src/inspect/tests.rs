@@ -194,6 +194,7 @@ fn equations_of_motion_balance() {
             program: &program,
             names: &names,
             reader: Reader::new(&mut pool, &names, guards.clone()),
+            solves: true,
         };
         let motion = work.motion();
         let multipliers = work.multipliers();
@@ -301,7 +302,7 @@ fn expressions_as_a_person_writes_them() {
     check(quote!(a * sqrt(x ^ 2 + y ^ 2)), "a √(x² + y²)");
     check(quote!(a / sqrt(x ^ 2 + y ^ 2)), "a/√(x² + y²)");
     check(quote!(cos(x) ^ 2 * a), "a cos² x");
-    check(quote!(sin(2 * x) * sin(y)), "sin y sin(2 x)");
+    check(quote!(sin(2 * x) * sin(y)), "sin(2 x) sin y");
     check(quote!(abs(x - y)), "|x − y|");
     check(quote!(max(x, y)), "max(x, y)");
     check(quote!(if(x >= 0, a*x, b*y)), "{a x if x ≥ 0, else b y}");
@@ -381,4 +382,46 @@ fn many_contacts_are_shown_in_part() {
     assert_eq!(d.mode_count, 1 << 29);
     assert!(d.modes.len() < 10 && d.notes.len() == 2, "{:?}", d.notes);
     assert!(print::plain(&d).len() < 40_000);
+}
+
+#[test]
+fn look() {
+    let Ok(wanted) = std::env::var("LOOK") else {
+        return;
+    };
+    for (name, tokens) in scenes() {
+        if name == wanted {
+            let t = std::time::Instant::now();
+            let d = derivation(tokens.clone());
+            println!("{:?}", t.elapsed());
+            println!("{}", print::plain(&d));
+        }
+    }
+}
+
+#[test]
+fn timing() {
+    if std::env::var("LOOK").is_err() {
+        return;
+    };
+    for (name, tokens) in scenes() {
+        let mut best = [f64::MAX; 3];
+        for _ in 0..7 {
+            let t0 = std::time::Instant::now();
+            let (declaration, mut program) = planned(tokens.clone());
+            let t = crate::emit::emit(&program, &[]).to_string().len();
+            let t1 = std::time::Instant::now();
+            let d = super::derivation(&declaration, &mut program, None).unwrap();
+            let t2 = std::time::Instant::now();
+            let tokens = crate::emit::derivation(&program.equations.system, &d, "").to_string();
+            let t3 = std::time::Instant::now();
+            for (b, x) in best.iter_mut().zip([t1 - t0, t2 - t1, t3 - t2]) {
+                *b = b.min(x.as_secs_f64() * 1e3);
+            }
+            if t == 0 || tokens.is_empty() {
+                panic!()
+            }
+        }
+        println!("{name:24} {:8.2} {:8.2} {:8.2}", best[0], best[1], best[2]);
+    }
 }

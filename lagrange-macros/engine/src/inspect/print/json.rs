@@ -7,7 +7,7 @@
 //!   "energies":  { "kinetic": F, "potential": F },
 //!   "motion":    [{ "coordinate": F, "equation": S }],
 //!   "rows":      [{ "name", "kind", "declared": S, "acceleration": S, "multiplier": F, "acts" }],
-//!   "mode_count", "modes": [{ "name", "known": [S], "unknowns": [F], "equations": [S],
+//!   "mode_count", "modes": [{ "name", "known": [S], "unknowns": [F], "equations": [S], "solution": [S],
 //!                 "guards": [{ "while": S, "otherwise" }], "operations", "operations_with_guards" }],
 //!   "switches":  [{ "from", "to", "label" }]        indices of modes
 //!   "impacts":   [{ "contact", "when": [S, S], "equations": [S], "note" }],
@@ -77,6 +77,7 @@ pub fn json(d: &Derivation) -> String {
             ("known", list(mode.known.iter().map(statement))),
             ("unknowns", list(mode.unknowns.iter().map(letter))),
             ("equations", list(mode.equations.iter().map(statement))),
+            ("solution", list(mode.solution.iter().map(statement))),
             ("guards", list(guards)),
             ("operations", mode.operations.to_string()),
             ("operations_with_guards", mode.with_guards.to_string()),

@@ -154,13 +154,20 @@ impl Checker<'_, '_> {
                 shapes.into_iter().collect::<Option<_>>().map(Shape::List)
             }
             ExprKind::Element(base, index) => {
-                let lower = self.lower(base);
-                let Shape::List(mut elements) = self.shape(base, None)? else {
-                    return None;
-                };
-                let at = self.elaboration.integer(index)?.checked_sub(lower)?;
-                let at = usize::try_from(at).ok().filter(|&at| at < elements.len())?;
-                Some(elements.swap_remove(at))
+                let at = self
+                    .elaboration
+                    .integer(index)?
+                    .checked_sub(self.lower(base))?;
+                let at = usize::try_from(at).ok()?;
+                if let ExprKind::Name(name) = &base.kind
+                    && let Some(Some(Shape::List(elements))) = self.names.get(&name.text)
+                {
+                    return elements.get(at).cloned();
+                }
+                match self.shape(base, None)? {
+                    Shape::List(elements) => elements.get(at).cloned(),
+                    Shape::One(_) => None,
+                }
             }
             ExprKind::Member(_, member) => {
                 let list = |of: Shape| Shape::List(vec![of; 3]);
