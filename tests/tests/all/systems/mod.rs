@@ -15,6 +15,7 @@ mod incline;
 mod kepler;
 mod pendulum;
 mod piecewise;
+mod region;
 mod rocking_block;
 mod skate;
 mod sling;
