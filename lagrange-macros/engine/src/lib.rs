@@ -28,7 +28,8 @@ pub fn expand(input: TokenStream) -> TokenStream {
     match (&declaration, program) {
         (Some(declaration), Some((mut program, verdicts))) if sink.is_empty() => {
             let mut tokens = emit::emit(&program, &verdicts);
-            if let Ok(derivation) = inspect::derivation(declaration, &mut program, None) {
+            if let Ok(derivation) = inspect::derivation(declaration, &mut program, &verdicts, None)
+            {
                 let system = &program.equations.system;
                 tokens.extend(emit::derivation(system, &derivation, &input.to_string()));
             }
@@ -106,12 +107,13 @@ pub fn inspect(input: TokenStream, mode: Option<&str>) -> Result<inspect::Deriva
     let mut sink = Diagnostics::new();
     let declaration = parse::declaration(input, &mut sink);
     let planned = declaration.and_then(|declaration| {
-        let (program, _) = planned(&declaration, &mut sink)?;
-        Some((declaration, program))
+        let (program, verdicts) = planned(&declaration, &mut sink)?;
+        Some((declaration, program, verdicts))
     });
     match planned {
-        Some((declaration, mut program)) if sink.is_empty() => {
-            inspect::derivation(&declaration, &mut program, mode).map_err(Refusal::Mode)
+        Some((declaration, mut program, verdicts)) if sink.is_empty() => {
+            let derivation = inspect::derivation(&declaration, &mut program, &verdicts, mode);
+            derivation.map_err(Refusal::Mode)
         }
         _ => Err(Refusal::Declaration(sink)),
     }

@@ -19,7 +19,10 @@ pub fn derivation(system: &System, derivation: &Derivation, declaration: &str) -
         0 | 1 => String::new(),
         _ => print::mermaid(derivation),
     };
-    let on_page = format!("Equations of motion, as derived:\n\n{equations}");
+    let mut on_page = format!("Equations of motion, as derived:\n\n{equations}");
+    for hint in &derivation.hints {
+        on_page.push_str(&format!("\n\nHint: {hint}"));
+    }
     let hover = format!(
         "What was derived: equations of motion, rows, modes, impacts, conserved quantities.\n\n```text\n{}```",
         print::brief(derivation)

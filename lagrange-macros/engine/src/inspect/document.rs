@@ -58,9 +58,15 @@ impl Derivation {
         self.all_modes(&mut blocks);
         self.impact_blocks(&mut blocks);
         self.conservation(&mut blocks);
+        self.check_blocks(&mut blocks);
         self.cost_blocks(&mut blocks);
-        for note in &self.notes {
-            blocks.push(Block::Paragraph(vec![words(note)]));
+        for (title, lines) in [("Hints", &self.hints), ("Notes", &self.notes)] {
+            if !lines.is_empty() {
+                blocks.push(Block::Heading(2, title.to_owned()));
+            }
+            for line in lines {
+                blocks.push(Block::Paragraph(vec![words(line)]));
+            }
         }
         blocks
     }
@@ -182,6 +188,18 @@ impl Derivation {
                 vec![words(&item.when)],
             ]
         });
+        blocks.push(Block::Table(rows.collect()));
+    }
+
+    fn check_blocks(&self, blocks: &mut Vec<Block>) {
+        if self.checks.is_empty() {
+            return;
+        }
+        blocks.push(Block::Heading(2, "Checks".to_owned()));
+        let rows = self
+            .checks
+            .iter()
+            .map(|check| vec![vec![words(&check.claim)], vec![words(&check.outcome)]]);
         blocks.push(Block::Table(rows.collect()));
     }
 

@@ -138,7 +138,9 @@ pub(super) fn derivation(
         switches,
         impacts,
         conserved,
+        checks: Vec::new(),
         costs,
+        hints: system.hints.iter().map(|hint| hint.text.clone()).collect(),
         notes,
     })
 }
