@@ -204,11 +204,16 @@ fn claim(check: &Check, names: &Names) -> Vec<Part> {
     if !check.premises.is_empty() {
         parts.push(word("when"));
     }
-    parts.extend(check.premises.iter().map(|premise| match premise {
-        Premise::Mode(verb, item) => mode_word(*verb, item),
-        Premise::AtLeast(comparison) => Part::Statement(names.comparison(comparison)),
-        Premise::Equal(left, right) => equal(left, right),
-    }));
+    for (i, premise) in check.premises.iter().enumerate() {
+        if i > 0 {
+            parts.push(word("and"));
+        }
+        parts.push(match premise {
+            Premise::Mode(verb, item) => mode_word(*verb, item),
+            Premise::AtLeast(comparison) => Part::Statement(names.comparison(comparison)),
+            Premise::Equal(left, right) => equal(left, right),
+        });
+    }
     parts
 }
 

@@ -2,7 +2,7 @@
 
 use super::formula::{Formula, Statement};
 use super::letter::Letter;
-use super::{Derivation, Item, Mode, Part};
+use super::{Checked, Derivation, Item, Mode, Part};
 
 /// Headings that printers look for.
 pub(super) const ENERGIES: &str = "Energies";
@@ -199,7 +199,7 @@ impl Derivation {
         let rows = self
             .checks
             .iter()
-            .map(|check| vec![vec![words(&check.claim)], vec![words(&check.outcome)]]);
+            .map(|check| vec![vec![words(title(check))], vec![words(&check.outcome)]]);
         blocks.push(Block::Table(rows.collect()));
     }
 
@@ -225,6 +225,14 @@ impl Derivation {
             ]
         });
         blocks.push(Block::Table([header].into_iter().chain(rows).collect()));
+    }
+}
+
+/// A check by its name; what it claims stands among the declared items.
+fn title(check: &Checked) -> &str {
+    match check.name.as_str() {
+        "" => &check.claim,
+        name => name,
     }
 }
 
@@ -283,6 +291,7 @@ fn said(item: &Item) -> Vec<Piece> {
         match (i, part) {
             (0, _) => {}
             (_, Part::Word(word)) if word == ":" => {}
+            (_, Part::Word(word)) if word.starts_with("restitution") => pieces.push(words(", ")),
             (_, Part::Word(_)) => pieces.push(words(" ")),
             _ if after_word => pieces.push(words(" ")),
             _ => pieces.push(words(", ")),

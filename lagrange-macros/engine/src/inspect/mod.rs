@@ -73,6 +73,8 @@ pub struct Derivation {
 /// A check and how far it is known to hold.
 #[derive(Clone, Debug)]
 pub struct Checked {
+    /// Its name, or empty.
+    pub name: String,
     /// What is claimed, and when.
     pub claim: String,
     /// `proven in 2 modes`, or how it was tested.
@@ -246,6 +248,7 @@ fn checked(verdict: &Verdict) -> Checked {
         }
     };
     Checked {
+        name: verdict.name.clone(),
         claim: verdict.claim.clone(),
         outcome,
     }

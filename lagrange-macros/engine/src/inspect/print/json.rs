@@ -12,7 +12,7 @@
 //!   "switches":  [{ "from", "to", "label" }]        indices of modes
 //!   "impacts":   [{ "contact", "when": [S, S], "equations": [S], "note" }],
 //!   "conserved": [{ "name", "quantity": S, "rate": S | null, "when" }],
-//!   "checks":    [{ "claim", "outcome" }],
+//!   "checks":    [{ "name", "claim", "outcome" }],
 //!   "operations": [{ "effect", "alone", "shared" }],
 //!   "hints":     [text], "notes": [text] }
 //!
@@ -112,6 +112,7 @@ pub fn json(d: &Derivation) -> String {
     });
     let checks = d.checks.iter().map(|check| {
         object(&[
+            ("name", quoted(&check.name)),
             ("claim", quoted(&check.claim)),
             ("outcome", quoted(&check.outcome)),
         ])
