@@ -70,7 +70,7 @@ fn all_methods_agree_on_the_sphere_in_the_bowl() {
 fn every_method_turns_a_body_in_quaternions() {
     // Close to the identity a diagonal minor of the singular mass matrix nearly vanishes: what elimination without row
     // exchanges loses there must not pass for a pivot.
-    let body = lagrange_problems::scenes::hard::tumbling_body::TumblingBody::default();
+    let body = lagrange_problems::scenes::hard::TumblingBody::default();
     let start = State {
         q: vec![1.0, 0.0, 0.0, 0.0],
         v: vec![0.0, 0.5 * body.nudge, 0.5 * body.rate, 0.0],

@@ -139,7 +139,9 @@ pub(super) fn derivation(
         switches,
         impacts,
         conserved,
+        checks: Vec::new(),
         costs,
+        hints: system.hints.iter().map(|hint| hint.text.clone()).collect(),
         notes,
     })
 }
