@@ -5,7 +5,7 @@ use super::course::{Course, scene};
 use super::output::{Output, patiently, to_file};
 use super::values::positive;
 use clap::Args;
-use lagrange_core::prelude::Method;
+use lagrange_core::prelude::{Impacts, Method};
 use lagrange_problems::outcome::Outcome;
 use lagrange_problems::report::{Format, csv, json, plot, table};
 use lagrange_problems::request::Request;
@@ -37,6 +37,9 @@ pub(super) struct Run {
     /// Move a start that violates a constraint onto it instead of refusing it.
     #[arg(long)]
     project: bool,
+    /// How impacts at one instant are solved, instead of as the scene declares: `together` or `in_turn`.
+    #[arg(long, value_name = "HOW")]
+    impacts: Option<Impacts>,
     /// Write this run down as a scene file.
     #[arg(long, value_name = "FILE.toml")]
     save: Option<PathBuf>,
@@ -55,6 +58,7 @@ impl Run {
             tolerance: self.tolerance.unwrap_or(file.request.tolerance),
             method: self.method.unwrap_or(file.request.method),
             project: self.project || file.request.project,
+            impacts: self.impacts.or(file.request.impacts),
             ..file.request
         };
         let request = self.course.request(base);

@@ -82,6 +82,7 @@ struct Text {
     method: Option<Spanned<String>>,
     #[serde(default)]
     project: bool,
+    impacts: Option<Spanned<String>>,
     #[serde(default)]
     parameters: BTreeMap<Spanned<String>, Spanned<f64>>,
     #[serde(default)]
@@ -142,6 +143,11 @@ pub fn read(text: &str) -> Result<SceneFile, Mistake> {
     if let Some(tolerance) = &file.tolerance {
         request.tolerance = positive(tolerance)?;
     }
+    if let Some(impacts) = &file.impacts {
+        let known = impacts.get_ref().parse();
+        let refused = |expected| mistake(impacts.span(), format!("impacts are {expected}"));
+        request.impacts = Some(known.map_err(refused)?);
+    }
     if let Some(method) = &file.method {
         let parsed: Result<Method, _> = method.get_ref().parse();
         request.method = parsed.map_err(|reason| mistake(method.span(), reason.to_string()))?;
@@ -188,6 +194,8 @@ struct Record<'a> {
     method: String,
     #[serde(skip_serializing_if = "is_false")]
     project: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    impacts: Option<String>,
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     parameters: BTreeMap<&'a str, f64>,
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
@@ -222,6 +230,7 @@ pub fn write(
         tolerance: request.tolerance,
         method: request.method.to_string(),
         project: request.project,
+        impacts: request.impacts.map(|impacts| impacts.to_string()),
         parameters: pairs.map(|(name, value)| (name.as_str(), *value)).collect(),
         start: from.chain(numbers).collect(),
         effects: request

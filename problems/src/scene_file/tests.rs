@@ -1,6 +1,7 @@
 use super::{Outputs, read, write};
 use crate::report::Format;
 use crate::request::Request;
+use lagrange_core::prelude::Impacts;
 
 const FULL: &str = r#"
 scene = "mass-on-wheel"
@@ -8,6 +9,7 @@ until = 5
 tolerance = 1e-12
 method = "dop853"
 project = true
+impacts = "in_turn"
 
 [parameters]
 mu_static = 10
@@ -40,6 +42,7 @@ fn a_file_says_what_a_command_line_says() {
         tolerance,
         method,
         project,
+        impacts,
         ..
     } = file.request;
     assert_eq!(parameters, [pair("mass", 0.3), pair("mu_static", 10.0)]);
@@ -50,6 +53,7 @@ fn a_file_says_what_a_command_line_says() {
         (Some("rest"), Some(5.0), 1e-12)
     );
     assert_eq!((method.to_string().as_str(), project), ("dop853", true));
+    assert_eq!(impacts, Some(Impacts::InTurn));
     let outputs = Outputs {
         format: Some(Format::Json),
         output: None,

@@ -2,9 +2,12 @@
 
 use super::kit::{closure, distance, event, relative, run, story, violation};
 use super::{Extent, Figure, Surprise};
-use crate::reference::integral;
-use crate::scenes::hard::{BouncingBall, Cradle, StringPendulum, ThrownBall};
+use crate::reference::{integral, root};
+use crate::scenes::hard::{
+    BouncingBall, Cradle, FiveBallCradle, RockingBlock, StringPendulum, ThrownBall,
+};
 use core::f64::consts::FRAC_PI_2;
+use lagrange_core::prelude::EventKind;
 
 pub fn bouncing_ball(_: Extent) -> Result<Vec<Figure>, Surprise> {
     let mut figures = Vec::new();
@@ -107,6 +110,103 @@ pub fn cradle(_: Extent) -> Result<Vec<Figure>, Surprise> {
     Ok(vec![
         Figure::new("together: −1/3, 2/3, 2/3", worst, 1e-14),
         Figure::new("together: ledger", closure(&trajectory)?, 1e-14),
+    ])
+}
+
+pub fn five_ball_cradle(_: Extent) -> Result<Vec<Figure>, Surprise> {
+    let scene = FiveBallCradle::default();
+    let starts = [
+        ("one", FiveBallCradle::ONE),
+        ("two", FiveBallCradle::TWO),
+        ("three", FiveBallCradle::THREE),
+    ];
+    let mut figures = Vec::new();
+    for (released, (name, start)) in starts.into_iter().enumerate() {
+        let trajectory = run(&scene, start, 1.0)?;
+        let speeds = trajectory.final_state().v.iter().enumerate();
+        let leaves = |k: usize| if k + released >= 4 { scene.speed } else { 0.0 };
+        let worst = speeds
+            .map(|(k, v)| distance(*v, leaves(k)))
+            .fold(0.0, f64::max);
+        figures.push(Figure::new(
+            format!("{name} in, {name} out, m/s"),
+            worst,
+            1e-14,
+        ));
+    }
+    Ok(figures)
+}
+
+/// From upright at rate ω about a corner and back: (greatest tilt, time).
+fn swing(rate: f64, alpha: f64, p2: f64) -> (f64, f64) {
+    let lift = rate * rate / (4.0 * p2);
+    let most = root(
+        |m| (alpha - 0.5 * m).sin() * (0.5 * m).sin() - lift,
+        0.0,
+        alpha,
+    );
+    // θ = m (1 − u²): θ̇² = 4 p² sin(α − (θ + m)/2) sin((m − θ)/2), and u/√sin(m u²/2) is smooth.
+    let slowness = |u: f64| {
+        let (back, ahead) = (0.5 * most * u * u, alpha - most + 0.5 * most * u * u);
+        let ratio = if back > 0.0 { back / back.sin() } else { 1.0 };
+        2.0 * most * (2.0 * ratio / most).sqrt() / (4.0 * p2 * ahead.sin()).sqrt()
+    };
+    (most, 2.0 * integral(slowness, 0.0, 1.0))
+}
+
+/// Impacts of the block that are compared one by one.
+const SWINGS: usize = 20;
+
+pub fn rocking_block(_: Extent) -> Result<Vec<Figure>, Surprise> {
+    let scene = RockingBlock::default();
+    let RockingBlock {
+        half_width: b,
+        half_height: h,
+        gravity,
+        rate: first,
+        ..
+    } = scene;
+    let alpha = (b / h).atan();
+    let p2 = 0.75 * gravity / b.hypot(h);
+    let share = 1.0 - 1.5 * alpha.sin().powi(2);
+    let trajectory = run(&scene, RockingBlock::ROCKING, 10.0)?;
+    let mut sampler = trajectory.sampler();
+    let (mut rate, mut time) = (first, 0.0);
+    let [mut tilts, mut times, mut rates] = [0.0_f64; 3];
+    for k in 0..SWINGS {
+        let (most, lasts) = swing(rate, alpha, p2);
+        let top = sampler.at(time + 0.5 * lasts)?;
+        tilts = tilts.max(relative(top.q[2].abs(), most));
+        time += lasts;
+        let hit = event(&trajectory, ["right", "left"][k % 2], "impact", k / 2)?;
+        times = times.max(relative(hit.time, time));
+        rate *= share;
+        rates = rates.max(relative(hit.state_after.v[2].abs(), rate));
+    }
+    while rate > 1e-7 * first {
+        time += swing(rate, alpha, p2).1;
+        rate *= share;
+    }
+    // What is left is a geometric series.
+    time += swing(rate, alpha, p2).1 / (1.0 - share);
+    let rests = trajectory.events().iter();
+    let rest = rests
+        .filter(|e| matches!(e.kind, EventKind::Accumulates { .. }))
+        .map(|e| e.time)
+        .next();
+    let rest = rest.ok_or_else(|| Surprise::Missing {
+        event: "left or right accumulates".to_owned(),
+    })?;
+    let end = trajectory.final_state();
+    let turns = end.v.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    Ok(vec![
+        Figure::new("rates after twenty impacts", rates, 1e-11),
+        Figure::new("times of twenty impacts", times, 1e-12),
+        Figure::new("greatest tilts between", tilts, 1e-11),
+        Figure::new("time at which it stands", relative(rest, time), 1e-11),
+        Figure::new("tilt then, rad", end.q[2].abs(), 1e-12),
+        Figure::new("motion then, m/s or rad/s", turns, 1e-14),
+        Figure::new("ledger", closure(&trajectory)?, 1e-11),
     ])
 }
 

@@ -114,6 +114,18 @@ pub static CASES: &[Case] = &[
         measure: bounces::cradle,
     },
     Case {
+        name: "five-ball-cradle",
+        scene: "five-ball-cradle",
+        trouble: "blows passed on: all balls move a little",
+        measure: bounces::five_ball_cradle,
+    },
+    Case {
+        name: "rocking-block",
+        scene: "rocking-block",
+        trouble: "corners strike in turn, ever faster: never stands",
+        measure: bounces::rocking_block,
+    },
+    Case {
         name: "string-pendulum",
         scene: "string-pendulum",
         trouble: "the string pushes, or snaps back softly",
@@ -196,6 +208,12 @@ pub static CASES: &[Case] = &[
         scene: "sled",
         trouble: "one runner too many: singular, or one pulls",
         measure: supports::sled,
+    },
+    Case {
+        name: "table",
+        scene: "table",
+        trouble: "four legs, four cones: slips in a direction of the grid",
+        measure: supports::table,
     },
     Case {
         name: "parallelogram",

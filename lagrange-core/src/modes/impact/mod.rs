@@ -12,6 +12,7 @@
 //! [`search`] finds which contacts take part and which frictions stick, [`pattern`] solves and judges one such combination.
 
 mod collision;
+mod complement;
 mod gather;
 mod law;
 mod pattern;
@@ -20,6 +21,7 @@ mod search;
 #[cfg(test)]
 mod tests;
 mod turn;
+mod turning;
 
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;

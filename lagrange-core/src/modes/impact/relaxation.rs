@@ -49,6 +49,15 @@ impl Relaxation {
         change.abs() * c.g(row, row).value()
     }
 
+    /// Puts the rate of a row to zero.
+    fn hold<T: Scalar>(&mut self, c: &Collision<T>, row: usize) -> f64 {
+        let own = c.g(row, row).value();
+        if own <= 0.0 {
+            return 0.0;
+        }
+        self.set(c, row, self.impulses[row] - self.rates[row] / own)
+    }
+
     /// Sweeps until nothing changes any more.
     pub fn sweep<T: Scalar>(&mut self, c: &Collision<T>, phase: &Phase<T>) {
         let size = phase
@@ -57,16 +66,13 @@ impl Relaxation {
             .fold(0.0_f64, |m, x| m.max(x.value().abs()));
         for _ in 0..MOST_SWEEPS {
             let mut change = 0.0_f64;
-            let held = c.conditional.iter().filter(|(_, k)| {
-                let row = c.touches[*k].row;
-                phase.within[*k] && (phase.struck[*k] || self.impulses[row] > 0.0)
-            });
-            let held: Vec<usize> = held.map(|(row, _)| *row).collect();
-            for row in (0..c.links).chain(held) {
-                let own = c.g(row, row).value();
-                if own > 0.0 {
-                    let impulse = self.impulses[row] - self.rates[row] / own;
-                    change = change.max(self.set(c, row, impulse));
+            for row in 0..c.links {
+                change = change.max(self.hold(c, row));
+            }
+            for &(row, k) in &c.conditional {
+                let struck = phase.struck[k] || self.impulses[c.touches[k].row] > 0.0;
+                if phase.within[k] && struck {
+                    change = change.max(self.hold(c, row));
                 }
             }
             for (k, touch) in c

@@ -244,7 +244,11 @@ fn random_impacts_obey_their_law() {
     let (mut solved, mut lowered, mut unsolved) = (0, 0, 0);
     for kind in kinds() {
         let (mut here, mut failed) = (0, 0);
-        for _ in 0..(if kind.held { 10 } else { 60 }) {
+        for _ in 0..(if kind.held || kind.components == 2 {
+            10
+        } else {
+            40
+        }) {
             let c = collision(&mut random, kind);
             law.phase.within.clear();
             law.phase.within.resize(c.touches.len(), true);

@@ -47,6 +47,33 @@ pub fn derivation(system: &System, derivation: &Derivation, declaration: &str) -
     }
 }
 
+/// The same for a large system, whose equations would fill books: what is said of it says where to ask.
+pub fn on_request(system: &System, declaration: &str) -> TokenStream {
+    let (name, core) = (&system.name, &system.core);
+    let arguments = system.scalar.as_ref().map(|_| quote!(<f64>));
+    let title = name.to_string();
+    let text = format!(
+        "{title} has {} coordinates: its equations are not written out at every build. \
+         `lagrange inspect` and `lagrange_engine::inspect` make them of the declaration.\n",
+        system.coordinates.len()
+    );
+    quote! {
+        #[automatically_derived]
+        #[allow(dead_code)]
+        impl #name #arguments {
+            #[doc = #text]
+            pub fn derivation() -> &'static #core::Derivation {
+                &#core::Derivation {
+                    name: #title,
+                    declaration: #declaration,
+                    text: #text,
+                    ..#core::Derivation::NONE
+                }
+            }
+        }
+    }
+}
+
 /// The same where nothing was derived.
 pub fn nothing(target: TokenStream, core: &TokenStream) -> TokenStream {
     quote! {
