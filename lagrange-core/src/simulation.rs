@@ -210,6 +210,15 @@ impl Settings {
                 expected,
             });
         }
+        if let Method::RungeKutta4 { step } | Method::Gauss6 { step } = self.method
+            && !(step > 0.0 && step.is_finite())
+        {
+            return Err(Error::Argument {
+                what: "step of the method",
+                value: step,
+                expected: "positive",
+            });
+        }
         for (what, value) in [("first time", span.start), ("last time", span.end)] {
             if !value.is_finite() {
                 return Err(Error::Argument {

@@ -31,7 +31,9 @@ pub fn expand(input: TokenStream) -> TokenStream {
             if emit::is_large(&program) {
                 let system = &program.equations.system;
                 tokens.extend(emit::derivation_on_request(system, &input.to_string()));
-            } else if let Ok(derivation) = inspect::derivation(declaration, &mut program, None) {
+            } else if let Ok(derivation) =
+                inspect::derivation(declaration, &mut program, &verdicts, None)
+            {
                 let system = &program.equations.system;
                 tokens.extend(emit::derivation(system, &derivation, &input.to_string()));
             }
@@ -131,12 +133,13 @@ pub fn inspect(input: TokenStream, mode: Option<&str>) -> Result<inspect::Deriva
     let mut sink = Diagnostics::new();
     let declaration = parse::declaration(input, &mut sink);
     let planned = declaration.and_then(|declaration| {
-        let (program, _) = planned(&declaration, &mut sink)?;
-        Some((declaration, program))
+        let (program, verdicts) = planned(&declaration, &mut sink)?;
+        Some((declaration, program, verdicts))
     });
     match planned {
-        Some((declaration, mut program)) if sink.is_empty() => {
-            inspect::derivation(&declaration, &mut program, mode).map_err(Refusal::Mode)
+        Some((declaration, mut program, verdicts)) if sink.is_empty() => {
+            let derivation = inspect::derivation(&declaration, &mut program, &verdicts, mode);
+            derivation.map_err(Refusal::Mode)
         }
         _ => Err(Refusal::Declaration(sink)),
     }

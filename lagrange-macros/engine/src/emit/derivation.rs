@@ -20,8 +20,8 @@ pub fn derivation(system: &System, derivation: &Derivation, declaration: &str) -
         _ => print::mermaid(derivation),
     };
     let mut on_page = format!("Equations of motion, as derived:\n\n{equations}");
-    for hint in &system.hints {
-        on_page.push_str(&format!("\n\nNote: {}.", hint.text));
+    for hint in &derivation.hints {
+        on_page.push_str(&format!("\n\nHint: {hint}"));
     }
     let hover = format!(
         "What was derived: equations of motion, rows, modes, impacts, conserved quantities.\n\n```text\n{}```",

@@ -386,14 +386,14 @@ impl<'a> Reader<'a> {
             let first = keyed.remove(first);
             keyed.insert(0, first);
         }
-        let mut terms: Vec<(bool, Formula)> = keyed
+        let mut terms: Vec<Formula> = keyed
             .iter()
-            .map(|(_, c, factors)| self.term(*c, factors, None).signed())
+            .map(|(_, c, factors)| self.term(*c, factors, None))
             .collect();
         if hidden > 0 {
-            terms.push((false, Formula::More(hidden)));
+            terms.push(Formula::More(hidden));
         }
-        let inner = Formula::Sum(terms);
+        let inner = Formula::sum(terms);
         if c.is_one() && common.is_empty() {
             return inner;
         }

@@ -16,6 +16,7 @@ mod kepler;
 mod pendulum;
 mod piecewise;
 mod plate;
+mod region;
 mod rocking_block;
 mod skate;
 mod sling;

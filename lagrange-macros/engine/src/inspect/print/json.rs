@@ -12,8 +12,9 @@
 //!   "switches":  [{ "from", "to", "label" }]        indices of modes
 //!   "impacts":   [{ "contact", "when": [S, S], "equations": [S], "note" }],
 //!   "conserved": [{ "name", "quantity": S, "rate": S | null, "when" }],
+//!   "checks":    [{ "name", "claim", "outcome" }],
 //!   "operations": [{ "effect", "alone", "shared" }],
-//!   "notes":     [text] }
+//!   "hints":     [text], "notes": [text] }
 //!
 //! F = { "text", "latex" }        S = { "left": F, "relation": "=" | ">=" | "<=" | ">" | "<", "right": F }
 //! ```
@@ -109,6 +110,13 @@ pub fn json(d: &Derivation) -> String {
             ("when", quoted(&item.when)),
         ])
     });
+    let checks = d.checks.iter().map(|check| {
+        object(&[
+            ("name", quoted(&check.name)),
+            ("claim", quoted(&check.claim)),
+            ("outcome", quoted(&check.outcome)),
+        ])
+    });
     let operations = d.costs.iter().map(|cost| {
         object(&[
             ("effect", quoted(&cost.name)),
@@ -130,7 +138,9 @@ pub fn json(d: &Derivation) -> String {
         ("switches", list(switches)),
         ("impacts", list(impacts)),
         ("conserved", list(conserved)),
+        ("checks", list(checks)),
         ("operations", list(operations)),
+        ("hints", list(d.hints.iter().map(|hint| quoted(hint)))),
         ("notes", list(d.notes.iter().map(|note| quoted(note)))),
     ]);
     whole + "\n"

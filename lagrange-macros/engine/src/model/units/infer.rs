@@ -97,7 +97,7 @@ impl Checker<'_, '_> {
         role: impl Into<Role<'a>>,
         expr: &Expr,
     ) -> Option<()> {
-        let Err((wanted, found)) = self.unknowns.equate(wanted, found) else {
+        let Some((wanted, found)) = self.unknowns.conflict(wanted, found) else {
             return Some(());
         };
         let Role { what, is_force } = role.into();
@@ -209,7 +209,7 @@ impl Checker<'_, '_> {
                 .collect();
             let reference = self.reference(&column, hint);
             for (term, quantity) in terms.iter().zip(&column) {
-                if let Err((reference, found)) = self.unknowns.equate(&reference, quantity) {
+                if let Some((reference, found)) = self.unknowns.conflict(&reference, quantity) {
                     let remedy = self.remedy(&reference, &found, term);
                     let (found, reference) = (self.noun(&found), self.noun(&reference));
                     self.sink.report(
@@ -347,7 +347,7 @@ impl Checker<'_, '_> {
     pub fn sides(&mut self, left: &Expr, right: &Expr) -> Option<Quantity> {
         let (a, b) = (self.one(left, None), self.one(right, None));
         let (a, b) = (a?, b?);
-        let Err((first, second)) = self.unknowns.equate(&a, &b) else {
+        let Some((first, second)) = self.unknowns.conflict(&a, &b) else {
             return Some(a);
         };
         // A bare number is what is wrong, on whichever side it stands.
@@ -535,7 +535,7 @@ impl Checker<'_, '_> {
             for (i, j) in products {
                 let product = self.unknowns.times(&a[i], &b[j], Rational::ONE);
                 let first = component.get_or_insert_with(|| product.clone()).clone();
-                if let Err((first, second)) = self.unknowns.equate(&first, &product) {
+                if let Some((first, second)) = self.unknowns.conflict(&first, &product) {
                     let (first, second) = (self.noun(&first), self.noun(&second));
                     let hint = "the components of a vector have one unit";
                     self.sink
