@@ -7,7 +7,7 @@ use crate::integrate::Method;
 use crate::modes::start;
 use crate::run::Runner;
 use crate::system::{Impacts, System};
-use crate::trajectory::{State, Trajectory};
+use crate::trajectory::{EventKind, State, Subject, Trajectory};
 use core::fmt;
 use core::ops::Range;
 
@@ -26,6 +26,8 @@ pub(crate) struct Settings {
     pub method: Method,
     pub project_start: bool,
     pub record: bool,
+    /// The run ends once each of these has happened; empty: it does not.
+    pub last_events: Vec<(Subject, EventKind)>,
     /// As declared if `None`.
     pub impacts: Option<Impacts>,
     pub max_events: usize,
@@ -73,6 +75,7 @@ impl<'a, S: System> Simulation<'a, S> {
                 method: Method::Taylor,
                 project_start: false,
                 record: true,
+                last_events: Vec::new(),
                 impacts: None,
                 max_events: 100_000,
                 max_steps: 100_000_000,
@@ -113,6 +116,14 @@ impl<'a, S: System> Simulation<'a, S> {
     #[must_use]
     pub fn record(mut self, yes: bool) -> Self {
         self.settings.record = yes;
+        self
+    }
+
+    /// Ends the run once this has happened (whatever an [`EventKind::Accumulates`] counts); given several times, once all of
+    /// them have.
+    #[must_use]
+    pub fn end_after(mut self, subject: Subject, kind: EventKind) -> Self {
+        self.settings.last_events.push((subject, kind));
         self
     }
 
@@ -199,6 +210,15 @@ impl Settings {
                 expected,
             });
         }
+        if let Method::RungeKutta4 { step } | Method::Gauss6 { step } = self.method
+            && !(step > 0.0 && step.is_finite())
+        {
+            return Err(Error::Argument {
+                what: "step of the method",
+                value: step,
+                expected: "positive",
+            });
+        }
         for (what, value) in [("first time", span.start), ("last time", span.end)] {
             if !value.is_finite() {
                 return Err(Error::Argument {
@@ -245,30 +265,6 @@ impl Settings {
                     what: parameter.name,
                     value,
                     expected: "finite",
-                });
-            }
-        }
-        self.supported::<S>()
-    }
-
-    /// Refuses what the declaration may say but this version cannot run.
-    fn supported<S: System>(&self) -> Result<(), Error> {
-        use crate::effects::Item;
-        let d = S::DESCRIPTION;
-        let takes_part = |item: Item| self.effects.includes(d, item);
-        for (i, contact) in d
-            .contacts
-            .iter()
-            .enumerate()
-            .filter(|(i, _)| takes_part(Item::Contact(*i)))
-        {
-            let item = d.contacts[i].name;
-            if contact.region.is_some() {
-                let instead = "leave `where` out and stop the run at the edge";
-                return Err(Error::Unsupported {
-                    what: "a contact limited to a region",
-                    item,
-                    instead,
                 });
             }
         }

@@ -1,4 +1,8 @@
 //! `#[derive(Lagrangian)]`: the entry point. Everything it does is in `lagrange-engine`.
+//!
+//! # Mistakes
+//!
+#![doc = include_str!("mistakes.md")]
 
 mod dump;
 

@@ -8,6 +8,7 @@ use crate::outcome::Outcome;
 use crate::request::{Refusal, Request};
 use crate::scenes::hard::*;
 use crate::scenes::*;
+use crate::sweep::{self, Sweep, Worker};
 use core::f64::consts::PI;
 use core::marker::PhantomData;
 use lagrange_core::prelude::*;
@@ -15,10 +16,28 @@ use lagrange_core::system::Description;
 
 /// Every scene, in the order of `lagrange list`.
 pub static SCENES: &[&dyn Scene] = &[
-    &Entry::<MassOnShell>::new("mass-on-shell", 20.0).known(MassOnShell::closed_form),
-    &Entry::<RollingSphere>::new("rolling-sphere", 20.0).known(RollingSphere::closed_form),
-    &Entry::<RollingSlippingSphere>::new("rolling-slipping-sphere", 20.0),
-    &Entry::<MassOnWheel>::new("mass-on-wheel", 20.0),
+    &Entry::<MassOnShell>::new("mass-on-shell", 20.0)
+        .known(MassOnShell::closed_form)
+        .results(&[
+            ("leave angle", "theta at shell lost"),
+            ("leave time", "t at shell lost"),
+        ]),
+    &Entry::<RollingSphere>::new("rolling-sphere", 20.0)
+        .known(RollingSphere::closed_form)
+        .results(&[
+            ("leave angle", "theta at shell lost"),
+            ("leave time", "t at shell lost"),
+        ]),
+    &Entry::<RollingSlippingSphere>::new("rolling-slipping-sphere", 20.0).results(&[
+        ("leave angle", "theta at shell lost"),
+        ("leave time", "t at shell lost"),
+        ("slip angle", "theta at grip slips"),
+    ]),
+    &Entry::<MassOnWheel>::new("mass-on-wheel", 20.0).results(&[
+        ("leave angle", "theta at rim lost"),
+        ("leave time", "t at rim lost"),
+        ("slip angle", "theta at grip slips"),
+    ]),
     &Entry::<SphereInBowl>::new("sphere-in-bowl", 10.0),
     &Entry::<DoublePendulum>::new("double-pendulum", 5.0),
     &Entry::<FiveLinkChain>::new("five-link-chain", 2.0),
@@ -53,6 +72,7 @@ pub static HARD: &[&dyn Scene] = &[
     &Entry::<RodOnSupports>::new("rod-on-supports", 10.0),
     &Entry::<BeamOnSupports>::new("beam-on-supports", 10.0),
     &Entry::<Sled>::new("sled", 2.0),
+    &Entry::<Table>::new("table", 4.0),
     &Entry::<Parallelogram>::new("parallelogram", 2.0),
     &Entry::<SliderCrank>::new("slider-crank", 2.0),
     &Entry::<RollingDisk>::new("rolling-disk", 5.0),
@@ -102,6 +122,21 @@ pub trait Scene: Sync {
     /// The request makes no sense, the start does not exist, or the run fails.
     fn costs(&self, request: &Request) -> Result<Costs, Refusal>;
 
+    /// What runs the points of a sweep.
+    ///
+    /// # Errors
+    /// The sweep makes no sense.
+    fn worker<'a>(&self, sweep: &'a Sweep) -> Result<Worker<'a>, Refusal>;
+
+    /// Named results: what they are called, and the observation that they stand for.
+    fn results(&self) -> &'static [(&'static str, &'static str)];
+
+    /// The observation that a named result stands for; any other text as it is.
+    fn result<'a>(&self, text: &'a str) -> &'a str {
+        let found = self.results().iter().find(|(name, _)| *name == text);
+        found.map_or(text, |(_, observation)| *observation)
+    }
+
     /// First sentence of the documentation.
     fn summary(&self) -> &'static str {
         let text = self.description().documentation.trim();
@@ -114,6 +149,7 @@ pub struct Entry<S> {
     name: &'static str,
     until: f64,
     closed_form: Option<Solution<S>>,
+    results: &'static [(&'static str, &'static str)],
     system: PhantomData<fn() -> S>,
 }
 
@@ -127,8 +163,14 @@ impl<S> Entry<S> {
             name,
             until,
             closed_form: None,
+            results: &[],
             system: PhantomData,
         }
+    }
+
+    /// The same with names for what a sweep may read from a run: name and observation.
+    pub const fn results(self, results: &'static [(&'static str, &'static str)]) -> Self {
+        Self { results, ..self }
     }
 
     /// The same with a closed form, for [`Scene::accuracy`] to measure errors against.
@@ -140,7 +182,7 @@ impl<S> Entry<S> {
     }
 }
 
-impl<S: System<Scalar = f64> + Default> Scene for Entry<S> {
+impl<S: System<Scalar = f64> + Default + Send + 'static> Scene for Entry<S> {
     fn name(&self) -> &'static str {
         self.name
     }
@@ -190,6 +232,14 @@ impl<S: System<Scalar = f64> + Default> Scene for Entry<S> {
         let effects = request.effects(S::DESCRIPTION)?;
         cost::measure(self.name, &system, &simulation, &effects, &start, until)
             .map_err(Refusal::Run)
+    }
+
+    fn results(&self) -> &'static [(&'static str, &'static str)] {
+        self.results
+    }
+
+    fn worker<'a>(&self, sweep: &'a Sweep) -> Result<Worker<'a>, Refusal> {
+        sweep::worker::<S>(sweep, self.until)
     }
 
     fn accuracy(&self, study: &Study) -> Result<Accuracy, Refusal> {

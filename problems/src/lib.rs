@@ -15,3 +15,4 @@ pub mod request;
 pub mod scene_file;
 pub mod scenes;
 pub mod stability;
+pub mod sweep;

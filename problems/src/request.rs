@@ -172,57 +172,101 @@ impl Request {
         Ok(off.into_iter().fold(Effects::all(), Effects::without))
     }
 
-    /// The state to start from.
-    ///
-    /// Values given by name are held exactly. The others begin as in the named start and are then solved so that
-    /// constraints hold, contacts closed there stay closed, and slips that are zero there stay zero.
+    /// The state to start from; see [`Start::state`].
     pub(crate) fn start<S: System<Scalar = f64>>(
         &self,
         system: &S,
         simulation: &Simulation<'_, S>,
     ) -> Result<State<f64>, Refusal> {
-        let description = S::DESCRIPTION;
-        let reference = self.named_start(system)?;
-        if self.start.is_empty() {
+        let start = Start::new(self, S::DESCRIPTION)?;
+        start
+            .state(system, |reference, wanted, held| {
+                simulation.consistent(0.0, reference, wanted, held)
+            })
+            .map_err(Refusal::Start)
+    }
+}
+
+/// How the start of a request is found, names resolved.
+#[derive(Clone, Debug)]
+pub(crate) struct Start {
+    /// The named start, if there is one.
+    from: Option<usize>,
+    /// What is held exactly: which coordinate, whether its position or its velocity, and the value.
+    pub(crate) held: Vec<(usize, Quantity, f64)>,
+}
+
+impl Start {
+    /// Resolves the names.
+    pub(crate) fn new(
+        request: &Request,
+        description: &'static Description,
+    ) -> Result<Self, Refusal> {
+        let from = match &request.from {
+            Some(name) => Some(find_start(description, name)?),
+            None => (!description.starts.is_empty()).then_some(0),
+        };
+        let mut start = Self {
+            from,
+            held: Vec::new(),
+        };
+        for (name, value) in &request.start {
+            let (index, level) = find_state(description, name)?;
+            start.hold(index, level, *value, name)?;
+        }
+        Ok(start)
+    }
+
+    /// Holds one more value.
+    pub(crate) fn hold(
+        &mut self,
+        index: usize,
+        level: Quantity,
+        value: f64,
+        name: &str,
+    ) -> Result<(), Refusal> {
+        if self.held.iter().any(|(i, l, _)| (*i, *l) == (index, level)) {
+            return Err(Refusal::Repeated {
+                name: name.to_owned(),
+            });
+        }
+        self.held.push((index, level, value));
+        Ok(())
+    }
+
+    /// The state of a system.
+    ///
+    /// Values given by name are held exactly. The others begin as in the named start and are then solved so that
+    /// constraints hold, contacts closed there stay closed, and slips that are zero there stay zero; `consistent` does that.
+    pub(crate) fn state<S: System<Scalar = f64>>(
+        &self,
+        system: &S,
+        consistent: impl FnOnce(&State<f64>, &State<f64>, &Held) -> Result<State<f64>, Error>,
+    ) -> Result<State<f64>, Error> {
+        let n = S::DESCRIPTION.coordinates.len();
+        let mut reference = State {
+            q: vec![0.0; n],
+            v: vec![0.0; n],
+        };
+        if let Some(index) = self.from {
+            system.start(index, 0.0, &mut reference.q, &mut reference.v);
+        }
+        if self.held.is_empty() {
             return Ok(reference);
         }
-        let n = description.coordinates.len();
         let mut wanted = reference.clone();
         let mut held = Held {
             positions: vec![false; n],
             velocities: vec![false; n],
         };
-        for (name, value) in &self.start {
-            let (index, level) = find_state(description, name)?;
+        for &(index, level, value) in &self.held {
             let (values, flags) = match level {
                 Quantity::Position => (&mut wanted.q, &mut held.positions),
                 Quantity::Velocity => (&mut wanted.v, &mut held.velocities),
             };
-            if flags[index] {
-                return Err(Refusal::Repeated { name: name.clone() });
-            }
-            values[index] = *value;
-            flags[index] = true;
+            (values[index], flags[index]) = (value, true);
         }
-        simulation
-            .consistent(0.0, &reference, &wanted, &held)
-            .map_err(Refusal::Start)
-    }
-
-    fn named_start<S: System<Scalar = f64>>(&self, system: &S) -> Result<State<f64>, Refusal> {
-        let starts = S::DESCRIPTION.starts;
-        let n = S::DESCRIPTION.coordinates.len();
-        let mut state = State {
-            q: vec![0.0; n],
-            v: vec![0.0; n],
-        };
-        let index = match &self.from {
-            Some(name) => find_start(S::DESCRIPTION, name)?,
-            None if starts.is_empty() => return Ok(state),
-            None => 0,
-        };
-        system.start(index, 0.0, &mut state.q, &mut state.v);
-        Ok(state)
+        consistent(&reference, &wanted, &held)
     }
 }
 

@@ -6,4 +6,4 @@
     force(push: x = der(der(y))),
 )]
 struct S { mass: f64, gravity: f64, length: f64 }
-//~ 6:21 E402 `der(der(y))` is an acceleration; accelerations are known after the equations are solved: in `observe`, `stop` and `mark` only
+//~ 6:21 E402 `der(der(y))` is an acceleration; accelerations are known after the equations are solved: in `observe`, `stop`, `mark` and `check` only

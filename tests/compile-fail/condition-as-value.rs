@@ -7,4 +7,4 @@
     observe(a = closed(floor)),
 )]
 struct S { mass: f64, gravity: f64, length: f64 }
-//~ 7:17 E407 `closed(…)` is a condition, not a value; use it in `stop` or `mark`, joined by `and`
+//~ 7:17 E407 `closed(…)` is a condition, not a value; use it in `stop` or `mark`, or behind `when` in a `check`, joined by `and`

@@ -6,4 +6,4 @@
     friction(grip on floor: slip = der(x), static = 1),
 )]
 struct S { mass: f64, gravity: f64, length: f64 }
-//~ 6:22 E201 `floor` is not known; declare it as a field of the struct, a coordinate, or with `define`
+//~ 6:22 E201 `floor` is not known; declare a contact

@@ -6,4 +6,4 @@
     contact(floor: y >= 0),
 )]
 struct S { mass: f64, gravity: f64, length: f64 }
-//~ 5:34 E405 `gap` has a value after the equations are solved; use it in `observe`, `stop` or `mark`
+//~ 5:34 E405 `gap` has a value after the equations are solved; use it in `observe`, `stop`, `mark` or `check`

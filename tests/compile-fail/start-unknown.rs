@@ -6,4 +6,4 @@
     start(rest: z = 1),
 )]
 struct S { mass: f64, gravity: f64, length: f64 }
-//~ 6:17 E201 `z` is not known; did you mean `x`?
+//~ 6:17 E201 `z` is not known; known are `x`, `y`

@@ -6,4 +6,4 @@
     constraint(rail while floor: der(x) == 0),
 )]
 struct S { mass: f64, gravity: f64, length: f64 }
-//~ 6:27 E201 `floor` is not known; declare it as a field of the struct, a coordinate, or with `define`
+//~ 6:27 E201 `floor` is not known; declare a contact

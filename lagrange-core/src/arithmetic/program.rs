@@ -23,13 +23,13 @@ pub struct Program {
 macro_rules! with_registers {
     ($registers:expr, |$array:ident| $body:expr) => {{
         let registers: &mut [T] = $registers;
-        if let Some($array) = registers.first_chunk_mut::<65536>() {
+        if let Some($array) = registers.first_chunk_mut::<1048576>() {
+            $body
+        } else if let Some($array) = registers.first_chunk_mut::<65536>() {
             $body
         } else if let Some($array) = registers.first_chunk_mut::<4096>() {
             $body
         } else if let Some($array) = registers.first_chunk_mut::<512>() {
-            $body
-        } else if let Some($array) = registers.first_chunk_mut::<128>() {
             $body
         }
     }};
@@ -38,9 +38,9 @@ pub(super) use with_registers;
 
 /// The smallest size that holds so many registers.
 fn room(registers: usize) -> usize {
-    let sizes = [128, 512, 4096, 65536];
+    let sizes = [512, 4096, 65536, 1048576];
     let size = sizes.into_iter().find(|&size| registers <= size);
-    size.unwrap_or(registers)
+    size.expect("the macro's budget leaves a tape fewer than 2²⁰ registers")
 }
 
 impl Program {

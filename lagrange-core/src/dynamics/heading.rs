@@ -315,7 +315,7 @@ impl<S: System> Dynamics<S> {
             matrix[i * count + i] += growth;
         }
         let Headings { matrix, right, .. } = &mut self.headings;
-        if !solve(matrix, right) {
+        if !solve_small(matrix, right) {
             let operation = Operation::SquareRoot;
             return Err(EvaluationError::NoSeries { operation });
         }
@@ -329,7 +329,7 @@ impl<S: System> Dynamics<S> {
 }
 
 /// Solves a small system in place, by Gauss elimination with row exchanges. False if it is singular.
-fn solve<T: Scalar>(matrix: &mut [T], right: &mut [T]) -> bool {
+pub(crate) fn solve_small<T: Scalar>(matrix: &mut [T], right: &mut [T]) -> bool {
     let n = right.len();
     for step in 0..n {
         let size = |i: &usize| matrix[i * n + step].value().abs();

@@ -19,7 +19,7 @@ pub(crate) mod tests;
 mod values;
 
 pub use error::{EvaluationError, row_name};
-pub(crate) use heading::approach;
+pub(crate) use heading::{approach, solve_small};
 pub use needs::{NeedSet, add_branch_guards, add_guards};
 pub use projection::Residual;
 

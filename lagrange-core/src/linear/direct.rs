@@ -9,7 +9,8 @@ use super::epsilon;
 use super::lu::negligible;
 use crate::arithmetic::Scalar;
 
-/// A pivot of M below this share of its diagonal element has lost 10 of 16 digits: M is not safely positive definite.
+/// A pivot of M below this share of its diagonal element has lost 10 of 16 digits: M is not safely positive definite. What
+/// earlier pivots have lost is missing from this one too: together they must not lose more.
 #[inline(always)]
 pub(crate) fn positive_definite<T: Scalar>() -> f64 {
     524_288.0 * epsilon::<T>()
@@ -58,14 +59,16 @@ impl<T: Scalar> Direct<T> {
         self.factors.extend_from_slice(matrix);
         self.inverses.clear();
         self.lost.clear();
+        // Least share that a pivot before has had of its diagonal element.
+        let mut least: f64 = 1.0;
         for step in 0..leading {
             let diagonal = matrix[step * size + step].value();
+            let pivot = self.factors[step * size + step].value();
             // Not "<=": a NaN is not safe either.
-            if !(self.factors[step * size + step].value() > positive_definite::<T>() * diagonal
-                && diagonal > 0.0)
-            {
+            if !(least * pivot > positive_definite::<T>() * diagonal && diagonal > 0.0) {
                 return false;
             }
+            least = least.min(pivot / diagonal);
             self.eliminate_symmetric(step);
         }
         self.rows.clear();

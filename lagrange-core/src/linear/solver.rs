@@ -15,6 +15,9 @@ fn consistent<T: Scalar>() -> f64 {
     6.0 * epsilon::<T>().sqrt()
 }
 
+/// Accelerations of this size are none.
+const SQUARE_OF_ROUNDING: f64 = 1e-20;
+
 /// What is wrong with a system; indices are unknowns and equations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum SolveError {
@@ -251,6 +254,8 @@ impl<T: Scalar> Solver<T> {
                 residual += term;
                 largest = largest.max(term.abs());
             }
+            // Of a system at rest nothing is left but squares of the rounding of its velocities.
+            let largest = largest.max(SQUARE_OF_ROUNDING);
             let elements = &self.matrix[(n + row) * size..][..n];
             let compliance = elements.iter().enumerate().map(|(j, &a)| weighted(j, a));
             let driven = (drive * compliance.sum::<f64>()).sqrt();

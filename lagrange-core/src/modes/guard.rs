@@ -4,6 +4,7 @@
 //! |---|---|
 //! | contact open | gap g ≥ 0 |
 //! | contact closed | normal multiplier λ ≥ 0 |
+//! | contact limited to a region | region ≥ 0 while closed; where its gap closes while open |
 //! | friction sticks | μs N − F ≥ 0 and μs N + F ≥ 0 |
 //! | friction slips in direction d | d·s ≥ 0 (two components: d as at the start of the step; arrest where \|s\| vanishes with it) |
 //! | branch of a piecewise function | ± its guard ≥ 0 |
@@ -27,6 +28,8 @@ pub enum Guard {
     Gap(usize),
     /// Multiplier of a closed contact.
     Normal(usize),
+    /// Region of a contact that is limited to one.
+    Region(usize),
     /// μs N − F of a sticking friction.
     StickUpper(usize),
     /// μs N + F of a sticking friction.
@@ -85,6 +88,9 @@ pub fn guards_of_mode<S: System>(
             } else {
                 Guard::Gap(c)
             });
+            if d.contacts[c].region.is_some() {
+                out.push(Guard::Region(c));
+            }
         }
     }
     for (f, friction) in d.frictions.iter().enumerate() {
@@ -130,6 +136,10 @@ pub fn series<S: System>(guard: Guard, mode: &Mode, reading: &Reading<'_, S>, ou
             );
         }
         Guard::Normal(c) => add(out, 1.0, reading.force(d.contacts[c].row)),
+        Guard::Region(c) => {
+            let region = d.contacts[c].region;
+            add(out, 1.0, reading.motion(region.unwrap_or(Place::Zero)));
+        }
         Guard::StickUpper(f) => stick(f, -1.0, mode, reading, out),
         Guard::StickLower(f) => stick(f, 1.0, mode, reading, out),
         Guard::StickCone(f) => stick_cone(f, mode, reading, out),
@@ -212,6 +222,22 @@ fn stick_cone<S: System>(f: usize, mode: &Mode, reading: &Reading<'_, S>, out: &
     for k in 0..friction.components {
         let force = numbers(reading.force(friction.row + k));
         add_product(out, -1.0, &force, &force);
+    }
+}
+
+/// μs N − u·F: the side of the cone of a sticking friction in direction u.
+pub fn cone_side<S: System>(
+    f: usize,
+    along: [f64; 2],
+    mode: &Mode,
+    reading: &Reading<'_, S>,
+    out: &mut [f64],
+) {
+    let friction = &S::DESCRIPTION.frictions[f];
+    out.fill(0.0);
+    limit(f, mode, reading, out);
+    for (k, &part) in along.iter().enumerate().take(friction.components) {
+        add(out, -part, reading.force(friction.row + k));
     }
 }
 

@@ -54,7 +54,7 @@ impl Sizes {
             Guard::StickUpper(f) | Guard::StickLower(f) => self.limit(f, dynamics),
             Guard::StickCone(f) => self.limit(f, dynamics).powi(2),
             Guard::Bearing(f) => self.normal(f, dynamics),
-            Guard::Branch(_) | Guard::Stop(..) | Guard::Mark(..) => 0.0,
+            Guard::Region(_) | Guard::Branch(_) | Guard::Stop(..) | Guard::Mark(..) => 0.0,
             // It is relative already.
             Guard::Joint(_) => 1.0,
         }

@@ -80,6 +80,8 @@ pub struct Survey {
     residuals: Vec<(usize, Level, f64, f64)>,
     /// (contact, gap, size) of every contact.
     gaps: Vec<(usize, f64, f64)>,
+    /// Contacts whose gap is negative outside their region.
+    pub below: Vec<usize>,
     /// Needs of everything that is looked at.
     pub needs: NeedSet,
 }
@@ -92,6 +94,7 @@ impl Survey {
             known: Known::default(),
             residuals: Vec::new(),
             gaps: Vec::new(),
+            below: Vec::new(),
             needs: guard::all_row_needs(description, &NeedSet::new(description)),
         }
     }
@@ -110,6 +113,7 @@ impl Survey {
         self.known.clear(d);
         self.residuals.clear();
         self.gaps.clear();
+        self.below.clear();
         branches(
             dynamics,
             t,
@@ -133,6 +137,11 @@ impl Survey {
             }
             let row = &d.rows[contact.row];
             let gap = number(dynamics, row.position.unwrap_or(Place::Zero));
+            let region = contact.region.map_or(0.0, |place| number(dynamics, place));
+            if region < -near * extent {
+                self.below.extend((gap < 0.0).then_some(c));
+                continue;
+            }
             self.gaps.push((c, gap, extent));
             if gap.abs() <= near * extent {
                 let rate = number(dynamics, row.velocity);

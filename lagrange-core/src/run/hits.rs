@@ -80,13 +80,17 @@ impl<S: System> Run<S> {
 
     /// Where a guard of the mode falls through zero: (part of the step, half width of the enclosure).
     fn fall(&self, guard: Guard, curve: &[f64]) -> Option<(f64, f64)> {
+        if self.is_edge_in_flight(guard) {
+            return None;
+        }
         let curve = self.judged(guard, curve)?;
-        if falls_at_once(curve, RESOLUTION) {
+        if falls_at_once(curve) && !self.is_below(guard) && self.within_region(guard, 0.0) {
             return Some((0.0, 0.0));
         }
         let mut from = 0.0;
         while let Some(root) = first_root(curve, from) {
-            if root.direction == Direction::Falling && !root.grazing {
+            let falls = root.direction == Direction::Falling && !root.grazing;
+            if falls && self.within_region(guard, root.s) {
                 return Some((root.s, 0.5 * root.width));
             }
             // A root that rounding puts at 0 must not be found again.
@@ -99,7 +103,7 @@ impl<S: System> Run<S> {
     }
 
     /// What of a guard's curve is judged: without leading coefficients that are known to vanish. Nothing if all do.
-    fn judged<'c>(&self, guard: Guard, curve: &'c [f64]) -> Option<&'c [f64]> {
+    pub(super) fn judged<'c>(&self, guard: Guard, curve: &'c [f64]) -> Option<&'c [f64]> {
         let zeros = self.zeros.iter().find(|(g, _)| *g == guard);
         let known = zeros.map_or(0, |(_, order)| *order);
         if known >= LENGTH {
@@ -128,11 +132,11 @@ impl<S: System> Run<S> {
     pub(super) fn hides_a_start(&self) -> bool {
         let mut guards = self.guards.iter().enumerate();
         guards.any(|(k, &guard)| {
+            if self.is_edge_in_flight(guard) || !self.within_region(guard, 0.0) {
+                return false;
+            }
             let curve = self.judged(guard, self.curves.mode_guard(k));
-            curve.is_some_and(|curve| {
-                let begins = curve.iter().find(|c| **c != 0.0);
-                begins.is_some_and(|c| *c > 0.0) && falls_at_once(curve, CLEAR)
-            })
+            curve.is_some_and(|curve| hides_its_start(guard, curve))
         })
     }
 
@@ -212,14 +216,32 @@ impl<S: System> Run<S> {
     }
 }
 
-/// Whether a guard is negative from the start on, as far as can be told by numbers this much smaller than its largest.
-fn falls_at_once(curve: &[f64], resolution: f64) -> bool {
-    if curve.first().is_none_or(|start| *start < 0.0) {
-        return true;
-    }
+/// Whether a guard is negative from the start on, as far as rounding can tell.
+fn falls_at_once(curve: &[f64]) -> bool {
+    curve.first().is_none_or(|start| *start < 0.0)
+        || leading(curve, RESOLUTION).is_some_and(|k| k > 0 && curve[k] < 0.0)
+}
+
+/// Whether a guard that begins positive seems to fall at once, or to begin with one of its last coefficients, because these
+/// are so much larger over the whole step.
+fn hides_its_start(guard: Guard, curve: &[f64]) -> bool {
+    // A gap is a position: its first derivatives are not small unless the step is far too long.
+    let late = match guard {
+        Guard::Gap(_) => 3,
+        _ => curve.len() / 2,
+    };
+    let Some(begin) = curve.iter().position(|c| *c != 0.0) else {
+        return false;
+    };
+    let clear = leading(curve, CLEAR).unwrap_or(begin);
+    let falls = curve[begin..=clear.max(begin)].iter().any(|c| *c < 0.0);
+    curve[begin] > 0.0 && clear > begin && (falls || clear >= late)
+}
+
+/// The first coefficient that can be told from 0 by numbers this much smaller than all together.
+fn leading(curve: &[f64], resolution: f64) -> Option<usize> {
     let noise = resolution * curve.iter().map(|c| c.abs()).sum::<f64>();
-    let leading = curve.iter().position(|c| c.abs() > noise);
-    leading.is_some_and(|k| k > 0 && curve[k] < 0.0)
+    curve.iter().position(|c| c.abs() > noise)
 }
 
 /// First instant up to `end` at which a watch becomes true: a term rises through zero while the others are ≥ 0.
@@ -271,7 +293,7 @@ pub(super) fn holds(watch: &Watch, mode: &Mode) -> bool {
     })
 }
 
-fn value(curve: &[f64], s: f64) -> f64 {
+pub(super) fn value(curve: &[f64], s: f64) -> f64 {
     if s == 1.0 {
         sum(curve)
     } else {

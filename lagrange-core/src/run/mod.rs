@@ -4,6 +4,7 @@ mod accumulation;
 mod curves;
 mod hits;
 mod log;
+mod region;
 mod rest;
 mod runner;
 mod shares;
@@ -26,7 +27,7 @@ use crate::modes::sharing::{Joint, Sharing};
 use crate::modes::start::{self, Survey};
 use crate::modes::table::Table;
 use crate::pool::Pool;
-use crate::simulation::Settings;
+use crate::simulation::{Held, Settings};
 use crate::system::{System, Watch};
 use crate::trajectory::{EventKind, State, Subject, Trajectory, Work};
 use accumulation::{Impacts, Train};
@@ -66,6 +67,8 @@ pub(crate) struct Run<S: System> {
     guards: Vec<Guard>,
     /// Whether a step can leave the rows of the mode.
     drifts: bool,
+    /// Per contact: the motion is beyond its surface, where it passed outside its region.
+    below: Vec<bool>,
     /// Guards whose leading coefficients vanish at the start of the coming step.
     zeros: Vec<(Guard, usize)>,
     /// Whether `dynamics` holds the Taylor series at the present state.
@@ -77,6 +80,8 @@ pub(crate) struct Run<S: System> {
     fallen: Vec<Guard>,
     /// Slips of two components that come to rest with it.
     rests: Vec<Rest>,
+    /// The mode with those at rest.
+    resting: Mode,
     /// Velocities a little before that.
     earlier: Vec<S::Scalar>,
     stop_below: Vec<Vec<bool>>,
@@ -148,12 +153,14 @@ impl<S: System> Run<S> {
             table: Table::default(),
             guards: Vec::new(),
             drifts: true,
+            below: vec![false; d.contacts.len()],
             zeros: Vec::new(),
             expanded: false,
             valued: false,
             falls: Vec::new(),
             fallen: Vec::new(),
             rests: Vec::new(),
+            resting: mode.clone(),
             earlier: vec![zero; n],
             stop_below: d.stops.iter().map(|w| vec![false; w.terms.len()]).collect(),
             mark_below: d.marks.iter().map(|w| vec![false; w.terms.len()]).collect(),
@@ -190,6 +197,18 @@ impl<S: System> Run<S> {
         self.work_before = self.dynamics.work();
         self.trajectory.scene.clone_from(scene);
         self.watch();
+    }
+
+    /// See [`crate::Simulation::consistent`].
+    fn consistent(
+        &mut self,
+        time: f64,
+        reference: &State<S::Scalar>,
+        wanted: &State<S::Scalar>,
+        held: &Held,
+    ) -> Result<State<S::Scalar>, Error> {
+        let tolerance = self.settings.tolerance;
+        start::consistent(&mut self.dynamics, time, tolerance, reference, wanted, held)
     }
 
     /// Runs from `start` over `span`.
@@ -240,7 +259,12 @@ impl<S: System> Run<S> {
         self.trajectory.modes.clear();
         self.trajectory.modes.push(&self.mode);
         self.hold_guards();
+        self.below.fill(false);
+        for &c in &self.survey.below {
+            self.below[c] = true;
+        }
         self.settle()?;
+        self.finished |= self.has_seen_all();
         while !self.finished && self.t.value() < self.end {
             if self.trajectory.work.steps >= self.settings.max_steps {
                 return Err(self.limit("steps", self.settings.max_steps));
@@ -261,6 +285,7 @@ impl<S: System> Run<S> {
         }
         self.log_marks(end);
         self.remember_sides(end);
+        self.remember_regions(end);
         self.trajectory.push(&self.step, S::Scalar::from_f64(end));
         self.trajectory.work.steps += 1;
         if end > 0.0 {
@@ -291,21 +316,31 @@ impl<S: System> Run<S> {
                     self.stepper.restart();
                     self.switch()?;
                 }
-                Ok(())
             }
             Hit::Stop(stop, _) => {
                 if !self.valued {
                     self.evaluate()?;
                 }
                 self.finish(stop);
-                Ok(())
             }
             Hit::Guards(_) => {
                 self.count_switch()?;
                 self.stepper.restart();
-                self.switch()
+                self.switch()?;
             }
         }
+        self.finished |= self.has_seen_all();
+        Ok(())
+    }
+
+    /// Whether everything has happened that the run is to end after.
+    fn has_seen_all(&self) -> bool {
+        let happened = |(subject, kind): &(Subject, EventKind)| {
+            let mut events = self.trajectory.events.iter();
+            events.any(|e| e.subject == *subject && e.kind.word() == kind.word())
+        };
+        let last = &self.settings.last_events;
+        !last.is_empty() && last.iter().all(happened)
     }
 
     /// Counts a switch; too many at one time, or in all, end the run.

@@ -18,6 +18,10 @@ use crate::trajectory::State;
 pub(super) const JUST_BEFORE: f64 = 0.999;
 /// What may still change until rest, in units of the tolerance.
 const LEFT: f64 = 1.0;
+/// The same for a slip that comes to rest with another one.
+const LEFT_TOGETHER: f64 = 1e3;
+/// A slip that is no larger, beside what it is made of, is none.
+const NOTHING: f64 = 1e-13;
 /// Other methods leave a step to Taylor series if it would be longer than this part of the time to rest.
 const NEAR: f64 = 0.5;
 
@@ -49,13 +53,30 @@ impl<S: System> Run<S> {
         let mut fallen = core::mem::take(&mut self.fallen);
         fallen.retain(|&guard| match guard {
             Guard::Slip(f) if self.turns(f) => {
-                let rest = self.rest(f, end);
+                let rest = self.rest(f, end, LEFT);
                 self.rests.extend(rest);
                 rest.is_some()
             }
             _ => true,
         });
         self.fallen = fallen;
+        self.rest_together(end);
+    }
+
+    /// Other slips that come to rest with those in `rests`, to within what the others leave of them.
+    fn rest_together(&mut self, end: f64) {
+        if self.rests.is_empty() {
+            return;
+        }
+        for f in 0..S::DESCRIPTION.frictions.len() {
+            if self.turns(f)
+                && !self.fallen.contains(&Guard::Slip(f))
+                && let Some(rest) = self.rest(f, end, LEFT_TOGETHER)
+            {
+                self.rests.push(rest);
+                self.fallen.push(Guard::Slip(f));
+            }
+        }
     }
 
     /// After a step up to part `end` in which nothing was hit: whether slips come to rest now. The state then is that at rest,
@@ -66,12 +87,10 @@ impl<S: System> Run<S> {
             return false;
         }
         self.fallen.clear();
-        let mut left = 0.0_f64;
         for f in 0..S::DESCRIPTION.frictions.len() {
             if self.turns(f)
-                && let Some(rest) = self.rest(f, end)
+                && let Some(rest) = self.rest(f, end, LEFT)
             {
-                left = left.max(rest.left);
                 self.rests.push(rest);
                 self.fallen.push(Guard::Slip(f));
             }
@@ -79,6 +98,8 @@ impl<S: System> Run<S> {
         if self.rests.is_empty() {
             return false;
         }
+        let left = self.rests.iter().fold(0.0_f64, |m, rest| m.max(rest.left));
+        self.rest_together(end);
         let left = left.min(self.end - self.t.value()).max(0.0);
         let time = S::Scalar::from_f64(left);
         let half = S::Scalar::from_f64(0.5 * left);
@@ -96,8 +117,9 @@ impl<S: System> Run<S> {
         true
     }
 
-    /// Whether friction `f` comes to rest at part `end` of the step, or so soon after it that nothing changes any more.
-    fn rest(&mut self, f: usize, end: f64) -> Option<Rest> {
+    /// Whether friction `f` comes to rest at part `end` of the step, or so soon after it that what still changes is below so
+    /// many tolerances.
+    fn rest(&mut self, f: usize, end: f64, allowed: f64) -> Option<Rest> {
         let mut slips = [[0.0; 2]; 2];
         for (slip, s) in slips.iter_mut().zip([JUST_BEFORE * end, end]) {
             self.earlier.copy_from_slice(&self.scratch.v);
@@ -116,7 +138,7 @@ impl<S: System> Run<S> {
             return None;
         }
         let parts = speed / fall;
-        let allowed = LEFT * self.settings.tolerance;
+        let allowed = allowed * self.settings.tolerance;
         let changes = |(now, before): (&S::Scalar, &S::Scalar)| {
             let (now, before) = (now.value(), before.value());
             (now - before).abs() * parts > allowed * now.abs().max(1.0)
@@ -146,19 +168,44 @@ impl<S: System> Run<S> {
 
     /// The state at rest exactly, and the forces just before, in the directions that the slips had.
     pub(super) fn come_to_rest(&mut self) -> Result<(), Error> {
-        let mut resting = self.mode.clone();
+        self.resting.clone_from(&self.mode);
         for rest in &self.rests {
-            resting.frictions[rest.friction] = FrictionMode::Stick;
+            self.resting.frictions[rest.friction] = FrictionMode::Stick;
         }
-        self.dynamics.set_mode(&resting);
+        self.dynamics.set_mode(&self.resting);
         self.project(true)?;
-        resting.clone_from(&self.mode);
+        self.rest_of_necessity();
+        self.resting.clone_from(&self.mode);
         for rest in &self.rests {
-            resting.turn(rest.friction, Direction::Incipient(rest.along));
+            let last = Direction::Incipient(rest.along);
+            self.resting.turn(rest.friction, last);
         }
-        self.dynamics.set_mode(&resting);
+        self.dynamics.set_mode(&self.resting);
         self.rests.clear();
         self.evaluate()
+    }
+
+    /// Slips that have vanished with those that were brought to rest: a body with two points at rest is at rest.
+    fn rest_of_necessity(&mut self) {
+        let State { q, v } = &self.state;
+        self.dynamics.set_extra_needs(&self.survey.needs);
+        self.dynamics.tape(self.t, q, v);
+        for f in 0..S::DESCRIPTION.frictions.len() {
+            if !self.turns(f) || self.fallen.contains(&Guard::Slip(f)) {
+                continue;
+            }
+            let slip = self.dynamics.slip(f).map(|s| s.value());
+            if slip[0].hypot(slip[1]) <= NOTHING * self.dynamics.slip_size(f, v) {
+                self.fallen.push(Guard::Slip(f));
+                self.rests.push(Rest {
+                    friction: f,
+                    along: self.dynamics.heading(f).map(|x| x.value()),
+                    left: 0.0,
+                });
+            }
+        }
+        let watched = self.table.of(&self.dynamics);
+        self.dynamics.set_extra_needs(&watched.needs);
     }
 
     /// After the first step of slips that begin: from here on they go along themselves.

@@ -2,14 +2,14 @@
 
 use super::Run;
 use crate::error::Error;
-use crate::simulation::Settings;
+use crate::simulation::{Held, Settings};
 use crate::system::System;
 use crate::trajectory::{State, Trajectory};
 use core::ops::Range;
 
 /// Runs one system again and again: what a run works with is made once, and the trajectory is written into the same memory.
 /// From the second run on nothing is allocated, unless a run meets a mode or needs an amount of recording that none before
-/// did, or has impacts.
+/// did, has impacts, or forces that the motion leaves open.
 ///
 /// Made by [`Simulation::runner`](crate::Simulation::runner).
 #[derive(Debug)]
@@ -36,6 +36,20 @@ impl<S: System> Runner<S> {
     ) -> Result<&Trajectory<S>, Error> {
         self.run.execute(start, span)?;
         Ok(&self.run.trajectory)
+    }
+
+    /// As [`Simulation::consistent`](crate::Simulation::consistent).
+    ///
+    /// # Errors
+    /// [`Error::Projection`] if there is no such state.
+    pub fn consistent(
+        &mut self,
+        time: f64,
+        reference: &State<S::Scalar>,
+        wanted: &State<S::Scalar>,
+        held: &Held,
+    ) -> Result<State<S::Scalar>, Error> {
+        self.run.consistent(time, reference, wanted, held)
     }
 
     /// The trajectory of the last run.

@@ -9,7 +9,8 @@ use crate::dynamics::EvaluationError;
 use crate::error::Error;
 use crate::integrate::taylor::{self, DefectControl, Verdict};
 use crate::integrate::{Integrator, Method, StepError};
-use crate::modes::guard::Guard;
+use crate::modes::guard::{self, Guard};
+use crate::modes::reading::Reading;
 use crate::system::System;
 use crate::trajectory::State;
 
@@ -237,14 +238,48 @@ impl<S: System> Run<S> {
             );
             sampled.map_err(|e| self.error(e))?;
             let hit = self.first_hit();
-            if hit.end() == 0.0 {
-                return Ok(hit);
+            // What happens close to the start is for a method that can make any step.
+            if hit.end() == 0.0 || self.hides_a_start() {
+                return self.taylor_step();
             }
+            let hit = self.refined(hit)?;
             self.evaluate_end(hit.end()).map_err(|e| self.error(e))?;
             if !self.corrects_joints(&hit, &mut corrections) {
                 return Ok(hit);
             }
         }
+    }
+
+    /// Moves the end of a step to where the guard located there vanishes on the dense output: the guard's interpolation has an
+    /// error of its own.
+    fn refined(&mut self, hit: Hit) -> Result<Hit, Error> {
+        const MOST: usize = 5;
+        let (Hit::Guards(located), Some(&guard)) = (&hit, self.fallen.first()) else {
+            return Ok(hit);
+        };
+        let (located, mut s) = (*located, *located);
+        let Some(k) = self.guards.iter().position(|g| *g == guard) else {
+            return Ok(hit);
+        };
+        let slope = |s: f64, curve: &[f64]| {
+            let terms = curve.iter().enumerate().skip(1).rev();
+            terms.fold(0.0, |sum, (k, c)| sum * s + k as f64 * c)
+        };
+        for _ in 0..MOST {
+            self.evaluate_end(s).map_err(|e| self.error(e))?;
+            let value = guard::value(guard, &self.mode, &Reading::Values(&self.dynamics));
+            let change = value / slope(s, self.curves.mode_guard(k));
+            let next = s - change;
+            // Near a double root, or where it lies in the next step, the interpolation has to do.
+            if !(next > 0.0 && next <= 1.0 && (next - located).abs() < 0.1) {
+                return Ok(hit);
+            }
+            s = next;
+            if change.abs() <= 4.0 * f64::EPSILON * s {
+                break;
+            }
+        }
+        Ok(Hit::Guards(s))
     }
 
     fn step_too_small(&self, step: f64) -> Error {

@@ -34,13 +34,16 @@ impl<S: System> Run<S> {
                 Guard::Gap(c) => (known.touching[c], known.arriving[c]) = (true, true),
                 Guard::Slip(f) => known.resting[f] = true,
                 Guard::Branch(b) => known.balanced[b] = true,
+                Guard::Region(c) => known.touching[c] = false,
                 _ => {}
             }
         }
+        self.hand_over();
+        let known = &mut self.survey.known;
         known.located.extend_from_slice(&self.fallen);
         for guard in &self.fallen {
             if let Guard::Joint(k) = *guard {
-                let parts = self.joints[k].parts.iter().map(|&(part, _)| part);
+                let parts = self.joints[k].parts.iter().map(|part| part.guard);
                 self.survey.known.located.extend(parts);
                 let residue = self.joint_residue(&self.joints[k]);
                 let known = &mut self.survey.known;
@@ -82,6 +85,8 @@ impl<S: System> Run<S> {
             known,
         )?;
         self.zeros.clone_from(&self.decider.decision.zeros);
+        let edges = self.fallen.iter().filter(|g| matches!(g, Guard::Region(_)));
+        self.zeros.extend(edges.map(|&edge| (edge, 1)));
         self.set_mode_decided();
         self.expanded = self.decider.decision.expanded;
         if hit || self.rows_have_joined() {

@@ -260,16 +260,26 @@ fn jumps<S: System>(
     let d = S::DESCRIPTION;
     let mut jumps = Vec::new();
     let mut booked = None;
+    let mut last: Option<&State<S::Scalar>> = None;
     for event in trajectory.events.iter() {
-        if event.kind != EventKind::Impact || booked == Some(&event.state) {
-            continue;
-        }
-        // Impacts that follow each other at one instant begin in different states.
-        booked = Some(&event.state);
+        let (from, to) = match event.kind {
+            // Impacts that follow each other at one instant begin in different states.
+            EventKind::Impact if booked != Some(&event.state) => {
+                booked = Some(&event.state);
+                last = Some(&event.state_after);
+                (&event.state, &event.state_after)
+            }
+            // What the last impact left is lost in the infinitely many that follow.
+            EventKind::Accumulates { .. } => match last.take() {
+                Some(left) => (left, &event.state),
+                None => continue,
+            },
+            _ => continue,
+        };
         let mut modes = trajectory.modes.iter();
         let mode = modes.position(|m| *m == event.before).unwrap_or(0);
-        let before = sampler.evaluate(event.time, mode, &event.state)?;
-        let after = sampler.evaluate(event.time, mode, &event.state_after)?;
+        let before = sampler.evaluate(event.time, mode, from)?;
+        let after = sampler.evaluate(event.time, mode, to)?;
         let name = event.subject.name(d);
         let known = work
             .iter()

@@ -28,7 +28,12 @@ pub fn expand(input: TokenStream) -> TokenStream {
     match (&declaration, program) {
         (Some(declaration), Some((mut program, verdicts))) if sink.is_empty() => {
             let mut tokens = emit::emit(&program, &verdicts);
-            if let Ok(derivation) = inspect::derivation(declaration, &mut program, None) {
+            if emit::is_large(&program) {
+                let system = &program.equations.system;
+                tokens.extend(emit::derivation_on_request(system, &input.to_string()));
+            } else if let Ok(derivation) =
+                inspect::derivation(declaration, &mut program, &verdicts, None)
+            {
                 let system = &program.equations.system;
                 tokens.extend(emit::derivation(system, &derivation, &input.to_string()));
             }
@@ -73,11 +78,23 @@ pub fn checked(input: TokenStream) -> Result<(Program, Vec<Verdict>), Diagnostic
 
 fn planned(declaration: &Declaration, sink: &mut Diagnostics) -> Option<(Program, Vec<Verdict>)> {
     let system = model::scoped(declaration, sink);
-    let program = system.and_then(|(system, scope)| {
+    if system
+        .as_ref()
+        .is_some_and(|(system, _)| system.pool.is_full())
+    {
+        return too_large(declaration, sink);
+    }
+    let equations = system.and_then(|(system, scope)| {
         let equations = derive::equations(system, sink)?;
-        Some((plan::plan(equations), scope))
+        Some((equations, scope))
     });
-    match program {
+    if equations
+        .as_ref()
+        .is_some_and(|(equations, _)| equations.system.pool.is_full())
+    {
+        return too_large(declaration, sink);
+    }
+    match equations.map(|(equations, scope)| (plan::plan(equations), scope)) {
         Some((program, _)) if program.equations.system.pool.overflowed() => {
             sink.report(Code::Overflow, &declaration.name, &[]);
             None
@@ -98,6 +115,16 @@ fn planned(declaration: &Declaration, sink: &mut Diagnostics) -> Option<(Program
     }
 }
 
+fn too_large<T>(declaration: &Declaration, sink: &mut Diagnostics) -> Option<T> {
+    let most = symbolic::MOST_OPERANDS;
+    sink.report(
+        Code::TooLarge,
+        &declaration.name,
+        &[&declaration.name, &most],
+    );
+    None
+}
+
 /// What is derived from a struct with its `#[lagrange(…)]` attributes, to be read: in one mode, or in all.
 ///
 /// # Errors
@@ -106,12 +133,13 @@ pub fn inspect(input: TokenStream, mode: Option<&str>) -> Result<inspect::Deriva
     let mut sink = Diagnostics::new();
     let declaration = parse::declaration(input, &mut sink);
     let planned = declaration.and_then(|declaration| {
-        let (program, _) = planned(&declaration, &mut sink)?;
-        Some((declaration, program))
+        let (program, verdicts) = planned(&declaration, &mut sink)?;
+        Some((declaration, program, verdicts))
     });
     match planned {
-        Some((declaration, mut program)) if sink.is_empty() => {
-            inspect::derivation(&declaration, &mut program, mode).map_err(Refusal::Mode)
+        Some((declaration, mut program, verdicts)) if sink.is_empty() => {
+            let derivation = inspect::derivation(&declaration, &mut program, &verdicts, mode);
+            derivation.map_err(Refusal::Mode)
         }
         _ => Err(Refusal::Declaration(sink)),
     }

@@ -84,6 +84,8 @@ fn one(scene: &dyn Scene, out: &mut dyn Write) -> io::Result<()> {
     line(out, "contacts", names(description.contacts, |c| c.name))?;
     line(out, "frictions", names(description.frictions, |f| f.name))?;
     line(out, "stops", names(description.stops, |s| s.name))?;
+    let results = scene.results().iter().map(|(name, _)| *name);
+    line(out, "results (sweep --observe NAME)", results.collect())?;
     writeln!(
         out,
         "ends at t = {} s if nothing ends it before (--until)",

@@ -11,6 +11,7 @@ mod list;
 mod output;
 mod run;
 mod stability;
+mod sweep;
 mod values;
 
 use clap::error::ErrorKind;
@@ -35,6 +36,7 @@ enum Command {
     Accuracy(accuracy::Measure),
     Effects(effects::Effects),
     Stability(stability::Stability),
+    Sweep(sweep::Sweeps),
 }
 
 /// What went wrong, and with it the exit code.
@@ -83,6 +85,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Accuracy(accuracy) => accuracy.execute(),
         Command::Effects(effects) => effects.execute(),
         Command::Stability(stability) => stability.execute(),
+        Command::Sweep(sweep) => sweep.execute(),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -7,6 +7,7 @@ pub mod csv;
 pub mod json;
 pub mod plot;
 pub mod stability;
+pub mod sweep;
 pub mod table;
 
 use clap::ValueEnum;

@@ -210,6 +210,12 @@ pub static CASES: &[Case] = &[
         measure: supports::sled,
     },
     Case {
+        name: "table",
+        scene: "table",
+        trouble: "four legs, four cones: slips in a direction of the grid",
+        measure: supports::table,
+    },
+    Case {
         name: "parallelogram",
         scene: "parallelogram",
         trouble: "one condition too many, two at dead positions",

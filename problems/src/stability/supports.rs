@@ -2,7 +2,7 @@
 
 use super::kit::{closure, event, relative, run, violation};
 use super::{Extent, Figure, Surprise};
-use crate::scenes::hard::{BeamOnSupports, RodOnSupports, Sled};
+use crate::scenes::hard::{BeamOnSupports, RodOnSupports, Sled, Table};
 
 /// 1 unless `flags` are those expected.
 fn wrongly_flagged(flags: &[bool], expected: &[bool]) -> f64 {
@@ -177,5 +177,52 @@ pub fn sled(_: Extent) -> Result<Vec<Figure>, Surprise> {
         Figure::new("creep, m/s", end.v[0].abs(), 1e-14),
         Figure::new("penetration, m", violation(&trajectory)?, 1e-12),
         Figure::new("ledger", closure(&trajectory)?, 1e-11),
+    ])
+}
+
+pub fn table(_: Extent) -> Result<Vec<Figure>, Surprise> {
+    let (mut late, mut off, mut turned, mut sum): (f64, f64, f64, f64) = (0.0, 0.0, 0.0, 0.0);
+    let mut unflagged: f64 = 0.0;
+    let mut books: f64 = 0.0;
+    for direction in [0.0, 0.6, 2.0, 4.0] {
+        let scene = Table {
+            direction,
+            ..Table::default()
+        };
+        let Table {
+            mass,
+            gravity,
+            mu_static,
+            mu_kinetic,
+            rate,
+            ..
+        } = scene;
+        let weight = mass * gravity;
+        let slips = mu_static * weight / rate;
+        let until = 1.5 * slips;
+        let trajectory = run(&scene, Table::STANDING, until)?;
+        for k in ["fore_left", "fore_right", "rear_left", "rear_right"] {
+            let found = event(&trajectory, &format!("grip_{k}"), "slips", 0)?;
+            late = late.max(relative(found.time, slips));
+        }
+        let wait = until - slips;
+        let speed = (0.5 * rate * (until + slips) - mu_kinetic * weight) * wait / mass;
+        let end = trajectory.final_state();
+        let (sin, cos) = direction.sin_cos();
+        off = off.max((end.v[0] - speed * cos).hypot(end.v[1] - speed * sin) / speed);
+        turned = turned.max(end.q[2].abs());
+        let now = trajectory.sampler().at(0.5 * slips)?;
+        let normal: f64 = now.forces[..4].iter().sum();
+        sum = sum.max(relative(normal, weight));
+        unflagged = unflagged.max(wrongly_flagged(&now.undetermined, &[true; 12]));
+        books = books.max(closure(&trajectory)?);
+    }
+    Ok(vec![
+        Figure::new("all legs slip at F = μ m g", late, 1e-12),
+        Figure::new("velocity", off, 1e-11),
+        Figure::new("the table turns, rad", turned, 1e-12),
+        Figure::new("the legs carry", sum, 1e-13),
+        Figure::new("not flagged", unflagged, 0.0),
+        Figure::new("ledger", books, 1e-11),
     ])
 }

@@ -1,7 +1,8 @@
 //! Mistakes in declarations: every file of `compile-fail/` is a struct with mistakes, read in process, and ends with what must
 //! be said about it, one `//~ line:column code message; hint` for each mistake.
 //!
-//! `UPDATE_EXPECT=1 cargo test -p lagrange-tests` writes down what is said now.
+//! `UPDATE_EXPECT=1 cargo test -p lagrange-tests` writes down what is said now, and the page of mistakes in the documentation of
+//! `lagrange-macros`.
 
 use lagrange_engine::diagnostics::Diagnostics;
 use proc_macro2::{TokenStream, TokenTree};
@@ -11,6 +12,79 @@ use std::path::{Path, PathBuf};
 
 /// Marks what is expected.
 const MARK: &str = "//~ ";
+
+/// The page of mistakes: (heading, cases).
+const PAGE: &[(&str, &[&str])] = &[
+    (
+        "Notation",
+        &[
+            "power-stars",
+            "missing-operator",
+            "function-power",
+            "method-call",
+            "rust-if",
+            "number-suffix",
+            "single-equals",
+            "comparison-strict",
+            "or",
+            "missing-comma",
+            "no-name",
+            "inclusive-range",
+        ],
+    ),
+    (
+        "Names and values",
+        &[
+            "unknown-name",
+            "unknown-item",
+            "unknown-function",
+            "friction-unknown-contact",
+            "duplicate-item",
+            "handle-clash",
+            "index-outside",
+            "list-as-potential",
+            "no-value",
+            "generics-lifetime",
+        ],
+    ),
+    (
+        "Mechanics",
+        &[
+            "velocity-in-potential",
+            "velocity-in-gap",
+            "acceleration-in-force",
+            "coordinate-in-start",
+            "no-inertia",
+            "singular-inertia",
+            "constraint-not-linear",
+            "while-on-position",
+            "friction-slip-position",
+            "friction-without-normal",
+            "friction-grows",
+            "restitution-range",
+            "redundant",
+            "redundant-sum",
+            "contradiction",
+            "redundant-while",
+        ],
+    ),
+    (
+        "Units",
+        &[
+            "unit-unknown",
+            "unit-multiple",
+            "unit-ambiguous",
+            "units-added",
+            "units-kinetic",
+            "units-number",
+            "units-der",
+            "units-torque",
+            "units-gap",
+            "units-slip",
+            "units-inferred",
+        ],
+    ),
+];
 
 fn cases() -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("compile-fail");
@@ -102,4 +176,50 @@ fn mistakes_expand_to_rust() {
             .count();
         assert_eq!(errors, expected, "{}", file.display());
     }
+}
+
+/// The documentation of the macro shows wrong declarations with what is said about them: these cases.
+#[test]
+fn the_page_of_mistakes_shows_what_is_said() {
+    let shown: usize = PAGE.iter().map(|(_, names)| names.len()).sum();
+    assert!(shown >= 30, "{shown} cases");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("compile-fail");
+    let mut page = String::from(
+        "Wrong declarations, and what is said about each. A line below the code begins at the token that is wrong; the\n\
+         compiler prints the same as an error there.\n",
+    );
+    for (heading, names) in PAGE {
+        page.push_str(&format!("\n## {heading}\n"));
+        for name in *names {
+            let text = fs::read_to_string(folder.join(format!("{name}.rs"))).expect("a case");
+            page.push_str(&entry(&text));
+        }
+    }
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../lagrange-macros/src/mistakes.md");
+    if std::env::var_os("UPDATE_EXPECT").is_some() {
+        fs::write(&file, page).expect("writable");
+    } else {
+        assert_eq!(fs::read_to_string(&file).expect("the page"), page);
+    }
+}
+
+/// A case with its mistakes below the lines they are in.
+fn entry(text: &str) -> String {
+    let (said, source): (Vec<&str>, Vec<&str>) =
+        text.lines().partition(|line| line.starts_with(MARK));
+    let title = source[0].trim_start_matches("// ");
+    let mut entry = format!("\n### {}\n\n```text\n", title.trim_end_matches('.'));
+    for (number, line) in source.iter().enumerate().skip(1) {
+        entry.push_str(&format!("{line}\n"));
+        for mistake in &said {
+            let (place, rest) = mistake[MARK.len()..].split_once(' ').expect("a place");
+            let (at, column) = place.split_once(':').expect("line:column");
+            let column: usize = column.parse().expect("a column");
+            if at.parse() == Ok(number + 1) {
+                let (code, message) = rest.split_once(' ').expect("a code");
+                entry.push_str(&format!("{}^ {message} [{code}]\n", " ".repeat(column - 1)));
+            }
+        }
+    }
+    entry + "```\n"
 }

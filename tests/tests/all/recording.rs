@@ -1,6 +1,7 @@
 //! Steps do not allocate: what a longer run allocates more is the doubling of its recording.
 
 use lagrange_core::prelude::*;
+use lagrange_problems::scenes::hard::{CueBall, HoopBead, InclineBlock, TurningPush};
 use lagrange_problems::scenes::*;
 use std::alloc::{GlobalAlloc, Layout, System as Heap};
 use std::cell::Cell;
@@ -88,6 +89,13 @@ fn a_step_does_not_allocate() {
     });
     // A constraint that is solved for and projected onto.
     steps_do_not_allocate(&CartesianPendulum::default());
+    // A slip in space that turns for ever.
+    steps_do_not_allocate(&TurningPush {
+        begin: 0.0,
+        jump: 1.0,
+        growth: 0.0,
+        ..TurningPush::default()
+    });
 }
 
 /// All modes of the textbook's scenes and impacts, events and recording included.
@@ -112,4 +120,8 @@ fn a_second_run_does_not_allocate() {
     // Infinitely many impacts, also with friction.
     check(&hard::BouncingBall::default());
     check(&hard::ThrownBall::default());
+    check(&InclineBlock::default());
+    check(&CueBall::default());
+    check(&TurningPush::default());
+    check(&HoopBead::default());
 }

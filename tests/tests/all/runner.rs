@@ -1,6 +1,7 @@
 //! A runner gives what single runs give, run after run; without recording the events stay.
 
 use lagrange_core::prelude::*;
+use lagrange_problems::scenes::hard::{CueBall, HoopBead, InclineBlock, TurningPush};
 use lagrange_problems::scenes::*;
 
 /// Runs a scene from its first start in a new simulation.
@@ -56,6 +57,10 @@ fn every_run_of_a_runner_is_that_of_a_new_simulation() {
     check(&RollingSlippingSphere::default());
     check(&MassOnWheel::default());
     check(&SphereInBowl::default());
+    check(&InclineBlock::default());
+    check(&CueBall::default());
+    check(&TurningPush::default());
+    check(&HoopBead::default());
 }
 
 #[test]

@@ -57,6 +57,7 @@ cases! {
     rod_on_supports "rod-on-supports"
     beam_on_supports "beam-on-supports"
     sled "sled"
+    table "table"
     parallelogram "parallelogram"
     slider_crank "slider-crank"
     long_pendulum "long-pendulum"

@@ -1,12 +1,13 @@
 //! The modes that the known facts allow: each choice of contacts, frictions and branches.
 
-use super::{Known, Moment, slips};
+use super::{Known, Moment, sticks};
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, NeedSet};
 use crate::effects::Item;
 use crate::mode::{Direction, FrictionMode, Mode, Sliding};
 use crate::pool::Pool;
 use crate::system::{Normal, System};
+use core::cmp::Reverse;
 
 /// More candidates than this are not enumerated: some five contacts with friction, or eight without, that may change at
 /// once. Beyond, [`pivot`](super::pivot) finds a mode without looking at all.
@@ -40,7 +41,11 @@ pub fn list_candidates<S: System>(
     if out.len() > MOST_CANDIDATES {
         return false;
     }
-    out.sort_by_key(|m| (slips(m), m != present, changes(m, present)));
+    let closed = |m: &Mode| m.contacts.iter().filter(|c| **c).count();
+    out.sort_by_key(|m| {
+        let held = (Reverse(closed(m)), Reverse(sticks(m)));
+        (held, m != present, changes(m, present))
+    });
     true
 }
 

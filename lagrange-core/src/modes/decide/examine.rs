@@ -1,15 +1,16 @@
 //! Whether one candidate mode is feasible: its guards just after the instant.
 
+use super::questions::{concerns, leading, list_questions, unit_of_order};
 use super::{Decider, Known, Moment};
 use crate::arithmetic::Scalar;
-use crate::dynamics::{Dynamics, EvaluationError, NeedSet};
+use crate::dynamics::{Dynamics, EvaluationError};
 use crate::integrate::{Tolerance, taylor};
-use crate::mode::{Direction, FrictionMode, Mode, Sliding};
+use crate::mode::Mode;
 use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
 use crate::modes::sharing::{self, Joint};
 use crate::modes::table::Table;
-use crate::system::{Normal, System};
+use crate::system::System;
 
 /// Order of the series that are looked at first. Leading coefficients beyond it vanish rarely.
 const LOW_ORDER: usize = 4;
@@ -228,8 +229,8 @@ impl<T: Scalar> Decider<T> {
         let series = &mut series[..=ahead.order];
         let (reading, later) = (Reading::Series(ahead.dynamics), AHEAD * ahead.h);
         for _ in 0..MOST_JOINTS {
-            let found = self.sharing.critical_at(|guard| {
-                guard::series(guard, &self.posed, &reading, series);
+            let found = self.sharing.critical_at(|guard, along| {
+                sharing::side(guard, along, &self.posed, &reading, series);
                 crate::trajectory::horner(series, later)
             });
             let Some(joint) = found else {
@@ -304,133 +305,7 @@ fn is_held<S: System>(guard: Guard, dynamics: &Dynamics<S>) -> bool {
 /// Books what forbids a mode: of a joint guard, its parts.
 fn blame(guard: Guard, joints: &[Joint], violated: &mut Vec<Guard>) {
     match guard {
-        Guard::Joint(index) => violated.extend(joints[index].parts.iter().map(|(g, _)| *g)),
+        Guard::Joint(index) => violated.extend(joints[index].parts.iter().map(|p| p.guard)),
         single => violated.push(single),
-    }
-}
-
-/// The first coefficient of a guard that is not known to vanish, times its factorial, as far as values tell.
-fn leading<S: System>(
-    guard: Guard,
-    order_known: usize,
-    joints: &[Joint],
-    mode: &Mode,
-    dynamics: &Dynamics<S>,
-) -> Option<f64> {
-    let d = S::DESCRIPTION;
-    let acceleration = |row: usize| row_acceleration(row, dynamics);
-    match (guard, order_known) {
-        (_, 0) => Some(sharing::value(
-            guard,
-            joints,
-            mode,
-            &Reading::Values(dynamics),
-        )),
-        (Guard::Gap(c), 2) => Some(acceleration(d.contacts[c].row)),
-        (Guard::Slip(f), 1) => match mode.frictions[f] {
-            FrictionMode::Slip(Sliding {
-                direction: Direction::Fixed([sign, 0.0]),
-                ..
-            }) => Some(sign * acceleration(d.frictions[f].row)),
-            FrictionMode::Slip(Sliding {
-                direction: Direction::Incipient([x, y]),
-                ..
-            }) => {
-                let row = d.frictions[f].row;
-                Some(x * acceleration(row) + y * acceleration(row + 1))
-            }
-            _ => None,
-        },
-        _ => None,
-    }
-}
-
-/// a v̇ + γ of a row at the last value.
-pub(super) fn row_acceleration<S: System>(row: usize, dynamics: &Dynamics<S>) -> f64 {
-    let row = &S::DESCRIPTION.rows[row];
-    let products = row.jacobian.iter().map(|&(j, place)| {
-        let a = dynamics.motion(place) * dynamics.acceleration()[j];
-        a.value()
-    });
-    dynamics.motion(row.bias).value() + products.sum::<f64>()
-}
-
-/// The guards that can be violated just after the instant, with the number of coefficients known to vanish; `held` are
-/// the needs that are evaluated.
-fn list_questions<S: System>(
-    mode: &Mode,
-    known: &Known,
-    held: &NeedSet,
-    list: &mut Vec<(Guard, usize)>,
-) {
-    let d = S::DESCRIPTION;
-    list.clear();
-    for c in 0..d.contacts.len() {
-        if mode.contacts[c] {
-            list.push((Guard::Normal(c), 0));
-        } else if known.touching[c] {
-            list.push((Guard::Gap(c), 2));
-        } else if known.parting[c] {
-            list.push((Guard::Gap(c), 1));
-        }
-    }
-    for f in 0..d.frictions.len() {
-        match mode.frictions[f] {
-            FrictionMode::Inactive => continue,
-            FrictionMode::Stick => {
-                list.extend(guard::stick_guards(f, &d.frictions[f]).map(|g| (g, 0)));
-            }
-            FrictionMode::Slip(_) => {
-                if known.resting[f] {
-                    list.push((Guard::Slip(f), 1));
-                }
-                if let Normal::Constraint(_) = d.frictions[f].normal {
-                    list.push((Guard::Bearing(f), 0));
-                }
-            }
-        }
-    }
-    for b in 0..d.branches.len() {
-        // What nothing in this mode uses decides nothing.
-        if known.balanced[b] && held.contains(d.branches[b].need) {
-            list.push((Guard::Branch(b), 1));
-        }
-    }
-}
-
-/// Whether a guard's leading coefficients carry the error of a located root: it is that root, or belongs to the
-/// same contact (in the mode after, gap and slip accelerations vanish with the force that was located).
-fn concerns(guard: Guard, joints: &[Joint], known: &Known) -> bool {
-    if let Guard::Joint(index) = guard {
-        let mut parts = joints[index].parts.iter();
-        return parts.any(|&(part, _)| concerns(part, &[], known));
-    }
-    known.located.iter().any(|root| {
-        *root == guard
-            || match (*root, guard) {
-                (Guard::Normal(c), Guard::Gap(g)) | (Guard::Gap(c), Guard::Normal(g)) => c == g,
-                (
-                    Guard::StickUpper(f)
-                    | Guard::StickLower(f)
-                    | Guard::StickCone(f)
-                    | Guard::Slip(f)
-                    | Guard::Bearing(f),
-                    Guard::Slip(g)
-                    | Guard::StickUpper(g)
-                    | Guard::StickLower(g)
-                    | Guard::StickCone(g)
-                    | Guard::Bearing(g),
-                ) => f == g,
-                _ => false,
-            }
-    })
-}
-
-/// Powers of h that turn an acceleration or force scale into the unit of the guard.
-fn unit_of_order(guard: Guard, h: f64) -> f64 {
-    match guard {
-        Guard::Gap(_) => h * h,
-        Guard::Slip(_) => h,
-        _ => 1.0,
     }
 }

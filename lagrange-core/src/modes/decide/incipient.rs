@@ -3,10 +3,10 @@
 //! ṡ(u) × u = 0 with ṡ·u > 0. Where the slip begins smoothly (equal coefficients of friction) ṡ vanishes at the answer, but
 //! ṡ × u still changes its sign there.
 
-use super::examine::row_acceleration;
+use super::questions::row_acceleration;
 use super::{Decider, Moment};
 use crate::arithmetic::Scalar;
-use crate::dynamics::{Dynamics, EvaluationError};
+use crate::dynamics::{Dynamics, EvaluationError, solve_small};
 use crate::mode::{Direction, FrictionMode};
 use crate::modes::table::Table;
 use crate::system::System;
@@ -26,6 +26,18 @@ struct Turn {
     across: f64,
 }
 
+/// Memory of the search.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Beginning {
+    /// Frictions whose slips begin, and their angles.
+    frictions: Vec<usize>,
+    angles: Vec<f64>,
+    /// ṡ × u of each, its change with each angle by rows, and what is to be taken from the angles.
+    across: Vec<f64>,
+    matrix: Vec<f64>,
+    right: Vec<f64>,
+}
+
 impl<T: Scalar> Decider<T> {
     /// Finds the directions in which the slips of `self.posed` begin, and writes them there. False: there are none.
     ///
@@ -36,16 +48,19 @@ impl<T: Scalar> Decider<T> {
         table: &mut Table,
         moment: Moment<'_, S::Scalar>,
     ) -> Result<bool, EvaluationError> {
-        let beginning: Vec<usize> = self.posed.incipient().map(|(f, _)| f).collect();
-        let mut angles = self.against_sticking(dynamics, moment, &beginning);
-        self.point(&beginning, &angles);
+        let frictions = &mut self.beginning.frictions;
+        frictions.clear();
+        frictions.extend(self.posed.incipient().map(|(f, _)| f));
+        self.against_sticking(dynamics, moment);
+        self.point();
         dynamics.set_mode(&self.posed);
         dynamics.set_extra_needs(&table.of(dynamics).deciding);
-        let found = match *beginning {
-            [f] => self.look_around(dynamics, moment, f, &mut angles[0])?,
-            _ => settle(dynamics, moment, &beginning, &mut angles)?,
+        let found = if self.beginning.frictions.len() == 1 {
+            self.look_around(dynamics, moment)?
+        } else {
+            self.beginning.settle(dynamics, moment)?
         };
-        self.point(&beginning, &angles);
+        self.point();
         Ok(found)
     }
 
@@ -54,12 +69,14 @@ impl<T: Scalar> Decider<T> {
         &mut self,
         dynamics: &mut Dynamics<S>,
         moment: Moment<'_, S::Scalar>,
-        beginning: &[usize],
-    ) -> Vec<f64> {
+    ) {
         let Moment { t, q, v, .. } = moment;
         let sticking = &mut self.decision.mode;
         sticking.clone_from(&self.posed);
-        for &f in beginning {
+        let Beginning {
+            frictions, angles, ..
+        } = &mut self.beginning;
+        for &f in &*frictions {
             sticking.frictions[f] = FrictionMode::Stick;
         }
         dynamics.set_mode(sticking);
@@ -74,51 +91,118 @@ impl<T: Scalar> Decider<T> {
                 0.0
             }
         };
-        beginning.iter().map(angle).collect()
+        angles.clear();
+        angles.extend(frictions.iter().map(angle));
     }
 
-    /// Writes directions into the candidate.
-    fn point(&mut self, beginning: &[usize], angles: &[f64]) {
-        for (&f, angle) in beginning.iter().zip(angles) {
+    /// Writes the directions into the candidate.
+    fn point(&mut self) {
+        let Beginning {
+            frictions, angles, ..
+        } = &self.beginning;
+        for (&f, angle) in frictions.iter().zip(angles) {
             let along = [angle.cos(), angle.sin()];
             self.posed.turn(f, Direction::Incipient(along));
         }
     }
 
-    /// All directions of one slip: that nearest to `angle`.
+    /// All directions of one slip: that nearest to its angle.
     fn look_around<S: System<Scalar = T>>(
         &mut self,
         dynamics: &mut Dynamics<S>,
         moment: Moment<'_, S::Scalar>,
-        f: usize,
-        angle: &mut f64,
     ) -> Result<bool, EvaluationError> {
+        let (f, guess) = (self.beginning.frictions[0], self.beginning.angles[0]);
         let mut turn = |angle: f64| turn_of(dynamics, moment, f, angle);
         let step = TAU / TRIES as f64;
         // The guess lies within the first interval.
-        let first = *angle - 0.5 * step;
-        let (mut roots, mut largest) = (Vec::new(), 0.0_f64);
+        let first = guess - 0.5 * step;
+        let mut roots = [(0.0, f64::NEG_INFINITY); TRIES];
+        let mut largest = 0.0_f64;
         let mut low = turn(first)?;
-        for k in 0..TRIES {
+        for (k, root) in roots.iter_mut().enumerate() {
             let from = first + step * k as f64;
             let high = turn(from + step)?;
             largest = largest.max(high.along.abs()).max(high.across.abs());
             if (low.across < 0.0) != (high.across < 0.0) {
                 let at = sharpen(&mut turn, (from, low), (from + step, high))?;
-                roots.push((at, turn(at)?.along));
+                *root = (at, turn(at)?.along);
             }
             low = high;
         }
-        roots.retain(|(_, along)| *along > -NOTHING * largest);
-        let far = |at: f64| (at - *angle - TAU * ((at - *angle) / TAU).round()).abs();
-        let nearest = roots.iter().min_by(|a, b| far(a.0).total_cmp(&far(b.0)));
+        let far = |at: f64| (at - guess - TAU * ((at - guess) / TAU).round()).abs();
+        let begins = |least: f64| {
+            let roots = roots.iter();
+            roots.filter(move |(_, along)| *along > least * largest)
+        };
+        let nearest = begins(-NOTHING).min_by(|a, b| far(a.0).total_cmp(&far(b.0)));
         let Some(&(nearest, _)) = nearest else {
             return Ok(false);
         };
-        let clear = |(_, along): &&(f64, f64)| *along > NOTHING * largest;
-        self.forks = roots.iter().filter(clear).count() > 1;
-        *angle = nearest;
+        self.forks = begins(NOTHING).count() > 1;
+        self.beginning.angles[0] = nearest;
         Ok(true)
+    }
+}
+
+impl Beginning {
+    /// ṡ × u of all.
+    fn turn<S: System>(
+        &mut self,
+        dynamics: &mut Dynamics<S>,
+        moment: Moment<'_, S::Scalar>,
+    ) -> Result<(), EvaluationError> {
+        for (&f, angle) in self.frictions.iter().zip(&self.angles) {
+            let (y, x) = angle.sin_cos();
+            dynamics.set_heading(f, [x, y].map(S::Scalar::from_f64));
+        }
+        dynamics.value(moment.t, moment.q, moment.v)?;
+        let across = |&f: &usize| frame_of(dynamics, f).across;
+        self.across.clear();
+        self.across.extend(self.frictions.iter().map(across));
+        Ok(())
+    }
+
+    /// The directions of several slips that begin together, by Newton's method from their angles.
+    fn settle<S: System>(
+        &mut self,
+        dynamics: &mut Dynamics<S>,
+        moment: Moment<'_, S::Scalar>,
+    ) -> Result<bool, EvaluationError> {
+        /// Step of the differences.
+        const SMALL: f64 = 1e-6;
+        let m = self.frictions.len();
+        for _ in 0..MOST_ITERATIONS {
+            self.turn(dynamics, moment)?;
+            self.right.clone_from(&self.across);
+            self.matrix.clear();
+            self.matrix.resize(m * m, 0.0);
+            for j in 0..m {
+                let held = self.angles[j];
+                self.angles[j] = held + SMALL;
+                self.turn(dynamics, moment)?;
+                self.angles[j] = held;
+                for i in 0..m {
+                    self.matrix[i * m + j] = (self.across[i] - self.right[i]) / SMALL;
+                }
+            }
+            if !solve_small(&mut self.matrix, &mut self.right) {
+                return Ok(false);
+            }
+            let mut largest = 0.0_f64;
+            for (angle, by) in self.angles.iter_mut().zip(&self.right) {
+                *angle -= by.clamp(-1.0, 1.0);
+                largest = largest.max(by.abs());
+            }
+            if largest <= 4.0 * f64::EPSILON {
+                break;
+            }
+        }
+        self.turn(dynamics, moment)?;
+        let turns = || self.frictions.iter().map(|&f| frame_of(dynamics, f));
+        let largest = turns().fold(0.0_f64, |m, turn| m.max(turn.along.abs()));
+        let mut turns = turns();
+        Ok(turns.all(|turn| turn.along >= -NOTHING * largest && turn.across.is_finite()))
     }
 }
 
@@ -172,56 +256,4 @@ fn sharpen<E>(
         }
     }
     Ok(b)
-}
-
-/// The directions of several slips that begin together, by Newton's method from `angles`.
-fn settle<S: System>(
-    dynamics: &mut Dynamics<S>,
-    moment: Moment<'_, S::Scalar>,
-    beginning: &[usize],
-    angles: &mut [f64],
-) -> Result<bool, EvaluationError> {
-    /// Step of the differences.
-    const SMALL: f64 = 1e-6;
-    let m = beginning.len();
-    let mut all = |angles: &[f64]| {
-        for (&f, angle) in beginning.iter().zip(angles) {
-            let (y, x) = angle.sin_cos();
-            dynamics.set_heading(f, [x, y].map(S::Scalar::from_f64));
-        }
-        dynamics.value(moment.t, moment.q, moment.v)?;
-        Ok(nalgebra::DVector::from_iterator(
-            m,
-            beginning.iter().map(|&f| frame_of(dynamics, f).across),
-        ))
-    };
-    for _ in 0..MOST_ITERATIONS {
-        let here = all(angles)?;
-        let mut jacobian = nalgebra::DMatrix::zeros(m, m);
-        for j in 0..m {
-            let held = angles[j];
-            angles[j] = held + SMALL;
-            let moved = all(angles)?;
-            angles[j] = held;
-            jacobian.set_column(j, &((moved - &here) / SMALL));
-        }
-        let Some(by) = jacobian.lu().solve(&here) else {
-            return Ok(false);
-        };
-        for (angle, by) in angles.iter_mut().zip(&by) {
-            *angle -= by.clamp(-1.0, 1.0);
-        }
-        if by.amax() <= 4.0 * f64::EPSILON {
-            break;
-        }
-    }
-    all(angles)?;
-    let along = beginning.iter().map(|&f| frame_of(dynamics, f));
-    let turns: Vec<Turn> = along.collect();
-    let largest = turns
-        .iter()
-        .fold(0.0_f64, |m, turn| m.max(turn.along.abs()));
-    Ok(turns
-        .iter()
-        .all(|turn| turn.along >= -NOTHING * largest && turn.across.is_finite()))
 }

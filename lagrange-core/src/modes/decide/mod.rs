@@ -14,6 +14,7 @@ mod guess;
 mod incipient;
 mod known;
 mod pivot;
+mod questions;
 
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError, NeedSet};
@@ -27,6 +28,7 @@ use crate::modes::table::Table;
 use crate::pool::Pool;
 use crate::system::{Description, System};
 use candidates::list_candidates;
+use incipient::Beginning;
 pub use known::{Known, Moment};
 
 /// The mode that goes on.
@@ -71,6 +73,7 @@ pub struct Decider<T> {
     best: Mode,
     /// Whether its slip could begin in another direction.
     forks: bool,
+    beginning: Beginning,
 }
 
 impl<T: Scalar> Decider<T> {
@@ -104,13 +107,14 @@ impl<T: Scalar> Decider<T> {
             posed: Mode::open(description),
             best: Mode::open(description),
             forks: false,
+            beginning: Beginning::default(),
         }
     }
 
     /// Finds the mode in which the motion goes on from a moment, into [`Self::decision`].
     ///
     /// On success `dynamics` is left in that mode. Where a few modes are possible all are looked at; the order of preference among
-    /// feasible ones is: stick before slip, then the present mode, then the fewest changes. Where they are many, see
+    /// feasible ones is: closed before open, stick before slip, then the present mode, then the fewest changes. Where they are many, see
     /// [`pivot`].
     ///
     /// # Errors
@@ -250,13 +254,6 @@ impl<T: Scalar> Decider<T> {
     }
 }
 
-fn slips(mode: &Mode) -> usize {
-    mode.frictions
-        .iter()
-        .filter(|f| matches!(f, FrictionMode::Slip(_)))
-        .count()
-}
-
 fn sticks(mode: &Mode) -> usize {
     mode.frictions
         .iter()
@@ -274,7 +271,7 @@ fn differ<T: Scalar>(a: &[f64], b: &[T]) -> bool {
 fn concerned<S: System>(known: &Known) -> &'static str {
     let d = S::DESCRIPTION;
     let located = known.located.iter().find_map(|g| match *g {
-        Guard::Gap(c) | Guard::Normal(c) => Some(d.contacts[c].name),
+        Guard::Gap(c) | Guard::Normal(c) | Guard::Region(c) => Some(d.contacts[c].name),
         Guard::StickUpper(f)
         | Guard::StickLower(f)
         | Guard::StickCone(f)

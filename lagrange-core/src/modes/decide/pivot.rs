@@ -104,7 +104,7 @@ impl<T: Scalar> Decider<T> {
 /// A fixed order of the guards.
 fn order(guard: &Guard) -> (usize, usize) {
     match *guard {
-        Guard::Gap(c) | Guard::Normal(c) => (0, c),
+        Guard::Gap(c) | Guard::Normal(c) | Guard::Region(c) => (0, c),
         Guard::StickUpper(f) | Guard::StickLower(f) | Guard::StickCone(f) | Guard::Slip(f) => {
             (1, f)
         }
@@ -169,6 +169,7 @@ impl<'a, S: System> Exchange<'a, S> {
                 | Guard::Normal(_)
                 | Guard::Stop(..)
                 | Guard::Mark(..)
+                | Guard::Region(_)
                 | Guard::Joint(_) => {}
             }
         }

@@ -45,6 +45,9 @@ const ASSURANCE: f64 = 120.0;
 /// A root of a square has a random sign: as many points make a wrong sign as improbable.
 const POINTS_WITH_ROOTS: usize = 120;
 
+/// Up to so many roots, all combinations of their signs occur among [`POINTS_WITH_ROOTS`] points.
+const MOST_ROOTS: usize = 2;
+
 /// Branches that are not decided double the work.
 const MOST_BRANCHES: usize = 6;
 
@@ -74,27 +77,45 @@ pub(super) fn exact(pool: &mut Pool, case: &Case) -> Finding {
         return Finding::Open("its degree is too large".to_owned());
     }
     let points = (ASSURANCE / bits).ceil().max(2.0) as usize;
-    let mut impossible = true;
+    let few_roots = roots(pool, &all) <= MOST_ROOTS;
+    let (mut zero, mut different, mut all_certain) = (false, false, true);
     for choice in 0..1_u32 << undecided.len() {
         let mut chosen: Vec<usize> = Vec::new();
         chosen.extend(case.decided.iter().filter(|d| d.1).map(|d| d.0));
         let bits = undecided.iter().enumerate();
         chosen.extend(bits.filter(|(i, _)| choice >> i & 1 == 1).map(|(_, &b)| b));
         match at_points(pool, case, &angles, &chosen, points) {
-            Finding::Zero => impossible = false,
+            Finding::Zero => zero = true,
             Finding::Impossible => {}
             Finding::Different { certain } => {
-                let certain = certain && undecided.is_empty() && angles.are_independent();
-                return Finding::Different { certain };
+                different = true;
+                all_certain &= certain;
             }
             open => return open,
         }
     }
-    if impossible {
-        Finding::Impossible
-    } else {
-        Finding::Zero
+    match (zero, different) {
+        // Whichever sides of the branches are the real ones.
+        (false, true) => Finding::Different {
+            certain: all_certain && few_roots && angles.are_independent(),
+        },
+        (true, true) => Finding::Different { certain: false },
+        (true, false) => Finding::Zero,
+        (false, false) => Finding::Impossible,
     }
+}
+
+/// Number of roots of what is not a number.
+fn roots(pool: &Pool, all: &[ExprId]) -> usize {
+    let mut radicands = BTreeSet::new();
+    for e in pool.iter_reachable(all) {
+        if let Node::Product(factors) = pool.node(e) {
+            let broken = factors.iter().filter(|(_, r)| !r.is_integer());
+            let broken = broken.filter(|&&(base, _)| pool.as_number(base).is_none());
+            radicands.extend(broken.map(|&(base, _)| base));
+        }
+    }
+    radicands.len()
 }
 
 /// All branches in the expressions.
@@ -116,6 +137,7 @@ fn at_points(
     points: usize,
 ) -> Finding {
     let (mut needed, mut seen, mut tried) = (points, 0, 0);
+    let mut zeros = 0;
     while seen < needed {
         if tried >= TRIES.max(8 * needed) {
             return Finding::Open("its roots have no values in the field".to_owned());
@@ -135,6 +157,7 @@ fn at_points(
         match at_point(pool, case, &mut point) {
             Ok((0, _)) => {
                 seen += 1;
+                zeros += 1;
                 if point.0.has_roots() {
                     needed = needed.max(POINTS_WITH_ROOTS);
                 }
@@ -142,10 +165,14 @@ fn at_points(
             Ok((_, Some(name))) => {
                 return Finding::Open(format!("the mode does not determine `{name}`"));
             }
+            // Without roots one point decides. With roots it may have the wrong signs, unless all points differ.
+            Ok((_, None)) if !point.0.is_exact() || zeros > 0 => {
+                return Finding::Different { certain: false };
+            }
+            Ok((_, None)) if !point.0.has_roots() => return Finding::Different { certain: true },
             Ok((_, None)) => {
-                return Finding::Different {
-                    certain: point.0.is_exact() && !point.0.has_roots(),
-                };
+                seen += 1;
+                needed = needed.max(POINTS_WITH_ROOTS);
             }
             Err(Stuck::Impossible) => return Finding::Impossible,
             Err(Stuck::Trouble(Trouble::Beyond)) => {
@@ -154,7 +181,11 @@ fn at_points(
             Err(Stuck::Trouble(Trouble::Division | Trouble::NotSquare)) => {}
         }
     }
-    Finding::Zero
+    match zeros {
+        0 => Finding::Different { certain: true },
+        _ if zeros == seen => Finding::Zero,
+        _ => Finding::Different { certain: false },
+    }
 }
 
 /// Value of the claim, and something it contains that the mode does not determine.

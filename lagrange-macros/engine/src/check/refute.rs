@@ -87,6 +87,9 @@ pub(super) fn search(
             &found,
             &ratios,
         )),
+        None if certain => Search::Counterexample(
+            "the difference shows in exact arithmetic; no state to show it was found".to_owned(),
+        ),
         None => Search::Nothing(states),
     }
 }
@@ -120,8 +123,14 @@ fn words(
     let [left_text, right_text] = distinct(left, right);
     if conserved {
         text += &format!(" its rate is {left_text}");
+    } else if left_text == right_text {
+        text += &format!(" both sides are {left_text} to within rounding, but they are not equal");
     } else {
         text += &format!(" the left side is {left_text}, the right side {right_text}");
+    }
+    if !found.state.feasible {
+        text +=
+            "; no such state was found in which gaps are open, contacts press and friction holds";
     }
     if let [first, rest @ ..] = ratios
         && rest.len() >= 2

@@ -60,8 +60,14 @@ pub(super) fn sample<'a>(pool: &Pool, region: &Region<'a>, seed: u64) -> Result<
         numbers.bind(symbol, random.two_digits(0.3, 2.5));
     }
     numbers.bind(region.time, random.two_digits(0.0, 2.0));
-    // Every other state is a small and slow one.
-    let reach = if seed.is_multiple_of(2) { 0.6 } else { 2.0 };
+    // Every other state is a small and slow one; a few are far away, where a branch may switch.
+    let reach = match seed % 16 {
+        5 => 20.0,
+        11 => 200.0,
+        15 => 2000.0,
+        even if even.is_multiple_of(2) => 0.6,
+        _ => 2.0,
+    };
     for &[q, v, a] in &mechanics.coordinates {
         numbers.bind(q, random.two_digits(-reach, reach));
         numbers.bind(v, random.two_digits(-reach, reach));

@@ -88,6 +88,9 @@ pub(super) fn derive(pool: &mut Pool, x: &Variables, group: &Group) -> Inertia {
 
     let mut raw_mass = BTreeMap::new();
     for &(i, p) in &raw_momenta {
+        if pool.is_full() {
+            break;
+        }
         for j in x.velocities_in(pool, p).into_iter().filter(|&j| j <= i) {
             raw_mass.insert((i, j), pool.differentiate(p, x.velocities[j]));
         }

@@ -67,7 +67,8 @@ pub struct Equations {
     pub structure: Structure<OutputId>,
 }
 
-/// Derives all equations of a system. None if it is structurally singular, which the sink then tells.
+/// Derives all equations of a system. None if it is structurally singular, which the sink then tells. Where the pool is
+/// [full](crate::symbolic::Pool::is_full) they are not complete.
 pub fn equations(system: System, sink: &mut Diagnostics) -> Option<Equations> {
     let mut sheet = Sheet::new(system);
     let groups = euler_lagrange::groups(&mut sheet.system, &sheet.needs);
@@ -108,7 +109,11 @@ pub fn equations(system: System, sink: &mut Diagnostics) -> Option<Equations> {
         branches: outputs::branches(&mut sheet),
         cyclic,
     };
-    regular::check(&sheet.system, &inertias, &structure, &sheet.outputs, sink).then(|| Equations {
+    // Of equations that are not finished nothing can be said.
+    let unfinished = sheet.system.pool.is_full();
+    let regular =
+        unfinished || regular::check(&sheet.system, &inertias, &structure, &sheet.outputs, sink);
+    regular.then(|| Equations {
         needs: sheet.needs.labels,
         system: sheet.system,
         outputs: sheet.outputs,

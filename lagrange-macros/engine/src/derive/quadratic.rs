@@ -116,6 +116,9 @@ impl<'a> Quadratic<'a> {
                 .push(e);
         };
         for (&(i, j), &entry) in self.mass {
+            if pool.is_full() {
+                return;
+            }
             for k in x.positions_in(pool, entry) {
                 let slope = pool.differentiate(entry, x.positions[k]);
                 let minus = pool.neg(slope);

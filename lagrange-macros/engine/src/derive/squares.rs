@@ -17,6 +17,9 @@ use std::collections::BTreeMap;
 /// A sum as (term, number), ascending.
 type Terms = Vec<(ExprId, Rational)>;
 
+/// (i, expression)
+type ByCoordinate = Vec<(usize, ExprId)>;
+
 /// Which squares; a bit each.
 type Set = Vec<u64>;
 
@@ -31,7 +34,7 @@ struct Square {
     /// 2c
     inertia: ExprId,
     /// (j, ∂w/∂vⱼ), without zeros, ascending.
-    slopes: Vec<(usize, ExprId)>,
+    slopes: ByCoordinate,
 }
 
 /// A kinetic energy as a sum of squares.
@@ -101,7 +104,7 @@ impl Squares {
     }
 
     /// (i, ∂T/∂vᵢ)
-    pub fn momenta(&self, pool: &mut Pool) -> Vec<(usize, ExprId)> {
+    pub fn momenta(&self, pool: &mut Pool) -> ByCoordinate {
         let projected = self.projected(pool, &self.speeds);
         let momenta: Vec<_> = projected
             .into_iter()
@@ -118,7 +121,7 @@ impl Squares {
     pub fn forcing(&self, pool: &mut Pool, x: &Variables) -> Vec<ExprId> {
         let mut lists = Vec::with_capacity(self.squares.len());
         let mut twists: Vec<Vec<ExprId>> = vec![Vec::new(); self.size];
-        let mut known: BTreeMap<(usize, ExprId), (ExprId, Vec<(usize, ExprId)>)> = BTreeMap::new();
+        let mut known: BTreeMap<(usize, ExprId), (ExprId, ByCoordinate)> = BTreeMap::new();
         for (square, &w) in self.squares.iter().zip(&self.speeds) {
             let mut rates = Vec::with_capacity(square.slopes.len());
             let mut twist: BTreeMap<usize, Vec<ExprId>> = BTreeMap::new();
@@ -195,6 +198,9 @@ impl Squares {
         // How often a fixed factor meets a direction.
         let mut uses: BTreeMap<(ExprId, ExprId), usize> = BTreeMap::new();
         for i in 0..self.size {
+            if pool.is_full() {
+                break;
+            }
             for j in 0..=i {
                 for (own, set) in &self.directions[i] {
                     for (other, others) in &self.directions[j] {
@@ -352,7 +358,7 @@ fn slopes(
     x: &Variables,
     velocities: &BTreeMap<Symbol, usize>,
     w: ExprId,
-) -> Option<Vec<(usize, ExprId)>> {
+) -> Option<ByCoordinate> {
     let mut parts: BTreeMap<usize, Terms> = BTreeMap::new();
     for (term, number) in terms(pool, w) {
         let factors = match pool.node(term) {
@@ -389,7 +395,7 @@ fn rate_and_twist(
     x: &Variables,
     j: usize,
     slope: ExprId,
-) -> (ExprId, Vec<(usize, ExprId)>) {
+) -> (ExprId, ByCoordinate) {
     let rate = x.rate(pool, slope);
     let mut twist = BTreeMap::from([(j, rate)]);
     for i in x.positions_in(pool, slope) {

@@ -19,7 +19,10 @@ pub fn derivation(system: &System, derivation: &Derivation, declaration: &str) -
         0 | 1 => String::new(),
         _ => print::mermaid(derivation),
     };
-    let on_page = format!("Equations of motion, as derived:\n\n{equations}");
+    let mut on_page = format!("Equations of motion, as derived:\n\n{equations}");
+    for hint in &derivation.hints {
+        on_page.push_str(&format!("\n\nHint: {hint}"));
+    }
     let hover = format!(
         "What was derived: equations of motion, rows, modes, impacts, conserved quantities.\n\n```text\n{}```",
         print::brief(derivation)
@@ -38,6 +41,33 @@ pub fn derivation(system: &System, derivation: &Derivation, declaration: &str) -
                     latex: #latex,
                     equations: #equations,
                     graph: #graph,
+                }
+            }
+        }
+    }
+}
+
+/// The same for a large system, whose equations would fill books: what is said of it says where to ask.
+pub fn on_request(system: &System, declaration: &str) -> TokenStream {
+    let (name, core) = (&system.name, &system.core);
+    let arguments = system.scalar.as_ref().map(|_| quote!(<f64>));
+    let title = name.to_string();
+    let text = format!(
+        "{title} has {} coordinates: its equations are not written out at every build. \
+         `lagrange inspect` and `lagrange_engine::inspect` make them of the declaration.\n",
+        system.coordinates.len()
+    );
+    quote! {
+        #[automatically_derived]
+        #[allow(dead_code)]
+        impl #name #arguments {
+            #[doc = #text]
+            pub fn derivation() -> &'static #core::Derivation {
+                &#core::Derivation {
+                    name: #title,
+                    declaration: #declaration,
+                    text: #text,
+                    ..#core::Derivation::NONE
                 }
             }
         }

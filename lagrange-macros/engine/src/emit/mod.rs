@@ -19,8 +19,13 @@ use crate::plan::Program;
 use proc_macro2::TokenStream;
 use quote::quote;
 
-pub use derivation::derivation;
+pub use derivation::{derivation, on_request as derivation_on_request};
 pub use fallback::fallback;
+
+/// Whether the equations of motion are emitted as data.
+pub fn is_large(program: &Program) -> bool {
+    code::is_large(&program.motion)
+}
 
 /// `impl System` and the handles of a program; [`derivation()`] belongs to it.
 pub fn emit(program: &Program, verdicts: &[Verdict]) -> TokenStream {

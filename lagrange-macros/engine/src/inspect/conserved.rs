@@ -5,7 +5,7 @@ use super::formula::{Formula, Statement};
 use super::letter::Letter;
 use super::motion::MOST_CYCLIC;
 use super::work::Work;
-use crate::symbolic::ExprId;
+use crate::symbolic::{ExprId, Symbol};
 
 impl Work<'_> {
     /// Momenta of cyclic coordinates and the energy.
@@ -114,8 +114,12 @@ impl Work<'_> {
         let pool = self.pool();
         let total = pool.add(t, v);
         let beyond = pool.sub(h, total);
-        let beyond = pool.simplify(beyond);
-        let same = pool.is_zero(beyond);
+        // Two forms of one thing: their difference is zero in numbers, whatever its form.
+        let sample = |k: f64| move |s: Symbol| 0.4 + (k * (s.index() + 1) as f64).fract();
+        let same = [0.618, 0.414].into_iter().all(|k| {
+            let values = pool.evaluate(&[beyond, h], &sample(k), &|_| true);
+            values[0].abs() <= 1e-9 * (1.0 + values[1].abs())
+        });
         let quantity = match same {
             true => Formula::Sum(vec![
                 (false, Formula::Letter(Letter::new("T"))),

@@ -5,8 +5,9 @@ use super::letter::Letter;
 use super::names::Names;
 use super::{Item, Part};
 use crate::ast::{
-    Action, Clause, Contact, Declaration, Element, Friction, FrictionLaw, Head, Index, ItemKind,
-    ModeWord, Observe, Order, Restitution, Start, Trigger, Watch,
+    Action, Check, Claim, Clause, Contact, Declaration, Element, Friction, FrictionLaw, Head,
+    Impacts, Index, ItemKind, ModeWord, Observe, Order, Premise, Reference, Restitution, Start,
+    Trigger, Watch,
 };
 
 /// All items that say something about the system.
@@ -133,8 +134,15 @@ fn written(kind: &ItemKind, names: &Names, items: &mut Vec<Item>) {
                 vec![Part::Formula(quaternion)],
             );
         }
-        // What does not change the equations.
-        _ => {}
+        ItemKind::Check(check) => add("check", name(&check.head), claim(check, names)),
+        ItemKind::Impacts(Impacts::InTurn) => {
+            add(
+                "impacts",
+                String::new(),
+                vec![Part::Word("in turn".to_owned())],
+            );
+        }
+        ItemKind::Impacts(Impacts::Together) => {}
     }
 }
 
@@ -186,6 +194,40 @@ fn friction(friction: &Friction, names: &Names) -> Vec<Part> {
     parts
 }
 
+fn claim(check: &Check, names: &Names) -> Vec<Part> {
+    let word = |text: &str| Part::Word(text.to_owned());
+    let equal = |a, b| Part::Statement(Statement::equal(names.written(a), names.written(b)));
+    let mut parts = match &check.claim {
+        Claim::Equal(left, right) => vec![equal(left, right)],
+        Claim::Conserved(e) => vec![Part::Formula(names.written(e)), word("conserved")],
+    };
+    if !check.premises.is_empty() {
+        parts.push(word("when"));
+    }
+    for (i, premise) in check.premises.iter().enumerate() {
+        if i > 0 {
+            parts.push(word("and"));
+        }
+        parts.push(match premise {
+            Premise::Mode(verb, item) => mode_word(*verb, item),
+            Premise::AtLeast(comparison) => Part::Statement(names.comparison(comparison)),
+            Premise::Equal(left, right) => equal(left, right),
+        });
+    }
+    parts
+}
+
+/// `rim closed`
+fn mode_word(word: ModeWord, item: &Reference) -> Part {
+    let verb = match word {
+        ModeWord::Closed => "closed",
+        ModeWord::Open => "open",
+        ModeWord::Sticks => "sticks",
+        ModeWord::Slips => "slips",
+    };
+    Part::Word(format!("{} {verb}", item.name.text))
+}
+
 fn start(start: &Start, names: &Names) -> Vec<Part> {
     let values = start.values.iter().map(|value| {
         let letter = names.declared(&value.name.text);
@@ -216,15 +258,7 @@ fn trigger(watch: &Watch, names: &Names) -> Vec<Part> {
         Trigger::All(clauses) => {
             let clause = |clause: &Clause| match clause {
                 Clause::Comparison(comparison) => Part::Statement(names.comparison(comparison)),
-                Clause::Mode(word, item) => {
-                    let verb = match word {
-                        ModeWord::Closed => "closed",
-                        ModeWord::Open => "open",
-                        ModeWord::Sticks => "sticks",
-                        ModeWord::Slips => "slips",
-                    };
-                    Part::Word(format!("{} {verb}", item.name.text))
-                }
+                Clause::Mode(word, item) => mode_word(*word, item),
             };
             clauses.iter().map(clause).collect()
         }

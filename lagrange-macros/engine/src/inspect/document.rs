@@ -2,7 +2,7 @@
 
 use super::formula::{Formula, Statement};
 use super::letter::Letter;
-use super::{Derivation, Item, Mode, Part};
+use super::{Checked, Derivation, Item, Mode, Part};
 
 /// Headings that printers look for.
 pub(super) const ENERGIES: &str = "Energies";
@@ -58,9 +58,15 @@ impl Derivation {
         self.all_modes(&mut blocks);
         self.impact_blocks(&mut blocks);
         self.conservation(&mut blocks);
+        self.check_blocks(&mut blocks);
         self.cost_blocks(&mut blocks);
-        for note in &self.notes {
-            blocks.push(Block::Paragraph(vec![words(note)]));
+        for (title, lines) in [("Hints", &self.hints), ("Notes", &self.notes)] {
+            if !lines.is_empty() {
+                blocks.push(Block::Heading(2, title.to_owned()));
+            }
+            for line in lines {
+                blocks.push(Block::Paragraph(vec![words(line)]));
+            }
         }
         blocks
     }
@@ -185,6 +191,18 @@ impl Derivation {
         blocks.push(Block::Table(rows.collect()));
     }
 
+    fn check_blocks(&self, blocks: &mut Vec<Block>) {
+        if self.checks.is_empty() {
+            return;
+        }
+        blocks.push(Block::Heading(2, "Checks".to_owned()));
+        let rows = self
+            .checks
+            .iter()
+            .map(|check| vec![vec![words(title(check))], vec![words(&check.outcome)]]);
+        blocks.push(Block::Table(rows.collect()));
+    }
+
     fn cost_blocks(&self, blocks: &mut Vec<Block>) {
         blocks.push(Block::Heading(2, "Operations".to_owned()));
         let header = ["effect", "every formula alone", "shared"];
@@ -207,6 +225,14 @@ impl Derivation {
             ]
         });
         blocks.push(Block::Table([header].into_iter().chain(rows).collect()));
+    }
+}
+
+/// A check by its name; what it claims stands among the declared items.
+fn title(check: &Checked) -> &str {
+    match check.name.as_str() {
+        "" => &check.claim,
+        name => name,
     }
 }
 
@@ -234,6 +260,13 @@ fn mode_blocks(mode: &Mode, blocks: &mut Vec<Block>) {
     blocks.push(Block::Equations(
         equations.map(|e| (Vec::new(), e.clone())).collect(),
     ));
+    if !mode.solution.is_empty() {
+        blocks.push(Block::Paragraph(vec![words("hence")]));
+        let solution = mode.solution.iter();
+        blocks.push(Block::Equations(
+            solution.map(|e| (Vec::new(), e.clone())).collect(),
+        ));
+    }
     if !mode.guards.is_empty() {
         let rows = mode.guards.iter().map(|guard| {
             vec![
@@ -258,6 +291,7 @@ fn said(item: &Item) -> Vec<Piece> {
         match (i, part) {
             (0, _) => {}
             (_, Part::Word(word)) if word == ":" => {}
+            (_, Part::Word(word)) if word.starts_with("restitution") => pieces.push(words(", ")),
             (_, Part::Word(_)) => pieces.push(words(" ")),
             _ if after_word => pieces.push(words(" ")),
             _ => pieces.push(words(", ")),

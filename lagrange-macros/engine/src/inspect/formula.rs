@@ -74,8 +74,10 @@ pub enum Relation {
 }
 
 impl Statement {
-    /// `left = right`
+    /// `left = right`, without a sign on the left.
     pub fn equal(left: Formula, right: Formula) -> Statement {
+        let (minus, left) = left.signed();
+        let right = if minus { right.negated() } else { right };
         Statement::new(left, Relation::Equal, right)
     }
 

@@ -14,6 +14,7 @@ mod motion;
 mod names;
 pub mod print;
 mod readable;
+mod solved;
 mod switches;
 #[cfg(test)]
 mod tests;
@@ -21,6 +22,7 @@ mod work;
 mod written;
 
 use crate::ast::Declaration;
+use crate::check::{Outcome, Verdict};
 use crate::plan::Program;
 
 pub use formula::{Formula, Relation, Statement};
@@ -58,10 +60,25 @@ pub struct Derivation {
     pub impacts: Vec<Impact>,
     /// What does not change, or why it changes.
     pub conserved: Vec<Conserved>,
+    /// What the user's checks came to.
+    pub checks: Vec<Checked>,
     /// Number of operations of the equations of motion.
     pub costs: Vec<Cost>,
+    /// What may be meant otherwise than it is written.
+    pub hints: Vec<String>,
     /// What was left out for length, and the like.
     pub notes: Vec<String>,
+}
+
+/// A check and how far it is known to hold.
+#[derive(Clone, Debug)]
+pub struct Checked {
+    /// Its name, or empty.
+    pub name: String,
+    /// What is claimed, and when.
+    pub claim: String,
+    /// `proven in 2 modes`, or how it was tested.
+    pub outcome: String,
 }
 
 /// What a letter means.
@@ -136,6 +153,8 @@ pub struct Mode {
     pub unknowns: Vec<Letter>,
     /// What determines them.
     pub equations: Vec<Statement>,
+    /// Unknowns in closed form, those for which it is short.
+    pub solution: Vec<Statement>,
     /// What must hold, and what happens if it does not.
     pub guards: Vec<Guard>,
     /// Operations of its equations of motion, shared.
@@ -208,11 +227,29 @@ pub struct Cost {
 pub fn derivation(
     declaration: &Declaration,
     program: &mut Program,
+    verdicts: &[Verdict],
     mode: Option<&str>,
 ) -> Result<Derivation, UnknownMode> {
     // Reading needs the pool for itself; it is put back as it was, but for forms that nothing refers to.
     let mut pool = std::mem::take(&mut program.equations.system.pool);
     let result = work::derivation(declaration, program, &mut pool, mode);
     program.equations.system.pool = pool;
-    result
+    let mut derivation = result?;
+    derivation.checks = verdicts.iter().map(checked).collect();
+    Ok(derivation)
+}
+
+fn checked(verdict: &Verdict) -> Checked {
+    let outcome = match &verdict.outcome {
+        Outcome::Proven { modes: 1 } => "proven in one mode".to_owned(),
+        Outcome::Proven { modes } => format!("proven in {modes} modes"),
+        Outcome::Tested { states, because } => {
+            format!("tested at {states} random states, not proven: {because}")
+        }
+    };
+    Checked {
+        name: verdict.name.clone(),
+        claim: verdict.claim.clone(),
+        outcome,
+    }
 }

@@ -5,11 +5,14 @@ use super::motion::Known;
 use super::work::Work;
 use super::{Guard, Mode};
 use crate::model::{Level, Normal, System};
-use crate::symbolic::{ExprId, Symbol};
+use crate::symbolic::{ExprId, Rational, Symbol};
 use std::fmt;
 
 /// Of more modes only those with no contact closed, one, or all are shown.
 const MOST_SHOWN: u128 = 24;
+
+/// Systems with more coordinates are not solved.
+const MOST_SOLVED: usize = 6;
 
 /// How a friction acts.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -307,6 +310,7 @@ impl Work<'_> {
         for (i, state) in choice.frictions.iter().enumerate() {
             equations.extend(self.sliding(i, *state));
         }
+        let solution = self.solution(choice, (&acting, &loaded), &pins, &replaced);
         let guards = self.guards(choice, &replaced);
         let [operations, with_guards] = self.operations(choice);
         Mode {
@@ -314,10 +318,74 @@ impl Work<'_> {
             known: known.into_iter().map(|(_, statement)| statement).collect(),
             unknowns,
             equations,
+            solution,
             guards,
             operations,
             with_guards,
         }
+    }
+
+    /// Accelerations and multipliers in closed form; nothing for friction that makes the equations nonlinear.
+    fn solution(
+        &mut self,
+        choice: &Choice,
+        (acting, loaded): (&[usize], &[usize]),
+        pins: &[(usize, usize, ExprId)],
+        known: &Known,
+    ) -> Vec<Statement> {
+        let system = &self.program.equations.system;
+        if !self.solves || system.coordinates.len() > MOST_SOLVED {
+            return Vec::new();
+        }
+        let mut residuals = Vec::new();
+        for i in 0..system.coordinates.len() {
+            let mut terms = self.load_terms(i, loaded, known);
+            for term in self.inertia_terms(i, known) {
+                terms.push(self.pool().neg(term));
+            }
+            residuals.push(self.pool().sum(&terms));
+        }
+        for &row in acting {
+            if !pins.iter().any(|&(pinned, ..)| pinned == row) {
+                residuals.push(self.acceleration_residual(row, known));
+            }
+        }
+        for (i, state) in choice.frictions.iter().enumerate() {
+            let sign = match state {
+                State::Inactive | State::Sticks => continue,
+                State::Forward => Rational::ONE,
+                State::Backward => Rational::MINUS_ONE,
+                State::Slips => return Vec::new(),
+            };
+            let item = &system.frictions[i];
+            let normal = match item.normal {
+                Normal::Contact(contact) => {
+                    let contact = &system.contacts[contact];
+                    let force = self.pool().leaf(contact.force);
+                    match contact.normal_factor {
+                        Some(factor) => self.pool().mul(force, factor),
+                        None => force,
+                    }
+                }
+                Normal::Constraint(_) => return Vec::new(),
+                Normal::Given(e) => e,
+            };
+            let pool = self.pool();
+            let strength = pool.mul(item.kinetic_coefficient, normal);
+            let strength = pool.scale(strength, sign);
+            let force = pool.leaf(item.slip[0].1);
+            let law = pool.add(force, strength);
+            residuals.push(pool.substitute(law, known));
+        }
+        let mut unknowns: Vec<Symbol> = Vec::new();
+        for (i, coordinate) in system.coordinates.iter().enumerate() {
+            if !pins.iter().any(|&(_, pinned, _)| pinned == i) {
+                unknowns.push(coordinate.acceleration);
+            }
+        }
+        let multipliers = self.multipliers();
+        unknowns.extend(loaded.iter().map(|&row| multipliers[row]));
+        self.solved(&residuals, &unknowns)
     }
 
     /// Rows that say coordinate = value, with the value: (row, coordinate, value).
@@ -519,7 +587,7 @@ impl Work<'_> {
 
 /// |a| of one component, √(a² + b²) of two.
 fn norm(components: &[Formula]) -> Formula {
-    let two = || Box::new(Formula::Number(crate::symbolic::Rational::integer(2)));
+    let two = || Box::new(Formula::Number(Rational::integer(2)));
     match components {
         [one] => Formula::Absolute(Box::new(one.clone())),
         many => {

@@ -174,8 +174,16 @@ impl Work<'_> {
         self.side_by_side(&terms)
     }
 
-    /// a v̇ = −γ
-    pub fn acceleration(&mut self, row: usize, known: &Known) -> Statement {
+    /// a v̇ + γ
+    pub fn acceleration_residual(&mut self, row: usize, known: &Known) -> ExprId {
+        let (left, bias) = self.acceleration_sides(row);
+        let pool = self.pool();
+        let residual = pool.add(left, bias);
+        pool.substitute(residual, known)
+    }
+
+    /// a v̇, and γ.
+    fn acceleration_sides(&mut self, row: usize) -> (ExprId, ExprId) {
         let numbers = &self.program.equations.structure.rows[row];
         let mut terms = Vec::new();
         for &(j, entry) in &numbers.jacobian {
@@ -186,23 +194,18 @@ impl Work<'_> {
             terms.push(pool.mul(entry, acceleration));
         }
         let bias = self.output(numbers.bias);
+        (self.pool().sum(&terms), bias)
+    }
+
+    /// a v̇ = −γ
+    pub fn acceleration(&mut self, row: usize, known: &Known) -> Statement {
+        let (left, bias) = self.acceleration_sides(row);
         let pool = self.pool();
-        let left = pool.sum(&terms);
         let left = pool.substitute(left, known);
         let right = pool.neg(bias);
         let right = pool.substitute(right, known);
         let (left, right) = (self.reader.formula(left), self.reader.formula(right));
-        match (left.signed(), right.signed()) {
-            // Not −a = −b, and not −a = 0.
-            ((true, left), (true, right)) => Statement::equal(left, right),
-            ((true, left), (_, Formula::Number(n))) if n.is_zero() => {
-                Statement::equal(left, Formula::ZERO)
-            }
-            ((minus, left), (other, right)) => {
-                let sign = |minus: bool, f: Formula| if minus { f.negated() } else { f };
-                Statement::equal(sign(minus, left), sign(other, right))
-            }
-        }
+        Statement::equal(left, right)
     }
 
     /// The slip, or the rate of a constraint or gap.

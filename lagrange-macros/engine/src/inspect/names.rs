@@ -41,7 +41,7 @@ pub struct Names {
 }
 
 /// Letters that physicists write before others in a product, class by class.
-const FIRST: [&str; 3] = ["mMIJ", "kc", "g"];
+const FIRST: [&str; 3] = ["mMIJ", "kcμ", "g"];
 
 impl Names {
     /// Letters of everything that a system names.
@@ -141,6 +141,11 @@ impl Names {
     /// How a symbol is written.
     pub fn symbol(&self, symbol: Symbol) -> Option<&Known> {
         self.symbols.get(&symbol)
+    }
+
+    /// What a letter stands for.
+    pub fn of_letter(&self, letter: &Letter) -> Option<&Known> {
+        self.symbols.values().find(|known| known.letter == *letter)
     }
 
     /// The letter of a symbol.

@@ -5,8 +5,9 @@
 //! on it: forms made here are only read.
 
 use super::formula::{Formula, Relation, Statement};
-use super::names::{Kind, Names};
+use super::names::{Kind, Known, Names};
 use crate::symbolic::{ExprId, Function, Node, Pool, Rational};
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 
 /// Sums that would have more terms are not multiplied out.
@@ -28,6 +29,18 @@ pub struct Reader<'a> {
     /// Guards of the branches.
     guards: Vec<ExprId>,
     known: BTreeMap<ExprId, Formula>,
+    seen: RefCell<BTreeMap<ExprId, Contents>>,
+}
+
+/// What an expression is made of.
+#[derive(Clone, Copy)]
+struct Contents {
+    /// The last kind of its symbols.
+    latest: Option<Kind>,
+    /// The first of its symbols.
+    symbol: usize,
+    /// The first place that one of its symbols has among its kind.
+    order: usize,
 }
 
 /// Where a factor stands in a product, then among its like.
@@ -70,7 +83,13 @@ impl<'a> Reader<'a> {
             names,
             guards,
             known: BTreeMap::new(),
+            seen: RefCell::default(),
         }
+    }
+
+    /// The pool, to look at.
+    pub fn peek(&self) -> &Pool {
+        self.pool
     }
 
     /// The pool, to build what is to be written.
@@ -159,19 +178,47 @@ impl<'a> Reader<'a> {
     }
 
     /// Whether it holds parameters and time only.
-    fn is_still(&self, e: ExprId) -> bool {
+    pub fn is_still(&self, e: ExprId) -> bool {
         self.is_below(e, Kind::Position)
     }
 
     /// Whether all its symbols are of a kind before this one.
     fn is_below(&self, e: ExprId, kind: Kind) -> bool {
-        let symbols = self.pool.symbols(e);
-        let below = |s| self.names.symbol(s).is_some_and(|known| known.kind < kind);
-        symbols.into_iter().all(below)
+        self.contents(e).latest.is_none_or(|latest| latest < kind)
+    }
+
+    /// What an expression is made of; once for each.
+    fn contents(&self, e: ExprId) -> Contents {
+        if let Some(known) = self.seen.borrow().get(&e) {
+            return *known;
+        }
+        let mut contents = Contents {
+            latest: None,
+            symbol: usize::MAX,
+            order: usize::MAX,
+        };
+        if let Node::Symbol(symbol) = self.pool.node(e) {
+            let known = self.names.symbol(*symbol);
+            contents.latest = Some(known.map_or(Kind::Force, |known| known.kind));
+            contents.symbol = symbol.index();
+            contents.order = known.map_or(usize::MAX, |known| known.order);
+        }
+        let mut children = Vec::new();
+        self.pool
+            .node(e)
+            .for_each_child(|child| children.push(child));
+        for child in children {
+            let inner = self.contents(child);
+            contents.latest = contents.latest.max(inner.latest);
+            contents.symbol = contents.symbol.min(inner.symbol);
+            contents.order = contents.order.min(inner.order);
+        }
+        self.seen.borrow_mut().insert(e, contents);
+        contents
     }
 
     /// Products over moving sums multiplied out; `None` if that is too long.
-    fn multiplied_out(&mut self, e: ExprId) -> Option<ExprId> {
+    pub fn multiplied_out(&mut self, e: ExprId) -> Option<ExprId> {
         let mut terms = Vec::new();
         self.open(e, (Rational::ONE, Vec::new()), &mut terms)?;
         let mut list = Vec::new();
@@ -339,14 +386,14 @@ impl<'a> Reader<'a> {
             let first = keyed.remove(first);
             keyed.insert(0, first);
         }
-        let mut terms: Vec<(bool, Formula)> = keyed
+        let mut terms: Vec<Formula> = keyed
             .iter()
-            .map(|(_, c, factors)| self.term(*c, factors, None).signed())
+            .map(|(_, c, factors)| self.term(*c, factors, None))
             .collect();
         if hidden > 0 {
-            terms.push((false, Formula::More(hidden)));
+            terms.push(Formula::More(hidden));
         }
-        let inner = Formula::Sum(terms);
+        let inner = Formula::sum(terms);
         if c.is_one() && common.is_empty() {
             return inner;
         }
@@ -405,8 +452,23 @@ impl<'a> Reader<'a> {
                 plus => plus,
             };
             minus ^= negative;
-            if let Formula::Product(_) | Formula::Fraction(..) = formula {
+            if let Formula::Fraction(..) = formula {
                 rank.0 = MOVING_SUM;
+            }
+            // A sum with its common factors in front: they stand among the others.
+            if let Formula::Product(parts) = formula {
+                if exponent.is_one() {
+                    above.extend(parts.into_iter().map(|part| (self.place_of(&part), part)));
+                } else {
+                    rank.0 = MOVING_SUM;
+                    let formula = Formula::Product(parts);
+                    let list = match exponent.is_negative() {
+                        true => &mut below,
+                        false => &mut above,
+                    };
+                    list.push((rank, raised(formula, exponent)));
+                }
+                continue;
             }
             let list = match exponent.is_negative() {
                 true => &mut below,
@@ -451,35 +513,31 @@ impl<'a> Reader<'a> {
         if minus { whole.negated() } else { whole }
     }
 
+    /// The rank of a factor that is a formula already.
+    fn place_of(&self, f: &Formula) -> Rank {
+        match f {
+            Formula::Number(_) => (NUMBER, 0, 0),
+            Formula::Letter(letter) => self
+                .names
+                .of_letter(letter)
+                .map_or((MOVING_SUM, 0, 0), rank_of),
+            Formula::Power(base, _) => self.place_of(base),
+            Formula::Call(..) => (FUNCTION, usize::MAX, 0),
+            _ => (MOVING_SUM, 0, 0),
+        }
+    }
+
     fn rank(&self, e: ExprId) -> Rank {
         match self.pool.node(e) {
             Node::Number(_) => (NUMBER, 0, 0),
             Node::Pi => (1, 0, 0),
             Node::Symbol(symbol) => match self.names.symbol(*symbol) {
-                Some(known) => {
-                    let kind = match known.kind {
-                        Kind::Parameter => PARAMETER,
-                        Kind::Time => 3,
-                        Kind::Position => 4,
-                        Kind::Velocity => 6,
-                        Kind::Acceleration => 7,
-                        Kind::Force => 8,
-                    };
-                    (kind, known.order, 0)
-                }
+                Some(known) => rank_of(known),
                 None => (9, symbol.index(), 0),
             },
-            Node::Call(..) => {
-                let first = self.pool.symbols(e).first().map_or(0, |s| s.index());
-                (FUNCTION, first, e.index())
-            }
+            Node::Call(..) => (FUNCTION, self.contents(e).symbol, e.index()),
             // A sum of masses stands where masses stand.
-            Node::Sum { .. } if self.is_still(e) => {
-                let symbols = self.pool.symbols(e);
-                let orders = symbols.iter().filter_map(|s| self.names.symbol(*s));
-                let first = orders.map(|known| known.order).min();
-                (PARAMETER, first.unwrap_or(usize::MAX), e.index())
-            }
+            Node::Sum { .. } if self.is_still(e) => (PARAMETER, self.contents(e).order, e.index()),
             _ => (MOVING_SUM, 0, e.index()),
         }
     }
@@ -511,6 +569,18 @@ impl<'a> Reader<'a> {
         let condition = Statement::new(self.full(guard), Relation::AtLeast, Formula::ZERO);
         Formula::Cases(Box::new(condition), then, otherwise)
     }
+}
+
+fn rank_of(known: &Known) -> Rank {
+    let kind = match known.kind {
+        Kind::Parameter => PARAMETER,
+        Kind::Time => 3,
+        Kind::Position => 4,
+        Kind::Velocity => 6,
+        Kind::Acceleration => 7,
+        Kind::Force => 8,
+    };
+    (kind, known.order, 0)
 }
 
 /// base^|exponent|
@@ -564,14 +634,28 @@ fn take_common(terms: &mut [(Rational, Factors)]) -> (Rational, Factors) {
     let (mut over, mut under) = (0, 1);
     for (c, _) in terms.iter() {
         over = gcd(over, c.numerator().unsigned_abs());
-        under = under / gcd(under, c.denominator().unsigned_abs()) * c.denominator().unsigned_abs();
+        let denominator = c.denominator().unsigned_abs();
+        under = (under / gcd(under, denominator)).saturating_mul(denominator);
     }
     let minus = terms.iter().all(|(c, _)| c.is_negative());
     let number = match (i128::try_from(over), i128::try_from(under)) {
-        (Ok(over), Ok(under)) if under == 1 || !common.is_empty() => {
-            Rational::new(if minus { -over } else { over }, under)
+        (Ok(over), Ok(1)) => Rational::new(if minus { -over } else { over }, 1),
+        // Of fractions the one that most terms have.
+        _ if !common.is_empty() => {
+            let size = |c: Rational| c.checked_abs().unwrap_or(c);
+            let having = |n: Rational| terms.iter().filter(|(c, _)| size(*c) == n).count();
+            let often = terms
+                .iter()
+                .map(|(c, _)| size(*c))
+                .max_by_key(|&n| (having(n), n));
+            let often = often.filter(|&n| 2 * having(n) > terms.len() && !n.is_integer());
+            often.and_then(|n| if minus { n.checked_neg() } else { Some(n) })
         }
         _ => None,
+    };
+    let number = match number {
+        None if minus && !common.is_empty() => Some(Rational::MINUS_ONE),
+        number => number,
     };
     // A sign alone is not worth parentheses.
     let number = number.filter(|n| !(common.is_empty() && *n == Rational::MINUS_ONE));
@@ -580,23 +664,12 @@ fn take_common(terms: &mut [(Rational, Factors)]) -> (Rational, Factors) {
     };
     let quotients: Option<Vec<Rational>> =
         terms.iter().map(|(c, _)| c.checked_div(number)).collect();
-    // Not ½ (a − 2 b): a fraction in front must spare more numbers than it makes.
-    let spares = |quotients: &Vec<Rational>| {
-        let units = quotients.iter().filter(|q| q.is_unit()).count();
-        number.is_integer() || 2 * units > quotients.len()
-    };
-    match quotients.filter(spares) {
+    match quotients {
         Some(quotients) => {
             for ((c, _), quotient) in terms.iter_mut().zip(quotients) {
                 *c = quotient;
             }
             (number, common)
-        }
-        None if minus => {
-            for (c, _) in terms.iter_mut() {
-                *c = c.checked_neg().unwrap_or(*c);
-            }
-            (Rational::MINUS_ONE, common)
         }
         None => (Rational::ONE, common),
     }

@@ -11,6 +11,9 @@ use crate::model::System;
 use crate::plan::Program;
 use crate::symbolic::{ExprId, Pool, Symbol};
 
+/// Of more modes none is solved in closed form, unless it is asked for alone.
+const MOST_SOLVED: usize = 8;
+
 /// Branches that are told of.
 const MOST_BRANCHES: usize = 12;
 
@@ -19,6 +22,8 @@ pub(super) struct Work<'a> {
     pub program: &'a Program,
     pub names: &'a Names,
     pub reader: Reader<'a>,
+    /// Whether modes are solved: not where there are many.
+    pub solves: bool,
 }
 
 impl Work<'_> {
@@ -80,8 +85,10 @@ pub(super) fn derivation(
         program,
         names: &names,
         reader: Reader::new(pool, &names, guards),
+        solves: true,
     };
     let chosen = modes::choose(&work, mode)?;
+    work.solves = chosen.shown.len() <= MOST_SOLVED;
     let structure = &program.equations.structure;
     let kinetic = work.kinetic();
     let potential = work.formula_of(structure.energy.1);
@@ -107,6 +114,9 @@ pub(super) fn derivation(
             motion.len()
         ));
     }
+    if !work.solves {
+        notes.push("Closed forms are shown for one mode at a time.".to_owned());
+    }
     for branch in system.branches.iter().take(MOST_BRANCHES) {
         notes.push(format!(
             "Piecewise: {} has two sides; each side is smooth, and changing sides is an event.",
@@ -128,7 +138,9 @@ pub(super) fn derivation(
         switches,
         impacts,
         conserved,
+        checks: Vec::new(),
         costs,
+        hints: system.hints.iter().map(|hint| hint.text.clone()).collect(),
         notes,
     })
 }

@@ -6,7 +6,7 @@ use super::reach::{Context, Reach};
 use super::value::Value;
 use crate::ast::{Decimal, Expr, ExprKind, Factor, Index, Name, Range, Reference, Sign};
 use crate::diagnostics::{Code, Extent};
-use crate::symbolic::{ExprId, Rational};
+use crate::symbolic::{ExprId, MOST_OPERANDS, Rational};
 
 /// What sums and indexed items may unroll to.
 const MOST_ELEMENTS: i64 = 10_000;
@@ -391,6 +391,11 @@ impl Elaboration<'_> {
         let (from, to) = self.bounds(&index.range)?;
         let mut values = Vec::new();
         for k in from..to {
+            if self.system.pool.is_full() {
+                let (name, most) = (self.system.name.clone(), MOST_OPERANDS);
+                self.sink.report(Code::TooLarge, at, &[&name, &most]);
+                return None;
+            }
             let value = self.with_index(&index.name, k, |this| this.value(body, context))?;
             if let Some(first) = values.first() {
                 self.fits(first, &value, at)?;

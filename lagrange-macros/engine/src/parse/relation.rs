@@ -53,10 +53,25 @@ pub(super) fn comparison(
     })
 }
 
-/// `left == right`
-pub(super) fn equation(cursor: &mut Cursor, sink: &mut Diagnostics) -> Option<(Expr, Expr)> {
+/// For [`equation`]: what is read, and what to do where another relation stands.
+pub(super) const CONSTRAINT: (&str, &str) = (
+    "constraint",
+    "an equation is written `a == b`; one-sided conditions are contacts: `contact(name: a >= b)`",
+);
+/// The same for a check.
+pub(super) const CHECK: (&str, &str) = (
+    "check",
+    "what is to be proven is an equation `a == b`; conditions stand behind it: `when a >= b`",
+);
+
+/// `left == right` of a constraint or check; `hint` says what to do where another relation stands.
+pub(super) fn equation(
+    cursor: &mut Cursor,
+    (of, hint): (&str, &str),
+    sink: &mut Diagnostics,
+) -> Option<(Expr, Expr)> {
     if let Some(mut inside) = invisible(cursor, sink) {
-        let found = equation(&mut inside, sink)?;
+        let found = equation(&mut inside, (of, hint), sink)?;
         leftover(&mut inside, sink)?;
         return Some(found);
     }
@@ -66,12 +81,7 @@ pub(super) fn equation(cursor: &mut Cursor, sink: &mut Diagnostics) -> Option<(E
     } else if cursor.take("==").is_none() {
         match cursor.operator() {
             Some(other @ (">=" | "<=" | ">" | "<" | "!=")) => {
-                let hint = "an equation is written `a == b`; one-sided conditions are contacts: `contact(name: a >= b)`";
-                sink.report(
-                    Code::WrongRelation,
-                    cursor.here(),
-                    &[&other, &"constraint", &hint],
-                );
+                sink.report(Code::WrongRelation, cursor.here(), &[&other, &of, &hint]);
             }
             _ if cursor.is_at_end() => {
                 sink.report(
@@ -111,7 +121,7 @@ pub(super) fn equation_or_comparison(
         }
     };
     if is_equation {
-        equation(cursor, sink).map(|(left, right)| Premise::Equal(left, right))
+        equation(cursor, CHECK, sink).map(|(left, right)| Premise::Equal(left, right))
     } else {
         comparison(cursor, "`a >= b` or `a == b`", sink).map(Premise::AtLeast)
     }

@@ -56,6 +56,9 @@ impl Pool {
         let Node::Product(factors) = self.node(e) else {
             return e;
         };
+        if self.is_full() {
+            return e;
+        }
         let (sums, rest): (Vec<_>, Vec<_>) = factors
             .iter()
             .partition(|&&(base, exponent)| self.is_power_of_sum(base, exponent));

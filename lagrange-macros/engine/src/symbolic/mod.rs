@@ -31,7 +31,7 @@ mod traverse;
 mod trigonometry;
 
 pub use node::{ExprId, Function, Node, Symbol};
-pub use pool::Pool;
+pub use pool::{MOST_OPERANDS, Pool};
 pub use rational::Rational;
 
 #[cfg(test)]

@@ -6,6 +6,10 @@ use super::table::Table;
 use super::trigonometry::Square;
 use super::{ExprId, Node, Rational, Symbol};
 
+/// With more expressions and operands than these a pool is full: a derivation that needs them would take a build,
+/// unoptimised, half a minute and more.
+pub const MOST_OPERANDS: usize = 1_000_000;
+
 /// All expressions of a system.
 pub struct Pool {
     pub(super) nodes: Vec<Node>,
@@ -19,6 +23,8 @@ pub struct Pool {
     leaves: Vec<ExprId>,
     pub(super) pi: Option<ExprId>,
     pub(super) overflow: bool,
+    /// Nodes, and the operands of each.
+    size: usize,
     /// Work done by rewriting: terms and nodes looked at.
     pub(super) effort: u64,
     /// Per direction of differentiation: which memo.
@@ -54,6 +60,7 @@ impl Pool {
             leaves: Vec::new(),
             pi: None,
             overflow: false,
+            size: 0,
             effort: 0,
             directions: Memo::default(),
             derivatives: Vec::new(),
@@ -165,6 +172,11 @@ impl Pool {
         self.nodes.len()
     }
 
+    /// Whether there are too many. Work that builds more stops then, and what it has built is of no use.
+    pub fn is_full(&self) -> bool {
+        self.size > MOST_OPERANDS
+    }
+
     /// Whether nothing has been built.
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()
@@ -208,6 +220,8 @@ impl Pool {
         };
         let id = self.nodes.len() as u32;
         self.table[at] = id + 1;
+        self.size += 1;
+        node.for_each_child(|_| self.size += 1);
         let facts = self.facts_of(hash, &node);
         self.facts.push(facts);
         self.nodes.push(node);

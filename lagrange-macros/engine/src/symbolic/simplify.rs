@@ -18,7 +18,7 @@ impl Pool {
         let never = |_: &Pool, _| false;
         let simplified = self.ascend(e, &mut known, never, |pool, e, known| {
             let e = pool.with_children(e, known);
-            if pool.effort > limit {
+            if pool.effort > limit || pool.is_full() {
                 e
             } else {
                 pool.cheapest(e)

@@ -10,7 +10,7 @@ use lagrange_core::prelude::*;
 /// α and β are the integrals of the angular velocity about x and y: all that a ball needs.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    coordinates(x, y, z, alpha, beta),
+    coordinates(x: "m", y: "m", z: "m", alpha: "rad", beta: "rad"),
     kinetic   = mass/2 * (der(x)^2 + der(y)^2 + der(z)^2) + mass * radius^2 / 5 * (der(alpha)^2 + der(beta)^2),
     potential = mass * gravity * z,
     contact(cloth: z >= radius),
@@ -20,18 +20,25 @@ use lagrange_core::prelude::*;
 )]
 pub struct CueBall<T = f64> {
     /// Mass, kg.
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Radius, m.
+    #[lagrange(unit = "m", symbol = "R")]
     pub radius: T,
     /// Gravitational acceleration, m/s².
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// Coefficient of friction.
+    #[lagrange(unit = "1", symbol = "mu")]
     pub mu: T,
     /// Speed at the start, m/s.
+    #[lagrange(unit = "m/s", symbol = "v_0")]
     pub speed: T,
     /// Spin about the direction of the speed, rad/s.
+    #[lagrange(unit = "rad/s")]
     pub spin: T,
     /// Spin about the horizontal across it, rad/s; speed/radius rolls.
+    #[lagrange(unit = "rad/s")]
     pub follow: T,
 }
 

@@ -13,7 +13,7 @@ use lagrange_core::prelude::*;
 /// while θ grows. It stops on its way back and stays where |tan θ| < μ.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    coordinates(r, theta),
+    coordinates(r: "m", theta: "rad"),
     kinetic   = mass/2 * (der(r)^2 + r^2 * der(theta)^2),
     potential = -mass * gravity * r * cos(theta),
     constraint(wire: r == radius),
@@ -22,14 +22,19 @@ use lagrange_core::prelude::*;
 )]
 pub struct HoopBead<T = f64> {
     /// Mass, kg.
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Gravitational acceleration, m/s².
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// Radius of the hoop, m.
+    #[lagrange(unit = "m", symbol = "R")]
     pub radius: T,
     /// Coefficient of friction.
+    #[lagrange(unit = "1", symbol = "mu")]
     pub mu: T,
     /// Angular velocity at the bottom at the start, rad/s.
+    #[lagrange(unit = "rad/s", symbol = "omega")]
     pub rate: T,
 }
 

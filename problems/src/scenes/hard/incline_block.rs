@@ -15,7 +15,7 @@ use lagrange_core::prelude::*;
 /// n = 1 it never stops: v (1 + cos ψ) = v₀.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    coordinates(x, y, z),
+    coordinates(x: "m", y: "m", z: "m"),
     kinetic   = mass/2 * (der(x)^2 + der(y)^2 + der(z)^2),
     potential = mass * gravity * (z * cos(slope) - y * sin(slope)),
     contact(plane: z >= 0),
@@ -24,14 +24,19 @@ use lagrange_core::prelude::*;
 )]
 pub struct InclineBlock<T = f64> {
     /// Mass, kg.
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Gravitational acceleration, m/s².
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// Angle of the incline, rad.
+    #[lagrange(unit = "rad", symbol = "alpha")]
     pub slope: T,
     /// Coefficient of friction.
+    #[lagrange(unit = "1", symbol = "mu")]
     pub mu: T,
     /// Speed across at the start, m/s.
+    #[lagrange(unit = "m/s", symbol = "v_0")]
     pub speed: T,
 }
 

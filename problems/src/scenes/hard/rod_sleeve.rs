@@ -9,7 +9,7 @@ use lagrange_core::prelude::*;
 /// however rough the rod. From rest the normal force is zero at the start.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    coordinates(x, y),
+    coordinates(x: "m", y: "m"),
     kinetic = mass/2 * (der(x)^2 + der(y)^2),
     constraint(rod: y * cos(rate * t) == x * sin(rate * t)),
     friction(rub on rod: slip = der(x) * cos(rate * t) + der(y) * sin(rate * t), static = mu, kinetic = mu),
@@ -18,14 +18,19 @@ use lagrange_core::prelude::*;
 )]
 pub struct RodSleeve<T = f64> {
     /// Mass, kg.
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Rate ω of the rod, rad/s.
+    #[lagrange(unit = "rad/s", symbol = "omega")]
     pub rate: T,
     /// Coefficient of friction.
+    #[lagrange(unit = "1", symbol = "mu")]
     pub mu: T,
     /// Distance from the axle at the start, m.
+    #[lagrange(unit = "m")]
     pub distance: T,
     /// Speed inwards at the start, m/s.
+    #[lagrange(unit = "m/s", symbol = "v_0")]
     pub speed: T,
 }
 

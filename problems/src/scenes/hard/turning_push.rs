@@ -10,7 +10,7 @@ use lagrange_core::prelude::*;
 /// slaved to the force by an equation that is singular there; before t = 0 the same force holds it at rest.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
-    coordinates(x, y, z),
+    coordinates(x: "m", y: "m", z: "m"),
     define(
         since = t - begin,
         rho = jump * since + growth * since^2 / 2,
@@ -28,20 +28,28 @@ use lagrange_core::prelude::*;
 )]
 pub struct TurningPush<T = f64> {
     /// Mass, kg.
+    #[lagrange(unit = "kg", symbol = "m")]
     pub mass: T,
     /// Gravitational acceleration, m/s².
+    #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// Time at which the slip is made to begin, s.
+    #[lagrange(unit = "s")]
     pub begin: T,
     /// Acceleration of the slip at first, m/s².
+    #[lagrange(unit = "m/s^2")]
     pub jump: T,
     /// Rate at which it grows, m/s³.
+    #[lagrange(unit = "m/s^3")]
     pub growth: T,
     /// Rate ω at which the slip turns, rad/s.
+    #[lagrange(unit = "rad/s", symbol = "omega")]
     pub turn: T,
     /// Coefficient of static friction.
+    #[lagrange(unit = "1", symbol = "mu_s")]
     pub mu_static: T,
     /// Coefficient of kinetic friction.
+    #[lagrange(unit = "1", symbol = "mu_k")]
     pub mu_kinetic: T,
 }
 

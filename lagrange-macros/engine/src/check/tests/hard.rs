@@ -79,6 +79,24 @@ fn small_mistakes_count() {
             ),
         );
     }
+    let found = refuted(POINT, "m g", "x == x*(1 + 1e-30)");
+    assert!(
+        found.contains("to within rounding, but they are not equal"),
+        "{found}"
+    );
+    let pendulum = "coordinates(x, y), kinetic = m/2*(der(x)^2 + der(y)^2), potential = m*g*y,
+        constraint(rod: sqrt(x^2 + y^2) == l)";
+    proven(pendulum, "m g l", "rod == m*(g*y - der(x)^2 - der(y)^2)/l");
+    refuted(
+        pendulum,
+        "m g l",
+        "rod == (1 + 1e-20)*m*(g*y - der(x)^2 - der(y)^2)/l",
+    );
+    refuted(
+        pendulum,
+        "m g l",
+        "rod == if(x >= 0, 1 + 1e-20, 1 - 1e-20)*m*(g*y - der(x)^2 - der(y)^2)/l",
+    );
     // Multiples of the primes of both fields.
     refuted(
         POINT,
@@ -177,6 +195,8 @@ fn branches() {
     );
     refuted(bumper, "m k gap0", "der(der(x)) == -k/m*(x - gap0)");
     refuted(bumper, "m k gap0", "m*der(der(x)) == -k*abs(x - gap0)");
+    // Wrong only far away.
+    refuted(bumper, "m k gap0", "min(x, 500) == x");
     // A closed contact pushes.
     proven(SHELL, "m g radius", "abs(shell) == shell");
     proven(SHELL, "m g radius", "max(gap(shell), 0) == gap(shell)");
@@ -282,4 +302,54 @@ fn ways_to_write_it() {
         ),
         ["proven in 1"; 4]
     );
+}
+
+#[test]
+fn long_chains() {
+    let chain = "coordinates(theta[12]),
+        define(
+            x[k in 0..12] = sum(i in 0..k + 1: l*sin(theta[i])),
+            y[k in 0..12] = -sum(i in 0..k + 1: l*cos(theta[i]))),
+        kinetic = sum(k in 0..12: m/2*(der(x[k])^2 + der(y[k])^2)),
+        potential = sum(k in 0..12: m*g*y[k])";
+    proven(chain, "m g l", "conserved energy");
+    // The momentum of the whole about the support.
+    proven(
+        chain,
+        "m g l",
+        "der(sum(k in 0..12: m*(x[k]*der(y[k]) - y[k]*der(x[k])))) == -sum(k in 0..12: m*g*x[k])",
+    );
+    refuted(
+        chain,
+        "m g l",
+        "der(sum(k in 0..12: m*(x[k]*der(y[k]) - y[k]*der(x[k])))) == -sum(k in 0..11: m*g*x[k])",
+    );
+}
+
+#[test]
+fn mistakes_in_writing_are_told() {
+    let told = |check: &str| judged(SHELL, "m g radius", &format!("check({check})")).join(" | ");
+    for (check, code) in [
+        ("", "E002"),
+        ("shell", "E001"),
+        ("shell = m*g", "E006"),
+        ("shell >= m*g", "E015 `>=` does not make a check"),
+        ("shell == m*g when", "E001"),
+        ("shell == m*g when closed", "E011"),
+        ("shell == m*g when shell", "E011"),
+        ("shell == m*g when closed(shell) or open(shell)", "E024"),
+        ("shell == m*g when closed(shell), 2", "E016"),
+        ("shell == m*g when sticks(shell)", "E206"),
+        (
+            "shell == m*g while closed(shell)",
+            "E001 expected `when`, found `while`",
+        ),
+        ("m: shell == m*g", "E202"),
+        ("conserved der(der(x))", "E404"),
+        ("conserved shell", "E404"),
+        ("[x, y] == [y, x]", "E302"),
+    ] {
+        let found = told(check);
+        assert!(found.contains(code), "{check}: {found}");
+    }
 }

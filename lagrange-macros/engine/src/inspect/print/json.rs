@@ -7,13 +7,14 @@
 //!   "energies":  { "kinetic": F, "potential": F },
 //!   "motion":    [{ "coordinate": F, "equation": S }],
 //!   "rows":      [{ "name", "kind", "declared": S, "acceleration": S, "multiplier": F, "acts" }],
-//!   "mode_count", "modes": [{ "name", "known": [S], "unknowns": [F], "equations": [S],
+//!   "mode_count", "modes": [{ "name", "known": [S], "unknowns": [F], "equations": [S], "solution": [S],
 //!                 "guards": [{ "while": S, "otherwise" }], "operations", "operations_with_guards" }],
 //!   "switches":  [{ "from", "to", "label" }]        indices of modes
 //!   "impacts":   [{ "contact", "when": [S, S], "equations": [S], "note" }],
 //!   "conserved": [{ "name", "quantity": S, "rate": S | null, "when" }],
+//!   "checks":    [{ "name", "claim", "outcome" }],
 //!   "operations": [{ "effect", "alone", "shared" }],
-//!   "notes":     [text] }
+//!   "hints":     [text], "notes": [text] }
 //!
 //! F = { "text", "latex" }        S = { "left": F, "relation": "=" | ">=" | "<=" | ">" | "<", "right": F }
 //! ```
@@ -77,6 +78,7 @@ pub fn json(d: &Derivation) -> String {
             ("known", list(mode.known.iter().map(statement))),
             ("unknowns", list(mode.unknowns.iter().map(letter))),
             ("equations", list(mode.equations.iter().map(statement))),
+            ("solution", list(mode.solution.iter().map(statement))),
             ("guards", list(guards)),
             ("operations", mode.operations.to_string()),
             ("operations_with_guards", mode.with_guards.to_string()),
@@ -108,6 +110,13 @@ pub fn json(d: &Derivation) -> String {
             ("when", quoted(&item.when)),
         ])
     });
+    let checks = d.checks.iter().map(|check| {
+        object(&[
+            ("name", quoted(&check.name)),
+            ("claim", quoted(&check.claim)),
+            ("outcome", quoted(&check.outcome)),
+        ])
+    });
     let operations = d.costs.iter().map(|cost| {
         object(&[
             ("effect", quoted(&cost.name)),
@@ -129,7 +138,9 @@ pub fn json(d: &Derivation) -> String {
         ("switches", list(switches)),
         ("impacts", list(impacts)),
         ("conserved", list(conserved)),
+        ("checks", list(checks)),
         ("operations", list(operations)),
+        ("hints", list(d.hints.iter().map(|hint| quoted(hint)))),
         ("notes", list(d.notes.iter().map(|note| quoted(note)))),
     ]);
     whole + "\n"

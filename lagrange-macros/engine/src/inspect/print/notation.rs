@@ -2,7 +2,7 @@
 
 use crate::inspect::formula::{Formula, Relation, Statement};
 use crate::inspect::letter::Letter;
-use crate::symbolic::Rational;
+use crate::symbolic::{Function, Rational};
 
 /// How tightly a formula binds.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -219,7 +219,9 @@ fn call(
     match arguments {
         [one] => {
             let short = matches!(one, Formula::Letter(_) | Formula::Pi | Formula::Number(_));
-            n.call(name, exponent, &formula(n, one), bare && short)
+            // `slip(grip)` is no function of numbers.
+            let known = Function::from_name(name.trim_start_matches("arc")).is_some();
+            n.call(name, exponent, &formula(n, one), bare && short && known)
         }
         many => {
             let list: Vec<String> = many.iter().map(|a| formula(n, a)).collect();

@@ -4,8 +4,9 @@
 //! already written for r = radius, the multiplier is that of a coordinate without any: zero.
 
 use crate::model::elaborate::Elaboration;
-use crate::model::{Hint, Level};
+use crate::model::{Coordinate, Hint, Level};
 use crate::symbolic::{ExprId, Symbol};
+use std::collections::{BTreeMap, BTreeSet};
 
 impl Elaboration<'_> {
     /// Remarks on coordinates that only constraints and gaps contain.
@@ -38,9 +39,14 @@ impl Elaboration<'_> {
             .chain(slips)
             .chain(velocity.map(|constraint| constraint.residual))
             .collect();
-        let mut used: Vec<Symbol> = acting.iter().flat_map(|&e| pool.symbols(e)).collect();
+        let mut used: BTreeSet<Symbol> = acting.iter().flat_map(|&e| pool.symbols(e)).collect();
         let driven = system.forces.iter().flat_map(|force| &force.generalized);
         used.extend(driven.map(|(coordinate, _)| system.coordinates[*coordinate].position));
+        let coordinates: BTreeMap<Symbol, &Coordinate> = system
+            .coordinates
+            .iter()
+            .map(|coordinate| (coordinate.position, coordinate))
+            .collect();
         let mut hints = Vec::new();
         let positions = system
             .constraints
@@ -55,12 +61,13 @@ impl Elaboration<'_> {
                     .map(|contact| (&contact.name, contact.gap)),
             );
         for (name, row) in rows {
-            let symbols = pool.symbols(row);
-            let absorbed = system.coordinates.iter().find(|coordinate| {
-                symbols.contains(&coordinate.position)
-                    && !used.contains(&coordinate.position)
-                    && !used.contains(&coordinate.velocity)
-            });
+            let symbols = pool.symbols(row).into_iter();
+            let absorbed =
+                symbols
+                    .filter_map(|symbol| coordinates.get(&symbol))
+                    .find(|coordinate| {
+                        !used.contains(&coordinate.position) && !used.contains(&coordinate.velocity)
+                    });
             if let Some(coordinate) = absorbed {
                 let text = format!(
                     "`{0}` occurs in `{1}` but in no energy or force: if the energies are already written for `{1}`, its force comes out as zero; write them with `{0}`, as if it were free",

@@ -8,7 +8,12 @@
 use super::{Pfaffian, STATES, ZERO, gradient, is_plain, slopes};
 use crate::diagnostics::Code;
 use crate::model::elaborate::Elaboration;
-use crate::model::{Contact, Hint, Level};
+use crate::model::{Hint, Level};
+use crate::symbolic::ExprId;
+use std::collections::BTreeMap;
+
+/// Elimination of larger systems of constraints would take longer than the derivation.
+const MOST_OPERATIONS: usize = 3_000_000;
 
 /// A row at one state: its numbers, and the combination of independent rows that they are.
 #[derive(Clone)]
@@ -88,6 +93,9 @@ enum Subject {
 impl Elaboration<'_> {
     /// Reports constraints that say nothing new, and those that contradict others.
     pub(super) fn dependent(&mut self, rows: &[Pfaffian]) {
+        if rows.len() * rows.len() * self.system.coordinates.len() > MOST_OPERATIONS {
+            return;
+        }
         let mut always = Together {
             basis: vec![Basis::default(); STATES as usize],
             independent: Vec::new(),
@@ -128,15 +136,14 @@ impl Elaboration<'_> {
 
     /// Reports gaps that are declared twice, and slips whose two components are one.
     pub(super) fn same_twice(&mut self) {
-        let contacts = &self.system.contacts;
-        for (i, contact) in contacts.iter().enumerate() {
-            let same = |other: &&Contact| {
-                other.gap == contact.gap && other.region.is_none() && contact.region.is_none()
-            };
-            if let Some(first) = contacts[..i].iter().find(same) {
-                let (text, first) = (&contact.name.text, format!("`{}`", first.name.text));
-                self.sink
-                    .report(Code::Redundant, contact.name.span, &[text, &first]);
+        let mut gaps: BTreeMap<ExprId, usize> = BTreeMap::new();
+        let everywhere = self.system.contacts.iter().enumerate();
+        for (i, contact) in everywhere.filter(|(_, contact)| contact.region.is_none()) {
+            let first = *gaps.entry(contact.gap).or_insert(i);
+            if first != i {
+                let first = format!("`{}`", self.system.contacts[first].name.text);
+                let (text, at) = (&contact.name.text, contact.name.span);
+                self.sink.report(Code::Redundant, at, &[text, &first]);
             }
         }
         let velocities = self.velocities();

@@ -13,8 +13,8 @@ use crate::model::{Hint, Level};
 
 const CONSTRAINT: Context = Context::new(Reach::Motion, "a constraint");
 
-/// Rows with more coordinates are not looked at: their second derivatives are too many.
-const MOST_COORDINATES: usize = 40;
+/// More second derivatives than this are not taken.
+const MOST_DERIVATIVES: usize = 5_000;
 
 impl Elaboration<'_> {
     /// Remarks on velocity constraints that could be written on positions.
@@ -141,7 +141,7 @@ impl Elaboration<'_> {
             (0..symbols.len()).filter(occurs).collect()
         };
         let columns = occurring(self, all);
-        if columns.len() > MOST_COORDINATES {
+        if rows.len() * columns.len() * columns.len() > MOST_DERIVATIVES {
             return false;
         }
         let coefficient = |row: &Pfaffian, j: usize| *row.slope.get(j).unwrap_or(&row.bias);

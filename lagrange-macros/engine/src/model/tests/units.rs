@@ -135,6 +135,10 @@ fn wrong_units_are_told_at_the_term() {
             "3:16 E704 a dissipation is in W, and this is in J; is a `der(…)` missing?",
         ),
         (
+            "contact(c: y >= 0), check(c == m*l when closed(c))",
+            "3:32 E706 compares kg m with N; a factor in 1/s² is missing",
+        ),
+        (
             "start(s: der(x) = l)",
             "3:19 E704 `der(x)` is in m/s, and this is in m; is a `der(…)` missing?",
         ),

@@ -276,7 +276,7 @@ impl Checker<'_, '_> {
         let force = forces.first()?;
         for other in &forces {
             let (one, another) = (self.unknowns.read(force)?, self.unknowns.read(other)?);
-            if self.unknowns.equate(&one, &another).is_err() {
+            if self.unknowns.conflict(&one, &another).is_some() {
                 let (one, another) = (self.phrase(&one, true), self.phrase(&another, true));
                 let hint = "both components of a slip are velocities, in m/s";
                 self.mistake(
@@ -346,7 +346,7 @@ impl Checker<'_, '_> {
         let newton =
             self.unknowns
                 .times(&self.energy, &Dimension::LENGTH.into(), Rational::MINUS_ONE);
-        let Err((newton, force)) = self.unknowns.equate(&newton, &force) else {
+        let Some((newton, force)) = self.unknowns.conflict(&newton, &force) else {
             return Some(());
         };
         let hint = match kind {

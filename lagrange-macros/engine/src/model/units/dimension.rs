@@ -6,7 +6,7 @@ use crate::symbolic::Rational;
 const BASE: [&str; 7] = ["kg", "m", "s", "A", "K", "mol", "cd"];
 
 /// Units with names of their own that are used in texts: (symbol, powers of kg, m, s, A).
-const NAMED: [(&str, [i64; 4]); 11] = [
+const NAMED: [(&str, [i32; 4]); 11] = [
     ("N", [1, 1, -2, 0]),
     ("J", [1, 2, -2, 0]),
     ("W", [1, 2, -3, 0]),
@@ -22,11 +22,31 @@ const NAMED: [(&str, [i64; 4]); 11] = [
 
 /// kg^a m^b s^c A^d K^e mol^f cd^g
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(in crate::model) struct Dimension([Rational; 7]);
+pub(in crate::model) struct Dimension([Exponent; 7]);
+
+/// p/q in lowest terms: exponents are small, and there are many of them.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+struct Exponent(i32, i32);
+
+impl Exponent {
+    const ZERO: Exponent = Exponent(0, 1);
+
+    fn new(value: Rational) -> Option<Exponent> {
+        let numerator = i32::try_from(value.numerator()).ok()?;
+        Some(Exponent(
+            numerator,
+            i32::try_from(value.denominator()).ok()?,
+        ))
+    }
+
+    fn value(self) -> Rational {
+        Rational::new(i128::from(self.0), i128::from(self.1)).unwrap_or(Rational::ZERO)
+    }
+}
 
 impl Dimension {
     /// A plain number.
-    pub const ONE: Dimension = Dimension([Rational::ZERO; 7]);
+    pub const ONE: Dimension = Dimension([Exponent::ZERO; 7]);
     /// kg
     pub const MASS: Dimension = Dimension::mechanical(1, 0, 0);
     /// m
@@ -37,27 +57,27 @@ impl Dimension {
     pub const ENERGY: Dimension = Dimension::mechanical(1, 2, -2);
 
     /// kg^a m^b s^c
-    pub const fn mechanical(mass: i64, length: i64, time: i64) -> Dimension {
+    pub const fn mechanical(mass: i32, length: i32, time: i32) -> Dimension {
         Dimension::electrical([mass, length, time, 0])
     }
 
     /// kg^a m^b s^c A^d
-    pub const fn electrical([mass, length, time, current]: [i64; 4]) -> Dimension {
+    pub const fn electrical([mass, length, time, current]: [i32; 4]) -> Dimension {
         Dimension([
-            Rational::integer(mass),
-            Rational::integer(length),
-            Rational::integer(time),
-            Rational::integer(current),
-            Rational::ZERO,
-            Rational::ZERO,
-            Rational::ZERO,
+            Exponent(mass, 1),
+            Exponent(length, 1),
+            Exponent(time, 1),
+            Exponent(current, 1),
+            Exponent::ZERO,
+            Exponent::ZERO,
+            Exponent::ZERO,
         ])
     }
 
     /// The base unit with this index: K 4, mol 5, cd 6.
     pub const fn base(index: usize) -> Dimension {
-        let mut exponents = [Rational::ZERO; 7];
-        exponents[index] = Rational::ONE;
+        let mut exponents = [Exponent::ZERO; 7];
+        exponents[index] = Exponent(1, 1);
         Dimension(exponents)
     }
 
@@ -68,22 +88,24 @@ impl Dimension {
 
     /// Whether a power of kg is in it.
     pub fn has_mass(self) -> bool {
-        !self.0[0].is_zero()
+        self.0[0] != Exponent::ZERO
     }
 
     /// self · otherʳ; `None` if an exponent does not fit.
     pub fn times(self, other: Dimension, r: Rational) -> Option<Dimension> {
         let mut product = self;
         for (exponent, more) in product.0.iter_mut().zip(other.0) {
-            *exponent = exponent.checked_add(more.checked_mul(r)?)?;
+            let sum = exponent.value().checked_add(more.value().checked_mul(r)?)?;
+            *exponent = Exponent::new(sum)?;
         }
         Some(product)
     }
 
     /// The power of time that it is, if it is nothing else.
     pub fn as_time(self) -> Option<Rational> {
-        let rest = self.times(Dimension::TIME, self.0[2].checked_neg()?)?;
-        rest.is_one().then_some(self.0[2])
+        let power = self.0[2].value();
+        let rest = self.times(Dimension::TIME, power.checked_neg()?)?;
+        rest.is_one().then_some(power)
     }
 
     /// `kg m²/s²`, or the name of a unit; empty for a plain number.
@@ -94,7 +116,7 @@ impl Dimension {
         if let Some((name, _)) = named {
             return (*name).to_string();
         }
-        fraction(BASE.into_iter().zip(self.0))
+        fraction(BASE.into_iter().zip(self.0.map(Exponent::value)))
     }
 
     /// As a force or torque: `N`, `N m`, `N/m`, `N s`; else as [`Self::text`].
@@ -103,7 +125,7 @@ impl Dimension {
         let Some(rest) = self.times(newton, Rational::MINUS_ONE) else {
             return self.text();
         };
-        let lengths = rest.0[1];
+        let lengths = rest.0[1].value();
         match rest.times(Dimension::LENGTH, lengths.checked_neg().unwrap_or(lengths)) {
             Some(left) if left.is_one() => {
                 fraction([("N", Rational::ONE), ("m", lengths)].into_iter())

@@ -97,7 +97,7 @@ impl Checker<'_, '_> {
         role: impl Into<Role<'a>>,
         expr: &Expr,
     ) -> Option<()> {
-        let Err((wanted, found)) = self.unknowns.equate(wanted, found) else {
+        let Some((wanted, found)) = self.unknowns.conflict(wanted, found) else {
             return Some(());
         };
         let Role { what, is_force } = role.into();
@@ -154,13 +154,20 @@ impl Checker<'_, '_> {
                 shapes.into_iter().collect::<Option<_>>().map(Shape::List)
             }
             ExprKind::Element(base, index) => {
-                let lower = self.lower(base);
-                let Shape::List(mut elements) = self.shape(base, None)? else {
-                    return None;
-                };
-                let at = self.elaboration.integer(index)?.checked_sub(lower)?;
-                let at = usize::try_from(at).ok().filter(|&at| at < elements.len())?;
-                Some(elements.swap_remove(at))
+                let at = self
+                    .elaboration
+                    .integer(index)?
+                    .checked_sub(self.lower(base))?;
+                let at = usize::try_from(at).ok()?;
+                if let ExprKind::Name(name) = &base.kind
+                    && let Some(Some(Shape::List(elements))) = self.names.get(&name.text)
+                {
+                    return elements.get(at).cloned();
+                }
+                match self.shape(base, None)? {
+                    Shape::List(elements) => elements.get(at).cloned(),
+                    Shape::One(_) => None,
+                }
             }
             ExprKind::Member(_, member) => {
                 let list = |of: Shape| Shape::List(vec![of; 3]);
@@ -202,7 +209,7 @@ impl Checker<'_, '_> {
                 .collect();
             let reference = self.reference(&column, hint);
             for (term, quantity) in terms.iter().zip(&column) {
-                if let Err((reference, found)) = self.unknowns.equate(&reference, quantity) {
+                if let Some((reference, found)) = self.unknowns.conflict(&reference, quantity) {
                     let remedy = self.remedy(&reference, &found, term);
                     let (found, reference) = (self.noun(&found), self.noun(&reference));
                     self.sink.report(
@@ -340,7 +347,7 @@ impl Checker<'_, '_> {
     pub fn sides(&mut self, left: &Expr, right: &Expr) -> Option<Quantity> {
         let (a, b) = (self.one(left, None), self.one(right, None));
         let (a, b) = (a?, b?);
-        let Err((first, second)) = self.unknowns.equate(&a, &b) else {
+        let Some((first, second)) = self.unknowns.conflict(&a, &b) else {
             return Some(a);
         };
         // A bare number is what is wrong, on whichever side it stands.
@@ -528,7 +535,7 @@ impl Checker<'_, '_> {
             for (i, j) in products {
                 let product = self.unknowns.times(&a[i], &b[j], Rational::ONE);
                 let first = component.get_or_insert_with(|| product.clone()).clone();
-                if let Err((first, second)) = self.unknowns.equate(&first, &product) {
+                if let Some((first, second)) = self.unknowns.conflict(&first, &product) {
                     let (first, second) = (self.noun(&first), self.noun(&second));
                     let hint = "the components of a vector have one unit";
                     self.sink

@@ -110,28 +110,16 @@ impl Unknowns {
     }
 
     /// Takes a = b for true; if that cannot be, gives both as far as they are known.
-    pub fn equate(&mut self, a: &Quantity, b: &Quantity) -> Result<(), (Quantity, Quantity)> {
-        let (Some(a), Some(b)) = (self.read(a), self.read(b)) else {
-            return Ok(());
-        };
-        let Some(ratio) = a.times(&b, Rational::MINUS_ONE) else {
-            return Ok(());
-        };
+    pub fn conflict(&mut self, a: &Quantity, b: &Quantity) -> Option<(Quantity, Quantity)> {
+        let (a, b) = (self.read(a)?, self.read(b)?);
+        let mut rest = a.times(&b, Rational::MINUS_ONE)?;
         // The youngest unknown is solved for: older ones are the user's own quantities.
-        let Some(&(unknown, power)) = ratio.unknowns.last() else {
-            return match ratio.dimension.is_one() {
-                true => Ok(()),
-                false => Err((a, b)),
-            };
+        let Some((unknown, power)) = rest.unknowns.pop() else {
+            return (!rest.dimension.is_one()).then_some((a, b));
         };
-        let mut rest = ratio;
-        rest.unknowns.pop();
-        let exponent = Rational::MINUS_ONE.checked_div(power);
-        let solution = exponent.and_then(|r| Quantity::from(Dimension::ONE).times(&rest, r));
-        if solution.is_some() {
-            self.solutions[unknown] = solution;
-        }
-        Ok(())
+        let exponent = Rational::MINUS_ONE.checked_div(power)?;
+        self.solutions[unknown] = Quantity::from(Dimension::ONE).times(&rest, exponent);
+        None
     }
 }
 
@@ -155,17 +143,17 @@ mod tests {
         let height = unknowns.times(&mass, &gravity, Rational::ONE);
         let height = unknowns.times(&height, &of("m"), Rational::ONE);
         let spring = unknowns.times(&of("m^2"), &stiffness, Rational::ONE);
-        assert!(unknowns.equate(&height, &spring).is_ok());
+        assert!(unknowns.conflict(&height, &spring).is_none());
         assert_eq!(unknowns.dimension(&mass), None);
-        assert!(unknowns.equate(&kinetic, &height).is_ok());
-        assert!(unknowns.equate(&spring, &of("J")).is_ok());
+        assert!(unknowns.conflict(&kinetic, &height).is_none());
+        assert!(unknowns.conflict(&spring, &of("J")).is_none());
         let found =
             [&mass, &gravity, &stiffness].map(|q| unknowns.dimension(q).map(Dimension::text));
         assert_eq!(
             found,
             ["kg", "m/s²", "kg/s²"].map(|text| Some(text.to_string()))
         );
-        assert!(unknowns.equate(&mass, &of("kg")).is_ok());
-        assert!(unknowns.equate(&mass, &of("s")).is_err());
+        assert!(unknowns.conflict(&mass, &of("kg")).is_none());
+        assert!(unknowns.conflict(&mass, &of("s")).is_some());
     }
 }

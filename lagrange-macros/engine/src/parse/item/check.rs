@@ -2,7 +2,7 @@
 
 use super::super::cursor::Cursor;
 use super::super::expression::expression;
-use super::super::relation::{equation, equation_or_comparison, leftover};
+use super::super::relation::{CHECK, equation, equation_or_comparison, leftover};
 use super::output::mode_clause;
 use super::{head, no_more};
 use crate::ast::{Check, Claim, ItemKind, Premise};
@@ -29,6 +29,11 @@ pub(super) fn check(mut parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<It
         while first.take_word("and").is_some() {
             premises.push(premise(first, sink)?);
         }
+    }
+    let other = |word: &str| matches!(word, "while" | "if" | "where" | "for");
+    if premises.is_empty() && first.word().is_some_and(|word| other(&word.text)) {
+        first.expected("`when`", sink);
+        return None;
     }
     leftover(first, sink)?;
     no_more(others, "check", "write an item for each check", sink)?;
@@ -60,7 +65,7 @@ fn claim(part: &mut Cursor, sink: &mut Diagnostics) -> Option<Claim> {
         part.next();
         return expression(part, sink).map(Claim::Conserved);
     }
-    equation(part, sink).map(|(left, right)| Claim::Equal(left, right))
+    equation(part, CHECK, sink).map(|(left, right)| Claim::Equal(left, right))
 }
 
 fn premise(part: &mut Cursor, sink: &mut Diagnostics) -> Option<Premise> {

@@ -2,7 +2,7 @@
 
 use super::super::cursor::Cursor;
 use super::super::expression::{expression, whole};
-use super::super::relation::{comparison, equation, leftover};
+use super::super::relation::{CONSTRAINT, comparison, equation, leftover};
 use super::{head, head_and_colon, key, named, no_more, once, reference};
 use crate::ast::{
     Comparison, Constraint, Contact, Friction, FrictionLaw, ItemKind, Name, Restitution,
@@ -23,7 +23,7 @@ pub(super) fn constraint(mut parts: Vec<Cursor>, sink: &mut Diagnostics) -> Opti
         )),
     };
     first.require(":", sink)?;
-    let sides = equation(first, sink).and_then(|sides| {
+    let sides = equation(first, CONSTRAINT, sink).and_then(|sides| {
         leftover(first, sink)?;
         Some(sides)
     });

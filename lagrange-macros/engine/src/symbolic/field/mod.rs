@@ -15,13 +15,16 @@
 //!
 //! Atoms are found by value: arguments that are equal as expressions have equal values and get the same atom.
 
+mod angles;
 mod complex;
 mod degree;
 mod point;
 mod prime;
 #[cfg(test)]
 mod tests;
+mod values;
 
+pub use angles::Angles;
 pub use degree::Degree;
-pub use point::{Angles, FieldValue, Point, Trouble};
+pub use point::{FieldValue, Point, Trouble};
 pub use prime::{PRIMES, Prime};

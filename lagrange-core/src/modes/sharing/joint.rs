@@ -1,0 +1,72 @@
+//! Joint guards: sums of guards of undetermined forces in which all that is open cancels.
+
+use crate::mode::Mode;
+use crate::modes::guard::{self, Guard};
+use crate::modes::reading::Reading;
+use crate::system::System;
+
+/// A guard as a part of a joint one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Part {
+    /// The guard.
+    pub guard: Guard,
+    /// Of a friction cone: the direction u of the plane μs N − u·F ≥ 0 that touches it there.
+    pub along: [f64; 2],
+    /// Weight in the sum.
+    pub weight: f64,
+}
+
+/// Weighted guards whose sum is determined where they are not. The sum is relative to the terms that make it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Joint {
+    /// The guards, with weights that are all positive.
+    pub parts: Vec<Part>,
+}
+
+/// [`guard::series`], also of joint guards.
+pub fn series<S: System>(
+    guard: Guard,
+    joints: &[Joint],
+    mode: &Mode,
+    reading: &Reading<'_, S>,
+    out: &mut [f64],
+) {
+    let Guard::Joint(index) = guard else {
+        return guard::series(guard, mode, reading, out);
+    };
+    let mut part = [0.0; guard::LENGTH];
+    let part = &mut part[..out.len()];
+    out.fill(0.0);
+    for each in &joints[index].parts {
+        side(each.guard, each.along, mode, reading, part);
+        for (sum, x) in out.iter_mut().zip(&*part) {
+            *sum += each.weight * x;
+        }
+    }
+}
+
+/// [`guard::value`], also of joint guards.
+pub fn value<S: System>(
+    guard: Guard,
+    joints: &[Joint],
+    mode: &Mode,
+    reading: &Reading<'_, S>,
+) -> f64 {
+    let mut value = [0.0];
+    series(guard, joints, mode, reading, &mut value);
+    value[0]
+}
+
+/// [`guard::series`], but of a cone only the plane that touches it in direction `along`.
+pub fn side<S: System>(
+    guard: Guard,
+    along: [f64; 2],
+    mode: &Mode,
+    reading: &Reading<'_, S>,
+    out: &mut [f64],
+) {
+    match guard {
+        Guard::StickCone(f) => guard::cone_side(f, along, mode, reading, out),
+        _ => guard::series(guard, mode, reading, out),
+    }
+}

@@ -1,0 +1,85 @@
+//! Contacts limited to a region: `contact(table: y >= 0, where x <= length)`.
+//!
+//! Such a contact exists only where its region ≥ 0. A closed one whose region falls through zero opens, and its frictions end.
+//! The surface has one side: a gap that closes within the region is an impact, one that closes outside it is not, and then the
+//! motion is below the surface, until the gap has opened again, wherever that is. Below it may enter the region freely, and
+//! come up through it.
+
+use super::Run;
+use super::hits::value;
+use crate::arithmetic::Scalar;
+use crate::effects::Item;
+use crate::modes::guard::Guard;
+use crate::system::{Place, System};
+
+impl<S: System> Run<S> {
+    /// Whether a guard is the edge of a contact that is open.
+    pub(super) fn is_edge_in_flight(&self, guard: Guard) -> bool {
+        matches!(guard, Guard::Region(c) if !self.mode.contacts[c])
+    }
+
+    /// Whether a guard is the gap of a contact whose surface the motion is below.
+    pub(super) fn is_below(&self, guard: Guard) -> bool {
+        matches!(guard, Guard::Gap(c) if self.below[c])
+    }
+
+    /// Whether a guard's contact exists at part `s` of the step.
+    pub(super) fn within_region(&self, guard: Guard, s: f64) -> bool {
+        let Guard::Gap(c) = guard else {
+            return true;
+        };
+        let edge = Guard::Region(c);
+        let Some(k) = self.guards.iter().position(|g| *g == edge) else {
+            return true;
+        };
+        // Just after the edge has been located, the side that the motion goes to.
+        self.judged(edge, self.curves.mode_guard(k))
+            .is_none_or(|curve| value(curve, s) >= 0.0)
+    }
+
+    /// Remembers which surfaces the motion is below at part `end` of the step.
+    pub(super) fn remember_regions(&mut self, end: f64) {
+        if end == 0.0 {
+            return;
+        }
+        for k in 0..self.guards.len() {
+            let guard = self.guards[k];
+            let Guard::Gap(c) = guard else {
+                continue;
+            };
+            if S::DESCRIPTION.contacts[c].region.is_none() || self.fallen.contains(&guard) {
+                continue;
+            }
+            let curve = self.curves.mode_guard(k);
+            let gap = value(curve, end);
+            let size: f64 = curve.iter().map(|c| c.abs()).sum();
+            // Within the region it can only be a root that rounding has put into the next step.
+            let passed = gap < -1e-9 * size || !self.within_region(guard, end);
+            self.below[c] = gap < 0.0 && (self.below[c] || passed);
+        }
+    }
+
+    /// At an edge the next surface may begin without a step: closes contacts whose gaps vanish where their regions begin.
+    pub(super) fn hand_over(&mut self) {
+        let d = S::DESCRIPTION;
+        if !self.fallen.iter().any(|g| matches!(g, Guard::Region(_))) {
+            return;
+        }
+        let small = self.settings.tolerance.max(1e-13);
+        for (c, contact) in d.contacts.iter().enumerate() {
+            let Some(region) = contact.region else {
+                continue;
+            };
+            let left = self.fallen.contains(&Guard::Region(c)) || self.mode.contacts[c];
+            if left || !self.dynamics.effects().includes(d, Item::Contact(c)) {
+                continue;
+            }
+            let number = |place: Place| self.dynamics.motion(place).value();
+            let gap = number(d.rows[contact.row].position.unwrap_or(Place::Zero));
+            if gap.abs() <= small && number(region) >= -small {
+                self.survey.known.touching[c] = true;
+                self.survey.known.arriving[c] = true;
+            }
+        }
+    }
+}

@@ -1,0 +1,26 @@
+//! A line per run; what a run does not have is empty.
+
+use super::{Failure, lines, names};
+use crate::sweep::{Journal, Sweep};
+use std::io::{self, Write};
+
+/// Writes all runs in order, every number in full precision.
+///
+/// # Errors
+/// The journal is not complete; those of `out`.
+pub fn csv(sweep: &Sweep, journal: &Journal, out: impl Write) -> Result<(), Failure> {
+    let mut table = ::csv::Writer::from_writer(out);
+    table
+        .write_record(names(sweep).chain(["failed"]))
+        .map_err(io::Error::from)?;
+    lines(sweep, journal, |point, observed, failed| {
+        let number = |x: &f64| match x.is_nan() {
+            true => String::new(),
+            false => x.to_string(),
+        };
+        let numbers = point.iter().chain(observed).map(number);
+        let line = numbers.chain([failed.to_string()]);
+        Ok(table.write_record(line).map_err(io::Error::from)?)
+    })?;
+    Ok(table.flush()?)
+}

@@ -1,0 +1,37 @@
+//! Workers: the chunks that are not done yet, shared out over the cores.
+
+use super::{Journal, Sweep, Trouble};
+use rayon::prelude::*;
+
+/// Works off the chunks that the journal does not have and that are `ours`. `done` is told how many points each adds.
+///
+/// # Errors
+/// A chunk could not be kept.
+pub fn work(
+    sweep: &Sweep,
+    journal: &Journal,
+    ours: impl Fn(usize) -> bool + Sync,
+    done: impl Fn(usize) + Sync,
+) -> Result<(), Trouble> {
+    let missing: Vec<usize> = (0..sweep.chunks())
+        .filter(|&chunk| ours(chunk) && !journal.has(sweep, chunk))
+        .collect();
+    missing.into_par_iter().with_max_len(1).try_for_each_init(
+        // Names and numbers were checked when the sweep was made.
+        || sweep.scene.worker(sweep).ok(),
+        |worker, chunk| {
+            let points = sweep.chunk(chunk);
+            let mut rows = vec![f64::NAN; points.len() * sweep.width()];
+            let mut point = vec![0.0; sweep.points.axes.len()];
+            if let Some(worker) = worker {
+                for (row, index) in rows.chunks_exact_mut(sweep.width()).zip(points.clone()) {
+                    sweep.points.write(index, &mut point);
+                    worker(&point, row);
+                }
+            }
+            journal.put(chunk, rows)?;
+            done(points.len());
+            Ok(())
+        },
+    )
+}

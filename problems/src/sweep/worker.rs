@@ -1,0 +1,106 @@
+//! A worker: one runner, from point to point.
+
+use super::{Sweep, Worker};
+use crate::request::{Quantity, Refusal, Start, find_parameter, find_state};
+use lagrange_core::prelude::*;
+
+/// Most events of a run.
+const MOST_EVENTS: usize = 10_000;
+
+/// What an axis varies.
+#[derive(Clone, Copy, Debug)]
+enum Target {
+    /// This parameter.
+    Parameter(usize),
+    /// This element of what the start holds.
+    Held(usize),
+}
+
+/// Runs the points of a sweep over a system of type `S`, until a time if the request names none.
+pub(crate) fn worker<S: System<Scalar = f64> + Default + Send + 'static>(
+    sweep: &Sweep,
+    until: f64,
+) -> Result<Worker<'_>, Refusal> {
+    let request = &sweep.request;
+    let mut system: S = request.system()?;
+    let mut start = Start::new(request, S::DESCRIPTION)?;
+    let targets = targets(sweep, S::DESCRIPTION, &mut start)?;
+    let mut simulation = request
+        .simulation(&system)?
+        .record(false)
+        .max_events(MOST_EVENTS);
+    let ends: Option<Vec<_>> = sweep.observed.iter().map(|o| o.ends_with()).collect();
+    for (subject, kind) in ends.unwrap_or_default() {
+        simulation = simulation.end_after(subject, kind);
+    }
+    let mut runner = simulation.runner();
+    let varies = targets
+        .iter()
+        .any(|target| matches!(target, Target::Parameter(_)));
+    let until = request.until.unwrap_or(until);
+    Ok(Box::new(move |point, row| {
+        for (&target, &value) in targets.iter().zip(point) {
+            match target {
+                Target::Parameter(index) => system.set_parameter(index, value),
+                Target::Held(index) => start.held[index].2 = value,
+            }
+        }
+        if varies {
+            runner.set_scene(&system);
+        }
+        let state = start.state(&system, |reference, wanted, held| {
+            runner.consistent(0.0, reference, wanted, held)
+        });
+        let outcome = state.and_then(|state| runner.run(&state, 0.0..until).map(|_| ()));
+        let (failed, observed) = match row.split_last_mut() {
+            Some(parts) => parts,
+            None => return,
+        };
+        *failed = f64::from(u8::from(outcome.is_err()));
+        for (value, observation) in observed.iter_mut().zip(&sweep.observed) {
+            *value = match outcome {
+                Ok(()) => observation.read(runner.trajectory()),
+                Err(_) => f64::NAN,
+            };
+        }
+    }))
+}
+
+/// What each axis varies. What it varies at the start is held there.
+fn targets(
+    sweep: &Sweep,
+    description: &'static Description,
+    start: &mut Start,
+) -> Result<Vec<Target>, Refusal> {
+    let mut targets: Vec<Target> = Vec::new();
+    for axis in &sweep.points.axes {
+        let name = &axis.name;
+        let parameter = description.parameters.iter().any(|p| p.name == name);
+        let target = if parameter {
+            let index = find_parameter(description, name)?;
+            let twice = |target: &Target| matches!(target, Target::Parameter(i) if *i == index);
+            let set = |(other, _): &(String, f64)| other == name;
+            if targets.iter().any(twice) || sweep.request.parameters.iter().any(set) {
+                return Err(Refusal::Repeated { name: name.clone() });
+            }
+            Target::Parameter(index)
+        } else {
+            let (index, level): (usize, Quantity) =
+                find_state(description, name).map_err(|_| unknown(description, name))?;
+            start.hold(index, level, axis.from, name)?;
+            Target::Held(start.held.len() - 1)
+        };
+        targets.push(target);
+    }
+    Ok(targets)
+}
+
+fn unknown(description: &'static Description, name: &str) -> Refusal {
+    let parameters = description.parameters.iter().map(|p| p.name);
+    let coordinates = description.coordinates.iter().map(|c| c.name);
+    Refusal::unknown(
+        "parameter or coordinate",
+        name,
+        parameters.chain(coordinates),
+    )
+}

@@ -1,0 +1,136 @@
+//! `lagrange inspect`: the program and the struct say the same, formats are what they are called, mistakes are one line.
+
+mod program;
+
+use lagrange_core::prelude::*;
+use lagrange_problems::catalogue::scenes;
+use lagrange_problems::scenes::MassOnWheel;
+use program::{refuses, says};
+use serde_json::Value;
+
+/// What the struct says of itself is what the program says of it.
+#[test]
+fn the_program_and_the_struct_agree() {
+    let derivation = MassOnWheel::derivation();
+    let inspect = |format: &str| says(&["inspect", "mass-on-wheel", "--format", format]);
+    assert_eq!(derivation.text, inspect("text"));
+    assert_eq!(derivation.latex, inspect("latex"));
+    assert_eq!(derivation.graph, inspect("graph"));
+    assert_eq!(derivation.to_string(), says(&["inspect", "mass-on-wheel"]));
+    assert_eq!(derivation.name, "MassOnWheel");
+}
+
+#[test]
+fn json_has_what_its_schema_says() {
+    for scene in scenes() {
+        let text = says(&["inspect", scene.name(), "--format", "json"]);
+        let value: Value = serde_json::from_str(&text).expect("JSON");
+        assert_eq!(value["schema"], "lagrange.derivation.1");
+        let count = |key: &str| value[key].as_array().map_or(0, Vec::len);
+        let description = scene.description();
+        let shown = |n: usize| if n > 12 { 5 } else { n };
+        assert_eq!(count("motion"), shown(description.coordinates.len()));
+        assert_eq!(count("rows"), shown(description.rows.len()));
+        assert!(count("modes") > 0 && count("conserved") > 0 && count("operations") > 0);
+        for equation in value["motion"].as_array().into_iter().flatten() {
+            for side in ["left", "right"] {
+                assert!(equation["equation"][side]["text"].is_string());
+                assert!(equation["equation"][side]["latex"].is_string());
+            }
+        }
+    }
+}
+
+/// Modes are called as a run calls them, so that a line of its story can be looked up.
+#[test]
+fn modes_have_the_names_of_a_run() {
+    let text = says(&["inspect", "mass-on-wheel", "--format", "json"]);
+    let value: Value = serde_json::from_str(&text).expect("JSON");
+    let modes = value["modes"].as_array().expect("modes");
+    let names: Vec<&str> = modes
+        .iter()
+        .filter_map(|mode| mode["name"].as_str())
+        .collect();
+    let run = says(&["run", "mass-on-wheel", "--format", "json"]);
+    let run: Value = serde_json::from_str(&run).expect("JSON");
+    for event in run["events"].as_array().expect("events") {
+        let mode = event["from"].as_str().expect("a mode");
+        assert!(names.contains(&mode), "{mode} is not among {names:?}");
+        let one = says(&["inspect", "mass-on-wheel", "--mode", mode]);
+        assert!(one.contains(mode), "{one}");
+    }
+    let open = Mode::open(MassOnWheel::<f64>::DESCRIPTION);
+    assert_eq!(
+        names[0],
+        open.display(MassOnWheel::<f64>::DESCRIPTION).to_string()
+    );
+}
+
+#[test]
+fn the_emitted_rust_parses() {
+    let rust = says(&["inspect", "mass-on-wheel", "--format", "rust"]);
+    syn::parse_file(&rust).expect("Rust");
+    assert!(rust.contains("fn motion"));
+}
+
+#[test]
+fn graphs_name_every_mode() {
+    let graph = says(&["inspect", "sphere-in-bowl", "--format", "graph"]);
+    assert!(graph.starts_with("flowchart LR\n"));
+    for mode in [
+        "bowl open",
+        "bowl closed, grip sticks",
+        "grip slips forward",
+    ] {
+        assert!(graph.contains(mode), "{graph}");
+    }
+    let dot = says(&["inspect", "sphere-in-bowl", "--format", "dot"]);
+    assert!(dot.starts_with("digraph \"SphereInBowl\" {\n") && dot.ends_with("}\n"));
+}
+
+#[test]
+fn what_makes_no_sense_is_refused_in_one_line() {
+    let wheel = |arguments: &[&str], reason: &str| {
+        refuses(
+            &[&["inspect", "mass-on-wheel"], arguments].concat(),
+            2,
+            reason,
+        );
+    };
+    refuses(
+        &["inspect", "mass-on-whele"],
+        2,
+        "did you mean `mass-on-wheel`?",
+    );
+    wheel(
+        &["--mode", "rim closed, grip stiks"],
+        "did you mean `rim closed, grip sticks`?",
+    );
+    wheel(&["--mode", "flying"], "there are: `rim open`");
+    wheel(
+        &["--format", "pdf"],
+        "text, latex, mathml, markdown, rust, graph, dot, json",
+    );
+    wheel(
+        &["--format", "rust", "--mode", "rim open"],
+        "serves all modes",
+    );
+}
+
+#[test]
+fn a_file_is_written() {
+    let file = std::env::temp_dir().join(format!("inspect-{}.md", std::process::id()));
+    let path = file.to_str().expect("a path");
+    let said = says(&[
+        "inspect",
+        "mass-on-wheel",
+        "--format",
+        "markdown",
+        "--output",
+        path,
+    ]);
+    let written = std::fs::read_to_string(&file).expect("a file");
+    std::fs::remove_file(&file).expect("it was there");
+    assert_eq!(said, "");
+    assert!(written.starts_with("# MassOnWheel\n") && written.contains("```mermaid\n"));
+}

@@ -1,0 +1,202 @@
+//! Sweeps as a user runs them: the same results whatever the number of workers, parts, or times they were killed.
+
+mod program;
+
+use program::{refuses, says};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+const SWEEP: &[&str] = &[
+    "sweep",
+    "rolling-slipping-sphere",
+    "--vary",
+    "mu_static=0.2..1:30",
+    "--vary",
+    "theta=0.01..0.4:300",
+    "--observe",
+    "leave angle",
+    "--observe",
+    "t at grip slips",
+    "--quiet",
+];
+
+/// A file of this name in a folder of its own.
+fn place(name: &str) -> PathBuf {
+    let folder = std::env::temp_dir().join(format!("lagrange-sweep-{}-{name}", std::process::id()));
+    fs::create_dir_all(&folder).expect("a folder");
+    folder.join(name)
+}
+
+fn path(file: &Path) -> &str {
+    file.to_str().expect("unicode")
+}
+
+fn sweep<'a>(more: &[&'a str]) -> Vec<&'a str> {
+    [SWEEP, more].concat()
+}
+
+#[test]
+fn results_do_not_depend_on_workers_or_parts() {
+    let [alone, all, parts] = ["alone.csv", "all.csv", "parts.csv"].map(place);
+    says(&sweep(&["--output", path(&alone), "--workers", "1"]));
+    says(&sweep(&["--output", path(&all)]));
+    for part in ["2/3", "1/3", "3/3"] {
+        says(&sweep(&["--output", path(&parts), "--shard", part]));
+        assert!(!parts.exists());
+    }
+    says(&sweep(&["--output", path(&parts)]));
+    let expected = fs::read(&alone).expect("results");
+    assert_eq!(fs::read(&all).expect("results"), expected);
+    assert_eq!(fs::read(&parts).expect("results"), expected);
+    let text = String::from_utf8(expected).expect("text");
+    let mut lines = text.lines();
+    assert_eq!(
+        lines.next(),
+        Some("mu_static,theta,leave angle,t at grip slips,failed")
+    );
+    assert_eq!(lines.count(), 9000);
+    // Cosine of the angle at which it leaves: rolling all the way, 10/17 of that at the start. Slipping it leaves a little earlier
+    // or later, but leaves.
+    let far = text.lines().last().expect("a line");
+    let numbers: Vec<f64> = far
+        .split(',')
+        .take(3)
+        .map(|x| x.parse().expect("a number"))
+        .collect();
+    assert!(
+        (numbers[2].cos() - 10.0 / 17.0 * 0.4_f64.cos()).abs() < 0.05,
+        "{far}"
+    );
+}
+
+#[test]
+fn a_killed_sweep_goes_on() {
+    let [whole, killed] = ["whole.parquet", "killed.parquet"].map(place);
+    says(&sweep(&["--output", path(&whole)]));
+    for wait in [0, 300, 1000] {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_lagrange"))
+            .args(sweep(&["--output", path(&killed), "--workers", "1"]))
+            .stdout(Stdio::null())
+            .spawn()
+            .expect("it starts");
+        std::thread::sleep(std::time::Duration::from_millis(wait));
+        // It may have ended before.
+        let _ = child.kill();
+        let _ = child.wait();
+        if killed.exists() {
+            fs::remove_file(&killed).expect("it can be removed");
+        }
+    }
+    says(&sweep(&["--output", path(&killed)]));
+    assert_eq!(
+        fs::read(&killed).expect("results"),
+        fs::read(&whole).expect("results")
+    );
+    let part = killed.with_extension("parquet.part");
+    assert!(!part.exists());
+}
+
+#[test]
+fn what_is_observed_is_what_a_single_run_tells() {
+    let file = place("single.csv");
+    says(&[
+        "sweep",
+        "mass-on-wheel",
+        "--vary",
+        "mass=0.1..0.3:3",
+        "--observe",
+        "theta at grip slips",
+        "--observe",
+        "rim at floor stop",
+        "--observe",
+        "x",
+        "--observe",
+        "count rim lost",
+        "--observe",
+        "t at rim impact",
+        "--quiet",
+        "--output",
+        path(&file),
+    ]);
+    let text = fs::read_to_string(&file).expect("results");
+    let line = text.lines().nth(2).expect("the second run");
+    let cells: Vec<&str> = line.split(',').collect();
+    let run = says(&[
+        "run",
+        "mass-on-wheel",
+        "--set",
+        "mass=0.2",
+        "--format",
+        "json",
+    ]);
+    let run: serde_json::Value = serde_json::from_str(&run).expect("JSON");
+    let number = |cell: &str| cell.parse::<f64>().expect("a number");
+    assert_eq!(number(cells[1]), run["events"][0]["state"]["theta"]);
+    assert_eq!(number(cells[2]), run["events"][2]["forces"]["rim"]);
+    assert_eq!(number(cells[3]), run["final"]["state"]["x"]);
+    assert_eq!((number(cells[4]), cells[5], cells[6]), (1.0, "", "false"));
+}
+
+#[test]
+fn sweeps_without_sense_are_refused_in_one_line() {
+    let of_wheel = |more: &[&'static str], reason: &str| {
+        refuses(
+            &[&["sweep", "mass-on-wheel", "--quiet"], more].concat(),
+            2,
+            reason,
+        );
+    };
+    of_wheel(&["--observe", "x"], "--vary");
+    of_wheel(&["--vary", "mass=1..2:3"], "--observe");
+    of_wheel(
+        &["--vary", "mass=1..2:0", "--observe", "x"],
+        "not a number of values",
+    );
+    of_wheel(
+        &["--vary", "masss=1..2:3", "--observe", "x"],
+        "did you mean `mass`?",
+    );
+    of_wheel(
+        &[
+            "--vary",
+            "mass=1..2:3",
+            "--vary",
+            "mass=1..2:3",
+            "--observe",
+            "x",
+        ],
+        "given twice",
+    );
+    of_wheel(
+        &["--vary", "mass=1..2:3", "--set", "mass=1", "--observe", "x"],
+        "given twice",
+    );
+    of_wheel(
+        &["--vary", "mass=1..2:3", "--observe", "y"],
+        "no coordinate or velocity is called `y`",
+    );
+    of_wheel(
+        &["--vary", "mass=1..2:3", "--observe", "theta at rim loss"],
+        "did you mean `lost`?",
+    );
+    of_wheel(
+        &["--vary", "mass=1..2:3", "--observe", "theta at rimm lost"],
+        "did you mean `rim`?",
+    );
+    of_wheel(
+        &[
+            "--vary",
+            "mass=1..2:3",
+            "--observe",
+            "x",
+            "--sample",
+            "sobol",
+        ],
+        "sobol:N",
+    );
+    of_wheel(
+        &["--vary", "mass=1..2:3", "--observe", "x", "--shard", "1/2"],
+        "--output",
+    );
+}

@@ -1,0 +1,10 @@
+// A constraint that says what its contact says.
+#[lagrange(
+    coordinates(x, y),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2),
+    potential = mass * gravity * y,
+    contact(floor: y >= 0),
+    constraint(hold while floor: der(y) == 0),
+)]
+struct S { mass: f64, gravity: f64, length: f64 }
+//~ 7:16 E603 `hold` says nothing that `floor` does not say already; take one of them away: their forces cannot be told apart

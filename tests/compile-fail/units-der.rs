@@ -1,0 +1,15 @@
+// A rolling condition without its `der`.
+#[lagrange(
+    coordinates(x: "m", y: "m", theta: "rad"),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2) + mass/5 * length^2 * der(theta)^2,
+    constraint(rolling: der(x) == length * theta),
+)]
+struct S {
+    #[lagrange(unit = "kg")]
+    mass: f64,
+    #[lagrange(unit = "m/s^2")]
+    gravity: f64,
+    #[lagrange(unit = "m")]
+    length: f64,
+}
+//~ 5:35 E706 compares m with m/s; is a `der(…)` missing?

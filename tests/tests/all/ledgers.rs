@@ -1,0 +1,183 @@
+//! The ledger over time, against closed forms.
+
+use lagrange_core::prelude::*;
+use lagrange_tests::{Random, agree, run};
+
+/// A damped oscillator.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = mass/2 * der(x)^2,
+    potential = stiffness/2 * x^2,
+    dissipation(damper: drag/2 * der(x)^2),
+    force(drive: x = push * cos(rate * t)),
+)]
+struct Oscillator {
+    mass: f64,
+    stiffness: f64,
+    drag: f64,
+    push: f64,
+    rate: f64,
+}
+
+/// A particle on a support that is moved up and down by a constraint.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2),
+    potential = mass * gravity * y,
+    constraint(lift: y == reach * sin(rate * t)),
+    friction(brake: slip = der(x), limit = hold),
+)]
+struct Lift {
+    mass: f64,
+    gravity: f64,
+    reach: f64,
+    rate: f64,
+    hold: f64,
+}
+
+/// A ball that bounces.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(y),
+    kinetic = mass/2 * der(y)^2,
+    potential = mass * gravity * y,
+    contact(floor: y >= 0, restitution = bounce),
+)]
+struct Ball {
+    mass: f64,
+    gravity: f64,
+    bounce: f64,
+}
+
+fn work(ledger: &Ledger, name: &str, kind: &str) -> f64 {
+    let mut entries = ledger.work.iter();
+    let entry = entries.find(|e| e.name == name && e.kind == kind);
+    entry.expect("booked").work
+}
+
+#[test]
+fn a_damper_takes_what_the_oscillation_loses() {
+    let scene = Oscillator {
+        mass: 1.3,
+        stiffness: 20.0,
+        drag: 0.4,
+        push: 0.0,
+        rate: 0.0,
+    };
+    let start = State {
+        q: vec![0.3],
+        v: vec![0.0],
+    };
+    let trajectory = run(&scene, start, 5.0);
+    let mut random = Random::new(7);
+    let times: Vec<f64> = (0..50).map(|_| random.between(0.0, 5.0)).collect();
+    let ledgers = trajectory.ledgers(&times).expect("recorded");
+    // x = A e^(−δt) cos(ωt − φ), energies of it.
+    let decay = scene.drag / (2.0 * scene.mass);
+    let rate = (scene.stiffness / scene.mass - decay * decay).sqrt();
+    let energy = |t: f64| {
+        let (s, c) = (rate * t).sin_cos();
+        let envelope = 0.3 * (-decay * t).exp();
+        let x = envelope * (c + decay / rate * s);
+        let v = -envelope * (rate + decay * decay / rate) * s;
+        0.5 * scene.mass * v * v + 0.5 * scene.stiffness * x * x
+    };
+    for (t, ledger) in times.iter().zip(&ledgers) {
+        agree(
+            "loss",
+            work(ledger, "damper", "dissipation"),
+            energy(*t) - energy(0.0),
+            1e-12,
+        );
+        assert!(ledger.closure.abs() < 1e-12, "{:e}", ledger.closure);
+    }
+}
+
+#[test]
+fn a_drive_pays_for_the_damper_in_the_steady_state() {
+    let scene = Oscillator {
+        mass: 1.0,
+        stiffness: 9.0,
+        drag: 0.5,
+        push: 2.0,
+        rate: 2.5,
+    };
+    // The steady state: x = Re(push e^(iωt) / (k − mω² + icω)).
+    let (a, b) = (9.0 - 2.5 * 2.5, 0.5 * 2.5);
+    let size = a * a + b * b;
+    let start = State {
+        q: vec![2.0 * a / size],
+        v: vec![2.0 * b * 2.5 / size],
+    };
+    let period = 2.0 * core::f64::consts::PI / 2.5;
+    let trajectory = run(&scene, start, 3.0 * period);
+    let times = [period, 2.0 * period, 3.0 * period];
+    let ledgers = trajectory.ledgers(&times).expect("recorded");
+    for (k, ledger) in ledgers.iter().enumerate() {
+        // Over a period: π c ω |x|².
+        let loss = core::f64::consts::PI * 0.5 * 2.5 * 4.0 / size * (k + 1) as f64;
+        agree("drive", work(ledger, "drive", "force"), loss, 1e-11);
+        agree(
+            "damper",
+            work(ledger, "damper", "dissipation"),
+            -loss,
+            1e-11,
+        );
+    }
+}
+
+#[test]
+fn a_moving_constraint_and_a_brake() {
+    let scene = Lift {
+        mass: 2.0,
+        gravity: 9.81,
+        reach: 0.2,
+        rate: 3.0,
+        hold: 1.0,
+    };
+    let start = State {
+        q: vec![0.0, 0.0],
+        v: vec![1.0, 0.6],
+    };
+    let trajectory = run(&scene, start, 4.0);
+    let times: Vec<f64> = (0..40).map(|k| 0.1 * f64::from(k)).collect();
+    for (t, ledger) in times
+        .iter()
+        .zip(trajectory.ledgers(&times).expect("recorded"))
+    {
+        let (s, c) = (3.0 * t).sin_cos();
+        let lifted = 2.0 * 9.81 * 0.2 * s + 0.36 * (c * c - 1.0);
+        agree("lift", work(&ledger, "lift", "constraint"), lifted, 1e-11);
+        // It stops after 2 s.
+        let x = if *t < 2.0 { t - 0.25 * t * t } else { 1.0 };
+        agree("brake", work(&ledger, "brake", "friction"), -x, 1e-11);
+        assert!(ledger.closure.abs() < 1e-11, "{:e}", ledger.closure);
+    }
+}
+
+#[test]
+fn impacts_are_booked_when_they_happen_and_to_the_last() {
+    let scene = Ball {
+        mass: 1.0,
+        gravity: 10.0,
+        bounce: 0.5,
+    };
+    let start = State {
+        q: vec![0.2],
+        v: vec![0.0],
+    };
+    let trajectory = run(&scene, start, 2.0);
+    // Falls 0.2 s at 2 m/s, then is away for 0.2 s, 0.1 s, …, and rests after 0.6 s.
+    let ledgers = trajectory
+        .ledgers(&[0.1, 0.3, 0.45, 2.0])
+        .expect("recorded");
+    let expected = [0.0, -1.5, -1.875, -2.0];
+    for (ledger, expected) in ledgers.iter().zip(expected) {
+        agree("impact", work(ledger, "floor", "impact"), expected, 1e-12);
+        assert!(ledger.closure.abs() < 1e-11, "{:e}", ledger.closure);
+    }
+    let outside = trajectory.ledgers(&[2.5]);
+    assert!(matches!(outside, Err(Error::OutsideTrajectory { .. })));
+}

@@ -1,0 +1,94 @@
+//! A plate on three legs that slides and spins: three slips of two components that come to rest together.
+
+use super::state;
+use lagrange_core::prelude::*;
+use lagrange_tests::{agree, all_agree, closure, run, words};
+
+/// Each leg carries a third of the weight.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, phi),
+    define(px[k in 0..3] = x + r * cos(phi + 2 * pi * k / 3), py[k in 0..3] = y + r * sin(phi + 2 * pi * k / 3)),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2) + inertia/2 * der(phi)^2,
+    friction(leg[k in 0..3]: slip = (der(px[k]), der(py[k])), normal = mass * gravity / 3, static = mu),
+)]
+struct Plate {
+    mass: f64,
+    inertia: f64,
+    r: f64,
+    gravity: f64,
+    mu: f64,
+}
+
+const PLATE: Plate = Plate {
+    mass: 2.0,
+    inertia: 0.05,
+    r: 0.2,
+    gravity: 9.81,
+    mu: 0.3,
+};
+
+/// The time at which all legs rest.
+fn rest(trajectory: &Trajectory<Plate>) -> f64 {
+    let mut told = words(trajectory);
+    told.sort();
+    assert_eq!(told, ["leg[0] sticks", "leg[1] sticks", "leg[2] sticks"]);
+    trajectory.events()[2].time
+}
+
+#[test]
+fn it_spins_down() {
+    let trajectory = run(&PLATE, state(&[0.0; 3], &[0.0, 0.0, 8.0]), 3.0);
+    let rate = PLATE.mu * PLATE.mass * PLATE.gravity * PLATE.r / PLATE.inertia;
+    agree("time", rest(&trajectory), 8.0 / rate, 1e-12);
+    agree("turned", trajectory.final_state().q[2], 32.0 / rate, 1e-12);
+    assert!(closure(&trajectory) < 1e-12);
+}
+
+#[test]
+fn it_slides() {
+    let trajectory = run(&PLATE, state(&[0.0; 3], &[1.2, -0.9, 0.0]), 3.0);
+    let rate = PLATE.mu * PLATE.gravity;
+    agree("time", rest(&trajectory), 1.5 / rate, 1e-12);
+    all_agree(
+        "place",
+        &trajectory.final_state().q,
+        &[1.2 * 0.75 / rate, -0.9 * 0.75 / rate, 0.0],
+        1e-12,
+    );
+}
+
+/// Sliding and spinning end together, or a leg stops first and the plate turns about it; all methods agree when and where.
+#[test]
+fn it_slides_and_spins() {
+    for (v, w) in [(1.5, 3.0), (0.3, 9.0), (2.0, 0.1)] {
+        let start = || state(&[0.0, 0.0, 0.1], &[v, 0.0, w]);
+        let trajectory = run(&PLATE, start(), 5.0);
+        let first = trajectory.events()[0].time;
+        println!(
+            "{:?} {:?} {:e}",
+            words(&trajectory),
+            trajectory.work(),
+            rest(&trajectory) - first
+        );
+        let time = rest(&trajectory);
+        assert!(closure(&trajectory) < 1e-11);
+        let end = trajectory.final_state();
+        for tolerance in [1e-10, 1e-11, 1e-13] {
+            let other = Simulation::new(&PLATE)
+                .tolerance(tolerance)
+                .run(start(), 0.0..5.0)
+                .unwrap_or_else(|e| panic!("{e}"));
+            all_agree("taylor", &other.final_state().q, &end.q, 1e-9);
+            agree("time", rest(&other), time, 1e-9);
+        }
+        for (method, bound) in [("dop853", 1e-9), ("verner98", 1e-9), ("radau5", 1e-8)] {
+            let simulation = Simulation::new(&PLATE).tolerance(1e-11);
+            let other = simulation
+                .method(method.parse().expect("a method"))
+                .run(start(), 0.0..5.0);
+            let other = other.unwrap_or_else(|e| panic!("{method}: {e}"));
+            all_agree(method, &other.final_state().q, &end.q, bound);
+        }
+    }
+}

@@ -1,0 +1,190 @@
+//! Contacts limited to a region: a table with an edge, a wall with a hole, two tables in a row.
+
+use lagrange_core::prelude::*;
+use lagrange_tests::{agree, run};
+
+const G: f64 = 9.81;
+
+/// A block on a table of finite length, which stands on a floor.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2),
+    potential = mass * gravity * y,
+    contact(table: y >= height, where x <= length, restitution = bounce),
+    contact(floor: y >= 0),
+    friction(grip on table: slip = der(x), static = mu),
+)]
+struct Table {
+    mass: f64,
+    gravity: f64,
+    height: f64,
+    length: f64,
+    bounce: f64,
+    mu: f64,
+}
+
+const TABLE: Table = Table {
+    mass: 1.3,
+    gravity: G,
+    height: 0.8,
+    length: 1.0,
+    bounce: 0.5,
+    mu: 0.1,
+};
+
+/// A ball and a wall with a hole.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2),
+    potential = mass * gravity * y,
+    contact(upper: x <= wall, where y >= top, restitution = bounce),
+    contact(lower: x <= wall, where y <= bottom, restitution = bounce),
+)]
+struct Hole {
+    mass: f64,
+    gravity: f64,
+    wall: f64,
+    top: f64,
+    bottom: f64,
+    bounce: f64,
+}
+
+/// Two smooth tables of one height that meet at x = 0.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2),
+    potential = mass * gravity * y,
+    contact(left: y >= 0, where x <= 0),
+    contact(right: y >= 0, where x >= 0),
+)]
+struct Tables {
+    mass: f64,
+    gravity: f64,
+}
+
+fn state(q: [f64; 2], v: [f64; 2]) -> State<f64> {
+    State {
+        q: q.to_vec(),
+        v: v.to_vec(),
+    }
+}
+
+fn story<S: System<Scalar = f64>>(trajectory: &Trajectory<S>) -> Vec<(&'static str, String)> {
+    let events = trajectory.events().iter();
+    events
+        .map(|e| (e.subject.name(S::DESCRIPTION), e.kind.to_string()))
+        .collect()
+}
+
+fn words(list: &[(&'static str, &str)]) -> Vec<(&'static str, String)> {
+    list.iter().map(|(a, b)| (*a, (*b).to_owned())).collect()
+}
+
+#[test]
+fn a_block_slides_off_a_table_onto_the_floor() {
+    for method in [
+        Method::Taylor,
+        Method::DormandPrince853,
+        Method::DormandPrince54,
+        Method::Verner98,
+        Method::Radau5,
+    ] {
+        let trajectory = Simulation::new(&TABLE)
+            .tolerance(1e-12)
+            .method(method)
+            .run(state([0.0, 0.8], [2.0, 0.0]), 0.0..2.0)
+            .expect("runs");
+        let expected = [("table", "lost"), ("floor", "impact"), ("floor", "closed")];
+        assert_eq!(story(&trajectory), words(&expected));
+        let events = trajectory.events();
+        // x = v t − μ g t²/2 up to the edge, then a fall from the table's height.
+        let deceleration = TABLE.mu * G;
+        let speed = (4.0 - 2.0 * deceleration).sqrt();
+        let edge = (2.0 - speed) / deceleration;
+        let fall = (2.0 * TABLE.height / G).sqrt();
+        agree("time of the edge", events[0].time, edge, 1e-12);
+        agree("time of the floor", events[1].time, edge + fall, 1e-12);
+        agree("where", events[1].state.q[0], 1.0 + speed * fall, 1e-12);
+        agree("at the end", trajectory.final_state().q[1], 0.0, 1e-14);
+    }
+}
+
+#[test]
+fn what_comes_from_below_passes_and_lands_from_above() {
+    // From under the overhang's far side it flies up through the table and falls on it.
+    let trajectory = run(&TABLE, state([1.5, 0.3], [-2.0, 6.0]), 1.5);
+    assert_eq!(story(&trajectory)[..1], words(&[("table", "impact")])[..]);
+    let down = (6.0 + (36.0 - 2.0 * G * 0.5_f64).sqrt()) / G;
+    agree("time", trajectory.events()[0].time, down, 1e-12);
+}
+
+#[test]
+fn what_passes_below_the_table_is_not_hit_by_it() {
+    let trajectory = run(&TABLE, state([1.5, 0.5], [-4.0, 0.0]), 0.3);
+    assert!(trajectory.events().is_empty());
+    agree("x", trajectory.final_state().q[0], 0.3, 1e-14);
+}
+
+#[test]
+fn a_start_inside_the_table_is_refused_but_not_beside_it() {
+    let inside = Simulation::new(&TABLE).run(state([0.5, 0.7], [0.0, 0.0]), 0.0..0.1);
+    let error = inside.expect_err("penetrates").error;
+    assert!(
+        matches!(error, Error::Start { item: "table", .. }),
+        "{error}"
+    );
+    let beside = Simulation::new(&TABLE).run(state([1.5, 0.7], [0.0, 0.0]), 0.0..0.1);
+    assert!(beside.is_ok());
+}
+
+#[test]
+fn a_ball_flies_through_a_hole_or_bounces_beside_it() {
+    let hole = Hole {
+        mass: 1.0,
+        gravity: G,
+        wall: 1.0,
+        top: 1.2,
+        bottom: 0.8,
+        bounce: 0.5,
+    };
+    // It is at the wall after 0.2 s, 0.2 m − 0.1962 m higher.
+    for (y, hit) in [
+        (1.0, None),
+        (1.19, None),
+        (1.2, Some("upper")),
+        (2.0, Some("upper")),
+        (0.79, Some("lower")),
+        (0.1, Some("lower")),
+    ] {
+        let trajectory = run(&hole, state([0.0, y], [5.0, 1.0]), 0.5);
+        let names: Vec<_> = story(&trajectory).iter().map(|(name, _)| *name).collect();
+        assert_eq!(names, Vec::from_iter(hit), "from y = {y}");
+        let x = if hit.is_some() { 1.0 - 2.5 * 0.3 } else { 2.5 };
+        agree("x", trajectory.final_state().q[0], x, 1e-12);
+    }
+}
+
+#[test]
+fn one_table_hands_over_to_the_next() {
+    let tables = Tables {
+        mass: 1.0,
+        gravity: G,
+    };
+    for speed in [1.0, -1.0] {
+        let trajectory = run(&tables, state([-speed, 0.0], [speed, 0.0]), 2.0);
+        agree("x", trajectory.final_state().q[0], speed, 1e-14);
+        agree("y", trajectory.final_state().q[1], 0.0, 1e-14);
+        assert_eq!(trajectory.final_mode().contacts, [speed < 0.0, speed > 0.0]);
+        agree("time", trajectory.events()[0].time, 1.0, 1e-14);
+    }
+}
+
+#[test]
+fn a_block_at_rest_on_the_edge_stays() {
+    let trajectory = run(&TABLE, state([1.0, 0.8], [0.0, 0.0]), 5.0);
+    assert!(trajectory.events().is_empty());
+    assert_eq!(trajectory.final_state().q, [1.0, 0.8]);
+}
