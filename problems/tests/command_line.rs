@@ -174,18 +174,18 @@ fn csv_has_one_header_and_lines_in_order_of_time() {
     let mut reader = csv::Reader::from_reader(table.as_bytes());
     let header = reader.headers().expect("a header").clone();
     for name in [
-        "t",
+        "t [s]",
         "event",
-        "theta",
-        "der(theta)",
-        "force(rim)",
-        "kinetic",
-        "px",
+        "theta [rad]",
+        "der(theta) [rad/s]",
+        "force(rim) [N]",
+        "kinetic [J]",
+        "px [m]",
         "mode",
     ] {
         assert!(
             header.iter().any(|column| column == name),
-            "{name} is missing in {header:?}"
+            "`{name}` is missing in {header:?}"
         );
     }
     let times: Vec<f64> = reader

@@ -99,8 +99,7 @@ pub(super) fn derivation(
     let costs = work.costs();
     let modes: Vec<_> = chosen.shown.iter().map(|mode| work.mode(mode)).collect();
     let switches = work.switches(&chosen.shown);
-    let hints = program.equations.system.hints.iter();
-    let mut notes: Vec<String> = hints.map(|hint| hint.text.clone()).collect();
+    let mut notes = Vec::new();
     if (modes.len() as u128) < chosen.count && mode.is_none() {
         notes.push(format!(
             "{} of {} modes are shown: all contacts open, one of them closed, and all of them closed and sticking.",
