@@ -461,10 +461,8 @@ fn the_mass_matrix_of_a_quaternion_is_never_positive_definite() {
         ];
         let mut matrix = [0.0; 16];
         for (row, inertia) in rates.iter().zip(inertia) {
-            for i in 0..4 {
-                for j in 0..4 {
-                    matrix[4 * i + j] += 4.0 * inertia * row[i] * row[j];
-                }
+            for (k, x) in matrix.iter_mut().enumerate() {
+                *x += 4.0 * inertia * row[k / 4] * row[k % 4];
             }
         }
         assert!(!direct.factor(4, 4, &matrix), "q₃ = {last:e}");
