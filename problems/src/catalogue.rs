@@ -221,6 +221,7 @@ impl<S: System<Scalar = f64> + Default + Send + 'static> Scene for Entry<S> {
             &trajectory,
             failure,
             request.samples,
+            request.ledger,
         ))
     }
 

@@ -25,6 +25,9 @@ pub struct Outcome {
     pub samples: Vec<Sample>,
     /// Energy book; `None` if it could not be drawn up.
     pub ledger: Option<Ledger>,
+    /// The same from the beginning to each sample, if that was asked for and can be drawn up; at the instant of an impact with
+    /// the impact.
+    pub ledgers: Vec<Ledger>,
     /// Work counts.
     pub work: Work,
     /// Why the run ended early.
@@ -136,8 +139,12 @@ impl Outcome {
         trajectory: &Trajectory<S>,
         failure: Option<Error>,
         intervals: usize,
+        ledgers: bool,
     ) -> Self {
         let description = S::DESCRIPTION;
+        let samples = sample(trajectory, intervals);
+        let times: Vec<f64> = samples.iter().map(|sample| sample.time).collect();
+        let ledgers = ledgers.then(|| trajectory.ledgers(&times).ok()).flatten();
         Outcome {
             scene,
             description,
@@ -147,8 +154,9 @@ impl Outcome {
             effects: trajectory.effects().clone(),
             events: trajectory.events().to_vec(),
             phases: trajectory.phases(),
-            samples: sample(trajectory, intervals),
+            samples,
             ledger: trajectory.ledger().ok(),
+            ledgers: ledgers.unwrap_or_default(),
             work: trajectory.work(),
             failure,
         }

@@ -30,6 +30,8 @@ pub struct Request {
     pub impacts: Option<Impacts>,
     /// Number of intervals to sample the trajectory at; 0 samples its ends only.
     pub samples: usize,
+    /// Whether the energy ledger is drawn up at every sample.
+    pub ledger: bool,
 }
 
 impl Default for Request {
@@ -45,6 +47,7 @@ impl Default for Request {
             project: false,
             impacts: None,
             samples: 0,
+            ledger: false,
         }
     }
 }

@@ -15,7 +15,7 @@ use crate::system::System;
 use crate::trajectory::State;
 
 /// Where rounding hides how a guard begins, the step is made shorter by this.
-const CLOSER_LOOK: f64 = 1e-3;
+const CLOSER_LOOK: f64 = 0.1;
 /// But not beyond this share of the time that is left (close to time 0 its resolution is no limit).
 const CLOSEST: f64 = 1e-20;
 

@@ -34,6 +34,9 @@ pub(super) struct Run {
     /// Draw forces and state over time.
     #[arg(long, value_name = "FILE.svg")]
     plot: Option<PathBuf>,
+    /// Give the work of every item over time (csv: columns, json: a list).
+    #[arg(long)]
+    ledger: bool,
     /// Move a start that violates a constraint onto it instead of refusing it.
     #[arg(long)]
     project: bool,
@@ -52,13 +55,14 @@ impl Run {
         self.output.or(file.outputs.format, file.outputs.output);
         let plot = self.plot.or(file.outputs.plot);
         let format = self.output.format();
-        let sampled = plot.is_some() || format == Format::Csv;
+        let sampled = plot.is_some() || format == Format::Csv || self.ledger;
         let base = Request {
             samples: if sampled { SAMPLES } else { 0 },
             tolerance: self.tolerance.unwrap_or(file.request.tolerance),
             method: self.method.unwrap_or(file.request.method),
             project: self.project || file.request.project,
             impacts: self.impacts.or(file.request.impacts),
+            ledger: self.ledger || file.request.ledger,
             ..file.request
         };
         let request = self.course.request(base);

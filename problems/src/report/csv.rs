@@ -1,9 +1,9 @@
 //! Outcome → CSV: one line per sample, two (before and after) per event, in order of time.
 //!
 //! Columns: `t`, `event` (empty for a sample, else `grip slips`, `grip slips (after)`), coordinates, velocities,
-//! `force(item)`, `kinetic`, `potential`, `observe`d names, `mode`; each with its unit where it is known, `x [m]`. Lines of events leave out the last but one group.
+//! `force(item)`, `kinetic`, `potential`, `work(item)` if asked for, `observe`d names, `mode`; each with its unit where it is known, `x [m]`. Lines of events leave out the last but one group.
 
-use super::{rate_unit, with_unit};
+use super::{rate_unit, with_unit, work_name};
 use crate::outcome::{Outcome, Sample, forces};
 use crate::request::velocity_name;
 use lagrange_core::prelude::*;
@@ -13,17 +13,17 @@ use std::io::{self, Write};
 pub fn write(outcome: &Outcome, out: impl Write) -> io::Result<()> {
     let mut table = ::csv::Writer::from_writer(out);
     table.write_record(header(outcome))?;
-    let mut samples = outcome.samples.iter().peekable();
+    let mut samples = outcome.samples.iter().enumerate().peekable();
     for event in &outcome.events {
-        while let Some(sample) = samples.next_if(|sample| sample.time < event.time) {
-            table.write_record(sample_line(outcome, sample))?;
+        while let Some((index, sample)) = samples.next_if(|(_, sample)| sample.time < event.time) {
+            table.write_record(sample_line(outcome, index, sample))?;
         }
         for line in event_lines(outcome, event) {
             table.write_record(line)?;
         }
     }
-    for sample in samples {
-        table.write_record(sample_line(outcome, sample))?;
+    for (index, sample) in samples {
+        table.write_record(sample_line(outcome, index, sample))?;
     }
     table.flush()
 }
@@ -42,6 +42,11 @@ fn header(outcome: &Outcome) -> Vec<String> {
     );
     names.extend(["kinetic", "potential"].map(|name| with_unit(name, units.energy)));
     names.extend(
+        works(outcome)
+            .iter()
+            .map(|entry| with_unit(&format!("work({})", work_name(entry)), units.energy)),
+    );
+    names.extend(
         description
             .observes
             .iter()
@@ -51,7 +56,12 @@ fn header(outcome: &Outcome) -> Vec<String> {
     names
 }
 
-fn sample_line(outcome: &Outcome, sample: &Sample) -> Vec<String> {
+/// The items of the ledger over time; none if it was not asked for.
+fn works(outcome: &Outcome) -> &[Entry] {
+    outcome.ledgers.first().map_or(&[], |ledger| &ledger.work)
+}
+
+fn sample_line(outcome: &Outcome, index: usize, sample: &Sample) -> Vec<String> {
     let mut line = vec![sample.time.to_string(), String::new()];
     line.extend(numbers(&sample.state.q));
     line.extend(numbers(&sample.state.v));
@@ -61,6 +71,9 @@ fn sample_line(outcome: &Outcome, sample: &Sample) -> Vec<String> {
             .map(|force| sample.forces[force.row].to_string()),
     );
     line.extend(numbers(&[sample.kinetic, sample.potential]));
+    if let Some(ledger) = outcome.ledgers.get(index) {
+        line.extend(ledger.work.iter().map(|entry| entry.work.to_string()));
+    }
     line.extend(numbers(&sample.observes));
     line.push(sample.mode.display(outcome.description).to_string());
     line
@@ -78,7 +91,10 @@ fn event_lines(outcome: &Outcome, event: &Event<f64>) -> [Vec<String>; 2] {
                 .iter()
                 .map(|force| rows[force.row].to_string()),
         );
-        line.extend(vec![String::new(); 2 + description.observes.len()]);
+        line.extend(vec![
+            String::new();
+            2 + works(outcome).len() + description.observes.len()
+        ]);
         line.push(mode);
         line
     };

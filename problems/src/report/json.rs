@@ -1,6 +1,6 @@
 //! Outcome → JSON: everything, every number in full precision, names in the order of the declaration.
 
-use super::{named_state, rate_unit};
+use super::{named_state, rate_unit, work_name};
 use crate::outcome::{Outcome, forces};
 use crate::request::velocity_name;
 use lagrange_core::prelude::*;
@@ -29,6 +29,8 @@ struct Report {
     last: Option<Instant>,
     #[serde(skip_serializing_if = "Option::is_none")]
     energy: Option<Energy>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    energy_over_time: Vec<Balance>,
     work: Counts,
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<String>,
@@ -73,6 +75,16 @@ struct Energy {
     end: Parts,
     work: Vec<Share>,
     scale: f64,
+    closure: f64,
+}
+
+/// The ledger from the beginning to one time.
+#[derive(Serialize)]
+struct Balance {
+    time: f64,
+    kinetic: f64,
+    potential: f64,
+    work: Numbers,
     closure: f64,
 }
 
@@ -173,6 +185,12 @@ fn report(outcome: &Outcome) -> Report {
             .collect(),
         last: outcome.last().map(instant),
         energy: outcome.ledger.as_ref().map(energy),
+        energy_over_time: outcome
+            .samples
+            .iter()
+            .zip(&outcome.ledgers)
+            .map(|(sample, ledger)| balance(sample.time, ledger))
+            .collect(),
         work: counts(outcome),
         error: outcome.failure.as_ref().map(Error::to_string),
     }
@@ -241,6 +259,17 @@ fn energy(ledger: &Ledger) -> Energy {
             })
             .collect(),
         scale: ledger.scale,
+        closure: ledger.closure,
+    }
+}
+
+fn balance(time: f64, ledger: &Ledger) -> Balance {
+    let work = ledger.work.iter();
+    Balance {
+        time,
+        kinetic: ledger.end.kinetic,
+        potential: ledger.end.potential,
+        work: Numbers(work.map(|e| (work_name(e), e.work)).collect()),
         closure: ledger.closure,
     }
 }

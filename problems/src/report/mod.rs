@@ -11,6 +11,7 @@ pub mod sweep;
 pub mod table;
 
 use clap::ValueEnum;
+use lagrange_core::prelude::Entry;
 use lagrange_core::system::{Coordinate, Description};
 use serde::{Deserialize, Serialize};
 
@@ -55,6 +56,14 @@ pub(crate) fn with_unit(name: &str, unit: &str) -> String {
     match unit {
         "" => name.to_owned(),
         unit => format!("{name} [{unit}]"),
+    }
+}
+
+/// Name of an item of the ledger: a contact does work by its force (where its surface moves) and by impacts.
+pub(crate) fn work_name(entry: &Entry) -> String {
+    match entry.kind {
+        "impact" => format!("{} impact", entry.name),
+        _ => entry.name.to_owned(),
     }
 }
 

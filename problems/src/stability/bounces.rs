@@ -203,7 +203,7 @@ pub fn rocking_block(_: Extent) -> Result<Vec<Figure>, Surprise> {
         Figure::new("rates after twenty impacts", rates, 1e-11),
         Figure::new("times of twenty impacts", times, 1e-12),
         Figure::new("greatest tilts between", tilts, 1e-11),
-        Figure::new("time at which it stands", relative(rest, time), 1e-11),
+        Figure::new("time at which it stands", relative(rest, time), 1e-12),
         Figure::new("tilt then, rad", end.q[2].abs(), 1e-12),
         Figure::new("motion then, m/s or rad/s", turns, 1e-14),
         Figure::new("ledger", closure(&trajectory)?, 1e-11),

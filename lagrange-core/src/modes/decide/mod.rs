@@ -156,7 +156,7 @@ impl<T: Scalar> Decider<T> {
             Ok(false) => Err(Error::NoMode {
                 time,
                 mode: present.display(d).to_string(),
-                item: concerned::<S>(known),
+                item: concerned::<S>(known, present),
                 tried: self.tried,
             }),
             Err(error) => Err(Error::from_evaluation(error, time, dynamics.mode(), d)),
@@ -268,7 +268,7 @@ fn differ<T: Scalar>(a: &[f64], b: &[T]) -> bool {
     pairs.any(|(x, y)| (x - y.value()).abs() > 1e-9 * size)
 }
 
-fn concerned<S: System>(known: &Known) -> &'static str {
+fn concerned<S: System>(known: &Known, present: &Mode) -> &'static str {
     let d = S::DESCRIPTION;
     let located = known.located.iter().find_map(|g| match *g {
         Guard::Gap(c) | Guard::Normal(c) | Guard::Region(c) => Some(d.contacts[c].name),
@@ -290,5 +290,9 @@ fn concerned<S: System>(known: &Known) -> &'static str {
         .iter()
         .position(|r| *r)
         .map(|c| d.contacts[c].name);
-    located.or(resting).or(touching).unwrap_or(d.name)
+    let slides = |f: &FrictionMode| matches!(f, FrictionMode::Slip(_));
+    let slides = present.frictions.iter().position(slides);
+    let sliding = slides.map(|f| d.frictions[f].name);
+    let found = located.or(resting).or(touching).or(sliding);
+    found.unwrap_or(d.name)
 }

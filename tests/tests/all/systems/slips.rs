@@ -2,8 +2,9 @@
 
 use super::state;
 use core::f64::consts::PI;
+use lagrange_core::mode::FrictionMode;
 use lagrange_core::prelude::*;
-use lagrange_tests::{agree, all_agree, closure, event, integral, run, words};
+use lagrange_tests::{Random, agree, all_agree, closure, event, integral, run, words};
 
 /// A block on a belt that runs along x, held by springs in both directions.
 #[derive(Lagrangian, Clone, Debug)]
@@ -523,4 +524,67 @@ fn limits_and_coefficients_that_depend_on_the_state() {
         &other.final_state().q,
         1e-9,
     );
+}
+
+/// Blocks on belts of any direction, at random: friction stays in its cone and against the slip, the ledger closes.
+#[test]
+fn blocks_on_belts_at_random() {
+    let mut random = Random::new(5);
+    for run_number in 0..40 {
+        let low = random.between(0.05, 0.6);
+        let belt = Belt {
+            mass: random.between(0.2, 3.0),
+            gravity: 9.81,
+            stiffness: random.between(1.0, 60.0),
+            speed: if run_number % 5 == 0 {
+                0.0
+            } else {
+                random.between(0.05, 1.0)
+            },
+            mu_static: low
+                * if run_number % 3 == 0 {
+                    1.0
+                } else {
+                    random.between(1.0, 2.0)
+                },
+            mu_kinetic: low,
+        };
+        let mut four = || random.between(-0.8, 0.8);
+        let at_rest = run_number % 4 == 0;
+        let v = if at_rest {
+            [belt.speed, 0.0, 0.0]
+        } else {
+            [four(), four(), 0.0]
+        };
+        let start = state(&[four(), four(), 0.0], &v);
+        let trajectory = run(&belt, start, 10.0);
+        let ledger = trajectory.ledger().expect("recorded");
+        assert!(
+            ledger.closure.abs() < 1e-10 * ledger.scale.max(1.0),
+            "{run_number}: {}",
+            ledger.closure
+        );
+        let weight = belt.mass * belt.gravity;
+        let mut sampler = trajectory.sampler();
+        for k in 0..200 {
+            let now = sampler.at(0.05 * f64::from(k)).expect("in the run");
+            let force = [now.forces[1], now.forces[2]];
+            let size = force[0].hypot(force[1]);
+            if now.mode.frictions[0] == FrictionMode::Stick {
+                assert!(
+                    size <= belt.mu_static * weight * (1.0 + 1e-10),
+                    "{run_number}"
+                );
+                assert!(now.slips[0].hypot(now.slips[1]) < 1e-14);
+            } else {
+                agree("size", size, belt.mu_kinetic * weight, 1e-12);
+                let along = force[0] * now.slips[0] + force[1] * now.slips[1];
+                let slip = now.slips[0].hypot(now.slips[1]);
+                assert!(
+                    along <= -size * slip * (1.0 - 1e-9),
+                    "{run_number} {along} {slip}"
+                );
+            }
+        }
+    }
 }

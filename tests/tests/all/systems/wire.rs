@@ -258,3 +258,65 @@ fn all_methods_follow_the_bead() {
         );
     }
 }
+
+/// Two slides joined by a slanting rod (Klein 1909): the lower one rubs in its guide, the upper one is pushed.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, u),
+    kinetic = lower/2 * (der(x)^2 + der(y)^2) + upper/2 * der(u)^2,
+    constraint(rod: sqrt((u - x)^2 + (height - y)^2) == length),
+    constraint(guide: y == 0),
+    friction(rub on guide: slip = der(x), static = mu),
+    force(push: u = thrust),
+)]
+struct Slides {
+    lower: f64,
+    upper: f64,
+    height: f64,
+    length: f64,
+    mu: f64,
+    thrust: f64,
+}
+
+/// With k = μ tan α and r = m₁/m₂ the force T along the guides obeys P r = (1 + r) T − k |T|: one answer for k < 1 + r, beyond
+/// it none for P > 0 and two for P < 0.
+#[test]
+fn two_slides_on_a_slanting_rod() {
+    let scene = Slides {
+        lower: 1.0,
+        upper: 2.0,
+        height: 0.4,
+        length: 0.5,
+        mu: 0.6,
+        thrust: 3.0,
+    };
+    let (slope, r) = (4.0 / 3.0, 0.5);
+    let start = || state(&[0.0, 0.0, 0.3], &[1.0, 0.0, 1.0]);
+    for thrust in [3.0, -3.0] {
+        let k = scene.mu * slope * f64::signum(thrust);
+        let scene = Slides { thrust, ..scene };
+        let trajectory = run(&scene, start(), 0.2);
+        let force = thrust * r / (1.0 + r - k);
+        let acceleration = (thrust - force) / scene.upper;
+        let now = trajectory.sampler().at(0.1).expect("in the run");
+        agree("acceleration", now.acceleration[0], acceleration, 1e-12);
+        assert!(closure(&trajectory) < 1e-12);
+    }
+    let rough = Slides { mu: 1.5, ..scene };
+    let refused = Simulation::new(&rough).run(start(), 0.0..0.2);
+    let error = refused.expect_err("no answer").error;
+    assert!(
+        matches!(error, Error::NoMode { item: "rub", .. }),
+        "{error}"
+    );
+    let pulled = Slides {
+        thrust: -3.0,
+        ..rough
+    };
+    let trajectory = run(&pulled, start(), 0.1);
+    assert!(
+        trajectory.events().iter().all(|e| e.ambiguous),
+        "{:?}",
+        words(&trajectory)
+    );
+}
