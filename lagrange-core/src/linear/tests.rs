@@ -444,3 +444,29 @@ fn planned_solutions_agree_with_the_whole_system() {
         "{compared} {eliminated} {oblique}"
     );
 }
+
+#[test]
+fn the_mass_matrix_of_a_quaternion_is_never_positive_definite() {
+    // Close to the identity one of its minors nearly vanishes, and what rounding leaves of the last pivot is large.
+    use super::direct::Direct;
+    let inertia = [1.0, 2.0, 3.0];
+    let mut direct = Direct::default();
+    for k in 0..4000 {
+        let last = -1e-9 * 1.003_f64.powi(k);
+        let q = [0.999_986, 2.643_827_8e-5, 5.287_639e-3, last];
+        let rates = [
+            [-q[1], q[0], q[3], -q[2]],
+            [-q[2], -q[3], q[0], q[1]],
+            [-q[3], q[2], -q[1], q[0]],
+        ];
+        let mut matrix = [0.0; 16];
+        for (row, inertia) in rates.iter().zip(inertia) {
+            for i in 0..4 {
+                for j in 0..4 {
+                    matrix[4 * i + j] += 4.0 * inertia * row[i] * row[j];
+                }
+            }
+        }
+        assert!(!direct.factor(4, 4, &matrix), "q₃ = {last:e}");
+    }
+}

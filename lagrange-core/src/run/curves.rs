@@ -12,6 +12,9 @@ use crate::modes::reading::Reading;
 use crate::modes::sharing::{self, Joint};
 use crate::system::System;
 
+/// Samples of a guard in a step of a Runge–Kutta method, at least.
+const FEWEST_SAMPLES: usize = 8;
+
 /// The polynomials of all guards of a step.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Curves {
@@ -171,7 +174,8 @@ impl Curves {
         q: &mut [S::Scalar],
         v: &mut [S::Scalar],
     ) -> Result<(), EvaluationError> {
-        let m = step.degree + 1;
+        // A guard bends more than the coordinates that it is made of.
+        let m = (step.degree + 1).max(FEWEST_SAMPLES);
         self.prepare(m);
         self.shape(guards.len(), m);
         self.coefficients.fill(0.0);
