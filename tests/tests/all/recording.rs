@@ -94,6 +94,7 @@ fn a_step_does_not_allocate() {
         begin: 0.0,
         jump: 1.0,
         growth: 0.0,
+        turn: 12.0,
         ..TurningPush::default()
     });
 }
