@@ -9,6 +9,7 @@ pub mod code;
 mod derivation;
 pub mod dynamics;
 pub mod effects;
+mod entries;
 pub mod error;
 pub mod events;
 pub mod handle;
@@ -21,6 +22,7 @@ pub mod prelude;
 mod run;
 pub mod simulation;
 pub mod system;
+mod tapes;
 pub mod trajectory;
 
 pub use derivation::Derivation;

@@ -13,6 +13,6 @@ pub use crate::run::Runner;
 pub use crate::simulation::{Failure, Held, Simulation};
 pub use crate::system::{Description, Impacts, System};
 pub use crate::trajectory::{
-    Energies, Entry, Event, EventKind, Instant, Ledger, Phase, Sampler, Starts, State, Subject,
-    Trajectory, Work,
+    Energies, Entry, Event, EventKind, Instant, Ledger, Phase, Record, Sampler, Starts, State,
+    Subject, Trajectory, Work,
 };

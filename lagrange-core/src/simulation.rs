@@ -1,12 +1,12 @@
 //! A run: the system, what takes part in it, how exact it is to be.
 
-use crate::dynamics::Dynamics;
+use crate::arithmetic::Scalar;
 use crate::effects::Effects;
 use crate::error::Error;
 use crate::integrate::Method;
-use crate::modes::start;
 use crate::run::Runner;
 use crate::system::{Impacts, System};
+use crate::tapes::Tapes;
 use crate::trajectory::{EventKind, State, Subject, Trajectory};
 use core::fmt;
 use core::ops::Range;
@@ -186,22 +186,20 @@ impl<'a, S: System> Simulation<'a, S> {
         wanted: &State<S::Scalar>,
         held: &Held,
     ) -> Result<State<S::Scalar>, Error> {
-        let mut dynamics = Dynamics::new(self.scene, &self.settings.effects);
-        let tolerance = self.settings.tolerance;
-        start::consistent(&mut dynamics, time, tolerance, reference, wanted, held)
+        self.runner().consistent(time, reference, wanted, held)
     }
 }
 
 impl Settings {
     /// Checks what the caller set.
-    pub(crate) fn check<S: System>(
+    pub(crate) fn check<T: Scalar>(
         &self,
-        scene: &S,
-        start: &State<S::Scalar>,
+        system: &dyn Tapes<T>,
+        start: &State<T>,
         span: &Range<f64>,
     ) -> Result<(), Error> {
-        use crate::arithmetic::Scalar;
-        let n = S::DESCRIPTION.coordinates.len();
+        let d = system.description();
+        let n = d.coordinates.len();
         if !(1e-17..=0.1).contains(&self.tolerance) {
             let expected = "between 1e-17 and 0.1";
             return Err(Error::Argument {
@@ -258,8 +256,8 @@ impl Settings {
                 });
             }
         }
-        for (i, parameter) in S::DESCRIPTION.parameters.iter().enumerate() {
-            let value = scene.parameter(i).value();
+        for (i, parameter) in d.parameters.iter().enumerate() {
+            let value = system.parameter(i).value();
             if !value.is_finite() {
                 return Err(Error::Argument {
                     what: parameter.name,

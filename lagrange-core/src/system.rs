@@ -47,7 +47,7 @@ impl Held<'_> {
 /// A mechanical system: what `#[derive(Lagrangian)]` implements.
 ///
 /// Tapes are straight-line programs over an [`Arithmetic`]; see [`crate::arithmetic`] for the three readings.
-pub trait System: Clone {
+pub trait System: Clone + Send + Sync + 'static {
     /// The number type of parameters and state.
     type Scalar: Scalar;
 

@@ -132,12 +132,7 @@ fn chain_by_hand<const N: usize>(
     begin.elapsed()
 }
 
-fn chain<S: System<Scalar = f64>>(
-    dynamics: &mut Dynamics<S>,
-    time: f64,
-    start: &State<f64>,
-    calls: u64,
-) -> Duration {
+fn chain(dynamics: &mut Dynamics<f64>, time: f64, start: &State<f64>, calls: u64) -> Duration {
     let mut state = black_box(start.clone());
     let mut rates = vec![0.0; state.v.len()];
     let begin = Instant::now();

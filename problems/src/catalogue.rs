@@ -217,7 +217,6 @@ impl<S: System<Scalar = f64> + Default + Send + 'static> Scene for Entry<S> {
         };
         Ok(Outcome::new(
             self.name,
-            &system,
             &trajectory,
             failure,
             request.samples,

@@ -96,12 +96,12 @@ pub(crate) fn measure<S: System<Scalar = f64>>(
         .collect();
     let without = items.iter().map(|item| effects.clone().without(*item));
     let choices: Vec<Effects> = core::iter::once(effects.clone()).chain(without).collect();
-    let mut sides: Vec<Vec<Option<RightSide<S>>>> = choices
+    let mut sides: Vec<Vec<Option<RightSide>>> = choices
         .iter()
         .map(|chosen| {
             let sides = places
                 .iter()
-                .map(|place| RightSide::new(system, chosen, place));
+                .map(|place| RightSide::new(Dynamics::new(system, chosen), place));
             sides.collect()
         })
         .collect();
@@ -116,7 +116,7 @@ pub(crate) fn measure<S: System<Scalar = f64>>(
         runs.for_each(WholeRun::time);
     }
     let mut costs = sides.into_iter().map(|sides| -> Vec<Option<Cost>> {
-        let cost = |side: Option<RightSide<S>>| side.map(|side| side.cost);
+        let cost = |side: Option<RightSide>| side.map(|side| side.cost);
         sides.into_iter().map(cost).collect()
     });
     let mut runs = runs.into_iter().map(|run| run.map(|run| run.best));
@@ -141,7 +141,7 @@ pub(crate) fn measure<S: System<Scalar = f64>>(
 }
 
 /// The middle of the first phase in each mode.
-fn places<S: System<Scalar = f64>>(trajectory: &Trajectory<S>) -> Vec<Place> {
+fn places(trajectory: &Record<f64>) -> Vec<Place> {
     let mut sampler = trajectory.sampler();
     let mut places: Vec<Place> = Vec::new();
     for phase in trajectory.phases() {
@@ -166,19 +166,19 @@ fn places<S: System<Scalar = f64>>(trajectory: &Trajectory<S>) -> Vec<Place> {
 }
 
 /// The equations in one mode, again and again.
-struct RightSide<S: System> {
-    dynamics: Dynamics<S>,
+struct RightSide {
+    dynamics: Dynamics<f64>,
     time: f64,
     start: State<f64>,
     rates: Vec<f64>,
     cost: Cost,
 }
 
-impl<S: System<Scalar = f64>> RightSide<S> {
+impl RightSide {
     /// The mode of a place, as far as these effects have it; `None` if it has no accelerations there.
-    fn new(system: &S, effects: &Effects, place: &Place) -> Option<Self> {
-        let mut dynamics = Dynamics::new(system, effects);
-        dynamics.set_mode(&remaining(S::DESCRIPTION, effects, &place.mode));
+    fn new(mut dynamics: Dynamics<f64>, place: &Place) -> Option<Self> {
+        let effects = dynamics.effects().clone();
+        dynamics.set_mode(&remaining(dynamics.description(), &effects, &place.mode));
         let State { q, v } = &place.state;
         dynamics.value(place.time, q, v).ok()?;
         let cost = Cost {

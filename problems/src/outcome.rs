@@ -133,15 +133,14 @@ pub fn forces(description: &Description) -> Vec<Force> {
 
 impl Outcome {
     /// Collects what a trajectory knows; `intervals` equal ones are sampled beside the ends of the phases.
-    pub(crate) fn new<S: System<Scalar = f64>>(
+    pub(crate) fn new(
         scene: &'static str,
-        system: &S,
-        trajectory: &Trajectory<S>,
+        trajectory: &Record<f64>,
         failure: Option<Error>,
         intervals: usize,
         ledgers: bool,
     ) -> Self {
-        let description = S::DESCRIPTION;
+        let description = trajectory.description();
         let samples = sample(trajectory, intervals);
         let times: Vec<f64> = samples.iter().map(|sample| sample.time).collect();
         let ledgers = ledgers.then(|| trajectory.ledgers(&times).ok()).flatten();
@@ -149,7 +148,7 @@ impl Outcome {
             scene,
             description,
             parameters: (0..description.parameters.len())
-                .map(|i| system.parameter(i))
+                .map(|i| trajectory.parameter(i))
                 .collect(),
             effects: trajectory.effects().clone(),
             events: trajectory.events().to_vec(),
@@ -196,11 +195,11 @@ impl Outcome {
 }
 
 /// Both ends of every phase, and between them the multiples of the whole time over `intervals`.
-fn sample<S: System<Scalar = f64>>(trajectory: &Trajectory<S>, intervals: usize) -> Vec<Sample> {
+fn sample(trajectory: &Record<f64>, intervals: usize) -> Vec<Sample> {
     let (first, last) = (trajectory.first_time(), trajectory.last_time());
     let step = (last - first) / intervals.max(1) as f64;
     let mut sampler = trajectory.sampler();
-    let mut limits = Limits::new(trajectory.scene(), trajectory.effects());
+    let mut limits = Limits::new(trajectory.dynamics());
     let mut samples = Vec::new();
     let at_once = || {
         vec![Phase {
@@ -262,17 +261,17 @@ fn just_before(time: f64) -> f64 {
 }
 
 /// What frictions can hold: coefficient × normal force.
-struct Limits<S: System> {
-    dynamics: Dynamics<S>,
+struct Limits {
+    dynamics: Dynamics<f64>,
 }
 
-impl<S: System<Scalar = f64>> Limits<S> {
-    fn new(scene: &S, effects: &Effects) -> Self {
-        let mut needs = NeedSet::new(S::DESCRIPTION);
-        for friction in S::DESCRIPTION.frictions {
+impl Limits {
+    fn new(mut dynamics: Dynamics<f64>) -> Self {
+        let description = dynamics.description();
+        let mut needs = NeedSet::new(description);
+        for friction in description.frictions {
             needs.insert(friction.coefficients_need);
         }
-        let mut dynamics = Dynamics::new(scene, effects);
         dynamics.set_extra_needs(&needs);
         Self { dynamics }
     }
@@ -282,7 +281,7 @@ impl<S: System<Scalar = f64>> Limits<S> {
     }
 
     fn at(&mut self, time: f64, instant: &Instant<f64>) -> Vec<Option<f64>> {
-        let description = S::DESCRIPTION;
+        let description = self.dynamics.description();
         let along = self.dynamics.value_along(time, &instant.q, &instant.v);
         if along.is_err() {
             return vec![None; description.frictions.len()];

@@ -42,7 +42,10 @@ fn errors_follow_the_tolerance_and_something_is_fastest() {
             "1e-4,1e-8,1e-12",
         ],
     );
-    assert_eq!(report["reference"]["checked_by"], "verner98 at 1e-15");
+    // By another method than that of the reference, as tight as it gets.
+    let checked_by = report["reference"]["checked_by"].as_str();
+    let checked_by = checked_by.unwrap_or_default();
+    assert!(checked_by.ends_with(" at 1e-15") && !checked_by.starts_with("taylor"));
     let floor = number(&report["reference"], "floor");
     assert!(floor < 1e-14, "{floor:e}");
     let rows = rows(&report);

@@ -82,28 +82,25 @@ pub fn run<S: System<Scalar = f64>>(scene: &S, start: State<f64>, until: f64) ->
 }
 
 /// The events as `item kind`.
-pub fn words<S: System>(trajectory: &Trajectory<S>) -> Vec<String> {
+pub fn words(trajectory: &Record<f64>) -> Vec<String> {
     let events = trajectory.events().iter();
     events
-        .map(|e| format!("{} {}", e.subject.name(S::DESCRIPTION), e.kind))
+        .map(|e| format!("{} {}", e.subject.name(trajectory.description()), e.kind))
         .collect()
 }
 
 /// The first event of an item and kind, `("shell", "lost")`.
 #[track_caller]
-pub fn event<'a, S: System>(
-    trajectory: &'a Trajectory<S>,
-    item: &str,
-    kind: &str,
-) -> &'a Event<S::Scalar> {
+pub fn event<'a>(trajectory: &'a Record<f64>, item: &str, kind: &str) -> &'a Event<f64> {
     let mut events = trajectory.events().iter();
-    let found = events.find(|e| e.subject.name(S::DESCRIPTION) == item && e.kind.word() == kind);
+    let found =
+        events.find(|e| e.subject.name(trajectory.description()) == item && e.kind.word() == kind);
     found.unwrap_or_else(|| panic!("no `{item} {kind}` in {:?}", words(trajectory)))
 }
 
 /// Closure of the energy ledger relative to its scale.
 #[track_caller]
-pub fn closure<S: System>(trajectory: &Trajectory<S>) -> f64 {
+pub fn closure(trajectory: &Record<f64>) -> f64 {
     let ledger = trajectory.ledger().expect("the trajectory can be sampled");
     ledger.closure.abs() / ledger.scale
 }

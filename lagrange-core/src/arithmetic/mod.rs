@@ -24,6 +24,7 @@ pub use expansion::{Expansion, MAX_ORDER, Operation};
 pub use program::Program;
 pub use record::{Recorded, Recorder, Recording, Slot, Variation};
 
+use crate::entries::Entries;
 use core::fmt::Debug;
 
 /// A number that parameters, states and coefficients are made of.
@@ -35,6 +36,8 @@ pub trait Scalar:
     + PartialEq
     + num_traits::NumAssign
     + core::ops::Neg<Output = Self>
+    + Send
+    + Sync
     + 'static
 {
     /// The nearest number of this type.
@@ -69,6 +72,12 @@ pub trait Scalar:
     #[inline(always)]
     fn mul_add(self, y: Self, z: Self) -> Self {
         self * y + z
+    }
+
+    /// What a program calls of the core for this type. Machine numbers have it compiled in this crate.
+    #[doc(hidden)]
+    fn entries() -> &'static Entries<Self> {
+        &const { Entries::OWN }
     }
 }
 

@@ -225,8 +225,8 @@ fn slips_of<S: System>() -> Vec<usize> {
 }
 
 /// μs N − |F|
-fn margin<S: System<Scalar = f64>>(dynamics: &Dynamics<S>, f: usize) -> f64 {
-    let d = S::DESCRIPTION;
+fn margin(dynamics: &Dynamics<f64>, f: usize) -> f64 {
+    let d = dynamics.description();
     let friction = &d.frictions[f];
     let normal = match friction.normal {
         Normal::Contact(c) => {

@@ -7,7 +7,8 @@ use crate::arithmetic::Scalar;
 use crate::effects::Effects;
 use crate::linear::{Plan, Solver};
 use crate::mode::Mode;
-use crate::system::{Held, System};
+use crate::system::Held;
+use crate::tapes::Tapes;
 
 /// Tapes kept per mode: what is asked for beside the motion changes between stepping and switching.
 const MOST_TAPES: usize = 8;
@@ -48,8 +49,8 @@ pub(super) struct Asked<'a> {
 }
 
 impl<T: Scalar> Compiled<T> {
-    pub(super) fn new<S: System<Scalar = T>>(scene: &S, effects: &Effects, mode: &Mode) -> Self {
-        let d = S::DESCRIPTION;
+    pub(super) fn new(system: &dyn Tapes<T>, effects: &Effects, mode: &Mode) -> Self {
+        let d = system.description();
         let mut motion_needs = NeedSet::new(d);
         let mut row_needs = NeedSet::new(d);
         let mut held = NeedSet::new(d);
@@ -61,7 +62,7 @@ impl<T: Scalar> Compiled<T> {
             needs: &held,
             branches: &mode.branches,
         };
-        scene.constants(&held, &mut constants);
+        system.constants(&held, &mut constants);
         let mut plan = Plan::default();
         plan.set(d, effects, mode, &mut constants);
         let mut solver = Solver::default();
@@ -102,7 +103,7 @@ impl<T: Scalar> Compiled<T> {
     }
 
     /// Makes the tape for what is asked current, recording it if there is none.
-    pub(super) fn select<S: System<Scalar = T>>(&mut self, scene: &S, asked: &Asked) {
+    pub(super) fn select(&mut self, system: &dyn Tapes<T>, asked: &Asked) {
         if let Some(index) = self.tapes.iter().position(|tape| tape.is_for(asked)) {
             self.current = index;
             return;
@@ -110,7 +111,7 @@ impl<T: Scalar> Compiled<T> {
         if self.tapes.len() == MOST_TAPES {
             self.tapes.remove(0);
         }
-        self.tapes.push(Tape::record(scene, self, asked));
+        self.tapes.push(Tape::record(system, self, asked));
         self.current = self.tapes.len() - 1;
     }
 }

@@ -14,8 +14,6 @@
 use super::{Dynamics, EvaluationError};
 use crate::arithmetic::{MAX_ORDER, Operation, Scalar};
 use crate::mode::{Direction, FrictionMode, Sliding};
-use crate::system::System;
-use num_traits::Zero;
 
 /// A slip smaller than this, in units of what it is made of, has no direction.
 const VANISHING: f64 = 1e-13;
@@ -108,22 +106,22 @@ pub(crate) fn approach(mut slip: impl FnMut(f64) -> [f64; 2]) -> Option<[f64; 2]
     (length > 0.0).then(|| along.map(|x| x / length))
 }
 
-impl<S: System> Dynamics<S> {
+impl<T: Scalar> Dynamics<T> {
     /// The direction in which friction `f` of two components slips, or begins to: that at the last [`Self::series`],
     /// [`Self::set_heading`] or [`Self::take_headings`].
-    pub fn heading(&self, f: usize) -> [S::Scalar; 2] {
+    pub fn heading(&self, f: usize) -> [T; 2] {
         self.headings.of(f)
     }
 
     /// The direction, a unit vector, in which friction `f` of two components begins to slip ([`Direction::Incipient`]).
-    pub fn set_heading(&mut self, f: usize, along: [S::Scalar; 2]) {
+    pub fn set_heading(&mut self, f: usize, along: [T; 2]) {
         self.headings.now[f] = along;
     }
 
     /// Slip of friction `f` of two components at the last [`Self::tape`] or [`Self::value`]; its need must have been held.
-    pub fn slip(&self, f: usize) -> [S::Scalar; 2] {
-        let row = S::DESCRIPTION.frictions[f].row;
-        [row, row + 1].map(|row| self.motion(S::DESCRIPTION.rows[row].velocity))
+    pub fn slip(&self, f: usize) -> [T; 2] {
+        let row = self.description().frictions[f].row;
+        [row, row + 1].map(|row| self.motion(self.description().rows[row].velocity))
     }
 
     /// [`Self::value`] at a state of a step in which slips begin: the directions are those of the slips, where they do not
@@ -131,12 +129,7 @@ impl<S: System> Dynamics<S> {
     ///
     /// # Errors
     /// Those of [`Self::value`].
-    pub fn value_along(
-        &mut self,
-        t: S::Scalar,
-        q: &[S::Scalar],
-        v: &[S::Scalar],
-    ) -> Result<(), EvaluationError> {
+    pub fn value_along(&mut self, t: T, q: &[T], v: &[T]) -> Result<(), EvaluationError> {
         let count = self.compiled().plan.headings.len();
         if count == 0 {
             return self.value(t, q, v);
@@ -159,16 +152,16 @@ impl<S: System> Dynamics<S> {
                 ..
             }) = sliding
             {
-                self.set_heading(f, along.map(S::Scalar::from_f64));
+                self.set_heading(f, along.map(T::from_f64));
             }
         }
         outcome
     }
 
     /// The size of what makes the slip of friction `f`, at least 1, from the numbers of the last [`Self::tape`].
-    pub fn slip_size(&self, f: usize, v: &[S::Scalar]) -> f64 {
-        let friction = &S::DESCRIPTION.frictions[f];
-        let rows = &S::DESCRIPTION.rows[friction.row..friction.row + friction.components];
+    pub fn slip_size(&self, f: usize, v: &[T]) -> f64 {
+        let friction = &self.description().frictions[f];
+        let rows = &self.description().rows[friction.row..friction.row + friction.components];
         let terms = rows.iter().flat_map(|row| row.jacobian);
         let sizes = terms.map(|&(j, place)| (self.motion(place) * v[j]).value().abs());
         1.0 + sizes.sum::<f64>()
@@ -176,7 +169,7 @@ impl<S: System> Dynamics<S> {
 
     /// Takes the headings of all sliding frictions of two components from their slips at the last value.
     pub fn take_headings(&mut self) {
-        for f in 0..S::DESCRIPTION.frictions.len() {
+        for f in 0..self.description().frictions.len() {
             if self.turns(f) {
                 self.head_along(f, self.slip(f));
             }
@@ -185,7 +178,7 @@ impl<S: System> Dynamics<S> {
 
     /// The same from the series.
     pub(super) fn take_headings_of_series(&mut self) {
-        for f in 0..S::DESCRIPTION.frictions.len() {
+        for f in 0..self.description().frictions.len() {
             if self.turns(f) {
                 self.head_along(f, self.slip_coefficient(f, 0));
             }
@@ -204,7 +197,7 @@ impl<S: System> Dynamics<S> {
         )
     }
 
-    fn head_along(&mut self, f: usize, slip: [S::Scalar; 2]) {
+    fn head_along(&mut self, f: usize, slip: [T; 2]) {
         let speed = dot(slip, slip).sqrt();
         if speed.value() > 0.0 {
             self.headings.now[f] = slip.map(|s| s / speed);
@@ -212,10 +205,10 @@ impl<S: System> Dynamics<S> {
     }
 
     /// Coefficient `k` of the slip.
-    fn slip_coefficient(&self, f: usize, k: usize) -> [S::Scalar; 2] {
-        let row = S::DESCRIPTION.frictions[f].row;
+    fn slip_coefficient(&self, f: usize, k: usize) -> [T; 2] {
+        let row = self.description().frictions[f].row;
         [row, row + 1].map(|row| {
-            let series = self.motion_series(S::DESCRIPTION.rows[row].velocity);
+            let series = self.motion_series(self.description().rows[row].velocity);
             series.get(k).copied().unwrap_or_default()
         })
     }
@@ -225,7 +218,7 @@ impl<S: System> Dynamics<S> {
         let count = self.compiled().plan.headings.len();
         for i in 0..count {
             let f = self.beginning(i);
-            self.headings.series[f] = [[S::Scalar::zero(); 2]; MAX_ORDER + 2];
+            self.headings.series[f] = [[T::zero(); 2]; MAX_ORDER + 2];
             self.headings.series[f][0] = self.headings.now[f];
         }
         for k in 1..(order + 1).min(MAX_ORDER) {
@@ -256,7 +249,7 @@ impl<S: System> Dynamics<S> {
         self.headings.right.clear();
         for i in 0..self.compiled().plan.headings.len() {
             let f = self.beginning(i);
-            let mut sum = S::Scalar::zero();
+            let mut sum = T::zero();
             for j in 1..=k + 1 {
                 let u = self.headings.coefficient(f, k + 1 - j);
                 sum += cross(self.slip_coefficient(f, j), u);
@@ -269,9 +262,7 @@ impl<S: System> Dynamics<S> {
     fn respond(&mut self) -> Result<(), EvaluationError> {
         let count = self.compiled().plan.headings.len();
         self.headings.response.clear();
-        self.headings
-            .response
-            .resize(count * count, S::Scalar::zero());
+        self.headings.response.resize(count * count, T::zero());
         let across = |dynamics: &Self, i: usize| {
             let f = dynamics.beginning(i);
             let (along, _) = dynamics.headings.frame(f);
@@ -300,7 +291,7 @@ impl<S: System> Dynamics<S> {
     /// Solves for the turns of order `k`.
     fn turn_all(&mut self, k: usize) -> Result<(), EvaluationError> {
         let count = self.compiled().plan.headings.len();
-        let share = S::Scalar::from_f64(1.0 / (k + 1) as f64);
+        let share = T::from_f64(1.0 / (k + 1) as f64);
         for i in 0..count {
             let f = self.beginning(i);
             let (along, _) = self.headings.frame(f);

@@ -4,18 +4,19 @@
 
 use super::{Dynamics, EvaluationError};
 use crate::arithmetic::{Derivative, Dual, Scalar};
-use crate::system::{Held, System};
+use crate::system::Held;
+use crate::tapes::Call;
 
 /// Columns per run of the tape: two registers of derivatives beside the value.
 const LANES: usize = 4;
 
 /// Nodes of the derivative reading.
-pub(super) type Lanes<T> = Dual<T, LANES>;
+pub(crate) type Lanes<T> = Dual<T, LANES>;
 
 /// The arithmetic of them.
-pub(super) type Seeded<T> = Derivative<T, LANES>;
+pub(crate) type Seeded<T> = Derivative<T, LANES>;
 
-impl<S: System> Dynamics<S> {
+impl<T: Scalar> Dynamics<T> {
     /// ∂v̇/∂(q, v) at (t, q, v) in the present mode, written to `columns`: n columns for q, then n for v, of n elements
     /// each. The values of the state are evaluated on the way ([`Self::value`]).
     ///
@@ -23,13 +24,13 @@ impl<S: System> Dynamics<S> {
     /// Those of [`Self::value`].
     pub fn jacobian(
         &mut self,
-        t: S::Scalar,
-        q: &[S::Scalar],
-        v: &[S::Scalar],
-        columns: &mut [S::Scalar],
+        t: T,
+        q: &[T],
+        v: &[T],
+        columns: &mut [T],
     ) -> Result<(), EvaluationError> {
         self.value(t, q, v)?;
-        let n = S::DESCRIPTION.coordinates.len();
+        let n = self.description().coordinates.len();
         let known = self.known_solution()?;
         let mut outcome = Ok(());
         for first in (0..2 * n).step_by(LANES) {
@@ -52,8 +53,8 @@ impl<S: System> Dynamics<S> {
     }
 
     /// What the differences of the matrix multiply: the solution of the value. Its factors are made if the tape solved alone.
-    fn known_solution(&mut self) -> Result<Vec<S::Scalar>, EvaluationError> {
-        let n = S::DESCRIPTION.coordinates.len();
+    fn known_solution(&mut self) -> Result<Vec<T>, EvaluationError> {
+        let n = self.description().coordinates.len();
         let compiled = &self.modes[self.current];
         let divides = compiled.tape().is_some_and(|tape| tape.unsolved.is_none());
         let mut known = core::mem::take(&mut self.solution);
@@ -68,7 +69,7 @@ impl<S: System> Dynamics<S> {
 
     /// The motion tape and the plan's program with seeds on inputs `first`, `first` + 1, … of (q, v).
     fn run_derivative(&mut self, first: usize) {
-        let d = S::DESCRIPTION;
+        let d = self.description();
         let inputs = &self.inputs[..1 + 2 * d.coordinates.len()];
         self.lane_inputs.clear();
         self.lane_inputs
@@ -96,13 +97,13 @@ impl<S: System> Dynamics<S> {
             }
         }
         let outputs = &mut self.lane_nodes[..d.motion.outputs];
-        self.scene.motion(
-            &mut self.lanes,
-            &held,
-            &compiled.constants,
-            &self.lane_inputs,
+        self.system.motion_seeded(Call {
+            arithmetic: &mut self.lanes,
+            held: &held,
+            constants: &compiled.constants,
+            inputs: &self.lane_inputs,
             outputs,
-        );
+        });
         compiled
             .plan
             .program
@@ -110,7 +111,7 @@ impl<S: System> Dynamics<S> {
     }
 
     /// ∂b − ∂K w
-    fn differentiate_right(&mut self, lane: usize, known: &[S::Scalar]) {
+    fn differentiate_right(&mut self, lane: usize, known: &[T]) {
         let Self {
             modes,
             current,
@@ -120,7 +121,7 @@ impl<S: System> Dynamics<S> {
         } = self;
         let plan = &modes[*current].plan;
         right.clear();
-        right.resize(plan.size(), S::Scalar::default());
+        right.resize(plan.size(), T::default());
         // Loads and elements beyond are those of eliminated forces.
         for load in plan.loads.iter().filter(|load| load.row < plan.size()) {
             right[load.row] += load.factor * lane_nodes[load.node].derivative[lane];

@@ -1,17 +1,17 @@
 //! The equations of a mode as matrices, to look at and to compare with a derivation by hand.
 
 use super::{Compiled, Dynamics};
-use crate::arithmetic::Value;
+use crate::arithmetic::{Scalar, Value};
 use crate::linear::{Freedom, least_norm};
-use crate::system::{Place, System};
+use crate::system::Place;
 use nalgebra::{DMatrix, DVector};
 
-impl<S: System> Dynamics<S> {
+impl<T: Scalar> Dynamics<T> {
     /// M, coordinates × coordinates, at the last [`Self::value`].
-    pub fn mass_matrix(&self) -> DMatrix<S::Scalar> {
-        let n = S::DESCRIPTION.coordinates.len();
-        let mut matrix = DMatrix::from_element(n, n, S::Scalar::default());
-        for &(i, j, place) in S::DESCRIPTION.mass {
+    pub fn mass_matrix(&self) -> DMatrix<T> {
+        let n = self.description().coordinates.len();
+        let mut matrix = DMatrix::from_element(n, n, T::default());
+        for &(i, j, place) in self.description().mass {
             matrix[(i, j)] = self.motion(place);
             matrix[(j, i)] = self.motion(place);
         }
@@ -19,21 +19,22 @@ impl<S: System> Dynamics<S> {
     }
 
     /// f, one per coordinate, at the last [`Self::value`].
-    pub fn forcing(&self) -> DVector<S::Scalar> {
-        let forcing = S::DESCRIPTION
+    pub fn forcing(&self) -> DVector<T> {
+        let forcing = self
+            .description()
             .forcing
             .iter()
             .map(|&place| self.motion(place));
-        DVector::from_iterator(S::DESCRIPTION.coordinates.len(), forcing)
+        DVector::from_iterator(self.description().coordinates.len(), forcing)
     }
 
     /// A of the rows that act ([`Self::acting_rows`]) × coordinates, at the last [`Self::value`].
-    pub fn constraint_jacobian(&self) -> DMatrix<S::Scalar> {
+    pub fn constraint_jacobian(&self) -> DMatrix<T> {
         let rows = self.acting_rows();
-        let n = S::DESCRIPTION.coordinates.len();
-        let mut matrix = DMatrix::from_element(rows.len(), n, S::Scalar::default());
+        let n = self.description().coordinates.len();
+        let mut matrix = DMatrix::from_element(rows.len(), n, T::default());
         for (k, &row) in rows.iter().enumerate() {
-            for &(j, place) in S::DESCRIPTION.rows[row].jacobian {
+            for &(j, place) in self.description().rows[row].jacobian {
                 matrix[(k, j)] = self.motion(place);
             }
         }
@@ -41,7 +42,7 @@ impl<S: System> Dynamics<S> {
     }
 
     /// λ of the rows that act ([`Self::acting_rows`]), at the last [`Self::value`].
-    pub fn multipliers(&self) -> DVector<S::Scalar> {
+    pub fn multipliers(&self) -> DVector<T> {
         let rows = self.acting_rows();
         DVector::from_iterator(rows.len(), rows.iter().map(|&row| self.force(row)))
     }
@@ -56,9 +57,9 @@ impl<S: System> Dynamics<S> {
     /// The forces of all rows at the last [`Self::value`], where they are not determined those of least norm; and whether
     /// each is determined (rows that do not act are). One-sided contacts and friction may not allow these: see
     /// [`Instant::forces`](crate::trajectory::Instant::forces).
-    pub fn least_norm_forces(&self) -> (Vec<S::Scalar>, Vec<bool>) {
+    pub fn least_norm_forces(&self) -> (Vec<T>, Vec<bool>) {
         let (acting_forces, freedom) = self.least_norm_of_acting();
-        let mut determined = vec![true; S::DESCRIPTION.rows.len()];
+        let mut determined = vec![true; self.description().rows.len()];
         for (i, &row) in self.acting_rows().iter().enumerate() {
             determined[row] = freedom.is_determined(i);
         }
@@ -72,25 +73,25 @@ impl<S: System> Dynamics<S> {
     }
 
     /// Forces of the rows that act ([`Self::acting_rows`]), of least norm, and how else they could be.
-    pub(crate) fn least_norm_of_acting(&self) -> (Vec<S::Scalar>, Freedom) {
-        let n = S::DESCRIPTION.coordinates.len();
+    pub(crate) fn least_norm_of_acting(&self) -> (Vec<T>, Freedom) {
+        let n = self.description().coordinates.len();
         let acting = self.acting_rows();
         let plan = &self.compiled().plan;
         let nodes = self.program_nodes();
-        let mut columns = vec![S::Scalar::default(); n * acting.len()];
+        let mut columns = vec![T::default(); n * acting.len()];
         for (index, coordinate, place) in plan.columns() {
             columns[index * n + coordinate] += self.number(&nodes, place);
         }
-        let mut forces: Vec<S::Scalar> = acting.iter().map(|&row| self.force(row)).collect();
+        let mut forces: Vec<T> = acting.iter().map(|&row| self.force(row)).collect();
         let freedom = least_norm(&columns, n, &mut forces);
         (forces, freedom)
     }
 
     /// Forces of all rows, sliding frictions included, given those of the rows that act.
-    pub(crate) fn forces_of_acting(&self, acting_forces: &[S::Scalar]) -> Vec<S::Scalar> {
+    pub(crate) fn forces_of_acting(&self, acting_forces: &[T]) -> Vec<T> {
         let nodes = self.program_nodes();
-        let rows = 0..S::DESCRIPTION.rows.len();
-        let mut forces: Vec<S::Scalar> = rows.map(|row| self.force(row)).collect();
+        let rows = 0..self.description().rows.len();
+        let mut forces: Vec<T> = rows.map(|row| self.force(row)).collect();
         for (&row, &force) in self.acting_rows().iter().zip(acting_forces) {
             forces[row] = force;
         }
@@ -105,27 +106,27 @@ impl<S: System> Dynamics<S> {
     /// Whether row `row` says nothing new at the last [`Self::value`]: its Jacobian (which must have been asked for) is a
     /// combination of those of the rows that act.
     pub(crate) fn follows(&self, row: usize) -> bool {
-        let n = S::DESCRIPTION.coordinates.len();
+        let n = self.description().coordinates.len();
         let acting = self.acting_rows();
         let count = acting.len();
-        let mut matrix = vec![S::Scalar::default(); n * (count + 1)];
+        let mut matrix = vec![T::default(); n * (count + 1)];
         for (k, &r) in acting.iter().chain([&row]).enumerate() {
-            for &(j, place) in S::DESCRIPTION.rows[r].jacobian {
+            for &(j, place) in self.description().rows[r].jacobian {
                 matrix[k * n + j] = self.motion(place);
             }
         }
-        let mut forces = vec![S::Scalar::default(); count + 1];
+        let mut forces = vec![T::default(); count + 1];
         // A column that others replace is not determined.
         !least_norm(&matrix, n, &mut forces).is_determined(count)
     }
 
     /// The motion tape's nodes with those of the plan.
-    fn program_nodes(&self) -> Vec<S::Scalar> {
+    fn program_nodes(&self) -> Vec<T> {
         let Compiled {
             plan, constants, ..
         } = self.compiled();
         let mut nodes = self.nodes.clone();
-        nodes.resize(nodes.len() + plan.program.len(), S::Scalar::default());
+        nodes.resize(nodes.len() + plan.program.len(), T::default());
         for heading in &plan.headings {
             for (node, along) in heading
                 .nodes
@@ -139,9 +140,9 @@ impl<S: System> Dynamics<S> {
         nodes
     }
 
-    fn number(&self, nodes: &[S::Scalar], place: Place) -> S::Scalar {
+    fn number(&self, nodes: &[T], place: Place) -> T {
         match place {
-            Place::Zero => S::Scalar::default(),
+            Place::Zero => T::default(),
             Place::Constant(i) => self.compiled().constants[i],
             Place::Node(i) => nodes[i],
         }

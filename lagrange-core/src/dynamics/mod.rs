@@ -20,6 +20,7 @@ mod values;
 
 pub use error::{EvaluationError, row_name};
 pub(crate) use heading::{approach, solve_small};
+pub(crate) use jacobian::Seeded;
 pub use needs::{NeedSet, add_branch_guards, add_guards};
 pub use projection::Residual;
 
@@ -27,9 +28,11 @@ use crate::arithmetic::{Scalar, Value};
 use crate::effects::Effects;
 use crate::linear::{SolveError, Solver};
 use crate::mode::Mode;
-use crate::system::{Description, Place, System};
+use crate::system::System;
+use crate::system::{Description, Place};
+use crate::tapes::Erased;
 use compiled::{Asked, Compiled};
-use num_traits::Zero;
+use std::sync::Arc;
 
 /// Modes kept ready; beyond that the oldest goes.
 const MOST_MODES: usize = 64;
@@ -60,11 +63,12 @@ pub struct Operations {
 
 /// The equations of motion of a scene.
 #[derive(Clone, Debug)]
-pub struct Dynamics<S: System> {
-    scene: S,
+pub struct Dynamics<T: Scalar> {
+    system: Erased<T>,
+    description: &'static Description,
     effects: Effects,
     /// Modes met so far, and which is the present one.
-    modes: Vec<Compiled<S::Scalar>>,
+    modes: Vec<Compiled<T>>,
     current: usize,
     /// The next of them to go.
     oldest: usize,
@@ -80,38 +84,44 @@ pub struct Dynamics<S: System> {
     /// Whether the tape in use is that of the present mode and needs.
     selected: bool,
     /// Runs tapes for values and derivatives.
-    plain: Value<S::Scalar>,
-    lanes: jacobian::Seeded<S::Scalar>,
+    plain: Value<T>,
+    lanes: jacobian::Seeded<T>,
     /// t, q, v, v̇, λ of all rows at the last value.
-    inputs: Vec<S::Scalar>,
+    inputs: Vec<T>,
     /// Outputs of the motion tape at the last value.
-    nodes: Vec<S::Scalar>,
-    report_nodes: Vec<S::Scalar>,
-    right: Vec<S::Scalar>,
-    solution: Vec<S::Scalar>,
+    nodes: Vec<T>,
+    report_nodes: Vec<T>,
+    right: Vec<T>,
+    solution: Vec<T>,
     /// Directions of slips with two components.
-    headings: heading::Headings<S::Scalar>,
-    projector: Solver<S::Scalar>,
-    projection: projection::Scratch<S::Scalar>,
+    headings: heading::Headings<T>,
+    projector: Solver<T>,
+    projection: projection::Scratch<T>,
     /// Columns of a Jacobian, for a stepper that wants rows.
-    columns: Vec<S::Scalar>,
-    lane_inputs: Vec<jacobian::Lanes<S::Scalar>>,
-    lane_nodes: Vec<jacobian::Lanes<S::Scalar>>,
+    columns: Vec<T>,
+    lane_inputs: Vec<jacobian::Lanes<T>>,
+    lane_nodes: Vec<jacobian::Lanes<T>>,
     work: Work,
 }
 
-impl<S: System> Dynamics<S> {
+impl<T: Scalar> Dynamics<T> {
     /// The equations of a scene with all contacts open.
-    pub fn new(scene: &S, effects: &Effects) -> Self {
-        let d = S::DESCRIPTION;
+    pub fn new<S: System<Scalar = T>>(scene: &S, effects: &Effects) -> Self {
+        (T::entries().dynamics)(Arc::new(scene.clone()), effects)
+    }
+
+    /// The equations of a system whose type is forgotten.
+    pub(crate) fn of(system: Erased<T>, effects: &Effects) -> Self {
+        let d = system.description();
         let (n, rows) = (d.coordinates.len(), d.rows.len());
-        let zero = S::Scalar::default();
+        let zero = T::default();
         let mut projector = Solver::default();
         projector.reserve(n, rows);
         let mut dynamics = Self {
-            scene: scene.clone(),
             effects: effects.clone(),
-            modes: vec![Compiled::new(scene, effects, &Mode::open(d))],
+            modes: vec![Compiled::new(&*system, effects, &Mode::open(d))],
+            system,
+            description: d,
             current: 0,
             oldest: 0,
             held: NeedSet::new(d),
@@ -141,13 +151,14 @@ impl<S: System> Dynamics<S> {
     }
 
     /// The table of names, places and needs.
+    #[inline]
     pub fn description(&self) -> &'static Description {
-        S::DESCRIPTION
+        self.description
     }
 
-    /// The scene.
-    pub fn scene(&self) -> &S {
-        &self.scene
+    /// The system.
+    pub(crate) fn system(&self) -> &Erased<T> {
+        &self.system
     }
 
     /// The effects that take part.
@@ -187,7 +198,7 @@ impl<S: System> Dynamics<S> {
     }
 
     #[inline(always)]
-    fn compiled(&self) -> &Compiled<S::Scalar> {
+    fn compiled(&self) -> &Compiled<T> {
         &self.modes[self.current]
     }
 
@@ -195,7 +206,7 @@ impl<S: System> Dynamics<S> {
     /// kept. What was asked for beside the motion stays asked for.
     pub fn set_mode(&mut self, mode: &Mode) {
         for (f, along) in mode.incipient() {
-            self.set_heading(f, along.map(S::Scalar::from_f64));
+            self.set_heading(f, along.map(T::from_f64));
         }
         if *self.mode() == *mode {
             return;
@@ -212,7 +223,7 @@ impl<S: System> Dynamics<S> {
     /// Makes a mode ready; returns its place.
     #[cold]
     fn compile(&mut self, mode: &Mode) -> usize {
-        let compiled = Compiled::new(&self.scene, &self.effects, mode);
+        let compiled = Compiled::new(&*self.system, &self.effects, mode);
         if self.modes.len() < MOST_MODES {
             self.modes.push(compiled);
             return self.modes.len() - 1;
@@ -224,7 +235,7 @@ impl<S: System> Dynamics<S> {
 
     /// Makes the tape for the present mode and needs current, at a state with velocities `v`.
     #[inline]
-    fn select(&mut self, v: &[S::Scalar]) {
+    fn select(&mut self, v: &[T]) {
         let compiled = &mut self.modes[self.current];
         let at_rest = compiled.pinned.iter().all(|&j| v[j].is_zero());
         if self.selected && compiled.tape().is_some_and(|t| t.is_at_rest() == at_rest) {
@@ -236,7 +247,7 @@ impl<S: System> Dynamics<S> {
             report: self.reports.then_some(&self.report_held),
             at_rest,
         };
-        compiled.select(&self.scene, &asked);
+        compiled.select(&*self.system, &asked);
         self.selected = true;
     }
 
@@ -262,7 +273,7 @@ impl<S: System> Dynamics<S> {
 
     /// What the tapes are told. A series recorded for other needs is out of date.
     fn hold(&mut self) {
-        let d = S::DESCRIPTION;
+        let d = self.description();
         let motion = self.modes[self.current].motion_needs.iter();
         self.held
             .assign(motion.zip(self.extra.iter()).map(|(a, b)| a | b));
@@ -325,9 +336,9 @@ impl<S: System> Dynamics<S> {
 
     /// A number of the motion tape at the last [`Self::value`]. Its need must have been held.
     #[inline]
-    pub fn motion(&self, place: Place) -> S::Scalar {
+    pub fn motion(&self, place: Place) -> T {
         match place {
-            Place::Zero => S::Scalar::default(),
+            Place::Zero => T::default(),
             Place::Constant(i) => self.compiled().constants[i],
             Place::Node(i) => self.nodes[i],
         }
@@ -335,9 +346,9 @@ impl<S: System> Dynamics<S> {
 
     /// A number of the report tape at the last [`Self::report_value`]. Its need must have been held.
     #[inline]
-    pub fn report(&self, place: Place) -> S::Scalar {
+    pub fn report(&self, place: Place) -> T {
         match place {
-            Place::Zero => S::Scalar::default(),
+            Place::Zero => T::default(),
             Place::Constant(i) => self.compiled().constants[i],
             Place::Node(i) => self.report_nodes[i],
         }
@@ -345,14 +356,14 @@ impl<S: System> Dynamics<S> {
 
     /// v̇ at the last [`Self::value`], one per coordinate.
     #[inline]
-    pub fn acceleration(&self) -> &[S::Scalar] {
-        let n = S::DESCRIPTION.coordinates.len();
+    pub fn acceleration(&self) -> &[T] {
+        let n = self.description().coordinates.len();
         &self.inputs[1 + 2 * n..1 + 3 * n]
     }
 
     /// The force λ of a row at the last [`Self::value`]: 0 where the row does not act; −μk N d for sliding friction.
     #[inline]
-    pub fn force(&self, row: usize) -> S::Scalar {
-        self.inputs[1 + 3 * S::DESCRIPTION.coordinates.len() + row]
+    pub fn force(&self, row: usize) -> T {
+        self.inputs[1 + 3 * self.description().coordinates.len() + row]
     }
 }

@@ -11,8 +11,7 @@
 use super::{Compiled, Dynamics, EvaluationError};
 use crate::arithmetic::Scalar;
 use crate::linear::{Inertia, epsilon};
-use crate::system::{Place, System};
-use num_traits::{One, Zero};
+use crate::system::{Place, Row};
 
 /// Residuals are rounding below this share of the terms that they cancel from.
 fn rounding<T: Scalar>() -> f64 {
@@ -79,14 +78,9 @@ pub struct Residual {
     pub value: f64,
 }
 
-impl<S: System> Dynamics<S> {
+impl<T: Scalar> Dynamics<T> {
     /// Residuals at (t, q, v) of the rows that act: of positions g and of velocities ġ.
-    pub fn residuals(
-        &mut self,
-        t: S::Scalar,
-        q: &[S::Scalar],
-        v: &[S::Scalar],
-    ) -> (Residual, Residual) {
+    pub fn residuals(&mut self, t: T, q: &[T], v: &[T]) -> (Residual, Residual) {
         self.run_rows(t, q, v);
         (
             self.residual(Level::Position, q),
@@ -101,15 +95,15 @@ impl<S: System> Dynamics<S> {
     /// [`EvaluationError::Projection`] if no state nearby satisfies a row.
     pub fn project(
         &mut self,
-        t: S::Scalar,
-        q: &mut [S::Scalar],
-        v: &mut [S::Scalar],
+        t: T,
+        q: &mut [T],
+        v: &mut [T],
         tolerance: f64,
     ) -> Result<bool, EvaluationError> {
         self.run_rows(t, q, v);
-        let threshold = tolerance.max(tolerated::<S::Scalar>());
+        let threshold = tolerance.max(tolerated::<T>());
         let moved = self.residual(Level::Position, q).relative > threshold;
-        let least = tolerated::<S::Scalar>();
+        let least = tolerated::<T>();
         if moved {
             self.move_positions(t, q, v, &[], least)?;
         }
@@ -123,10 +117,10 @@ impl<S: System> Dynamics<S> {
 
     /// Takes the rounding out of the velocities of coordinates that a row of their own pins: a coordinate that is exactly
     /// at rest is constant in a Taylor expansion. The last tape was run at `v`.
-    fn settle_pinned(&self, v: &mut [S::Scalar], threshold: f64) {
+    fn settle_pinned(&self, v: &mut [T], threshold: f64) {
         let plan = &self.compiled().plan;
         for &row in &plan.acting {
-            let row = &S::DESCRIPTION.rows[row];
+            let row = &self.description().rows[row];
             if let [(j, factor)] = *row.jacobian
                 && plan.is_pinned(j)
             {
@@ -145,9 +139,9 @@ impl<S: System> Dynamics<S> {
     /// [`EvaluationError::Projection`] if what is free cannot satisfy a row.
     pub fn project_holding(
         &mut self,
-        t: S::Scalar,
-        q: &mut [S::Scalar],
-        v: &mut [S::Scalar],
+        t: T,
+        q: &mut [T],
+        v: &mut [T],
         held_positions: &[bool],
         held_velocities: &[bool],
     ) -> Result<(), EvaluationError> {
@@ -161,20 +155,20 @@ impl<S: System> Dynamics<S> {
     /// [`EvaluationError::Projection`] if what is free cannot satisfy a row.
     pub fn project_positions(
         &mut self,
-        t: S::Scalar,
-        q: &mut [S::Scalar],
-        v: &[S::Scalar],
+        t: T,
+        q: &mut [T],
+        v: &[T],
         held: &[bool],
     ) -> Result<(), EvaluationError> {
-        self.move_positions(t, q, v, held, rounding::<S::Scalar>())
+        self.move_positions(t, q, v, held, rounding::<T>())
     }
 
     /// [`Self::project_positions`] where a relative residual is above `least`.
     fn move_positions(
         &mut self,
-        t: S::Scalar,
-        q: &mut [S::Scalar],
-        v: &[S::Scalar],
+        t: T,
+        q: &mut [T],
+        v: &[T],
         held: &[bool],
         mut least: f64,
     ) -> Result<(), EvaluationError> {
@@ -186,12 +180,12 @@ impl<S: System> Dynamics<S> {
             }
             let before = residual.relative;
             // Shorter steps do not help against rounding.
-            let trials = if before <= rounding::<S::Scalar>() {
+            let trials = if before <= rounding::<T>() {
                 1
             } else {
                 MOST_HALVINGS
             };
-            let mut part = S::Scalar::one();
+            let mut part = T::one();
             self.projection.previous.copy_from_slice(q);
             for _ in 0..trials {
                 for (q, (&start, &change)) in q
@@ -205,7 +199,7 @@ impl<S: System> Dynamics<S> {
                 if residual.relative < before {
                     break;
                 }
-                part *= S::Scalar::from_f64(0.5);
+                part *= T::from_f64(0.5);
             }
             if !(residual.relative < before) {
                 q.copy_from_slice(&self.projection.previous);
@@ -213,9 +207,9 @@ impl<S: System> Dynamics<S> {
                 residual = self.residual(Level::Position, q);
                 break;
             }
-            least = rounding::<S::Scalar>();
+            least = rounding::<T>();
         }
-        accept::<S::Scalar>(residual)
+        accept::<T>(residual)
     }
 
     /// Least change of v in the mass metric that makes ġ = 0.
@@ -224,20 +218,20 @@ impl<S: System> Dynamics<S> {
     /// [`EvaluationError::Projection`] if what is free cannot satisfy a row.
     pub fn project_velocities(
         &mut self,
-        t: S::Scalar,
-        q: &[S::Scalar],
-        v: &mut [S::Scalar],
+        t: T,
+        q: &[T],
+        v: &mut [T],
         held: &[bool],
     ) -> Result<(), EvaluationError> {
-        self.move_velocities(t, q, v, held, rounding::<S::Scalar>())
+        self.move_velocities(t, q, v, held, rounding::<T>())
     }
 
     /// [`Self::project_velocities`] where a relative residual is above `least`.
     fn move_velocities(
         &mut self,
-        t: S::Scalar,
-        q: &[S::Scalar],
-        v: &mut [S::Scalar],
+        t: T,
+        q: &[T],
+        v: &mut [T],
         held: &[bool],
         mut least: f64,
     ) -> Result<(), EvaluationError> {
@@ -253,13 +247,13 @@ impl<S: System> Dynamics<S> {
             }
             self.run_rows(t, q, v);
             residual = self.residual(Level::Velocity, v);
-            least = rounding::<S::Scalar>();
+            least = rounding::<T>();
         }
-        accept::<S::Scalar>(residual)
+        accept::<T>(residual)
     }
 
     /// The motion tape for inertia, Jacobians and residuals of the rows that act.
-    fn run_rows(&mut self, t: S::Scalar, q: &[S::Scalar], v: &[S::Scalar]) {
+    fn run_rows(&mut self, t: T, q: &[T], v: &[T]) {
         self.work.projections += 1;
         let rows = &mut self.modes[self.current].row_needs;
         core::mem::swap(&mut self.held, rows);
@@ -268,22 +262,21 @@ impl<S: System> Dynamics<S> {
         core::mem::swap(&mut self.held, rows);
     }
 
-    fn residual_place(row: usize, level: Level) -> Option<Place> {
-        let row = &S::DESCRIPTION.rows[row];
+    fn residual_place(row: &Row, level: Level) -> Option<Place> {
         match level {
             Level::Position => row.position,
             Level::Velocity => Some(row.velocity),
         }
     }
 
-    fn residual(&self, level: Level, state: &[S::Scalar]) -> Residual {
+    fn residual(&self, level: Level, state: &[T]) -> Residual {
         let mut worst = Residual::default();
         for &row in self.acting_rows() {
-            let Some(place) = Self::residual_place(row, level) else {
+            let Some(place) = Self::residual_place(&self.description().rows[row], level) else {
                 continue;
             };
             let value = self.motion(place).value();
-            let sizes = S::DESCRIPTION.rows[row].jacobian.iter();
+            let sizes = self.description().rows[row].jacobian.iter();
             let size = sizes
                 .map(|&(j, place)| {
                     self.motion(place).value().abs() * state[j].value().abs().max(1.0)
@@ -307,7 +300,7 @@ impl<S: System> Dynamics<S> {
 
     /// The change of the free coordinates that the linearized rows ask for, in `projection.change`; false if there is none.
     fn correction(&mut self, level: Level, held: &[bool]) -> bool {
-        let d = S::DESCRIPTION;
+        let d = self.description();
         let n = d.coordinates.len();
         let is_held = |j: usize| held.get(j).copied().unwrap_or(false);
         let Compiled {
@@ -316,14 +309,14 @@ impl<S: System> Dynamics<S> {
         let rows = plan
             .acting
             .iter()
-            .filter(|&&row| Self::residual_place(row, level).is_some())
+            .filter(|&&row| Self::residual_place(&d.rows[row], level).is_some())
             .count();
         let size = n + rows;
         for without_inertia in [false, true] {
             self.projection.right.clear();
-            self.projection.right.resize(size, S::Scalar::zero());
+            self.projection.right.resize(size, T::zero());
             self.projection.blank.clear();
-            self.projection.blank.resize(size * size, S::Scalar::zero());
+            self.projection.blank.resize(size * size, T::zero());
             let matrix = self.projector.begin(n, size, &self.projection.blank);
             for &(i, j, place) in d.mass {
                 let value = read(place, constants, &self.nodes);
@@ -338,15 +331,15 @@ impl<S: System> Dynamics<S> {
                 .fold(0.0, f64::max);
             for j in 0..n {
                 if is_held(j) {
-                    matrix[j * size + j] = S::Scalar::one();
+                    matrix[j * size + j] = T::one();
                 } else if without_inertia {
                     matrix[j * size + j] +=
-                        S::Scalar::from_f64(if typical > 0.0 { 1e-3 * typical } else { 1.0 });
+                        T::from_f64(if typical > 0.0 { 1e-3 * typical } else { 1.0 });
                 }
             }
             let mut index = n;
             for &row in &plan.acting {
-                let Some(place) = Self::residual_place(row, level) else {
+                let Some(place) = Self::residual_place(&d.rows[row], level) else {
                     continue;
                 };
                 for &(j, place) in d.rows[row].jacobian {

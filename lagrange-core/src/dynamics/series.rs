@@ -13,21 +13,15 @@ use super::tape::{REPORT, Tape};
 use super::values::Extent;
 use super::{Dynamics, EvaluationError};
 use crate::arithmetic::{MAX_ORDER, Scalar};
-use crate::system::{Place, System};
+use crate::system::Place;
 
-impl<S: System> Dynamics<S> {
+impl<T: Scalar> Dynamics<T> {
     /// Taylor coefficients 0…`order` (at most 28) in the time τ since `t` of positions, velocities, accelerations, forces and all
     /// outputs that were asked for. The arrays that the `…_series` functions return have `order + 1` elements.
     ///
     /// # Errors
     /// Those of [`Self::value`], and [`EvaluationError::NoSeries`].
-    pub fn series(
-        &mut self,
-        t: S::Scalar,
-        q: &[S::Scalar],
-        v: &[S::Scalar],
-        order: usize,
-    ) -> Result<(), EvaluationError> {
+    pub fn series(&mut self, t: T, q: &[T], v: &[T], order: usize) -> Result<(), EvaluationError> {
         let order = order.min(MAX_ORDER);
         self.work.series += 1;
         self.work.coefficients += order + 1;
@@ -86,7 +80,7 @@ impl<S: System> Dynamics<S> {
                 for (slot, &x) in unsolved.unknowns.iter().zip(&*right) {
                     now[slot.index()] = x;
                 }
-                let next = S::Scalar::from_f64((k + 1) as f64);
+                let next = T::from_f64((k + 1) as f64);
                 for &(friction, _, rates) in &*slots {
                     let turn = headings.coefficient(friction, k + 1);
                     for (rate, u) in rates.into_iter().zip(turn) {
@@ -109,29 +103,27 @@ impl<S: System> Dynamics<S> {
     }
 
     /// Position coefficients of coordinate `i`.
-    pub fn position_series(&self, i: usize) -> &[S::Scalar] {
+    pub fn position_series(&self, i: usize) -> &[T] {
         self.input_series(1 + i)
     }
 
     /// Velocity coefficients of coordinate `i`.
-    pub fn velocity_series(&self, i: usize) -> &[S::Scalar] {
-        self.input_series(1 + S::DESCRIPTION.coordinates.len() + i)
+    pub fn velocity_series(&self, i: usize) -> &[T] {
+        self.input_series(1 + self.description().coordinates.len() + i)
     }
 
     /// Acceleration coefficients of coordinate `i`: one fewer.
-    pub fn acceleration_series(&self, i: usize) -> Vec<S::Scalar> {
+    pub fn acceleration_series(&self, i: usize) -> Vec<T> {
         let velocity = self.velocity_series(i).iter().enumerate().skip(1);
-        velocity
-            .map(|(k, &c)| S::Scalar::from_f64(k as f64) * c)
-            .collect()
+        velocity.map(|(k, &c)| T::from_f64(k as f64) * c).collect()
     }
 
     /// Force coefficients of a row; zeros where it does not act.
-    pub fn force_series(&self, row: usize) -> &[S::Scalar] {
-        self.input_series(1 + 3 * S::DESCRIPTION.coordinates.len() + row)
+    pub fn force_series(&self, row: usize) -> &[T] {
+        self.input_series(1 + 3 * self.description().coordinates.len() + row)
     }
 
-    fn input_series(&self, index: usize) -> &[S::Scalar] {
+    fn input_series(&self, index: usize) -> &[T] {
         self.compiled()
             .tape()
             .map_or(&[], |t| t.input_series(index))
@@ -139,7 +131,7 @@ impl<S: System> Dynamics<S> {
 
     /// Coefficients of a number of the motion tape that depends on the state. Its need must have been asked for by
     /// [`Self::set_extra_needs`]; of other numbers, zeros.
-    pub fn motion_series(&self, place: Place) -> &[S::Scalar] {
+    pub fn motion_series(&self, place: Place) -> &[T] {
         let tape = self.compiled().tape();
         tape.map_or(&[], |tape| match place {
             Place::Node(node) => tape.node_series(node),
@@ -149,7 +141,7 @@ impl<S: System> Dynamics<S> {
 
     /// Coefficients of a number of the report tape that depends on the state. Its need must have been asked for by
     /// [`Self::set_report_needs`]; of other numbers, zeros.
-    pub fn report_series(&self, place: Place) -> &[S::Scalar] {
+    pub fn report_series(&self, place: Place) -> &[T] {
         let tape = self.compiled().tape();
         tape.map_or(&[], |tape| match place {
             Place::Node(node) => tape.report_series(node),

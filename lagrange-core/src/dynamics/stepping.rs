@@ -3,17 +3,16 @@
 use super::{Dynamics, EvaluationError};
 use crate::arithmetic::Scalar;
 use crate::integrate::{Acceleration, taylor};
-use crate::system::System;
 
-impl<S: System> Acceleration<S::Scalar> for Dynamics<S> {
+impl<T: Scalar> Acceleration<T> for Dynamics<T> {
     type Error = EvaluationError;
 
     fn acceleration(
         &mut self,
-        t: S::Scalar,
-        q: &[S::Scalar],
-        v: &[S::Scalar],
-        dv: &mut [S::Scalar],
+        t: T,
+        q: &[T],
+        v: &[T],
+        dv: &mut [T],
     ) -> Result<(), EvaluationError> {
         dv.copy_from_slice(self.run_accelerations(t, q, v)?);
         Ok(())
@@ -21,15 +20,15 @@ impl<S: System> Acceleration<S::Scalar> for Dynamics<S> {
 
     fn jacobian(
         &mut self,
-        t: S::Scalar,
-        q: &[S::Scalar],
-        v: &[S::Scalar],
+        t: T,
+        q: &[T],
+        v: &[T],
         by_position: &mut [f64],
         by_velocity: &mut [f64],
     ) -> Result<bool, EvaluationError> {
         let n = q.len();
         let mut columns = core::mem::take(&mut self.columns);
-        columns.resize(2 * n * n, S::Scalar::default());
+        columns.resize(2 * n * n, T::default());
         let outcome = Dynamics::jacobian(self, t, q, v, &mut columns);
         let (by_q, by_v) = columns.split_at(n * n);
         for (rows, columns) in [(by_position, by_q), (by_velocity, by_v)] {
@@ -42,16 +41,16 @@ impl<S: System> Acceleration<S::Scalar> for Dynamics<S> {
     }
 }
 
-impl<S: System> taylor::Series<S::Scalar> for Dynamics<S> {
+impl<T: Scalar> taylor::Series<T> for Dynamics<T> {
     fn coordinates(&self) -> usize {
-        S::DESCRIPTION.coordinates.len()
+        self.description().coordinates.len()
     }
 
-    fn position(&self, i: usize) -> &[S::Scalar] {
+    fn position(&self, i: usize) -> &[T] {
         self.position_series(i)
     }
 
-    fn velocity(&self, i: usize) -> &[S::Scalar] {
+    fn velocity(&self, i: usize) -> &[T] {
         self.velocity_series(i)
     }
 }

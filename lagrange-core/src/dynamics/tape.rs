@@ -10,7 +10,8 @@ use crate::arithmetic::{
     Arithmetic, Expansion, Program, Recorded, Recorder, Recording, Scalar, Slot, Variation,
 };
 use crate::linear::{Plan, positive_definite};
-use crate::system::{Description, Held, Place, System};
+use crate::system::{Description, Held, Place};
+use crate::tapes::{Call, Tapes};
 
 /// Parts of the recording.
 pub(super) const MOTION: usize = 0;
@@ -141,12 +142,8 @@ impl<T: Scalar> Tape<T> {
     }
 
     /// Records the equations of a mode.
-    pub(super) fn record<S: System<Scalar = T>>(
-        scene: &S,
-        compiled: &Compiled<T>,
-        asked: &Asked,
-    ) -> Self {
-        let d = S::DESCRIPTION;
+    pub(super) fn record(system: &dyn Tapes<T>, compiled: &Compiled<T>, asked: &Asked) -> Self {
+        let d = system.description();
         let plan = &compiled.plan;
         let parts = layout(d, plan.program.len());
         let n = d.coordinates.len();
@@ -161,7 +158,13 @@ impl<T: Scalar> Tape<T> {
         };
         let mut a = recording.record(parts.motion);
         let state = &inputs[..1 + 2 * n];
-        scene.motion(&mut a, &held, &compiled.constants, state, &mut nodes);
+        system.motion_recorded(Call {
+            arithmetic: &mut a,
+            held: &held,
+            constants: &compiled.constants,
+            inputs: state,
+            outputs: &mut nodes,
+        });
         nodes.resize(d.motion.outputs + plan.program.len(), Recorded::ZERO);
         a.origin(parts.program);
         let mut headings = Vec::new();
@@ -182,13 +185,13 @@ impl<T: Scalar> Tape<T> {
         if let Some(needs) = asked.report {
             a.origin(parts.report);
             let held = Held { needs, branches };
-            scene.report(
-                &mut a,
-                &held,
-                &compiled.constants,
-                &inputs,
-                &mut report_nodes,
-            );
+            system.report_recorded(Call {
+                arithmetic: &mut a,
+                held: &held,
+                constants: &compiled.constants,
+                inputs: &inputs,
+                outputs: &mut report_nodes,
+            });
         }
         let solved = plan.headings.is_empty() && (!pivots.is_empty() || plan.size() == 0);
         let unsolved = (!solved).then(|| Unsolved {

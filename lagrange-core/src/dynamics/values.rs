@@ -5,7 +5,8 @@ use super::tape::{FORCES, MOTION, Tape};
 use super::{Dynamics, EvaluationError};
 use crate::arithmetic::Scalar;
 use crate::linear::{Inertia, SolveError, epsilon};
-use crate::system::{Held, Place, System};
+use crate::system::{Held, Place};
+use crate::tapes::Call;
 
 /// How much of a tape runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,19 +17,14 @@ pub(super) enum Extent {
     Accelerations,
 }
 
-impl<S: System> Dynamics<S> {
+impl<T: Scalar> Dynamics<T> {
     /// Accelerations and forces at (t, q, v): then read [`Self::acceleration`], [`Self::force`], [`Self::motion`].
     ///
     /// `q` and `v` have one element per coordinate.
     ///
     /// # Errors
     /// The system is singular there, or a number is not finite.
-    pub fn value(
-        &mut self,
-        t: S::Scalar,
-        q: &[S::Scalar],
-        v: &[S::Scalar],
-    ) -> Result<(), EvaluationError> {
+    pub fn value(&mut self, t: T, q: &[T], v: &[T]) -> Result<(), EvaluationError> {
         self.work.values += 1;
         self.run(t, q, v, Extent::Everything, false)?;
         self.check_accelerations()?;
@@ -44,9 +40,9 @@ impl<S: System> Dynamics<S> {
     #[inline]
     pub(super) fn run(
         &mut self,
-        t: S::Scalar,
-        q: &[S::Scalar],
-        v: &[S::Scalar],
+        t: T,
+        q: &[T],
+        v: &[T],
         extent: Extent,
         refined: bool,
     ) -> Result<(), EvaluationError> {
@@ -94,10 +90,10 @@ impl<S: System> Dynamics<S> {
     #[inline]
     pub(super) fn run_accelerations(
         &mut self,
-        t: S::Scalar,
-        q: &[S::Scalar],
-        v: &[S::Scalar],
-    ) -> Result<&[S::Scalar], EvaluationError> {
+        t: T,
+        q: &[T],
+        v: &[T],
+    ) -> Result<&[T], EvaluationError> {
         self.work.values += 1;
         self.run(t, q, v, Extent::Accelerations, false)?;
         self.check_accelerations()?;
@@ -109,7 +105,7 @@ impl<S: System> Dynamics<S> {
     /// Whether all accelerations in the registers are finite.
     #[inline]
     fn check_accelerations(&mut self) -> Result<(), EvaluationError> {
-        let n = S::DESCRIPTION.coordinates.len();
+        let n = self.description().coordinates.len();
         let (_, _, tape) = self.modes[self.current].parts();
         // The sum of zeros is zero unless one of the factors is not finite.
         let poison = tape.registers[2 + 2 * n..2 + 3 * n]
@@ -185,7 +181,7 @@ impl<S: System> Dynamics<S> {
     /// The acceleration or force in the registers that is not finite.
     #[cold]
     fn not_finite_register(&self) -> EvaluationError {
-        let n = S::DESCRIPTION.coordinates.len();
+        let n = self.description().coordinates.len();
         let compiled = self.compiled();
         let bad = |j: &usize| {
             let tape: Option<&Tape<_>> = compiled.tape();
@@ -197,8 +193,8 @@ impl<S: System> Dynamics<S> {
     }
 
     /// Runs only the motion tape at (t, q, v), for the needs held: then read [`Self::motion`].
-    pub fn tape(&mut self, t: S::Scalar, q: &[S::Scalar], v: &[S::Scalar]) {
-        let n = S::DESCRIPTION.coordinates.len();
+    pub fn tape(&mut self, t: T, q: &[T], v: &[T]) {
+        let n = self.description().coordinates.len();
         self.inputs[0] = t;
         self.inputs[1..1 + n].copy_from_slice(q);
         self.inputs[1 + n..1 + 2 * n].copy_from_slice(v);
@@ -207,18 +203,18 @@ impl<S: System> Dynamics<S> {
             needs: &self.held,
             branches: &compiled.mode.branches,
         };
-        self.scene.motion(
-            &mut self.plain,
-            &held,
-            &compiled.constants,
-            &self.inputs[..1 + 2 * n],
-            &mut self.nodes,
-        );
+        self.system.motion_value(Call {
+            arithmetic: &mut self.plain,
+            held: &held,
+            constants: &compiled.constants,
+            inputs: &self.inputs[..1 + 2 * n],
+            outputs: &mut self.nodes,
+        });
     }
 
     /// Replaces the forces of all rows that [`Self::force`] and the report tape see until the next [`Self::value`].
-    pub(crate) fn replace_forces(&mut self, forces: &[S::Scalar]) {
-        let first = 1 + 3 * S::DESCRIPTION.coordinates.len();
+    pub(crate) fn replace_forces(&mut self, forces: &[T]) {
+        let first = 1 + 3 * self.description().coordinates.len();
         self.inputs[first..].copy_from_slice(forces);
     }
 
@@ -230,13 +226,13 @@ impl<S: System> Dynamics<S> {
             needs: &self.report_held,
             branches: &compiled.mode.branches,
         };
-        self.scene.report(
-            &mut self.plain,
-            &held,
-            &compiled.constants,
-            &self.inputs,
-            &mut self.report_nodes,
-        );
+        self.system.report_value(Call {
+            arithmetic: &mut self.plain,
+            held: &held,
+            constants: &compiled.constants,
+            inputs: &self.inputs,
+            outputs: &mut self.report_nodes,
+        });
     }
 }
 

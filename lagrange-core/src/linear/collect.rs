@@ -73,7 +73,10 @@ pub(crate) fn acts(description: &Description, effects: &Effects, mode: &Mode, ro
 
 impl Collected {
     /// Collects the pieces of a mode; products are made by `program`.
-    #[expect(clippy::too_many_arguments, reason = "what the program of a mode is made of")]
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "what the program of a mode is made of"
+    )]
     pub(crate) fn set<T: Scalar>(
         &mut self,
         description: &Description,
@@ -142,7 +145,10 @@ impl Collected {
     }
 
     /// Sliding frictions: they act through the column of their normal force, or as a load.
-    #[expect(clippy::too_many_arguments, reason = "what the program of a mode is made of")]
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "what the program of a mode is made of"
+    )]
     fn slide<T: Scalar>(
         &self,
         description: &Description,

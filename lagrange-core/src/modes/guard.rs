@@ -16,7 +16,7 @@ use crate::dynamics::{Dynamics, NeedSet};
 use crate::effects::Item;
 use crate::mode::{Direction, FrictionMode, Mode, Sliding};
 use crate::modes::reading::{Reading, Terms};
-use crate::system::{Description, Friction, Normal, Place, System};
+use crate::system::{Description, Friction, Normal, Place};
 
 /// Longest series of a guard.
 pub const LENGTH: usize = 48;
@@ -73,13 +73,13 @@ fn numbers<T: Scalar>(terms: Terms<T>) -> [f64; LENGTH] {
 }
 
 /// Lists the guards of a mode (not those of stops and marks) into `out`; `needs` are held.
-pub fn guards_of_mode<S: System>(
+pub fn guards_of_mode<T: Scalar>(
     mode: &Mode,
-    dynamics: &Dynamics<S>,
+    dynamics: &Dynamics<T>,
     needs: &NeedSet,
     out: &mut Vec<Guard>,
 ) {
-    let d = S::DESCRIPTION;
+    let d = dynamics.description();
     out.clear();
     for c in 0..d.contacts.len() {
         if dynamics.effects().includes(d, Item::Contact(c)) {
@@ -123,8 +123,8 @@ pub fn stick_guards(f: usize, friction: &Friction) -> impl Iterator<Item = Guard
 
 /// Coefficients of a guard in powers of the time since the start of the reading, at most [`LENGTH`]; what a reading does not
 /// have is 0.
-pub fn series<S: System>(guard: Guard, mode: &Mode, reading: &Reading<'_, S>, out: &mut [f64]) {
-    let d = S::DESCRIPTION;
+pub fn series<T: Scalar>(guard: Guard, mode: &Mode, reading: &Reading<'_, T>, out: &mut [f64]) {
+    let d = reading.description();
     out.fill(0.0);
     match guard {
         Guard::Gap(c) => {
@@ -177,15 +177,15 @@ pub fn series<S: System>(guard: Guard, mode: &Mode, reading: &Reading<'_, S>, ou
 }
 
 /// The guard itself, at the start of the reading.
-pub fn value<S: System>(guard: Guard, mode: &Mode, reading: &Reading<'_, S>) -> f64 {
+pub fn value<T: Scalar>(guard: Guard, mode: &Mode, reading: &Reading<'_, T>) -> f64 {
     let mut value = [0.0];
     series(guard, mode, reading, &mut value);
     value[0]
 }
 
 /// Adds μs N.
-fn limit<S: System>(f: usize, mode: &Mode, reading: &Reading<'_, S>, out: &mut [f64]) {
-    let d = S::DESCRIPTION;
+fn limit<T: Scalar>(f: usize, mode: &Mode, reading: &Reading<'_, T>, out: &mut [f64]) {
+    let d = reading.description();
     let friction = &d.frictions[f];
     if let Terms::One(coefficient) = reading.motion(friction.static_coefficient)
         && let Normal::Contact(c) = friction.normal
@@ -208,14 +208,18 @@ fn limit<S: System>(f: usize, mode: &Mode, reading: &Reading<'_, S>, out: &mut [
 }
 
 /// μs N ± F.
-fn stick<S: System>(f: usize, sign: f64, mode: &Mode, reading: &Reading<'_, S>, out: &mut [f64]) {
+fn stick<T: Scalar>(f: usize, sign: f64, mode: &Mode, reading: &Reading<'_, T>, out: &mut [f64]) {
     limit(f, mode, reading, out);
-    add(out, sign, reading.force(S::DESCRIPTION.frictions[f].row));
+    add(
+        out,
+        sign,
+        reading.force(reading.description().frictions[f].row),
+    );
 }
 
 /// (μs N)² − Σ F².
-fn stick_cone<S: System>(f: usize, mode: &Mode, reading: &Reading<'_, S>, out: &mut [f64]) {
-    let friction = &S::DESCRIPTION.frictions[f];
+fn stick_cone<T: Scalar>(f: usize, mode: &Mode, reading: &Reading<'_, T>, out: &mut [f64]) {
+    let friction = &reading.description().frictions[f];
     let mut greatest = [0.0; LENGTH];
     limit(f, mode, reading, &mut greatest[..out.len()]);
     add_product(out, 1.0, &greatest, &greatest);
@@ -226,14 +230,14 @@ fn stick_cone<S: System>(f: usize, mode: &Mode, reading: &Reading<'_, S>, out: &
 }
 
 /// μs N − u·F: the side of the cone of a sticking friction in direction u.
-pub fn cone_side<S: System>(
+pub fn cone_side<T: Scalar>(
     f: usize,
     along: [f64; 2],
     mode: &Mode,
-    reading: &Reading<'_, S>,
+    reading: &Reading<'_, T>,
     out: &mut [f64],
 ) {
-    let friction = &S::DESCRIPTION.frictions[f];
+    let friction = &reading.description().frictions[f];
     out.fill(0.0);
     limit(f, mode, reading, out);
     for (k, &part) in along.iter().enumerate().take(friction.components) {
@@ -242,8 +246,8 @@ pub fn cone_side<S: System>(
 }
 
 /// Adds the normal force N of friction `f`.
-pub fn normal_force<S: System>(f: usize, mode: &Mode, reading: &Reading<'_, S>, out: &mut [f64]) {
-    let d = S::DESCRIPTION;
+pub fn normal_force<T: Scalar>(f: usize, mode: &Mode, reading: &Reading<'_, T>, out: &mut [f64]) {
+    let d = reading.description();
     match d.frictions[f].normal {
         Normal::Contact(c) => {
             let contact = &d.contacts[c];

@@ -1,15 +1,16 @@
 //! One view on a value or a Taylor series that [`Dynamics`] holds.
 
+use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
-use crate::system::{Place, System};
+use crate::system::{Description, Place};
 
 /// What a [`Dynamics`] has evaluated last: numbers, or Taylor coefficients.
 #[derive(Debug)]
-pub enum Reading<'a, S: System> {
+pub enum Reading<'a, T: Scalar> {
     /// Of [`Dynamics::value`].
-    Values(&'a Dynamics<S>),
+    Values(&'a Dynamics<T>),
     /// Of [`Dynamics::series`].
-    Series(&'a Dynamics<S>),
+    Series(&'a Dynamics<T>),
 }
 
 /// Coefficients of one quantity; a number is a series of length one.
@@ -31,9 +32,15 @@ impl<T> Terms<'_, T> {
     }
 }
 
-impl<S: System> Reading<'_, S> {
+impl<T: Scalar> Reading<'_, T> {
+    /// The table of names and places of the system.
+    pub fn description(&self) -> &'static Description {
+        let (Reading::Values(dynamics) | Reading::Series(dynamics)) = self;
+        dynamics.description()
+    }
+
     /// A number of the motion tape.
-    pub fn motion(&self, place: Place) -> Terms<'_, S::Scalar> {
+    pub fn motion(&self, place: Place) -> Terms<'_, T> {
         match (self, place) {
             (Reading::Series(dynamics), Place::Node(_)) => {
                 Terms::Many(dynamics.motion_series(place))
@@ -45,7 +52,7 @@ impl<S: System> Reading<'_, S> {
     }
 
     /// A number of the report tape.
-    pub fn report(&self, place: Place) -> Terms<'_, S::Scalar> {
+    pub fn report(&self, place: Place) -> Terms<'_, T> {
         match (self, place) {
             (Reading::Series(dynamics), Place::Node(_)) => {
                 Terms::Many(dynamics.report_series(place))
@@ -57,13 +64,13 @@ impl<S: System> Reading<'_, S> {
     }
 
     /// Where the slip of friction `f` with two components points at the start of the step.
-    pub fn heading(&self, f: usize) -> [S::Scalar; 2] {
+    pub fn heading(&self, f: usize) -> [T; 2] {
         let (Reading::Values(dynamics) | Reading::Series(dynamics)) = self;
         dynamics.heading(f)
     }
 
     /// The force of a row.
-    pub fn force(&self, row: usize) -> Terms<'_, S::Scalar> {
+    pub fn force(&self, row: usize) -> Terms<'_, T> {
         match self {
             Reading::Values(dynamics) => Terms::One(dynamics.force(row)),
             Reading::Series(dynamics) => Terms::Many(dynamics.force_series(row)),

@@ -7,7 +7,7 @@
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
 use crate::modes::guard::Guard;
-use crate::system::{Normal, Place, System};
+use crate::system::{Normal, Place};
 
 /// What all guards of a state share.
 #[derive(Clone, Debug, Default)]
@@ -20,8 +20,8 @@ pub struct Sizes {
 
 impl Sizes {
     /// Takes mass and forcing from the last value.
-    pub fn take<S: System>(&mut self, dynamics: &Dynamics<S>) {
-        let d = S::DESCRIPTION;
+    pub fn take<T: Scalar>(&mut self, dynamics: &Dynamics<T>) {
+        let d = dynamics.description();
         let number = |place: Place| dynamics.motion(place).value();
         self.mobility.clear();
         self.mobility.resize(d.coordinates.len(), 0.0);
@@ -36,8 +36,8 @@ impl Sizes {
     }
 
     /// Size of the terms that make a guard: an acceleration for gaps and slips, a force for the others.
-    pub fn of<S: System>(&self, guard: Guard, dynamics: &Dynamics<S>) -> f64 {
-        let d = S::DESCRIPTION;
+    pub fn of<T: Scalar>(&self, guard: Guard, dynamics: &Dynamics<T>) -> f64 {
+        let d = dynamics.description();
         match guard {
             Guard::Gap(c) => self.row(d.contacts[c].row, dynamics).acceleration,
             Guard::Normal(c) => self.row(d.contacts[c].row, dynamics).force,
@@ -60,8 +60,8 @@ impl Sizes {
         }
     }
 
-    fn row<S: System>(&self, row: usize, dynamics: &Dynamics<S>) -> Row {
-        let jacobian = S::DESCRIPTION.rows[row].jacobian.iter();
+    fn row<T: Scalar>(&self, row: usize, dynamics: &Dynamics<T>) -> Row {
+        let jacobian = dynamics.description().rows[row].jacobian.iter();
         let compliance: f64 = jacobian
             .map(|&(j, place)| dynamics.motion(place).value().powi(2) * self.mobility[j])
             .sum();
@@ -79,8 +79,8 @@ impl Sizes {
     }
 
     /// Size of the normal force of friction `f`.
-    fn normal<S: System>(&self, f: usize, dynamics: &Dynamics<S>) -> f64 {
-        let d = S::DESCRIPTION;
+    fn normal<T: Scalar>(&self, f: usize, dynamics: &Dynamics<T>) -> f64 {
+        let d = dynamics.description();
         match d.frictions[f].normal {
             Normal::Contact(c) => {
                 let factor = d.contacts[c]
@@ -93,12 +93,12 @@ impl Sizes {
         }
     }
 
-    fn friction<S: System>(&self, f: usize, coefficient: Place, dynamics: &Dynamics<S>) -> f64 {
+    fn friction<T: Scalar>(&self, f: usize, coefficient: Place, dynamics: &Dynamics<T>) -> f64 {
         dynamics.motion(coefficient).value().abs() * self.normal(f, dynamics)
     }
 
-    fn limit<S: System>(&self, f: usize, dynamics: &Dynamics<S>) -> f64 {
-        let friction = &S::DESCRIPTION.frictions[f];
+    fn limit<T: Scalar>(&self, f: usize, dynamics: &Dynamics<T>) -> f64 {
+        let friction = &dynamics.description().frictions[f];
         let rows = friction.row..friction.row + friction.components;
         let force = rows.map(|row| self.row(row, dynamics).force);
         force.fold(0.0, f64::max) + self.friction(f, friction.static_coefficient, dynamics)

@@ -8,7 +8,7 @@ use crate::mode::{FrictionMode, Mode, Sliding};
 use crate::modes::decide::Known;
 use crate::modes::guard;
 use crate::simulation::Held;
-use crate::system::{Description, Normal, Place, System};
+use crate::system::{Description, Normal, Place};
 use crate::trajectory::State;
 
 /// What is accepted as zero in a start, relative to the size of the state: a start is typed or computed by a user.
@@ -21,10 +21,10 @@ fn slack(tolerance: f64) -> f64 {
 ///
 /// # Errors
 /// [`Error::Start`] where a constraint is violated (unless `project`) or a contact is penetrated.
-pub fn begin<S: System>(
-    dynamics: &mut Dynamics<S>,
-    t: S::Scalar,
-    state: &mut State<S::Scalar>,
+pub fn begin<T: Scalar>(
+    dynamics: &mut Dynamics<T>,
+    t: T,
+    state: &mut State<T>,
     tolerance: f64,
     project: bool,
     survey: &mut Survey,
@@ -35,8 +35,8 @@ pub fn begin<S: System>(
     }
     dynamics.set_mode(&survey.mode);
     let moved = dynamics.project(t, &mut state.q, &mut state.v, 0.0);
-    let moved =
-        moved.map_err(|e| Error::from_evaluation(e, t.value(), &survey.mode, S::DESCRIPTION))?;
+    let moved = moved
+        .map_err(|e| Error::from_evaluation(e, t.value(), &survey.mode, dynamics.description()))?;
     if moved {
         survey.look(dynamics, t, state, tolerance);
         dynamics.set_mode(&survey.mode);
@@ -45,16 +45,16 @@ pub fn begin<S: System>(
 }
 
 /// See [`crate::Simulation::consistent`].
-pub fn consistent<S: System>(
-    dynamics: &mut Dynamics<S>,
+pub fn consistent<T: Scalar>(
+    dynamics: &mut Dynamics<T>,
     time: f64,
     tolerance: f64,
-    reference: &State<S::Scalar>,
-    wanted: &State<S::Scalar>,
+    reference: &State<T>,
+    wanted: &State<T>,
     held: &Held,
-) -> Result<State<S::Scalar>, Error> {
-    let t = S::Scalar::from_f64(time);
-    let mut found = Survey::new(S::DESCRIPTION);
+) -> Result<State<T>, Error> {
+    let t = T::from_f64(time);
+    let mut found = Survey::new(dynamics.description());
     found.look(dynamics, t, reference, tolerance);
     dynamics.set_mode(&found.mode);
     let mut state = wanted.clone();
@@ -65,7 +65,7 @@ pub fn consistent<S: System>(
         &held.positions,
         &held.velocities,
     );
-    outcome.map_err(|e| Error::from_evaluation(e, time, &found.mode, S::DESCRIPTION))?;
+    outcome.map_err(|e| Error::from_evaluation(e, time, &found.mode, dynamics.description()))?;
     Ok(state)
 }
 
@@ -100,14 +100,14 @@ impl Survey {
     }
 
     /// Evaluates every gap, slip and residual of a state.
-    fn look<S: System>(
+    fn look<T: Scalar>(
         &mut self,
-        dynamics: &mut Dynamics<S>,
-        t: S::Scalar,
-        state: &State<S::Scalar>,
+        dynamics: &mut Dynamics<T>,
+        t: T,
+        state: &State<T>,
         tolerance: f64,
     ) {
-        let d = S::DESCRIPTION;
+        let d = dynamics.description();
         let near = slack(tolerance);
         self.mode.clear();
         self.known.clear(d);
@@ -123,9 +123,9 @@ impl Survey {
             &mut self.known,
         );
         let Self { mode, known, .. } = self;
-        let number = |dynamics: &Dynamics<S>, place: Place| dynamics.motion(place).value();
+        let number = |dynamics: &Dynamics<T>, place: Place| dynamics.motion(place).value();
         let extent = state.q.iter().fold(1.0_f64, |m, x| m.max(x.value().abs()));
-        let speed = |dynamics: &Dynamics<S>, row: usize| {
+        let speed = |dynamics: &Dynamics<T>, row: usize| {
             let terms = d.rows[row].jacobian.iter();
             terms
                 .map(|&(j, p)| (number(dynamics, p) * state.v[j].value()).abs())
@@ -204,16 +204,16 @@ impl Survey {
 }
 
 /// Puts every branch on its side; the guard of one may depend on the side of another.
-fn branches<S: System>(
-    dynamics: &mut Dynamics<S>,
-    t: S::Scalar,
-    state: &State<S::Scalar>,
+fn branches<T: Scalar>(
+    dynamics: &mut Dynamics<T>,
+    t: T,
+    state: &State<T>,
     needs: &NeedSet,
     mode: &mut Mode,
     known: &mut Known,
 ) {
-    let d = S::DESCRIPTION;
-    let evaluate = |dynamics: &mut Dynamics<S>, mode: &Mode| {
+    let d = dynamics.description();
+    let evaluate = |dynamics: &mut Dynamics<T>, mode: &Mode| {
         dynamics.set_mode(mode);
         dynamics.set_extra_needs(needs);
         dynamics.tape(t, &state.q, &state.v);
@@ -241,8 +241,8 @@ fn branches<S: System>(
     }
 }
 
-fn refuse_violations<S: System>(
-    dynamics: &Dynamics<S>,
+fn refuse_violations<T: Scalar>(
+    dynamics: &Dynamics<T>,
     found: &Survey,
     near: f64,
 ) -> Result<(), Error> {

@@ -1,10 +1,11 @@
 //! What a run knows of every mode that it has met: the guards, and what they ask of the tapes.
 
+use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, NeedSet, add_guards};
 use crate::effects::Item;
 use crate::mode::Mode;
 use crate::modes::guard::{self, Guard};
-use crate::system::{Place, Row, System};
+use crate::system::{Place, Row};
 
 /// More modes than this are not kept.
 const MOST_MODES: usize = 64;
@@ -31,7 +32,7 @@ pub struct Table {
 
 impl Table {
     /// The present mode of `dynamics`.
-    pub fn of<S: System>(&mut self, dynamics: &Dynamics<S>) -> &Watched {
+    pub fn of<T: Scalar>(&mut self, dynamics: &Dynamics<T>) -> &Watched {
         let known = self
             .known
             .iter()
@@ -47,8 +48,8 @@ impl Table {
     }
 }
 
-fn watched<S: System>(dynamics: &Dynamics<S>) -> Watched {
-    let d = S::DESCRIPTION;
+fn watched<T: Scalar>(dynamics: &Dynamics<T>) -> Watched {
+    let d = dynamics.description();
     let (mode, effects) = (dynamics.mode(), dynamics.effects());
     let mut needs = dynamics.motion_needs().clone();
     needs.extend(dynamics.report_needs());

@@ -13,7 +13,7 @@ use crate::arithmetic::Scalar;
 use crate::error::Error;
 use crate::modes::decide::Known;
 use crate::modes::impact::Impact;
-use crate::system::{Normal, Place, System};
+use crate::system::{Normal, Place};
 use crate::trajectory::{EventKind, Subject};
 
 /// Shrinking is believed after this many intervals.
@@ -146,11 +146,11 @@ impl Train {
     }
 }
 
-impl<S: System> Run<S> {
+impl<T: Scalar> Run<T> {
     /// Ends the infinitely many impacts of contacts that bounce ever less.
     pub(super) fn close_accumulated(
         &mut self,
-        outcome: &Impact<S::Scalar>,
+        outcome: &Impact<T>,
         known: &mut Known,
     ) -> Result<(), Error> {
         // A plastic impact after which nothing parts is no bounce; on a rocking block the corner that is hit stays and
@@ -158,7 +158,7 @@ impl<S: System> Run<S> {
         if !known.parting.contains(&true) {
             return Ok(());
         }
-        for c in 0..S::DESCRIPTION.contacts.len() {
+        for c in 0..self.description().contacts.len() {
             if !(outcome.struck[c] && known.arriving[c]) {
                 continue;
             }
@@ -189,7 +189,7 @@ impl<S: System> Run<S> {
                 self.end(other, known);
             }
         }
-        self.t += S::Scalar::from_f64(remaining);
+        self.t += T::from_f64(remaining);
         Some(count)
     }
 
@@ -204,7 +204,7 @@ impl<S: System> Run<S> {
                 self.end(c, known);
             }
         }
-        self.t += S::Scalar::from_f64(remaining);
+        self.t += T::from_f64(remaining);
         let count = self.train.count;
         self.train = Train::default();
         Some(count)
@@ -213,9 +213,8 @@ impl<S: System> Run<S> {
     /// Whether all that can move in so much time is below the tolerance.
     fn is_over(&self, remaining: f64) -> bool {
         let tolerance = self.settings.tolerance;
-        let moves = |(q, v): (&S::Scalar, &S::Scalar)| {
-            v.value().abs() * remaining > tolerance * q.value().abs().max(1.0)
-        };
+        let moves =
+            |(q, v): (&T, &T)| v.value().abs() * remaining > tolerance * q.value().abs().max(1.0);
         // Below the resolution of time nothing can be told apart.
         let resolved = remaining > RESOLUTION * self.t.value().abs();
         !(resolved && self.state.q.iter().zip(&self.state.v).any(moves))
@@ -223,7 +222,7 @@ impl<S: System> Run<S> {
 
     /// Whether the gap of contact `c` is below the tolerance.
     fn vanishes(&self, c: usize) -> bool {
-        let row = &S::DESCRIPTION.rows[S::DESCRIPTION.contacts[c].row];
+        let row = &self.description().rows[self.description().contacts[c].row];
         let gap = self.dynamics.motion(row.position.unwrap_or(Place::Zero));
         gap.value().abs() <= self.settings.tolerance
     }
@@ -236,7 +235,7 @@ impl<S: System> Run<S> {
 
     /// Puts the state onto the contacts that have ended and logs it.
     fn close_contacts(&mut self, c: usize, count: usize, known: &mut Known) -> Result<(), Error> {
-        let d = S::DESCRIPTION;
+        let d = self.description();
         let vanishing = self.jump_of_gap(c);
         self.scratch_mode.clone_from(&self.mode);
         self.scratch_mode.contacts.copy_from_slice(&known.touching);
@@ -262,7 +261,7 @@ impl<S: System> Run<S> {
 
     /// How much the impact of this instant has changed the gap rate of contact `c`.
     fn jump_of_gap(&self, c: usize) -> f64 {
-        let row = &S::DESCRIPTION.rows[S::DESCRIPTION.contacts[c].row];
+        let row = &self.description().rows[self.description().contacts[c].row];
         let jump = row.jacobian.iter().map(|&(j, place)| {
             let jump = self.before.state.v[j] - self.state.v[j];
             (self.dynamics.motion(place) * jump).value()

@@ -10,7 +10,7 @@ use crate::mode::Mode;
 use crate::modes::guard::Guard;
 use crate::modes::reading::Reading;
 use crate::modes::sharing::{self, Joint};
-use crate::system::System;
+use crate::system::Description;
 
 /// Samples of a guard in a step of a Runge–Kutta method, at least.
 const FEWEST_SAMPLES: usize = 8;
@@ -34,8 +34,7 @@ pub(super) struct Curves {
 
 impl Curves {
     /// Room for the stops and marks of a system.
-    pub(super) fn new<S: System>() -> Self {
-        let d = S::DESCRIPTION;
+    pub(super) fn new(d: &Description) -> Self {
         let mut curves = Curves::default();
         for (i, stop) in d.stops.iter().enumerate() {
             curves.first_stop.push(curves.watches.len());
@@ -77,9 +76,9 @@ impl Curves {
     }
 
     /// Takes the guards from the series that `dynamics` holds; `powers` are those of the length of the step.
-    pub(super) fn take_series<S: System>(
+    pub(super) fn take_series<T: Scalar>(
         &mut self,
-        dynamics: &Dynamics<S>,
+        dynamics: &Dynamics<T>,
         mode: &Mode,
         (guards, joints): (&[Guard], &[Joint]),
         powers: &[f64],
@@ -101,9 +100,9 @@ impl Curves {
     ///
     /// The step is chosen for the coordinates, but a guard is a function of them whose series may converge no further than
     /// a part of it: in free flight the coordinates are polynomials, the distance √(x² + y²) is not.
-    pub(super) fn defect<S: System>(
+    pub(super) fn defect<T: Scalar>(
         &self,
-        dynamics: &mut Dynamics<S>,
+        dynamics: &mut Dynamics<T>,
         mode: &Mode,
         (guards, joints): (&[Guard], &[Joint]),
         s: f64,
@@ -165,14 +164,14 @@ impl Curves {
     ///
     /// # Errors
     /// The equations of motion could not be evaluated somewhere in the step.
-    pub(super) fn sample<S: System>(
+    pub(super) fn sample<T: Scalar>(
         &mut self,
-        dynamics: &mut Dynamics<S>,
+        dynamics: &mut Dynamics<T>,
         mode: &Mode,
         (guards, joints): (&[Guard], &[Joint]),
-        step: &StepPolynomial<S::Scalar>,
-        q: &mut [S::Scalar],
-        v: &mut [S::Scalar],
+        step: &StepPolynomial<T>,
+        q: &mut [T],
+        v: &mut [T],
     ) -> Result<(), EvaluationError> {
         // A guard bends more than the coordinates that it is made of.
         let m = (step.degree + 1).max(FEWEST_SAMPLES);
@@ -184,8 +183,8 @@ impl Curves {
         }
         for j in 0..m {
             let s = self.nodes[j];
-            step.state_into(S::Scalar::from_f64(s), q, v);
-            dynamics.value(step.t + step.h * S::Scalar::from_f64(s), q, v)?;
+            step.state_into(T::from_f64(s), q, v);
+            dynamics.value(step.t + step.h * T::from_f64(s), q, v)?;
             if j == 0 {
                 dynamics.take_headings();
             }

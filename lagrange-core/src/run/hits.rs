@@ -6,7 +6,7 @@ use crate::events::{Direction, RootList, deflate, first_root, roots};
 use crate::integrate::polynomial_sum as sum;
 use crate::mode::{FrictionMode, Mode};
 use crate::modes::guard::{Guard, LENGTH};
-use crate::system::{Condition, System, Watch};
+use crate::system::{Condition, Watch};
 
 /// Coefficients this much smaller than all together cannot be told from 0: some degrees times rounding.
 const RESOLUTION: f64 = 1e-13;
@@ -36,7 +36,7 @@ impl Hit {
     }
 }
 
-impl<S: System> Run<S> {
+impl<T: Scalar> Run<T> {
     /// Finds what happens first within the step.
     pub(super) fn first_hit(&mut self) -> Hit {
         self.falls.clear();
@@ -142,7 +142,7 @@ impl<S: System> Run<S> {
 
     /// The earliest stop up to part `end` of the step.
     fn first_stop(&self, end: f64) -> Option<(usize, f64)> {
-        let d = S::DESCRIPTION;
+        let d = self.description();
         let curves = &self.curves;
         let mut best: Option<(usize, f64)> = None;
         for (i, watch) in d.stops.iter().enumerate() {
@@ -166,7 +166,7 @@ impl<S: System> Run<S> {
 
     /// Marks up to part `end` of the step, in order.
     pub(super) fn marks_until(&self, end: f64, list: &mut Vec<(usize, f64)>) {
-        let d = S::DESCRIPTION;
+        let d = self.description();
         let curves = &self.curves;
         list.clear();
         for (i, watch) in d.marks.iter().enumerate() {
@@ -200,7 +200,7 @@ impl<S: System> Run<S> {
 
     /// Remembers on which side the terms of stops and marks are at part `end` of the step.
     pub(super) fn remember_sides(&mut self, end: f64) {
-        let d = S::DESCRIPTION;
+        let d = self.description();
         let curves = &self.curves;
         let below = |curve: &[f64]| value(curve, end) < 0.0;
         for (i, watch) in d.stops.iter().enumerate() {

@@ -5,7 +5,6 @@ use crate::arithmetic::Scalar;
 use crate::mode::{FrictionMode, Mode};
 use crate::modes::decide::Known;
 use crate::modes::impact::Impact;
-use crate::system::System;
 use crate::trajectory::{Around, Event, EventKind, State, Subject};
 
 /// What was just before a switch.
@@ -17,15 +16,13 @@ pub(super) struct Before<T> {
     pub undetermined: Vec<bool>,
 }
 
-impl<S: System> Run<S> {
-    pub(super) fn log_impacts(&mut self, outcome: &Impact<S::Scalar>, known: &Known) {
+impl<T: Scalar> Run<T> {
+    pub(super) fn log_impacts(&mut self, outcome: &Impact<T>, known: &Known) {
         let before = &self.before;
         let hit = |c: &usize| known.arriving[*c] && outcome.struck[*c];
-        for c in (0..S::DESCRIPTION.contacts.len()).filter(hit) {
-            let event = self
-                .trajectory
-                .events
-                .reuse(|| Event::blank(S::DESCRIPTION));
+        for c in (0..self.description().contacts.len()).filter(hit) {
+            let d = self.description();
+            let event = self.trajectory.events.reuse(|| Event::blank(d));
             let around = Around {
                 before: &before.mode,
                 after: &before.mode,
@@ -44,8 +41,8 @@ impl<S: System> Run<S> {
     }
 
     /// One entry per item whose state changed; frictions that come and go with their contact are not told apart.
-    pub(super) fn log_changes(&mut self, impulses: &[S::Scalar], ambiguous: bool) {
-        let d = S::DESCRIPTION;
+    pub(super) fn log_changes(&mut self, impulses: &[T], ambiguous: bool) {
+        let d = self.description();
         if !self.dynamics.has_dependent_rows() {
             write_forces(&mut self.forces_after, |row| {
                 let series = self.dynamics.force_series(row);
@@ -96,10 +93,17 @@ impl<S: System> Run<S> {
             undetermined_after: &self.undetermined_after,
             impulses,
         };
+        let mut told = !ambiguous;
         for (subject, kind) in contacts.chain(frictions).chain(branches) {
             let event = self.trajectory.events.reuse(|| Event::blank(d));
             event.write(self.t, subject, kind, around);
             event.ambiguous = ambiguous;
+            told = true;
+        }
+        if !told && let Some(subject) = at_issue(after) {
+            let event = self.trajectory.events.reuse(|| Event::blank(d));
+            event.write(self.t, subject, EventKind::Ambiguous, around);
+            event.ambiguous = true;
         }
     }
 
@@ -108,8 +112,8 @@ impl<S: System> Run<S> {
         &mut self,
         subject: Subject,
         kind: EventKind,
-        time: S::Scalar,
-        state: &State<S::Scalar>,
+        time: T,
+        state: &State<T>,
     ) {
         let mut forces = core::mem::take(&mut self.forces_after);
         let mut undetermined = core::mem::take(&mut self.undetermined_after);
@@ -125,10 +129,8 @@ impl<S: System> Run<S> {
             undetermined_after: &undetermined,
             impulses: &[],
         };
-        let event = self
-            .trajectory
-            .events
-            .reuse(|| Event::blank(S::DESCRIPTION));
+        let d = self.description();
+        let event = self.trajectory.events.reuse(|| Event::blank(d));
         event.write(time, subject, kind, around);
         (self.forces_after, self.undetermined_after) = (forces, undetermined);
     }
@@ -149,4 +151,13 @@ fn write_forces<T: Scalar>(out: &mut [T], force: impl Fn(usize) -> T) {
     for (row, out) in out.iter_mut().enumerate() {
         *out = force(row);
     }
+}
+
+/// What a mode could do otherwise: a contact that is closed, else a friction that acts.
+fn at_issue(mode: &Mode) -> Option<Subject> {
+    let closed = mode.contacts.iter().position(|closed| *closed);
+    let acts = |friction: &FrictionMode| *friction != FrictionMode::Inactive;
+    let acting = mode.frictions.iter().position(acts);
+    let contact = closed.map(Subject::Contact);
+    contact.or(acting.map(Subject::Friction))
 }

@@ -28,8 +28,9 @@ use crate::modes::start::{self, Survey};
 use crate::modes::table::Table;
 use crate::pool::Pool;
 use crate::simulation::{Held, Settings};
-use crate::system::{System, Watch};
-use crate::trajectory::{EventKind, State, Subject, Trajectory, Work};
+use crate::system::{Description, Watch};
+use crate::tapes::Erased;
+use crate::trajectory::{EventKind, Record, State, Subject, Work};
 use accumulation::{Impacts, Train};
 use core::ops::Range;
 use curves::Curves;
@@ -51,16 +52,16 @@ const STEPS_OF_ROUNDING: usize = 16;
 
 /// The state of a run, and everything that it works with.
 #[derive(Debug)]
-pub(crate) struct Run<S: System> {
+pub(crate) struct Run<T: Scalar> {
     settings: Settings,
-    dynamics: Dynamics<S>,
-    stepper: Stepper<S::Scalar>,
+    dynamics: Dynamics<T>,
+    stepper: Stepper<T>,
     tolerance: Tolerance,
     /// Order of Taylor series.
     order: usize,
-    t: S::Scalar,
+    t: T,
     end: f64,
-    state: State<S::Scalar>,
+    state: State<T>,
     mode: Mode,
     table: Table,
     /// Guards of the mode.
@@ -83,26 +84,26 @@ pub(crate) struct Run<S: System> {
     /// The mode with those at rest.
     resting: Mode,
     /// Velocities a little before that.
-    earlier: Vec<S::Scalar>,
+    earlier: Vec<T>,
     stop_below: Vec<Vec<bool>>,
     mark_below: Vec<Vec<bool>>,
     marks: Vec<(usize, f64)>,
-    step: StepPolynomial<S::Scalar>,
+    step: StepPolynomial<T>,
     /// Of the length of the step.
     powers: Vec<f64>,
     curves: Curves,
-    scratch: State<S::Scalar>,
+    scratch: State<T>,
     survey: Survey,
-    collider: Collider<S::Scalar>,
+    collider: Collider<T>,
     /// Contacts whose gap vanishes at an impact.
     near: Vec<usize>,
-    decider: Decider<S::Scalar>,
+    decider: Decider<T>,
     /// Of undetermined forces at the present state.
-    sharing: Sharing<S::Scalar>,
+    sharing: Sharing<T>,
     /// Guards of such forces that have been met in this mode.
     joints: Vec<Joint>,
-    before: Before<S::Scalar>,
-    forces_after: Vec<S::Scalar>,
+    before: Before<T>,
+    forces_after: Vec<T>,
     undetermined_after: Vec<bool>,
     /// Per contact: its impacts so far.
     impacts: Vec<Impacts>,
@@ -118,15 +119,15 @@ pub(crate) struct Run<S: System> {
     finished: bool,
     /// What earlier runs cost.
     work_before: crate::dynamics::Work,
-    trajectory: Trajectory<S>,
+    trajectory: Record<T>,
 }
 
-impl<S: System> Run<S> {
+impl<T: Scalar> Run<T> {
     /// Makes everything ready.
-    pub(crate) fn new(scene: &S, settings: &Settings) -> Self {
-        let d = S::DESCRIPTION;
+    pub(crate) fn new(system: Erased<T>, settings: &Settings) -> Self {
+        let d = system.description();
         let (n, rows) = (d.coordinates.len(), d.rows.len());
-        let zero = S::Scalar::default();
+        let zero = T::default();
         let state = State {
             q: vec![zero; n],
             v: vec![zero; n],
@@ -135,7 +136,7 @@ impl<S: System> Run<S> {
         let tolerance = Tolerance::both(settings.tolerance);
         let mut run = Run {
             settings: settings.clone(),
-            dynamics: Dynamics::new(scene, &settings.effects),
+            dynamics: Dynamics::of(system.clone(), &settings.effects),
             stepper: Stepper::new(settings.method, n),
             tolerance,
             order: crate::integrate::taylor::order(tolerance),
@@ -167,7 +168,7 @@ impl<S: System> Run<S> {
             marks: Vec::new(),
             step: StepPolynomial::new(n, 1),
             powers: Vec::new(),
-            curves: Curves::new::<S>(),
+            curves: Curves::new(d),
             survey: Survey::new(d),
             decider: Decider::new(d),
             collider: Collider::default(),
@@ -177,12 +178,12 @@ impl<S: System> Run<S> {
             impacts: vec![Impacts::default(); d.contacts.len()],
             train: Train::default(),
             scratch_mode: mode.clone(),
-            rank: Rank::new::<S>(),
+            rank: Rank::new(d),
             distance: 1.0,
             stuck: Pool::default(),
             finished: false,
             work_before: crate::dynamics::Work::default(),
-            trajectory: Trajectory::new(scene, &settings.effects, settings.record),
+            trajectory: Record::new(&system, &settings.effects, settings.record),
             state,
             mode,
         };
@@ -191,36 +192,54 @@ impl<S: System> Run<S> {
         run
     }
 
+    /// The table of names and places of the system.
+    pub(crate) fn description(&self) -> &'static Description {
+        self.dynamics.description()
+    }
+
     /// Takes another system of the same kind.
-    pub(crate) fn set_scene(&mut self, scene: &S) {
-        self.dynamics = Dynamics::new(scene, &self.settings.effects);
+    pub(crate) fn set_system(&mut self, system: Erased<T>) {
+        self.dynamics = Dynamics::of(system, &self.settings.effects);
         self.work_before = self.dynamics.work();
-        self.trajectory.scene.clone_from(scene);
         self.watch();
     }
 
     /// See [`crate::Simulation::consistent`].
-    fn consistent(
+    pub(crate) fn consistent(
         &mut self,
         time: f64,
-        reference: &State<S::Scalar>,
-        wanted: &State<S::Scalar>,
+        reference: &State<T>,
+        wanted: &State<T>,
         held: &Held,
-    ) -> Result<State<S::Scalar>, Error> {
+    ) -> Result<State<T>, Error> {
         let tolerance = self.settings.tolerance;
         start::consistent(&mut self.dynamics, time, tolerance, reference, wanted, held)
     }
 
-    /// Runs from `start` over `span`.
+    /// An empty trajectory.
+    pub(crate) fn record(&self) -> &Record<T> {
+        &self.trajectory
+    }
+
+    /// Runs from `start` over `span`; the trajectory is written `into` a record.
     pub(crate) fn execute(
         &mut self,
-        start: &State<S::Scalar>,
+        start: &State<T>,
         span: Range<f64>,
+        into: &mut Record<T>,
     ) -> Result<(), Error> {
-        let t = S::Scalar::from_f64(span.start);
+        core::mem::swap(&mut self.trajectory, into);
+        let outcome = self.execute_recording(start, span);
+        core::mem::swap(&mut self.trajectory, into);
+        outcome
+    }
+
+    fn execute_recording(&mut self, start: &State<T>, span: Range<f64>) -> Result<(), Error> {
+        let t = T::from_f64(span.start);
         self.mode.clear();
         self.trajectory.begin(t, start, &self.mode);
-        self.settings.check(self.dynamics.scene(), start, &span)?;
+        self.settings
+            .check(&**self.dynamics.system(), start, &span)?;
         (self.t, self.end) = (t, span.end);
         self.state.clone_from(start);
         self.work_before = self.dynamics.work();
@@ -286,16 +305,16 @@ impl<S: System> Run<S> {
         self.log_marks(end);
         self.remember_sides(end);
         self.remember_regions(end);
-        self.trajectory.push(&self.step, S::Scalar::from_f64(end));
+        self.trajectory.push(&self.step, T::from_f64(end));
         self.trajectory.work.steps += 1;
         if end > 0.0 {
             let whole = end == 1.0;
-            self.t = self.step.t + self.step.h * S::Scalar::from_f64(end);
+            self.t = self.step.t + self.step.h * T::from_f64(end);
             if whole
                 && (self.end - self.t.value()).abs()
                     <= 1e-15 * self.end.abs().max(self.step.h.value())
             {
-                self.t = S::Scalar::from_f64(self.end);
+                self.t = T::from_f64(self.end);
             }
             self.stuck.clear();
             self.zeros.clear();
@@ -352,7 +371,7 @@ impl<S: System> Run<S> {
         if self.stuck.len() < MOST_EVENTS_AT_ONCE {
             return Ok(());
         }
-        let d = S::DESCRIPTION;
+        let d = self.description();
         let last = self.stuck.iter().rev().take(4).rev();
         Err(Error::NoProgress {
             time: self.t.value(),
@@ -374,13 +393,13 @@ impl<S: System> Run<S> {
     }
 
     fn log_marks(&mut self, end: f64) {
-        if S::DESCRIPTION.marks.is_empty() {
+        if self.description().marks.is_empty() {
             return;
         }
         let mut marks = core::mem::take(&mut self.marks);
         self.marks_until(end, &mut marks);
         for &(mark, s) in &marks {
-            let s = S::Scalar::from_f64(s);
+            let s = T::from_f64(s);
             let mut state = core::mem::take(&mut self.scratch);
             self.step.state_into(s, &mut state.q, &mut state.v);
             let time = self.step.time(s);
@@ -395,7 +414,7 @@ impl<S: System> Run<S> {
 
     /// Stops whose conditions the switch has just made true.
     fn stops_of_the_mode(&mut self) -> Result<(), Error> {
-        let d = S::DESCRIPTION;
+        let d = self.description();
         for (i, watch) in d.stops.iter().enumerate() {
             if self.has_become_true(watch, |k| Guard::Stop(i, k)) {
                 self.evaluate()?;
@@ -445,7 +464,7 @@ impl<S: System> Run<S> {
     /// Asks for the stops and marks that take part.
     fn watch(&mut self) {
         use crate::effects::Item;
-        let d = S::DESCRIPTION;
+        let d = self.description();
         let mut needs = NeedSet::new(d);
         for (i, stop) in d.stops.iter().enumerate() {
             if self.settings.effects.includes(d, Item::Stop(i)) {
@@ -495,7 +514,7 @@ impl<S: System> Run<S> {
     }
 
     fn error(&self, error: EvaluationError) -> Error {
-        Error::from_evaluation(error, self.t.value(), &self.mode, S::DESCRIPTION)
+        Error::from_evaluation(error, self.t.value(), &self.mode, self.description())
     }
 
     /// Completes the trajectory.

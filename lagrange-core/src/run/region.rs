@@ -10,9 +10,9 @@ use super::hits::value;
 use crate::arithmetic::Scalar;
 use crate::effects::Item;
 use crate::modes::guard::Guard;
-use crate::system::{Place, System};
+use crate::system::Place;
 
-impl<S: System> Run<S> {
+impl<T: Scalar> Run<T> {
     /// Whether a guard is the edge of a contact that is open.
     pub(super) fn is_edge_in_flight(&self, guard: Guard) -> bool {
         matches!(guard, Guard::Region(c) if !self.mode.contacts[c])
@@ -47,7 +47,7 @@ impl<S: System> Run<S> {
             let Guard::Gap(c) = guard else {
                 continue;
             };
-            if S::DESCRIPTION.contacts[c].region.is_none() || self.fallen.contains(&guard) {
+            if self.description().contacts[c].region.is_none() || self.fallen.contains(&guard) {
                 continue;
             }
             let curve = self.curves.mode_guard(k);
@@ -61,7 +61,7 @@ impl<S: System> Run<S> {
 
     /// At an edge the next surface may begin without a step: closes contacts whose gaps vanish where their regions begin.
     pub(super) fn hand_over(&mut self) {
-        let d = S::DESCRIPTION;
+        let d = self.description();
         if !self.fallen.iter().any(|g| matches!(g, Guard::Region(_))) {
             return;
         }

@@ -11,7 +11,6 @@ use crate::dynamics::approach;
 use crate::error::Error;
 use crate::mode::{Direction, FrictionMode, Sliding};
 use crate::modes::guard::Guard;
-use crate::system::System;
 use crate::trajectory::State;
 
 /// A slip close to its rest is looked at from this part of the way.
@@ -35,7 +34,7 @@ pub(super) struct Rest {
     left: f64,
 }
 
-impl<S: System> Run<S> {
+impl<T: Scalar> Run<T> {
     /// Whether friction `f` slips with two components along itself.
     fn turns(&self, f: usize) -> bool {
         matches!(
@@ -68,7 +67,7 @@ impl<S: System> Run<S> {
         if self.rests.is_empty() {
             return;
         }
-        for f in 0..S::DESCRIPTION.frictions.len() {
+        for f in 0..self.description().frictions.len() {
             if self.turns(f)
                 && !self.fallen.contains(&Guard::Slip(f))
                 && let Some(rest) = self.rest(f, end, LEFT_TOGETHER)
@@ -87,7 +86,7 @@ impl<S: System> Run<S> {
             return false;
         }
         self.fallen.clear();
-        for f in 0..S::DESCRIPTION.frictions.len() {
+        for f in 0..self.description().frictions.len() {
             if self.turns(f)
                 && let Some(rest) = self.rest(f, end, LEFT)
             {
@@ -101,11 +100,11 @@ impl<S: System> Run<S> {
         let left = self.rests.iter().fold(0.0_f64, |m, rest| m.max(rest.left));
         self.rest_together(end);
         let left = left.min(self.end - self.t.value()).max(0.0);
-        let time = S::Scalar::from_f64(left);
-        let half = S::Scalar::from_f64(0.5 * left);
+        let time = T::from_f64(left);
+        let half = T::from_f64(0.5 * left);
         // From the difference over the last part of the step to that over what is left.
         let back = (1.0 - JUST_BEFORE) * end * self.step.h.value();
-        let share = S::Scalar::from_f64(left / back);
+        let share = T::from_f64(left / back);
         let State { q, v } = &mut self.state;
         for ((q, v), &earlier) in q.iter_mut().zip(v).zip(&self.earlier) {
             let change = share * (*v - earlier);
@@ -125,7 +124,7 @@ impl<S: System> Run<S> {
             self.earlier.copy_from_slice(&self.scratch.v);
             self.state_at_end(s);
             let State { q, v } = &self.scratch;
-            let time = self.step.time(S::Scalar::from_f64(s));
+            let time = self.step.time(T::from_f64(s));
             self.dynamics.tape(time, q, v);
             *slip = self.dynamics.slip(f).map(|s| s.value());
         }
@@ -139,7 +138,7 @@ impl<S: System> Run<S> {
         }
         let parts = speed / fall;
         let allowed = allowed * self.settings.tolerance;
-        let changes = |(now, before): (&S::Scalar, &S::Scalar)| {
+        let changes = |(now, before): (&T, &T)| {
             let (now, before) = (now.value(), before.value());
             (now - before).abs() * parts > allowed * now.abs().max(1.0)
         };
@@ -153,7 +152,7 @@ impl<S: System> Run<S> {
             ..
         } = self;
         let along = approach(|part| {
-            let s = S::Scalar::from_f64(part * end);
+            let s = T::from_f64(part * end);
             step.state_into(s, &mut scratch.q, &mut scratch.v);
             dynamics.tape(step.time(s), &scratch.q, &scratch.v);
             dynamics.slip(f).map(|s| s.value())
@@ -190,7 +189,7 @@ impl<S: System> Run<S> {
         let State { q, v } = &self.state;
         self.dynamics.set_extra_needs(&self.survey.needs);
         self.dynamics.tape(self.t, q, v);
-        for f in 0..S::DESCRIPTION.frictions.len() {
+        for f in 0..self.description().frictions.len() {
             if !self.turns(f) || self.fallen.contains(&Guard::Slip(f)) {
                 continue;
             }
@@ -238,9 +237,9 @@ impl<S: System> Run<S> {
             return true;
         }
         (0..self.mode.frictions.len()).any(|f| {
-            let row = S::DESCRIPTION.frictions[f].row;
+            let row = self.description().frictions[f].row;
             let falls = |row: usize| {
-                let terms = S::DESCRIPTION.rows[row].jacobian.iter();
+                let terms = self.description().rows[row].jacobian.iter();
                 let size = |&(j, place)| {
                     let term = self.dynamics.motion(place) * self.dynamics.acceleration()[j];
                     term.value().abs()

@@ -1,26 +1,32 @@
 //! Many runs of one system in the same memory.
 
 use super::Run;
+use crate::arithmetic::Scalar;
 use crate::error::Error;
 use crate::simulation::{Held, Settings};
 use crate::system::System;
+use crate::tapes::Erased;
 use crate::trajectory::{State, Trajectory};
 use core::ops::Range;
+use std::sync::Arc;
 
 /// Runs one system again and again: what a run works with is made once, and the trajectory is written into the same memory.
 /// From the second run on nothing is allocated, unless a run meets a mode or needs an amount of recording that none before
-/// did, has impacts, or forces that the motion leaves open.
+/// did, or has forces that the motion leaves open.
 ///
 /// Made by [`Simulation::runner`](crate::Simulation::runner).
 #[derive(Debug)]
 pub struct Runner<S: System> {
-    run: Run<S>,
+    run: Run<S::Scalar>,
+    trajectory: Trajectory<S>,
 }
 
 impl<S: System> Runner<S> {
     pub(crate) fn new(scene: &S, settings: &Settings) -> Self {
+        let run = (S::Scalar::entries().run)(erased(scene), settings);
         Self {
-            run: Run::new(scene, settings),
+            trajectory: Trajectory::new(scene, run.record().clone()),
+            run,
         }
     }
 
@@ -34,8 +40,9 @@ impl<S: System> Runner<S> {
         start: &State<S::Scalar>,
         span: Range<f64>,
     ) -> Result<&Trajectory<S>, Error> {
-        self.run.execute(start, span)?;
-        Ok(&self.run.trajectory)
+        let execute = S::Scalar::entries().execute;
+        execute(&mut self.run, start, span, self.trajectory.record())?;
+        Ok(&self.trajectory)
     }
 
     /// As [`Simulation::consistent`](crate::Simulation::consistent).
@@ -49,26 +56,34 @@ impl<S: System> Runner<S> {
         wanted: &State<S::Scalar>,
         held: &Held,
     ) -> Result<State<S::Scalar>, Error> {
-        self.run.consistent(time, reference, wanted, held)
+        (S::Scalar::entries().consistent)(&mut self.run, time, reference, wanted, held)
     }
 
     /// The trajectory of the last run.
     pub fn trajectory(&self) -> &Trajectory<S> {
-        &self.run.trajectory
+        &self.trajectory
     }
 
     /// The trajectory of the last run, to keep.
     pub fn into_trajectory(self) -> Trajectory<S> {
-        self.run.trajectory
+        self.trajectory
     }
 
     /// The system.
     pub fn scene(&self) -> &S {
-        self.run.dynamics.scene()
+        self.trajectory.scene()
     }
 
     /// Takes another system of the same kind, as a sweep over parameters does.
     pub fn set_scene(&mut self, scene: &S) {
-        self.run.set_scene(scene);
+        let system = erased(scene);
+        self.trajectory.set_scene(scene);
+        self.trajectory.record().system = system.clone();
+        (S::Scalar::entries().set_system)(&mut self.run, system);
     }
+}
+
+/// The system without its type.
+fn erased<S: System>(scene: &S) -> Erased<S::Scalar> {
+    Arc::new(scene.clone())
 }

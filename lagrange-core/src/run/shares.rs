@@ -6,10 +6,10 @@
 
 use super::Run;
 use super::hits::Hit;
+use crate::arithmetic::Scalar;
 use crate::modes::guard::Guard;
 use crate::modes::reading::Reading;
 use crate::modes::sharing::{self, Joint};
-use crate::system::System;
 
 /// A joint guard above this (relative) is not about to fall.
 const BORDER: f64 = 1e-3;
@@ -20,7 +20,7 @@ const ROOT: f64 = 1e-9;
 /// So often are the joint guards of one step found anew.
 const MOST_CORRECTIONS: usize = 12;
 
-impl<S: System> Run<S> {
+impl<T: Scalar> Run<T> {
     /// Looks at the forces at the last value of the dynamics, in the mode of the run.
     pub(super) fn look_at_shares(&mut self) {
         let was_open = self.sharing.has_open();
@@ -88,17 +88,13 @@ impl<S: System> Run<S> {
 
     /// The forces of all rows at the last value of the dynamics, to be reported; and which are undetermined (none: all
     /// are determined).
-    pub(super) fn reported_forces(
-        &mut self,
-        forces: &mut Vec<S::Scalar>,
-        undetermined: &mut Vec<bool>,
-    ) {
+    pub(super) fn reported_forces(&mut self, forces: &mut Vec<T>, undetermined: &mut Vec<bool>) {
         if self.dynamics.has_dependent_rows() {
             *forces = self.sharing.report(&self.dynamics, undetermined);
         } else {
             undetermined.clear();
             forces.clear();
-            let rows = 0..S::DESCRIPTION.rows.len();
+            let rows = 0..self.description().rows.len();
             forces.extend(rows.map(|row| self.dynamics.force(row)));
         }
     }

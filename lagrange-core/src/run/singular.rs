@@ -13,7 +13,7 @@ use super::hits::Hit;
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
 use crate::integrate::taylor;
-use crate::system::{Place, System};
+use crate::system::{Description, Place};
 
 /// A step may come nearer to a loss of rank, or to its other side, by this factor.
 const NEARER: f64 = 0.35;
@@ -51,8 +51,7 @@ pub(super) struct Rank {
 
 impl Rank {
     /// Watches the constraints whose Jacobian depends on the state and that act at all times.
-    pub(super) fn new<S: System>() -> Self {
-        let d = S::DESCRIPTION;
+    pub(super) fn new(d: &Description) -> Self {
         let n = d.coordinates.len();
         let changes = |row: usize| {
             let jacobian = d.rows[row].jacobian.iter();
@@ -84,7 +83,7 @@ impl Rank {
     }
 
     /// Distance of the state that `dynamics` has evaluated from a loss of rank, 1 at the farthest so far.
-    pub(super) fn distance<S: System>(&mut self, dynamics: &Dynamics<S>) -> f64 {
+    pub(super) fn distance<T: Scalar>(&mut self, dynamics: &Dynamics<T>) -> f64 {
         if self.rows.is_empty() {
             return 1.0;
         }
@@ -103,8 +102,8 @@ impl Rank {
         nearest
     }
 
-    fn fill<S: System>(&mut self, dynamics: &Dynamics<S>) {
-        let d = S::DESCRIPTION;
+    fn fill<T: Scalar>(&mut self, dynamics: &Dynamics<T>) {
+        let d = dynamics.description();
         let n = d.coordinates.len();
         let number = |place: Place| dynamics.motion(place).value();
         for &(i, j, place) in d.mass {
@@ -159,7 +158,7 @@ impl Rank {
     }
 }
 
-impl<S: System> Run<S> {
+impl<T: Scalar> Run<T> {
     /// Whether a step that ends at this distance from a loss of rank ends too close to it.
     pub(super) fn ends_close(&self, distance: f64) -> bool {
         distance < CLOSE && distance < NEARER * self.distance

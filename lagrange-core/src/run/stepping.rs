@@ -11,7 +11,6 @@ use crate::integrate::taylor::{self, DefectControl, Verdict};
 use crate::integrate::{Integrator, Method, StepError};
 use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
-use crate::system::System;
 use crate::trajectory::State;
 
 /// Where rounding hides how a guard begins, the step is made shorter by this.
@@ -48,7 +47,7 @@ impl<T: Scalar> Stepper<T> {
     }
 }
 
-impl<S: System> Run<S> {
+impl<T: Scalar> Run<T> {
     /// Makes a step from the present state and finds what happens first in it.
     pub(super) fn accepted_step(&mut self) -> Result<Hit, Error> {
         match &self.stepper {
@@ -147,25 +146,25 @@ impl<S: System> Run<S> {
     pub(super) fn evaluate_end(&mut self, end: f64) -> Result<(), EvaluationError> {
         self.state_at_end(end);
         let State { q, v } = &self.scratch;
-        let time = self.step.time(S::Scalar::from_f64(end));
+        let time = self.step.time(T::from_f64(end));
         self.dynamics.value_along(time, q, v)
     }
 
     /// The state at part `end` of the step, in `scratch`.
     pub(super) fn state_at_end(&mut self, end: f64) {
         let State { q, v } = &mut self.scratch;
-        self.step.state_into(S::Scalar::from_f64(end), q, v);
+        self.step.state_into(T::from_f64(end), q, v);
     }
 
     /// Scales the series, up to `degree`, onto a step of length `h`.
     pub(super) fn write_polynomial(&mut self, h: f64, degree: usize) {
         self.step.set_degree(degree);
         self.step.t = self.t;
-        self.step.h = S::Scalar::from_f64(h);
+        self.step.h = T::from_f64(h);
         self.powers.clear();
         let powers = core::iter::successors(Some(1.0), |power| Some(power * h));
         self.powers.extend(powers.take(degree + 1));
-        for i in 0..S::DESCRIPTION.coordinates.len() {
+        for i in 0..self.description().coordinates.len() {
             let (q, v) = self.step.rows_mut(i);
             let series = [
                 (q, self.dynamics.position_series(i)),
@@ -173,7 +172,7 @@ impl<S: System> Run<S> {
             ];
             for (row, series) in series {
                 for ((scaled, &c), &power) in row.iter_mut().zip(series).zip(&self.powers) {
-                    *scaled = c * S::Scalar::from_f64(power);
+                    *scaled = c * T::from_f64(power);
                 }
             }
         }
@@ -218,7 +217,7 @@ impl<S: System> Run<S> {
             Err(StepError::Acceleration(e)) => return Err(self.error(e)),
             Err(StepError::TooSmall { h, .. }) => return Err(self.step_too_small(h)),
             Err(StepError::NoConvergence { h, .. }) => {
-                let mode = self.mode.display(S::DESCRIPTION).to_string();
+                let mode = self.mode.display(self.description()).to_string();
                 return Err(Error::StepTooLarge {
                     time: self.t.value(),
                     step: h,
@@ -283,7 +282,7 @@ impl<S: System> Run<S> {
     }
 
     fn step_too_small(&self, step: f64) -> Error {
-        let mode = self.mode.display(S::DESCRIPTION).to_string();
+        let mode = self.mode.display(self.description()).to_string();
         Error::StepTooSmall {
             time: self.t.value(),
             step,
@@ -292,7 +291,7 @@ impl<S: System> Run<S> {
     }
 
     fn not_finite(&self, what: &str) -> Error {
-        let mode = self.mode.display(S::DESCRIPTION).to_string();
+        let mode = self.mode.display(self.description()).to_string();
         Error::NotFinite {
             time: self.t.value(),
             mode,

@@ -8,12 +8,12 @@ use crate::mode::FrictionMode;
 use crate::modes::decide::{Known, Moment};
 use crate::modes::guard::Guard;
 use crate::modes::impact::Impact;
-use crate::system::{Normal, System};
+use crate::system::Normal;
 
-impl<S: System> Run<S> {
+impl<T: Scalar> Run<T> {
     /// Leaves the present mode because the guards in `self.fallen` fell through zero.
     pub(super) fn switch(&mut self) -> Result<(), Error> {
-        let d = S::DESCRIPTION;
+        let d = self.description();
         if !self.rests.is_empty() {
             self.come_to_rest()?;
         }
@@ -110,7 +110,7 @@ impl<S: System> Run<S> {
 
     /// The impact of the contacts whose gaps close, if there is one.
     fn hit(&mut self, known: &mut Known) -> Result<bool, Error> {
-        let d = S::DESCRIPTION;
+        let d = self.description();
         self.evaluate_all_rows()?;
         for c in (0..d.contacts.len()).filter(|&c| !self.mode.contacts[c]) {
             // A gap that rounding has left below zero may be growing.
@@ -156,7 +156,7 @@ impl<S: System> Run<S> {
 
     /// Whether the gap of contact `c` closes at the present state.
     fn approaching(&self, c: usize) -> bool {
-        let d = S::DESCRIPTION;
+        let d = self.description();
         self.dynamics.effects().includes(d, Item::Contact(c))
             && self
                 .dynamics
@@ -166,8 +166,8 @@ impl<S: System> Run<S> {
     }
 
     /// What is known after an impact; `dynamics` still holds the state before.
-    fn after_impact(&self, outcome: &Impact<S::Scalar>, known: &mut Known) {
-        let d = S::DESCRIPTION;
+    fn after_impact(&self, outcome: &Impact<T>, known: &mut Known) {
+        let d = self.description();
         for &c in &self.near {
             known.touching[c] = outcome.stays[c];
             known.parting[c] = !outcome.stays[c];
@@ -186,11 +186,11 @@ impl<S: System> Run<S> {
     }
 
     /// Whether the slip of friction `f` vanishes after an impact.
-    fn rests_after(&self, outcome: &Impact<S::Scalar>, f: usize) -> bool {
-        let friction = &S::DESCRIPTION.frictions[f];
+    fn rests_after(&self, outcome: &Impact<T>, f: usize) -> bool {
+        let friction = &self.description().frictions[f];
         (friction.row..friction.row + friction.components).all(|row| {
             let (mut slip, mut size) = self.rate(row);
-            let jacobian = S::DESCRIPTION.rows[row].jacobian.iter();
+            let jacobian = self.description().rows[row].jacobian.iter();
             for &(j, place) in jacobian {
                 let jump = (outcome.v[j] - self.before.state.v[j]).value();
                 let part = self.dynamics.motion(place).value() * jump;
@@ -203,7 +203,7 @@ impl<S: System> Run<S> {
 
     /// A contact that closes without impact carries frictions whose slip nobody has looked at.
     fn rest_where_slip_vanishes(&mut self, known: &mut Known) -> Result<(), Error> {
-        let d = S::DESCRIPTION;
+        let d = self.description();
         let wakes = |run: &Self, known: &Known, f: usize| {
             let closes = match d.frictions[f].normal {
                 Normal::Contact(c) => known.touching[c],
@@ -228,7 +228,7 @@ impl<S: System> Run<S> {
 
     /// Whether the slip of friction `f` is zero beside the terms that make it.
     pub(super) fn slip_vanishes(&self, f: usize) -> bool {
-        let friction = &S::DESCRIPTION.frictions[f];
+        let friction = &self.description().frictions[f];
         let rows = friction.row..friction.row + friction.components;
         let rates = || rows.clone().map(|row| self.rate(row));
         let size = rates().map(|(_, size)| size).fold(0.0, f64::max);
@@ -238,7 +238,7 @@ impl<S: System> Run<S> {
     /// Rate of a row (slip, rate of a gap) and the size of the terms that make it; a velocity that is zero is so only to some
     /// 1e-16 of the unit, as projections leave it.
     pub(super) fn rate(&self, row: usize) -> (f64, f64) {
-        let row = &S::DESCRIPTION.rows[row];
+        let row = &self.description().rows[row];
         let number = |place| self.dynamics.motion(place).value();
         let size = |j: usize| self.state.v[j].value().abs() + 1e-2;
         let terms = row.jacobian.iter();

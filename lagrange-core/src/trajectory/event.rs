@@ -97,6 +97,8 @@ pub enum EventKind {
     Reverses,
     /// A piecewise function changed its branch.
     Branches,
+    /// Nothing changed, although the motion could go on in another mode as well.
+    Ambiguous,
     /// A stop became true; the run ended.
     Stop,
     /// A mark became true, or its expression zero.
@@ -104,7 +106,8 @@ pub enum EventKind {
 }
 
 impl EventKind {
-    /// One word: `lost`, `closed`, `impact`, `accumulates`, `slips`, `sticks`, `reverses`, `branches`, `stop`, `mark`.
+    /// One word: `lost`, `closed`, `impact`, `accumulates`, `slips`, `sticks`, `reverses`, `branches`, `ambiguous`, `stop`,
+    /// `mark`.
     pub fn word(self) -> &'static str {
         match self {
             EventKind::Lost => "lost",
@@ -115,6 +118,7 @@ impl EventKind {
             EventKind::Sticks => "sticks",
             EventKind::Reverses => "reverses",
             EventKind::Branches => "branches",
+            EventKind::Ambiguous => "ambiguous",
             EventKind::Stop => "stop",
             EventKind::Mark => "mark",
         }
@@ -233,6 +237,7 @@ impl<T: crate::arithmetic::Scalar> Event<T> {
             EventKind::Sticks => "sticks",
             EventKind::Reverses => "reverses its slip",
             EventKind::Branches => "changes branch",
+            EventKind::Ambiguous => "could go on otherwise",
             EventKind::Stop => "ends the run",
             EventKind::Mark => "is reached",
         };

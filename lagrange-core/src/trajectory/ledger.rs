@@ -4,11 +4,11 @@
 //! dh/dt = Σ Q·v − ∂L/∂t (Goldstein, Poole & Safko 2002, section 2.7). Each power is integrated over the stored step
 //! polynomials by Gauss–Legendre quadrature; impacts add their jumps. What is left over is the closure error.
 
-use super::{EventKind, Instant, Sampler, State, Trajectory};
+use super::{EventKind, Instant, Record, Sampler, State};
 use crate::arithmetic::Scalar;
 use crate::dynamics::row_name;
 use crate::error::Error;
-use crate::system::{Description, System};
+use crate::system::Description;
 
 /// Energies at one instant, J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -59,12 +59,25 @@ const GAUSS: [(f64, f64); 8] = [
     (0.989_400_934_991_649_9, 0.027_152_459_411_754_095),
 ];
 
-impl<S: System> Trajectory<S> {
+impl<T: Scalar> Record<T> {
     /// Books the energy of the whole trajectory.
     ///
     /// # Errors
     /// [`Error::NotRecorded`]; or the equations of motion could not be evaluated somewhere on the way.
     pub fn ledger(&self) -> Result<Ledger, Error> {
+        let ledgers = (T::entries().ledgers)(self, None)?;
+        ledgers.into_iter().next().ok_or(Error::NotRecorded)
+    }
+
+    /// The ledgers at these times, or that of the end.
+    pub(crate) fn book(&self, times: Option<&[f64]>) -> Result<Vec<Ledger>, Error> {
+        match times {
+            Some(times) => self.book_at(times),
+            None => Ok(vec![self.book_whole()?]),
+        }
+    }
+
+    fn book_whole(&self) -> Result<Ledger, Error> {
         let mut books = Books::open(self)?;
         books.turn_to(self.segments.len(), None)?;
         let end = self.state_of_energy(&mut books.sampler, self.last_time, &self.last)?;
@@ -78,6 +91,10 @@ impl<S: System> Trajectory<S> {
     /// [`Error::OutsideTrajectory`], [`Error::NotRecorded`]; or the equations of motion could not be evaluated somewhere on
     /// the way.
     pub fn ledgers(&self, times: &[f64]) -> Result<Vec<Ledger>, Error> {
+        (T::entries().ledgers)(self, Some(times))
+    }
+
+    fn book_at(&self, times: &[f64]) -> Result<Vec<Ledger>, Error> {
         let mut order: Vec<usize> = (0..times.len()).collect();
         order.sort_by(|&i, &j| times[i].total_cmp(&times[j]));
         let mut books = Books::open(self)?;
@@ -94,9 +111,9 @@ impl<S: System> Trajectory<S> {
     /// Energies of the last state.
     fn state_of_energy(
         &self,
-        sampler: &mut Sampler<'_, S>,
-        time: S::Scalar,
-        state: &State<S::Scalar>,
+        sampler: &mut Sampler<'_, T>,
+        time: T,
+        state: &State<T>,
     ) -> Result<Energies, Error> {
         let mode = self.modes.len() - 1;
         Ok(energies(&sampler.evaluate(time, mode, state)?))
@@ -104,9 +121,9 @@ impl<S: System> Trajectory<S> {
 }
 
 /// The books of a trajectory, kept from its beginning to some time.
-struct Books<'a, S: System> {
-    trajectory: &'a Trajectory<S>,
-    sampler: Sampler<'a, S>,
+struct Books<'a, T: Scalar> {
+    trajectory: &'a Record<T>,
+    sampler: Sampler<'a, T>,
     start: Energies,
     /// Every item, its work up to the begin of the first segment that is not booked.
     booked: Vec<Entry>,
@@ -119,14 +136,14 @@ struct Books<'a, S: System> {
     jumped: usize,
     /// Entry of each power of [`Sampler::powers`].
     entries: Vec<usize>,
-    power: Vec<S::Scalar>,
+    power: Vec<T>,
 }
 
-impl<'a, S: System> Books<'a, S> {
-    fn open(trajectory: &'a Trajectory<S>) -> Result<Self, Error> {
+impl<'a, T: Scalar> Books<'a, T> {
+    fn open(trajectory: &'a Record<T>) -> Result<Self, Error> {
         trajectory.check_recorded()?;
         let mut sampler = trajectory.sampler();
-        let (mut booked, entries) = items(S::DESCRIPTION);
+        let (mut booked, entries) = items(trajectory.description());
         let jumps = jumps(trajectory, &mut sampler, &mut booked)?;
         let mode = trajectory.segments.first().map_or(0, |s| s.mode);
         let start = sampler.evaluate(trajectory.first_time, mode, &trajectory.start)?;
@@ -138,7 +155,7 @@ impl<'a, S: System> Books<'a, S> {
             segments: 0,
             jumps,
             jumped: 0,
-            power: vec![S::Scalar::default(); entries.len()],
+            power: vec![T::default(); entries.len()],
             entries,
             sampler,
         })
@@ -176,7 +193,7 @@ impl<'a, S: System> Books<'a, S> {
         let h = self.trajectory.segments[segment].h.value();
         let half = 0.5 * end;
         for (node, weight) in GAUSS.into_iter().flat_map(|(x, w)| [(-x, w), (x, w)]) {
-            let s = S::Scalar::from_f64(half * (1.0 + node));
+            let s = T::from_f64(half * (1.0 + node));
             self.sampler.powers(segment, s, &mut self.power)?;
             for (&entry, power) in self.entries.iter().zip(&self.power) {
                 self.part[entry] += weight * half * h * power.value();
@@ -252,15 +269,15 @@ fn kind(d: &Description, row: usize) -> &'static str {
 
 /// Energy jumps at impacts, (time, entry, J); several events of one impact book it once. Adds an entry for every item that
 /// was hit.
-fn jumps<S: System>(
-    trajectory: &Trajectory<S>,
-    sampler: &mut Sampler<'_, S>,
+fn jumps<T: Scalar>(
+    trajectory: &Record<T>,
+    sampler: &mut Sampler<'_, T>,
     work: &mut Vec<Entry>,
 ) -> Result<Vec<(f64, usize, f64)>, Error> {
-    let d = S::DESCRIPTION;
+    let d = trajectory.description();
     let mut jumps = Vec::new();
     let mut booked = None;
-    let mut last: Option<&State<S::Scalar>> = None;
+    let mut last: Option<&State<T>> = None;
     for event in trajectory.events.iter() {
         let (from, to) = match event.kind {
             // Impacts that follow each other at one instant begin in different states.

@@ -11,12 +11,15 @@ pub use sampler::{Instant, Sampler};
 pub(crate) use sampler::{instant, report_everything};
 
 use crate::arithmetic::Scalar;
+use crate::dynamics::Dynamics;
 use crate::effects::Effects;
 use crate::error::Error;
 use crate::integrate::StepPolynomial;
 use crate::mode::Mode;
 use crate::pool::Pool;
 use crate::system::{Description, System};
+use crate::tapes::Erased;
+use core::ops::Deref;
 
 /// What a run cost.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -64,28 +67,67 @@ pub(crate) struct Segment<T> {
 }
 
 /// The motion of a system over a time interval.
+///
+/// What there is to ask of it is that of a [`Record`], which does not know the type of the system.
 #[derive(Clone, Debug)]
 pub struct Trajectory<S: System> {
-    pub(crate) scene: S,
-    pub(crate) effects: Effects,
-    /// Whether the polynomials of the steps are kept; if not, a segment is a whole phase.
-    pub(crate) recorded: bool,
-    pub(crate) first_time: S::Scalar,
-    pub(crate) last_time: S::Scalar,
-    pub(crate) start: State<S::Scalar>,
-    pub(crate) last: State<S::Scalar>,
-    pub(crate) modes: Pool<Mode>,
-    pub(crate) segments: Vec<Segment<S::Scalar>>,
-    pub(crate) coefficients: Vec<S::Scalar>,
-    pub(crate) events: Pool<Event<S::Scalar>>,
-    pub(crate) work: Work,
+    scene: S,
+    record: Record<S::Scalar>,
 }
 
 impl<S: System> Trajectory<S> {
-    pub(crate) fn new(scene: &S, effects: &Effects, recorded: bool) -> Self {
-        let (time, state) = (S::Scalar::default(), State::default());
+    pub(crate) fn new(scene: &S, record: Record<S::Scalar>) -> Self {
         Self {
             scene: scene.clone(),
+            record,
+        }
+    }
+
+    /// The system that moved.
+    pub fn scene(&self) -> &S {
+        &self.scene
+    }
+
+    pub(crate) fn set_scene(&mut self, scene: &S) {
+        self.scene.clone_from(scene);
+    }
+
+    pub(crate) fn record(&mut self) -> &mut Record<S::Scalar> {
+        &mut self.record
+    }
+}
+
+impl<S: System> Deref for Trajectory<S> {
+    type Target = Record<S::Scalar>;
+
+    fn deref(&self) -> &Record<S::Scalar> {
+        &self.record
+    }
+}
+
+/// The motion of a system, whatever its type: polynomials in time, modes, events, work.
+#[derive(Clone, Debug)]
+pub struct Record<T: Scalar> {
+    pub(crate) system: Erased<T>,
+    pub(crate) effects: Effects,
+    /// Whether the polynomials of the steps are kept; if not, a segment is a whole phase.
+    pub(crate) recorded: bool,
+    pub(crate) first_time: T,
+    pub(crate) last_time: T,
+    pub(crate) start: State<T>,
+    pub(crate) last: State<T>,
+    pub(crate) modes: Pool<Mode>,
+    pub(crate) segments: Vec<Segment<T>>,
+    pub(crate) coefficients: Vec<T>,
+    pub(crate) events: Pool<Event<T>>,
+    pub(crate) work: Work,
+}
+
+impl<T: Scalar> Record<T> {
+    pub(crate) fn new(system: &Erased<T>, effects: &Effects, recorded: bool) -> Self {
+        let (time, state) = (T::default(), State::default());
+        Self {
+            system: system.clone(),
             effects: effects.clone(),
             recorded,
             first_time: time,
@@ -101,7 +143,7 @@ impl<S: System> Trajectory<S> {
     }
 
     /// Begins anew.
-    pub(crate) fn begin(&mut self, time: S::Scalar, start: &State<S::Scalar>, mode: &Mode) {
+    pub(crate) fn begin(&mut self, time: T, start: &State<T>, mode: &Mode) {
         self.first_time = time;
         self.last_time = time;
         self.start.clone_from(start);
@@ -115,7 +157,7 @@ impl<S: System> Trajectory<S> {
     }
 
     /// Appends a step, valid up to `end` of its length.
-    pub(crate) fn push(&mut self, step: &StepPolynomial<S::Scalar>, end: S::Scalar) {
+    pub(crate) fn push(&mut self, step: &StepPolynomial<T>, end: T) {
         let mode = self.modes.len() - 1;
         if !self.recorded {
             let last = self.segments.pop_if(|last| last.mode == mode);
@@ -159,14 +201,19 @@ impl<S: System> Trajectory<S> {
         }
     }
 
-    /// The system that moved.
-    pub fn scene(&self) -> &S {
-        &self.scene
-    }
-
     /// The table of names and places of the system.
     pub fn description(&self) -> &'static Description {
-        S::DESCRIPTION
+        self.system.description()
+    }
+
+    /// Value of parameter `index` of the description.
+    pub fn parameter(&self, index: usize) -> T {
+        self.system.parameter(index)
+    }
+
+    /// The equations of motion of the system, with the effects that took part and all contacts open.
+    pub fn dynamics(&self) -> Dynamics<T> {
+        Dynamics::of(self.system.clone(), &self.effects)
     }
 
     /// The effects that took part.
@@ -185,12 +232,12 @@ impl<S: System> Trajectory<S> {
     }
 
     /// State at the beginning.
-    pub fn first_state(&self) -> &State<S::Scalar> {
+    pub fn first_state(&self) -> &State<T> {
         &self.start
     }
 
     /// State at the end.
-    pub fn final_state(&self) -> &State<S::Scalar> {
+    pub fn final_state(&self) -> &State<T> {
         &self.last
     }
 
@@ -200,7 +247,7 @@ impl<S: System> Trajectory<S> {
     }
 
     /// What happened, in order.
-    pub fn events(&self) -> &[Event<S::Scalar>] {
+    pub fn events(&self) -> &[Event<T>] {
         &self.events
     }
 
@@ -242,31 +289,20 @@ impl<S: System> Trajectory<S> {
     }
 
     /// Evaluates the trajectory at any time.
-    pub fn sampler(&self) -> Sampler<'_, S> {
-        Sampler::new(self)
+    pub fn sampler(&self) -> Sampler<'_, T> {
+        (T::entries().sampler)(self)
     }
 
     /// Coefficients of a position (`which` = 0) or velocity (1) in a segment.
-    pub(crate) fn polynomial(
-        &self,
-        segment: &Segment<S::Scalar>,
-        which: usize,
-        coordinate: usize,
-    ) -> &[S::Scalar] {
-        let n = S::DESCRIPTION.coordinates.len();
+    pub(crate) fn polynomial(&self, segment: &Segment<T>, which: usize, coordinate: usize) -> &[T] {
+        let n = self.description().coordinates.len();
         let width = segment.degree + 1;
         let begin = segment.offset + (which * n + coordinate) * width;
         &self.coefficients[begin..begin + width]
     }
 
     /// State at part `s` of a segment.
-    pub(crate) fn state_at(
-        &self,
-        segment: &Segment<S::Scalar>,
-        s: S::Scalar,
-        q: &mut [S::Scalar],
-        v: &mut [S::Scalar],
-    ) {
+    pub(crate) fn state_at(&self, segment: &Segment<T>, s: T, q: &mut [T], v: &mut [T]) {
         for (which, out) in [q, v].into_iter().enumerate() {
             for (i, x) in out.iter_mut().enumerate() {
                 *x = horner(self.polynomial(segment, which, i), s);

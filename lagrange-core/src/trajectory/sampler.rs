@@ -1,13 +1,13 @@
 //! The trajectory at any time: state, accelerations, forces, energies, outputs.
 
-use super::{Segment, State, Trajectory};
+use super::{Record, Segment, State};
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, NeedSet, approach};
 use crate::error::Error;
 use crate::mode::{Direction, Mode};
 use crate::modes::guard;
 use crate::modes::sharing::Sharing;
-use crate::system::{Place, System};
+use crate::system::Place;
 
 /// Everything known at one time.
 #[derive(Clone, Debug)]
@@ -45,19 +45,19 @@ pub struct Instant<T> {
 
 /// Evaluates a trajectory at any time; keeps the memory for it.
 #[derive(Debug)]
-pub struct Sampler<'a, S: System> {
-    trajectory: &'a Trajectory<S>,
-    dynamics: Dynamics<S>,
-    sharing: Sharing<S::Scalar>,
+pub struct Sampler<'a, T: Scalar> {
+    trajectory: &'a Record<T>,
+    dynamics: Dynamics<T>,
+    sharing: Sharing<T>,
     mode: Option<usize>,
     /// Whether slips have been given directions for the present state.
     headed: bool,
-    state: State<S::Scalar>,
+    state: State<T>,
 }
 
-impl<'a, S: System> Sampler<'a, S> {
-    pub(super) fn new(trajectory: &'a Trajectory<S>) -> Self {
-        let mut dynamics = Dynamics::new(&trajectory.scene, &trajectory.effects);
+impl<'a, T: Scalar> Sampler<'a, T> {
+    pub(crate) fn new(trajectory: &'a Record<T>) -> Self {
+        let mut dynamics = trajectory.dynamics();
         report_everything(&mut dynamics);
         Self {
             trajectory,
@@ -73,7 +73,11 @@ impl<'a, S: System> Sampler<'a, S> {
     ///
     /// # Errors
     /// [`Error::OutsideTrajectory`], [`Error::NotRecorded`]; or the equations of motion could not be evaluated there.
-    pub fn at(&mut self, t: f64) -> Result<Instant<S::Scalar>, Error> {
+    pub fn at(&mut self, t: f64) -> Result<Instant<T>, Error> {
+        (T::entries().at)(self, t)
+    }
+
+    pub(crate) fn evaluate_at(&mut self, t: f64) -> Result<Instant<T>, Error> {
         let trajectory = self.trajectory;
         trajectory.check_recorded()?;
         let (first, last) = (trajectory.first_time(), trajectory.last_time());
@@ -86,7 +90,7 @@ impl<'a, S: System> Sampler<'a, S> {
         }
         let after = trajectory.segments.partition_point(|s| s.t.value() <= t);
         match trajectory.segments.get(after.saturating_sub(1)) {
-            None => self.evaluate(S::Scalar::from_f64(t), 0, &trajectory.start.clone()),
+            None => self.evaluate(T::from_f64(t), 0, &trajectory.start.clone()),
             Some(segment) => {
                 let h = segment.h.value();
                 let s = if h > 0.0 {
@@ -94,11 +98,11 @@ impl<'a, S: System> Sampler<'a, S> {
                 } else {
                     0.0
                 };
-                let s = S::Scalar::from_f64(s.min(segment.end.value()));
+                let s = T::from_f64(s.min(segment.end.value()));
                 let mut state = core::mem::take(&mut self.state);
                 trajectory.state_at(segment, s, &mut state.q, &mut state.v);
                 self.enter(segment.mode);
-                let time = S::Scalar::from_f64(t);
+                let time = T::from_f64(t);
                 self.headed = self.head_into_rest(segment, s, time, &state);
                 let instant = self.evaluate(time, segment.mode, &state);
                 if core::mem::take(&mut self.headed) {
@@ -114,7 +118,7 @@ impl<'a, S: System> Sampler<'a, S> {
         if self.mode != Some(mode) {
             self.mode = Some(mode);
             self.dynamics.set_mode(&self.trajectory.modes[mode]);
-            let d = S::DESCRIPTION;
+            let d = self.trajectory.description();
             let needs = guard::all_row_needs(d, &NeedSet::new(d));
             self.dynamics.set_extra_needs(&needs);
         }
@@ -122,13 +126,7 @@ impl<'a, S: System> Sampler<'a, S> {
 
     /// Where slips of two components come to rest at the end of a segment, rounding leaves them no direction there: they get
     /// that in which they have been going. False if there is none.
-    fn head_into_rest(
-        &mut self,
-        segment: &Segment<S::Scalar>,
-        s: S::Scalar,
-        time: S::Scalar,
-        state: &State<S::Scalar>,
-    ) -> bool {
+    fn head_into_rest(&mut self, segment: &Segment<T>, s: T, time: T, state: &State<T>) -> bool {
         /// Beside what makes a slip, it has no direction below this.
         const VANISHING: f64 = 1e-10;
         let mode = &self.trajectory.modes[segment.mode];
@@ -142,7 +140,7 @@ impl<'a, S: System> Sampler<'a, S> {
             }
             let mut there = state.clone();
             let came = approach(|part| {
-                let s = S::Scalar::from_f64(part) * s;
+                let s = T::from_f64(part) * s;
                 self.trajectory
                     .state_at(segment, s, &mut there.q, &mut there.v);
                 dynamics.tape(segment.t + segment.h * s, &there.q, &there.v);
@@ -162,11 +160,11 @@ impl<'a, S: System> Sampler<'a, S> {
     /// Everything about a state in mode `mode` of the trajectory.
     pub(super) fn evaluate(
         &mut self,
-        t: S::Scalar,
+        t: T,
         mode: usize,
-        state: &State<S::Scalar>,
-    ) -> Result<Instant<S::Scalar>, Error> {
-        let d = S::DESCRIPTION;
+        state: &State<T>,
+    ) -> Result<Instant<T>, Error> {
+        let d = self.trajectory.description();
         self.enter(mode);
         let dynamics = &mut self.dynamics;
         let outcome = if self.headed {
@@ -180,13 +178,8 @@ impl<'a, S: System> Sampler<'a, S> {
 
     /// Power of every force, dissipation and row, and of explicit time, at part `s` of a segment; in the order of
     /// [`super::ledger`].
-    pub(super) fn powers(
-        &mut self,
-        segment: usize,
-        s: S::Scalar,
-        out: &mut [S::Scalar],
-    ) -> Result<(), Error> {
-        let d = S::DESCRIPTION;
+    pub(super) fn powers(&mut self, segment: usize, s: T, out: &mut [T]) -> Result<(), Error> {
+        let d = self.trajectory.description();
         let segment = &self.trajectory.segments[segment];
         let mut state = core::mem::take(&mut self.state);
         self.trajectory
@@ -202,12 +195,9 @@ impl<'a, S: System> Sampler<'a, S> {
             .map(|l| dynamics.report(l.power));
         let rows = d.rows.iter().enumerate().map(|(i, row)| {
             // The power of λ is λ a·v: not zero where a surface moves.
-            let speed = row
-                .jacobian
-                .iter()
-                .fold(S::Scalar::default(), |sum, &(j, place)| {
-                    sum + dynamics.motion(place) * instant.v[j]
-                });
+            let speed = row.jacobian.iter().fold(T::default(), |sum, &(j, place)| {
+                sum + dynamics.motion(place) * instant.v[j]
+            });
             instant.forces[i] * speed
         });
         let time = core::iter::once(dynamics.report(d.energy.time_power));
@@ -219,8 +209,8 @@ impl<'a, S: System> Sampler<'a, S> {
 }
 
 /// Asks the report tape for all that an [`Instant`] holds.
-pub(crate) fn report_everything<S: System>(dynamics: &mut Dynamics<S>) {
-    let d = S::DESCRIPTION;
+pub(crate) fn report_everything<T: Scalar>(dynamics: &mut Dynamics<T>) {
+    let d = dynamics.description();
     let mut needs = NeedSet::new(d);
     needs.insert(d.energy.need);
     let loads = d.forces.iter().chain(d.dissipations).map(|l| l.report_need);
@@ -231,13 +221,13 @@ pub(crate) fn report_everything<S: System>(dynamics: &mut Dynamics<S>) {
 }
 
 /// Everything about a state in the present mode; all numbers of the rows and the report must have been asked for.
-pub(crate) fn instant<S: System>(
-    dynamics: &mut Dynamics<S>,
-    sharing: &mut Sharing<S::Scalar>,
-    t: S::Scalar,
-    state: &State<S::Scalar>,
-) -> Instant<S::Scalar> {
-    let d = S::DESCRIPTION;
+pub(crate) fn instant<T: Scalar>(
+    dynamics: &mut Dynamics<T>,
+    sharing: &mut Sharing<T>,
+    t: T,
+    state: &State<T>,
+) -> Instant<T> {
+    let d = dynamics.description();
     let mut undetermined = Vec::new();
     let forces = sharing.report(dynamics, &mut undetermined);
     dynamics.replace_forces(&forces);

@@ -2,7 +2,6 @@
 
 use super::Setting;
 use core::hint::black_box;
-use lagrange_core::dynamics::Dynamics;
 use lagrange_core::prelude::*;
 use std::time::Instant;
 
@@ -74,7 +73,7 @@ pub(super) struct Finish {
 }
 
 /// Of impacts that accumulate only the accumulation: how many are followed one by one depends on the tolerance.
-pub(super) fn finish<S: System<Scalar = f64>>(trajectory: &Trajectory<S>) -> Finish {
+pub(super) fn finish(trajectory: &Record<f64>) -> Finish {
     let mut events: Vec<&Event<f64>> = Vec::new();
     for event in trajectory.events() {
         if matches!(event.kind, EventKind::Accumulates { .. }) {
@@ -86,7 +85,7 @@ pub(super) fn finish<S: System<Scalar = f64>>(trajectory: &Trajectory<S>) -> Fin
         events.push(event);
     }
     let label = |event: &Event<f64>| {
-        let item = event.subject.name(S::DESCRIPTION);
+        let item = event.subject.name(trajectory.description());
         (format!("{item} {}", event.kind), event.time)
     };
     Finish {
@@ -97,14 +96,14 @@ pub(super) fn finish<S: System<Scalar = f64>>(trajectory: &Trajectory<S>) -> Fin
 }
 
 /// What the energy book leaves unexplained, over the scale of the energies.
-pub(super) fn energy_drift<S: System<Scalar = f64>>(trajectory: &Trajectory<S>) -> Option<f64> {
+pub(super) fn energy_drift(trajectory: &Record<f64>) -> Option<f64> {
     let ledger = trajectory.ledger().ok()?;
     Some(ledger.closure.abs() / ledger.scale.max(f64::MIN_POSITIVE))
 }
 
 /// Largest relative residual of the rows that act, just before each event and at the end; `None` if none ever acts.
-pub(super) fn constraint_drift<S: System<Scalar = f64>>(trajectory: &Trajectory<S>) -> Option<f64> {
-    let mut dynamics = Dynamics::new(trajectory.scene(), trajectory.effects());
+pub(super) fn constraint_drift(trajectory: &Record<f64>) -> Option<f64> {
+    let mut dynamics = trajectory.dynamics();
     let mut residual = |time: f64, mode: &Mode, state: &State<f64>| {
         dynamics.set_mode(mode);
         if dynamics.acting_rows().is_empty() {

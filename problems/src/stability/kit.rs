@@ -1,7 +1,7 @@
 //! Short ways to run a scene and to look at what it did.
 
 use core::fmt;
-use lagrange_core::dynamics::{Dynamics, NeedSet};
+use lagrange_core::dynamics::NeedSet;
 use lagrange_core::prelude::*;
 use lagrange_core::system::Place;
 
@@ -93,15 +93,15 @@ pub fn distance(found: f64, expected: f64) -> f64 {
 }
 
 /// The `n`-th event (from 0) of an item and kind.
-pub fn event<'a, S: System>(
-    trajectory: &'a Trajectory<S>,
+pub fn event<'a>(
+    trajectory: &'a Record<f64>,
     item: &str,
     kind: &str,
     n: usize,
-) -> Result<&'a Event<S::Scalar>, Surprise> {
+) -> Result<&'a Event<f64>, Surprise> {
     let mut events = trajectory.events().iter();
     let is =
-        |e: &&Event<S::Scalar>| e.subject.name(S::DESCRIPTION) == item && e.kind.word() == kind;
+        |e: &&Event<f64>| e.subject.name(trajectory.description()) == item && e.kind.word() == kind;
     events
         .by_ref()
         .filter(is)
@@ -112,8 +112,8 @@ pub fn event<'a, S: System>(
 }
 
 /// Demands that exactly these events happened, in this order.
-pub fn story<S: System>(trajectory: &Trajectory<S>, expected: &[&str]) -> Result<(), Surprise> {
-    let tell = |e: &Event<S::Scalar>| format!("{} {}", e.subject.name(S::DESCRIPTION), e.kind);
+pub fn story(trajectory: &Record<f64>, expected: &[&str]) -> Result<(), Surprise> {
+    let tell = |e: &Event<f64>| format!("{} {}", e.subject.name(trajectory.description()), e.kind);
     let found: Vec<String> = trajectory.events().iter().map(tell).collect();
     if found == expected {
         return Ok(());
@@ -125,20 +125,20 @@ pub fn story<S: System>(trajectory: &Trajectory<S>, expected: &[&str]) -> Result
 }
 
 /// Closure of the energy ledger relative to its scale.
-pub fn closure<S: System>(trajectory: &Trajectory<S>) -> Result<f64, Surprise> {
+pub fn closure(trajectory: &Record<f64>) -> Result<f64, Surprise> {
     let ledger = trajectory.ledger()?;
     Ok(ledger.closure.abs() / ledger.scale)
 }
 
 /// The largest residual of an equation of positions, and the deepest penetration, at the beginning of every step; in the
 /// unit of the scene.
-pub fn violation<S: System<Scalar = f64>>(trajectory: &Trajectory<S>) -> Result<f64, Surprise> {
-    let d = S::DESCRIPTION;
+pub fn violation(trajectory: &Record<f64>) -> Result<f64, Surprise> {
+    let d = trajectory.description();
     let mut needs = NeedSet::new(d);
     for row in d.rows {
         needs.insert(row.needs.position);
     }
-    let mut dynamics = Dynamics::new(trajectory.scene(), trajectory.effects());
+    let mut dynamics = trajectory.dynamics();
     dynamics.set_extra_needs(&needs);
     let mut sampler = trajectory.sampler();
     let mut worst: f64 = 0.0;

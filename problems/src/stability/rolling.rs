@@ -81,7 +81,7 @@ pub fn rolling_disk(_: Extent) -> Result<Vec<Figure>, Surprise> {
     Ok(figures)
 }
 
-fn lowest_lean(mut sampler: Sampler<'_, RollingDisk>, until: f64) -> Result<f64, Surprise> {
+fn lowest_lean(mut sampler: Sampler<'_, f64>, until: f64) -> Result<f64, Surprise> {
     let mut lowest = f64::INFINITY;
     for k in 0..=3000 {
         lowest = lowest.min(sampler.at(until * f64::from(k) / 3000.0)?.q[3]);

@@ -96,7 +96,7 @@ impl Observation {
     }
 
     /// Its value in a run; NaN if the run has no such event.
-    pub(crate) fn read<S: System<Scalar = f64>>(&self, trajectory: &Trajectory<S>) -> f64 {
+    pub(crate) fn read(&self, trajectory: &Record<f64>) -> f64 {
         let (time, state, forces) = match &self.at {
             At::End => {
                 let state = trajectory.final_state();

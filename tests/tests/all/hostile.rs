@@ -57,7 +57,8 @@ fn finite(trajectory: &Trajectory<Bob>) {
 #[test]
 fn parameters_that_are_not_numbers_are_named() {
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-        let set: [(fn(&mut Bob, f64), &str); 3] = [
+        type Set = fn(&mut Bob, f64);
+        let set: [(Set, &str); 3] = [
             (|b, x| b.mass = x, "mass"),
             (|b, x| b.stiffness = x, "stiffness"),
             (|b, x| b.mu = x, "mu"),

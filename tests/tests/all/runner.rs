@@ -25,7 +25,7 @@ fn start<S: System<Scalar = f64>>(scene: &S) -> State<f64> {
     state
 }
 
-fn assert_same<S: System<Scalar = f64>>(one: &Trajectory<S>, other: &Trajectory<S>) {
+fn assert_same(one: &Record<f64>, other: &Record<f64>) {
     assert_eq!(one.events(), other.events());
     assert_eq!(one.final_state(), other.final_state());
     assert_eq!(one.last_time(), other.last_time());

@@ -12,12 +12,7 @@ fn fall(start: f64, d: f64) -> f64 {
 }
 
 /// Checks that the flight after `lost` is a parabola to the end of the run, and ends at height `floor`.
-fn is_parabola<S: System<Scalar = f64>>(
-    trajectory: &Trajectory<S>,
-    lost: f64,
-    gravity: f64,
-    floor: f64,
-) {
+fn is_parabola(trajectory: &Record<f64>, lost: f64, gravity: f64, floor: f64) {
     let place = |state: &State<f64>| {
         let ((r, th), (vr, w)) = ((state.q[0], state.q[1]), (state.v[0], state.v[1]));
         let (s, c) = th.sin_cos();

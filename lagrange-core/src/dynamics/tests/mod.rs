@@ -131,7 +131,7 @@ fn values_agree_with_a_dense_solution() {
 }
 
 /// Series from (Q, v) at t = 0.4 against values along them.
-fn follow(dynamics: &mut Dynamics<Wheel>, v: [f64; 4]) {
+fn follow(dynamics: &mut Dynamics<f64>, v: [f64; 4]) {
     dynamics.series(0.4, &Q, &v, 20).expect("analytic");
     let along = dynamics.clone();
     let at = |series: &[f64], tau: f64| series.iter().rev().fold(0.0, |sum, c| sum * tau + c);

@@ -5,8 +5,9 @@ use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, NeedSet};
 use crate::effects::Item;
 use crate::mode::{Direction, FrictionMode, Mode, Sliding};
+use crate::modes::guard::Guard;
 use crate::pool::Pool;
-use crate::system::{Normal, System};
+use crate::system::{Description, Normal};
 use core::cmp::Reverse;
 
 /// More candidates than this are not enumerated: some five contacts with friction, or eight without, that may change at
@@ -17,9 +18,9 @@ const MOST_CANDIDATES: usize = 256;
 const MOST_STATES: usize = 5;
 
 /// All modes that the known facts allow, in order of preference; false if they are too many.
-pub fn list_candidates<S: System>(
-    dynamics: &mut Dynamics<S>,
-    moment: Moment<'_, S::Scalar>,
+pub fn list_candidates<T: Scalar>(
+    dynamics: &mut Dynamics<T>,
+    moment: Moment<'_, T>,
     present: &Mode,
     known: &Known,
     rows: &NeedSet,
@@ -42,22 +43,33 @@ pub fn list_candidates<S: System>(
         return false;
     }
     let closed = |m: &Mode| m.contacts.iter().filter(|c| **c).count();
+    // Frictions that could together hold no longer go together, if they can.
+    let joint = known.located.iter().any(|g| matches!(g, Guard::Joint(_)));
+    let left_behind = |m: &Mode| {
+        let holds = |guard: &&Guard| match **guard {
+            Guard::StickUpper(f) | Guard::StickLower(f) | Guard::StickCone(f) => {
+                joint && m.frictions[f] == FrictionMode::Stick
+            }
+            _ => false,
+        };
+        known.located.iter().filter(holds).count()
+    };
     out.sort_by_key(|m| {
-        let held = (Reverse(closed(m)), Reverse(sticks(m)));
+        let held = (Reverse(closed(m)), left_behind(m), Reverse(sticks(m)));
         (held, m != present, changes(m, present))
     });
     true
 }
 
 /// Evaluates the slips whose direction is not known.
-pub fn look_at_slips<S: System>(
-    dynamics: &mut Dynamics<S>,
-    moment: Moment<'_, S::Scalar>,
+pub fn look_at_slips<T: Scalar>(
+    dynamics: &mut Dynamics<T>,
+    moment: Moment<'_, T>,
     present: &Mode,
     known: &Known,
     rows: &NeedSet,
 ) {
-    let d = S::DESCRIPTION;
+    let d = dynamics.description();
     let slides_unknown = |f: usize| {
         let closes = match d.frictions[f].normal {
             Normal::Contact(c) => known.touching[c],
@@ -87,16 +99,20 @@ fn slip_sign(f: usize, present: &Mode, known: &Known) -> Option<f64> {
 }
 
 /// What the items of a mode may do at an instant.
-pub struct Choices<'a, S: System> {
-    pub dynamics: &'a Dynamics<S>,
+pub struct Choices<'a, T: Scalar> {
+    pub dynamics: &'a Dynamics<T>,
     pub present: &'a Mode,
     pub known: &'a Known,
 }
 
-impl<S: System> Choices<'_, S> {
+impl<T: Scalar> Choices<'_, T> {
+    pub fn description(&self) -> &'static Description {
+        self.dynamics.description()
+    }
+
     /// What friction `f` may do in a mode: not act, stick, or slip in each direction that its slip can take.
     pub fn of_friction(&self, mode: &Mode, f: usize, mut put: impl FnMut(FrictionMode)) {
-        let d = S::DESCRIPTION;
+        let d = self.description();
         let friction = &d.frictions[f];
         let idle = matches!(friction.normal, Normal::Contact(c) if !mode.contacts[c]);
         if idle || !self.dynamics.effects().includes(d, Item::Friction(f)) {
@@ -141,12 +157,12 @@ impl<S: System> Choices<'_, S> {
 }
 
 /// Writes down modes, choice after choice.
-struct Listing<'a, S: System> {
-    choices: Choices<'a, S>,
+struct Listing<'a, T: Scalar> {
+    choices: Choices<'a, T>,
     out: &'a mut Pool<Mode>,
 }
 
-impl<S: System> Listing<'_, S> {
+impl<T: Scalar> Listing<'_, T> {
     /// Contact `c` closed and open, where both are possible.
     fn contacts(&mut self, mode: &mut Mode, c: usize) {
         if c == mode.contacts.len() {
@@ -188,7 +204,7 @@ impl<S: System> Listing<'_, S> {
         if self.out.len() > MOST_CANDIDATES {
             return;
         }
-        if b == S::DESCRIPTION.branches.len() {
+        if b == self.choices.description().branches.len() {
             return self.out.push(mode);
         }
         self.branches(mode, b + 1);

@@ -10,7 +10,6 @@ use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
 use crate::modes::sharing::{self, Joint};
 use crate::modes::table::Table;
-use crate::system::System;
 
 /// Order of the series that are looked at first. Leading coefficients beyond it vanish rarely.
 const LOW_ORDER: usize = 4;
@@ -33,28 +32,28 @@ enum Leading {
 }
 
 /// What happens after the moment, by a series of the order `order`, over times up to about `h`.
-struct Ahead<'a, S: System> {
-    dynamics: &'a Dynamics<S>,
-    moment: Moment<'a, S::Scalar>,
+struct Ahead<'a, T: Scalar> {
+    dynamics: &'a Dynamics<T>,
+    moment: Moment<'a, T>,
     known: &'a Known,
     order: usize,
     h: f64,
 }
 
-impl<S: System> Clone for Ahead<'_, S> {
+impl<T: Scalar> Clone for Ahead<'_, T> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<S: System> Copy for Ahead<'_, S> {}
+impl<T: Scalar> Copy for Ahead<'_, T> {}
 
 impl<T: Scalar> Decider<T> {
     /// Whether `mode` is feasible; if so, `zeros` says which guards begin with how many vanishing coefficients, and if not,
     /// `violated` which guards forbid it.
-    pub(super) fn examine<S: System<Scalar = T>>(
+    pub(super) fn examine(
         &mut self,
-        dynamics: &mut Dynamics<S>,
+        dynamics: &mut Dynamics<T>,
         table: &mut Table,
         moment: Moment<'_, T>,
         mode: &Mode,
@@ -72,7 +71,13 @@ impl<T: Scalar> Decider<T> {
         let watched = table.of(dynamics);
         dynamics.set_extra_needs(&watched.deciding);
         let serves = watched.deciding == watched.needs;
-        list_questions::<S>(mode, known, &watched.deciding, &mut self.questions);
+        list_questions(
+            dynamics.description(),
+            mode,
+            known,
+            &watched.deciding,
+            &mut self.questions,
+        );
         // Most candidates are refused, and many accepted, by their values already.
         dynamics.value(t, q, v)?;
         self.sizes.take(dynamics);
@@ -99,7 +104,7 @@ impl<T: Scalar> Decider<T> {
     }
 
     /// Puts joint guards in the place of those of undetermined forces.
-    fn share<S: System<Scalar = T>>(&mut self, dynamics: &Dynamics<S>) {
+    fn share(&mut self, dynamics: &Dynamics<T>) {
         self.sharing.look(dynamics);
         self.joints.clear();
         let Self {
@@ -119,12 +124,7 @@ impl<T: Scalar> Decider<T> {
     }
 
     /// Answers the questions that values answer: what remains is asked of the series.
-    fn ask_values<S: System<Scalar = T>>(
-        &mut self,
-        dynamics: &Dynamics<S>,
-        moment: Moment<'_, T>,
-        known: &Known,
-    ) {
+    fn ask_values(&mut self, dynamics: &Dynamics<T>, moment: Moment<'_, T>, known: &Known) {
         let Self {
             sizes,
             questions,
@@ -170,9 +170,9 @@ impl<T: Scalar> Decider<T> {
 
     /// Looks at the guards in question just after the moment. `None`: one of them vanishes to this order, and more is to
     /// be had.
-    fn judge<S: System<Scalar = T>>(
+    fn judge(
         &mut self,
-        dynamics: &Dynamics<S>,
+        dynamics: &Dynamics<T>,
         moment: Moment<'_, T>,
         known: &Known,
         order: usize,
@@ -201,7 +201,7 @@ impl<T: Scalar> Decider<T> {
                 Leading::Stays if !last => unclear = true,
                 Leading::Stays
                     if self.sticks_first && matches!(guard, Guard::Slip(_))
-                        || is_held::<S>(guard, dynamics) =>
+                        || is_held::<T>(guard, dynamics) =>
                 {
                     self.violated.push(guard);
                 }
@@ -224,7 +224,7 @@ impl<T: Scalar> Decider<T> {
     }
 
     /// At the border several joint guards may vanish together: a little later those that fall show.
-    fn look_ahead<S: System<Scalar = T>>(&mut self, ahead: Ahead<'_, S>) {
+    fn look_ahead(&mut self, ahead: Ahead<'_, T>) {
         let mut series = [0.0; guard::LENGTH];
         let series = &mut series[..=ahead.order];
         let (reading, later) = (Reading::Series(ahead.dynamics), AHEAD * ahead.h);
@@ -250,11 +250,11 @@ impl<T: Scalar> Decider<T> {
     }
 
     /// What a guard does just after the moment; its series, scaled onto the reach, is left in `series`.
-    fn just_after<S: System<Scalar = T>>(
+    fn just_after(
         &self,
         guard: Guard,
         order_known: usize,
-        ahead: Ahead<'_, S>,
+        ahead: Ahead<'_, T>,
         series: &mut [f64],
     ) -> Leading {
         let Ahead {
@@ -292,8 +292,8 @@ impl<T: Scalar> Decider<T> {
 
 /// Whether a contact cannot open because others are closed, or a friction cannot slip because others stick: then the mode
 /// in which it is closed, or sticks, has the same motion, and more forces to choose from.
-fn is_held<S: System>(guard: Guard, dynamics: &Dynamics<S>) -> bool {
-    let d = S::DESCRIPTION;
+fn is_held<T: Scalar>(guard: Guard, dynamics: &Dynamics<T>) -> bool {
+    let d = dynamics.description();
     let mut rows = match guard {
         Guard::Gap(c) => d.contacts[c].row..d.contacts[c].row + 1,
         Guard::Slip(f) => d.frictions[f].row..d.frictions[f].row + d.frictions[f].components,

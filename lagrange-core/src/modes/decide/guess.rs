@@ -22,7 +22,7 @@ use crate::dynamics::Dynamics;
 use crate::effects::Item;
 use crate::linear::{Lemke, LemkeOutcome, SeveralSides};
 use crate::mode::{Direction, FrictionMode, Mode, Sliding};
-use crate::system::{Normal, Place, System};
+use crate::system::{Normal, Place};
 
 /// A contact or friction that may change, and the generalized force of its unit force.
 struct Candidate {
@@ -42,15 +42,15 @@ struct Resting {
 
 impl<T: Scalar> Decider<T> {
     /// Writes the guess into `mode`, in which all touching contacts are closed; leaves it if there is none.
-    pub(super) fn guess<S: System<Scalar = T>>(
+    pub(super) fn guess(
         &mut self,
-        dynamics: &mut Dynamics<S>,
+        dynamics: &mut Dynamics<T>,
         moment: Moment<'_, T>,
         present: &Mode,
         known: &Known,
         mode: &mut Mode,
     ) {
-        let d = S::DESCRIPTION;
+        let d = dynamics.description();
         dynamics.set_mode(mode);
         dynamics.set_extra_needs(&self.everything);
         dynamics.tape(moment.t, moment.q, moment.v);
@@ -96,12 +96,12 @@ impl<T: Scalar> Decider<T> {
 }
 
 /// The touching contacts, then the frictions that rest on them.
-fn list<S: System>(
-    dynamics: &Dynamics<S>,
+fn list<T: Scalar>(
+    dynamics: &Dynamics<T>,
     mode: &Mode,
     known: &Known,
 ) -> (Vec<Candidate>, Vec<Resting>) {
-    let d = S::DESCRIPTION;
+    let d = dynamics.description();
     let number = |place: Place| dynamics.motion(place).value();
     let factor = |c: usize| d.contacts[c].normal_factor.map_or(1.0, number);
     let touching: Vec<usize> = (0..d.contacts.len())
@@ -154,8 +154,8 @@ fn list<S: System>(
 }
 
 /// The generalized force of a unit force of a row.
-fn force_of<S: System>(dynamics: &Dynamics<S>, row: usize) -> Vec<f64> {
-    let d = S::DESCRIPTION;
+fn force_of<T: Scalar>(dynamics: &Dynamics<T>, row: usize) -> Vec<f64> {
+    let d = dynamics.description();
     let mut force = vec![0.0; d.coordinates.len()];
     for &(j, place) in d.rows[row].jacobian {
         force[j] += dynamics.motion(place).value();
@@ -170,12 +170,12 @@ fn force_of<S: System>(dynamics: &Dynamics<S>, row: usize) -> Vec<f64> {
 }
 
 /// G, row-major, and b: what accelerates the rows of the candidates.
-fn responses<S: System>(
-    dynamics: &Dynamics<S>,
+fn responses<T: Scalar>(
+    dynamics: &Dynamics<T>,
     mode: &Mode,
     candidates: &[Candidate],
 ) -> Option<(Vec<f64>, Vec<f64>)> {
-    let d = S::DESCRIPTION;
+    let d = dynamics.description();
     let number = |place: Place| dynamics.motion(place).value();
     let n = d.coordinates.len();
     let holds = |i: &usize| {

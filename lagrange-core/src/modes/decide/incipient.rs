@@ -8,8 +8,8 @@ use super::{Decider, Moment};
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError, solve_small};
 use crate::mode::{Direction, FrictionMode};
+use crate::modes::sharing::Sharing;
 use crate::modes::table::Table;
-use crate::system::System;
 use core::f64::consts::TAU;
 
 /// Directions that are tried for one slip.
@@ -42,33 +42,40 @@ impl<T: Scalar> Decider<T> {
     /// Finds the directions in which the slips of `self.posed` begin, and writes them there. False: there are none.
     ///
     /// Of several the one nearest to that of what made it stick is taken.
-    pub(super) fn find_directions<S: System<Scalar = T>>(
+    pub(super) fn find_directions(
         &mut self,
-        dynamics: &mut Dynamics<S>,
+        dynamics: &mut Dynamics<T>,
         table: &mut Table,
-        moment: Moment<'_, S::Scalar>,
+        moment: Moment<'_, T>,
     ) -> Result<bool, EvaluationError> {
         let frictions = &mut self.beginning.frictions;
         frictions.clear();
         frictions.extend(self.posed.incipient().map(|(f, _)| f));
-        self.against_sticking(dynamics, moment);
-        self.point();
-        dynamics.set_mode(&self.posed);
-        dynamics.set_extra_needs(&table.of(dynamics).deciding);
-        let found = if self.beginning.frictions.len() == 1 {
-            self.look_around(dynamics, moment)?
-        } else {
-            self.beginning.settle(dynamics, moment)?
-        };
-        self.point();
-        Ok(found)
+        for shared in [false, true] {
+            self.against_sticking(dynamics, moment, shared);
+            self.point();
+            dynamics.set_mode(&self.posed);
+            dynamics.set_extra_needs(&table.of(dynamics).deciding);
+            let found = if self.beginning.frictions.len() == 1 {
+                self.look_around(dynamics, moment)?
+            } else {
+                self.beginning.settle(dynamics, moment)?
+            };
+            self.point();
+            if found {
+                return Ok(true);
+            }
+        }
+        Ok(false)
     }
 
-    /// Angles against the forces that would keep the slips at zero.
-    fn against_sticking<S: System<Scalar = T>>(
+    /// Angles against the forces that would keep the slips at zero; of forces that the motion leaves open the least if they are
+    /// to be `shared`, else those of some rows.
+    fn against_sticking(
         &mut self,
-        dynamics: &mut Dynamics<S>,
-        moment: Moment<'_, S::Scalar>,
+        dynamics: &mut Dynamics<T>,
+        moment: Moment<'_, T>,
+        shared: bool,
     ) {
         let Moment { t, q, v, .. } = moment;
         let sticking = &mut self.decision.mode;
@@ -81,9 +88,15 @@ impl<T: Scalar> Decider<T> {
         }
         dynamics.set_mode(sticking);
         let known = dynamics.value(t, q, v).is_ok();
+        let shared = known && shared && dynamics.has_dependent_rows();
+        let least = shared.then(|| Sharing::default().report(dynamics, &mut Vec::new()));
+        let force = |row: usize| match &least {
+            Some(forces) => forces[row].value(),
+            None => dynamics.force(row).value(),
+        };
         let angle = |&f: &usize| {
-            let row = S::DESCRIPTION.frictions[f].row;
-            let [x, y] = [row, row + 1].map(|row| dynamics.force(row).value());
+            let row = dynamics.description().frictions[f].row;
+            let [x, y] = [row, row + 1].map(force);
             let angle = (-y).atan2(-x);
             if known && angle.is_finite() {
                 angle
@@ -107,10 +120,10 @@ impl<T: Scalar> Decider<T> {
     }
 
     /// All directions of one slip: that nearest to its angle.
-    fn look_around<S: System<Scalar = T>>(
+    fn look_around(
         &mut self,
-        dynamics: &mut Dynamics<S>,
-        moment: Moment<'_, S::Scalar>,
+        dynamics: &mut Dynamics<T>,
+        moment: Moment<'_, T>,
     ) -> Result<bool, EvaluationError> {
         let (f, guess) = (self.beginning.frictions[0], self.beginning.angles[0]);
         let mut turn = |angle: f64| turn_of(dynamics, moment, f, angle);
@@ -147,14 +160,14 @@ impl<T: Scalar> Decider<T> {
 
 impl Beginning {
     /// ṡ × u of all.
-    fn turn<S: System>(
+    fn turn<T: Scalar>(
         &mut self,
-        dynamics: &mut Dynamics<S>,
-        moment: Moment<'_, S::Scalar>,
+        dynamics: &mut Dynamics<T>,
+        moment: Moment<'_, T>,
     ) -> Result<(), EvaluationError> {
         for (&f, angle) in self.frictions.iter().zip(&self.angles) {
             let (y, x) = angle.sin_cos();
-            dynamics.set_heading(f, [x, y].map(S::Scalar::from_f64));
+            dynamics.set_heading(f, [x, y].map(T::from_f64));
         }
         dynamics.value(moment.t, moment.q, moment.v)?;
         let across = |&f: &usize| frame_of(dynamics, f).across;
@@ -164,16 +177,22 @@ impl Beginning {
     }
 
     /// The directions of several slips that begin together, by Newton's method from their angles.
-    fn settle<S: System>(
+    fn settle<T: Scalar>(
         &mut self,
-        dynamics: &mut Dynamics<S>,
-        moment: Moment<'_, S::Scalar>,
+        dynamics: &mut Dynamics<T>,
+        moment: Moment<'_, T>,
     ) -> Result<bool, EvaluationError> {
         /// Step of the differences.
         const SMALL: f64 = 1e-6;
         let m = self.frictions.len();
         for _ in 0..MOST_ITERATIONS {
             self.turn(dynamics, moment)?;
+            // Right at once, as by symmetry: forces that the motion leaves open may make what follows singular.
+            let across = self.across.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+            let along = self.frictions.iter().map(|&f| frame_of(dynamics, f).along);
+            if across <= 8.0 * f64::EPSILON * along.fold(0.0_f64, |m, x| m.max(x.abs())) {
+                break;
+            }
             self.right.clone_from(&self.across);
             self.matrix.clear();
             self.matrix.resize(m * m, 0.0);
@@ -207,21 +226,21 @@ impl Beginning {
 }
 
 /// ṡ of friction `f` if it begins to slip at an angle.
-fn turn_of<S: System>(
-    dynamics: &mut Dynamics<S>,
-    moment: Moment<'_, S::Scalar>,
+fn turn_of<T: Scalar>(
+    dynamics: &mut Dynamics<T>,
+    moment: Moment<'_, T>,
     f: usize,
     angle: f64,
 ) -> Result<Turn, EvaluationError> {
     let (y, x) = angle.sin_cos();
-    dynamics.set_heading(f, [x, y].map(S::Scalar::from_f64));
+    dynamics.set_heading(f, [x, y].map(T::from_f64));
     dynamics.value(moment.t, moment.q, moment.v)?;
     Ok(frame_of(dynamics, f))
 }
 
 /// ṡ of friction `f` in the frame of its heading, at the last value.
-fn frame_of<S: System>(dynamics: &Dynamics<S>, f: usize) -> Turn {
-    let row = S::DESCRIPTION.frictions[f].row;
+fn frame_of<T: Scalar>(dynamics: &Dynamics<T>, f: usize) -> Turn {
+    let row = dynamics.description().frictions[f].row;
     let [x, y] = dynamics.heading(f).map(|x| x.value());
     let [a, b] = [row, row + 1].map(|row| row_acceleration(row, dynamics));
     Turn {

@@ -26,7 +26,7 @@ use crate::modes::scale::Sizes;
 use crate::modes::sharing::{Joint, Sharing};
 use crate::modes::table::Table;
 use crate::pool::Pool;
-use crate::system::{Description, System};
+use crate::system::Description;
 use candidates::list_candidates;
 use incipient::Beginning;
 pub use known::{Known, Moment};
@@ -119,15 +119,15 @@ impl<T: Scalar> Decider<T> {
     ///
     /// # Errors
     /// [`Error::NoMode`] if no candidate is feasible (Painlevé's paradox).
-    pub fn decide<S: System<Scalar = T>>(
+    pub fn decide(
         &mut self,
-        dynamics: &mut Dynamics<S>,
+        dynamics: &mut Dynamics<T>,
         table: &mut Table,
-        moment: Moment<'_, S::Scalar>,
+        moment: Moment<'_, T>,
         present: &Mode,
         known: &Known,
     ) -> Result<(), Error> {
-        let d = S::DESCRIPTION;
+        let d = dynamics.description();
         let mut candidates = core::mem::take(&mut self.candidates);
         let scratch = &mut self.decision.mode;
         let few = list_candidates(
@@ -156,7 +156,7 @@ impl<T: Scalar> Decider<T> {
             Ok(false) => Err(Error::NoMode {
                 time,
                 mode: present.display(d).to_string(),
-                item: concerned::<S>(known, present),
+                item: concerned(d, known, present),
                 tried: self.tried,
             }),
             Err(error) => Err(Error::from_evaluation(error, time, dynamics.mode(), d)),
@@ -164,12 +164,7 @@ impl<T: Scalar> Decider<T> {
     }
 
     /// See [`Known::residue`]; `dynamics` holds the values of the moment in the mode that ends.
-    pub fn residue<S: System<Scalar = T>>(
-        &mut self,
-        dynamics: &Dynamics<S>,
-        mode: &Mode,
-        located: &[Guard],
-    ) -> f64 {
+    pub fn residue(&mut self, dynamics: &Dynamics<T>, mode: &Mode, located: &[Guard]) -> f64 {
         self.sizes.take(dynamics);
         let reading = Reading::Values(dynamics);
         let relative = |&guard: &Guard| match guard {
@@ -190,9 +185,9 @@ impl<T: Scalar> Decider<T> {
     ///
     /// # Errors
     /// None is feasible, and one could not be evaluated.
-    fn best<S: System<Scalar = T>>(
+    fn best(
         &mut self,
-        dynamics: &mut Dynamics<S>,
+        dynamics: &mut Dynamics<T>,
         table: &mut Table,
         moment: Moment<'_, T>,
         present: &Mode,
@@ -202,7 +197,7 @@ impl<T: Scalar> Decider<T> {
         let (mut best, mut failure) = (None, None);
         // Without friction the accelerations are the only ones that Gauss's principle allows: no other mode has others.
         let idle = |mode: &Mode| mode.frictions.iter().all(|f| *f == FrictionMode::Inactive);
-        let unique = S::DESCRIPTION.couplings.is_empty()
+        let unique = dynamics.description().couplings.is_empty()
             && !known.balanced.contains(&true)
             && candidates.iter().all(idle);
         for (index, mode) in candidates.iter().enumerate() {
@@ -244,7 +239,7 @@ impl<T: Scalar> Decider<T> {
     }
 
     /// Keeps the candidate examined last, which is feasible.
-    fn keep<S: System<Scalar = T>>(&mut self, dynamics: &Dynamics<S>) {
+    fn keep(&mut self, dynamics: &Dynamics<T>) {
         core::mem::swap(&mut self.best, &mut self.posed);
         core::mem::swap(&mut self.decision.zeros, &mut self.zeros);
         self.decision.joints.clone_from(&self.joints);
@@ -268,8 +263,7 @@ fn differ<T: Scalar>(a: &[f64], b: &[T]) -> bool {
     pairs.any(|(x, y)| (x - y.value()).abs() > 1e-9 * size)
 }
 
-fn concerned<S: System>(known: &Known, present: &Mode) -> &'static str {
-    let d = S::DESCRIPTION;
+fn concerned(d: &'static Description, known: &Known, present: &Mode) -> &'static str {
     let located = known.located.iter().find_map(|g| match *g {
         Guard::Gap(c) | Guard::Normal(c) | Guard::Region(c) => Some(d.contacts[c].name),
         Guard::StickUpper(f)

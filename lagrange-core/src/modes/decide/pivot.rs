@@ -17,7 +17,7 @@ use crate::dynamics::{Dynamics, EvaluationError};
 use crate::mode::{Direction, FrictionMode, Mode, Sliding};
 use crate::modes::guard::Guard;
 use crate::modes::table::Table;
-use crate::system::{Normal, System};
+use crate::system::Normal;
 
 /// Exchanges that do not make the violated guards fewer, before they are made one by one.
 const PATIENCE: usize = 8;
@@ -27,9 +27,9 @@ impl<T: Scalar> Decider<T> {
     ///
     /// # Errors
     /// A mode on the way could not be evaluated.
-    pub(super) fn pivot<S: System<Scalar = T>>(
+    pub(super) fn pivot(
         &mut self,
-        dynamics: &mut Dynamics<S>,
+        dynamics: &mut Dynamics<T>,
         table: &mut Table,
         moment: Moment<'_, T>,
         present: &Mode,
@@ -56,9 +56,9 @@ impl<T: Scalar> Decider<T> {
         outcome
     }
 
-    fn pivot_from<S: System<Scalar = T>>(
+    fn pivot_from(
         &mut self,
-        dynamics: &mut Dynamics<S>,
+        dynamics: &mut Dynamics<T>,
         table: &mut Table,
         moment: Moment<'_, T>,
         present: &Mode,
@@ -115,12 +115,12 @@ fn order(guard: &Guard) -> (usize, usize) {
 }
 
 /// Exchanges what violated guards forbid for its complement.
-struct Exchange<'a, S: System> {
-    choices: Choices<'a, S>,
+struct Exchange<'a, T: Scalar> {
+    choices: Choices<'a, T>,
 }
 
-impl<'a, S: System> Exchange<'a, S> {
-    fn new(dynamics: &'a Dynamics<S>, present: &'a Mode, known: &'a Known) -> Self {
+impl<'a, T: Scalar> Exchange<'a, T> {
+    fn new(dynamics: &'a Dynamics<T>, present: &'a Mode, known: &'a Known) -> Self {
         Self {
             choices: Choices {
                 dynamics,
@@ -181,7 +181,7 @@ impl<'a, S: System> Exchange<'a, S> {
                 _ => continue,
             };
             mode.contacts[c] = closed;
-            for (f, friction) in S::DESCRIPTION.frictions.iter().enumerate() {
+            for (f, friction) in self.choices.description().frictions.iter().enumerate() {
                 if matches!(friction.normal, Normal::Contact(on) if on == c) {
                     self.set_first(mode, f);
                 }
@@ -191,13 +191,13 @@ impl<'a, S: System> Exchange<'a, S> {
 
     /// How friction `f` slips when its force, at the last value, is too large.
     fn leaves_its_cone(&self, f: usize) -> FrictionMode {
-        let friction = &S::DESCRIPTION.frictions[f];
+        let friction = &self.choices.description().frictions[f];
         let sign = |row: usize| {
             let force = self.choices.dynamics.force(row).value();
             if force < 0.0 { -1.0 } else { 1.0 }
         };
         let normal_sign = match friction.normal {
-            Normal::Constraint(i) => sign(S::DESCRIPTION.constraints[i].row),
+            Normal::Constraint(i) => sign(self.choices.description().constraints[i].row),
             _ => 1.0,
         };
         if friction.components == 1 {

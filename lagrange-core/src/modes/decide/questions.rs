@@ -7,17 +7,17 @@ use crate::mode::{Direction, FrictionMode, Mode, Sliding};
 use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
 use crate::modes::sharing::{self, Joint};
-use crate::system::{Normal, System};
+use crate::system::{Description, Normal};
 
 /// The first coefficient of a guard that is not known to vanish, times its factorial, as far as values tell.
-pub(super) fn leading<S: System>(
+pub(super) fn leading<T: Scalar>(
     guard: Guard,
     order_known: usize,
     joints: &[Joint],
     mode: &Mode,
-    dynamics: &Dynamics<S>,
+    dynamics: &Dynamics<T>,
 ) -> Option<f64> {
-    let d = S::DESCRIPTION;
+    let d = dynamics.description();
     let acceleration = |row: usize| row_acceleration(row, dynamics);
     match (guard, order_known) {
         (_, 0) => Some(sharing::value(
@@ -46,8 +46,8 @@ pub(super) fn leading<S: System>(
 }
 
 /// a v̇ + γ of a row at the last value.
-pub(super) fn row_acceleration<S: System>(row: usize, dynamics: &Dynamics<S>) -> f64 {
-    let row = &S::DESCRIPTION.rows[row];
+pub(super) fn row_acceleration<T: Scalar>(row: usize, dynamics: &Dynamics<T>) -> f64 {
+    let row = &dynamics.description().rows[row];
     let products = row.jacobian.iter().map(|&(j, place)| {
         let a = dynamics.motion(place) * dynamics.acceleration()[j];
         a.value()
@@ -57,13 +57,13 @@ pub(super) fn row_acceleration<S: System>(row: usize, dynamics: &Dynamics<S>) ->
 
 /// The guards that can be violated just after the instant, with the number of coefficients known to vanish; `held` are
 /// the needs that are evaluated.
-pub(super) fn list_questions<S: System>(
+pub(super) fn list_questions(
+    d: &Description,
     mode: &Mode,
     known: &Known,
     held: &NeedSet,
     list: &mut Vec<(Guard, usize)>,
 ) {
-    let d = S::DESCRIPTION;
     list.clear();
     for c in 0..d.contacts.len() {
         if mode.contacts[c] {

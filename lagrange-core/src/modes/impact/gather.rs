@@ -7,7 +7,7 @@ use crate::dynamics::Dynamics;
 use crate::effects::Item;
 use crate::linear::{Equilibrated, least_norm};
 use crate::mode::FrictionMode;
-use crate::system::{Normal, Place, Restitution, System};
+use crate::system::{Normal, Place, Restitution};
 
 /// What stands between coordinates and rows; the memory is reused.
 #[derive(Clone, Debug, Default)]
@@ -28,15 +28,15 @@ pub(super) struct Gathering<T> {
 
 impl<T: Scalar> Gathering<T> {
     /// Describes the impact of the contacts `near` at velocities `v`. False if an impulse has no finite effect.
-    pub fn collect<S: System<Scalar = T>>(
+    pub fn collect(
         &mut self,
-        dynamics: &Dynamics<S>,
+        dynamics: &Dynamics<T>,
         v: &[T],
         near: &[usize],
         out: &mut Collision<T>,
     ) -> bool {
         self.list_rows(dynamics, near, out);
-        let d = S::DESCRIPTION;
+        let d = dynamics.description();
         let n = d.coordinates.len();
         let bilateral = self.bilateral.len();
         let size = n + bilateral;
@@ -94,13 +94,8 @@ impl<T: Scalar> Gathering<T> {
     }
 
     /// Which rows there are.
-    fn list_rows<S: System<Scalar = T>>(
-        &mut self,
-        dynamics: &Dynamics<S>,
-        near: &[usize],
-        out: &mut Collision<T>,
-    ) {
-        let d = S::DESCRIPTION;
+    fn list_rows(&mut self, dynamics: &Dynamics<T>, near: &[usize], out: &mut Collision<T>) {
+        let d = dynamics.description();
         let effects = dynamics.effects();
         let mode = dynamics.mode();
         self.rows.clear();

@@ -26,7 +26,7 @@ mod turning;
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
 use crate::error::Error;
-use crate::system::{Description, Impacts, System};
+use crate::system::{Description, Impacts};
 use collision::Collision;
 use gather::Gathering;
 use law::Law;
@@ -73,15 +73,15 @@ impl<T: Scalar> Collider<T> {
     /// # Errors
     /// [`Error::NoMode`] if no combination satisfies the law, [`Error::EndlessImpacts`] if impacts in turn do not end,
     /// [`Error::EnergyGain`] if the solution adds energy.
-    pub fn solve<S: System<Scalar = T>>(
+    pub fn solve(
         &mut self,
-        dynamics: &Dynamics<S>,
+        dynamics: &Dynamics<T>,
         t: f64,
         v: &[T],
         near: &[usize],
         impacts: Impacts,
     ) -> Result<(), Error> {
-        let d = S::DESCRIPTION;
+        let d = dynamics.description();
         let contact = |k: usize| d.contacts[near.get(k).copied().unwrap_or(0)].name;
         self.law.search.tried = 0;
         let collected = self
@@ -179,8 +179,8 @@ impl<T: Scalar> Collider<T> {
     }
 
     /// Kinetic energy that is not work of moving surfaces, from velocities and impulses: (gain, size of its terms).
-    fn balance<S: System<Scalar = T>>(&self, dynamics: &Dynamics<S>, v: &[T]) -> (f64, f64) {
-        let d = S::DESCRIPTION;
+    fn balance(&self, dynamics: &Dynamics<T>, v: &[T]) -> (f64, f64) {
+        let d = dynamics.description();
         let (mut gain, mut size) = (0.0, 0.0);
         for &(i, j, place) in d.mass {
             let m = dynamics.motion(place).value() * if i == j { 0.5 } else { 1.0 };

@@ -5,7 +5,7 @@ use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
 use crate::mode::FrictionMode;
 use crate::modes::guard::Guard;
-use crate::system::{Normal, Place, System};
+use crate::system::{Normal, Place};
 
 /// A guard, or a side of a cone, that bounds undetermined forces: linear in them and relative to its size.
 #[derive(Clone, Copy, Debug)]
@@ -33,8 +33,8 @@ pub(super) struct Cone {
 
 impl<T: Scalar> Sharing<T> {
     /// The bounds with a part that is open.
-    pub(super) fn list_bounds<S: System<Scalar = T>>(&mut self, dynamics: &Dynamics<S>) {
-        let d = S::DESCRIPTION;
+    pub(super) fn list_bounds(&mut self, dynamics: &Dynamics<T>) {
+        let d = dynamics.description();
         let acting = dynamics.acting_rows();
         let index = |row: usize| acting.binary_search(&row).ok();
         let number = |place: Place| dynamics.motion(place).value();
@@ -84,12 +84,12 @@ impl<T: Scalar> Sharing<T> {
     }
 
     /// Adds a bound, if it has a part that is open.
-    fn bound<S: System<Scalar = T>>(
+    fn bound(
         &mut self,
         guard: Guard,
         [first, second]: [(usize, f64); 2],
         constant: f64,
-        dynamics: &Dynamics<S>,
+        dynamics: &Dynamics<T>,
     ) {
         let open = |j: usize| {
             let parts = [first, second].map(|(i, a)| a * self.freedom.row(i)[j]);

@@ -1,9 +1,9 @@
 //! Joint guards: sums of guards of undetermined forces in which all that is open cancels.
 
+use crate::arithmetic::Scalar;
 use crate::mode::Mode;
 use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
-use crate::system::System;
 
 /// A guard as a part of a joint one.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,11 +24,11 @@ pub struct Joint {
 }
 
 /// [`guard::series`], also of joint guards.
-pub fn series<S: System>(
+pub fn series<T: Scalar>(
     guard: Guard,
     joints: &[Joint],
     mode: &Mode,
-    reading: &Reading<'_, S>,
+    reading: &Reading<'_, T>,
     out: &mut [f64],
 ) {
     let Guard::Joint(index) = guard else {
@@ -46,11 +46,11 @@ pub fn series<S: System>(
 }
 
 /// [`guard::value`], also of joint guards.
-pub fn value<S: System>(
+pub fn value<T: Scalar>(
     guard: Guard,
     joints: &[Joint],
     mode: &Mode,
-    reading: &Reading<'_, S>,
+    reading: &Reading<'_, T>,
 ) -> f64 {
     let mut value = [0.0];
     series(guard, joints, mode, reading, &mut value);
@@ -58,11 +58,11 @@ pub fn value<S: System>(
 }
 
 /// [`guard::series`], but of a cone only the plane that touches it in direction `along`.
-pub fn side<S: System>(
+pub fn side<T: Scalar>(
     guard: Guard,
     along: [f64; 2],
     mode: &Mode,
-    reading: &Reading<'_, S>,
+    reading: &Reading<'_, T>,
     out: &mut [f64],
 ) {
     match guard {

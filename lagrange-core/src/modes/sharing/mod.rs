@@ -20,7 +20,7 @@ use crate::linear::{Freedom, Lemke, LemkeOutcome};
 use crate::mode::FrictionMode;
 use crate::modes::guard::Guard;
 use crate::modes::scale::Sizes;
-use crate::system::{Normal, System};
+use crate::system::Normal;
 use bounds::{Bound, Cone};
 pub use joint::{Joint, Part, series, side, value};
 
@@ -58,7 +58,7 @@ impl<T: Scalar> Sharing<T> {
     }
 
     /// Looks at the last value of `dynamics`.
-    pub fn look<S: System<Scalar = T>>(&mut self, dynamics: &Dynamics<S>) {
+    pub fn look(&mut self, dynamics: &Dynamics<T>) {
         self.clear();
         if !dynamics.has_dependent_rows() {
             return;
@@ -199,11 +199,7 @@ impl<T: Scalar> Sharing<T> {
 
     /// The forces of all rows at the last value of `dynamics`, and which of them are undetermined (nothing where all are
     /// determined).
-    pub fn report<S: System<Scalar = T>>(
-        &mut self,
-        dynamics: &Dynamics<S>,
-        undetermined: &mut Vec<bool>,
-    ) -> Vec<T> {
+    pub fn report(&mut self, dynamics: &Dynamics<T>, undetermined: &mut Vec<bool>) -> Vec<T> {
         undetermined.clear();
         self.look(dynamics);
         if dynamics.has_dependent_rows() {
@@ -213,9 +209,9 @@ impl<T: Scalar> Sharing<T> {
     }
 
     /// The forces of all rows: those of least norm within the bounds, if there are any within them.
-    fn forces<S: System<Scalar = T>>(&mut self, dynamics: &Dynamics<S>) -> Vec<T> {
+    fn forces(&mut self, dynamics: &Dynamics<T>) -> Vec<T> {
         if self.least.is_empty() {
-            let rows = 0..S::DESCRIPTION.rows.len();
+            let rows = 0..dynamics.description().rows.len();
             return rows.map(|row| dynamics.force(row)).collect();
         }
         let mut forces = self.least.clone();
@@ -232,8 +228,8 @@ impl<T: Scalar> Sharing<T> {
     }
 
     /// Whether the force of each row is undetermined.
-    fn undetermined<S: System<Scalar = T>>(&self, dynamics: &Dynamics<S>, out: &mut Vec<bool>) {
-        let d = S::DESCRIPTION;
+    fn undetermined(&self, dynamics: &Dynamics<T>, out: &mut Vec<bool>) {
+        let d = dynamics.description();
         out.clear();
         out.resize(d.rows.len(), false);
         if self.least.is_empty() {

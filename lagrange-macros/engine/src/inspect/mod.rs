@@ -1,6 +1,6 @@
 //! Declaration, equations and program → [`Derivation`]: all that was derived, as a person would write it down.
 //!
-//! A derivation is plain data; [`print`] has the languages in which it can be said. It is read off the finished program:
+//! A derivation is plain data; [`mod@print`] has the languages in which it can be said. It is read off the finished program:
 //! forms that are made for reading never reach the emitted code.
 
 mod conserved;
@@ -48,7 +48,7 @@ pub struct Derivation {
     pub motion: Vec<Equation>,
     /// Constraints, contacts and slips on the level of accelerations.
     pub rows: Vec<Row>,
-    /// The modes, all of them or those that are [chosen](Self::shown).
+    /// The modes, all of them or those that are chosen.
     pub modes: Vec<Mode>,
     /// How many modes there are in all.
     pub mode_count: u128,

@@ -6,7 +6,7 @@ use super::complex::Turn;
 use super::{FieldValue, Point, Prime, Trouble};
 
 impl Pool {
-    /// Values at a point, whose [`Angles`] must have been made of these expressions (and others).
+    /// Values at a point, whose `Angles` must have been made of these expressions (and others).
     pub fn at_point(&self, e: &[ExprId], point: &mut Point) -> Vec<FieldValue> {
         let mut values = Values {
             pool: self,
