@@ -40,6 +40,11 @@ pub trait Scalar:
     + Sync
     + 'static
 {
+    /// Orders of derivatives that a number carries: 0 for machine numbers, 1 for dual numbers.
+    ///
+    /// Decisions read [`Self::value`]; where they end in an instant or a projection, so many Newton steps give the derivatives.
+    /// Equality must tell apart numbers that differ in derivatives only.
+    const DERIVATIVES: usize = 0;
     /// The nearest number of this type.
     fn from_f64(x: f64) -> Self;
     /// The value, for decisions (step size, order of events). A dual number gives its real part.

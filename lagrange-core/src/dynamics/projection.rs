@@ -112,7 +112,28 @@ impl<T: Scalar> Dynamics<T> {
             self.move_velocities(t, q, v, &[], least)?;
         }
         self.settle_pinned(v, threshold);
-        Ok(moved)
+        let carries = T::DERIVATIVES > 0 && !self.acting_rows().is_empty();
+        if carries {
+            self.move_derivatives(t, q, v, [&[], &[]]);
+        }
+        Ok(moved || carries)
+    }
+
+    /// Derivatives of (q, v) onto those of the rows that act, in the same metric: Newton steps that leave the values.
+    fn move_derivatives(&mut self, t: T, q: &mut [T], v: &mut [T], held: [&[bool]; 2]) {
+        for (level, held) in [Level::Position, Level::Velocity].into_iter().zip(held) {
+            for _ in 0..T::DERIVATIVES {
+                self.run_rows(t, q, v);
+                if !self.correction(level, held) {
+                    break;
+                }
+                let state = if level == Level::Position { &mut *q } else { &mut *v };
+                for (x, &change) in state.iter_mut().zip(&self.projection.change) {
+                    *x += change - T::from_f64(change.value());
+                }
+            }
+        }
+        self.run_rows(t, q, v);
     }
 
     /// Takes the rounding out of the velocities of coordinates that a row of their own pins: a coordinate that is exactly
@@ -146,7 +167,11 @@ impl<T: Scalar> Dynamics<T> {
         held_velocities: &[bool],
     ) -> Result<(), EvaluationError> {
         self.project_positions(t, q, v, held_positions)?;
-        self.project_velocities(t, q, v, held_velocities)
+        self.project_velocities(t, q, v, held_velocities)?;
+        if T::DERIVATIVES > 0 {
+            self.move_derivatives(t, q, v, [held_positions, held_velocities]);
+        }
+        Ok(())
     }
 
     /// Least change of q in the mass metric that makes g(q,t) = 0; `v` is not used but for the tape.

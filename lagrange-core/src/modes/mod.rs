@@ -5,6 +5,7 @@
 //! forces that the motion leaves open are shared out.
 
 pub(crate) mod decide;
+pub(crate) mod exact;
 pub(crate) mod guard;
 pub(crate) mod impact;
 pub(crate) mod reading;

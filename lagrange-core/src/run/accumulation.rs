@@ -9,6 +9,7 @@
 //! that gets shorter and shorter.
 
 use super::Run;
+use super::instant::derivatives;
 use crate::arithmetic::Scalar;
 use crate::error::Error;
 use crate::modes::decide::Known;
@@ -26,7 +27,7 @@ const RESOLUTION: f64 = 64.0 * f64::EPSILON;
 
 /// The impacts of one contact.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Impacts {
+pub(super) struct Impacts<T> {
     /// Number of impacts with shrinking intervals.
     count: usize,
     /// Time of the last one.
@@ -35,28 +36,34 @@ pub(super) struct Impacts {
     interval: f64,
     /// Ratio of the last two intervals.
     ratio: f64,
+    /// The last three times, the latest first.
+    times: [T; 3],
     /// How many of the last intervals were below the resolution of time.
     unresolved: usize,
     /// The intervals before the last `REMEMBERED` of the `count` impacts, in a ring.
     intervals: [f64; REMEMBERED],
 }
 
-impl Default for Impacts {
+impl<T: Scalar> Default for Impacts<T> {
     fn default() -> Self {
         Impacts {
             count: 0,
             last: 0.0,
             interval: 0.0,
             ratio: 0.0,
+            times: [T::zero(); 3],
             unresolved: 0,
             intervals: [0.0; REMEMBERED],
         }
     }
 }
 
-impl Impacts {
+impl<T: Scalar> Impacts<T> {
     /// Books an impact; returns how long all further ones will last, if they shrink geometrically.
-    fn book(&mut self, time: f64) -> Option<f64> {
+    fn book(&mut self, time: T) -> Option<T> {
+        let [last, earlier, _] = self.times;
+        self.times = [time, last, earlier];
+        let time = time.value();
         let interval = time - self.last;
         let ratio = interval / self.interval;
         let shrinking = self.count > 0 && ratio < 1.0;
@@ -75,10 +82,18 @@ impl Impacts {
         };
         if steady && self.count >= FEWEST {
             let ratio = self.mean_ratio();
-            return Some(interval * ratio / (1.0 - ratio));
+            return Some(self.with_derivatives(interval * ratio / (1.0 - ratio)));
         }
         // No law in them, but time no longer tells them apart.
-        (self.unresolved >= FEWEST).then_some(0.0)
+        (self.unresolved >= FEWEST).then_some(T::zero())
+    }
+
+    /// What is left, with the derivatives that the last impacts give it.
+    fn with_derivatives(&self, left: f64) -> T {
+        let [time, last, earlier] = self.times;
+        let (interval, before) = (time - last, last - earlier);
+        let estimate = interval * interval / (before - interval);
+        T::from_f64(left) + derivatives(estimate)
     }
 
     /// Mean ratio of the intervals since they were about e times as long: where they shrink slowly, the resolution of time
@@ -174,8 +189,8 @@ impl<T: Scalar> Run<T> {
     /// After an impact of contact `c`: closes it if the impacts to come are below the tolerance. Returns the number of
     /// impacts that led here.
     fn accumulate(&mut self, c: usize, known: &mut Known) -> Option<usize> {
-        let remaining = self.impacts[c].book(self.t.value())?;
-        if !self.is_over(remaining) {
+        let remaining = self.impacts[c].book(self.t)?;
+        if !self.is_over(remaining.value()) {
             return None;
         }
         // Contacts that take part in the same cycle close with it.
@@ -189,7 +204,7 @@ impl<T: Scalar> Run<T> {
                 self.end(other, known);
             }
         }
-        self.t += T::from_f64(remaining);
+        self.t += remaining;
         Some(count)
     }
 

@@ -3,6 +3,7 @@
 mod accumulation;
 mod curves;
 mod hits;
+mod instant;
 mod log;
 mod region;
 mod rest;
@@ -106,7 +107,7 @@ pub(crate) struct Run<T: Scalar> {
     forces_after: Vec<T>,
     undetermined_after: Vec<bool>,
     /// Per contact: its impacts so far.
-    impacts: Vec<Impacts>,
+    impacts: Vec<Impacts<T>>,
     /// All impacts so far.
     train: Train,
     scratch_mode: Mode,
@@ -297,6 +298,7 @@ impl<T: Scalar> Run<T> {
     fn advance(&mut self) -> Result<(), Error> {
         let hit = self.accepted_step()?;
         let end = hit.end();
+        let exact = self.exact_end(&hit);
         if end > 0.0 {
             // The step left there the state at its end, evaluated.
             core::mem::swap(&mut self.state, &mut self.scratch);
@@ -305,11 +307,11 @@ impl<T: Scalar> Run<T> {
         self.log_marks(end);
         self.remember_sides(end);
         self.remember_regions(end);
-        self.trajectory.push(&self.step, T::from_f64(end));
+        self.trajectory.push(&self.step, exact);
         self.trajectory.work.steps += 1;
         if end > 0.0 {
             let whole = end == 1.0;
-            self.t = self.step.t + self.step.h * T::from_f64(end);
+            self.t = self.step.t + self.step.h * exact;
             if whole
                 && (self.end - self.t.value()).abs()
                     <= 1e-15 * self.end.abs().max(self.step.h.value())
@@ -319,9 +321,9 @@ impl<T: Scalar> Run<T> {
             self.stuck.clear();
             self.zeros.clear();
             let steps = self.trajectory.work.steps;
-            let exact = matches!(self.stepper, Stepper::Taylor(_)) && !self.drifts;
+            let stays = matches!(self.stepper, Stepper::Taylor(_)) && !self.drifts;
             let near = self.distance < NEAR;
-            if near || !exact || steps.is_multiple_of(STEPS_OF_ROUNDING) {
+            if near || !stays || steps.is_multiple_of(STEPS_OF_ROUNDING) {
                 self.project(near)?;
             }
         }
@@ -399,7 +401,7 @@ impl<T: Scalar> Run<T> {
         let mut marks = core::mem::take(&mut self.marks);
         self.marks_until(end, &mut marks);
         for &(mark, s) in &marks {
-            let s = T::from_f64(s);
+            let s = self.exact_mark(mark, s);
             let mut state = core::mem::take(&mut self.scratch);
             self.step.state_into(s, &mut state.q, &mut state.v);
             let time = self.step.time(s);

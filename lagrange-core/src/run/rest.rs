@@ -6,10 +6,12 @@
 //! passes near zero is followed through.
 
 use super::Run;
+use super::instant::derivatives;
 use crate::arithmetic::Scalar;
 use crate::dynamics::approach;
 use crate::error::Error;
 use crate::mode::{Direction, FrictionMode, Sliding};
+use crate::modes::exact;
 use crate::modes::guard::Guard;
 use crate::trajectory::State;
 
@@ -27,11 +29,13 @@ const NEAR: f64 = 0.5;
 /// A slip that comes to rest.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rest {
-    friction: usize,
+    pub friction: usize,
     /// Its last direction.
-    along: [f64; 2],
+    pub along: [f64; 2],
     /// Time that is left, s.
     left: f64,
+    /// Change of the slip along `along` per second.
+    pub slope: f64,
 }
 
 impl<T: Scalar> Run<T> {
@@ -112,8 +116,27 @@ impl<T: Scalar> Run<T> {
             *v += change;
         }
         self.t += time;
+        self.exact_rest(T::from_f64(back));
         (self.valued, self.expanded) = (false, false);
         true
+    }
+
+    /// Gives the instant of rest its derivatives; `earlier` has the velocities `back` seconds before the last step's end.
+    fn exact_rest(&mut self, back: T) {
+        let Some(&rest) = self.rests.first() else {
+            return;
+        };
+        let State { q, v } = &mut self.state;
+        for _ in 0..T::DERIVATIVES {
+            self.dynamics.tape(self.t, q, v);
+            let slip = exact::slip(rest.friction, rest.along.map(T::from_f64), &self.dynamics);
+            let later = -derivatives(slip) / T::from_f64(rest.slope);
+            for ((q, v), &earlier) in q.iter_mut().zip(&mut *v).zip(&self.earlier) {
+                *q += later * *v;
+                *v += later * (*v - earlier) / back;
+            }
+            self.t += later;
+        }
     }
 
     /// Whether friction `f` comes to rest at part `end` of the step, or so soon after it that what still changes is below so
@@ -162,6 +185,7 @@ impl<T: Scalar> Run<T> {
             friction: f,
             along,
             left: -dot(now, change) / (fall * fall) * interval,
+            slope: dot(along, change) / interval,
         })
     }
 
@@ -200,6 +224,7 @@ impl<T: Scalar> Run<T> {
                     friction: f,
                     along: self.dynamics.heading(f).map(|x| x.value()),
                     left: 0.0,
+                    slope: 0.0,
                 });
             }
         }

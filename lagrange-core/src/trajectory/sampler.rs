@@ -92,17 +92,20 @@ impl<'a, T: Scalar> Sampler<'a, T> {
         match trajectory.segments.get(after.saturating_sub(1)) {
             None => self.evaluate(T::from_f64(t), 0, &trajectory.start.clone()),
             Some(segment) => {
-                let h = segment.h.value();
-                let s = if h > 0.0 {
-                    (t - segment.t.value()) / h
+                let time = T::from_f64(t);
+                let s = if segment.h.value() > 0.0 {
+                    (time - segment.t) / segment.h
                 } else {
-                    0.0
+                    T::zero()
                 };
-                let s = T::from_f64(s.min(segment.end.value()));
+                let s = if s.value() > segment.end.value() {
+                    segment.end
+                } else {
+                    s
+                };
                 let mut state = core::mem::take(&mut self.state);
                 trajectory.state_at(segment, s, &mut state.q, &mut state.v);
                 self.enter(segment.mode);
-                let time = T::from_f64(t);
                 self.headed = self.head_into_rest(segment, s, time, &state);
                 let instant = self.evaluate(time, segment.mode, &state);
                 if core::mem::take(&mut self.headed) {

@@ -1,0 +1,136 @@
+//! The instant of an event as a number of the run's own scalar.
+//!
+//! A root is located in doubles. It depends on parameters and start as the guard does, dt/dp = −(∂g/∂p)/ġ: a Newton step from
+//! the located root in the run's scalar, which changes derivatives only. State and time are then taken there, and an impact
+//! or switch acts on them; the motion that follows has all terms of a saltation matrix (Leine & Nijmeijer 2004, chapter 7).
+
+use super::Run;
+use super::hits::{Hit, value};
+use crate::arithmetic::Scalar;
+use crate::integrate::polynomial_derivative as slope;
+use crate::modes::exact::{exact, slip};
+use crate::modes::guard::Guard;
+use core::ops::Range;
+
+/// Newton steps beyond the order of the derivatives, because the slope is known to interpolation only.
+const MORE_STEPS: usize = 2;
+
+/// What a number has beside its value.
+pub(super) fn derivatives<T: Scalar>(x: T) -> T {
+    if T::DERIVATIVES == 0 {
+        return T::zero();
+    }
+    x - T::from_f64(x.value())
+}
+
+impl<T: Scalar> Run<T> {
+    /// The part of the step at which it ends, with derivatives; the state there in `scratch`, evaluated if that at the located
+    /// end was.
+    pub(super) fn exact_end(&mut self, hit: &Hit) -> T {
+        let end = hit.end();
+        if T::DERIVATIVES == 0 || end == 0.0 {
+            return T::from_f64(end);
+        }
+        let h = self.step.h.value();
+        let (guard, slope) = match *hit {
+            // At the last instant the time itself has no derivatives.
+            Hit::Nothing | Hit::Turned(_) => {
+                if end < 1.0 || (self.end - self.t.value() - h).abs() > 1e-15 * self.end.abs().max(h)
+                {
+                    return T::from_f64(end);
+                }
+                let s = T::one() - derivatives(self.step.t + self.step.h) / self.step.h;
+                return self.settle_end(s, end);
+            }
+            Hit::Guards(_) => {
+                if let Some(rest) = self.rests.first() {
+                    (Guard::Slip(rest.friction), rest.slope * h)
+                } else if let Some(&guard) = self.fallen.first()
+                    && let Some(k) = self.guards.iter().position(|g| *g == guard)
+                {
+                    (guard, slope(self.curves.mode_guard(k), end))
+                } else {
+                    return T::from_f64(end);
+                }
+            }
+            Hit::Stop(i, _) => {
+                let terms = 0..self.description().stops[i].terms.len();
+                match nearest(terms, end, |k| self.curves.stop_term(i, k)) {
+                    Some((k, slope)) => (Guard::Stop(i, k), slope),
+                    None => return T::from_f64(end),
+                }
+            }
+        };
+        let s = self.root(guard, slope, end);
+        self.settle_end(s, end)
+    }
+
+    /// A located root of `guard`, which changes by `slope` per step there, with derivatives. The value stays.
+    pub(super) fn root(&mut self, guard: Guard, slope: f64, located: f64) -> T {
+        let mut s = T::from_f64(located);
+        if T::DERIVATIVES == 0 || !(slope != 0.0 && slope.is_finite()) {
+            return s;
+        }
+        for _ in 0..T::DERIVATIVES + MORE_STEPS {
+            let Some(value) = self.exact_guard(guard, s) else {
+                return T::from_f64(located);
+            };
+            s -= derivatives(value) / T::from_f64(slope);
+        }
+        s
+    }
+
+    /// Part `s` of the step, where mark `mark` was located, with derivatives.
+    pub(super) fn exact_mark(&mut self, mark: usize, s: f64) -> T {
+        if T::DERIVATIVES == 0 || s == 0.0 {
+            return T::from_f64(s);
+        }
+        let terms = 0..self.description().marks[mark].terms.len();
+        match nearest(terms, s, |k| self.curves.mark_term(mark, k)) {
+            Some((k, slope)) => self.root(Guard::Mark(mark, k), slope, s),
+            None => T::from_f64(s),
+        }
+    }
+
+    /// A guard at part `s` of the step.
+    fn exact_guard(&mut self, guard: Guard, s: T) -> Option<T> {
+        let (q, v) = (&mut self.scratch.q, &mut self.scratch.v);
+        self.step.state_into(s, q, v);
+        let time = self.step.time(s);
+        if let Guard::Slip(f) = guard
+            && let Some(rest) = self.rests.iter().find(|rest| rest.friction == f)
+        {
+            self.dynamics.tape(time, q, v);
+            return Some(slip(f, rest.along.map(T::from_f64), &self.dynamics));
+        }
+        self.dynamics.value_along(time, q, v).ok()?;
+        if matches!(guard, Guard::Stop(..) | Guard::Mark(..) | Guard::Branch(_)) {
+            self.dynamics.report_value();
+        }
+        Some(exact(guard, &self.joints, &self.mode, &self.dynamics))
+    }
+
+    /// The state at part `s` of the step, in `scratch`, evaluated; at `located` if that cannot be.
+    fn settle_end(&mut self, s: T, located: f64) -> T {
+        for s in [s, T::from_f64(located)] {
+            let (q, v) = (&mut self.scratch.q, &mut self.scratch.v);
+            self.step.state_into(s, q, v);
+            if !self.rests.is_empty() || self.dynamics.value_along(self.step.time(s), q, v).is_ok()
+            {
+                return s;
+            }
+        }
+        T::from_f64(located)
+    }
+}
+
+/// The term whose root is nearest to `s`, and its slope there.
+fn nearest<'c>(
+    terms: Range<usize>,
+    s: f64,
+    curve: impl Fn(usize) -> &'c [f64],
+) -> Option<(usize, f64)> {
+    let slopes = terms.map(|k| (k, slope(curve(k), s)));
+    let distance = |&(k, slope): &(usize, f64)| (value(curve(k), s) / slope).abs();
+    slopes.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+}
