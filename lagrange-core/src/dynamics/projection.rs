@@ -127,7 +127,11 @@ impl<T: Scalar> Dynamics<T> {
                 if !self.correction(level, held) {
                     break;
                 }
-                let state = if level == Level::Position { &mut *q } else { &mut *v };
+                let state = if level == Level::Position {
+                    &mut *q
+                } else {
+                    &mut *v
+                };
                 for (x, &change) in state.iter_mut().zip(&self.projection.change) {
                     *x += change - T::from_f64(change.value());
                 }

@@ -205,6 +205,10 @@ impl<T: Scalar> Run<T> {
             }
         }
         self.t += remaining;
+        // What does not move in that time may have derivatives that do.
+        for (q, &v) in self.state.q.iter_mut().zip(&self.state.v) {
+            *q += derivatives(remaining * v);
+        }
         Some(count)
     }
 

@@ -35,7 +35,8 @@ impl<T: Scalar> Run<T> {
         let (guard, slope) = match *hit {
             // At the last instant the time itself has no derivatives.
             Hit::Nothing | Hit::Turned(_) => {
-                if end < 1.0 || (self.end - self.t.value() - h).abs() > 1e-15 * self.end.abs().max(h)
+                if end < 1.0
+                    || (self.end - self.t.value() - h).abs() > 1e-15 * self.end.abs().max(h)
                 {
                     return T::from_f64(end);
                 }
