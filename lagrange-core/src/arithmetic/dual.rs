@@ -10,6 +10,46 @@ use core::ops::{
 use num_traits::{Num, One, Zero};
 
 /// A value and its derivatives in `N` directions.
+///
+/// A scene with parameters of this type runs as with `f64`, and everything that its trajectory holds has derivatives: states,
+/// forces, impulses and the instants of events, through switches and impacts.
+///
+/// ```
+/// use lagrange_core::arithmetic::Dual;
+/// use lagrange_core::prelude::*;
+///
+/// #[derive(Lagrangian, Clone, Debug)]
+/// #[lagrange(
+///     coordinates(y),
+///     kinetic = der(y)^2 / 2,
+///     potential = gravity * y,
+///     contact(floor: y >= 0, restitution = bounce),
+///     start(drop: y = height),
+/// )]
+/// struct Ball<T = f64> {
+///     gravity: T,
+///     bounce: T,
+///     height: T,
+/// }
+///
+/// let ball: Ball<Dual<f64, 2>> = Ball {
+///     gravity: Dual::constant(9.81),
+///     bounce: Dual::variable(0.8, 0),
+///     height: Dual::variable(1.0, 1),
+/// };
+/// let start = ball.at(<Ball>::DROP);
+/// let trajectory = Simulation::new(&ball).run(start, 0.0..1.5).expect("runs");
+/// // The second impact: t = √(2h/g) (1 + 2e).
+/// let time = trajectory.events()[1].time;
+/// let fall = (2.0 / 9.81_f64).sqrt();
+/// assert!((time.value - 2.6 * fall).abs() < 1e-9);
+/// assert!((time.derivative[0] - 2.0 * fall).abs() < 1e-9);
+/// assert!((time.derivative[1] - 1.3 * fall).abs() < 1e-9);
+/// ```
+///
+/// The derivative of a state at an event, or at a stop that ends a run, is that of the state at an instant which itself moves;
+/// between events and at the end of the span it is that at a fixed time ([`Sampler::at`](crate::trajectory::Sampler::at)).
+/// Steps are chosen for values only; derivatives are about as exact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dual<T, const N: usize> {
     /// The number itself.

@@ -12,6 +12,8 @@ mod direct;
 mod dual;
 mod expansion;
 mod instruction;
+#[cfg(feature = "num-dual")]
+mod num_dual;
 mod program;
 mod record;
 mod scalar;

@@ -13,6 +13,7 @@ mod ledgers;
 mod random;
 mod recording;
 mod runner;
+mod sensitivity;
 mod stability;
 mod steppers;
 mod switches;
