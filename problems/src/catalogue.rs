@@ -4,6 +4,8 @@
 use crate::accuracy::{self, Accuracy, Course, Study};
 use crate::closed_form::ClosedForm;
 use crate::cost::{self, Costs};
+use crate::drawing::Drawing;
+use crate::film::{self, Film};
 use crate::outcome::Outcome;
 use crate::request::{Refusal, Request};
 use crate::scenes::hard::*;
@@ -18,33 +20,40 @@ use lagrange_core::system::Description;
 pub static SCENES: &[&dyn Scene] = &[
     &Entry::<MassOnShell>::new("mass-on-shell", 20.0)
         .known(MassOnShell::closed_form)
+        .drawn(MassOnShell::drawing)
         .results(&[
             ("leave angle", "theta at shell lost"),
             ("leave time", "t at shell lost"),
         ]),
     &Entry::<RollingSphere>::new("rolling-sphere", 20.0)
         .known(RollingSphere::closed_form)
+        .drawn(RollingSphere::drawing)
         .results(&[
             ("leave angle", "theta at shell lost"),
             ("leave time", "t at shell lost"),
         ]),
-    &Entry::<RollingSlippingSphere>::new("rolling-slipping-sphere", 20.0).results(&[
-        ("leave angle", "theta at shell lost"),
-        ("leave time", "t at shell lost"),
-        ("slip angle", "theta at grip slips"),
-    ]),
-    &Entry::<MassOnWheel>::new("mass-on-wheel", 20.0).results(&[
-        ("leave angle", "theta at rim lost"),
-        ("leave time", "t at rim lost"),
-        ("slip angle", "theta at grip slips"),
-    ]),
-    &Entry::<SphereInBowl>::new("sphere-in-bowl", 10.0),
-    &Entry::<DoublePendulum>::new("double-pendulum", 5.0),
+    &Entry::<RollingSlippingSphere>::new("rolling-slipping-sphere", 20.0)
+        .drawn(RollingSlippingSphere::drawing)
+        .results(&[
+            ("leave angle", "theta at shell lost"),
+            ("leave time", "t at shell lost"),
+            ("slip angle", "theta at grip slips"),
+        ]),
+    &Entry::<MassOnWheel>::new("mass-on-wheel", 20.0)
+        .drawn(MassOnWheel::drawing)
+        .results(&[
+            ("leave angle", "theta at rim lost"),
+            ("leave time", "t at rim lost"),
+            ("slip angle", "theta at grip slips"),
+        ]),
+    &Entry::<SphereInBowl>::new("sphere-in-bowl", 10.0).drawn(SphereInBowl::drawing),
+    &Entry::<DoublePendulum>::new("double-pendulum", 5.0).drawn(DoublePendulum::drawing),
     &Entry::<FiveLinkChain>::new("five-link-chain", 2.0),
     &Entry::<Chain20>::new("chain", 2.0),
     &Entry::<Net>::new("net", 2.0),
     &Entry::<CartesianPendulum>::new("cartesian-pendulum", 100.0)
-        .known(CartesianPendulum::closed_form),
+        .known(CartesianPendulum::closed_form)
+        .drawn(CartesianPendulum::drawing),
     &Entry::<Kepler>::new("kepler", 200.0 * PI).known(Kepler::closed_form),
     &Entry::<StiffSpringPendulum>::new("stiff-spring-pendulum", 10.0),
 ];
@@ -110,6 +119,12 @@ pub trait Scene: Sync {
     /// sense, or a start that does not exist, is refused.
     fn run(&self, request: &Request) -> Result<Outcome, Refusal>;
 
+    /// Runs it to be looked at: [`Scene::run`] with pictures.
+    ///
+    /// # Errors
+    /// As for a run.
+    fn film(&self, request: &Request) -> Result<Film, Refusal>;
+
     /// Measures what accuracy costs.
     ///
     /// # Errors
@@ -149,12 +164,16 @@ pub struct Entry<S> {
     name: &'static str,
     until: f64,
     closed_form: Option<Solution<S>>,
+    drawing: Option<Picture<S>>,
     results: &'static [(&'static str, &'static str)],
     system: PhantomData<fn() -> S>,
 }
 
 /// Where the motion from a start at time 0 to a last time ends, if that is known in closed form.
 pub type Solution<S> = fn(&S, &State<f64>, f64) -> Option<ClosedForm>;
+
+/// How a system is drawn at a time, s, and positions.
+pub type Picture<S> = fn(&S, f64, &[f64]) -> Drawing;
 
 impl<S> Entry<S> {
     /// A scene called `name` that runs for `until` seconds unless asked otherwise.
@@ -163,6 +182,7 @@ impl<S> Entry<S> {
             name,
             until,
             closed_form: None,
+            drawing: None,
             results: &[],
             system: PhantomData,
         }
@@ -173,12 +193,37 @@ impl<S> Entry<S> {
         Self { results, ..self }
     }
 
+    /// The same with pictures, for [`Scene::film`].
+    pub const fn drawn(self, drawing: Picture<S>) -> Self {
+        Self {
+            drawing: Some(drawing),
+            ..self
+        }
+    }
+
     /// The same with a closed form, for [`Scene::accuracy`] to measure errors against.
     pub const fn known(self, closed_form: Solution<S>) -> Self {
         Self {
             closed_form: Some(closed_form),
             ..self
         }
+    }
+}
+
+impl<S: System<Scalar = f64> + Default> Entry<S> {
+    /// The motion as asked for, and why it ended early if it did.
+    fn trajectory(
+        &self,
+        system: &S,
+        request: &Request,
+    ) -> Result<(Trajectory<S>, Option<Error>), Refusal> {
+        let simulation = request.simulation(system)?;
+        let start = request.start(system, &simulation)?;
+        let until = request.until.unwrap_or(self.until);
+        Ok(match simulation.run(start, 0.0..until) {
+            Ok(trajectory) => (trajectory, None),
+            Err(stopped) => (*stopped.trajectory, Some(stopped.error)),
+        })
     }
 }
 
@@ -208,13 +253,7 @@ impl<S: System<Scalar = f64> + Default + Send + 'static> Scene for Entry<S> {
 
     fn run(&self, request: &Request) -> Result<Outcome, Refusal> {
         let system: S = request.system()?;
-        let simulation = request.simulation(&system)?;
-        let start = request.start(&system, &simulation)?;
-        let until = request.until.unwrap_or(self.until);
-        let (trajectory, failure) = match simulation.run(start, 0.0..until) {
-            Ok(trajectory) => (trajectory, None),
-            Err(stopped) => (*stopped.trajectory, Some(stopped.error)),
-        };
+        let (trajectory, failure) = self.trajectory(&system, request)?;
         Ok(Outcome::new(
             self.name,
             &trajectory,
@@ -222,6 +261,23 @@ impl<S: System<Scalar = f64> + Default + Send + 'static> Scene for Entry<S> {
             request.samples,
             request.ledger,
         ))
+    }
+
+    fn film(&self, request: &Request) -> Result<Film, Refusal> {
+        let system: S = request.system()?;
+        let (trajectory, failure) = self.trajectory(&system, request)?;
+        let outcome = Outcome::new(self.name, &trajectory, failure, request.samples);
+        let draw = |drawing: Picture<S>| {
+            let samples = outcome.samples.iter();
+            samples
+                .map(|sample| drawing(&system, sample.time, &sample.state.q))
+                .collect()
+        };
+        Ok(Film {
+            drawings: self.drawing.map(draw).unwrap_or_default(),
+            books: film::books(&trajectory),
+            outcome,
+        })
     }
 
     fn costs(&self, request: &Request) -> Result<Costs, Refusal> {

@@ -7,6 +7,8 @@ pub mod accuracy;
 pub mod catalogue;
 pub mod closed_form;
 pub mod cost;
+pub mod drawing;
+pub mod film;
 pub mod names;
 pub mod outcome;
 pub mod reference;

@@ -9,6 +9,7 @@ mod effects;
 mod inspect;
 mod list;
 mod output;
+mod report;
 mod run;
 mod stability;
 mod sweep;
@@ -33,6 +34,7 @@ enum Command {
     List(list::List),
     Inspect(inspect::Inspect),
     Run(run::Run),
+    Report(report::Report),
     Accuracy(accuracy::Measure),
     Effects(effects::Effects),
     Stability(stability::Stability),
@@ -82,6 +84,7 @@ pub(crate) fn main() -> ExitCode {
         Command::List(list) => list.execute(),
         Command::Inspect(inspect) => inspect.execute(),
         Command::Run(run) => run.execute(),
+        Command::Report(report) => report.execute(),
         Command::Accuracy(accuracy) => accuracy.execute(),
         Command::Effects(effects) => effects.execute(),
         Command::Stability(stability) => stability.execute(),

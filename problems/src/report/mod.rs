@@ -4,6 +4,7 @@
 pub mod accuracy;
 pub mod cost;
 pub mod csv;
+pub mod html;
 pub mod json;
 pub mod plot;
 pub mod stability;

@@ -1,5 +1,6 @@
 //! Two rods, one hung from the other: smooth, and chaotic.
 
+use crate::drawing::{Drawing, Shape, from_bottom};
 use lagrange_core::prelude::*;
 
 /// A double pendulum swings in a plane: two point masses on massless rods.
@@ -58,5 +59,19 @@ impl Default for DoublePendulum {
             upper_angle: 2.0,
             lower_angle: 2.5,
         }
+    }
+}
+
+impl DoublePendulum {
+    /// The rods, the masses and the path of the lower one.
+    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
+        let upper = from_bottom([0.0; 2], self.upper_length, q[0]);
+        let lower = from_bottom(upper, self.lower_length, q[1]);
+        Drawing::of([
+            Shape::Trace(lower),
+            Shape::Rod(vec![[0.0; 2], upper, lower]),
+            Shape::Mass(upper),
+            Shape::Mass(lower),
+        ])
     }
 }

@@ -1,6 +1,7 @@
 //! Where does a mass that slides down a smooth sphere leave it?
 
 use crate::closed_form::{ClosedForm, slide};
+use crate::drawing::{Drawing, Shape, from_top};
 use lagrange_core::prelude::*;
 
 /// A point mass slides without friction down a fixed spherical shell, leaves it and falls.
@@ -82,5 +83,20 @@ impl MassOnShell {
             v: vec![land.rising, land.turning],
         };
         slide::landing(&moments, until, "shell lost", state)
+    }
+}
+
+impl MassOnShell {
+    /// The shell, the mass and its path.
+    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
+        let (r, theta) = (q[0], q[1]);
+        let mass = from_top([0.0; 2], r, theta);
+        Drawing::of([
+            Shape::Floor(-self.radius),
+            Shape::Shell([0.0; 2], self.radius),
+            Shape::Trace(mass),
+            Shape::Mass(mass),
+        ])
+        .force("shell", mass, [theta.sin(), theta.cos()])
     }
 }

@@ -1,5 +1,6 @@
 //! A mass rides on a wheel that is free to roll away under it.
 
+use crate::drawing::{Drawing, Shape, from_top};
 use lagrange_core::prelude::*;
 
 /// A small mass carried up and thrown off by the rim of a rolling wheel.
@@ -78,5 +79,23 @@ impl Default for MassOnWheel {
             mu_kinetic: 0.5,
             start_angle: 0.05,
         }
+    }
+}
+
+impl MassOnWheel {
+    /// The floor, the wheel, the mass and its path.
+    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
+        let (x, phi, r, theta) = (q[0], q[1], q[2], q[3]);
+        let centre = [x, 0.0];
+        let mass = from_top(centre, r, theta);
+        Drawing::of([
+            Shape::Floor(-self.radius),
+            Shape::Disc(centre, self.radius, phi),
+            Shape::Trace(mass),
+            Shape::Mass(mass),
+        ])
+        .force("rolling", [x, -self.radius], [1.0, 0.0])
+        .force("rim", mass, [theta.sin(), theta.cos()])
+        .force("grip", mass, [theta.cos(), -theta.sin()])
     }
 }

@@ -1,5 +1,6 @@
 //! A ball inside a hollow sphere: swings, slips, goes round, or falls off on the way.
 
+use crate::drawing::{Drawing, Shape, from_bottom};
 use lagrange_core::prelude::*;
 
 /// A solid sphere moves inside a fixed hollow sphere, in a vertical plane.
@@ -86,5 +87,21 @@ impl Default for SphereInBowl {
             start_angle: 1.2,
             start_speed: 6.0,
         }
+    }
+}
+
+impl SphereInBowl {
+    /// The bowl, the sphere and the path of its centre.
+    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
+        let (r, theta, phi) = (q[0], q[1], q[2]);
+        let centre = from_bottom([0.0; 2], r, theta);
+        let touching = from_bottom([0.0; 2], r + self.sphere_radius, theta);
+        Drawing::of([
+            Shape::Bowl([0.0; 2], self.radius),
+            Shape::Trace(centre),
+            Shape::Disc(centre, self.sphere_radius, -phi),
+        ])
+        .force("bowl", touching, [-theta.sin(), theta.cos()])
+        .force("grip", touching, [theta.cos(), theta.sin()])
     }
 }

@@ -1,0 +1,89 @@
+//! `lagrange report`: runs as a page to look at.
+
+use super::Trouble;
+use super::course::{Course, scene};
+use super::output::{patiently, to_file};
+use super::values::positive;
+use clap::Args;
+use lagrange_core::prelude::{Impacts, Method};
+use lagrange_problems::catalogue::Scene;
+use lagrange_problems::report::html::{self, Shown};
+use lagrange_problems::request::Request;
+use std::path::PathBuf;
+
+/// Run scenes and write a page that shows them: animation, forces and their limits, energy, events, equations. The page is one
+/// file and needs no network.
+#[derive(Args)]
+#[command(after_help = "Examples:
+  lagrange report mass-on-wheel --output wheel.html
+  lagrange report mass-on-wheel sticky.toml --output both.html     two runs side by side, on one clock")]
+pub(super) struct Report {
+    /// Scenes and scene files (….toml); `lagrange list` shows the scenes.
+    #[arg(required = true, value_name = "SCENE")]
+    scenes: Vec<String>,
+    #[command(flatten)]
+    course: Course,
+    /// Tolerance of the integration, relative and absolute [default: 1e-9].
+    #[arg(long, value_name = "X", value_parser = positive, allow_hyphen_values = true)]
+    tolerance: Option<f64>,
+    /// Method of integration [default: taylor].
+    #[arg(long, value_name = "M")]
+    method: Option<Method>,
+    /// Move a start that violates a constraint onto it instead of refusing it.
+    #[arg(long)]
+    project: bool,
+    /// How impacts at one instant are solved, instead of as the scene declares: `together` or `in_turn`.
+    #[arg(long, value_name = "HOW")]
+    impacts: Option<Impacts>,
+    /// The page to write.
+    #[arg(long, value_name = "FILE.html", default_value = "report.html")]
+    output: PathBuf,
+}
+
+impl Report {
+    pub(super) fn execute(self) -> Result<(), Trouble> {
+        let runs: Vec<Shown> = self
+            .scenes
+            .iter()
+            .map(|name| self.shown(name))
+            .collect::<Result<_, _>>()?;
+        to_file(&self.output, |out| html::write(&runs, out))?;
+        let failed = runs.into_iter().find_map(|run| run.film.outcome.failure);
+        failed.map_or(Ok(()), |error| Err(Trouble::failed(error)))
+    }
+
+    fn shown(&self, name: &str) -> Result<Shown, Trouble> {
+        let file = scene(name)?;
+        let request = self.course.request(Request {
+            tolerance: self.tolerance.unwrap_or(file.request.tolerance),
+            method: self.method.unwrap_or(file.request.method),
+            project: self.project || file.request.project,
+            impacts: self.impacts.or(file.request.impacts),
+            ..file.request
+        });
+        let request = Request {
+            samples: html::intervals(file.scene, &request),
+            ..request
+        };
+        let film = patiently(&format!("running {name}"), || file.scene.film(&request))
+            .map_err(Trouble::refused)?;
+        Ok(Shown {
+            title: title(name, file.scene),
+            film,
+            derivation: file.scene.derivation(),
+            tolerance: request.tolerance,
+            method: request.method,
+        })
+    }
+}
+
+/// The scene, or the scene and the name of the file that describes the run.
+fn title(name: &str, scene: &dyn Scene) -> String {
+    match name.strip_suffix(".toml") {
+        Some(path) => {
+            let stem = path.rsplit(['/', '\\']).next().unwrap_or(path);
+            format!("{} ({stem})", scene.name())
+        }
+        None => name.to_owned(),
+    }
+}

@@ -1,0 +1,27 @@
+//! A run with all that is needed to show it move: pictures of every sample and the energy book at some of them.
+
+use crate::drawing::Drawing;
+use crate::outcome::Outcome;
+use lagrange_core::prelude::*;
+
+/// A run to be looked at.
+pub struct Film {
+    /// What happened.
+    pub outcome: Outcome,
+    /// One for every sample of the outcome; none if the scene does not say how it is drawn.
+    pub drawings: Vec<Drawing>,
+    /// Time, s, and the energy book from the beginning to it; empty if it could not be drawn up.
+    pub books: Vec<(f64, Ledger)>,
+}
+
+/// Intervals at which the energy book is opened.
+const BOOKS: usize = 120;
+
+/// The energy book at equal intervals.
+pub(crate) fn books(trajectory: &Record<f64>) -> Vec<(f64, Ledger)> {
+    let (first, last) = (trajectory.first_time(), trajectory.last_time());
+    let part = |k: usize| first + (last - first) * k as f64 / BOOKS as f64;
+    let times: Vec<f64> = (0..BOOKS).map(part).chain([last]).collect();
+    let ledgers = trajectory.ledgers(&times).unwrap_or_default();
+    times.into_iter().zip(ledgers).collect()
+}

@@ -1,0 +1,100 @@
+//! Films → one HTML page that needs nothing else: pictures that move, plots, tables and equations of one run or several.
+//!
+//! Tables and equations are written here; what moves is drawn by the script from the numbers that the page carries.
+
+mod data;
+mod tables;
+
+use crate::catalogue::Scene;
+use crate::film::Film;
+use crate::request::Request;
+use data::data;
+use lagrange_core::prelude::*;
+use lagrange_engine::inspect::print::mathml::escaped;
+use std::io::{self, Write};
+
+/// A run and what the page says about it beside its film.
+pub struct Shown {
+    /// Title of the run.
+    pub title: String,
+    /// The film.
+    pub film: Film,
+    /// What was derived for the scene.
+    pub derivation: &'static Derivation,
+    /// Tolerance of the integration.
+    pub tolerance: f64,
+    /// Method of integration.
+    pub method: Method,
+}
+
+const PAGE: &str = include_str!("page.html");
+const STYLE: &str = include_str!("style.css");
+const SCRIPTS: [&str; 3] = [
+    include_str!("picture.js"),
+    include_str!("plots.js"),
+    include_str!("player.js"),
+];
+
+/// At how many intervals a page shows a run: thirty a second, as far as its size allows.
+pub fn intervals(scene: &dyn Scene, request: &Request) -> usize {
+    const PER_SECOND: f64 = 30.0;
+    /// Numbers that a page may carry for one run; each takes about nine bytes.
+    const NUMBERS: usize = 60_000;
+    let description = scene.description();
+    let per_sample = 10 + 6 * description.coordinates.len() + 3 * description.rows.len();
+    let most = (NUMBERS / per_sample).clamp(100, 3000);
+    let until = request.until.unwrap_or(scene.until());
+    ((PER_SECOND * until) as usize).clamp(most.min(400), most)
+}
+
+/// Writes the page.
+pub fn write(runs: &[Shown], mut out: impl Write) -> io::Result<()> {
+    let numbers = data(runs.iter().map(|run| (run.title.as_str(), &run.film)));
+    // A script ends at the first `</`, whatever it is in.
+    let numbers = serde_json::to_string(&numbers)
+        .map_err(io::Error::from)?
+        .replace('<', "\\u003c");
+    let titles: Vec<&str> = runs.iter().map(|run| run.title.as_str()).collect();
+    let sections: String = runs.iter().enumerate().map(section).collect();
+    let parts = [
+        ("title", escaped(&titles.join(", "))),
+        ("version", env!("CARGO_PKG_VERSION").to_owned()),
+        ("style", STYLE.to_owned()),
+        ("runs", sections),
+        ("numbers", numbers),
+        ("script", SCRIPTS.concat()),
+    ];
+    let mut rest = PAGE;
+    while let Some((before, after)) = rest.split_once("{{") {
+        let (name, after) = after.split_once("}}").unwrap_or((after, ""));
+        let part = parts.iter().find(|(part, _)| *part == name);
+        out.write_all(before.as_bytes())?;
+        out.write_all(part.map_or("", |(_, text)| text).as_bytes())?;
+        rest = after;
+    }
+    out.write_all(rest.as_bytes())
+}
+
+/// All about one run; the script finds its places by their class.
+fn section((index, run): (usize, &Shown)) -> String {
+    let id = format!("run{index}");
+    let title = escaped(&run.title);
+    let summary = run.film.outcome.description.documentation.trim();
+    let summary = escaped(summary.lines().next().unwrap_or_default().trim());
+    let failure = match &run.film.outcome.failure {
+        Some(error) => format!(
+            "<p class=\"failure\"><strong>The run failed:</strong> {}</p>\n",
+            escaped(&error.to_string())
+        ),
+        None => String::new(),
+    };
+    let equations = run.derivation.equations;
+    let tables = tables::tables(run);
+    format!(
+        "<section class=\"run\" aria-labelledby=\"{id}\">\n<h2 id=\"{id}\">{title}</h2>\n<p>{summary}</p>\n{failure}\
+         <div class=\"stage\"></div>\n<p class=\"mode\"></p>\n<div class=\"timeline\"></div>\n<div class=\"plots\"></div>\n\
+         {tables}<h3>Equations of motion</h3>\n\
+         <div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"Equations of motion of {title}\">{equations}</div>\n\
+         </section>\n"
+    )
+}

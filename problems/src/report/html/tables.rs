@@ -1,0 +1,209 @@
+//! What a page says in tables: events, parameters, energy and accuracy.
+
+use super::Shown;
+use crate::outcome::{Force, forces};
+use crate::report::{is_angle, symbol};
+use lagrange_core::prelude::*;
+use lagrange_engine::inspect::print::mathml::escaped;
+
+/// More events than this are left out.
+const EVENTS: usize = 200;
+
+pub(super) fn tables(run: &Shown) -> String {
+    [events(run), parameters(run), energy(run), accuracy(run)].concat()
+}
+
+/// A table that scrolls by itself on narrow screens.
+fn table(run: &Shown, caption: &str, head: &[String], rows: &[Vec<String>]) -> String {
+    let cells = |tag: &str, row: &[String]| -> String {
+        let cell = |(i, text): (usize, &String)| match (tag, i) {
+            ("td", 0) => format!("<th scope=\"row\">{text}</th>"),
+            ("td", _) => format!("<td>{text}</td>"),
+            _ => format!("<th scope=\"col\">{text}</th>"),
+        };
+        format!(
+            "<tr>{}</tr>\n",
+            row.iter().enumerate().map(cell).collect::<String>()
+        )
+    };
+    let head = match head {
+        [] => String::new(),
+        head => format!("<thead>{}</thead>\n", cells("th", head)),
+    };
+    let body: String = rows.iter().map(|row| cells("td", row)).collect();
+    let label = format!("{caption} of {}", escaped(&run.title));
+    format!(
+        "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"{label}\">\n<table>\n\
+         <caption>{caption}</caption>\n{head}<tbody>\n{body}</tbody>\n</table>\n</div>\n"
+    )
+}
+
+fn events(run: &Shown) -> String {
+    let outcome = &run.film.outcome;
+    let description = outcome.description;
+    if outcome.events.is_empty() {
+        return "<p>No events.</p>\n".to_owned();
+    }
+    let named = |name: &str, unit: &str| match unit {
+        "" => escaped(name),
+        unit => format!("{} [{}]", escaped(name), escaped(unit)),
+    };
+    let all = forces(description);
+    let coordinates = &description.coordinates[..description.coordinates.len().min(8)];
+    let all = &all[..all.len().min(8)];
+    let mut head: Vec<String> = ["t [s]", "event", "mode after"].map(str::to_owned).into();
+    head.extend(coordinates.iter().map(|c| match is_angle(c) {
+        true => format!("{} [°]", symbol(c.name)),
+        false => named(&symbol(c.name), c.unit),
+    }));
+    head.extend(
+        all.iter()
+            .map(|force| named(&force.name, description.units.row(force.row))),
+    );
+    let row = |event: &Event<f64>| {
+        let mut row = vec![
+            number(event.time),
+            escaped(&format!(
+                "{} {}",
+                event.subject.name(description),
+                event.kind
+            )),
+            escaped(&event.after.display(description).to_string()),
+        ];
+        row.extend(coordinates.iter().zip(&event.state.q).map(|(c, q)| {
+            number(match is_angle(c) {
+                true => q.to_degrees(),
+                false => *q,
+            })
+        }));
+        let acts = |force: &Force| force.acts(description, &event.before);
+        row.extend(all.iter().map(|force| match acts(force) {
+            true => number(event.forces[force.row]),
+            false => "–".to_owned(),
+        }));
+        row
+    };
+    let rows: Vec<Vec<String>> = outcome.events.iter().take(EVENTS).map(row).collect();
+    let left = outcome.events.len().saturating_sub(EVENTS);
+    let note = match left {
+        0 => "State and forces just before each event.".to_owned(),
+        left => {
+            format!("State and forces just before each event; {left} more events are left out.")
+        }
+    };
+    table(run, "Events", &head, &rows) + &format!("<p class=\"note\">{note}</p>\n")
+}
+
+fn parameters(run: &Shown) -> String {
+    let outcome = &run.film.outcome;
+    let list = outcome.description.parameters.iter();
+    let row = |(parameter, value): (&lagrange_core::system::Parameter, &f64)| {
+        let text = parameter.documentation.trim().lines().next();
+        vec![
+            escaped(parameter.name),
+            value.to_string(),
+            escaped(parameter.unit),
+            escaped(text.unwrap_or_default().trim()),
+        ]
+    };
+    let rows: Vec<Vec<String>> = list.zip(&outcome.parameters).map(row).collect();
+    let head = ["name", "value", "unit", "meaning"].map(str::to_owned);
+    match rows.is_empty() {
+        true => String::new(),
+        false => table(run, "Parameters", &head, &rows),
+    }
+}
+
+fn energy(run: &Shown) -> String {
+    let Some(ledger) = &run.film.outcome.ledger else {
+        return String::new();
+    };
+    let unit = run.film.outcome.description.units.energy;
+    let unit = match unit {
+        "" => String::new(),
+        unit => format!(" [{}]", escaped(unit)),
+    };
+    let line = |name: &str, value: f64| vec![escaped(name), number(value)];
+    let mut rows = vec![
+        line("kinetic, at the start", ledger.start.kinetic),
+        line("potential, at the start", ledger.start.potential),
+    ];
+    let work = ledger
+        .work
+        .iter()
+        .filter(|e| e.work.abs() > 1e-12 * ledger.scale);
+    rows.extend(work.map(|e| line(&format!("work of {} ({})", e.name, e.kind), e.work)));
+    rows.extend([
+        line("kinetic, at the end", ledger.end.kinetic),
+        line("potential, at the end", ledger.end.potential),
+        line("closure: what is left unexplained", ledger.closure),
+    ]);
+    table(
+        run,
+        "Energy",
+        &["what".to_owned(), format!("value{unit}")],
+        &rows,
+    )
+}
+
+fn accuracy(run: &Shown) -> String {
+    let outcome = &run.film.outcome;
+    let work = outcome.work;
+    let line = |name: &str, value: String| vec![name.to_owned(), value];
+    let mut rows = vec![
+        line("scene", escaped(outcome.scene)),
+        line("program", format!("lagrange {}", env!("CARGO_PKG_VERSION"))),
+        line("method", escaped(&run.method.to_string())),
+        line(
+            "tolerance, relative and absolute",
+            format!("{:e}", run.tolerance),
+        ),
+    ];
+    if let Some(ledger) = &outcome.ledger {
+        let relative = ledger.closure.abs() / ledger.scale.max(f64::MIN_POSITIVE);
+        rows.push(line(
+            "energy book closes to",
+            format!("{relative:.1e} of its scale"),
+        ));
+    }
+    rows.extend([
+        line(
+            "steps",
+            format!("{} ({} rejected)", work.steps, work.rejected),
+        ),
+        line("evaluations of the equations", work.evaluations.to_string()),
+        line("Taylor series", work.series.to_string()),
+        line("factorizations", work.factorizations.to_string()),
+    ]);
+    let left_out = outcome.left_out();
+    if !left_out.is_empty() {
+        rows.push(line("left out", escaped(&left_out.join(", "))));
+    }
+    let open = outcome.undetermined();
+    if !open.is_empty() {
+        rows.push(line(
+            "forces that are not determined",
+            escaped(&open.join(", ")),
+        ));
+    }
+    table(
+        run,
+        "Accuracy and work",
+        &["what".to_owned(), "value".to_owned()],
+        &rows,
+    )
+}
+
+/// Six digits.
+fn number(x: f64) -> String {
+    let size = x.abs();
+    let text = match size {
+        0.0 => return "0".to_owned(),
+        s if !(1e-4..1e6).contains(&s) => return format!("{x:.3e}").replace('-', "−"),
+        s => {
+            let decimals = (5 - s.log10().floor() as i32).max(0) as usize;
+            format!("{x:.decimals$}")
+        }
+    };
+    text.replace('-', "−")
+}
