@@ -60,6 +60,19 @@ impl Drawing {
         }
     }
 
+    /// Links of one length hung from the origin, at angles from the downward vertical; with the path of the end.
+    pub fn chain(length: f64, angles: &[f64]) -> Self {
+        let mut joints = vec![[0.0; 2]];
+        for angle in angles {
+            let last = joints[joints.len() - 1];
+            joints.push(from_bottom(last, length, *angle));
+        }
+        let masses = joints[1..].iter().copied().map(Shape::Mass);
+        let trace = Shape::Trace(joints[joints.len() - 1]);
+        let links = Shape::Rod(joints.clone());
+        Self::of([trace, links].into_iter().chain(masses))
+    }
+
     /// The same with an arrow for the force of an item.
     #[must_use]
     pub fn force(mut self, force: &'static str, at: Point, along: Point) -> Self {
@@ -69,6 +82,12 @@ impl Drawing {
 }
 
 impl Shape {
+    /// A wedge that ends in a point.
+    pub fn support(tip: Point, height: f64) -> Self {
+        let (half, low) = (0.4 * height, tip[1] - height);
+        Shape::Fixed(vec![tip, [tip[0] + half, low], [tip[0] - half, low]])
+    }
+
     /// One word.
     pub fn kind(&self) -> &'static str {
         match self {

@@ -1,5 +1,6 @@
 //! Long hanging chains: one declaration, three lengths.
 
+use crate::drawing::Drawing;
 use lagrange_core::prelude::*;
 
 /// A chain of so many links.
@@ -35,6 +36,13 @@ macro_rules! chain {
             pub start_angle: T,
             /// By how much each link is turned against the one above at the start, rad.
             pub turn: T,
+        }
+
+        impl $name {
+            /// The links, and the path of the end.
+            pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
+                Drawing::chain(self.length, q)
+            }
         }
 
         impl Default for $name {

@@ -1,5 +1,6 @@
 //! A hanging chain, written once for any number of links.
 
+use crate::drawing::Drawing;
 use lagrange_core::prelude::*;
 
 /// A chain of five links swings in a plane: point masses at the ends of massless rods.
@@ -43,5 +44,12 @@ impl Default for FiveLinkChain {
             gravity: 9.81,
             start_angle: [0.5, 0.7, 0.9, 1.1, 1.3],
         }
+    }
+}
+
+impl FiveLinkChain {
+    /// The links, and the path of the end.
+    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
+        Drawing::chain(self.length, q)
     }
 }

@@ -1,6 +1,7 @@
 //! A planet on an eccentric orbit.
 
 use crate::closed_form::{ClosedForm, orbit};
+use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// A body of unit mass orbits a fixed centre that attracts it with μ/r².
@@ -47,5 +48,17 @@ impl Kepler {
     /// The state at time `until` by Kepler's equation; none for orbits that do not close.
     pub fn closed_form(&self, start: &State<f64>, until: f64) -> Option<ClosedForm> {
         orbit::elliptic(self.attraction, start, until)
+    }
+}
+
+impl Kepler {
+    /// The centre, the planet and its path.
+    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
+        let planet = [q[0], q[1]];
+        Drawing::of([
+            Shape::Shell([0.0; 2], 0.05 * self.semi_major_axis),
+            Shape::Trace(planet),
+            Shape::Mass(planet),
+        ])
     }
 }

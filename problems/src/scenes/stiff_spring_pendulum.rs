@@ -1,5 +1,6 @@
 //! A pendulum whose rod is a very stiff spring: two time scales.
 
+use crate::drawing::{Drawing, Shape, from_bottom};
 use lagrange_core::prelude::*;
 
 /// A point mass swings on a spring so stiff that it is almost a rod.
@@ -49,5 +50,17 @@ impl Default for StiffSpringPendulum {
             stiffness: 1e6,
             start_angle: 1.0,
         }
+    }
+}
+
+impl StiffSpringPendulum {
+    /// The spring, the mass and its path.
+    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
+        let mass = from_bottom([0.0; 2], q[0], q[1]);
+        Drawing::of([
+            Shape::Trace(mass),
+            Shape::Spring([0.0; 2], mass),
+            Shape::Mass(mass),
+        ])
     }
 }

@@ -50,8 +50,19 @@ function picture(stage, run) {
   const { frame, shapes, arrows } = run.picture;
   let [left, right, low, high] = frame;
   const size = Math.max(right - left, high - low, 1e-9);
+  // All arrows have one scale: nearly the largest force is a fifth of the picture.
+  const forces = arrows.map(({ numbers }) => run.time.map((_, i) => numbers.map((column) => at(column, [i, 0]))));
+  const strong = forces.flat().map(([, , fx, fy]) => Math.hypot(fx, fy)).filter((f) => f > 0).sort((a, b) => a - b);
+  const largest = strong[Math.floor(0.95 * strong.length)] || 1;
+  const reach = (force) => (Math.min(force / largest, 1.2) * 0.2 * size) / (force || 1);
+  for (const [x, y, fx, fy] of forces.flat()) {
+    const length = reach(Math.hypot(fx, fy));
+    [left, right] = [Math.min(left, x + fx * length), Math.max(right, x + fx * length)];
+    [low, high] = [Math.min(low, y + fy * length), Math.max(high, y + fy * length)];
+  }
+
   const grow = (from, to, least) => {
-    const more = Math.max(0, (least - (to - from)) / 2) + 0.1 * size;
+    const more = Math.max(0, (least - (to - from)) / 2) + 0.06 * size;
     return [from - more, to + more];
   };
   [left, right] = grow(left, right, 0.5 * size);
@@ -65,7 +76,7 @@ function picture(stage, run) {
 
   const kinds = {
     floor() {
-      const box = svg("rect", { class: "ground", x: -10, width: 1020, height: height + 10 }, root);
+      const box = svg("rect", { class: "ground", x: -3000, width: 7000, height: height + 10 }, root);
       return ([y]) => box.setAttribute("y", Y(y));
     },
     fixed() {
@@ -127,15 +138,12 @@ function picture(stage, run) {
   svg("line", { class: "ruler", x1: 20, x2: 20 + long * scale, y1: height - 18, y2: height - 18 }, root);
   svg("text", { x: 20, y: height - 28 }, root).textContent = `${digits(long)} m`;
 
-  // All arrows have one scale: nearly the largest force is a fifth of the picture.
-  const sizes = arrows.flatMap(({ numbers: [, , fx, fy] }) => run.time.map((_, i) => Math.hypot(at(fx, [i, 0]), at(fy, [i, 0]))));
-  const strong = sizes.filter((f) => f > 0).sort((a, b) => a - b);
-  const largest = strong[Math.floor(0.95 * strong.length)] || 1;
   const legend = html("ul", { class: "legend" }, arrows.length ? stage : null);
+  const pushes = svg("g", {}, root);
   const pointed = arrows.map((arrow, i) => {
     const colour = `var(--c${i % 6})`;
-    const group = svg("g", {}, root);
-    const shaft = svg("line", { class: "shaft", style: `stroke: ${colour}; stroke-width: 3` }, group);
+    const group = svg("g", {}, pushes);
+    const shaft = svg("line", { style: `stroke: ${colour}; stroke-width: 3` }, group);
     const head = svg("polygon", { style: `fill: ${colour}` }, group);
     const label = svg("text", { style: `fill: ${colour}` }, group);
     label.textContent = arrow.name;
@@ -144,7 +152,7 @@ function picture(stage, run) {
       const [x, y, fx, fy] = arrow.numbers.map((column) => at(column, where));
       const force = Math.hypot(fx, fy);
       value.textContent = `${digits(force)} ${arrow.unit}`;
-      const length = Math.min(force / largest, 2) * 0.2 * unit;
+      const length = reach(force) * force * scale;
       group.style.display = length < 2 ? "none" : "";
       if (length < 2) return;
       const [ux, uy] = [fx / force, -fy / force], x1 = X(x), y1 = Y(y), tip = Math.min(14, 0.5 * length);
@@ -156,11 +164,10 @@ function picture(stage, run) {
     };
   });
 
-  return (where, forces) => {
+  return (where, pushing) => {
     for (const [columns, show] of drawn) show(columns.map((column) => at(column, where)), where);
     for (const show of pointed) show(where);
-    root.classList.toggle("plain", !forces);
-    root.querySelectorAll("g:has(.shaft)").forEach((group) => { group.style.visibility = forces ? "" : "hidden"; });
+    pushes.style.display = pushing ? "" : "none";
   };
 }
 

@@ -1,5 +1,5 @@
 
-const plotBox = { left: 62, right: 630, top: 12, bottom: 240, width: 640, height: 285 };
+const plotBox = { left: 58, right: 430, top: 24, bottom: 200, width: 440, height: 240 };
 
 // Axes with ticks around ranges; gives the scales.
 function axes(root, [x0, x1], [y0, y1], xName, yName) {
@@ -25,7 +25,7 @@ function axes(root, [x0, x1], [y0, y1], xName, yName) {
     svg("text", { x: box.left - 6, y: Y(y) + 4, "text-anchor": "end" }, root).textContent = digits(y);
   }
   svg("text", { x: box.right, y: box.height - 8, "text-anchor": "end" }, root).textContent = xName;
-  svg("text", { x: box.left + 4, y: box.top + 12 }, root).textContent = yName;
+  svg("text", { x: 4, y: 14 }, root).textContent = yName;
   return [X, Y, x0, x1];
 }
 

@@ -1,5 +1,6 @@
 //! A beam on three supports: nobody knows what each of them carries, and yet it is certain when it tips.
 
+use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// A heavy beam lies on three supports; a load rolls along it and beyond the last support.
@@ -49,5 +50,25 @@ impl Default for BeamOnSupports {
             weight: 25.0,
             speed: 0.5,
         }
+    }
+}
+
+impl BeamOnSupports {
+    /// The supports, the beam and the load that moves along it.
+    pub fn drawing(&self, t: f64, q: &[f64]) -> Drawing {
+        let (sin, cos) = q[1].sin_cos();
+        let at = |place: f64| [place * cos, q[0] + place * sin];
+        let half = self.length / 2.0;
+        let support = |k: f64| Shape::support([k * self.span, 0.0], 0.05 * self.length);
+        Drawing::of([
+            support(-1.0),
+            support(0.0),
+            support(1.0),
+            Shape::Rod(vec![at(-half), at(half)]),
+            Shape::Mass(at(self.speed * t)),
+        ])
+        .force("support[0]", [self.span, 0.0], [-sin, cos])
+        .force("support[1]", [0.0, 0.0], [-sin, cos])
+        .force("support[2]", [-self.span, 0.0], [-sin, cos])
     }
 }

@@ -1,5 +1,6 @@
 //! A block on a moving belt, held by a spring: it sticks and slips for ever.
 
+use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// A block rides on a belt until its spring is stronger than static friction, slides back, and is caught again.
@@ -53,5 +54,26 @@ impl Default for BeltOscillator {
             mu_static: 0.5,
             mu_kinetic: 0.3,
         }
+    }
+}
+
+impl BeltOscillator {
+    /// The belt, the spring and the block, as large as a third of what friction can stretch.
+    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
+        let (s, n) = (q[0], q[1]);
+        let size = 0.3 * self.mu_static * self.mass * self.gravity / self.stiffness;
+        let middle = n + size / 2.0;
+        Drawing::of([
+            Shape::Floor(0.0),
+            Shape::Spring([-10.0 * size, middle], [s, middle]),
+            Shape::Block(vec![
+                [s, n],
+                [s + size, n],
+                [s + size, n + size],
+                [s, n + size],
+            ]),
+        ])
+        .force("belt", [s + size / 2.0, n], [0.0, 1.0])
+        .force("grip", [s + size / 2.0, n], [1.0, 0.0])
     }
 }

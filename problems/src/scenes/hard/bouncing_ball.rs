@@ -1,5 +1,6 @@
 //! A ball that bounces infinitely often in finite time.
 
+use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// A ball falls, bounces ever lower, and comes to rest.
@@ -44,5 +45,13 @@ impl Default for BouncingBall {
             bounce: 0.9,
             height: 1.0,
         }
+    }
+}
+
+impl BouncingBall {
+    /// The floor and the ball.
+    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
+        let ball = [0.0, q[0]];
+        Drawing::of([Shape::Floor(0.0), Shape::Mass(ball)]).force("floor", ball, [0.0, 1.0])
     }
 }

@@ -1,5 +1,6 @@
 //! A mass on a spring with dry friction swings a few times and stops, not at the middle.
 
+use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// A block on a rough floor is pulled by a spring.
@@ -50,5 +51,25 @@ impl Default for CoulombOscillator {
             mu_kinetic: 0.2,
             amplitude: 2.0,
         }
+    }
+}
+
+impl CoulombOscillator {
+    /// The floor, the spring and the block, a tenth of the first swing wide.
+    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
+        let (x, y) = (q[0], q[1]);
+        let half = 0.1 * self.amplitude;
+        Drawing::of([
+            Shape::Floor(0.0),
+            Shape::Spring([-2.0 * self.amplitude, y + half], [x - half, y + half]),
+            Shape::Block(vec![
+                [x - half, y],
+                [x + half, y],
+                [x + half, y + 2.0 * half],
+                [x - half, y + 2.0 * half],
+            ]),
+        ])
+        .force("floor", [x, y], [0.0, 1.0])
+        .force("grip", [x, y], [1.0, 0.0])
     }
 }

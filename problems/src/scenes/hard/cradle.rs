@@ -1,5 +1,6 @@
 //! Newton's cradle: one ball hits two that touch.
 
+use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// Three equal balls on a line, the second and third touching, struck by the first.
@@ -40,5 +41,13 @@ impl Default for Cradle {
             bounce: 1.0,
             speed: 1.0,
         }
+    }
+}
+
+impl Cradle {
+    /// The balls.
+    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
+        let ball = |&x: &f64| Shape::Disc([x, 0.0], self.radius, 0.0);
+        Drawing::of(q.iter().map(ball))
     }
 }

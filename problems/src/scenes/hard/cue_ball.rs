@@ -1,5 +1,6 @@
 //! A billiard ball with side spin: its path bends, then it rolls.
 
+use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// A ball slides on a level table with any spin.
@@ -53,5 +54,15 @@ impl Default for CueBall {
             spin: -60.0,
             follow: -20.0,
         }
+    }
+}
+
+impl CueBall {
+    /// The ball and its path, seen from above.
+    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
+        let ball = [q[0], q[1]];
+        Drawing::of([Shape::Trace(ball), Shape::Mass(ball)])
+            .force("grip[0]", ball, [1.0, 0.0])
+            .force("grip[1]", ball, [0.0, 1.0])
     }
 }

@@ -1,5 +1,6 @@
 //! A block slides sideways on an incline: its slip turns downhill and stops on the way, or never.
 
+use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// A block is pushed across an incline; the friction turns with the slip.
@@ -49,5 +50,15 @@ impl Default for InclineBlock {
             mu: 2.0 * 0.3_f64.tan(),
             speed: 1.5,
         }
+    }
+}
+
+impl InclineBlock {
+    /// The block and its path, seen from above the plane; down the slope is down the page.
+    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
+        let block = [q[0], -q[1]];
+        Drawing::of([Shape::Trace(block), Shape::Mass(block)])
+            .force("grip[0]", block, [1.0, 0.0])
+            .force("grip[1]", block, [0.0, -1.0])
     }
 }

@@ -1,5 +1,6 @@
 //! A ladder slides down a wall: where does it leave it?
 
+use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// A uniform ladder slides from rest, without friction, along a wall and a floor.
@@ -50,5 +51,30 @@ impl Default for Ladder {
             gravity: 9.81,
             start_angle: 1.2,
         }
+    }
+}
+
+impl Ladder {
+    /// The wall, the floor and the ladder.
+    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
+        let (x, y, theta) = (q[0], q[1], q[2]);
+        let half = [
+            self.length / 2.0 * theta.cos(),
+            self.length / 2.0 * theta.sin(),
+        ];
+        let (top, foot) = ([x - half[0], y + half[1]], [x + half[0], y - half[1]]);
+        let wall = -0.05 * self.length;
+        Drawing::of([
+            Shape::Floor(0.0),
+            Shape::Fixed(vec![
+                [wall, 0.0],
+                [0.0, 0.0],
+                [0.0, 1.1 * self.length],
+                [wall, 1.1 * self.length],
+            ]),
+            Shape::Rod(vec![top, foot]),
+        ])
+        .force("wall", top, [1.0, 0.0])
+        .force("floor", foot, [0.0, 1.0])
     }
 }

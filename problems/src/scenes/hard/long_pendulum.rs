@@ -1,5 +1,6 @@
 //! A pendulum in Cartesian coordinates, for a hundred thousand periods.
 
+use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// A mass on a rod: the rod is a condition on x and y, not a coordinate.
@@ -40,5 +41,15 @@ impl Default for LongPendulum {
             gravity: 9.81,
             start_angle: 1.0,
         }
+    }
+}
+
+impl LongPendulum {
+    /// The rod and the mass.
+    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
+        let mass = [q[0], q[1]];
+        Drawing::of([Shape::Rod(vec![[0.0; 2], mass]), Shape::Mass(mass)])
+            // The gradient of x² + y².
+            .force("rod", mass, [2.0 * q[0], 2.0 * q[1]])
     }
 }

@@ -1,5 +1,6 @@
 //! Painlevé's rod: rigid friction with one answer, with two, and with none.
 
+use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// A rod slides with its tip on a rough floor, leaning away from the direction it slides in: chalk pushed over a board.
@@ -61,5 +62,17 @@ impl Default for PainleveRod {
             rate: 0.0,
             speed: 1.0,
         }
+    }
+}
+
+impl PainleveRod {
+    /// The floor and the rod.
+    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
+        let (sin, cos) = q[2].sin_cos();
+        let tip = [q[0] - self.half * cos, q[1] - self.half * sin];
+        let top = [q[0] + self.half * cos, q[1] + self.half * sin];
+        Drawing::of([Shape::Floor(0.0), Shape::Rod(vec![tip, top])])
+            .force("tip", tip, [0.0, 1.0])
+            .force("grip", tip, [1.0, 0.0])
     }
 }

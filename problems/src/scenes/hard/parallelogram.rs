@@ -1,5 +1,6 @@
 //! A beam on three parallel cranks, one of them too many, turns through its dead positions.
 
+use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// A heavy beam on three equal parallel cranks: a locomotive's coupling rod.
@@ -49,5 +50,22 @@ impl Default for Parallelogram {
             gravity: 9.81,
             speed: 4.0,
         }
+    }
+}
+
+impl Parallelogram {
+    /// The three cranks and the bar that they carry.
+    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
+        let (sin, cos) = q[2].sin_cos();
+        let joint = |k: f64| [q[0] + k * self.span * cos, q[1] + k * self.span * sin];
+        let crank = |k: f64| Shape::Rod(vec![[k * self.span, 0.0], joint(k)]);
+        let bar = Shape::Rod(vec![joint(-1.0), joint(1.0)]);
+        Drawing::of([
+            crank(-1.0),
+            crank(0.0),
+            crank(1.0),
+            bar,
+            Shape::Mass(joint(0.0)),
+        ])
     }
 }

@@ -1,5 +1,6 @@
 //! A block rocks from corner to corner, ever faster, until it stands.
 
+use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// A slender block rocks on its two lower corners, which do not slip.
@@ -61,5 +62,28 @@ impl Default for RockingBlock {
             mu: 5.0,
             rate: 0.3,
         }
+    }
+}
+
+impl RockingBlock {
+    /// The floor and the block.
+    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
+        let (sin, cos) = q[2].sin_cos();
+        let corner = |a: f64, b: f64| {
+            let (across, up) = (a * self.half_width, b * self.half_height);
+            [
+                q[0] + across * cos - up * sin,
+                q[1] + across * sin + up * cos,
+            ]
+        };
+        let (left, right) = (corner(-1.0, -1.0), corner(1.0, -1.0));
+        Drawing::of([
+            Shape::Floor(0.0),
+            Shape::Block(vec![left, right, corner(1.0, 1.0), corner(-1.0, 1.0)]),
+        ])
+        .force("left", left, [0.0, 1.0])
+        .force("left_grip", left, [1.0, 0.0])
+        .force("right", right, [0.0, 1.0])
+        .force("right_grip", right, [1.0, 0.0])
     }
 }

@@ -1,5 +1,6 @@
 //! A sleeve on a turning rod: slip and normal force vanish together.
 
+use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// A sleeve slides on a rod that turns at a constant rate in a level plane.
@@ -43,5 +44,21 @@ impl Default for RodSleeve {
             distance: 0.5,
             speed: 0.8,
         }
+    }
+}
+
+impl RodSleeve {
+    /// The rod, the sleeve and its path, seen from above.
+    pub fn drawing(&self, t: f64, q: &[f64]) -> Drawing {
+        let (sin, cos) = (self.rate * t).sin_cos();
+        let sleeve = [q[0], q[1]];
+        let end = 1.5 * self.distance;
+        Drawing::of([
+            Shape::Trace(sleeve),
+            Shape::Rod(vec![[-end * cos, -end * sin], [end * cos, end * sin]]),
+            Shape::Mass(sleeve),
+        ])
+        .force("rod", sleeve, [-sin, cos])
+        .force("rub", sleeve, [cos, sin])
     }
 }

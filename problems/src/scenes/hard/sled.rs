@@ -1,5 +1,6 @@
 //! A sled on three runners, one too many, slides and comes to rest.
 
+use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// A block with three points that touch the floor in a row slides and is stopped by friction.
@@ -51,5 +52,31 @@ impl Default for Sled {
             mu: 0.5,
             speed: 2.0,
         }
+    }
+}
+
+impl Sled {
+    /// The floor and the sled.
+    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
+        let (sin, cos) = q[2].sin_cos();
+        let at =
+            |along: f64, up: f64| [q[0] + along * cos - up * sin, q[1] + along * sin + up * cos];
+        let point = |k: f64| at(k * self.span, -self.height);
+        Drawing::of([
+            Shape::Floor(0.0),
+            Shape::Block(vec![
+                point(-1.0),
+                point(1.0),
+                at(self.span, 0.0),
+                at(-self.span, 0.0),
+            ]),
+            Shape::Mass([q[0], q[1]]),
+        ])
+        .force("point[0]", point(-1.0), [0.0, 1.0])
+        .force("grip[0]", point(-1.0), [1.0, 0.0])
+        .force("point[1]", point(0.0), [0.0, 1.0])
+        .force("grip[1]", point(0.0), [1.0, 0.0])
+        .force("point[2]", point(1.0), [0.0, 1.0])
+        .force("grip[2]", point(1.0), [1.0, 0.0])
     }
 }

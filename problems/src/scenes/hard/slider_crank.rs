@@ -1,5 +1,6 @@
 //! A slider-crank runs through its dead centres; with equal crank and rod, also through its branching point.
 
+use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// A crank with a flywheel drives a slider through a massless rod.
@@ -44,5 +45,25 @@ impl Default for SliderCrank {
             rod_length: 0.25,
             rate: 20.0,
         }
+    }
+}
+
+impl SliderCrank {
+    /// The crank, the rod and the slider.
+    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
+        let (sin, cos) = q[0].sin_cos();
+        let pin = [self.crank * cos, self.crank * sin];
+        let (x, size) = (q[1], 0.2 * self.crank);
+        Drawing::of([
+            Shape::Bowl([0.0; 2], self.crank),
+            Shape::Block(vec![
+                [x - size, -size],
+                [x + size, -size],
+                [x + size, size],
+                [x - size, size],
+            ]),
+            Shape::Rod(vec![[0.0; 2], pin, [x, 0.0]]),
+            Shape::Mass(pin),
+        ])
     }
 }

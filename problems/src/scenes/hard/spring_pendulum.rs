@@ -1,5 +1,6 @@
 //! A pendulum on a very stiff spring: two time scales ten thousand apart.
 
+use crate::drawing::{Drawing, Shape, from_bottom};
 use lagrange_core::prelude::*;
 
 /// A mass swings on a spring so stiff that it hardly stretches, and rings at √(k/m).
@@ -42,5 +43,17 @@ impl Default for SpringPendulum {
             stiffness: 1e8,
             start_angle: 1.0,
         }
+    }
+}
+
+impl SpringPendulum {
+    /// The spring, the mass and its path.
+    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
+        let mass = from_bottom([0.0; 2], q[0], q[1]);
+        Drawing::of([
+            Shape::Trace(mass),
+            Shape::Spring([0.0; 2], mass),
+            Shape::Mass(mass),
+        ])
     }
 }

@@ -1,5 +1,6 @@
 //! A pendulum on a string goes slack, flies, and is caught.
 
+use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// A mass on an inextensible string is kicked so that it rises above the support, but not all the way.
@@ -44,5 +45,19 @@ impl Default for StringPendulum {
             gravity: 9.81,
             speed: 5.5,
         }
+    }
+}
+
+impl StringPendulum {
+    /// The string, drawn straight also where it is slack, the mass and its path.
+    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
+        let mass = [q[0], q[1]];
+        let distance = q[0].hypot(q[1]).max(f64::MIN_POSITIVE);
+        Drawing::of([
+            Shape::Trace(mass),
+            Shape::Rod(vec![[0.0; 2], mass]),
+            Shape::Mass(mass),
+        ])
+        .force("string", mass, [-q[0] / distance, -q[1] / distance])
     }
 }

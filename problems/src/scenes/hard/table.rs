@@ -1,5 +1,6 @@
 //! A table on four legs is pushed until it slides.
 
+use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// A table stands on four legs on a rough floor; a force that grows with time pushes it.
@@ -70,5 +71,25 @@ impl Default for Table {
             rate: 20.0,
             direction: 0.6,
         }
+    }
+}
+
+impl Table {
+    /// The table, seen from above.
+    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
+        let (sin, cos) = q[2].sin_cos();
+        let corner = |along: f64, across: f64| {
+            let (a, b) = (along * self.length / 2.0, across * self.width / 2.0);
+            [q[0] + a * cos - b * sin, q[1] + a * sin + b * cos]
+        };
+        Drawing::of([
+            Shape::Trace([q[0], q[1]]),
+            Shape::Block(vec![
+                corner(1.0, 1.0),
+                corner(1.0, -1.0),
+                corner(-1.0, -1.0),
+                corner(-1.0, 1.0),
+            ]),
+        ])
     }
 }

@@ -1,5 +1,6 @@
 //! A puck is pushed off by a force that turns: where its slip begins, and how.
 
+use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// A puck rests on a table until a growing, turning force is stronger than friction; its slip begins in a direction that is part
@@ -65,5 +66,15 @@ impl Default for TurningPush {
             mu_static: 0.3,
             mu_kinetic: 0.3,
         }
+    }
+}
+
+impl TurningPush {
+    /// The body and its path, seen from above.
+    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
+        let body = [q[0], q[1]];
+        Drawing::of([Shape::Trace(body), Shape::Mass(body)])
+            .force("grip[0]", body, [1.0, 0.0])
+            .force("grip[1]", body, [0.0, 1.0])
     }
 }

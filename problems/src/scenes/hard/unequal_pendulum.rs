@@ -1,5 +1,6 @@
 //! A double pendulum whose masses differ by eight powers of ten.
 
+use crate::drawing::{Drawing, Shape, from_bottom};
 use lagrange_core::prelude::*;
 
 /// A double pendulum with a heavy and a light mass.
@@ -47,5 +48,19 @@ impl Default for UnequalPendulum {
             start_angle: 1.0,
             lower_angle: 0.5,
         }
+    }
+}
+
+impl UnequalPendulum {
+    /// The rods, the masses and the path of the lower one.
+    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
+        let upper = from_bottom([0.0; 2], self.length[0], q[0]);
+        let lower = from_bottom(upper, self.length[1], q[1]);
+        Drawing::of([
+            Shape::Trace(lower),
+            Shape::Rod(vec![[0.0; 2], upper, lower]),
+            Shape::Mass(upper),
+            Shape::Mass(lower),
+        ])
     }
 }
