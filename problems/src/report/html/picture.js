@@ -72,6 +72,9 @@ function picture(stage, run) {
   const X = (x) => (x - left) * scale, Y = (y) => (high - y) * scale;
   const list = (points) => points.map(([x, y]) => X(x).toFixed(1) + "," + Y(y).toFixed(1)).join(" ");
   const root = svg("svg", { viewBox: `0 0 1000 ${height.toFixed(1)}`, role: "img", "aria-label": `${run.title}, drawn to scale` }, stage);
+  // High pictures are shown smaller.
+  const letter = 24 * Math.max(1, height / 560);
+  const words = { style: `font-size: ${letter}px` };
   const unit = size * scale;
 
   const kinds = {
@@ -136,7 +139,7 @@ function picture(stage, run) {
   // A ruler of 1, 2 or 5 times a power of ten.
   const long = nice((right - left) / 6);
   svg("line", { class: "ruler", x1: 20, x2: 20 + long * scale, y1: height - 18, y2: height - 18 }, root);
-  svg("text", { x: 20, y: height - 28 }, root).textContent = `${digits(long)} m`;
+  svg("text", { ...words, x: 20, y: height - 28 }, root).textContent = `${digits(long)} m`;
 
   const legend = html("ul", { class: "legend" }, arrows.length ? stage : null);
   const pushes = svg("g", {}, root);
@@ -145,7 +148,7 @@ function picture(stage, run) {
     const group = svg("g", {}, pushes);
     const shaft = svg("line", { style: `stroke: ${colour}; stroke-width: 3` }, group);
     const head = svg("polygon", { style: `fill: ${colour}` }, group);
-    const label = svg("text", { style: `fill: ${colour}` }, group);
+    const label = svg("text", { style: `${words.style}; fill: ${colour}` }, group);
     label.textContent = arrow.name;
     const value = entry(legend, `force ${arrow.name}`, colour, false);
     return (where) => {
@@ -160,7 +163,7 @@ function picture(stage, run) {
       for (const [name, v] of Object.entries({ x1, y1, x2: bx, y2: by })) shaft.setAttribute(name, v);
       const wing = 0.45 * tip;
       head.setAttribute("points", `${x2},${y2} ${bx - uy * wing},${by + ux * wing} ${bx + uy * wing},${by - ux * wing}`);
-      label.setAttribute("x", Math.min(x2 + 8, 930)); label.setAttribute("y", Math.max(y2 - 6, 22));
+      label.setAttribute("x", Math.min(x2 + 8, 1000 - letter * 0.6 * arrow.name.length)); label.setAttribute("y", Math.max(y2 - 6, letter));
     };
   });
 
