@@ -168,6 +168,39 @@ pub fn from_bottom(centre: Point, distance: f64, angle: f64) -> Point {
     ]
 }
 
+/// A point in space, z upward, seen from the front, the right and above; lengths across the line of sight keep their scale.
+pub fn aslant([x, y, z]: [f64; 3]) -> Point {
+    let ((side, front), (above, level)) = (0.5_f64.sin_cos(), 0.45_f64.sin_cos());
+    [
+        x * front + y * side,
+        z * level + (y * front - x * side) * above,
+    ]
+}
+
+/// The axes of a body in space, from its quaternion, scalar part first; it need not be a unit one.
+pub fn axes(q: &[f64]) -> [[f64; 3]; 3] {
+    let [w, x, y, z] = [q[0], q[1], q[2], q[3]];
+    let n = (w * w + x * x + y * y + z * z).max(f64::MIN_POSITIVE);
+    [
+        [
+            w * w + x * x - y * y - z * z,
+            2.0 * (x * y + w * z),
+            2.0 * (x * z - w * y),
+        ],
+        [
+            2.0 * (x * y - w * z),
+            w * w - x * x + y * y - z * z,
+            2.0 * (y * z + w * x),
+        ],
+        [
+            2.0 * (x * z + w * y),
+            2.0 * (y * z - w * x),
+            w * w - x * x - y * y + z * z,
+        ],
+    ]
+    .map(|axis| axis.map(|c| c / n))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -185,5 +218,9 @@ mod tests {
         assert_eq!(ground, [-1.0, 0.0, -1.0, 4.0]);
         assert_eq!(from_top([1.0, 0.0], 2.0, 0.0), [1.0, 2.0]);
         assert_eq!(from_bottom([1.0, 0.0], 2.0, 0.0), [1.0, -2.0]);
+        let half_turn_about_z = axes(&[0.0, 0.0, 0.0, 2.0]);
+        let expected = [[-1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]];
+        assert_eq!(half_turn_about_z, expected);
+        assert!(aslant([0.0, 0.0, 1.0])[1] > 0.0);
     }
 }

@@ -129,7 +129,7 @@ fn drawings_are_of_their_scenes() {
             }
         }
     }
-    assert!(drawn >= 30, "only {drawn} scenes are drawn");
+    assert!(drawn >= 42, "only {drawn} scenes are drawn");
 }
 
 #[test]

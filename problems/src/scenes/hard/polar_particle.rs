@@ -1,5 +1,6 @@
 //! A free particle in polar coordinates passes close to their origin.
 
+use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// Nothing acts on a particle; it moves straight past the origin at a tiny distance d.
@@ -43,5 +44,17 @@ impl Default for PolarParticle {
             distance: 1e-6,
             lead: 1.0,
         }
+    }
+}
+
+impl PolarParticle {
+    /// The origin, the particle and its path.
+    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
+        let particle = [q[0] * q[1].cos(), q[0] * q[1].sin()];
+        Drawing::of([
+            Shape::Shell([0.0; 2], 0.01 * self.lead),
+            Shape::Trace(particle),
+            Shape::Mass(particle),
+        ])
     }
 }

@@ -1,5 +1,7 @@
 //! A rattleback: spun the wrong way it begins to rattle, stops, and turns back.
 
+use crate::drawing::{Drawing, Shape, aslant, axes};
+use core::f64::consts::PI;
 use lagrange_core::prelude::*;
 
 /// The lower half of an ellipsoid rolls without slipping on a plane, its axes of inertia skewed to those of its shape.
@@ -77,5 +79,29 @@ impl Default for Rattleback {
             spin: -5.0,
             rock: 1.0,
         }
+    }
+}
+
+impl Rattleback {
+    /// The flat face of the body and its keel.
+    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
+        let [along, across, up] = axes(&q[3..]);
+        let at = |a: f64, b: f64, c: f64| {
+            let place = |k: usize| q[k] + a * along[k] + b * across[k] + c * up[k];
+            aslant([place(0), place(1), place(2)])
+        };
+        let face = |k: i32| {
+            let (sin, cos) = (PI * f64::from(k) / 12.0).sin_cos();
+            at(self.a * cos, self.b * sin, self.height)
+        };
+        let keel = |k: i32| {
+            let (sin, cos) = (PI * f64::from(k) / 12.0).sin_cos();
+            at(self.a * cos, 0.0, self.height - self.c * sin)
+        };
+        Drawing::of([
+            Shape::Rod((0..=12).map(keel).collect()),
+            Shape::Block((0..24).map(face).collect()),
+            Shape::Rod(vec![face(0), face(12)]),
+        ])
     }
 }

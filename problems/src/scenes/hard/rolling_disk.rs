@@ -1,5 +1,7 @@
 //! A thin disk rolls on the floor, leans over almost flat, and comes up again.
 
+use crate::drawing::{Drawing, Shape, aslant};
+use core::f64::consts::PI;
 use lagrange_core::prelude::*;
 
 /// A uniform thin disk rolls without slipping on a horizontal plane.
@@ -65,5 +67,35 @@ impl Default for RollingDisk {
             turn: 1.0,
             spin: 2.0,
         }
+    }
+}
+
+impl RollingDisk {
+    /// The disk with a spoke, and the path of its point of contact.
+    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
+        let [x, y, phi, theta, psi] = [q[0], q[1], q[2], q[3], q[4]];
+        let heading = [phi.cos(), phi.sin(), 0.0];
+        let up = [
+            -theta.cos() * phi.sin(),
+            theta.cos() * phi.cos(),
+            theta.sin(),
+        ];
+        // Rolling with ψ growing is rolling backwards.
+        let rim = |angle: f64| {
+            let (back, top) = angle.sin_cos();
+            let place = |k: usize| self.radius * (up[k] * (1.0 + top) - heading[k] * back);
+            aslant([x + place(0), y + place(1), place(2)])
+        };
+        let centre = aslant([
+            x + self.radius * up[0],
+            y + self.radius * up[1],
+            self.radius * up[2],
+        ]);
+        let turns = (0..24).map(|k| PI * f64::from(k) / 12.0);
+        Drawing::of([
+            Shape::Trace(aslant([x, y, 0.0])),
+            Shape::Block(turns.map(rim).collect()),
+            Shape::Rod(vec![centre, rim(psi)]),
+        ])
     }
 }

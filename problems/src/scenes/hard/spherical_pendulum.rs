@@ -1,5 +1,6 @@
 //! A spherical pendulum passes its pole, where its coordinates fail.
 
+use crate::drawing::{Drawing, Shape, aslant};
 use lagrange_core::prelude::*;
 
 /// A pendulum on a sphere, by θ from the bottom and the azimuth φ, swings past the bottom at a tiny distance.
@@ -47,5 +48,18 @@ impl Default for SphericalPendulum {
             amplitude: 1.0,
             nearest: 1e-6,
         }
+    }
+}
+
+impl SphericalPendulum {
+    /// The rod, the mass and its path.
+    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
+        let ((sin, cos), (across, along)) = (q[0].sin_cos(), q[1].sin_cos());
+        let mass = aslant([sin * along, sin * across, -cos].map(|x| self.length * x));
+        Drawing::of([
+            Shape::Trace(mass),
+            Shape::Rod(vec![[0.0; 2], mass]),
+            Shape::Mass(mass),
+        ])
     }
 }

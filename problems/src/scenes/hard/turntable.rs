@@ -1,5 +1,6 @@
 //! A ball rolls on a turning table, on a circle that is not the table's.
 
+use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// A solid ball rolls without slipping on a table that turns at a constant rate.
@@ -48,5 +49,20 @@ impl Default for Turntable {
             start_x: 0.5,
             start_speed: 0.4,
         }
+    }
+}
+
+impl Turntable {
+    /// The table with a mark that turns with it, and the path of the ball, seen from above.
+    pub fn drawing(&self, t: f64, q: &[f64]) -> Drawing {
+        // The path is a circle of radius 7 v/(2 Ω).
+        let path = 3.5 * self.start_speed / self.rate.abs().max(0.1);
+        let table = self.start_x.abs() + 2.0 * path.abs();
+        let ball = [q[0], q[1]];
+        Drawing::of([
+            Shape::Disc([0.0; 2], table, -self.rate * t),
+            Shape::Trace(ball),
+            Shape::Mass(ball),
+        ])
     }
 }
