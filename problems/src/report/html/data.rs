@@ -208,7 +208,8 @@ fn plots(film: &Film) -> Vec<Plot> {
             ],
         });
     }
-    let kinds: [(&str, fn(Source) -> bool); 2] = [
+    type Kind = (&'static str, fn(Source) -> bool);
+    let kinds: [Kind; 2] = [
         ("Contact forces", |s| matches!(s, Source::Contact(_))),
         ("Constraint forces", |s| matches!(s, Source::Constraint(_))),
     ];
@@ -239,7 +240,8 @@ fn plots(film: &Film) -> Vec<Plot> {
         }
     }
     plots.truncate(PLOTS);
-    let energies: [(&str, fn(&Sample) -> f64); 3] = [
+    type Energy = (&'static str, fn(&Sample) -> f64);
+    let energies: [Energy; 3] = [
         ("kinetic", |s| s.kinetic),
         ("potential", |s| s.potential),
         ("sum", |s| s.kinetic + s.potential),

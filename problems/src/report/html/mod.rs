@@ -44,7 +44,7 @@ pub fn intervals(scene: &dyn Scene, request: &Request) -> usize {
     let per_sample = 10 + 6 * description.coordinates.len() + 3 * description.rows.len();
     let most = (NUMBERS / per_sample).clamp(100, 3000);
     let until = request.until.unwrap_or(scene.until());
-    ((PER_SECOND * until) as usize).clamp(most.min(400), most)
+    ((PER_SECOND * until) as usize).clamp(most.min(900), most)
 }
 
 /// Writes the page.

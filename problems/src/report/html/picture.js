@@ -76,6 +76,7 @@ function picture(stage, run) {
   const letter = 24 * Math.max(1, height / 560);
   const words = { style: `font-size: ${letter}px` };
   const unit = size * scale;
+  const masses = shapes.filter((shape) => shape.kind === "mass").length;
 
   const kinds = {
     floor() {
@@ -119,7 +120,7 @@ function picture(stage, run) {
       };
     },
     mass() {
-      const shape = svg("circle", { class: "point", r: 0.016 * unit }, root);
+      const shape = svg("circle", { class: "point", r: (0.016 * unit) / Math.max(1, masses / 4) }, root);
       return ([x, y]) => { shape.setAttribute("cx", X(x)); shape.setAttribute("cy", Y(y)); };
     },
     trace(columns) {
