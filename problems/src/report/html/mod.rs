@@ -39,7 +39,7 @@ const SCRIPTS: [&str; 3] = [
 pub fn intervals(scene: &dyn Scene, request: &Request) -> usize {
     const PER_SECOND: f64 = 30.0;
     /// Numbers that a page may carry for one run; each takes about nine bytes.
-    const NUMBERS: usize = 60_000;
+    const NUMBERS: usize = 50_000;
     let description = scene.description();
     let per_sample = 10 + 6 * description.coordinates.len() + 3 * description.rows.len();
     let most = (NUMBERS / per_sample).clamp(100, 3000);

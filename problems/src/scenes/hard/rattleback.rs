@@ -91,17 +91,17 @@ impl Rattleback {
             aslant([place(0), place(1), place(2)])
         };
         let face = |k: i32| {
-            let (sin, cos) = (PI * f64::from(k) / 12.0).sin_cos();
+            let (sin, cos) = (PI * f64::from(k) / 6.0).sin_cos();
             at(self.a * cos, self.b * sin, self.height)
         };
         let keel = |k: i32| {
-            let (sin, cos) = (PI * f64::from(k) / 12.0).sin_cos();
+            let (sin, cos) = (PI * f64::from(k) / 6.0).sin_cos();
             at(self.a * cos, 0.0, self.height - self.c * sin)
         };
         Drawing::of([
-            Shape::Rod((0..=12).map(keel).collect()),
-            Shape::Block((0..24).map(face).collect()),
-            Shape::Rod(vec![face(0), face(12)]),
+            Shape::Rod((0..=6).map(keel).collect()),
+            Shape::Block((0..12).map(face).collect()),
+            Shape::Rod(vec![face(0), face(6)]),
         ])
     }
 }
