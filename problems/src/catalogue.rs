@@ -269,7 +269,7 @@ impl<S: System<Scalar = f64> + Default + Send + 'static> Scene for Entry<S> {
     fn film(&self, request: &Request) -> Result<Film, Refusal> {
         let system: S = request.system()?;
         let (trajectory, failure) = self.trajectory(&system, request)?;
-        let outcome = Outcome::new(self.name, &trajectory, failure, request.samples);
+        let outcome = Outcome::new(self.name, &trajectory, failure, request.samples, false);
         let draw = |drawing: Picture<S>| {
             let samples = outcome.samples.iter();
             samples
