@@ -9,7 +9,7 @@ fn expand(
     inputs: &[&[f64]],
     f: impl Fn(&mut Recorder<'_, f64>, &[Recorded]) -> Recorded,
 ) -> Result<Vec<f64>, Operation> {
-    let mut recording = Recording::new(100);
+    let mut recording = Recording::new(100, &[]);
     let slots: Vec<Recorded> = (0..inputs.len())
         .map(|i| Recorded::varying(Slot::new(90 + i)))
         .collect();
@@ -17,7 +17,7 @@ fn expand(
     a.cut();
     let result = f(&mut a, &slots);
     let program = Program::new(&mut recording, &[result.slot]);
-    let mut first = recording.registers_filled();
+    let (mut first, _) = recording.finish();
     for (slot, input) in slots.iter().zip(inputs) {
         first[slot.slot.index()] = input[0];
     }
