@@ -1,14 +1,11 @@
 //! `lagrange sweep`: many runs of one scene, on all cores.
 
 use super::Trouble;
-use super::course::{Course, scene};
+use super::course::Course;
 use super::output::to_file;
-use super::values::positive;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
-use lagrange_core::prelude::Method;
 use lagrange_problems::report::{Format, sweep as report};
-use lagrange_problems::request::Request;
 use lagrange_problems::sweep::{Axis, Journal, Points, Sampling, Summary, Sweep, work};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -40,12 +37,6 @@ pub(super) struct Sweeps {
     observe: Vec<String>,
     #[command(flatten)]
     course: Course,
-    /// Tolerance of the integration, relative and absolute [default: 1e-9].
-    #[arg(long, value_name = "X", value_parser = positive, allow_hyphen_values = true)]
-    tolerance: Option<f64>,
-    /// Method of integration [default: taylor].
-    #[arg(long, value_name = "M")]
-    method: Option<Method>,
     /// Write a line per run, as Parquet (….parquet) or CSV (….csv). What is done is kept in FILE.part until all is done.
     #[arg(long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -105,12 +96,7 @@ impl FromStr for Shard {
 
 impl Sweeps {
     pub(super) fn execute(self) -> Result<(), Trouble> {
-        let file = scene(&self.scene)?;
-        let request = self.course.request(Request {
-            tolerance: self.tolerance.unwrap_or(file.request.tolerance),
-            method: self.method.unwrap_or(file.request.method),
-            ..file.request
-        });
+        let file = self.course.of(&self.scene)?;
         let points = Points {
             axes: self.vary.clone(),
             sampling: match self.sample {
@@ -121,8 +107,8 @@ impl Sweeps {
                 },
             },
         };
-        let sweep =
-            Sweep::new(file.scene, request, points, &self.observe).map_err(Trouble::refused)?;
+        let sweep = Sweep::new(file.scene, file.request, points, &self.observe)
+            .map_err(Trouble::refused)?;
         let folder = self.output.as_deref().map(part);
         let journal = match &folder {
             None => Journal::in_memory(&sweep),

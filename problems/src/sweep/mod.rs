@@ -88,13 +88,14 @@ impl Sweep {
             tolerance,
             method,
             project,
+            impacts,
             ..
         } = &self.request;
         let axes: Vec<String> = self.points.axes.iter().map(ToString::to_string).collect();
         let observed: Vec<&str> = self.observed.iter().map(|o| o.name.as_str()).collect();
         format!(
             "lagrange {} {}\nparameters {parameters:?}\nstart {from:?} {start:?}\neffects {effects:?}\n\
-             until {until:?} tolerance {tolerance:e} method {method} project {project}\n\
+             until {until:?} tolerance {tolerance:e} method {method} project {project} impacts {impacts:?}\n\
              points {axes:?} {:?}\nobserved {observed:?}\nchunks of {CHUNK}\n",
             env!("CARGO_PKG_VERSION"),
             self.scene.name(),
