@@ -8,8 +8,10 @@ mod course;
 mod effects;
 mod inspect;
 mod list;
+mod merge;
 mod output;
 mod report;
+mod results;
 mod run;
 mod stability;
 mod sweep;
@@ -39,6 +41,7 @@ enum Command {
     Effects(effects::Effects),
     Stability(stability::Stability),
     Sweep(sweep::Sweeps),
+    Merge(merge::Merge),
 }
 
 /// What went wrong, and with it the exit code.
@@ -89,6 +92,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Effects(effects) => effects.execute(),
         Command::Stability(stability) => stability.execute(),
         Command::Sweep(sweep) => sweep.execute(),
+        Command::Merge(merge) => merge.execute(),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -29,7 +29,7 @@ pub fn work(
                     worker(&point, row);
                 }
             }
-            journal.put(chunk, rows)?;
+            journal.put(sweep, chunk, rows)?;
             done(points.len());
             Ok(())
         },
