@@ -174,7 +174,8 @@ fn damaged_chunks_are_done_again() {
     // All of it, kept: a shard that is the whole.
     says(&sweep(&["--output", path(&output), "--shard", "1/1"]));
     let whole = fs::read(&rows).expect("rows");
-    let damages: [&dyn Fn(&mut Vec<u8>); 5] = [
+    type Damage = dyn Fn(&mut Vec<u8>);
+    let damages: [&Damage; 5] = [
         &|bytes| bytes.truncate(bytes.len() / 2),
         &|bytes| bytes[100_000] ^= 1,
         &|bytes| bytes[0] ^= 0x80,

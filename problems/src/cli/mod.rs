@@ -20,6 +20,7 @@ mod values;
 use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
 use lagrange_problems::request::Refusal;
+use lagrange_problems::sweep::launch;
 use std::fmt::Display;
 use std::process::ExitCode;
 
@@ -105,7 +106,10 @@ fn complain(trouble: &Trouble) -> ExitCode {
         Trouble::Usage(reason) => (reason, 2),
         Trouble::Failed(reason) => (reason, 1),
     };
-    eprintln!("lagrange: {reason}");
+    // Of processes that were started together with the same arguments, one is enough to say it.
+    if launch::place().is_none_or(|place| place.rank == 0) {
+        eprintln!("lagrange: {reason}");
+    }
     ExitCode::from(code)
 }
 

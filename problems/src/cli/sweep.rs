@@ -5,6 +5,9 @@ use super::course::Course;
 use super::results::{Results, beside, verdict};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
+use lagrange_problems::sweep::launch::{self, Place};
+#[cfg(feature = "mpi")]
+use lagrange_problems::sweep::team::Team;
 use lagrange_problems::sweep::{Axis, Journal, Points, Sampling, Shard, Sweep, work};
 
 /// Run a scene many times, over parameters and starts, on all cores. Killed and started again, a sweep with --output goes
@@ -36,7 +39,7 @@ pub(super) struct Sweeps {
     course: Course,
     #[command(flatten)]
     results: Results,
-    /// Cores to use [default: all].
+    /// Cores to use [default: all; under mpirun, one per process].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     workers: Option<u16>,
     /// Do only part I of N (1/8 … 8/8), for array jobs. What is done stays in FILE.part; `lagrange merge` puts parts together.
@@ -59,25 +62,98 @@ impl Sweeps {
         };
         let sweep = Sweep::new(file.scene, file.request, points, &self.observe)
             .map_err(Trouble::refused)?;
+        match launch::place() {
+            Some(place) if self.shard.is_none() => self.together(&sweep, place),
+            _ => self.alone(&sweep),
+        }
+    }
+
+    /// The journal of a shard.
+    fn journal(&self, sweep: &Sweep, shard: Shard) -> Result<Journal, Trouble> {
+        match &self.results.output {
+            None => Ok(Journal::in_memory(sweep)),
+            Some(path) => {
+                Journal::in_folder(sweep, &beside(path, ".part"), shard).map_err(Trouble::failed)
+            }
+        }
+    }
+
+    /// On this machine.
+    fn alone(&self, sweep: &Sweep) -> Result<(), Trouble> {
         let shard = self.shard.unwrap_or(Shard::WHOLE);
-        let folder = self.results.output.as_deref();
-        let folder = folder.map(|path| beside(path, ".part"));
-        let journal = match &folder {
-            None => Journal::in_memory(&sweep),
-            Some(folder) => Journal::in_folder(&sweep, folder, shard).map_err(Trouble::failed)?,
-        };
-        self.work(&sweep, &journal, shard)?;
-        if self.shard.is_some() {
+        let journal = self.journal(sweep, shard)?;
+        let workers = self.workers.map_or(0, usize::from);
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(workers).build();
+        let pool = pool.map_err(Trouble::failed)?;
+        let ours = |chunk| shard.has(chunk);
+        let bar = self.bar(sweep, &journal, ours);
+        let outcome = pool.install(|| work(sweep, &journal, ours, |points| bar.inc(points as u64)));
+        bar.finish_and_clear();
+        outcome.map_err(Trouble::failed)?;
+        match self.shard {
+            Some(_) => Ok(()),
+            None => self.finish(sweep, journal),
+        }
+    }
+
+    /// With all processes that were started together.
+    #[cfg(feature = "mpi")]
+    fn together(&self, sweep: &Sweep, place: Place) -> Result<(), Trouble> {
+        let mut team = Team::gather(place).map_err(Trouble::failed)?;
+        let workers = self.workers.map_or(1, usize::from);
+        if !team.leads() {
+            team.follow(sweep, workers);
             return Ok(());
         }
-        let summary = self.results.write(&sweep, &journal)?;
+        let result = match self.journal(sweep, Shard::WHOLE) {
+            Err(trouble) => {
+                team.dismiss();
+                Err(trouble)
+            }
+            Ok(journal) => {
+                let bar = self.bar(sweep, &journal, |_| true);
+                let count = |points| bar.inc(points as u64);
+                let outcome = team.lead(sweep, &journal, workers, count);
+                bar.finish_and_clear();
+                if team.lost() > 0 {
+                    let (lost, of) = (team.lost(), place.of);
+                    eprintln!(
+                        "lagrange: {lost} of {of} processes were lost; the others did their chunks"
+                    );
+                }
+                let done = outcome.map_err(Trouble::failed);
+                done.and_then(|()| self.finish(sweep, journal))
+            }
+        };
+        if let Err(trouble) = &result
+            && team.lost() > 0
+        {
+            // Nothing is said after an end that is not orderly.
+            super::complain(trouble);
+        }
+        team.part(u8::from(result.is_err()));
+        result
+    }
+
+    #[cfg(not(feature = "mpi"))]
+    fn together(&self, _: &Sweep, place: Place) -> Result<(), Trouble> {
+        Err(Trouble::usage(format_args!(
+            "{} processes were started together, but this program was built without MPI (cargo build --features mpi); or give each \
+             its part with --shard",
+            place.of
+        )))
+    }
+
+    /// What is made of all runs.
+    fn finish(&self, sweep: &Sweep, journal: Journal) -> Result<(), Trouble> {
+        let summary = self.results.write(sweep, &journal)?;
         journal.remove().map_err(Trouble::failed)?;
         verdict(&summary)
     }
 
-    /// Does what is not done yet.
-    fn work(&self, sweep: &Sweep, journal: &Journal, shard: Shard) -> Result<(), Trouble> {
-        let chunks = (0..sweep.chunks()).filter(|&chunk| shard.has(chunk));
+    /// How far it is.
+    fn bar(&self, sweep: &Sweep, journal: &Journal, ours: impl Fn(usize) -> bool) -> ProgressBar {
+        let chunks = (0..sweep.chunks()).filter(|&chunk| ours(chunk));
         let (done, open): (Vec<_>, Vec<_>) = chunks.partition(|&chunk| journal.has(sweep, chunk));
         let count = |chunks: &[usize]| chunks.iter().map(|&c| sweep.chunk(c).len()).sum::<usize>();
         let bar = match self.quiet {
@@ -86,13 +162,7 @@ impl Sweeps {
         };
         bar.set_position(count(&done) as u64);
         bar.reset_eta();
-        let workers = self.workers.map_or(0, usize::from);
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(workers).build();
-        let pool = pool.map_err(Trouble::failed)?;
-        let ours = |chunk| shard.has(chunk);
-        let outcome = pool.install(|| work(sweep, journal, ours, |points| bar.inc(points as u64)));
-        bar.finish_and_clear();
-        outcome.map_err(Trouble::failed)
+        bar
     }
 }
 

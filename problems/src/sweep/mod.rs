@@ -7,6 +7,7 @@
 mod axis;
 mod failure;
 mod journal;
+pub mod launch;
 mod observe;
 mod points;
 mod quantile;
@@ -15,6 +16,8 @@ mod sample;
 mod shard;
 mod sobol;
 mod summary;
+#[cfg(feature = "mpi")]
+pub mod team;
 mod work;
 mod worker;
 
