@@ -166,3 +166,33 @@ fn sweeps_without_sense_are_refused_in_one_line() {
         "--output",
     );
 }
+
+#[test]
+#[cfg(not(feature = "mpi"))]
+fn without_mpi_many_processes_do_not_all_do_the_same() {
+    let many = |rank: &str, more: &[&'static str]| {
+        std::process::Command::new(env!("CARGO_BIN_EXE_lagrange"))
+            .args(sweep(more))
+            .envs([
+                ("OMPI_COMM_WORLD_RANK", rank),
+                ("OMPI_COMM_WORLD_SIZE", "64"),
+            ])
+            .output()
+            .expect("it starts")
+    };
+    let first = many("0", &[]);
+    assert_eq!(first.status.code(), Some(2));
+    let said = program::text(&first.stderr);
+    assert!(said.contains("built without MPI"), "{said}");
+    // One says it for all.
+    let other = many("7", &[]);
+    assert_eq!(
+        (other.status.code(), program::text(&other.stderr)),
+        (Some(2), "")
+    );
+    // With parts of its own each is on its own.
+    let file = place("many.csv");
+    let output = ["--output", path(&file)].map(|word| word.to_owned().leak() as &str);
+    let part = many("7", &[output[0], output[1], "--shard", "8/64"]);
+    assert_eq!(part.status.code(), Some(0));
+}

@@ -125,13 +125,7 @@ impl Sweeps {
                 done.and_then(|()| self.finish(sweep, journal))
             }
         };
-        if let Err(trouble) = &result
-            && team.lost() > 0
-        {
-            // Nothing is said after an end that is not orderly.
-            super::complain(trouble);
-        }
-        team.part(u8::from(result.is_err()));
+        team.end(u8::from(result.is_err()));
         result
     }
 

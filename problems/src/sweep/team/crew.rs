@@ -3,7 +3,7 @@
 use crate::sweep::Sweep;
 use crate::sweep::work::rows;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
@@ -45,10 +45,7 @@ impl Crew {
 
     /// A chunk that is finished, if one is within this time.
     pub(super) fn finished(&self, within: Duration) -> Option<(usize, Vec<f64>)> {
-        match self.done.recv_timeout(within) {
-            Ok(finished) => Some(finished),
-            Err(RecvTimeoutError::Timeout | RecvTimeoutError::Disconnected) => None,
-        }
+        self.done.recv_timeout(within).ok()
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::crew::Crew;
 use super::office::Office;
-use super::{ANSWER, ASK, BYE, DONE, FAREWELL, GLANCE, STOP, WAIT};
+use super::{ANSWER, ASK, BYE, DONE, END, FAREWELL, GLANCE, STOP, WAIT};
 use crate::sweep::{Journal, Sweep, Trouble};
 use mpi::Tag;
 use mpi::topology::{Rank, SimpleCommunicator};
@@ -54,8 +54,8 @@ pub(super) fn work(
     Ok(())
 }
 
-/// Tells all ranks to stop, and waits for their goodbyes: those that do not say it.
-pub(super) fn dismiss(world: &SimpleCommunicator) -> Vec<Rank> {
+/// Tells all ranks to stop, and waits for their goodbyes: how many do not say it.
+pub(super) fn dismiss(world: &SimpleCommunicator) -> usize {
     let mut there: BTreeSet<Rank> = (1..world.size()).collect();
     for rank in &there {
         answer(world, *rank, STOP);
@@ -71,7 +71,14 @@ pub(super) fn dismiss(world: &SimpleCommunicator) -> Vec<Rank> {
             Some(_) => {}
         }
     }
-    there.into_iter().collect()
+    there.len()
+}
+
+/// Tells all ranks that MPI may end.
+pub(super) fn end(world: &SimpleCommunicator) {
+    for rank in 1..world.size() {
+        answer(world, rank, END);
+    }
 }
 
 /// A short message, which is on its way at once, also to a rank that has died.

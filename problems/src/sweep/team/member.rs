@@ -1,7 +1,7 @@
 //! A rank that works.
 
 use super::crew::Crew;
-use super::{ANSWER, ASK, BYE, DONE, GLANCE, PATIENCE, PAUSE, STOP};
+use super::{ANSWER, ASK, BYE, DONE, END, GLANCE, PATIENCE, PAUSE, STOP, WRITING};
 use crate::sweep::Sweep;
 use mpi::Tag;
 use mpi::topology::SimpleCommunicator;
@@ -9,7 +9,7 @@ use mpi::traits::*;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// Works until it is told to stop; ends the process if rank 0 no longer answers.
+/// Works until it is told to stop, and waits until it is told to end; ends the process if rank 0 no longer answers.
 pub(super) fn work(world: &SimpleCommunicator, sweep: &Arc<Sweep>, workers: usize) {
     let leader = world.process_at_rank(0);
     let crew = Crew::new(sweep, workers);
@@ -49,6 +49,19 @@ pub(super) fn work(world: &SimpleCommunicator, sweep: &Arc<Sweep>, workers: usiz
         }
     }
     send(world, BYE, &[]);
+    let since = Instant::now();
+    while since.elapsed() < WRITING {
+        match leader.immediate_matched_probe_with_tag(ANSWER) {
+            None => std::thread::sleep(GLANCE),
+            Some((message, _)) => {
+                let (answer, _) = message.matched_receive::<i64>();
+                if answer == END {
+                    return;
+                }
+            }
+        }
+    }
+    gone(world);
 }
 
 /// Sends to rank 0, which may have died.

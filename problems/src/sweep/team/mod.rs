@@ -4,7 +4,7 @@
 //! rank 0                 keeps the journal, gives chunks out one by one, and works
 //! ranks 1, 2, …    ASK → a chunk, WAIT or STOP
 //!                 DONE → number and rows of a chunk
-//!                  BYE → after STOP
+//!                  BYE → after STOP, then END
 //! ```
 //!
 //! Only rank 0 needs to see the folder of the sweep. When no fresh chunk is left, who has nothing to do gets one that another rank has
@@ -23,6 +23,7 @@ use mpi::topology::SimpleCommunicator;
 use mpi::traits::*;
 use mpi::{Tag, Threading};
 use std::sync::Arc;
+use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
 /// Asks for a chunk.
@@ -31,10 +32,12 @@ const ASK: Tag = 1;
 const DONE: Tag = 2;
 /// Says that a rank has stopped.
 const BYE: Tag = 3;
-/// Answers: the number of a chunk, or one of the next two.
+/// Answers: the number of a chunk, or one of the next.
 const ANSWER: Tag = 4;
 const WAIT: i64 = -1;
 const STOP: i64 = -2;
+/// After STOP: nothing is left to do, MPI may end.
+const END: i64 = -3;
 
 /// Between two looks for messages. Waiting in MPI itself would keep a core busy.
 const GLANCE: Duration = Duration::from_millis(1);
@@ -43,14 +46,17 @@ const PAUSE: Duration = Duration::from_millis(200);
 /// After this long without an answer rank 0 is taken to have died. It answers at once.
 const PATIENCE: Duration = Duration::from_secs(60);
 /// After this long without a word on STOP a rank is taken to have died.
-const FAREWELL: Duration = Duration::from_secs(10);
+const FAREWELL: Duration = Duration::from_secs(3);
+/// After this long between STOP and END, which is when results are written if a rank was lost, rank 0 is taken to have died.
+const WRITING: Duration = Duration::from_secs(1800);
 
 /// The processes of a sweep.
 pub struct Team {
-    universe: Universe,
+    /// None when it has ended.
+    universe: Option<Universe>,
     world: SimpleCommunicator,
-    /// Ranks that no longer answer.
-    lost: Vec<i32>,
+    /// Number of ranks that no longer answer.
+    lost: usize,
 }
 
 impl Team {
@@ -64,16 +70,16 @@ impl Team {
         let world = universe.world();
         if world.size() as usize != place.of {
             return Err(format!(
-                "{} processes were started, but the MPI library that this program was built with knows of {}; build it with the one of \
-                 this mpirun",
+                "{} processes were started, but the MPI library that this program was built with knows of {}; build it with the \
+                 one that this mpirun belongs to",
                 place.of,
                 world.size()
             ));
         }
         Ok(Self {
-            universe,
+            universe: Some(universe),
             world,
-            lost: Vec::new(),
+            lost: 0,
         })
     }
 
@@ -84,12 +90,13 @@ impl Team {
 
     /// Works as any rank but the leader, with so many threads, until there is nothing left to do. The process ends if the leader no
     /// longer answers.
-    pub fn follow(self, sweep: &Sweep, workers: usize) {
+    pub fn follow(mut self, sweep: &Sweep, workers: usize) {
         member::work(&self.world, &Arc::new(sweep.clone()), workers);
+        self.end(0);
     }
 
     /// Works off the chunks that the journal does not have, with all ranks; this one with so many threads. `done` is told how many
-    /// points each adds.
+    /// points each adds. The others are free then.
     ///
     /// # Errors
     /// A chunk could not be kept.
@@ -108,19 +115,32 @@ impl Team {
     /// Sends the others home.
     pub fn dismiss(&mut self) {
         self.lost = leader::dismiss(&self.world);
+        if self.lost == 0 {
+            self.end(0);
+        }
     }
 
     /// Number of ranks that no longer answered when they were sent home.
     pub fn lost(&self) -> usize {
-        self.lost.len()
+        self.lost
     }
 
-    /// Ends it, when nothing else is left to do, with an exit code. With ranks that no longer answer there is no orderly end: then the
-    /// process ends here.
-    pub fn part(self, code: u8) {
-        match self.lost.is_empty() {
-            true => drop(self.universe),
-            false => self.world.abort(code.into()),
+    /// Ends MPI, when nothing else is left to do, with the exit code if the process must end with it. MPI waits for all ranks to end it,
+    /// and has to be left behind if one hangs.
+    pub fn end(&mut self, code: u8) {
+        let Some(universe) = self.universe.take() else {
+            return;
+        };
+        if self.leads() {
+            leader::end(&self.world);
         }
+        let (ended, waits) = channel::<()>();
+        std::thread::spawn(move || {
+            if waits.recv_timeout(3 * FAREWELL) == Err(RecvTimeoutError::Timeout) {
+                std::process::exit(code.into());
+            }
+        });
+        drop(universe);
+        drop(ended);
     }
 }
