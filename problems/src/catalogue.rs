@@ -223,7 +223,14 @@ impl<S: System<Scalar = f64> + Default> Entry<S> {
         let simulation = request.simulation(system)?;
         let start = request.start(system, &simulation)?;
         let until = request.until.unwrap_or(self.until);
-        Ok(match simulation.run(start, 0.0..until) {
+        if let Some(progress) = &request.progress {
+            progress.runs_until(until);
+        }
+        let outcome = simulation.run(start, 0.0..until);
+        if let Some(progress) = &request.progress {
+            progress.advance();
+        }
+        Ok(match outcome {
             Ok(trajectory) => (trajectory, None),
             Err(stopped) => (*stopped.trajectory, Some(stopped.error)),
         })
@@ -289,7 +296,9 @@ impl<S: System<Scalar = f64> + Default + Send + 'static> Scene for Entry<S> {
         let start = request.start(&system, &simulation)?;
         let until = request.until.unwrap_or(self.until);
         let effects = request.effects(S::DESCRIPTION)?;
-        cost::measure(self.name, &system, &simulation, &effects, &start, until)
+        let progress = request.progress.clone().unwrap_or_default();
+        let run = (&start, until);
+        cost::measure(self.name, &system, &simulation, &effects, run, &progress)
             .map_err(Refusal::Run)
     }
 
@@ -305,9 +314,7 @@ impl<S: System<Scalar = f64> + Default + Send + 'static> Scene for Entry<S> {
         let request = &study.request;
         let system: S = request.system()?;
         let effects = request.effects(S::DESCRIPTION)?;
-        let simulation = Simulation::new(&system)
-            .tolerance(request.tolerance)
-            .effects(effects.clone());
+        let simulation = request.simulation(&system)?;
         let start = request.start(&system, &simulation)?;
         let until = request.until.unwrap_or(self.until);
         // A closed form is that of the whole declaration.
@@ -318,8 +325,8 @@ impl<S: System<Scalar = f64> + Default + Send + 'static> Scene for Entry<S> {
             .and_then(|known| known(&system, &start, until));
         let course = Course {
             system: &system,
+            simulation,
             start,
-            effects,
             until,
             max_steps: 400_000,
         };

@@ -1,6 +1,7 @@
 //! What to run, as a user asks for it by name, and how the start is found from it.
 
 use crate::names::nearest;
+use crate::progress::Progress;
 use core::fmt;
 use lagrange_core::effects::Item;
 use lagrange_core::prelude::*;
@@ -32,6 +33,8 @@ pub struct Request {
     pub samples: usize,
     /// Whether the energy ledger is drawn up at every sample.
     pub ledger: bool,
+    /// Who watches the run, and may end it; nobody if `None`.
+    pub progress: Option<Progress>,
 }
 
 impl Default for Request {
@@ -48,6 +51,7 @@ impl Default for Request {
             impacts: None,
             samples: 0,
             ledger: false,
+            progress: None,
         }
     }
 }
@@ -156,8 +160,12 @@ impl Request {
             .method(self.method)
             .effects(self.effects(S::DESCRIPTION)?)
             .project_start(self.project);
-        Ok(match self.impacts {
+        let simulation = match self.impacts {
             Some(impacts) => simulation.impacts(impacts),
+            None => simulation,
+        };
+        Ok(match &self.progress {
+            Some(progress) => simulation.monitor(progress.monitor()),
             None => simulation,
         })
     }

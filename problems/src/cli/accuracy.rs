@@ -2,10 +2,12 @@
 
 use super::Trouble;
 use super::course::Motion;
-use super::output::{Output, patiently, to_file};
+use super::output::{Output, to_file};
+use super::terminal::{keep_what_is_done, patiently};
 use super::values::{positive, tolerances};
 use clap::Args;
 use lagrange_problems::accuracy::{Accuracy, Family, Study};
+use lagrange_problems::progress::Progress;
 use lagrange_problems::report::Format;
 use lagrange_problems::report::accuracy::{answer, csv, json, plot, table};
 use lagrange_problems::request::Request;
@@ -44,9 +46,12 @@ impl Measure {
     pub(super) fn execute(self) -> Result<(), Trouble> {
         let file = self.motion.of(&self.scene)?;
         let scene = file.scene;
+        let progress = Progress::default();
+        keep_what_is_done(&progress);
         let study = Study {
             request: Request {
                 tolerance: 1e-15,
+                progress: Some(progress.clone()),
                 ..file.request
             },
             methods: match self.methods.is_empty() {
@@ -56,16 +61,26 @@ impl Measure {
             tolerances: self.tolerances.concat(),
             repeat: self.repeat.map(|n| n as usize),
         };
-        let accuracy = patiently(&format!("measuring {}", self.scene), || {
+        let measured = patiently(&format!("measuring {}", self.scene), &progress, || {
             scene.accuracy(&study)
-        })
-        .map_err(Trouble::refused)?;
+        });
+        let accuracy = match measured {
+            Err(_) if progress.is_stopped() => {
+                let reason = "interrupted before there was anything to measure errors against";
+                return Err(Trouble::Interrupted(reason.to_owned()));
+            }
+            measured => measured.map_err(Trouble::refused)?,
+        };
         let (format, target) = (self.output.format(), self.target);
         self.output
             .write(|out| write(&accuracy, format, target, out))?;
         if let Some(path) = &self.plot {
             let picture = plot::svg(&accuracy).map_err(Trouble::failed)?;
             to_file(path, |out| out.write_all(picture.as_bytes()))?;
+        }
+        if progress.is_stopped() {
+            let reason = "interrupted; what was measured until then is kept";
+            return Err(Trouble::Interrupted(reason.to_owned()));
         }
         match self.target {
             Some(target) => answer::reached(&accuracy, target).map_err(Trouble::failed),

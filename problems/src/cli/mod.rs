@@ -1,9 +1,10 @@
 //! The command line: arguments in, data to stdout, words to stderr.
 //!
 //! Exit codes: 0 all went well; 1 the run failed (what there is of it is still printed) or a file could not be
-//! written; 2 the request makes no sense.
+//! written; 2 the request makes no sense; 130 interrupted (what there is is still printed).
 
 mod accuracy;
+mod completions;
 mod course;
 mod effects;
 mod inspect;
@@ -13,11 +14,14 @@ mod report;
 mod run;
 mod stability;
 mod sweep;
+mod terminal;
 mod values;
 
 use clap::error::ErrorKind;
-use clap::{Parser, Subcommand};
+use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
+use lagrange_core::Error;
 use lagrange_problems::request::Refusal;
+use std::ffi::OsString;
 use std::fmt::Display;
 use std::process::ExitCode;
 
@@ -27,6 +31,12 @@ use std::process::ExitCode;
 struct Arguments {
     #[command(subcommand)]
     command: Command,
+    /// No progress bars.
+    #[arg(long, global = true)]
+    quiet: bool,
+    /// Colours in help and messages; `auto` heeds NO_COLOR and CLICOLOR.
+    #[arg(long, global = true, value_name = "WHEN", default_value_t)]
+    color: ColorChoice,
 }
 
 #[derive(Subcommand)]
@@ -39,6 +49,7 @@ enum Command {
     Effects(effects::Effects),
     Stability(stability::Stability),
     Sweep(sweep::Sweeps),
+    Completions(completions::Completions),
 }
 
 /// What went wrong, and with it the exit code.
@@ -47,7 +58,12 @@ pub(crate) enum Trouble {
     Usage(String),
     /// It was run or written, and failed.
     Failed(String),
+    /// The user has ended it.
+    Interrupted(String),
 }
+
+/// Exit code of what Ctrl-C has ended: 128 and the number of the signal, as shells have it.
+const INTERRUPTED: i32 = 130;
 
 impl Trouble {
     fn usage(reason: impl Display) -> Self {
@@ -58,9 +74,20 @@ impl Trouble {
         Trouble::Failed(reason.to_string())
     }
 
+    /// A run ended early; what there is of it has been written.
+    fn ended(error: Error) -> Self {
+        match error {
+            Error::Interrupted { time } => Trouble::Interrupted(format!(
+                "interrupted at t = {time} s; what was run until then is kept"
+            )),
+            error => Trouble::failed(error),
+        }
+    }
+
     /// A name that is not known makes no sense; a start or a reference that does not exist was tried.
     fn refused(refusal: Refusal) -> Self {
         match refusal {
+            Refusal::Run(Error::Interrupted { .. }) => Trouble::Interrupted(refusal.to_string()),
             Refusal::Start(_) | Refusal::Run(_) | Refusal::Reference { .. } => {
                 Trouble::failed(refusal)
             }
@@ -71,7 +98,11 @@ impl Trouble {
 
 /// Runs the program with the arguments of the process.
 pub(crate) fn main() -> ExitCode {
-    let arguments = match Arguments::try_parse() {
+    let choice = colour_asked(std::env::args_os());
+    terminal::colour(choice);
+    let command = Arguments::command().color(choice);
+    let parsed = command.try_get_matches();
+    let arguments = match parsed.and_then(|matches| Arguments::from_arg_matches(&matches)) {
         Ok(arguments) => arguments,
         Err(error) if error.use_stderr() => return complain(&Trouble::Usage(one_line(&error))),
         // `--help` and `--version` are answers, not errors.
@@ -80,6 +111,9 @@ pub(crate) fn main() -> ExitCode {
             return ExitCode::SUCCESS;
         }
     };
+    if arguments.quiet {
+        terminal::be_quiet();
+    }
     let result = match arguments.command {
         Command::List(list) => list.execute(),
         Command::Inspect(inspect) => inspect.execute(),
@@ -89,6 +123,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Effects(effects) => effects.execute(),
         Command::Stability(stability) => stability.execute(),
         Command::Sweep(sweep) => sweep.execute(),
+        Command::Completions(completions) => completions.execute(),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
@@ -100,9 +135,27 @@ fn complain(trouble: &Trouble) -> ExitCode {
     let (reason, code) = match trouble {
         Trouble::Usage(reason) => (reason, 2),
         Trouble::Failed(reason) => (reason, 1),
+        Trouble::Interrupted(reason) => (reason, INTERRUPTED as u8),
     };
-    eprintln!("lagrange: {reason}");
+    let style = anstyle::AnsiColor::Red.on_default().bold();
+    anstream::eprintln!("{style}lagrange:{style:#} {reason}");
     ExitCode::from(code)
+}
+
+/// The colours asked for, before anything is parsed: help and complaints about arguments need it.
+fn colour_asked(arguments: impl Iterator<Item = OsString>) -> ColorChoice {
+    let words: Vec<String> = arguments
+        .map(|argument| argument.to_string_lossy().into_owned())
+        .collect();
+    let given = |pair: &[String]| match pair[0].strip_prefix("--color") {
+        Some("") => pair.get(1).cloned(),
+        Some(rest) => rest.strip_prefix('=').map(str::to_owned),
+        None => None,
+    };
+    let asked = (0..words.len()).find_map(|k| given(&words[k..]));
+    asked
+        .and_then(|word| ColorChoice::from_str(&word, false).ok())
+        .unwrap_or_default()
 }
 
 /// What clap has to say, without its usage paragraphs.

@@ -1,13 +1,10 @@
-//! Where results go, and signs of life while they are being made.
+//! Where results go.
 
 use super::Trouble;
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
 use lagrange_problems::report::Format;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::time::Duration;
 
 /// What to print, and where to.
 #[derive(Args)]
@@ -58,26 +55,4 @@ pub(super) fn to_file(
     write(&mut text)
         .and_then(|()| std::fs::write(path, text))
         .map_err(|error| Trouble::failed(format_args!("cannot write {}: {error}", path.display())))
-}
-
-/// Does `work`; if it takes longer than a second, shows on stderr that it is alive.
-pub(super) fn patiently<T>(what: &str, work: impl FnOnce() -> T) -> T {
-    let (done, waiting) = channel::<()>();
-    std::thread::scope(|scope| {
-        scope.spawn(move || {
-            if waiting.recv_timeout(Duration::from_secs(1)) != Err(RecvTimeoutError::Timeout) {
-                return;
-            }
-            let spinner = ProgressBar::new_spinner().with_message(what.to_owned());
-            if let Ok(style) = ProgressStyle::with_template("{spinner} {msg}, {elapsed}") {
-                spinner.set_style(style);
-            }
-            spinner.enable_steady_tick(Duration::from_millis(100));
-            let _ = waiting.recv();
-            spinner.finish_and_clear();
-        });
-        let result = work();
-        drop(done);
-        result
-    })
 }

@@ -2,9 +2,11 @@
 
 use super::Trouble;
 use super::course::Course;
-use super::output::{Output, patiently, to_file};
+use super::output::{Output, to_file};
+use super::terminal::{keep_what_is_done, patiently};
 use clap::Args;
 use lagrange_problems::outcome::Outcome;
+use lagrange_problems::progress::Progress;
 use lagrange_problems::report::{Format, csv, json, plot, table};
 use lagrange_problems::request::Request;
 use lagrange_problems::scene_file::{self, Outputs};
@@ -42,13 +44,19 @@ impl Run {
         let plot = self.plot.or(file.outputs.plot);
         let format = self.output.format();
         let sampled = plot.is_some() || format == Format::Csv || self.ledger;
+        let progress = Progress::default();
+        progress.expect(1);
+        keep_what_is_done(&progress);
         let request = Request {
             samples: if sampled { SAMPLES } else { 0 },
             ledger: self.ledger || file.request.ledger,
+            progress: Some(progress.clone()),
             ..file.request
         };
-        let outcome = patiently(&format!("running {name}"), || scene.run(&request))
-            .map_err(Trouble::refused)?;
+        let outcome = patiently(&format!("running {name}"), &progress, || {
+            scene.run(&request)
+        })
+        .map_err(Trouble::refused)?;
         if let Some(path) = &self.save {
             let (format, output) = self.output.given();
             let outputs = Outputs {
@@ -66,7 +74,7 @@ impl Run {
         }
         match outcome.failure {
             None => Ok(()),
-            Some(error) => Err(Trouble::failed(error)),
+            Some(error) => Err(Trouble::ended(error)),
         }
     }
 }

@@ -1,8 +1,10 @@
 //! `lagrange stability`: hard cases, each against an answer known by other means.
 
 use super::Trouble;
-use super::output::{Output, patiently};
+use super::output::Output;
+use super::terminal::{keep_what_is_done, patiently};
 use clap::Args;
+use lagrange_problems::progress::Progress;
 use lagrange_problems::report::Format;
 use lagrange_problems::report::stability as report;
 use lagrange_problems::stability::{CASES, Case, Extent, Report};
@@ -28,11 +30,26 @@ impl Stability {
             true => Extent::Long,
             false => Extent::Short,
         };
-        let reports: Vec<Report> = patiently("running the hard cases", || {
-            cases.into_iter().map(|case| case.run(extent)).collect()
+        let (progress, all) = (Progress::default(), cases.len());
+        progress.expect(all);
+        keep_what_is_done(&progress);
+        let reports: Vec<Report> = patiently("running the hard cases", &progress, || {
+            let wanted = cases.into_iter().take_while(|_| !progress.is_stopped());
+            let run = |case: &'static Case| {
+                let report = case.run(extent);
+                progress.advance();
+                report
+            };
+            wanted.map(run).collect()
         });
         let format = self.output.format();
         self.output.write(|out| write(&reports, format, out))?;
+        if reports.len() < all {
+            return Err(Trouble::Interrupted(format!(
+                "interrupted after {} of {all} cases",
+                reports.len()
+            )));
+        }
         let failing = reports.iter().filter(|report| !report.holds());
         let names: Vec<&str> = failing.map(|report| report.case.name).collect();
         match names[..] {

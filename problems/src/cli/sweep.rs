@@ -1,10 +1,9 @@
 //! `lagrange sweep`: many runs of one scene, on all cores.
 
-use super::Trouble;
 use super::course::Course;
 use super::output::to_file;
+use super::{Trouble, terminal};
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
 use lagrange_problems::report::{Format, sweep as report};
 use lagrange_problems::sweep::{Axis, Journal, Points, Sampling, Summary, Sweep, work};
 use std::path::{Path, PathBuf};
@@ -53,9 +52,6 @@ pub(super) struct Sweeps {
     /// writes the output.
     #[arg(long, value_name = "I/N", requires = "output")]
     shard: Option<Shard>,
-    /// No progress bar.
-    #[arg(long)]
-    quiet: bool,
 }
 
 /// `sobol:N`
@@ -143,10 +139,8 @@ impl Sweeps {
         let chunks = (0..sweep.chunks()).filter(|&chunk| ours(chunk));
         let (done, open): (Vec<_>, Vec<_>) = chunks.partition(|&chunk| journal.has(sweep, chunk));
         let count = |chunks: &[usize]| chunks.iter().map(|&c| sweep.chunk(c).len()).sum::<usize>();
-        let bar = match self.quiet {
-            true => ProgressBar::hidden(),
-            false => progress(count(&done) + count(&open)),
-        };
+        let form = "{wide_bar} {human_pos} of {human_len} runs, {per_sec}, {eta} left";
+        let bar = terminal::bar((count(&done) + count(&open)) as u64, form);
         bar.set_position(count(&done) as u64);
         bar.reset_eta();
         let workers = self.workers.map_or(0, usize::from);
@@ -156,15 +150,6 @@ impl Sweeps {
         bar.finish_and_clear();
         outcome.map_err(Trouble::failed)
     }
-}
-
-fn progress(runs: usize) -> ProgressBar {
-    let bar = ProgressBar::new(runs as u64);
-    let form = "{wide_bar} {human_pos} of {human_len} runs, {per_sec}, {eta} left";
-    if let Ok(style) = ProgressStyle::with_template(form) {
-        bar.set_style(style);
-    }
-    bar
 }
 
 /// Where what is done is kept.
