@@ -264,19 +264,13 @@ impl<S: System<Scalar = f64> + Default + Send + 'static> Scene for Entry<S> {
     fn run(&self, request: &Request) -> Result<Outcome, Refusal> {
         let system: S = request.system()?;
         let (trajectory, failure) = self.trajectory(&system, request)?;
-        Ok(Outcome::new(
-            self.name,
-            &trajectory,
-            failure,
-            request.samples,
-            request.ledger,
-        ))
+        Ok(Outcome::new(self.name, &trajectory, failure, request))
     }
 
     fn film(&self, request: &Request) -> Result<Film, Refusal> {
         let system: S = request.system()?;
         let (trajectory, failure) = self.trajectory(&system, request)?;
-        let outcome = Outcome::new(self.name, &trajectory, failure, request.samples, false);
+        let outcome = Outcome::new(self.name, &trajectory, failure, request);
         let draw = |drawing: Picture<S>| {
             let samples = outcome.samples.iter();
             samples

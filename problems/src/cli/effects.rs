@@ -2,7 +2,7 @@
 
 use super::Trouble;
 use super::course::Course;
-use super::output::Output;
+use super::output::{Output, ready};
 use super::terminal::patiently;
 use clap::Args;
 use lagrange_problems::cost::Costs;
@@ -13,6 +13,9 @@ use std::io::{self, Write};
 
 /// Measure what each effect costs, mode by mode: operations and nanoseconds of a right-hand side, and of a whole run.
 #[derive(Args)]
+#[command(after_help = "Examples:
+  lagrange effects mass-on-wheel
+  lagrange effects mass-on-wheel --without floor --format json")]
 pub(super) struct Effects {
     /// The scene, or a scene file (….toml); `lagrange list` shows the scenes.
     scene: String,
@@ -25,6 +28,7 @@ pub(super) struct Effects {
 impl Effects {
     pub(super) fn execute(self) -> Result<(), Trouble> {
         let file = self.course.of(&self.scene)?;
+        ready(self.output.path(), std::slice::from_ref(&self.scene))?;
         let progress = Progress::default();
         let request = Request {
             progress: Some(progress.clone()),

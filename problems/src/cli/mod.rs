@@ -4,6 +4,7 @@
 //! written; 2 the request makes no sense; 130 interrupted (what there is is still printed).
 
 mod accuracy;
+mod complaint;
 mod completions;
 mod course;
 mod effects;
@@ -17,25 +18,38 @@ mod sweep;
 mod terminal;
 mod values;
 
-use clap::error::ErrorKind;
 use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 use lagrange_core::Error;
 use lagrange_problems::request::Refusal;
 use std::ffi::OsString;
 use std::fmt::Display;
+use std::io::Write;
 use std::process::ExitCode;
 
 /// Runs textbook scenes of constrained mechanics: each declared once as a Lagrangian, every switch located.
 #[derive(Parser)]
 #[command(name = "lagrange", version, max_term_width = 100)]
+#[command(after_help = "Examples:
+  lagrange list                               # the scenes
+  lagrange list mass-on-wheel                 # what one of them can be given
+  lagrange run mass-on-wheel                  # what happens
+  lagrange report mass-on-wheel --output wheel.html
+
+lagrange COMMAND --help has examples of each command.")]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
     /// No progress bars.
-    #[arg(long, global = true)]
+    #[arg(long, global = true, display_order = 1000)]
     quiet: bool,
     /// Colours in help and messages; `auto` heeds NO_COLOR and CLICOLOR.
-    #[arg(long, global = true, value_name = "WHEN", default_value_t)]
+    #[arg(
+        long,
+        global = true,
+        display_order = 1001,
+        value_name = "WHEN",
+        default_value_t
+    )]
     color: ColorChoice,
 }
 
@@ -104,7 +118,9 @@ pub(crate) fn main() -> ExitCode {
     let parsed = command.try_get_matches();
     let arguments = match parsed.and_then(|matches| Arguments::from_arg_matches(&matches)) {
         Ok(arguments) => arguments,
-        Err(error) if error.use_stderr() => return complain(&Trouble::Usage(one_line(&error))),
+        Err(error) if error.use_stderr() => {
+            return complain(&Trouble::Usage(complaint::one_line(&error)));
+        }
         // `--help` and `--version` are answers, not errors.
         Err(answer) => {
             let _ = answer.print();
@@ -138,7 +154,8 @@ fn complain(trouble: &Trouble) -> ExitCode {
         Trouble::Interrupted(reason) => (reason, INTERRUPTED as u8),
     };
     let style = anstyle::AnsiColor::Red.on_default().bold();
-    anstream::eprintln!("{style}lagrange:{style:#} {reason}");
+    // There is nobody to tell that stderr is closed.
+    let _ = writeln!(anstream::stderr(), "{style}lagrange:{style:#} {reason}");
     ExitCode::from(code)
 }
 
@@ -158,31 +175,10 @@ fn colour_asked(arguments: impl Iterator<Item = OsString>) -> ColorChoice {
         .unwrap_or_default()
 }
 
-/// What clap has to say, without its usage paragraphs.
-fn one_line(error: &clap::Error) -> String {
-    if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        return "no command given; `lagrange list` shows the scenes, `lagrange run SCENE` runs one"
-            .to_owned();
-    }
-    let text = error.render().to_string();
-    let said = text
-        .lines()
-        .map(str::trim)
-        .take_while(|line| !line.starts_with("Usage:"));
-    let telling = |line: &&str| !line.is_empty() && !line.starts_with("For more information");
-    let words: Vec<&str> = said.filter(telling).collect();
-    words
-        .join("; ")
-        .replace(":; ", ": ")
-        .trim_start_matches("error: ")
-        .to_owned()
-}
-
 /// Writes to stdout; a reader that has gone away (`| head`) is not an error.
 pub(crate) fn print(
-    write: impl FnOnce(&mut dyn std::io::Write) -> std::io::Result<()>,
+    write: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
 ) -> Result<(), Trouble> {
-    use std::io::Write;
     let mut out = std::io::BufWriter::new(std::io::stdout().lock());
     match write(&mut out).and_then(|()| out.flush()) {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Trouble::failed(

@@ -13,6 +13,7 @@ mod worker;
 
 pub use journal::{Journal, Trouble};
 pub use observe::Observation;
+pub(crate) use observe::event;
 pub use points::{Axis, Points, Sampling};
 pub use summary::{Column, Summary};
 pub use work::work;
@@ -85,6 +86,7 @@ impl Sweep {
             effects,
             start,
             until,
+            end_after,
             tolerance,
             method,
             project,
@@ -95,7 +97,7 @@ impl Sweep {
         let observed: Vec<&str> = self.observed.iter().map(|o| o.name.as_str()).collect();
         format!(
             "lagrange {} {}\nparameters {parameters:?}\nstart {from:?} {start:?}\neffects {effects:?}\n\
-             until {until:?} tolerance {tolerance:e} method {method} project {project} impacts {impacts:?}\n\
+             until {until:?} end after {end_after:?} tolerance {tolerance:e} method {method} project {project} impacts {impacts:?}\n\
              points {axes:?} {:?}\nobserved {observed:?}\nchunks of {CHUNK}\n",
             env!("CARGO_PKG_VERSION"),
             self.scene.name(),
