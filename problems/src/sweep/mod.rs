@@ -25,6 +25,7 @@ pub use axis::Axis;
 pub use failure::reason;
 pub use journal::{Journal, Missing, Trouble};
 pub use observe::Observation;
+pub(crate) use observe::event;
 pub use points::{Kind, Points, Sampling};
 pub use shard::Shard;
 pub use summary::{Column, Failed, QUANTILES, Summary};
