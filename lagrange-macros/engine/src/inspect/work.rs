@@ -1,10 +1,10 @@
 //! What the parts of the derivation share while it is read off.
 
+use super::choice::{self, UnknownMode};
 use super::formula::Formula;
-use super::modes::UnknownMode;
 use super::names::Names;
 use super::readable::Reader;
-use super::{Derivation, Meaning, modes};
+use super::{Derivation, Meaning};
 use crate::ast::Declaration;
 use crate::derive::OutputId;
 use crate::model::System;
@@ -69,6 +69,17 @@ impl Work<'_> {
     pub fn contact_row(&self, contact: usize) -> usize {
         self.system().constraints.len() + contact
     }
+
+    /// Rows of a friction.
+    pub fn slip_rows(&self, friction: usize) -> std::ops::Range<usize> {
+        let system = self.system();
+        let before: usize = system.frictions[..friction]
+            .iter()
+            .map(|f| f.slip.len())
+            .sum();
+        let first = self.contact_row(system.contacts.len()) + before;
+        first..first + system.frictions[friction].slip.len()
+    }
 }
 
 /// The whole derivation.
@@ -87,7 +98,7 @@ pub(super) fn derivation(
         reader: Reader::new(pool, &names, guards),
         solves: true,
     };
-    let chosen = modes::choose(&work, mode)?;
+    let chosen = choice::choose(&work, mode)?;
     work.solves = chosen.shown.len() <= MOST_SOLVED;
     let structure = &program.equations.structure;
     let kinetic = work.kinetic();
@@ -126,7 +137,7 @@ pub(super) fn derivation(
     Ok(Derivation {
         name: declaration.name.to_string(),
         summary: summary(&declaration.documentation),
-        symbols: meanings(declaration, system, &names),
+        symbols: meanings(declaration, &names),
         declared: super::declared::items(declaration, &names),
         kinetic,
         potential,
@@ -153,7 +164,7 @@ fn summary(documentation: &str) -> String {
     lines.map(str::trim).collect::<Vec<_>>().join(" ")
 }
 
-fn meanings(declaration: &Declaration, system: &System, names: &Names) -> Vec<Meaning> {
+fn meanings(declaration: &Declaration, names: &Names) -> Vec<Meaning> {
     let mut meanings = Vec::new();
     for field in &declaration.fields {
         let name = match field.length {
@@ -171,6 +182,5 @@ fn meanings(declaration: &Declaration, system: &System, names: &Names) -> Vec<Me
                 .unwrap_or_default(),
         });
     }
-    let _ = system;
     meanings
 }
