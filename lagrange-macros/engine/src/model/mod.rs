@@ -17,6 +17,8 @@ mod energies;
 mod evaluate;
 mod forces;
 mod frictions;
+mod indices;
+mod lookup;
 mod names;
 mod outputs;
 mod piecewise;
