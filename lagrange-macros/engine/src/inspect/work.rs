@@ -65,6 +65,27 @@ impl Work<'_> {
         constraints.chain(contacts).chain(slips).collect()
     }
 
+    /// What is left out where so many equations of motion are shown, and what is piecewise.
+    fn notes(&self, equations: usize) -> Vec<String> {
+        let mut notes = Vec::new();
+        let coordinates = self.system().coordinates.len();
+        if equations < coordinates {
+            notes.push(format!(
+                "{equations} of {coordinates} equations of motion are shown: the first ones and the last one."
+            ));
+        }
+        if !self.solves {
+            notes.push("Closed forms are shown for one mode at a time.".to_owned());
+        }
+        for branch in self.system().branches.iter().take(MOST_BRANCHES) {
+            notes.push(format!(
+                "Piecewise: {} has two sides; each side is smooth, and changing sides is an event.",
+                branch.text
+            ));
+        }
+        notes
+    }
+
     /// Number of the row of a contact.
     pub fn contact_row(&self, contact: usize) -> usize {
         self.system().constraints.len() + contact
@@ -111,29 +132,14 @@ pub(super) fn derivation(
     let modes: Vec<_> = chosen.shown.iter().map(|mode| work.mode(mode)).collect();
     let switches = work.switches(&chosen.shown);
     let mut notes = Vec::new();
-    if (modes.len() as u128) < chosen.count && mode.is_none() {
+    if mode.is_none() && (modes.len() as u128) < chosen.count {
         notes.push(format!(
             "{} of {} modes are shown: all contacts open, one of them closed, and all of them closed and sticking.",
             modes.len(),
             chosen.count
         ));
     }
-    let coordinates = system.coordinates.len();
-    if motion.len() < coordinates {
-        notes.push(format!(
-            "{} of {coordinates} equations of motion are shown: the first ones and the last one.",
-            motion.len()
-        ));
-    }
-    if !work.solves {
-        notes.push("Closed forms are shown for one mode at a time.".to_owned());
-    }
-    for branch in system.branches.iter().take(MOST_BRANCHES) {
-        notes.push(format!(
-            "Piecewise: {} has two sides; each side is smooth, and changing sides is an event.",
-            branch.text
-        ));
-    }
+    notes.extend(work.notes(motion.len()));
     Ok(Derivation {
         name: declaration.name.to_string(),
         summary: summary(&declaration.documentation),
