@@ -29,5 +29,5 @@ pub use derivation::Derivation;
 pub use error::Error;
 #[cfg(feature = "derive")]
 pub use lagrange_macros::Lagrangian;
-pub use run::Runner;
+pub use run::{Ensemble, Runner};
 pub use simulation::{Failure, Held, Simulation};

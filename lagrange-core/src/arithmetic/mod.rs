@@ -14,6 +14,8 @@ mod expansion;
 mod instruction;
 #[cfg(feature = "num-dual")]
 mod num_dual;
+mod numbers;
+mod pack;
 mod program;
 mod record;
 mod scalar;
@@ -23,8 +25,10 @@ mod tests;
 pub use direct::{Derivative, Value};
 pub use dual::Dual;
 pub use expansion::{Expansion, MAX_ORDER, Operation};
+pub use numbers::Given;
+pub use pack::{Coefficient, Pack};
 pub use program::Program;
-pub use record::{Recorded, Recorder, Recording, Slot, Variation};
+pub use record::{Recorded, Recorder, Recording, Renewal, Slot, Variation};
 
 use crate::entries::Entries;
 use core::fmt::Debug;

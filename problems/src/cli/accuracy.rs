@@ -1,7 +1,7 @@
 //! `lagrange accuracy`: what accuracy costs in a scene, method by method.
 
 use super::Trouble;
-use super::course::{Course, scene};
+use super::course::Motion;
 use super::output::{Output, patiently, to_file};
 use super::values::{positive, tolerances};
 use clap::Args;
@@ -18,7 +18,7 @@ pub(super) struct Measure {
     /// The scene, or a scene file; `lagrange list` shows the scenes.
     scene: String,
     #[command(flatten)]
-    course: Course,
+    motion: Motion,
     /// Methods; rk4 and gauss6 get steps that suit the tolerances, or have one of their own (rk4:0.001)
     /// [default: all].
     #[arg(long, value_name = "M,…", value_delimiter = ',')]
@@ -42,13 +42,13 @@ pub(super) struct Measure {
 
 impl Measure {
     pub(super) fn execute(self) -> Result<(), Trouble> {
-        let file = scene(&self.scene)?;
+        let file = self.motion.of(&self.scene)?;
         let scene = file.scene;
         let study = Study {
-            request: self.course.request(Request {
+            request: Request {
                 tolerance: 1e-15,
                 ..file.request
-            }),
+            },
             methods: match self.methods.is_empty() {
                 true => Family::ALL.to_vec(),
                 false => self.methods,

@@ -1,13 +1,11 @@
 //! `lagrange effects`: what each effect of a scene costs.
 
 use super::Trouble;
-use super::course::{Course, scene};
+use super::course::Course;
 use super::output::{Output, patiently};
-use super::values::positive;
 use clap::Args;
 use lagrange_problems::cost::Costs;
 use lagrange_problems::report::{Format, cost as report};
-use lagrange_problems::request::Request;
 use std::io::{self, Write};
 
 /// Measure what each effect costs, mode by mode: operations and nanoseconds of a right-hand side, and of a whole run.
@@ -17,22 +15,15 @@ pub(super) struct Effects {
     scene: String,
     #[command(flatten)]
     course: Course,
-    /// Tolerance of the integration, relative and absolute [default: 1e-9].
-    #[arg(long, value_name = "X", value_parser = positive, allow_hyphen_values = true)]
-    tolerance: Option<f64>,
     #[command(flatten)]
     output: Output,
 }
 
 impl Effects {
     pub(super) fn execute(self) -> Result<(), Trouble> {
-        let file = scene(&self.scene)?;
-        let request = self.course.request(Request {
-            tolerance: self.tolerance.unwrap_or(file.request.tolerance),
-            ..file.request
-        });
+        let file = self.course.of(&self.scene)?;
         let costs = patiently(&format!("measuring {}", file.scene.name()), || {
-            file.scene.costs(&request)
+            file.scene.costs(&file.request)
         })
         .map_err(Trouble::refused)?;
         let format = self.output.format();

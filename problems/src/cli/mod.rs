@@ -8,8 +8,10 @@ mod course;
 mod effects;
 mod inspect;
 mod list;
+mod merge;
 mod output;
 mod report;
+mod results;
 mod run;
 mod stability;
 mod sweep;
@@ -18,6 +20,7 @@ mod values;
 use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
 use lagrange_problems::request::Refusal;
+use lagrange_problems::sweep::launch;
 use std::fmt::Display;
 use std::process::ExitCode;
 
@@ -39,6 +42,7 @@ enum Command {
     Effects(effects::Effects),
     Stability(stability::Stability),
     Sweep(sweep::Sweeps),
+    Merge(merge::Merge),
 }
 
 /// What went wrong, and with it the exit code.
@@ -89,6 +93,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Effects(effects) => effects.execute(),
         Command::Stability(stability) => stability.execute(),
         Command::Sweep(sweep) => sweep.execute(),
+        Command::Merge(merge) => merge.execute(),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
@@ -101,7 +106,10 @@ fn complain(trouble: &Trouble) -> ExitCode {
         Trouble::Usage(reason) => (reason, 2),
         Trouble::Failed(reason) => (reason, 1),
     };
-    eprintln!("lagrange: {reason}");
+    // Of processes that were started together with the same arguments, one is enough to say it.
+    if launch::place().is_none_or(|place| place.rank == 0) {
+        eprintln!("lagrange: {reason}");
+    }
     ExitCode::from(code)
 }
 

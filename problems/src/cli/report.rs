@@ -1,11 +1,9 @@
 //! `lagrange report`: runs as a page to look at.
 
 use super::Trouble;
-use super::course::{Course, scene};
+use super::course::Course;
 use super::output::{patiently, to_file};
-use super::values::positive;
 use clap::Args;
-use lagrange_core::prelude::{Impacts, Method};
 use lagrange_problems::catalogue::Scene;
 use lagrange_problems::report::html::{self, Shown};
 use lagrange_problems::request::Request;
@@ -23,18 +21,6 @@ pub(super) struct Report {
     scenes: Vec<String>,
     #[command(flatten)]
     course: Course,
-    /// Tolerance of the integration, relative and absolute [default: 1e-9].
-    #[arg(long, value_name = "X", value_parser = positive, allow_hyphen_values = true)]
-    tolerance: Option<f64>,
-    /// Method of integration [default: taylor].
-    #[arg(long, value_name = "M")]
-    method: Option<Method>,
-    /// Move a start that violates a constraint onto it instead of refusing it.
-    #[arg(long)]
-    project: bool,
-    /// How impacts at one instant are solved, instead of as the scene declares: `together` or `in_turn`.
-    #[arg(long, value_name = "HOW")]
-    impacts: Option<Impacts>,
     /// The page to write.
     #[arg(long, value_name = "FILE.html", default_value = "report.html")]
     output: PathBuf,
@@ -53,17 +39,10 @@ impl Report {
     }
 
     fn shown(&self, name: &str) -> Result<Shown, Trouble> {
-        let file = scene(name)?;
-        let request = self.course.request(Request {
-            tolerance: self.tolerance.unwrap_or(file.request.tolerance),
-            method: self.method.unwrap_or(file.request.method),
-            project: self.project || file.request.project,
-            impacts: self.impacts.or(file.request.impacts),
-            ..file.request
-        });
+        let file = self.course.of(name)?;
         let request = Request {
-            samples: html::intervals(file.scene, &request),
-            ..request
+            samples: html::intervals(file.scene, &file.request),
+            ..file.request
         };
         let film = patiently(&format!("running {name}"), || file.scene.film(&request))
             .map_err(Trouble::refused)?;

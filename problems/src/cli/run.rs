@@ -1,11 +1,9 @@
 //! `lagrange run`: one scene, from a start to its end.
 
 use super::Trouble;
-use super::course::{Course, scene};
+use super::course::Course;
 use super::output::{Output, patiently, to_file};
-use super::values::positive;
 use clap::Args;
-use lagrange_core::prelude::{Impacts, Method};
 use lagrange_problems::outcome::Outcome;
 use lagrange_problems::report::{Format, csv, json, plot, table};
 use lagrange_problems::request::Request;
@@ -23,12 +21,6 @@ pub(super) struct Run {
     scene: String,
     #[command(flatten)]
     course: Course,
-    /// Tolerance of the integration, relative and absolute [default: 1e-9].
-    #[arg(long, value_name = "X", value_parser = positive, allow_hyphen_values = true)]
-    tolerance: Option<f64>,
-    /// Method of integration [default: taylor].
-    #[arg(long, value_name = "M")]
-    method: Option<Method>,
     #[command(flatten)]
     output: Output,
     /// Draw forces and state over time.
@@ -37,12 +29,6 @@ pub(super) struct Run {
     /// Give the work of every item over time (csv: columns, json: a list).
     #[arg(long)]
     ledger: bool,
-    /// Move a start that violates a constraint onto it instead of refusing it.
-    #[arg(long)]
-    project: bool,
-    /// How impacts at one instant are solved, instead of as the scene declares: `together` or `in_turn`.
-    #[arg(long, value_name = "HOW")]
-    impacts: Option<Impacts>,
     /// Write this run down as a scene file.
     #[arg(long, value_name = "FILE.toml")]
     save: Option<PathBuf>,
@@ -50,22 +36,17 @@ pub(super) struct Run {
 
 impl Run {
     pub(super) fn execute(mut self) -> Result<(), Trouble> {
-        let file = scene(&self.scene)?;
+        let file = self.course.of(&self.scene)?;
         let (scene, name) = (file.scene, file.scene.name());
         self.output.or(file.outputs.format, file.outputs.output);
         let plot = self.plot.or(file.outputs.plot);
         let format = self.output.format();
         let sampled = plot.is_some() || format == Format::Csv || self.ledger;
-        let base = Request {
+        let request = Request {
             samples: if sampled { SAMPLES } else { 0 },
-            tolerance: self.tolerance.unwrap_or(file.request.tolerance),
-            method: self.method.unwrap_or(file.request.method),
-            project: self.project || file.request.project,
-            impacts: self.impacts.or(file.request.impacts),
             ledger: self.ledger || file.request.ledger,
             ..file.request
         };
-        let request = self.course.request(base);
         let outcome = patiently(&format!("running {name}"), || scene.run(&request))
             .map_err(Trouble::refused)?;
         if let Some(path) = &self.save {
