@@ -18,6 +18,7 @@ pub(super) struct Merge {
 
 impl Merge {
     pub(super) fn execute(self) -> Result<(), Trouble> {
+        self.results.check()?;
         let (sweep, journal) = Journal::gather(&self.folders).map_err(Trouble::failed)?;
         verdict(&self.results.write(&sweep, &journal)?)
     }

@@ -52,6 +52,7 @@ pub(super) struct Sweeps {
 
 impl Sweeps {
     pub(super) fn execute(self) -> Result<(), Trouble> {
+        self.results.check()?;
         let file = self.course.of(&self.scene)?;
         let points = Points {
             axes: self.vary.clone(),
