@@ -37,10 +37,10 @@ use crate::trajectory::{EventKind, Record, State, Subject, Work};
 use accumulation::{Impacts, Train};
 use core::ops::Range;
 use curves::Curves;
+pub use ensemble::Ensemble;
 use hits::Hit;
 use log::Before;
 use rest::Rest;
-pub use ensemble::Ensemble;
 pub use runner::Runner;
 use singular::Rank;
 use stepping::Stepper;
@@ -323,6 +323,13 @@ impl<T: Scalar> Run<T> {
         if self.trajectory.work.steps >= self.settings.max_steps {
             return Err(self.limit("steps", self.settings.max_steps));
         }
+        if let Some(monitor) = &self.settings.monitor {
+            let time = self.t.value();
+            monitor.tell(time);
+            if monitor.is_stopped() {
+                return Err(Error::Interrupted { time });
+            }
+        }
         let hit = self.accepted_step()?;
         let end = hit.end();
         let exact = self.exact_end(&hit);
@@ -538,7 +545,11 @@ impl<T: Scalar> Run<T> {
         if self.series == Progress::None {
             let State { q, v } = &self.state;
             let rest = self.dynamics.begin_series(self.t, q, v, self.order)?;
-            self.series = if rest { Progress::Begun } else { Progress::Complete };
+            self.series = if rest {
+                Progress::Begun
+            } else {
+                Progress::Complete
+            };
         }
         Ok(())
     }

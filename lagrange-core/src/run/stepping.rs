@@ -1,9 +1,9 @@
 //! One accepted step: polynomials of the motion and of all guards, checked against an independent evaluation.
 
-use super::{Progress, Run};
 use super::hits::Hit;
 use super::rest::JUST_BEFORE;
 use super::singular::{MOST_RETREATS, RETREAT};
+use super::{Progress, Run};
 use crate::arithmetic::Scalar;
 use crate::dynamics::EvaluationError;
 use crate::error::Error;
@@ -179,6 +179,10 @@ impl<T: Scalar> Run<T> {
     }
 
     fn other_step(&mut self) -> Result<Hit, Error> {
+        if self.series == Progress::Begun {
+            // What it begins with does not stay.
+            self.series = Progress::None;
+        }
         let longest = self.end - self.t.value();
         let Stepper::Other(method, wanted) = &mut self.stepper else {
             return Ok(Hit::Nothing);
