@@ -254,7 +254,7 @@ fn sweeps_without_sense_are_refused_in_one_line() {
     );
     of_wheel(
         &["--vary", "mass=1..2:3", "--observe", "theta at rim loss"],
-        "did you mean `lost`?",
+        "did you mean `rim lost`?",
     );
     of_wheel(
         &["--vary", "mass=1..2:3", "--observe", "theta at rimm lost"],
