@@ -10,7 +10,7 @@ use lagrange_problems::catalogue::scenes;
 #[derive(Args)]
 #[command(after_help = "Examples:
   lagrange completions bash > ~/.local/share/bash-completion/completions/lagrange
-  lagrange completions zsh > ~/.zfunc/_lagrange          # a folder of your fpath
+  lagrange completions zsh > ~/.zfunc/_lagrange          a folder of your fpath
   lagrange completions fish > ~/.config/fish/completions/lagrange.fish")]
 pub(super) struct Completions {
     /// The shell.
@@ -24,8 +24,27 @@ impl Completions {
         command.build();
         let mut script = Vec::new();
         self.shell.generate(&command, &mut script);
+        if self.shell == Shell::Fish {
+            script.extend(fish(&command).bytes());
+        }
         print(|out| out.write_all(&script))
     }
+}
+
+/// Names of scenes for fish, to which the generator tells options only.
+fn fish(command: &Command) -> String {
+    let names: Vec<&str> = scenes().map(|scene| scene.name()).collect();
+    let names = names.join(" ");
+    let takes = |sub: &&Command| sub.get_arguments().any(|a| is_scene(a.get_id().as_str()));
+    let line = |sub: &Command| {
+        let seen = format!("__fish_seen_subcommand_from {}", sub.get_name());
+        format!("complete -c lagrange -n \"{seen}\" -a \"{names}\"\n")
+    };
+    command.get_subcommands().filter(takes).map(line).collect()
+}
+
+fn is_scene(id: &str) -> bool {
+    id == "scene" || id == "scenes"
 }
 
 /// The command with the names of the scenes where a scene is expected.
@@ -34,10 +53,9 @@ fn named(command: Command) -> Command {
         .get_subcommands()
         .map(|sub| sub.get_name().to_owned())
         .collect();
-    let scene = |id: &str| id == "scene" || id == "scenes";
     subcommands.into_iter().fold(command, |command, name| {
         command.mut_subcommand(name, |sub| {
-            sub.mut_args(|argument| match scene(argument.get_id().as_str()) {
+            sub.mut_args(|argument| match is_scene(argument.get_id().as_str()) {
                 true => argument
                     .value_parser(PossibleValuesParser::new(scenes().map(|s| s.name())))
                     .value_hint(ValueHint::FilePath),

@@ -16,7 +16,7 @@ use std::io::{self, Write};
 #[command(after_help = "Examples:
   lagrange stability
   lagrange stability --only ladder,turntable --format json
-  lagrange stability --long                    # ten times as long
+  lagrange stability --long                    ten times as long
 
 Ctrl-C ends it after the case in hand; those before are shown.")]
 pub(super) struct Stability {

@@ -12,6 +12,10 @@ use std::str::FromStr;
 /// Run a scene many times, over parameters and starts, on all cores. Killed and started again, a sweep with --output goes
 /// on where it was.
 #[derive(Args)]
+#[command(after_help = "Examples:
+  lagrange sweep mass-on-wheel --vary mu_static=0.3..1:40 --observe \"leave angle\" --plot leave.svg
+  lagrange sweep mass-on-shell --vary \"der(theta)=0..2:20\" --observe \"leave angle\" --output shell.csv
+  lagrange sweep ladder --vary start_angle=0.5..1.5 --vary length=1..9 --sample sobol:500 --observe t")]
 pub(super) struct Sweeps {
     /// The scene, or a scene file (….toml); `lagrange list` shows the scenes.
     scene: String,
