@@ -31,5 +31,5 @@ pub use error::Error;
 #[cfg(feature = "derive")]
 pub use lagrange_macros::Lagrangian;
 pub use monitor::Monitor;
-pub use run::Runner;
+pub use run::{Ensemble, Runner};
 pub use simulation::{Failure, Held, Simulation};

@@ -5,7 +5,7 @@ use crate::effects::Effects;
 use crate::error::Error;
 use crate::integrate::Method;
 use crate::monitor::Monitor;
-use crate::run::Runner;
+use crate::run::{Ensemble, Runner};
 use crate::system::{Impacts, System};
 use crate::tapes::Tapes;
 use crate::trajectory::{EventKind, State, Subject, Trajectory};
@@ -182,6 +182,11 @@ impl<'a, S: System> Simulation<'a, S> {
     /// Everything that a run works with, made ready once for many runs.
     pub fn runner(&self) -> Runner<S> {
         Runner::new(self.scene, &self.settings)
+    }
+
+    /// Everything that many runs work with, several at a time.
+    pub fn ensemble(&self) -> Ensemble<S> {
+        Ensemble::new(self.scene, &self.settings)
     }
 
     /// The state nearest to `wanted` (in the mass metric) that satisfies all constraints, with the values in `held`

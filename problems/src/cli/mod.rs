@@ -10,8 +10,10 @@ mod course;
 mod effects;
 mod inspect;
 mod list;
+mod merge;
 mod output;
 mod report;
+mod results;
 mod run;
 mod stability;
 mod sweep;
@@ -21,6 +23,7 @@ mod values;
 use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 use lagrange_core::Error;
 use lagrange_problems::request::Refusal;
+use lagrange_problems::sweep::launch;
 use std::ffi::OsString;
 use std::fmt::Display;
 use std::io::{self, BufWriter, Write};
@@ -63,6 +66,7 @@ enum Command {
     Effects(effects::Effects),
     Stability(stability::Stability),
     Sweep(sweep::Sweeps),
+    Merge(merge::Merge),
     Completions(completions::Completions),
 }
 
@@ -139,6 +143,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Effects(effects) => effects.execute(),
         Command::Stability(stability) => stability.execute(),
         Command::Sweep(sweep) => sweep.execute(),
+        Command::Merge(merge) => merge.execute(),
         Command::Completions(completions) => completions.execute(),
     };
     match result {
@@ -153,9 +158,12 @@ fn complain(trouble: &Trouble) -> ExitCode {
         Trouble::Failed(reason) => (reason, 1),
         Trouble::Interrupted(reason) => (reason, INTERRUPTED as u8),
     };
-    let style = anstyle::AnsiColor::Red.on_default().bold();
-    // There is nobody to tell that stderr is closed.
-    let _ = writeln!(anstream::stderr(), "{style}lagrange:{style:#} {reason}");
+    // Of processes that were started together with the same arguments, one is enough to say it.
+    if launch::place().is_none_or(|place| place.rank == 0) {
+        let style = anstyle::AnsiColor::Red.on_default().bold();
+        // There is nobody to tell that stderr is closed.
+        let _ = writeln!(anstream::stderr(), "{style}lagrange:{style:#} {reason}");
+    }
     ExitCode::from(code)
 }
 
