@@ -8,6 +8,10 @@ use std::path::PathBuf;
 
 /// Put the parts of a sweep together that were done with --shard. The result is the same byte for byte as without.
 #[derive(Args)]
+#[command(after_help = "Examples:
+  lagrange sweep ladder --vary length=1..9:3000 --observe t --output one.csv --shard 1/2
+  lagrange sweep ladder --vary length=1..9:3000 --observe t --output two.csv --shard 2/2
+  lagrange merge one.csv.part two.csv.part --output both.csv")]
 pub(super) struct Merge {
     /// The folders of the parts (FILE.part), in any order; they stay as they are.
     #[arg(required = true, value_name = "FILE.part")]

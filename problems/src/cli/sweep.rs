@@ -15,8 +15,11 @@ use lagrange_problems::sweep::{Axis, Journal, Points, Sampling, Shard, Sweep, wo
 #[derive(Args)]
 #[command(after_help = "Examples:
   lagrange sweep mass-on-wheel --vary mu_static=0.3..1:40 --observe \"leave angle\" --plot leave.svg
-  lagrange sweep mass-on-shell --vary \"der(theta)=0..2:20\" --observe \"leave angle\" --output shell.csv
-  lagrange sweep ladder --vary start_angle=0.5..1.5 --vary length=1..9 --sample sobol:500 --observe t")]
+  lagrange sweep mass-on-shell --vary \"der(theta)=0..2:20\" --observe t --output shell.parquet
+  lagrange sweep ladder --vary length=1..9 --vary mass=1..9 --sample sobol:500 --observe t
+  lagrange sweep ladder --vary length=1..9:3000 --observe t --output one.csv --shard 1/2
+  lagrange sweep ladder --vary length=1..9:3000 --observe t --output two.csv --shard 2/2
+  lagrange merge one.csv.part two.csv.part --output both.csv")]
 pub(super) struct Sweeps {
     /// The scene, or a scene file (….toml); `lagrange list` shows the scenes.
     scene: String,
