@@ -24,11 +24,26 @@ impl Completions {
         command.build();
         let mut script = Vec::new();
         self.shell.generate(&command, &mut script);
-        if self.shell == Shell::Fish {
-            script.extend(fish(&command).bytes());
+        match self.shell {
+            Shell::Fish => script.extend(fish(&command).bytes()),
+            Shell::Zsh => script = zsh(&String::from_utf8_lossy(&script)).into_bytes(),
+            _ => {}
         }
         print(|out| out.write_all(&script))
     }
+}
+
+/// The script for zsh with files where a scene file will do: the generator knows names or files, not both.
+fn zsh(script: &str) -> String {
+    let names: Vec<&str> = scenes().map(|scene| scene.name()).collect();
+    let names = names.join(" ");
+    let files = r#""files:scene file:_files -g \"*.toml\"""#;
+    let both = format!(":{{_alternative \"scenes:scene:({names})\" {files}}}");
+    let line = |line: &str| match line.contains("scene file") {
+        true => line.replace(&format!(":({names})"), &both) + "\n",
+        false => format!("{line}\n"),
+    };
+    script.lines().map(line).collect()
 }
 
 /// Names of scenes for fish, to which the generator tells options only.
