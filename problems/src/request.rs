@@ -183,6 +183,18 @@ impl Request {
         })
     }
 
+    /// A stage of the work that goes through the time of the run, seen by who watches it.
+    pub(crate) fn stage<W>(&self, until: f64, work: impl FnOnce() -> W) -> W {
+        if let Some(progress) = &self.progress {
+            progress.runs_until(until);
+        }
+        let done = work();
+        if let Some(progress) = &self.progress {
+            progress.advance(1);
+        }
+        done
+    }
+
     /// What takes part.
     pub(crate) fn effects(&self, description: &'static Description) -> Result<Effects, Refusal> {
         let mut off = BTreeSet::new();

@@ -5,6 +5,7 @@ use super::course::Course;
 use super::output::{ready, to_file};
 use super::terminal::{keep_what_is_done, patiently};
 use clap::Args;
+use lagrange_problems::catalogue::RUN_STAGES;
 use lagrange_problems::outcome::Outcome;
 use lagrange_problems::progress::Progress;
 use lagrange_problems::report::{RunFormat, plot};
@@ -75,7 +76,7 @@ impl Run {
         let sampled = |(format, _): &(RunFormat, _)| format.is_sampled();
         let sampled = ledger || outputs.plot.is_some() || destinations.iter().any(sampled);
         let progress = Progress::default();
-        progress.expect(1);
+        progress.expect(RUN_STAGES);
         let request = Request {
             samples: match sampled {
                 true => outputs.samples.unwrap_or(SAMPLES),

@@ -45,7 +45,7 @@ impl Stability {
             let wanted = cases.into_iter().take_while(|_| !progress.is_stopped());
             let run = |case: &'static Case| {
                 let report = case.run(extent);
-                progress.advance();
+                progress.advance(1);
                 report
             };
             wanted.map(run).collect()
