@@ -211,6 +211,22 @@ fn samples_are_as_many_as_asked_for() {
 }
 
 #[test]
+fn a_dash_is_stdout() {
+    let folder = folder("dash");
+    let output = lagrange_in(
+        &folder,
+        &["run", "kepler", "--output", "-", "--output", "run.json"],
+    );
+    assert_eq!(text(&output.stdout), says(&["run", "kepler"]));
+    assert!(folder.join("run.json").exists());
+    let output = lagrange_in(
+        &folder,
+        &["run", "kepler", "--output", "-", "--format", "parquet"],
+    );
+    assert!(output.stdout.starts_with(b"PAR1") && output.stdout.ends_with(b"PAR1"));
+}
+
+#[test]
 fn a_scene_file_says_where_everything_goes() {
     let folder = folder("outputs-of-a-file");
     let text = "scene = \"mass-on-wheel\"\nend_after = \"grip slips\"\n[outputs]\noutput = [\"a.csv\", \"a.parquet\"]\n\

@@ -6,7 +6,7 @@ use clap::{Args, Command, CommandFactory, ValueHint};
 use clap_complete::{Generator, Shell};
 use lagrange_problems::catalogue::scenes;
 
-/// Print a script that makes a shell complete commands, options and names of scenes.
+/// Print what makes a shell complete commands, options and scenes.
 #[derive(Args)]
 #[command(after_help = "Examples:
   lagrange completions bash > ~/.local/share/bash-completion/completions/lagrange

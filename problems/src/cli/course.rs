@@ -105,7 +105,7 @@ impl Motion {
 }
 
 /// The scene of this name, or what a file says if it is the path of one (`….toml`).
-fn scene(name: &str) -> Result<SceneFile, Trouble> {
+pub(super) fn scene(name: &str) -> Result<SceneFile, Trouble> {
     if !name.ends_with(".toml") {
         return Ok(SceneFile {
             scene: find(name).map_err(|refusal| unknown(name, &refusal))?,

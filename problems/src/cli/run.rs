@@ -45,7 +45,7 @@ struct Results {
     #[arg(long, value_enum)]
     format: Option<RunFormat>,
     /// Write the run to a file instead of stdout, in the format that its name says: ….csv, ….json, ….jsonl, ….parquet, ….txt.
-    /// May be repeated.
+    /// May be repeated; `-` is stdout.
     #[arg(long, value_name = "FILE")]
     output: Vec<PathBuf>,
     /// Draw forces and state over time.
@@ -137,23 +137,26 @@ fn destinations(outputs: &Outputs) -> Result<Vec<(RunFormat, Option<PathBuf>)>, 
             }
         ))),
     };
-    match (outputs.format, &outputs.output[..]) {
-        (format, []) => {
-            let format = format.unwrap_or(RunFormat::Table);
-            if format == RunFormat::Parquet && std::io::stdout().is_terminal() {
-                let reason = "Parquet is not for a terminal; add --output run.parquet";
-                return Err(Trouble::usage(reason));
-            }
-            Ok(vec![(format, None)])
+    let file = |path: &PathBuf| (path != Path::new("-")).then(|| path.clone());
+    let destinations = match (outputs.format, &outputs.output[..]) {
+        (format, []) => vec![(format.unwrap_or(RunFormat::Table), None)],
+        (Some(format), [path]) => vec![(format, file(path))],
+        (Some(_), _) => {
+            let reason =
+                "several outputs have the formats that their names say; leave the format out";
+            return Err(Trouble::usage(reason));
         }
-        (Some(format), [path]) => Ok(vec![(format, Some(path.clone()))]),
-        (Some(_), _) => Err(Trouble::usage(
-            "several outputs have the formats that their names say; leave the format out",
-        )),
         (None, paths) => {
-            let one = |path: &PathBuf| Ok((named(path)?, Some(path.clone())));
-            paths.iter().map(one).collect()
+            let one = |path: &PathBuf| Ok((named(path)?, file(path)));
+            paths.iter().map(one).collect::<Result<_, _>>()?
         }
+    };
+    let bytes = destinations.contains(&(RunFormat::Parquet, None));
+    match bytes && std::io::stdout().is_terminal() {
+        true => Err(Trouble::usage(
+            "Parquet is not for a terminal; add --output run.parquet",
+        )),
+        false => Ok(destinations),
     }
 }
 

@@ -11,7 +11,9 @@ use lagrange_problems::request::Refusal;
 use lagrange_problems::stability::{CASES, Case, Extent, Report};
 use std::io::{self, Write};
 
-/// Run the hard cases: what breaks other programs, how far from the known answer each ends, and whether it keeps its bound.
+/// Run the hard cases, each against a known answer.
+///
+/// What breaks other programs, how far from the known answer each ends here, and whether it keeps its bound.
 #[derive(Args)]
 #[command(after_help = "Examples:
   lagrange stability
