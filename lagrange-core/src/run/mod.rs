@@ -196,7 +196,10 @@ impl<T: Scalar> Run<T> {
             stuck: Pool::default(),
             finished: false,
             work_before: crate::dynamics::Work::default(),
-            trajectory: Record::new(&system, &settings.effects, settings.record),
+            trajectory: Record {
+                monitor: settings.monitor.clone(),
+                ..Record::new(&system, &settings.effects, settings.record)
+            },
             state,
             mode,
         };

@@ -5,7 +5,7 @@ use super::course::Course;
 use super::output::to_file;
 use super::terminal::{keep_what_is_done, patiently};
 use clap::Args;
-use lagrange_problems::catalogue::Scene;
+use lagrange_problems::catalogue::{FILM_STAGES, Scene};
 use lagrange_problems::progress::Progress;
 use lagrange_problems::report::html::{self, Shown};
 use lagrange_problems::request::Request;
@@ -31,7 +31,7 @@ pub(super) struct Report {
 impl Report {
     pub(super) fn execute(self) -> Result<(), Trouble> {
         let progress = Progress::default();
-        progress.expect(self.scenes.len());
+        progress.expect(self.scenes.len() * FILM_STAGES);
         keep_what_is_done(&progress);
         let runs: Vec<Shown> = patiently("running", &progress, || {
             let names = self.scenes.iter();
