@@ -85,12 +85,7 @@ impl<T: Scalar> Packets<T> {
     }
 
     /// Expands one group. Places that are left over repeat the last motion.
-    fn run(
-        &mut self,
-        group: &[(usize, usize)],
-        waiting: &mut [&mut Dynamics<T>],
-        order: usize,
-    ) {
+    fn run(&mut self, group: &[(usize, usize)], waiting: &mut [&mut Dynamics<T>], order: usize) {
         let motions: [usize; LANES] =
             core::array::from_fn(|lane| group[lane.min(group.len() - 1)].1);
         let Packet {

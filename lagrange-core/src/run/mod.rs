@@ -37,10 +37,10 @@ use crate::trajectory::{EventKind, Record, State, Subject, Work};
 use accumulation::{Impacts, Train};
 use core::ops::Range;
 use curves::Curves;
+pub use ensemble::Ensemble;
 use hits::Hit;
 use log::Before;
 use rest::Rest;
-pub use ensemble::Ensemble;
 pub use runner::Runner;
 use singular::Rank;
 use stepping::Stepper;
@@ -538,7 +538,11 @@ impl<T: Scalar> Run<T> {
         if self.series == Progress::None {
             let State { q, v } = &self.state;
             let rest = self.dynamics.begin_series(self.t, q, v, self.order)?;
-            self.series = if rest { Progress::Begun } else { Progress::Complete };
+            self.series = if rest {
+                Progress::Begun
+            } else {
+                Progress::Complete
+            };
         }
         Ok(())
     }
