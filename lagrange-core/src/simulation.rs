@@ -4,6 +4,7 @@ use crate::arithmetic::Scalar;
 use crate::effects::Effects;
 use crate::error::Error;
 use crate::integrate::Method;
+use crate::monitor::Monitor;
 use crate::run::{Ensemble, Runner};
 use crate::system::{Impacts, System};
 use crate::tapes::Tapes;
@@ -32,6 +33,7 @@ pub(crate) struct Settings {
     pub impacts: Option<Impacts>,
     pub max_events: usize,
     pub max_steps: usize,
+    pub monitor: Option<Monitor>,
 }
 
 /// A run that ended early, with everything up to there.
@@ -79,6 +81,7 @@ impl<'a, S: System> Simulation<'a, S> {
                 impacts: None,
                 max_events: 100_000,
                 max_steps: 100_000_000,
+                monitor: None,
             },
         }
     }
@@ -145,6 +148,13 @@ impl<'a, S: System> Simulation<'a, S> {
     #[must_use]
     pub fn max_steps(mut self, limit: usize) -> Self {
         self.settings.max_steps = limit;
+        self
+    }
+
+    /// Lets other threads see how far a run has come, and stop it.
+    #[must_use]
+    pub fn monitor(mut self, monitor: &Monitor) -> Self {
+        self.settings.monitor = Some(monitor.clone());
         self
     }
 

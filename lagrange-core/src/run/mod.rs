@@ -324,6 +324,13 @@ impl<T: Scalar> Run<T> {
         if self.trajectory.work.steps >= self.settings.max_steps {
             return Err(self.limit("steps", self.settings.max_steps));
         }
+        if let Some(monitor) = &self.settings.monitor {
+            let time = self.t.value();
+            monitor.tell(time);
+            if monitor.is_stopped() {
+                return Err(Error::Interrupted { time });
+            }
+        }
         let hit = self.accepted_step()?;
         let end = hit.end();
         let exact = self.exact_end(&hit);

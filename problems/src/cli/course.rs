@@ -5,8 +5,10 @@ use super::values::{named, positive};
 use clap::Args;
 use lagrange_core::prelude::{Impacts, Method};
 use lagrange_problems::catalogue::find;
-use lagrange_problems::request::Request;
+use lagrange_problems::names::method;
+use lagrange_problems::request::{Refusal, Request};
 use lagrange_problems::scene_file::{self, Outputs, SceneFile};
+use std::path::Path;
 
 /// What is to move, and how exactly it is followed.
 #[derive(Args)]
@@ -17,12 +19,13 @@ pub(super) struct Course {
     #[arg(long, value_name = "X", value_parser = positive, allow_hyphen_values = true)]
     tolerance: Option<f64>,
     /// Method of integration [default: taylor].
-    #[arg(long, value_name = "M")]
+    #[arg(long, value_name = "M", value_parser = method)]
     method: Option<Method>,
 }
 
 /// What is to move: from which start, under which effects, until when.
 #[derive(Args)]
+#[command(next_help_heading = "The run")]
 pub(super) struct Motion {
     /// Set a parameter; may be repeated.
     #[arg(long, value_name = "NAME=VALUE", value_parser = named, allow_hyphen_values = true)]
@@ -44,6 +47,9 @@ pub(super) struct Motion {
     /// End of the run, s [default: the scene's].
     #[arg(long, value_name = "T", value_parser = positive, allow_hyphen_values = true)]
     until: Option<f64>,
+    /// End the run after an event ("rim lost", "floor impact"); if given several times, once all of them have happened.
+    #[arg(long, value_name = "EVENT")]
+    end_after: Vec<String>,
     /// Move a start that violates a constraint onto it instead of refusing it.
     #[arg(long)]
     project: bool,
@@ -87,6 +93,10 @@ impl Motion {
             effects: base.effects.into_iter().chain(effects).collect(),
             start: instead(base.start, &self.start),
             until: self.until.or(base.until),
+            end_after: match self.end_after.is_empty() {
+                true => base.end_after,
+                false => self.end_after.clone(),
+            },
             project: self.project || base.project,
             impacts: self.impacts.or(base.impacts),
             ..base
@@ -98,7 +108,7 @@ impl Motion {
 fn scene(name: &str) -> Result<SceneFile, Trouble> {
     if !name.ends_with(".toml") {
         return Ok(SceneFile {
-            scene: find(name).map_err(Trouble::usage)?,
+            scene: find(name).map_err(|refusal| unknown(name, &refusal))?,
             request: Request::default(),
             outputs: Outputs::default(),
         });
@@ -106,6 +116,22 @@ fn scene(name: &str) -> Result<SceneFile, Trouble> {
     let text = std::fs::read_to_string(name)
         .map_err(|error| Trouble::usage(format_args!("cannot read {name}: {error}")))?;
     scene_file::read(&text).map_err(|mistake| Trouble::usage(format_args!("{name}:{mistake}")))
+}
+
+/// A scene that there is not; perhaps a file was meant.
+fn unknown(name: &str, refusal: &Refusal) -> Trouble {
+    let file = format!("{name}.toml");
+    if Path::new(&file).is_file() {
+        return Trouble::usage(format_args!(
+            "no scene is called `{name}`; did you mean the file `{file}`?"
+        ));
+    }
+    match Path::new(name).is_file() {
+        true => Trouble::usage(format_args!(
+            "`{name}` is no scene; the name of a scene file ends in .toml"
+        )),
+        false => Trouble::usage(refusal),
+    }
 }
 
 /// The values of `base`, but for those `given`.

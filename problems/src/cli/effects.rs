@@ -2,14 +2,20 @@
 
 use super::Trouble;
 use super::course::Course;
-use super::output::{Output, patiently};
+use super::output::{Output, ready};
+use super::terminal::patiently;
 use clap::Args;
 use lagrange_problems::cost::Costs;
+use lagrange_problems::progress::Progress;
 use lagrange_problems::report::{Format, cost as report};
+use lagrange_problems::request::Request;
 use std::io::{self, Write};
 
 /// Measure what each effect costs, mode by mode: operations and nanoseconds of a right-hand side, and of a whole run.
 #[derive(Args)]
+#[command(after_help = "Examples:
+  lagrange effects mass-on-wheel
+  lagrange effects mass-on-wheel --without floor --format json")]
 pub(super) struct Effects {
     /// The scene, or a scene file (….toml); `lagrange list` shows the scenes.
     scene: String,
@@ -22,9 +28,17 @@ pub(super) struct Effects {
 impl Effects {
     pub(super) fn execute(self) -> Result<(), Trouble> {
         let file = self.course.of(&self.scene)?;
-        let costs = patiently(&format!("measuring {}", file.scene.name()), || {
-            file.scene.costs(&file.request)
-        })
+        ready(self.output.path(), std::slice::from_ref(&self.scene))?;
+        let progress = Progress::default();
+        let request = Request {
+            progress: Some(progress.clone()),
+            ..file.request
+        };
+        let costs = patiently(
+            &format!("measuring {}", file.scene.name()),
+            &progress,
+            || file.scene.costs(&request),
+        )
         .map_err(Trouble::refused)?;
         let format = self.output.format();
         self.output.write(|out| write(&costs, format, out))

@@ -2,9 +2,11 @@
 
 use super::Trouble;
 use super::course::Course;
-use super::output::{patiently, to_file};
+use super::output::to_file;
+use super::terminal::{keep_what_is_done, patiently};
 use clap::Args;
 use lagrange_problems::catalogue::Scene;
+use lagrange_problems::progress::Progress;
 use lagrange_problems::report::html::{self, Shown};
 use lagrange_problems::request::Request;
 use std::path::PathBuf;
@@ -28,24 +30,27 @@ pub(super) struct Report {
 
 impl Report {
     pub(super) fn execute(self) -> Result<(), Trouble> {
-        let runs: Vec<Shown> = self
-            .scenes
-            .iter()
-            .map(|name| self.shown(name))
-            .collect::<Result<_, _>>()?;
+        let progress = Progress::default();
+        progress.expect(self.scenes.len());
+        keep_what_is_done(&progress);
+        let runs: Vec<Shown> = patiently("running", &progress, || {
+            let names = self.scenes.iter();
+            let shown = names.map(|name| self.shown(name, &progress));
+            shown.collect::<Result<_, _>>()
+        })?;
         to_file(&self.output, |out| html::write(&runs, out))?;
         let failed = runs.into_iter().find_map(|run| run.film.outcome.failure);
-        failed.map_or(Ok(()), |error| Err(Trouble::failed(error)))
+        failed.map_or(Ok(()), |error| Err(Trouble::ended(error)))
     }
 
-    fn shown(&self, name: &str) -> Result<Shown, Trouble> {
+    fn shown(&self, name: &str, progress: &Progress) -> Result<Shown, Trouble> {
         let file = self.course.of(name)?;
         let request = Request {
             samples: html::intervals(file.scene, &file.request),
+            progress: Some(progress.clone()),
             ..file.request
         };
-        let film = patiently(&format!("running {name}"), || file.scene.film(&request))
-            .map_err(Trouble::refused)?;
+        let film = file.scene.film(&request).map_err(Trouble::refused)?;
         Ok(Shown {
             title: title(name, file.scene),
             film,

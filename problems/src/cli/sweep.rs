@@ -1,10 +1,10 @@
 //! `lagrange sweep`: many runs of one scene, on all cores.
 
-use super::Trouble;
 use super::course::Course;
 use super::results::{Results, beside, verdict};
+use super::{Trouble, terminal};
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressBar;
 use lagrange_problems::sweep::launch::{self, Place};
 #[cfg(feature = "mpi")]
 use lagrange_problems::sweep::team::Team;
@@ -45,9 +45,6 @@ pub(super) struct Sweeps {
     /// Do only part I of N (1/8 … 8/8), for array jobs. What is done stays in FILE.part; `lagrange merge` puts parts together.
     #[arg(long, value_name = "I/N", requires = "output")]
     shard: Option<Shard>,
-    /// No progress bar.
-    #[arg(long)]
-    quiet: bool,
 }
 
 impl Sweeps {
@@ -150,21 +147,10 @@ impl Sweeps {
         let chunks = (0..sweep.chunks()).filter(|&chunk| ours(chunk));
         let (done, open): (Vec<_>, Vec<_>) = chunks.partition(|&chunk| journal.has(sweep, chunk));
         let count = |chunks: &[usize]| chunks.iter().map(|&c| sweep.chunk(c).len()).sum::<usize>();
-        let bar = match self.quiet {
-            true => ProgressBar::hidden(),
-            false => progress(count(&done) + count(&open)),
-        };
+        let form = "{wide_bar} {human_pos} of {human_len} runs, {per_sec}, {eta} left";
+        let bar = terminal::bar((count(&done) + count(&open)) as u64, form);
         bar.set_position(count(&done) as u64);
         bar.reset_eta();
         bar
     }
-}
-
-fn progress(runs: usize) -> ProgressBar {
-    let bar = ProgressBar::new(runs as u64);
-    let form = "{wide_bar} {human_pos} of {human_len} runs, {per_sec}, {eta} left";
-    if let Ok(style) = ProgressStyle::with_template(form) {
-        bar.set_style(style);
-    }
-    bar
 }

@@ -25,6 +25,7 @@ pub use axis::Axis;
 pub use failure::reason;
 pub use journal::{Journal, Missing, Trouble};
 pub use observe::Observation;
+pub(crate) use observe::event;
 pub use points::{Kind, Points, Sampling};
 pub use shard::Shard;
 pub use summary::{Column, Failed, QUANTILES, Summary};
@@ -91,5 +92,5 @@ impl Sweep {
     }
 }
 
-/// Runs points one after the other: from the values of the axes to the numbers of [`Sweep::width`].
-pub type Worker<'a> = Box<dyn FnMut(&[f64], &mut [f64]) + Send + 'a>;
+/// Runs a range of points and writes the numbers of [`Sweep::width`] of each, one after the other.
+pub type Worker<'a> = Box<dyn FnMut(Range<usize>, &mut [f64]) + Send + 'a>;
