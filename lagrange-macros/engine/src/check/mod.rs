@@ -15,6 +15,7 @@ mod arithmetic;
 mod bounded;
 mod degree;
 mod exact;
+mod forces;
 mod linear;
 mod mechanics;
 mod modes;
@@ -193,56 +194,29 @@ impl Court<'_> {
         let pool = &mut self.equations.system.pool;
         let prepared = &self.prepared[at];
         let ties = ties(pool, &self.mechanics, &check.premises);
-        let (mut because, mut certain, mut impossible) = (None, false, true);
-        let sheets: &[Sheet] = match &prepared.surface {
+        let (sheets, findings): (&[Sheet], Findings) = match &prepared.surface {
             Surface::Empty => return Ruling::Impossible,
-            Surface::Sheets(sheets) => sheets,
-            Surface::Unsolved(reason) => {
-                because = Some(reason.clone());
-                &[]
+            Surface::Sheets(sheets) => {
+                let mut findings = Findings::default();
+                for (sheet, mechanics) in sheets.iter().zip(&prepared.mechanics) {
+                    let case = Case {
+                        mechanics,
+                        mode,
+                        ties: &substituted(pool, &ties, sheet),
+                        positions: &sheet.positions,
+                        claim: pool.substitute(claim, &sheet.solved),
+                        decided: &decided,
+                    };
+                    findings.add(exact(pool, &case));
+                }
+                (sheets, findings)
             }
+            Surface::Unsolved(reason) => (&[], Findings::unsolved(reason)),
         };
-        for (sheet, mechanics) in sheets.iter().zip(&prepared.mechanics) {
-            let here = pool.substitute(claim, &sheet.solved);
-            let ties: Vec<motion::Tie> = ties
-                .iter()
-                .map(|tie| motion::Tie {
-                    jacobian: tie
-                        .jacobian
-                        .iter()
-                        .map(|&(j, e)| (j, pool.substitute(e, &sheet.solved)))
-                        .collect(),
-                    whole: pool.substitute(tie.whole, &sheet.solved),
-                })
-                .collect();
-            let case = Case {
-                mechanics,
-                mode,
-                ties: &ties,
-                positions: &sheet.positions,
-                claim: here,
-                decided: &decided,
-            };
-            match exact(pool, &case) {
-                Finding::Zero => impossible = false,
-                Finding::Impossible => {}
-                Finding::Different { certain: sure } => {
-                    impossible = false;
-                    certain |= sure;
-                    because =
-                        Some("it holds functions or roots that may depend on each other".into());
-                }
-                Finding::Open(reason) => {
-                    impossible = false;
-                    because = Some(reason);
-                }
-            }
-        }
-        let Some(because) = because else {
-            return if impossible {
-                Ruling::Impossible
-            } else {
-                Ruling::Proven
+        let Some(because) = findings.because else {
+            return match findings.has_states {
+                true => Ruling::Proven,
+                false => Ruling::Impossible,
             };
         };
         let region = Region {
@@ -258,8 +232,8 @@ impl Court<'_> {
                 Positions::Solved(sheets)
             },
         };
-        let search = refute::search(pool, &region, check, &self.mechanics.applied, certain);
-        match search {
+        let applied = &self.mechanics.applied;
+        match refute::search(pool, &region, check, applied, findings.certain) {
             refute::Search::Counterexample(text) => Ruling::Refuted(text),
             refute::Search::Nothing(states) => Ruling::Tested(states, because),
         }
@@ -378,6 +352,54 @@ impl Court<'_> {
         }
         decided
     }
+}
+
+/// What has been found on the sheets of a surface.
+#[derive(Default)]
+struct Findings {
+    /// Why the claim is not proven.
+    because: Option<String>,
+    /// Whether it is certain that it does not hold.
+    certain: bool,
+    /// Whether there are states at all.
+    has_states: bool,
+}
+
+impl Findings {
+    fn unsolved(reason: &str) -> Findings {
+        Findings {
+            because: Some(reason.to_owned()),
+            ..Findings::default()
+        }
+    }
+
+    fn add(&mut self, finding: Finding) {
+        match finding {
+            Finding::Impossible => return,
+            Finding::Zero => {}
+            Finding::Different { certain } => {
+                self.certain |= certain;
+                let reason = "it holds functions or roots that may depend on each other";
+                self.because = Some(reason.to_owned());
+            }
+            Finding::Open(reason) => self.because = Some(reason),
+        }
+        self.has_states = true;
+    }
+}
+
+/// Ties on a sheet.
+fn substituted(pool: &mut Pool, ties: &[motion::Tie], sheet: &Sheet) -> Vec<motion::Tie> {
+    let mut on_sheet = Vec::new();
+    for tie in ties {
+        let mut jacobian = Vec::new();
+        for &(j, e) in &tie.jacobian {
+            jacobian.push((j, pool.substitute(e, &sheet.solved)));
+        }
+        let whole = pool.substitute(tie.whole, &sheet.solved);
+        on_sheet.push(motion::Tie { jacobian, whole });
+    }
+    on_sheet
 }
 
 /// a/b, if that is a number.
