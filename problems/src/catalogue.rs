@@ -276,9 +276,12 @@ impl<S: System<Scalar = f64> + Default + Send + 'static> Scene for Entry<S> {
                 .map(|sample| drawing(&system, sample.time, &sample.state.q))
                 .collect()
         };
+        let samples = outcome.samples.iter();
+        let instants = samples.map(|sample| (sample.time, &sample.mode, &sample.state));
         Ok(Film {
             drawings: self.drawing.map(draw).unwrap_or_default(),
             books: film::books(&trajectory),
+            drift: film::drift(&trajectory, instants),
             outcome,
         })
     }

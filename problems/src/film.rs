@@ -12,6 +12,9 @@ pub struct Film {
     pub drawings: Vec<Drawing>,
     /// Time, s, and the energy book from the beginning to it; empty if it could not be drawn up.
     pub books: Vec<(f64, Ledger)>,
+    /// Largest relative residual of what has to hold (constraints, closed contacts, slips that stick) at any sample; `None` if
+    /// nothing ever has to.
+    pub drift: Option<f64>,
 }
 
 /// Intervals at which the energy book is opened.
@@ -24,4 +27,26 @@ pub(crate) fn books(trajectory: &Record<f64>) -> Vec<(f64, Ledger)> {
     let times: Vec<f64> = (0..BOOKS).map(part).chain([last]).collect();
     let ledgers = trajectory.ledgers(&times).unwrap_or_default();
     times.into_iter().zip(ledgers).collect()
+}
+
+/// Largest relative residual of the rows that act, on position and velocity level, among instants of a run; `None` if none
+/// ever acts.
+pub(crate) fn drift<'a>(
+    trajectory: &Record<f64>,
+    instants: impl Iterator<Item = (f64, &'a Mode, &'a State<f64>)>,
+) -> Option<f64> {
+    let mut dynamics = trajectory.dynamics();
+    let mut entered: Option<&Mode> = None;
+    let residuals = instants.filter_map(|(time, mode, state)| {
+        if entered != Some(mode) {
+            dynamics.set_mode(mode);
+            entered = Some(mode);
+        }
+        if dynamics.acting_rows().is_empty() {
+            return None;
+        }
+        let (position, velocity) = dynamics.residuals(time, &state.q, &state.v);
+        Some(position.relative.max(velocity.relative))
+    });
+    residuals.reduce(f64::max)
 }

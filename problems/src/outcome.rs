@@ -161,6 +161,16 @@ impl Outcome {
         }
     }
 
+    /// Whether what a force is of takes part.
+    pub fn includes(&self, source: Source) -> bool {
+        let item = match source {
+            Source::Constraint(i) => Item::Constraint(i),
+            Source::Contact(i) => Item::Contact(i),
+            Source::Friction(i) => Item::Friction(i),
+        };
+        self.effects.includes(self.description, item)
+    }
+
     /// Names of what was left out.
     pub fn left_out(&self) -> Vec<&'static str> {
         let items = self.effects.left_out();

@@ -4,6 +4,7 @@
 //! written; 2 the request makes no sense.
 
 mod accuracy;
+mod compare;
 mod course;
 mod effects;
 mod inspect;

@@ -4,8 +4,10 @@
 pub mod accuracy;
 pub mod cost;
 pub mod csv;
+pub mod frames;
 pub mod html;
 pub mod json;
+mod picture;
 pub mod plot;
 pub mod stability;
 pub mod sweep;
@@ -96,5 +98,25 @@ pub(crate) fn symbol(name: &str) -> String {
     match GREEK.iter().find(|(word, _)| *word == stem) {
         Some((_, letter)) => format!("{letter}{rest}"),
         None => name.to_owned(),
+    }
+}
+
+/// To six significant digits: no picture shows more. What is not finite is 0: JSON cannot hold it.
+pub(crate) fn significant(x: f64) -> f64 {
+    if !x.is_finite() || x == 0.0 {
+        return 0.0;
+    }
+    format!("{x:.5e}").parse().unwrap_or(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::significant;
+
+    #[test]
+    fn numbers_are_short_and_finite() {
+        assert_eq!(significant(1.0 / 3.0), 0.333333);
+        assert_eq!(significant(-0.0), 0.0);
+        assert_eq!(significant(f64::NAN), 0.0);
     }
 }

@@ -530,6 +530,7 @@ impl Work<'_> {
             if choice.contacts[at] {
                 let force = Formula::Letter(self.names.letter(contact.force));
                 guards.push(Guard {
+                    meaning: format!("{name} presses"),
                     statement: Statement::new(force, Relation::AtLeast, Formula::ZERO),
                     otherwise: format!("{name} lost"),
                 });
@@ -537,6 +538,7 @@ impl Work<'_> {
                 let gap = self.pool().substitute(contact.gap, known);
                 let gap = self.reader.formula(gap);
                 guards.push(Guard {
+                    meaning: format!("{name} is open"),
                     statement: Statement::new(gap, Relation::AtLeast, Formula::ZERO),
                     otherwise: format!("impact at {name}"),
                 });
@@ -556,6 +558,7 @@ impl Work<'_> {
                         .collect();
                     let most = self.strength(i, item.static_coefficient);
                     guards.push(Guard {
+                        meaning: format!("static friction of {name} suffices"),
                         statement: Statement::new(norm(&forces), Relation::AtMost, most),
                         otherwise: format!("{name} slips"),
                     });
@@ -567,6 +570,7 @@ impl Work<'_> {
                     };
                     let slip = self.rate(row, known);
                     guards.push(Guard {
+                        meaning: format!("{name} {}", state.verb()),
                         statement: Statement::new(slip, relation, Formula::ZERO),
                         otherwise: format!("{name} sticks, or slips the other way"),
                     });
@@ -575,6 +579,7 @@ impl Work<'_> {
                     let slip: Vec<Formula> =
                         self.slip_rows(i).map(|row| self.rate(row, known)).collect();
                     guards.push(Guard {
+                        meaning: format!("{name} slips"),
                         statement: Statement::new(norm(&slip), Relation::Above, Formula::ZERO),
                         otherwise: format!("{name} sticks, or slips on"),
                     });
