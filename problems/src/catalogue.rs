@@ -6,7 +6,7 @@ use crate::closed_form::ClosedForm;
 use crate::cost::{self, Costs};
 use crate::drawing::Drawing;
 use crate::film::{self, Film};
-use crate::outcome::Outcome;
+use crate::outcome::{Outcome, equal};
 use crate::request::{Refusal, Request};
 use crate::scenes::hard::*;
 use crate::scenes::*;
@@ -50,7 +50,7 @@ pub static SCENES: &[&dyn Scene] = &[
     &Entry::<DoublePendulum>::new("double-pendulum", 5.0).drawn(DoublePendulum::drawing),
     &Entry::<FiveLinkChain>::new("five-link-chain", 2.0).drawn(FiveLinkChain::drawing),
     &Entry::<Chain20>::new("chain", 2.0).drawn(Chain20::drawing),
-    &Entry::<Net>::new("net", 2.0),
+    &Entry::<Net>::new("net", 2.0).drawn(Net::drawing),
     &Entry::<CartesianPendulum>::new("cartesian-pendulum", 100.0)
         .known(CartesianPendulum::closed_form)
         .drawn(CartesianPendulum::drawing),
@@ -261,7 +261,7 @@ impl<S: System<Scalar = f64> + Default + Send + 'static> Scene for Entry<S> {
             self.name,
             &trajectory,
             failure,
-            request.samples,
+            &equal(&trajectory, request.samples),
             request.ledger,
         ))
     }
@@ -269,7 +269,9 @@ impl<S: System<Scalar = f64> + Default + Send + 'static> Scene for Entry<S> {
     fn film(&self, request: &Request) -> Result<Film, Refusal> {
         let system: S = request.system()?;
         let (trajectory, failure) = self.trajectory(&system, request)?;
-        let outcome = Outcome::new(self.name, &trajectory, failure, request.samples, false);
+        let times = film::instants(&trajectory, request.samples);
+        let mut outcome = Outcome::new(self.name, &trajectory, failure, &times, false);
+        film::without_rounding(&mut outcome);
         let draw = |drawing: Picture<S>| {
             let samples = outcome.samples.iter();
             samples

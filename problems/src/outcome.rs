@@ -20,7 +20,7 @@ pub struct Outcome {
     pub events: Vec<Event<f64>>,
     /// Modes in order of time.
     pub phases: Vec<Phase>,
-    /// The trajectory at equal intervals, and at the beginning and the end of every phase; in order of time.
+    /// The trajectory at some instants, and at the beginning and the end of every phase; in order of time.
     /// Empty if the run could not begin.
     pub samples: Vec<Sample>,
     /// Energy book; `None` if it could not be drawn up.
@@ -132,16 +132,16 @@ pub fn forces(description: &Description) -> Vec<Force> {
 }
 
 impl Outcome {
-    /// Collects what a trajectory knows; `intervals` equal ones are sampled beside the ends of the phases.
+    /// Collects what a trajectory knows; these times, in order, are sampled beside the ends of the phases.
     pub(crate) fn new(
         scene: &'static str,
         trajectory: &Record<f64>,
         failure: Option<Error>,
-        intervals: usize,
+        times: &[f64],
         ledgers: bool,
     ) -> Self {
         let description = trajectory.description();
-        let samples = sample(trajectory, intervals);
+        let samples = sample(trajectory, times);
         let times: Vec<f64> = samples.iter().map(|sample| sample.time).collect();
         let ledgers = ledgers.then(|| trajectory.ledgers(&times).ok()).flatten();
         Outcome {
@@ -204,10 +204,16 @@ impl Outcome {
     }
 }
 
-/// Both ends of every phase, and between them the multiples of the whole time over `intervals`.
-fn sample(trajectory: &Record<f64>, intervals: usize) -> Vec<Sample> {
+/// The instants between so many equal intervals of a motion.
+pub(crate) fn equal(trajectory: &Record<f64>, intervals: usize) -> Vec<f64> {
     let (first, last) = (trajectory.first_time(), trajectory.last_time());
     let step = (last - first) / intervals.max(1) as f64;
+    (1..intervals).map(|k| first + k as f64 * step).collect()
+}
+
+/// Both ends of every phase, and between them these times, which are in order.
+fn sample(trajectory: &Record<f64>, times: &[f64]) -> Vec<Sample> {
+    let (first, last) = (trajectory.first_time(), trajectory.last_time());
     let mut sampler = trajectory.sampler();
     let mut limits = Limits::new(trajectory.dynamics());
     let mut samples = Vec::new();
@@ -222,10 +228,9 @@ fn sample(trajectory: &Record<f64>, intervals: usize) -> Vec<Sample> {
         .filter(|phases| !phases.is_empty())
         .unwrap_or_else(at_once);
     for (phase, span) in phases.iter().enumerate() {
-        let inside = |t: &f64| span.from < *t && *t < span.to;
-        let inner = (1..intervals)
-            .map(|k| first + k as f64 * step)
-            .filter(inside);
+        let after = times.partition_point(|t| *t <= span.from);
+        let before = times.partition_point(|t| *t < span.to).max(after);
+        let inner = times[after..before].iter().copied();
         limits.enter(&span.mode);
         for time in iter::once(span.from)
             .chain(inner)

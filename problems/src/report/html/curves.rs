@@ -120,7 +120,12 @@ fn pushes(outcome: &Outcome, title: &str, of_kind: fn(Source) -> bool) -> Vec<Pl
 }
 
 fn force_axis(unit: &str) -> String {
-    with_unit(if unit == "N m" { "torque" } else { "force" }, unit)
+    let name = match unit {
+        "" | "N" => "force",
+        "N m" => "torque",
+        _ => "multiplier",
+    };
+    with_unit(name, unit)
 }
 
 fn energies(outcome: &Outcome) -> Plot {

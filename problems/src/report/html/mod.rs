@@ -62,7 +62,7 @@ pub fn intervals(scene: &dyn Scene, request: &Request, runs: usize) -> usize {
     let description = scene.description();
     let per_sample = 10 + 6 * description.coordinates.len() + 3 * description.rows.len();
     let most = NUMBERS / runs.max(1);
-    let most = (most.min(MOST) / per_sample).clamp(100, 3000);
+    let most = (most.min(MOST) / per_sample).clamp(150, 3000);
     let until = request.until.unwrap_or(scene.until());
     ((PER_SECOND * until) as usize).clamp(most.min(900), most)
 }

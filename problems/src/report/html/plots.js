@@ -24,17 +24,21 @@ function axes(box, [x0, x1], [y0, y1], xName, yName) {
   const X = (x) => left + ((x - x0) / (x1 - x0)) * (right - left);
   const Y = (y) => bottom - ((y - y0) / (y1 - y0)) * (bottom - top);
   const ticks = (from, to, most) => {
-    const step = nice((2.4 * (to - from)) / most), list = [];
-    for (let i = Math.ceil(from / step); i * step <= to; i++) list.push(i * step);
+    const step = nice((2.4 * (to - from)) / most), decimals = Math.max(0, -Math.floor(Math.log10(step) + 1e-9)), list = [];
+    const plain = Math.max(Math.abs(from), Math.abs(to)) < 1e6 && decimals < 7;
+    for (let i = Math.ceil(from / step); i * step <= to; i++) {
+      const text = plain ? (i * step).toFixed(decimals) : (i * step).toPrecision(3);
+      list.push([i * step, text.replace(/^-(?=0\.?0*$)/, "").replace("-", "−")]);
+    }
     return list;
   };
-  for (const x of ticks(x0, x1, (right - left) / 45)) {
+  for (const [x, text] of ticks(x0, x1, (right - left) / 45)) {
     svg("line", { class: "grid", x1: X(x), x2: X(x), y1: top, y2: bottom }, root);
-    svg("text", { class: "words", x: X(x), y: bottom + 18, "text-anchor": "middle" }, root).textContent = digits(x);
+    svg("text", { class: "words", x: X(x), y: bottom + 18, "text-anchor": "middle" }, root).textContent = text;
   }
-  for (const y of ticks(y0, y1, 10)) {
+  for (const [y, text] of ticks(y0, y1, 10)) {
     svg("line", { class: "grid", x1: left, x2: right, y1: Y(y), y2: Y(y) }, root);
-    svg("text", { class: "words", x: left - 6, y: Y(y) + 4, "text-anchor": "end" }, root).textContent = digits(y);
+    svg("text", { class: "words", x: left - 6, y: Y(y) + 4, "text-anchor": "end" }, root).textContent = text;
   }
   svg("text", { class: "words", x: right, y: height - 6, "text-anchor": "end" }, root).textContent = xName;
   svg("text", { class: "words", x: 4, y: 14 }, root).textContent = yName;
