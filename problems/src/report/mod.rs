@@ -101,6 +101,12 @@ pub(crate) fn symbol(name: &str) -> String {
     }
 }
 
+/// Whether nothing in a scene can switch.
+pub(crate) fn one_mode(description: &Description) -> bool {
+    let d = description;
+    d.contacts.is_empty() && d.frictions.is_empty() && d.branches.is_empty()
+}
+
 /// To six significant digits: no picture shows more. What is not finite is 0: JSON cannot hold it.
 pub(crate) fn significant(x: f64) -> f64 {
     if !x.is_finite() || x == 0.0 {

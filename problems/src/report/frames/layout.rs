@@ -2,6 +2,7 @@
 
 use super::{Panel, span};
 use crate::film::Film;
+use crate::report::one_mode;
 use crate::report::picture::palette::{self, colour};
 use crate::report::picture::{Picture, WIDTH, pictures};
 use lagrange_engine::inspect::print::mathml::escaped;
@@ -69,7 +70,8 @@ impl<'a> Layout<'a> {
         let look = palette::for_pictures();
         let mut out = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\" \
-             font-size=\"{LETTER}\" role=\"img\" aria-label=\"{title}\">\n<title>{title}</title>\n<style>\n{look}{style}</style>\n\
+             font-size=\"{LETTER}\" role=\"img\" aria-label=\"{title}\">\n<title>{title}</title>\n<style>\n\
+             svg:root {{ max-width: 100%; max-height: 100%; }}\n{look}{style}</style>\n\
              <rect class=\"paper\" width=\"{width}\" height=\"{height}\"/>\n"
         );
         for (i, panel) in self.panels.iter().enumerate() {
@@ -98,7 +100,9 @@ impl<'a> Layout<'a> {
         let phase = phases.clone().find(|phase| phase.from <= time);
         let phase = phase.or(phases.last());
         let over = outcome.last().is_some_and(|end| time > end.time);
+        let one = one_mode(outcome.description);
         match phase {
+            Some(_) if one => String::new(),
             Some(phase) if over => format!("{} (ended)", phase.mode.display(outcome.description)),
             Some(phase) => phase.mode.display(outcome.description).to_string(),
             None => String::new(),

@@ -1,6 +1,6 @@
 //! Films → what the script of the page reads.
 
-use super::super::significant;
+use super::super::{one_mode, significant};
 use super::Shown;
 use super::curves::{Plot, Portrait, over, plots, portraits};
 use crate::film::Film;
@@ -26,6 +26,8 @@ struct Run {
     /// Of every sample, s.
     time: Vec<f64>,
     phases: Vec<Span>,
+    /// Whether there is nothing that could change.
+    one_mode: bool,
     events: Vec<Happening>,
     #[serde(skip_serializing_if = "Option::is_none")]
     picture: Option<Picture>,
@@ -89,6 +91,7 @@ fn run(shown: &Shown, picture: Option<Picture>, first: Option<&Film>) -> Run {
         scene: outcome.scene,
         time: over(outcome, |sample| sample.time),
         phases: phases.collect(),
+        one_mode: one_mode(description),
         events: events.collect(),
         picture,
         plots: plots(&shown.film),

@@ -45,6 +45,7 @@
   // A bar of modes, a colour for each, and the present one in words.
   function timeline(bar, words, run) {
     bar.setAttribute("aria-hidden", "true");
+    bar.hidden = words.hidden = run.one_mode;
     const last = run.time[run.time.length - 1], begin = run.time[0], part = (t) => (t - first) / duration;
     const blocks = run.phases.map(({ from, to, mode }) => {
       const place = `left: ${100 * part(from)}%; width: ${100 * part(to) - 100 * part(from)}%`;
