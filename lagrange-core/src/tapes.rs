@@ -3,7 +3,7 @@
 //! What integrates and switches modes works with this. It is compiled once per scalar, not once per system, and so a
 //! program with many systems stays small and quick to compile. Steppers do not notice: they run what has been recorded.
 
-use crate::arithmetic::{Arithmetic, Recorder, Scalar, Value};
+use crate::arithmetic::{Arithmetic, Given, Recorder, Scalar, Value};
 use crate::dynamics::Seeded;
 use crate::system::{Description, Held, System};
 use core::fmt;
@@ -18,6 +18,15 @@ pub(crate) struct Call<'a, A: Arithmetic> {
     pub outputs: &'a mut [A::Node],
 }
 
+/// Which tape.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Which {
+    /// What the equations of motion are made of.
+    Motion,
+    /// What is read after they are solved.
+    Report,
+}
+
 /// The tapes of a system, in every reading.
 pub(crate) trait Tapes<T: Scalar>: Send + Sync {
     /// The table of names, places and needs.
@@ -29,20 +38,17 @@ pub(crate) trait Tapes<T: Scalar>: Send + Sync {
     /// Everything that depends on parameters only.
     fn constants(&self, held: &Held, c: &mut [T]);
 
-    /// The motion tape, written down.
-    fn motion_recorded(&self, call: Call<'_, Recorder<'_, T>>);
+    /// Written down.
+    fn record(&self, which: Which, call: Call<'_, Recorder<'_, T>>);
 
-    /// The report tape, written down.
-    fn report_recorded(&self, call: Call<'_, Recorder<'_, T>>);
+    /// The numbers that it is given.
+    fn collect(&self, which: Which, call: Call<'_, Given<T>>);
 
-    /// The motion tape in numbers.
-    fn motion_value(&self, call: Call<'_, Value<T>>);
-
-    /// The report tape in numbers.
-    fn report_value(&self, call: Call<'_, Value<T>>);
+    /// In numbers.
+    fn evaluate(&self, which: Which, call: Call<'_, Value<T>>);
 
     /// The motion tape with derivatives.
-    fn motion_seeded(&self, call: Call<'_, Seeded<T>>);
+    fn differentiate(&self, call: Call<'_, Seeded<T>>);
 }
 
 impl<T: Scalar> fmt::Debug for dyn Tapes<T> {
@@ -67,45 +73,39 @@ impl<S: System> Tapes<S::Scalar> for S {
         System::constants(self, held, c);
     }
 
-    fn motion_recorded(&self, call: Call<'_, Recorder<'_, S::Scalar>>) {
-        motion(self, call);
+    fn record(&self, which: Which, call: Call<'_, Recorder<'_, S::Scalar>>) {
+        run(self, which, call);
     }
 
-    fn report_recorded(&self, call: Call<'_, Recorder<'_, S::Scalar>>) {
-        report(self, call);
+    fn collect(&self, which: Which, call: Call<'_, Given<S::Scalar>>) {
+        run(self, which, call);
     }
 
-    fn motion_value(&self, call: Call<'_, Value<S::Scalar>>) {
-        motion(self, call);
+    fn evaluate(&self, which: Which, call: Call<'_, Value<S::Scalar>>) {
+        run(self, which, call);
     }
 
-    fn report_value(&self, call: Call<'_, Value<S::Scalar>>) {
-        report(self, call);
-    }
-
-    fn motion_seeded(&self, call: Call<'_, Seeded<S::Scalar>>) {
-        motion(self, call);
+    fn differentiate(&self, call: Call<'_, Seeded<S::Scalar>>) {
+        self.motion(
+            call.arithmetic,
+            call.held,
+            call.constants,
+            call.inputs,
+            call.outputs,
+        );
     }
 }
 
-fn motion<S: System, A: Arithmetic<Scalar = S::Scalar>>(system: &S, call: Call<'_, A>) {
+fn run<S: System, A: Arithmetic<Scalar = S::Scalar>>(system: &S, which: Which, call: Call<'_, A>) {
     let Call {
-        arithmetic,
+        arithmetic: a,
         held,
         constants,
         inputs,
         outputs,
     } = call;
-    system.motion(arithmetic, held, constants, inputs, outputs);
-}
-
-fn report<S: System, A: Arithmetic<Scalar = S::Scalar>>(system: &S, call: Call<'_, A>) {
-    let Call {
-        arithmetic,
-        held,
-        constants,
-        inputs,
-        outputs,
-    } = call;
-    system.report(arithmetic, held, constants, inputs, outputs);
+    match which {
+        Which::Motion => system.motion(a, held, constants, inputs, outputs),
+        Which::Report => system.report(a, held, constants, inputs, outputs),
+    }
 }

@@ -14,6 +14,7 @@ mod expansion;
 mod instruction;
 #[cfg(feature = "num-dual")]
 mod num_dual;
+mod numbers;
 mod program;
 mod record;
 mod scalar;
@@ -23,8 +24,9 @@ mod tests;
 pub use direct::{Derivative, Value};
 pub use dual::Dual;
 pub use expansion::{Expansion, MAX_ORDER, Operation};
+pub use numbers::Given;
 pub use program::Program;
-pub use record::{Recorded, Recorder, Recording, Slot, Variation};
+pub use record::{Recorded, Recorder, Recording, Renewal, Slot, Variation};
 
 use crate::entries::Entries;
 use core::fmt::Debug;

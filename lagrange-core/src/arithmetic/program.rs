@@ -37,7 +37,7 @@ macro_rules! with_registers {
 pub(super) use with_registers;
 
 /// The smallest size that holds so many registers.
-fn room(registers: usize) -> usize {
+pub(super) fn room(registers: usize) -> usize {
     let sizes = [512, 4096, 65536, 1048576];
     let size = sizes.into_iter().find(|&size| registers <= size);
     size.expect("the macro's budget leaves a tape fewer than 2²⁰ registers")
@@ -66,7 +66,7 @@ impl Program {
         lists.map(Instruction::operations).sum()
     }
 
-    /// Values of part `index` from those of its operands. As many registers as [`Recording::registers_filled`] made.
+    /// Values of part `index` from those of its operands. As many registers as [`Recording::finish`] made.
     #[inline]
     pub fn evaluate<T: Scalar>(&self, index: usize, registers: &mut [T]) {
         let part = &self.parts[index];
@@ -74,17 +74,6 @@ impl Program {
             evaluate(&part.fixed, &self.terms, array);
             evaluate(&part.varying, &self.terms, array);
         });
-    }
-}
-
-impl<T: Scalar> Recording<T> {
-    /// All registers, with the numbers that are known.
-    pub fn registers_filled(&self) -> Vec<T> {
-        let mut registers = vec![T::zero(); room(self.registers())];
-        for &(slot, value) in &self.constants {
-            registers[slot.index()] = value;
-        }
-        registers
     }
 }
 
@@ -220,9 +209,9 @@ impl Shortening {
         if y == self.one {
             return x;
         }
-        match (recording.known_number(x), recording.known_number(y)) {
-            (Some(x), Some(y)) => recording.number(x * y),
-            _ => self.fixed(recording, Op::Mul, x.min(y), x.max(y)),
+        match recording.known_product(x, y) {
+            Some(product) => product,
+            None => self.fixed(recording, Op::Mul, x.min(y), x.max(y)),
         }
     }
 

@@ -6,6 +6,8 @@
 //! does not matter: it runs in one loop over the list, whoever wrote the tape.
 
 use super::instruction::{Instruction, Op};
+use super::numbers::Numbers;
+use super::program::room;
 use super::{Arithmetic, Scalar};
 use std::collections::BTreeMap;
 
@@ -92,22 +94,36 @@ pub struct Recording<T> {
     /// (factor, register) of the sums.
     pub(super) terms: Vec<(Slot, Slot)>,
     /// Registers that hold numbers known when the tape was recorded.
-    pub(super) constants: Vec<(Slot, T)>,
+    pub(super) numbers: Numbers<T>,
     /// Results by operation.
     known: BTreeMap<Key, Recorded>,
     registers: usize,
 }
 
 impl<T: Scalar> Recording<T> {
-    /// An empty recording; registers from `registers` on are free for the recorder's own use.
-    pub fn new(registers: usize) -> Self {
-        Self {
+    /// An empty recording; registers from `registers` on are free for the recorder's own use. `given` are all the numbers that
+    /// the tape will be given: with others in their place it can be [renewed](Renewal).
+    pub fn new(registers: usize, given: &[T]) -> Self {
+        let mut recording = Self {
             parts: vec![Part::default()],
             terms: Vec::new(),
-            constants: Vec::new(),
+            numbers: Numbers::default(),
             known: BTreeMap::new(),
             registers,
+        };
+        for number in [T::one(), -T::one()] {
+            let slot = recording.fresh();
+            recording.numbers.put(slot, number);
         }
+        for &number in given {
+            let slot = if number.is_zero() {
+                Recorded::ZERO.slot
+            } else {
+                recording.register(number)
+            };
+            recording.numbers.note_given(slot);
+        }
+        recording
     }
 
     /// The arithmetic that records a tape; slots are numbered from register `base` on.
@@ -131,19 +147,46 @@ impl<T: Scalar> Recording<T> {
 
     /// A register with a known number.
     pub(super) fn number(&mut self, value: T) -> Slot {
-        let known = self.constants.iter().find(|(_, known)| *known == value);
-        if let Some(&(slot, _)) = known {
-            return slot;
-        }
-        let slot = self.fresh();
-        self.constants.push((slot, value));
-        slot
+        self.numbers.find(value).unwrap_or_else(|| {
+            self.numbers.note_foreign();
+            self.register(value)
+        })
     }
 
-    /// The number in a register, if it is known.
-    pub(super) fn known_number(&self, slot: Slot) -> Option<T> {
-        let found = self.constants.iter().find(|(known, _)| *known == slot);
-        found.map(|&(_, value)| value)
+    /// The register of a number, a new one if it is not known yet.
+    fn register(&mut self, value: T) -> Slot {
+        self.numbers.find(value).unwrap_or_else(|| {
+            let slot = self.fresh();
+            self.numbers.put(slot, value);
+            slot
+        })
+    }
+
+    /// The register of the product of two known numbers.
+    pub(super) fn known_product(&mut self, x: Slot, y: Slot) -> Option<Slot> {
+        let (a, b) = (self.numbers.value(x)?, self.numbers.value(y)?);
+        let to = self.register(a * b);
+        self.numbers.note_product(x, y, to);
+        Some(to)
+    }
+
+    /// All registers with the numbers that are known, and what renews these.
+    pub fn finish(self) -> (Vec<T>, Renewal<T>) {
+        let mut registers = vec![T::zero(); room(self.registers)];
+        self.numbers.write(&mut registers);
+        (registers, Renewal(self.numbers))
+    }
+}
+
+/// The numbers of a recorded tape, to be exchanged.
+#[derive(Clone, Debug)]
+pub struct Renewal<T>(Numbers<T>);
+
+impl<T: Scalar> Renewal<T> {
+    /// Exchanges the numbers that the tape was given for others in its registers. False: with these numbers recording gives
+    /// another tape, and the registers are of no use.
+    pub fn renew(&mut self, given: &[T], registers: &mut [T]) -> bool {
+        self.0.renew(given, registers)
     }
 }
 

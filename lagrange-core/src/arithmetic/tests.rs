@@ -9,7 +9,7 @@ fn expand(
     inputs: &[&[f64]],
     f: impl Fn(&mut Recorder<'_, f64>, &[Recorded]) -> Recorded,
 ) -> Result<Vec<f64>, Operation> {
-    let mut recording = Recording::new(100);
+    let mut recording = Recording::new(100, &[]);
     let slots: Vec<Recorded> = (0..inputs.len())
         .map(|i| Recorded::varying(Slot::new(90 + i)))
         .collect();
@@ -17,7 +17,7 @@ fn expand(
     a.cut();
     let result = f(&mut a, &slots);
     let program = Program::new(&mut recording, &[result.slot]);
-    let mut first = recording.registers_filled();
+    let (mut first, _) = recording.finish();
     for (slot, input) in slots.iter().zip(inputs) {
         first[slot.slot.index()] = input[0];
     }
@@ -317,4 +317,61 @@ fn single_precision_runs_the_same_code() {
     let single = everything(&mut Value::new(), 0.4_f32, 1.3_f32);
     let double = everything(&mut Value::new(), 0.4_f64, 1.3_f64);
     assert!((f64::from(single) - double).abs() < 1e-4 * double.abs());
+}
+
+/// Of a tape with the numbers a and b, whether others in their place give the tape that recording with them gives, and if so
+/// that it does.
+#[track_caller]
+fn renewable(before: [f64; 2], after: [f64; 2]) -> bool {
+    let record = |numbers: [f64; 2]| {
+        let mut recording = Recording::new(10, &numbers);
+        let mut r = recording.record(3);
+        let x = Recorded::varying(Slot::new(2));
+        let [a, b] = numbers;
+        // b (a x), x² + b, a − x
+        let ax = r.scale(0, a, x);
+        let product = r.scale(1, b, ax);
+        let square = r.square(2, x);
+        let sum = r.offset(3, b, square);
+        let a = r.constant(4, a);
+        let difference = r.sub(5, a, x);
+        let results = [product.slot, sum.slot, difference.slot];
+        let program = Program::new(&mut recording, &results);
+        let (registers, renewal) = recording.finish();
+        (program, registers, renewal, results)
+    };
+    let values = |program: &Program, mut registers: Vec<f64>, results: [Slot; 3]| {
+        registers[2] = 0.7;
+        program.evaluate(0, &mut registers);
+        results.map(|slot| registers[slot.index()])
+    };
+    let (program, mut registers, mut renewal, results) = record(before);
+    let kept = renewal.renew(&after, &mut registers);
+    if kept {
+        let (new, new_registers, _, new_results) = record(after);
+        assert_eq!(format!("{program:?}"), format!("{new:?}"));
+        let found = values(&program, registers, results);
+        assert_eq!(found, values(&new, new_registers, new_results));
+        let [a, b] = after;
+        assert!((found[0] - b * (a * 0.7)).abs() < 1e-15 && (found[2] - (a - 0.7)).abs() < 1e-15);
+    }
+    kept
+}
+
+#[test]
+fn numbers_are_exchanged_where_the_recording_stays() {
+    assert!(renewable([2.0, 3.0], [5.0, 0.3]));
+    assert!(renewable([1.0, 3.0], [1.0, 4.0]));
+    assert!(renewable([0.0, 3.0], [0.0, 4.0]));
+    assert!(renewable([3.0, 3.0], [4.0, 4.0]));
+    for special in [0.0, 1.0, -1.0] {
+        assert!(!renewable([2.0, 3.0], [special, 3.0]));
+        assert!(!renewable([2.0, special], [2.0, 3.0]));
+    }
+    // Equal numbers are one register.
+    assert!(!renewable([2.0, 3.0], [2.0, 2.0]));
+    assert!(!renewable([2.0, 2.0], [2.0, 3.0]));
+    // As is a product that equals a number.
+    assert!(!renewable([2.0, 3.0], [2.0, 0.5]));
+    assert!(!renewable([2.0, 0.5], [2.0, 3.0]));
 }

@@ -3,11 +3,11 @@
 
 use super::needs::{self, NeedSet};
 use super::tape::Tape;
-use crate::arithmetic::Scalar;
+use crate::arithmetic::{Given, Scalar};
 use crate::effects::Effects;
 use crate::linear::{Plan, Solver};
 use crate::mode::Mode;
-use crate::system::Held;
+use crate::system::{Description, Held};
 use crate::tapes::Tapes;
 
 /// Tapes kept per mode: what is asked for beside the motion changes between stepping and switching.
@@ -21,9 +21,13 @@ pub(super) struct Compiled<T> {
     pub motion_needs: NeedSet,
     /// Inertia, Jacobians and residuals of the rows that act.
     pub row_needs: NeedSet,
+    /// Of the constants.
+    constant_needs: NeedSet,
     /// The system's own, then the plan's.
     pub constants: Vec<T>,
     pub plan: Plan<T>,
+    /// The plan for the parameters before.
+    spare: Plan<T>,
     pub solver: Solver<T>,
     /// Whether the solver holds the factors of this plan.
     pub factored: bool,
@@ -57,30 +61,71 @@ impl<T: Scalar> Compiled<T> {
         needs::of_motion(d, effects, mode, &mut motion_needs);
         needs::of_rows(d, effects, mode, &mut row_needs);
         needs::of_effects(d, effects, &mut held);
-        let mut constants = vec![T::default(); d.constants];
-        let held = Held {
-            needs: &held,
-            branches: &mode.branches,
-        };
-        system.constants(&held, &mut constants);
-        let mut plan = Plan::default();
-        plan.set(d, effects, mode, &mut constants);
-        let mut solver = Solver::default();
-        solver.reserve(plan.free(), plan.kept.len());
-        Self {
+        let mut compiled = Self {
             mode: mode.clone(),
             motion_needs,
             row_needs,
-            pinned: (0..d.coordinates.len())
-                .filter(|&j| plan.is_pinned(j))
-                .collect(),
-            constants,
-            plan,
-            solver,
+            constant_needs: held,
+            pinned: Vec::new(),
+            constants: Vec::new(),
+            plan: Plan::default(),
+            spare: Plan::default(),
+            solver: Solver::default(),
             factored: false,
             on_tape: true,
             tapes: Vec::new(),
             current: 0,
+        };
+        compiled.set_numbers(system, effects);
+        compiled.reserve(d);
+        compiled
+    }
+
+    /// Constants and plan of a system.
+    fn set_numbers(&mut self, system: &dyn Tapes<T>, effects: &Effects) {
+        let d = system.description();
+        let held = Held {
+            needs: &self.constant_needs,
+            branches: &self.mode.branches,
+        };
+        self.constants.clear();
+        self.constants.resize(d.constants, T::default());
+        system.constants(&held, &mut self.constants);
+        self.plan.set(d, effects, &self.mode, &mut self.constants);
+    }
+
+    /// What follows from the shape of the plan.
+    fn reserve(&mut self, d: &Description) {
+        let Self { plan, solver, .. } = self;
+        solver.reserve(plan.free(), plan.kept.len());
+        self.pinned.clear();
+        let pinned = (0..d.coordinates.len()).filter(|&j| plan.is_pinned(j));
+        self.pinned.extend(pinned);
+    }
+
+    /// Takes the parameters of another system of the same kind. Tapes are kept where recording anew would give the same;
+    /// `given` is memory.
+    pub(super) fn renew(&mut self, system: &dyn Tapes<T>, effects: &Effects, given: &mut Given<T>) {
+        core::mem::swap(&mut self.plan, &mut self.spare);
+        self.set_numbers(system, effects);
+        self.factored = false;
+        let mut tapes = core::mem::take(&mut self.tapes);
+        if self.on_tape && self.plan.is_like(&self.spare) {
+            tapes.retain_mut(|tape| tape.renew(system, self, given));
+        } else {
+            tapes.clear();
+            self.reserve(system.description());
+        }
+        self.tapes = tapes;
+        self.on_tape = true;
+        self.current = 0;
+    }
+
+    /// Undoes [`Self::leave_to_solver`]: one motion must not depend on those before it.
+    pub(super) fn restart(&mut self) {
+        if !self.on_tape {
+            self.on_tape = true;
+            self.tapes.clear();
         }
     }
 

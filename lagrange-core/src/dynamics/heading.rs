@@ -46,6 +46,11 @@ impl<T: Scalar> Headings<T> {
         }
     }
 
+    /// Forgets where slips pointed.
+    pub(super) fn restart(&mut self) {
+        self.now.fill([T::zero(); 2]);
+    }
+
     /// Of friction `f`.
     #[inline]
     pub(super) fn of(&self, f: usize) -> [T; 2] {

@@ -97,7 +97,7 @@ impl<T: Scalar> Dynamics<T> {
             }
         }
         let outputs = &mut self.lane_nodes[..d.motion.outputs];
-        self.system.motion_seeded(Call {
+        self.system.differentiate(Call {
             arithmetic: &mut self.lanes,
             held: &held,
             constants: &compiled.constants,

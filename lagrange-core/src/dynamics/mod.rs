@@ -12,6 +12,7 @@ mod matrices;
 mod needs;
 mod projection;
 mod series;
+mod solution;
 mod stepping;
 mod tape;
 #[cfg(test)]
@@ -24,7 +25,7 @@ pub(crate) use jacobian::Seeded;
 pub use needs::{NeedSet, add_branch_guards, add_guards};
 pub use projection::Residual;
 
-use crate::arithmetic::{Scalar, Value};
+use crate::arithmetic::{Given, Scalar, Value};
 use crate::effects::Effects;
 use crate::linear::{SolveError, Solver};
 use crate::mode::Mode;
@@ -70,6 +71,10 @@ pub struct Dynamics<T: Scalar> {
     /// Modes met so far, and which is the present one.
     modes: Vec<Compiled<T>>,
     current: usize,
+    /// Those that have not yet taken the parameters of the system.
+    stale: Vec<bool>,
+    /// Memory of renewals.
+    given: Given<T>,
     /// The next of them to go.
     oldest: usize,
     /// The equations of motion of this mode and what was asked for beside.
@@ -123,6 +128,8 @@ impl<T: Scalar> Dynamics<T> {
             system,
             description: d,
             current: 0,
+            stale: vec![false],
+            given: Given::default(),
             oldest: 0,
             held: NeedSet::new(d),
             extra: NeedSet::new(d),
@@ -216,8 +223,31 @@ impl<T: Scalar> Dynamics<T> {
             .iter()
             .position(|compiled| compiled.mode.has_equations_of(mode));
         self.current = known.unwrap_or_else(|| self.compile(mode));
+        self.renew();
         self.modes[self.current].mode.clone_from(mode);
         self.hold();
+    }
+
+    /// Takes another system of the same kind. What has been recorded stays, with other numbers in it.
+    pub(crate) fn set_system(&mut self, system: Erased<T>) {
+        self.system = system;
+        self.stale.fill(true);
+        self.renew();
+        self.selected = false;
+    }
+
+    /// Brings the present mode up to date with the parameters.
+    fn renew(&mut self) {
+        if core::mem::take(&mut self.stale[self.current]) {
+            self.modes[self.current].renew(&*self.system, &self.effects, &mut self.given);
+        }
+    }
+
+    /// Forgets what could make a motion depend on those before it.
+    pub(crate) fn restart(&mut self) {
+        self.modes.iter_mut().for_each(Compiled::restart);
+        self.headings.restart();
+        self.selected = false;
     }
 
     /// Makes a mode ready; returns its place.
@@ -226,10 +256,12 @@ impl<T: Scalar> Dynamics<T> {
         let compiled = Compiled::new(&*self.system, &self.effects, mode);
         if self.modes.len() < MOST_MODES {
             self.modes.push(compiled);
+            self.stale.push(false);
             return self.modes.len() - 1;
         }
         self.oldest = (self.oldest + 1) % MOST_MODES;
         self.modes[self.oldest] = compiled;
+        self.stale[self.oldest] = false;
         self.oldest
     }
 

@@ -6,7 +6,7 @@ use super::{Dynamics, EvaluationError};
 use crate::arithmetic::Scalar;
 use crate::linear::{Inertia, SolveError, epsilon};
 use crate::system::{Held, Place};
-use crate::tapes::Call;
+use crate::tapes::{Call, Which};
 
 /// How much of a tape runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -203,13 +203,14 @@ impl<T: Scalar> Dynamics<T> {
             needs: &self.held,
             branches: &compiled.mode.branches,
         };
-        self.system.motion_value(Call {
+        let call = Call {
             arithmetic: &mut self.plain,
             held: &held,
             constants: &compiled.constants,
             inputs: &self.inputs[..1 + 2 * n],
             outputs: &mut self.nodes,
-        });
+        };
+        self.system.evaluate(Which::Motion, call);
     }
 
     /// Replaces the forces of all rows that [`Self::force`] and the report tape see until the next [`Self::value`].
@@ -226,13 +227,14 @@ impl<T: Scalar> Dynamics<T> {
             needs: &self.report_held,
             branches: &compiled.mode.branches,
         };
-        self.system.report_value(Call {
+        let call = Call {
             arithmetic: &mut self.plain,
             held: &held,
             constants: &compiled.constants,
             inputs: &self.inputs,
             outputs: &mut self.report_nodes,
-        });
+        };
+        self.system.evaluate(Which::Report, call);
     }
 }
 

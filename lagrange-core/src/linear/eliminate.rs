@@ -36,6 +36,17 @@ impl<T: Scalar> Sparse<T> {
         self.ends.push(self.items.len());
     }
 
+    /// All elements, row by row.
+    pub(crate) fn values(&self) -> impl Iterator<Item = T> + '_ {
+        self.items.iter().map(|&(_, value)| value)
+    }
+
+    /// Whether it has its elements where another has them.
+    fn is_like(&self, other: &Self) -> bool {
+        let mut items = self.items.iter().zip(&other.items);
+        self.ends == other.ends && items.all(|(x, y)| x.0 == y.0)
+    }
+
     /// The elements of a row: (column, value).
     #[inline]
     pub(crate) fn row(&self, index: usize) -> &[(usize, T)] {
@@ -150,6 +161,13 @@ pub(crate) struct Elimination<T> {
 }
 
 impl<T: Scalar> Elimination<T> {
+    /// Whether it eliminates what another does.
+    pub(crate) fn is_like(&self, other: &Self) -> bool {
+        self.free == other.free
+            && self.symmetric == other.symmetric
+            && self.right.is_like(&other.right)
+    }
+
     /// v̇ⱼ from a solution.
     #[inline]
     pub(crate) fn acceleration(&self, j: usize, solution: &[T]) -> T {

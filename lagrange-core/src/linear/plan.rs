@@ -12,7 +12,7 @@ use crate::mode::Mode;
 use crate::system::{Description, Place};
 
 /// A matrix element that changes with the state: K[row, column] += nodes[node].
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Entry {
     pub row: usize,
     pub column: usize,
@@ -28,7 +28,7 @@ pub(crate) struct Load<T> {
 }
 
 /// A sliding friction's row: λ[row] = factor · λ[source], or factor where there is no source.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Slide {
     pub row: usize,
     pub factor: Place,
@@ -36,7 +36,7 @@ pub(crate) struct Slide {
 }
 
 /// A friction whose slip begins: the direction is given from outside.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Heading {
     pub friction: usize,
     /// Where the components of the direction are, among the nodes and among the operations of the program.
@@ -119,6 +119,34 @@ impl<T: Scalar> Plan<T> {
     /// Whether coordinate `j` cannot accelerate in this mode.
     pub(crate) fn is_pinned(&self, j: usize) -> bool {
         self.elimination.right.row(j).is_empty()
+    }
+
+    /// Appends all numbers that a tape recorded by this plan is given, beside the constants.
+    pub(crate) fn collect(&self, numbers: &mut Vec<T>) {
+        numbers.extend(self.program.numbers());
+        numbers.extend_from_slice(&self.constant);
+        numbers.extend_from_slice(&self.constant_load);
+        numbers.extend(self.loads.iter().map(|load| load.factor));
+        numbers.extend(self.elimination.right.values());
+    }
+
+    /// Whether a tape recorded by another plan does what this one says, up to numbers.
+    pub(crate) fn is_like(&self, other: &Self) -> bool {
+        let mut loads = self.loads.iter().zip(&other.loads);
+        self.acting == other.acting
+            && self.kept == other.kept
+            && self.eliminated == other.eliminated
+            && self.slides == other.slides
+            && self.headings == other.headings
+            && self.entries == other.entries
+            && self.first_force == other.first_force
+            && self.force_entries == other.force_entries
+            && self.reduced == other.reduced
+            && self.cancelling().eq(other.cancelling())
+            && self.loads.len() == other.loads.len()
+            && loads.all(|(x, y)| (x.row, x.node) == (y.row, y.node))
+            && self.program.is_like(&other.program)
+            && self.elimination.is_like(&other.elimination)
     }
 
     /// Makes the plan of a mode. `constants` begins with the system's own and is extended.

@@ -45,7 +45,7 @@ impl<T: Scalar> Sum for Recorder<'_, T> {
 }
 
 /// An operation; nodes are indices into the tape's outputs followed by the results of this program.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 enum Op {
     Scale {
         constant: usize,
@@ -95,6 +95,19 @@ impl<T: Scalar> Program<T> {
         self.ops.clear();
         self.terms.clear();
         self.first = first;
+    }
+
+    /// Its own numbers; the others are among the constants.
+    pub(crate) fn numbers(&self) -> impl Iterator<Item = T> + '_ {
+        self.terms.iter().map(|&(factor, _)| factor)
+    }
+
+    /// Whether it has the same operations as another, with other numbers perhaps.
+    pub(crate) fn is_like(&self, other: &Self) -> bool {
+        let mut terms = self.terms.iter().zip(&other.terms);
+        self.ops == other.ops
+            && self.terms.len() == other.terms.len()
+            && terms.all(|(x, y)| x.1 == y.1)
     }
 
     /// Number of results.

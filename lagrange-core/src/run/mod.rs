@@ -200,9 +200,7 @@ impl<T: Scalar> Run<T> {
 
     /// Takes another system of the same kind.
     pub(crate) fn set_system(&mut self, system: Erased<T>) {
-        self.dynamics = Dynamics::of(system, &self.settings.effects);
-        self.work_before = self.dynamics.work();
-        self.watch();
+        self.dynamics.set_system(system);
     }
 
     /// See [`crate::Simulation::consistent`].
@@ -243,6 +241,7 @@ impl<T: Scalar> Run<T> {
             .check(&**self.dynamics.system(), start, &span)?;
         (self.t, self.end) = (t, span.end);
         self.state.clone_from(start);
+        self.dynamics.restart();
         self.work_before = self.dynamics.work();
         self.stepper.restart();
         self.stop_below
