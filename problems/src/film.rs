@@ -21,7 +21,10 @@ pub struct Film {
 /// are short where much happens in little time.
 pub(crate) fn instants(trajectory: &Record<f64>, count: usize) -> Vec<f64> {
     let mut times = equal(trajectory, count.div_ceil(2));
-    let steps: Vec<f64> = trajectory.step_times().chain([trajectory.last_time()]).collect();
+    let steps: Vec<f64> = trajectory
+        .step_times()
+        .chain([trajectory.last_time()])
+        .collect();
     let half = count / 2;
     times.extend((0..half).filter_map(|k| {
         let at = k as f64 / half as f64 * (steps.len() - 1) as f64;
@@ -39,8 +42,14 @@ pub(crate) fn without_rounding(outcome: &mut Outcome) {
     let events = outcome.events.iter().flat_map(|event| &event.forces);
     let sizes = samples.chain(events).map(|force| force.abs());
     let least = 1e-12 * sizes.filter(|size| size.is_finite()).fold(0.0, f64::max);
-    let samples = outcome.samples.iter_mut().flat_map(|sample| &mut sample.forces);
-    let events = outcome.events.iter_mut().flat_map(|event| &mut event.forces);
+    let samples = outcome
+        .samples
+        .iter_mut()
+        .flat_map(|sample| &mut sample.forces);
+    let events = outcome
+        .events
+        .iter_mut()
+        .flat_map(|event| &mut event.forces);
     for force in samples.chain(events).filter(|force| force.abs() < least) {
         *force = 0.0;
     }

@@ -74,7 +74,9 @@ fn change(text: &str) -> Result<Change, String> {
     let Some((_, meant)) = KINDS.iter().find(|(name, _)| *name == kind) else {
         let names = KINDS.map(|(name, _)| name);
         let near = nearest(kind, &names).map(|near| format!("; did you mean `{near}:`?"));
-        let all = KINDS.map(|(name, meant)| format!("{name}:{meant}")).join(", ");
+        let all = KINDS
+            .map(|(name, meant)| format!("{name}:{meant}"))
+            .join(", ");
         return Err(near.map_or(
             format!("`{kind}` cannot be compared; say one of {all}"),
             |near| format!("`{kind}` cannot be compared{near}"),
@@ -121,9 +123,10 @@ mod tests {
 
     #[test]
     fn changes_are_read_made_and_told() {
-        let comparison: Comparison = "without:grip, set:mass=0.3,tolerance:1e-3,method:gauss6:0.01,start:der(x)=1"
-            .parse()
-            .expect("a comparison");
+        let comparison: Comparison =
+            "without:grip, set:mass=0.3,tolerance:1e-3,method:gauss6:0.01,start:der(x)=1"
+                .parse()
+                .expect("a comparison");
         assert_eq!(
             comparison.to_string(),
             "without grip, mass = 0.3, tolerance 1e-3, gauss6:0.01, der(x) = 1"

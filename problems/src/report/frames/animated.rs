@@ -49,7 +49,11 @@ fn ghosts(panel: &Place, layout: &Layout, out: &mut String) {
     out.push_str("<g class=\"ghost\">\n");
     for k in 0..GHOSTS - 1 {
         let part = k as f64 / (GHOSTS - 1) as f64;
-        marks(panel, layout.first + part * (layout.last - layout.first), out);
+        marks(
+            panel,
+            layout.first + part * (layout.last - layout.first),
+            out,
+        );
     }
     out.push_str("</g>\n");
     marks(panel, layout.last, out);
@@ -67,7 +71,12 @@ impl Reel {
     fn new(clock: &Clock) -> Self {
         let last = clock.instants.last().copied().unwrap_or(0.0);
         let hold = (PAUSE * clock.rate).ceil() as usize;
-        let instants: Vec<f64> = clock.instants.iter().copied().chain(vec![last; hold]).collect();
+        let instants: Vec<f64> = clock
+            .instants
+            .iter()
+            .copied()
+            .chain(vec![last; hold])
+            .collect();
         Self {
             seconds: (instants.len() - 1) as f64 / clock.rate,
             instants,
@@ -75,9 +84,13 @@ impl Reel {
     }
 
     fn scene(&self, panel: &Place, out: &mut String) {
-        let Some(picture) = &panel.picture else { return };
+        let Some(picture) = &panel.picture else {
+            return;
+        };
         let places = self.instants.iter();
-        let places: Vec<picture::Place> = places.map(|t| picture::Place::of(*t, &panel.times)).collect();
+        let places: Vec<picture::Place> = places
+            .map(|t| picture::Place::of(*t, &panel.times))
+            .collect();
         for mark in &picture.marks {
             if mark.form == Form::Trace {
                 self.trace(mark, &places, out);
@@ -88,7 +101,9 @@ impl Reel {
             self.moving(&elements.collect::<Vec<_>>(), "", out);
         }
         for (i, arrow) in picture.arrows.iter().enumerate() {
-            let all = places.iter().map(|place| element::arrow(i, arrow, *place, picture.height));
+            let all = places
+                .iter()
+                .map(|place| element::arrow(i, arrow, *place, picture.height));
             let (arrows, names): (Vec<Element>, Vec<Option<Element>>) = all.unzip();
             self.moving(&arrows, "", out);
             let seen = self.seen(&names.iter().map(Option::is_some).collect::<Vec<_>>());
@@ -106,7 +121,9 @@ impl Reel {
 
     /// An element with all that it does.
     fn moving(&self, elements: &[Element], inside: &str, out: &mut String) {
-        let Some(first) = elements.first() else { return };
+        let Some(first) = elements.first() else {
+            return;
+        };
         let mut inside = inside.to_owned();
         for (k, (name, value)) in first.moving.iter().enumerate() {
             let values: Vec<&str> = elements.iter().map(|e| e.moving[k].1.as_str()).collect();
@@ -119,7 +136,9 @@ impl Reel {
 
     /// A path that grows.
     fn trace(&self, mark: &Mark, places: &[picture::Place], out: &mut String) {
-        let points = places.iter().map(|place| [0, 1].map(|k| mark.numbers[k].at(*place)));
+        let points = places
+            .iter()
+            .map(|place| [0, 1].map(|k| mark.numbers[k].at(*place)));
         let points: Vec<[f64; 2]> = points.collect();
         let mut lengths = vec![0.0];
         for pair in points.windows(2) {
@@ -128,7 +147,9 @@ impl Reel {
         }
         let whole = lengths[lengths.len() - 1];
         if whole > 0.0 {
-            let left = lengths.iter().map(|length| format!("{:.4}", 1.0 - length / whole));
+            let left = lengths
+                .iter()
+                .map(|length| format!("{:.4}", 1.0 - length / whole));
             let left: Vec<String> = left.collect();
             let left: Vec<&str> = left.iter().map(String::as_str).collect();
             let _ = writeln!(
@@ -144,7 +165,9 @@ impl Reel {
     fn below(&self, panel: &Place, layout: &Layout, out: &mut String) {
         let (top, y) = (panel.bar_top() - 4.0, panel.words_at());
         let places = self.instants.iter();
-        let places: Vec<String> = places.map(|t| format!("{:.1} 0", WIDTH * layout.part(*t))).collect();
+        let places: Vec<String> = places
+            .map(|t| format!("{:.1} 0", WIDTH * layout.part(*t)))
+            .collect();
         let _ = writeln!(
             out,
             "<path class=\"cursor\" d=\"M0 {top:.1}v{CURSOR}\"><animateTransform attributeName=\"transform\" type=\"translate\" \
@@ -154,7 +177,10 @@ impl Reel {
         );
         let step = nice(2.5 * (layout.last - layout.first) / READINGS);
         let decimals = decimals(step).saturating_sub(3);
-        let readings = self.instants.iter().map(|t| format!("t = {:.decimals$} s", (t / step).floor() * step));
+        let readings = self
+            .instants
+            .iter()
+            .map(|t| format!("t = {:.decimals$} s", (t / step).floor() * step));
         self.words(&readings.collect::<Vec<_>>(), 0.0, y, out);
         let modes = self.instants.iter().map(|t| layout.mode(panel, *t));
         self.words(&modes.collect::<Vec<_>>(), 9.0 * LETTER, y, out);
@@ -173,7 +199,11 @@ impl Reel {
             let _ = writeln!(
                 out,
                 "<text class=\"words\" x=\"{x:.1}\" y=\"{y:.1}\"{}>{}{}</text>",
-                if seen[0] { "" } else { " visibility=\"hidden\"" },
+                if seen[0] {
+                    ""
+                } else {
+                    " visibility=\"hidden\""
+                },
                 escaped(words),
                 self.seen(&seen)
             );
@@ -204,7 +234,10 @@ impl Reel {
 
     fn animate(&self, attribute: &str, values: &[&str]) -> String {
         let values = values.join(";");
-        format!("<animate attributeName=\"{attribute}\" {} values=\"{values}\"/>", self.timing())
+        format!(
+            "<animate attributeName=\"{attribute}\" {} values=\"{values}\"/>",
+            self.timing()
+        )
     }
 
     fn timing(&self) -> String {

@@ -30,7 +30,9 @@ impl Element {
 
     /// As text, with more inside.
     pub fn write(&self, inside: &str, out: &mut String) {
-        let Self { tag, fixed, text, .. } = self;
+        let Self {
+            tag, fixed, text, ..
+        } = self;
         let _ = write!(out, "<{tag}{fixed}");
         for (name, value) in &self.moving {
             let _ = write!(out, " {name}=\"{value}\"");
@@ -52,7 +54,9 @@ pub(super) fn mark(mark: &Mark, place: Place, height: f64) -> Option<Element> {
             Element::new("circle", class, moving)
         }
         (Form::Polygon, points) => Element::new("polygon", class, vec![("points", pairs(points))]),
-        (Form::Polyline, points) => Element::new("polyline", class, vec![("points", pairs(points))]),
+        (Form::Polyline, points) => {
+            Element::new("polyline", class, vec![("points", pairs(points))])
+        }
         (Form::Ground, [y]) => {
             let (width, height) = (WIDTH + 18.0, short(height + 9.0));
             let fixed = format!("{class} x=\"-9\" width=\"{width}\" height=\"{height}\"");
@@ -67,7 +71,10 @@ pub(super) fn mark(mark: &Mark, place: Place, height: f64) -> Option<Element> {
             let (sin, cos) = angle.to_radians().sin_cos();
             let joint = |[along, across]: &[f64; 2]| {
                 let along = along * stretch;
-                [x + along * cos - across * sin, y + along * sin + across * cos]
+                [
+                    x + along * cos - across * sin,
+                    y + along * sin + across * cos,
+                ]
             };
             let joints: Vec<f64> = line.iter().flat_map(joint).collect();
             Element::new("polyline", class, vec![("points", pairs(&joints))])

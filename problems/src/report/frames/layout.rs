@@ -43,7 +43,11 @@ impl<'a> Layout<'a> {
         let pictures = pictures(&films);
         let heights = pictures.iter().flatten().map(|picture| picture.height);
         let height = heights.fold(0.0, f64::max);
-        let top = if panels.len() > 1 { GAP + 1.5 * LETTER } else { GAP };
+        let top = if panels.len() > 1 {
+            GAP + 1.5 * LETTER
+        } else {
+            GAP
+        };
         let (first, last) = span(films.iter().copied());
         let place = |(i, (panel, picture)): (usize, (&Panel<'a>, Option<Picture>))| Place {
             title: panel.title,
@@ -114,7 +118,10 @@ impl<'a> Layout<'a> {
         let mut seen: Vec<String> = Vec::new();
         for panel in &self.panels {
             for phase in &panel.film.outcome.phases {
-                let other = phase.mode.display(panel.film.outcome.description).to_string();
+                let other = phase
+                    .mode
+                    .display(panel.film.outcome.description)
+                    .to_string();
                 if other == words {
                     return seen.iter().position(|s| *s == other).unwrap_or(seen.len());
                 }
@@ -133,7 +140,11 @@ impl Place<'_> {
         let _ = write!(out, "<g transform=\"translate({} {})\">\n", self.x, self.y);
         if titled {
             let title = escaped(self.title);
-            let _ = write!(out, "<text class=\"words\" y=\"{}\">{title}</text>\n", -0.5 * LETTER);
+            let _ = write!(
+                out,
+                "<text class=\"words\" y=\"{}\">{title}</text>\n",
+                -0.5 * LETTER
+            );
         }
         if self.picture.is_none() {
             let y = 0.5 * self.height;
@@ -152,7 +163,11 @@ impl Place<'_> {
         for (i, ruler) in picture.rulers.iter().enumerate() {
             let end = x + ruler.length;
             let path = match i {
-                0 => format!("M{x:.1} {:.1}v12M{x:.1} {y:.1}H{end:.1}M{end:.1} {:.1}v12", y - 6.0, y - 6.0),
+                0 => format!(
+                    "M{x:.1} {:.1}v12M{x:.1} {y:.1}H{end:.1}M{end:.1} {:.1}v12",
+                    y - 6.0,
+                    y - 6.0
+                ),
                 _ => format!("M{x:.1} {y:.1}H{end:.1}m-14 -7l14 7l-14 7"),
             };
             let _ = write!(

@@ -46,7 +46,9 @@ pub(super) fn decimals(duration: f64) -> usize {
 
 /// The scene at an instant, without forces.
 pub(super) fn marks(panel: &Place, time: f64, out: &mut String) {
-    let Some(picture) = &panel.picture else { return };
+    let Some(picture) = &panel.picture else {
+        return;
+    };
     let place = picture::Place::of(time, &panel.times);
     for mark in &picture.marks {
         if let Some(element) = element::mark(mark, place, picture.height) {
@@ -57,7 +59,9 @@ pub(super) fn marks(panel: &Place, time: f64, out: &mut String) {
 
 /// Forces at an instant.
 pub(super) fn arrows(panel: &Place, time: f64, out: &mut String) {
-    let Some(picture) = &panel.picture else { return };
+    let Some(picture) = &panel.picture else {
+        return;
+    };
     let place = picture::Place::of(time, &panel.times);
     for (i, arrow) in picture.arrows.iter().enumerate() {
         let (arrow, name) = element::arrow(i, arrow, place, picture.height);

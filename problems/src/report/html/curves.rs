@@ -1,7 +1,7 @@
 //! Film → plots: forces beside their limits, energies, work, and the phase plots.
 
-use super::difference::difference;
 use super::super::{is_angle, rate_unit, significant, symbol, with_unit};
+use super::difference::difference;
 use crate::film::Film;
 use crate::outcome::{Force, Outcome, Sample, Source, forces};
 use lagrange_core::system::Friction;
@@ -173,7 +173,11 @@ fn work(film: &Film) -> Option<Plot> {
     (!curves.is_empty()).then(|| Plot {
         title: "Work since the start".to_owned(),
         axis: with_unit("work", film.outcome.description.units.energy),
-        time: film.books.iter().map(|(time, _)| significant(*time)).collect(),
+        time: film
+            .books
+            .iter()
+            .map(|(time, _)| significant(*time))
+            .collect(),
         curves,
     })
 }

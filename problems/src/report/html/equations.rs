@@ -19,7 +19,11 @@ const SPANS: usize = 3;
 /// The section. What the run leaves out is not in it, as far as whole items of the declaration are left out.
 pub(super) fn equations(run: &Shown) -> String {
     let outcome = &run.film.outcome;
-    let tokens = || run.derivation.declaration.parse::<proc_macro2::TokenStream>();
+    let tokens = || {
+        run.derivation
+            .declaration
+            .parse::<proc_macro2::TokenStream>()
+    };
     let (Ok(all), Ok(left)) = (tokens(), tokens()) else {
         return String::new();
     };
@@ -27,7 +31,11 @@ pub(super) fn equations(run: &Shown) -> String {
     let mut note = String::new();
     let derived = inspect_without(left, &left_out, None).or_else(|refusal| {
         note = "<p class=\"note\">These are the equations with nothing left out.</p>\n".to_owned();
-        if left_out.is_empty() { Err(refusal) } else { inspect_without(all, &[], None) }
+        if left_out.is_empty() {
+            Err(refusal)
+        } else {
+            inspect_without(all, &[], None)
+        }
     });
     let Ok(derived) = derived else {
         return String::new();
@@ -40,7 +48,11 @@ pub(super) fn equations(run: &Shown) -> String {
             titled(&Statement::equal(name, value.clone()))
         })
         .concat();
-    let motion: String = derived.motion.iter().map(|e| titled(&e.statement)).collect();
+    let motion: String = derived
+        .motion
+        .iter()
+        .map(|e| titled(&e.statement))
+        .collect();
     let rows = rows(&derived);
     let modes = modes(run, &derived);
     let impacts = impacts(outcome, &derived);
@@ -54,13 +66,24 @@ pub(super) fn equations(run: &Shown) -> String {
 /// What the user wrote that makes the motion: energies, constraints, contacts, friction laws, forces.
 fn declared(derived: &inspect::Derivation) -> String {
     const TOLD: [&str; 8] = [
-        "kinetic", "potential", "lagrangian", "constraint", "contact", "friction", "force", "dissipation",
+        "kinetic",
+        "potential",
+        "lagrangian",
+        "constraint",
+        "contact",
+        "friction",
+        "force",
+        "dissipation",
     ];
     let items = derived.declared.iter();
     let items = items.filter(|item| TOLD.contains(&item.keyword));
     let row = |item: &inspect::Item| {
         let name = escaped(&item.name);
-        format!("<tr><th scope=\"row\">{} {name}</th><td>{}</td></tr>\n", item.keyword, said(item))
+        format!(
+            "<tr><th scope=\"row\">{} {name}</th><td>{}</td></tr>\n",
+            item.keyword,
+            said(item)
+        )
     };
     format!("<table>\n{}</table>\n", items.map(row).collect::<String>())
 }
@@ -110,7 +133,11 @@ fn modes(run: &Shown, derived: &inspect::Derivation) -> String {
     let mut out = String::from("<h4>Modes of this run</h4>\n");
     for (name, spans) in names.iter().take(MODES) {
         let _ = write!(out, "<h5>{}</h5>\n<p>{}</p>\n", escaped(name), when(spans));
-        let known = derived.modes.iter().find(|mode| mode.name == *name).cloned();
+        let known = derived
+            .modes
+            .iter()
+            .find(|mode| mode.name == *name)
+            .cloned();
         let asked = || {
             let tokens = run.derivation.declaration.parse().ok()?;
             let one = inspect_without(tokens, &outcome.left_out(), Some(name)).ok()?;
@@ -123,7 +150,10 @@ fn modes(run: &Shown, derived: &inspect::Derivation) -> String {
     }
     if names.len() > MODES {
         let left = names.len() - MODES;
-        let _ = writeln!(out, "<p class=\"note\">{left} more modes are not written out.</p>");
+        let _ = writeln!(
+            out,
+            "<p class=\"note\">{left} more modes are not written out.</p>"
+        );
     }
     out
 }
@@ -134,7 +164,11 @@ fn mode(mode: &inspect::Mode, out: &mut String) {
         let _ = writeln!(out, "<p>Held: {}</p>", held.join(", "));
     }
     let unknowns: Vec<String> = mode.unknowns.iter().take(ROWS).map(letter).collect();
-    let more = if mode.unknowns.len() > ROWS { ", …" } else { "" };
+    let more = if mode.unknowns.len() > ROWS {
+        ", …"
+    } else {
+        ""
+    };
     let _ = writeln!(out, "<p>Unknown: {}{more}</p>", unknowns.join(", "));
     out.extend(mode.equations.iter().map(titled));
     if !mode.solution.is_empty() {
@@ -192,9 +226,16 @@ fn name(outcome: &Outcome, mode: &Mode) -> String {
     let contacts = contacts
         .filter(|(i, _)| outcome.effects.includes(description, Item::Contact(*i)))
         .map(|(_, (contact, closed))| {
-            format!("{} {}", contact.name, if *closed { "closed" } else { "open" })
+            format!(
+                "{} {}",
+                contact.name,
+                if *closed { "closed" } else { "open" }
+            )
         });
-    let acting = mode.frictions.iter().filter(|state| **state != FrictionMode::Inactive);
+    let acting = mode
+        .frictions
+        .iter()
+        .filter(|state| **state != FrictionMode::Inactive);
     let display = mode.display(description).to_string();
     let words = display.split(", ").skip(mode.contacts.len());
     let words = words.take(acting.count()).map(str::to_owned);
@@ -208,7 +249,8 @@ fn name(outcome: &Outcome, mode: &Mode) -> String {
 /// When a run was in a mode.
 fn when(spans: &[[f64; 2]]) -> String {
     let told = spans.iter().take(SPANS);
-    let told = told.map(|[from, to]| format!("{} s to {} s", super::short(*from), super::short(*to)));
+    let told =
+        told.map(|[from, to]| format!("{} s to {} s", super::short(*from), super::short(*to)));
     let told: Vec<String> = told.collect();
     let more = match spans.len().saturating_sub(SPANS) {
         0 => String::new(),

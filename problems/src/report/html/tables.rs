@@ -185,7 +185,10 @@ fn accuracy(run: &Shown) -> String {
         line("Taylor series", work.series.to_string()),
         line("factorizations", work.factorizations.to_string()),
     ]);
-    rows.push(line("projections onto constraints", work.projections.to_string()));
+    rows.push(line(
+        "projections onto constraints",
+        work.projections.to_string(),
+    ));
     let left_out = outcome.left_out();
     if !left_out.is_empty() {
         rows.push(line("left out", escaped(&left_out.join(", "))));

@@ -83,12 +83,7 @@ pub(crate) fn outline([x1, y1, x2, y2]: [f64; 4]) -> Option<[[f64; 2]; 7]> {
         (length - tip, -1.5),
         (0.0, -1.5),
     ];
-    Some(corners.map(|(along, left)| {
-        [
-            x1 + along * ux - left * uy,
-            y1 + along * uy + left * ux,
-        ]
-    }))
+    Some(corners.map(|(along, left)| [x1 + along * ux - left * uy, y1 + along * uy + left * ux]))
 }
 
 /// Where the middle of the foot of an arrow's name stands, in letters of a size: beyond its tip, inside the picture. None for

@@ -72,10 +72,17 @@ mod tests {
         let times = [0.0, 1.0, 1.0, 3.0];
         let column = Column::of([5.0, 6.0, 0.0, 4.0].into_iter());
         let at = |time| column.at(Place::of(time, &times));
-        assert_eq!([-1.0, 0.0, 0.5, 1.0, 2.5, 3.0, 9.0].map(at), [
-            5.0, 5.0, 5.5, 0.0, 3.0, 4.0, 4.0
-        ]);
+        assert_eq!(
+            [-1.0, 0.0, 0.5, 1.0, 2.5, 3.0, 9.0].map(at),
+            [5.0, 5.0, 5.5, 0.0, 3.0, 4.0, 4.0]
+        );
         assert_eq!(Column::of([2.0, 2.0].into_iter()), Column::Constant(2.0));
-        assert_eq!(Place::of(1.0, &[]), Place { sample: 0, part: 0.0 });
+        assert_eq!(
+            Place::of(1.0, &[]),
+            Place {
+                sample: 0,
+                part: 0.0
+            }
+        );
     }
 }

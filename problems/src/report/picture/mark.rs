@@ -65,9 +65,10 @@ pub(super) fn marks(drawings: &[Drawing], frame: &Frame) -> Vec<Mark> {
             });
         };
         let points = |shape: &Shape| match shape {
-            Shape::Fixed(points) | Shape::Block(points) | Shape::Rod(points) => {
-                points.iter().flat_map(|[x, y]| [frame.x(*x), frame.y(*y)]).collect()
-            }
+            Shape::Fixed(points) | Shape::Block(points) | Shape::Rod(points) => points
+                .iter()
+                .flat_map(|[x, y]| [frame.x(*x), frame.y(*y)])
+                .collect(),
             _ => Vec::new(),
         };
         let circle = |shape: &Shape| match shape {

@@ -102,7 +102,11 @@ fn short(x: f64) -> String {
 /// To hundredths of a unit, which nobody sees; what is not finite is 0.
 fn hundredths(x: f64) -> f64 {
     let rounded = (x * 100.0).round() / 100.0;
-    if rounded.is_finite() { rounded + 0.0 } else { 0.0 }
+    if rounded.is_finite() {
+        rounded + 0.0
+    } else {
+        0.0
+    }
 }
 
 #[cfg(test)]

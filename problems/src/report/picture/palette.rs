@@ -80,8 +80,16 @@ mod tests {
             for text in ["ink", "quiet", "bad", "c0", "c1", "c2", "c3", "c4", "c5"] {
                 for ground in ["page", "card", "ground", "body"] {
                     let [a, b] = [text, ground].map(|name| luminance(find(name)[shade]) + 0.05);
-                    let least = if ["page", "card"].contains(&ground) { 4.5 } else { 3.0 };
-                    assert!(a.max(b) / a.min(b) >= least, "{text} on {ground}: {}", a.max(b) / a.min(b));
+                    let least = if ["page", "card"].contains(&ground) {
+                        4.5
+                    } else {
+                        3.0
+                    };
+                    assert!(
+                        a.max(b) / a.min(b) >= least,
+                        "{text} on {ground}: {}",
+                        a.max(b) / a.min(b)
+                    );
                 }
             }
         }
