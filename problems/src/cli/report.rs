@@ -51,7 +51,8 @@ pub(super) struct Report {
     /// The file to write [default: report.html, or report.svg].
     #[arg(long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Write numbered pictures into a folder instead: frame-0001.svg, frame-0002.svg, …
+    /// Write numbered pictures into a folder instead: frame-0001.svg, frame-0002.svg, … What is there of an earlier, longer
+    /// sequence is removed.
     #[arg(long, value_name = "DIR", conflicts_with_all = ["format", "output"])]
     frames: Option<PathBuf>,
     /// Pictures a second, of frames and of a picture that moves.
@@ -105,9 +106,18 @@ impl Report {
         std::fs::create_dir_all(folder).map_err(|error| {
             Trouble::failed(format_args!("cannot make {}: {error}", folder.display()))
         })?;
+        let frame = |i: usize| folder.join(format!("frame-{:04}.svg", i + 1));
         for (i, text) in frames::stills(&panels, &clock).enumerate() {
-            let path = folder.join(format!("frame-{:04}.svg", i + 1));
-            to_file(&path, |out| out.write_all(text.as_bytes()))?;
+            to_file(&frame(i), |out| out.write_all(text.as_bytes()))?;
+        }
+        // What is left of a longer sequence would be taken for its end.
+        let left = (clock.instants.len()..)
+            .map(frame)
+            .take_while(|path| path.exists());
+        for path in left {
+            std::fs::remove_file(&path).map_err(|error| {
+                Trouble::failed(format_args!("cannot remove {}: {error}", path.display()))
+            })?;
         }
         Ok(())
     }

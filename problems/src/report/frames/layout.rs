@@ -79,9 +79,9 @@ impl<'a> Layout<'a> {
              <rect class=\"paper\" width=\"{width}\" height=\"{height}\"/>\n"
         );
         for (i, panel) in self.panels.iter().enumerate() {
-            let _ = write!(
+            let _ = writeln!(
                 out,
-                "<clipPath id=\"clip{i}\"><rect width=\"{WIDTH}\" height=\"{}\"/></clipPath>\n",
+                "<clipPath id=\"clip{i}\"><rect width=\"{WIDTH}\" height=\"{}\"/></clipPath>",
                 panel.height
             );
         }
@@ -100,9 +100,9 @@ impl<'a> Layout<'a> {
     /// The mode of a panel at a time, in words.
     pub fn mode(&self, panel: &Place, time: f64) -> String {
         let outcome = &panel.film.outcome;
-        let phases = outcome.phases.iter().rev();
-        let phase = phases.clone().find(|phase| phase.from <= time);
-        let phase = phase.or(phases.last());
+        let mut latest_first = outcome.phases.iter().rev();
+        let phase = latest_first.find(|phase| phase.from <= time);
+        let phase = phase.or(outcome.phases.first());
         let over = outcome.last().is_some_and(|end| time > end.time);
         let one = one_mode(outcome.description);
         match phase {
@@ -137,20 +137,20 @@ impl<'a> Layout<'a> {
 impl Place<'_> {
     /// Opens the group of the panel, with its title.
     pub fn open(&self, out: &mut String, titled: bool) {
-        let _ = write!(out, "<g transform=\"translate({} {})\">\n", self.x, self.y);
+        let _ = writeln!(out, "<g transform=\"translate({} {})\">", self.x, self.y);
         if titled {
             let title = escaped(self.title);
-            let _ = write!(
+            let _ = writeln!(
                 out,
-                "<text class=\"words\" y=\"{}\">{title}</text>\n",
+                "<text class=\"words\" y=\"{}\">{title}</text>",
                 -0.5 * LETTER
             );
         }
         if self.picture.is_none() {
             let y = 0.5 * self.height;
-            let _ = write!(
+            let _ = writeln!(
                 out,
-                "<text class=\"words\" x=\"500\" y=\"{y}\" text-anchor=\"middle\">no picture</text>\n"
+                "<text class=\"words\" x=\"500\" y=\"{y}\" text-anchor=\"middle\">no picture</text>"
             );
         }
     }
@@ -170,9 +170,9 @@ impl Place<'_> {
                 ),
                 _ => format!("M{x:.1} {y:.1}H{end:.1}m-14 -7l14 7l-14 7"),
             };
-            let _ = write!(
+            let _ = writeln!(
                 out,
-                "<path class=\"ruler\" d=\"{path}\"/><text class=\"words\" x=\"{x:.1}\" y=\"{:.1}\">{}</text>\n",
+                "<path class=\"ruler\" d=\"{path}\"/><text class=\"words\" x=\"{x:.1}\" y=\"{:.1}\">{}</text>",
                 y - 14.0,
                 ruler.text
             );
@@ -186,9 +186,9 @@ impl Place<'_> {
         for phase in &outcome.phases {
             let words = phase.mode.display(outcome.description).to_string();
             let [from, to] = [phase.from, phase.to].map(|t| WIDTH * layout.part(t));
-            let _ = write!(
+            let _ = writeln!(
                 out,
-                "<rect x=\"{from:.1}\" y=\"{:.1}\" width=\"{:.1}\" height=\"{BAR}\" fill=\"{}\"><title>{}</title></rect>\n",
+                "<rect x=\"{from:.1}\" y=\"{:.1}\" width=\"{:.1}\" height=\"{BAR}\" fill=\"{}\"><title>{}</title></rect>",
                 self.bar_top(),
                 (to - from).max(0.5),
                 colour(layout.number(&words)),
