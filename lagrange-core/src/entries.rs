@@ -4,10 +4,11 @@
 //! machine numbers are made in this crate: programs that run on them call what is compiled already.
 
 use crate::arithmetic::Scalar;
-use crate::dynamics::Dynamics;
+use crate::dynamics::{Dynamics, Packets};
 use crate::effects::Effects;
 use crate::error::Error;
 use crate::run::Run;
+use crate::run::round::{Member, go_on};
 use crate::simulation::{Held, Settings};
 use crate::tapes::Erased;
 use crate::trajectory::{Instant, Ledger, Record, Sampler, State};
@@ -18,6 +19,9 @@ use core::ops::Range;
 pub struct Entries<T: Scalar> {
     pub(crate) run: fn(Erased<T>, &Settings) -> Run<T>,
     pub(crate) execute: Execute<T>,
+    pub(crate) launch: Execute<T>,
+    pub(crate) go_on: fn(&mut Packets<T>, &mut [Member<'_, T>]),
+    pub(crate) land: fn(&mut Run<T>, &mut Record<T>),
     pub(crate) set_system: fn(&mut Run<T>, Erased<T>),
     pub(crate) consistent: Consistent<T>,
     pub(crate) sampler: fn(&Record<T>) -> Sampler<'_, T>,
@@ -35,6 +39,9 @@ impl<T: Scalar> Entries<T> {
     pub(crate) const OWN: Self = Self {
         run: Run::new,
         execute: Run::execute,
+        launch: Run::launch,
+        go_on,
+        land: Run::land,
         set_system: Run::set_system,
         consistent: Run::consistent,
         sampler: |record| Sampler::new(record),

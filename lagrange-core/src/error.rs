@@ -130,6 +130,11 @@ pub enum Error {
         /// The limit.
         limit: usize,
     },
+    /// It was stopped from outside ([`Monitor::stop`](crate::Monitor::stop)).
+    Interrupted {
+        /// Time, s.
+        time: f64,
+    },
     /// A time outside the trajectory was asked for.
     OutsideTrajectory {
         /// Time asked for, s.
@@ -262,6 +267,7 @@ impl fmt::Display for Error {
                     "t = {time}: more than {limit} {what}; raise the limit if this is intended"
                 )
             }
+            Error::Interrupted { time } => write!(f, "interrupted at t = {time}"),
             Error::OutsideTrajectory { time, first, last } => {
                 write!(f, "t = {time} is outside the trajectory [{first}, {last}]")
             }

@@ -17,6 +17,7 @@ pub mod integrate;
 mod linear;
 pub mod mode;
 mod modes;
+mod monitor;
 mod pool;
 pub mod prelude;
 mod run;
@@ -29,5 +30,6 @@ pub use derivation::Derivation;
 pub use error::Error;
 #[cfg(feature = "derive")]
 pub use lagrange_macros::Lagrangian;
-pub use run::Runner;
+pub use monitor::Monitor;
+pub use run::{Ensemble, Runner};
 pub use simulation::{Failure, Held, Simulation};

@@ -9,7 +9,7 @@ pub use crate::error::Error;
 pub use crate::handle::*;
 pub use crate::integrate::Method;
 pub use crate::mode::{FrictionMode, Mode};
-pub use crate::run::Runner;
+pub use crate::run::{Ensemble, Runner};
 pub use crate::simulation::{Failure, Held, Simulation};
 pub use crate::system::{Description, Impacts, System};
 pub use crate::trajectory::{

@@ -4,7 +4,8 @@ use crate::arithmetic::Scalar;
 use crate::effects::Effects;
 use crate::error::Error;
 use crate::integrate::Method;
-use crate::run::Runner;
+use crate::monitor::Monitor;
+use crate::run::{Ensemble, Runner};
 use crate::system::{Impacts, System};
 use crate::tapes::Tapes;
 use crate::trajectory::{EventKind, State, Subject, Trajectory};
@@ -32,6 +33,7 @@ pub(crate) struct Settings {
     pub impacts: Option<Impacts>,
     pub max_events: usize,
     pub max_steps: usize,
+    pub monitor: Option<Monitor>,
 }
 
 /// A run that ended early, with everything up to there.
@@ -79,6 +81,7 @@ impl<'a, S: System> Simulation<'a, S> {
                 impacts: None,
                 max_events: 100_000,
                 max_steps: 100_000_000,
+                monitor: None,
             },
         }
     }
@@ -148,6 +151,13 @@ impl<'a, S: System> Simulation<'a, S> {
         self
     }
 
+    /// Lets other threads see how far a run has come, and stop it.
+    #[must_use]
+    pub fn monitor(mut self, monitor: &Monitor) -> Self {
+        self.settings.monitor = Some(monitor.clone());
+        self
+    }
+
     /// Integrates from `start` over `span` (s), or until a stop.
     ///
     /// # Errors
@@ -172,6 +182,11 @@ impl<'a, S: System> Simulation<'a, S> {
     /// Everything that a run works with, made ready once for many runs.
     pub fn runner(&self) -> Runner<S> {
         Runner::new(self.scene, &self.settings)
+    }
+
+    /// Everything that many runs work with, several at a time.
+    pub fn ensemble(&self) -> Ensemble<S> {
+        Ensemble::new(self.scene, &self.settings)
     }
 
     /// The state nearest to `wanted` (in the mass metric) that satisfies all constraints, with the values in `held`

@@ -6,7 +6,7 @@ use crate::closed_form::ClosedForm;
 use crate::cost::{self, Costs};
 use crate::drawing::Drawing;
 use crate::film::{self, Film};
-use crate::outcome::{Outcome, equal};
+use crate::outcome::Outcome;
 use crate::request::{Refusal, Request};
 use crate::scenes::hard::*;
 use crate::scenes::*;
@@ -223,7 +223,14 @@ impl<S: System<Scalar = f64> + Default> Entry<S> {
         let simulation = request.simulation(system)?;
         let start = request.start(system, &simulation)?;
         let until = request.until.unwrap_or(self.until);
-        Ok(match simulation.run(start, 0.0..until) {
+        if let Some(progress) = &request.progress {
+            progress.runs_until(until);
+        }
+        let outcome = simulation.run(start, 0.0..until);
+        if let Some(progress) = &request.progress {
+            progress.advance();
+        }
+        Ok(match outcome {
             Ok(trajectory) => (trajectory, None),
             Err(stopped) => (*stopped.trajectory, Some(stopped.error)),
         })
@@ -257,20 +264,14 @@ impl<S: System<Scalar = f64> + Default + Send + 'static> Scene for Entry<S> {
     fn run(&self, request: &Request) -> Result<Outcome, Refusal> {
         let system: S = request.system()?;
         let (trajectory, failure) = self.trajectory(&system, request)?;
-        Ok(Outcome::new(
-            self.name,
-            &trajectory,
-            failure,
-            &equal(&trajectory, request.samples),
-            request.ledger,
-        ))
+        Ok(Outcome::new(self.name, &trajectory, failure, request))
     }
 
     fn film(&self, request: &Request) -> Result<Film, Refusal> {
         let system: S = request.system()?;
         let (trajectory, failure) = self.trajectory(&system, request)?;
         let times = film::instants(&trajectory, request.samples);
-        let mut outcome = Outcome::new(self.name, &trajectory, failure, &times, false);
+        let mut outcome = Outcome::sampled(self.name, &trajectory, failure, request, &times);
         film::without_rounding(&mut outcome);
         let draw = |drawing: Picture<S>| {
             let samples = outcome.samples.iter();
@@ -294,7 +295,9 @@ impl<S: System<Scalar = f64> + Default + Send + 'static> Scene for Entry<S> {
         let start = request.start(&system, &simulation)?;
         let until = request.until.unwrap_or(self.until);
         let effects = request.effects(S::DESCRIPTION)?;
-        cost::measure(self.name, &system, &simulation, &effects, &start, until)
+        let progress = request.progress.clone().unwrap_or_default();
+        let run = (&start, until);
+        cost::measure(self.name, &system, &simulation, &effects, run, &progress)
             .map_err(Refusal::Run)
     }
 
@@ -310,9 +313,7 @@ impl<S: System<Scalar = f64> + Default + Send + 'static> Scene for Entry<S> {
         let request = &study.request;
         let system: S = request.system()?;
         let effects = request.effects(S::DESCRIPTION)?;
-        let simulation = Simulation::new(&system)
-            .tolerance(request.tolerance)
-            .effects(effects.clone());
+        let simulation = request.simulation(&system)?;
         let start = request.start(&system, &simulation)?;
         let until = request.until.unwrap_or(self.until);
         // A closed form is that of the whole declaration.
@@ -323,8 +324,8 @@ impl<S: System<Scalar = f64> + Default + Send + 'static> Scene for Entry<S> {
             .and_then(|known| known(&system, &start, until));
         let course = Course {
             system: &system,
+            simulation,
             start,
-            effects,
             until,
             max_steps: 400_000,
         };

@@ -5,6 +5,7 @@
 //! same mode without it; where that is nothing, the effect does not act there. All times are taken in turn, the shortest
 //! of the rounds counts.
 
+use crate::progress::Progress;
 use core::hint::black_box;
 use lagrange_core::dynamics::Dynamics;
 use lagrange_core::integrate::Acceleration;
@@ -80,8 +81,8 @@ pub(crate) fn measure<S: System<Scalar = f64>>(
     system: &S,
     simulation: &Simulation<'_, S>,
     effects: &Effects,
-    start: &State<f64>,
-    until: f64,
+    (start, until): (&State<f64>, f64),
+    progress: &Progress,
 ) -> Result<Costs, Error> {
     let d = S::DESCRIPTION;
     let trajectory = simulation
@@ -109,11 +110,13 @@ pub(crate) fn measure<S: System<Scalar = f64>>(
         .into_iter()
         .map(|chosen| WholeRun::new(simulation.clone().effects(chosen), start, until))
         .collect();
+    progress.expect(ROUNDS);
     for _ in 0..ROUNDS {
         let sides = sides.iter_mut().flatten().flatten();
         sides.for_each(RightSide::time);
         let runs = runs.iter_mut().flatten();
         runs.for_each(WholeRun::time);
+        progress.advance();
     }
     let mut costs = sides.into_iter().map(|sides| -> Vec<Option<Cost>> {
         let cost = |side: Option<RightSide>| side.map(|side| side.cost);

@@ -11,6 +11,7 @@ pub mod drawing;
 pub mod film;
 pub mod names;
 pub mod outcome;
+pub mod progress;
 pub mod reference;
 pub mod report;
 pub mod request;

@@ -1,6 +1,8 @@
 //! What to run, as a user asks for it by name, and how the start is found from it.
 
 use crate::names::nearest;
+use crate::progress::Progress;
+use crate::sweep::event;
 use core::fmt;
 use lagrange_core::effects::Item;
 use lagrange_core::prelude::*;
@@ -20,6 +22,8 @@ pub struct Request {
     pub start: Vec<(String, f64)>,
     /// End, s; the scene's own if `None`.
     pub until: Option<f64>,
+    /// Events (`rim lost`) after which the run ends, once each of them has happened; it goes on until its end if there are none.
+    pub end_after: Vec<String>,
     /// Relative and absolute tolerance of the integration.
     pub tolerance: f64,
     /// Method of integration.
@@ -32,6 +36,8 @@ pub struct Request {
     pub samples: usize,
     /// Whether the energy ledger is drawn up at every sample.
     pub ledger: bool,
+    /// Who watches the run, and may end it; nobody if `None`.
+    pub progress: Option<Progress>,
 }
 
 impl Default for Request {
@@ -42,12 +48,14 @@ impl Default for Request {
             effects: Vec::new(),
             start: Vec::new(),
             until: None,
+            end_after: Vec::new(),
             tolerance: 1e-9,
             method: Method::Taylor,
             project: false,
             impacts: None,
             samples: 0,
             ledger: false,
+            progress: None,
         }
     }
 }
@@ -115,6 +123,7 @@ impl fmt::Display for Refusal {
                 match nearest {
                     Some(nearest) => write!(f, "; did you mean `{nearest}`?"),
                     None if known.is_empty() => write!(f, "; there are none"),
+                    None if *what == "scene" => write!(f, "; `lagrange list` shows them"),
                     None => write!(f, "; there are: {}", known.join(", ")),
                 }
             }
@@ -156,8 +165,16 @@ impl Request {
             .method(self.method)
             .effects(self.effects(S::DESCRIPTION)?)
             .project_start(self.project);
-        Ok(match self.impacts {
+        let mut simulation = match self.impacts {
             Some(impacts) => simulation.impacts(impacts),
+            None => simulation,
+        };
+        for name in &self.end_after {
+            let (subject, kind) = event(name, S::DESCRIPTION)?;
+            simulation = simulation.end_after(subject, kind);
+        }
+        Ok(match &self.progress {
+            Some(progress) => simulation.monitor(progress.monitor()),
             None => simulation,
         })
     }

@@ -24,8 +24,6 @@ fn shown(scene: &'static dyn Scene, request: &Request) -> Shown {
         title: scene.name().to_owned(),
         film: scene.film(request).expect("a film"),
         derivation: scene.derivation(),
-        tolerance: request.tolerance,
-        method: request.method,
     }
 }
 

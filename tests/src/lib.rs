@@ -72,13 +72,35 @@ pub fn all_agree(what: &str, a: &[f64], b: &[f64], tolerance: f64) {
 /// Runs a scene from a state at tolerance 1e-12.
 #[track_caller]
 pub fn run<S: System<Scalar = f64>>(scene: &S, start: State<f64>, until: f64) -> Trajectory<S> {
-    match Simulation::new(scene)
-        .tolerance(1e-12)
-        .run(start, 0.0..until)
-    {
+    run_by(scene, ("taylor", 1e-12), start, until)
+}
+
+/// Runs a scene from a state by a method at a tolerance.
+#[track_caller]
+pub fn run_by<S: System<Scalar = f64>>(
+    scene: &S,
+    (method, tolerance): (&str, f64),
+    start: State<f64>,
+    until: f64,
+) -> Trajectory<S> {
+    let simulation = Simulation::new(scene)
+        .method(method.parse().expect("a method"))
+        .tolerance(tolerance);
+    match simulation.run(start, 0.0..until) {
         Ok(trajectory) => trajectory,
-        Err(failure) => panic!("{failure}; {:?}", words(&failure.trajectory)),
+        Err(failure) => panic!("{method}: {failure}; {:?}", words(&failure.trajectory)),
     }
+}
+
+/// The state that the first start of a scene sets.
+pub fn first_start<S: System<Scalar = f64>>(scene: &S) -> State<f64> {
+    let n = S::DESCRIPTION.coordinates.len();
+    let mut start = State {
+        q: vec![0.0; n],
+        v: vec![0.0; n],
+    };
+    scene.start(0, 0.0, &mut start.q, &mut start.v);
+    start
 }
 
 /// The events as `item kind`.

@@ -18,6 +18,7 @@
 
 use super::Scalar;
 use super::instruction::{Instruction, Op};
+use super::pack::{Coefficient, Pack};
 use super::program::{Program, with_registers};
 use super::record::{Recorded, Slot};
 
@@ -74,22 +75,22 @@ struct Products<T> {
     y: [[T; LANES]; STRIDE],
 }
 
-impl<T: Scalar> Products<T> {
+impl<T: Coefficient> Products<T> {
     /// Products of zeros.
     fn new() -> Self {
         Self {
             x_slots: [Recorded::ZERO.slot; LANES],
             y_slots: [Recorded::ZERO.slot; LANES],
-            weighted: [T::zero(); LANES],
-            x: [[T::zero(); LANES]; STRIDE],
-            y: [[T::zero(); LANES]; STRIDE],
+            weighted: [T::of(0.0); LANES],
+            x: [[T::of(0.0); LANES]; STRIDE],
+            y: [[T::of(0.0); LANES]; STRIDE],
         }
     }
 
     /// What coefficients 1…k−1 give to coefficient k.
     #[inline(always)]
     fn earlier(&self, k: usize) -> [T; LANES] {
-        let mut sum = [T::zero(); LANES];
+        let mut sum = [T::of(0.0); LANES];
         let known = (k - 1) % STRIDE;
         for (x, y) in self.x[..known].iter().zip(self.y[..known].iter().rev()) {
             for lane in 0..LANES {
@@ -102,10 +103,10 @@ impl<T: Scalar> Products<T> {
     /// Takes coefficient k of the numbers.
     #[inline(always)]
     fn take<const N: usize>(&mut self, k: usize, now: &[T; N]) {
-        let extra = T::from_f64((k - 1) as f64);
+        let extra = T::of((k - 1) as f64);
         let (x, y) = (&mut self.x[(k - 1) % STRIDE], &mut self.y[(k - 1) % STRIDE]);
         for lane in 0..LANES {
-            let weight = T::one() + self.weighted[lane] * extra;
+            let weight = T::of(1.0) + self.weighted[lane] * extra;
             x[lane] = weight * now[self.x_slots[lane].index() & (N - 1)];
             y[lane] = now[self.y_slots[lane].index() & (N - 1)];
         }
@@ -113,7 +114,7 @@ impl<T: Scalar> Products<T> {
 }
 
 /// The Taylor coefficients of a program, order by order.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Expansion<T> {
     /// What runs before the caller's own equations are solved, and after that.
     before: Vec<Step>,
@@ -137,7 +138,7 @@ pub struct Expansion<T> {
     now: Vec<T>,
 }
 
-impl<T: Scalar> Expansion<T> {
+impl<T: Coefficient> Expansion<T> {
     /// Prepares the expansion of `program` with so many `registers`; the coefficients of `wanted` are kept. If the caller
     /// solves equations, which happens after part 0, their `elements` (matrix element and unknown) are products 0, 1, ….
     pub fn new(
@@ -147,10 +148,18 @@ impl<T: Scalar> Expansion<T> {
         elements: Option<&[(Slot, Slot)]>,
     ) -> Self {
         let mut expansion = Self {
-            rows: vec![NO_ROW; registers],
-            now: vec![T::zero(); registers],
+            before: Vec::new(),
+            after: Vec::new(),
             solves: elements.is_some(),
-            ..Self::default()
+            critical: Vec::new(),
+            count: 0,
+            products: Vec::new(),
+            sums: Vec::new(),
+            kept: Vec::new(),
+            varying: 0,
+            rows: vec![NO_ROW; registers],
+            history: Vec::new(),
+            now: vec![T::of(0.0); registers],
         };
         for &(x, y) in elements.unwrap_or_default() {
             expansion.product(x, y);
@@ -180,8 +189,8 @@ impl<T: Scalar> Expansion<T> {
         for recorded in wanted.iter().filter(|r| !r.varies()) {
             expansion.keep(recorded.slot);
         }
-        expansion.history = vec![[T::zero(); STRIDE]; expansion.kept.len()];
-        expansion.sums = vec![T::zero(); expansion.products.len() * LANES];
+        expansion.history = vec![[T::of(0.0); STRIDE]; expansion.kept.len()];
+        expansion.sums = vec![T::of(0.0); expansion.products.len() * LANES];
         expansion
     }
 
@@ -196,12 +205,12 @@ impl<T: Scalar> Expansion<T> {
 
     /// Σ xᵢ yⱼ
     fn product(&mut self, x: Slot, y: Slot) {
-        self.push_product(x, y, T::zero());
+        self.push_product(x, y, T::of(0.0));
     }
 
     /// Σ i xᵢ yⱼ
     fn weighted(&mut self, x: Slot, y: Slot) {
-        self.push_product(x, y, T::one());
+        self.push_product(x, y, T::of(1.0));
     }
 
     fn push_product(&mut self, x: Slot, y: Slot, weighted: T) {
@@ -283,24 +292,18 @@ impl<T: Scalar> Expansion<T> {
         self.critical.push((operation, i.x, i.y));
     }
 
-    /// The first operation that has no Taylor series where the registers hold the values `first`.
-    #[inline]
-    pub fn singular(&self, first: &[T]) -> Option<Operation> {
-        let at = |slot: Slot| first[slot.index()].value();
-        let fails = |&&(operation, x, y): &&(Operation, Slot, Slot)| match operation {
-            Operation::Division => at(x) == 0.0,
-            Operation::InverseSine => !(at(x).abs() < 1.0),
-            Operation::Angle => at(x) == 0.0 && at(y) == 0.0,
-            _ => !(at(x) > 0.0),
-        };
-        let found = self.critical.iter().find(fails);
-        found.map(|&(operation, ..)| operation)
+    /// Coefficients 0, from values in the registers `first`.
+    #[inline(always)]
+    pub fn begin(&mut self, first: &[T]) {
+        for (row, slot) in self.history.iter_mut().zip(&self.kept) {
+            row[0] = first[slot.index()];
+        }
     }
 
-    /// Coefficients 1…`order` of everything, from values in the registers `first`. `integrals` are numbers with their rates;
+    /// Coefficients 1…`order` of everything after [`Self::begin`], from values in the registers `first`. `integrals` are numbers with their rates;
     /// register 1 is time. `solve` puts coefficient k of the caller's unknowns into the registers that it is given; it gets
     /// the values of all registers, and of each product what earlier coefficients give to coefficient k.
-    #[inline]
+    #[inline(always)]
     pub fn run(
         &mut self,
         program: &Program,
@@ -310,9 +313,6 @@ impl<T: Scalar> Expansion<T> {
         mut solve: impl FnMut(usize, &mut [T], &[T], &[T]),
     ) {
         let order = order.min(MAX_ORDER);
-        for (row, slot) in self.history.iter_mut().zip(&self.kept) {
-            row[0] = first[slot.index()];
-        }
         with_registers!(first, |first| self
             .coefficients(program, first, order, integrals, &mut solve));
     }
@@ -331,9 +331,9 @@ impl<T: Scalar> Expansion<T> {
             return;
         };
         for k in 1..=order {
-            let weight = T::from_f64(k as f64);
+            let weight = T::of(k as f64);
             // dt/dτ = 1
-            registers[1] = if k == 1 { T::one() } else { T::zero() };
+            registers[1] = if k == 1 { T::of(1.0) } else { T::of(0.0) };
             for &(slot, rate) in integrals {
                 let rate = rate.index() & (N - 1);
                 let rate = if k == 1 { first[rate] } else { registers[rate] };
@@ -371,9 +371,42 @@ impl<T: Scalar> Expansion<T> {
     }
 }
 
+impl<T: Scalar> Expansion<T> {
+    /// Takes coefficients 1…`order` that one motion of a pack has. Both expansions must have been made for the same program and the
+    /// same numbers.
+    pub fn take_lane<const L: usize>(
+        &mut self,
+        pack: &Expansion<Pack<T, L>>,
+        lane: usize,
+        order: usize,
+    ) {
+        let order = order.min(MAX_ORDER);
+        let rows = self.history[..self.varying].iter_mut().zip(&pack.history);
+        for (row, packed) in rows {
+            for (c, packed) in row[1..=order].iter_mut().zip(&packed[1..=order]) {
+                *c = packed.0[lane];
+            }
+        }
+    }
+
+    /// The first operation that has no Taylor series where the registers hold the values `first`.
+    #[inline]
+    pub fn singular(&self, first: &[T]) -> Option<Operation> {
+        let at = |slot: Slot| first[slot.index()].value();
+        let fails = |&&(operation, x, y): &&(Operation, Slot, Slot)| match operation {
+            Operation::Division => at(x) == 0.0,
+            Operation::InverseSine => !(at(x).abs() < 1.0),
+            Operation::Angle => at(x) == 0.0 && at(y) == 0.0,
+            _ => !(at(x) > 0.0),
+        };
+        let found = self.critical.iter().find(fails);
+        found.map(|&(operation, ..)| operation)
+    }
+}
+
 /// Coefficient k of a list of numbers.
 #[inline(always)]
-fn advance<T: Scalar, const N: usize>(
+fn advance<T: Coefficient, const N: usize>(
     steps: &[Step],
     program: &Program,
     sums: &[T],
@@ -382,7 +415,7 @@ fn advance<T: Scalar, const N: usize>(
     now: &mut [T; N],
 ) {
     let terms = &program.terms[..];
-    let order = T::from_f64(k as f64);
+    let order = T::of(k as f64);
     for &Step {
         instruction,
         product,
@@ -417,7 +450,7 @@ fn advance<T: Scalar, const N: usize>(
             Op::Sum => {
                 let terms = &terms[x.index()..y.index()];
                 let add = |sum, &(factor, x): &(Slot, Slot)| start(factor).mul_add(at(x), sum);
-                terms.iter().fold(T::zero(), add)
+                terms.iter().fold(T::of(0.0), add)
             }
             Op::Sum2 => {
                 let [(f, x), (g, y)] = [terms[x.index()], terms[x.index() + 1]];
@@ -452,7 +485,7 @@ fn advance<T: Scalar, const N: usize>(
 
 /// Coefficient k of the other operations with two results, from that of x, the values of x, z, u, and the sums.
 #[inline(always)]
-fn pair<T: Scalar>(op: Op, x: T, [x0, z0, u0]: [T; 3], sums: [T; 2], order: T) -> (T, T) {
+fn pair<T: Coefficient>(op: Op, x: T, [x0, z0, u0]: [T; 3], sums: [T; 2], order: T) -> (T, T) {
     let earlier = sums[0] / order;
     let twice = |c: T| c + c;
     match op {

@@ -50,7 +50,7 @@ pub(super) enum Op {
 }
 
 /// An operation, where its operands are, and where its result goes.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Instruction {
     pub op: Op,
     pub to: Slot,

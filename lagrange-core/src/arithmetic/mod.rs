@@ -15,6 +15,7 @@ mod instruction;
 #[cfg(feature = "num-dual")]
 mod num_dual;
 mod numbers;
+mod pack;
 mod program;
 mod record;
 mod scalar;
@@ -25,6 +26,7 @@ pub use direct::{Derivative, Value};
 pub use dual::Dual;
 pub use expansion::{Expansion, MAX_ORDER, Operation};
 pub use numbers::Given;
+pub use pack::{Coefficient, Pack};
 pub use program::Program;
 pub use record::{Recorded, Recorder, Recording, Renewal, Slot, Variation};
 

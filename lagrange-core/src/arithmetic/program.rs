@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 type Term = (Slot, Slot);
 
 /// A recorded tape, ready to run.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Program {
     pub(super) parts: Vec<Part>,
     pub(super) terms: Vec<Term>,

@@ -79,7 +79,7 @@ impl Recorded {
 type Key = (Op, u32, u32);
 
 /// Part of a tape: what does not depend on time apart from what does, both in order.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Part {
     /// Runs once per series.
     pub fixed: Vec<Instruction>,
@@ -135,7 +135,7 @@ impl<T: Scalar> Recording<T> {
     }
 
     /// Number of registers.
-    pub(super) fn registers(&self) -> usize {
+    pub fn registers(&self) -> usize {
         self.registers
     }
 

@@ -27,6 +27,7 @@ fn expand(
     if let Some(operation) = expansion.singular(&first) {
         return Err(operation);
     }
+    expansion.begin(&first);
     expansion.run(&program, &mut first, ORDER, &[], |k, now, _, _| {
         for (slot, input) in slots.iter().zip(inputs) {
             now[slot.slot.index()] = input.get(k).copied().unwrap_or(0.0);

@@ -10,6 +10,7 @@ mod heading;
 mod jacobian;
 mod matrices;
 mod needs;
+mod packets;
 mod projection;
 mod series;
 mod solution;
@@ -23,6 +24,7 @@ pub use error::{EvaluationError, row_name};
 pub(crate) use heading::{approach, solve_small};
 pub(crate) use jacobian::Seeded;
 pub use needs::{NeedSet, add_branch_guards, add_guards};
+pub(crate) use packets::Packets;
 pub use projection::Residual;
 
 use crate::arithmetic::{Given, Scalar, Value};

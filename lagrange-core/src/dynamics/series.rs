@@ -9,11 +9,12 @@
 //! one factorization whatever the order; the sum runs over those matrix elements that change with the state.
 //! Reference: Griewank & Walther 2008, Evaluating Derivatives, section 13.2 (implicit relations).
 
-use super::tape::{REPORT, Tape};
+use super::tape::{REPORT, Shape, Tape};
 use super::values::Extent;
 use super::{Dynamics, EvaluationError};
-use crate::arithmetic::{MAX_ORDER, Scalar};
+use crate::arithmetic::{Expansion, MAX_ORDER, Pack, Scalar};
 use crate::system::Place;
+use std::sync::Arc;
 
 impl<T: Scalar> Dynamics<T> {
     /// Taylor coefficients 0…`order` (at most 28) in the time τ since `t` of positions, velocities, accelerations, forces and all
@@ -22,18 +23,60 @@ impl<T: Scalar> Dynamics<T> {
     /// # Errors
     /// Those of [`Self::value`], and [`EvaluationError::NoSeries`].
     pub fn series(&mut self, t: T, q: &[T], v: &[T], order: usize) -> Result<(), EvaluationError> {
+        if self.begin_series(t, q, v, order)? {
+            self.end_series(order);
+        }
+        Ok(())
+    }
+
+    /// The first half of [`Self::series`]: whether a second is needed.
+    pub(crate) fn begin_series(
+        &mut self,
+        t: T,
+        q: &[T],
+        v: &[T],
+        order: usize,
+    ) -> Result<bool, EvaluationError> {
         let order = order.min(MAX_ORDER);
         self.work.series += 1;
         self.work.coefficients += order + 1;
         self.run(t, q, v, Extent::Everything, true)?;
         if self.compiled().plan.headings.is_empty() {
             self.start_series(order)?;
-            self.expand(order);
-            self.take_headings_of_series();
-            Ok(())
+            Ok(true)
         } else {
-            self.expand_from_rest(order)
+            self.expand_from_rest(order)?;
+            Ok(false)
         }
+    }
+
+    /// The second half of [`Self::series`].
+    pub(crate) fn end_series(&mut self, order: usize) {
+        self.expand(order.min(MAX_ORDER));
+        self.take_headings_of_series();
+    }
+
+    /// What the tape does, if it can do it side by side with others.
+    pub(super) fn shape_mut(&mut self) -> Option<&mut Arc<Shape>> {
+        let (_, _, tape) = self.modes[self.current].parts();
+        tape.unsolved.is_none().then_some(&mut tape.shape)
+    }
+
+    /// The numbers that the tape works with.
+    pub(super) fn registers(&self) -> &[T] {
+        self.compiled().tape().map_or(&[], |tape| &tape.registers)
+    }
+
+    /// The second half of [`Self::series`], done for several motions at once.
+    pub(super) fn take_series<const L: usize>(
+        &mut self,
+        pack: &Expansion<Pack<T, L>>,
+        lane: usize,
+        order: usize,
+    ) {
+        let (_, _, tape) = self.modes[self.current].parts();
+        tape.expansion.take_lane(pack, lane, order);
+        self.take_headings_of_series();
     }
 
     /// Coefficients 1…`order` of everything.
@@ -47,10 +90,9 @@ impl<T: Scalar> Dynamics<T> {
         } = self;
         let (_, solver, tape) = modes[*current].parts();
         let Tape {
-            everything: program,
+            shape,
             registers,
             expansion,
-            integrals,
             unsolved,
             headings: slots,
             ..
@@ -61,10 +103,10 @@ impl<T: Scalar> Dynamics<T> {
             }
         }
         expansion.run(
-            program,
+            &shape.everything,
             registers,
             order,
-            integrals,
+            &shape.integrals,
             |k, now, first, earlier| {
                 let Some(unsolved) = unsolved.as_ref() else {
                     return;
@@ -95,10 +137,13 @@ impl<T: Scalar> Dynamics<T> {
     pub(super) fn start_series(&mut self, order: usize) -> Result<(), EvaluationError> {
         let (_, _, tape) = self.modes[self.current].parts();
         tape.order = order;
-        tape.everything.evaluate(REPORT, &mut tape.registers);
+        tape.shape.everything.evaluate(REPORT, &mut tape.registers);
         match tape.expansion.singular(&tape.registers) {
             Some(operation) => Err(EvaluationError::NoSeries { operation }),
-            None => Ok(()),
+            None => {
+                tape.expansion.begin(&tape.registers);
+                Ok(())
+            }
         }
     }
 

@@ -13,6 +13,7 @@ use crate::arithmetic::{
 use crate::linear::Plan;
 use crate::system::{Description, Held, Place};
 use crate::tapes::{Call, Tapes, Which};
+use std::sync::Arc;
 
 /// Parts of the recording.
 pub(super) const MOTION: usize = 0;
@@ -32,6 +33,22 @@ pub(super) struct Unsolved {
     pub elements: Vec<(usize, Slot, Slot)>,
 }
 
+/// The recorded equations of a mode without their numbers.
+#[derive(Debug, PartialEq)]
+pub(super) struct Shape {
+    /// Motion, forces and report.
+    pub everything: Program,
+    /// Accelerations alone.
+    accelerations: Program,
+    /// Positions and velocities that may change, with their rates.
+    pub integrals: Vec<(Slot, Slot)>,
+    /// Whose series are kept.
+    pub wanted: Vec<Recorded>,
+    /// How many registers there are, and how many of them are used.
+    pub registers: usize,
+    pub used: usize,
+}
+
 /// The recorded equations of a mode, and their registers.
 #[derive(Clone, Debug)]
 pub(super) struct Tape<T> {
@@ -39,10 +56,8 @@ pub(super) struct Tape<T> {
     extra: NeedSet,
     report: Option<NeedSet>,
     at_rest: bool,
-    /// Motion, forces and report.
-    pub everything: Program,
-    /// Accelerations alone.
-    accelerations: Program,
+    /// What runs; shared with other motions that do the same with other numbers.
+    pub shape: Arc<Shape>,
     pub registers: Vec<T>,
     /// Exchanges the numbers in the registers that depend on parameters.
     renewal: Renewal<T>,
@@ -56,8 +71,6 @@ pub(super) struct Tape<T> {
     /// Outputs of the motion tape, then results of the plan's program.
     pub nodes: Vec<Recorded>,
     report_nodes: Vec<Recorded>,
-    /// Positions and velocities that may change, with their rates.
-    pub integrals: Vec<(Slot, Slot)>,
     /// None: the tape solves for the accelerations itself.
     pub unsolved: Option<Unsolved>,
     /// What it divides by when it does.
@@ -98,8 +111,8 @@ impl<T: Scalar> Tape<T> {
         let size = self.unsolved.as_ref().map_or(0, |u| u.unknowns.len());
         let solver = size * (size + 1) * (4 * size + 5) / 6 - 2 * size;
         Operations {
-            accelerations: self.accelerations.operations() + solver,
-            everything: self.everything.operations() + solver,
+            accelerations: self.shape.accelerations.operations() + solver,
+            everything: self.shape.everything.operations() + solver,
         }
     }
 
@@ -113,8 +126,8 @@ impl<T: Scalar> Tape<T> {
     #[inline(always)]
     pub(super) fn evaluate(&mut self, extent: Extent, part: usize) {
         let program = match extent {
-            Extent::Everything => &self.everything,
-            Extent::Accelerations => &self.accelerations,
+            Extent::Everything => &self.shape.everything,
+            Extent::Accelerations => &self.shape.accelerations,
         };
         program.evaluate(part, &mut self.registers);
     }
@@ -234,6 +247,7 @@ impl<T: Scalar> Tape<T> {
         let all = [&slots(&wanted)[..], &accelerations].concat();
         let program = Program::new(&mut recording, &all);
         let accelerations = Program::new(&mut recording, &accelerations);
+        let used = recording.registers();
         let (registers, renewal) = recording.finish();
         let products: Vec<_> = elements.iter().map(|&(_, e, u)| (e, u)).collect();
         let products = unsolved.is_some().then_some(&products[..]);
@@ -248,14 +262,19 @@ impl<T: Scalar> Tape<T> {
             extra: asked.extra.clone(),
             report: asked.report.cloned(),
             at_rest: asked.at_rest,
-            everything: program,
-            accelerations,
+            shape: Arc::new(Shape {
+                everything: program,
+                accelerations,
+                integrals: changes.chain(turns).collect(),
+                wanted,
+                registers: registers.len(),
+                used,
+            }),
             registers,
             renewal,
             evaluated: false,
             expansion,
             order: 0,
-            integrals: changes.chain(turns).collect(),
             inputs,
             nodes,
             report_nodes,

@@ -2,11 +2,13 @@
 
 mod accumulation;
 mod curves;
+mod ensemble;
 mod hits;
 mod instant;
 mod log;
 mod region;
 mod rest;
+pub(crate) mod round;
 mod runner;
 mod shares;
 mod singular;
@@ -35,6 +37,7 @@ use crate::trajectory::{EventKind, Record, State, Subject, Work};
 use accumulation::{Impacts, Train};
 use core::ops::Range;
 use curves::Curves;
+pub use ensemble::Ensemble;
 use hits::Hit;
 use log::Before;
 use rest::Rest;
@@ -50,6 +53,15 @@ const NEAR: f64 = 0.7;
 
 /// Steps between two looks at rows that a step does not leave by more than rounding.
 const STEPS_OF_ROUNDING: usize = 16;
+
+/// How much of a Taylor series there is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Progress {
+    None,
+    /// The values: coefficients of order 0.
+    Begun,
+    Complete,
+}
 
 /// The state of a run, and everything that it works with.
 #[derive(Debug)]
@@ -73,8 +85,8 @@ pub(crate) struct Run<T: Scalar> {
     below: Vec<bool>,
     /// Guards whose leading coefficients vanish at the start of the coming step.
     zeros: Vec<(Guard, usize)>,
-    /// Whether `dynamics` holds the Taylor series at the present state.
-    expanded: bool,
+    /// How much of the Taylor series at the present state `dynamics` holds.
+    series: Progress,
     /// Whether `dynamics` holds the values of the present state, for the needs of the mode.
     valued: bool,
     /// Falling guards found in the present step: (guard, part of the step, half width).
@@ -157,7 +169,7 @@ impl<T: Scalar> Run<T> {
             drifts: true,
             below: vec![false; d.contacts.len()],
             zeros: Vec::new(),
-            expanded: false,
+            series: Progress::None,
             valued: false,
             falls: Vec::new(),
             fallen: Vec::new(),
@@ -227,22 +239,31 @@ impl<T: Scalar> Run<T> {
         span: Range<f64>,
         into: &mut Record<T>,
     ) -> Result<(), Error> {
-        core::mem::swap(&mut self.trajectory, into);
-        let outcome = self.execute_recording(start, span);
-        core::mem::swap(&mut self.trajectory, into);
+        let mut outcome = self.launch(start, span, into);
+        while outcome.is_ok() && self.goes_on() {
+            outcome = self.advance();
+        }
+        self.land(into);
         outcome
     }
 
-    fn execute_recording(&mut self, start: &State<T>, span: Range<f64>) -> Result<(), Error> {
+    /// Begins a run whose trajectory is written `into` a record; [`Self::land`] gives it back.
+    pub(crate) fn launch(
+        &mut self,
+        start: &State<T>,
+        span: Range<f64>,
+        into: &mut Record<T>,
+    ) -> Result<(), Error> {
+        core::mem::swap(&mut self.trajectory, into);
         let t = T::from_f64(span.start);
         self.mode.clear();
         self.trajectory.begin(t, start, &self.mode);
-        self.settings
-            .check(&**self.dynamics.system(), start, &span)?;
         (self.t, self.end) = (t, span.end);
         self.state.clone_from(start);
         self.dynamics.restart();
         self.work_before = self.dynamics.work();
+        self.settings
+            .check(&**self.dynamics.system(), start, &span)?;
         self.stepper.restart();
         self.stop_below
             .iter_mut()
@@ -258,12 +279,11 @@ impl<T: Scalar> Run<T> {
         self.joints.clear();
         self.sharing.clear();
         self.finished = false;
-        let outcome = self.go();
-        self.close();
-        outcome
+        self.settle_start()
     }
 
-    fn go(&mut self) -> Result<(), Error> {
+    /// The mode in which the motion begins.
+    fn settle_start(&mut self) -> Result<(), Error> {
         start::begin(
             &mut self.dynamics,
             self.t,
@@ -273,7 +293,7 @@ impl<T: Scalar> Run<T> {
             &mut self.survey,
         )?;
         self.trajectory.start.clone_from(&self.state);
-        (self.expanded, self.valued) = (false, false);
+        (self.series, self.valued) = (Progress::None, false);
         self.mode.clone_from(&self.survey.mode);
         self.trajectory.modes.clear();
         self.trajectory.modes.push(&self.mode);
@@ -284,24 +304,39 @@ impl<T: Scalar> Run<T> {
         }
         self.settle()?;
         self.finished |= self.has_seen_all();
-        while !self.finished && self.t.value() < self.end {
-            if self.trajectory.work.steps >= self.settings.max_steps {
-                return Err(self.limit("steps", self.settings.max_steps));
-            }
-            self.advance()?;
-        }
         Ok(())
     }
 
+    /// Ends a run, whatever came of it.
+    pub(crate) fn land(&mut self, into: &mut Record<T>) {
+        self.close();
+        core::mem::swap(&mut self.trajectory, into);
+    }
+
+    /// Whether there is more to do.
+    pub(crate) fn goes_on(&self) -> bool {
+        !self.finished && self.t.value() < self.end
+    }
+
     /// One step, cut short by the first thing that happens in it.
-    fn advance(&mut self) -> Result<(), Error> {
+    pub(crate) fn advance(&mut self) -> Result<(), Error> {
+        if self.trajectory.work.steps >= self.settings.max_steps {
+            return Err(self.limit("steps", self.settings.max_steps));
+        }
+        if let Some(monitor) = &self.settings.monitor {
+            let time = self.t.value();
+            monitor.tell(time);
+            if monitor.is_stopped() {
+                return Err(Error::Interrupted { time });
+            }
+        }
         let hit = self.accepted_step()?;
         let end = hit.end();
         let exact = self.exact_end(&hit);
         if end > 0.0 {
             // The step left there the state at its end, evaluated.
             core::mem::swap(&mut self.state, &mut self.scratch);
-            (self.valued, self.expanded) = (self.rests.is_empty(), false);
+            (self.valued, self.series) = (self.rests.is_empty(), Progress::None);
         }
         self.log_marks(end);
         self.remember_sides(end);
@@ -449,7 +484,7 @@ impl<T: Scalar> Run<T> {
         self.mode.clone_from(&self.decider.decision.mode);
         self.trajectory.enter(&self.mode);
         self.joints.clone_from(&self.decider.decision.joints);
-        (self.expanded, self.valued) = (false, false);
+        (self.series, self.valued) = (Progress::None, false);
         self.hold_guards();
     }
 
@@ -497,11 +532,24 @@ impl<T: Scalar> Run<T> {
 
     /// Taylor series at the present state, unless they are there.
     fn expand(&mut self) -> Result<(), Error> {
-        if !self.expanded {
+        self.begin_series().map_err(|e| self.error(e))?;
+        if self.series == Progress::Begun {
+            self.dynamics.end_series(self.order);
+            self.series = Progress::Complete;
+        }
+        Ok(())
+    }
+
+    /// At least the leading coefficients at the present state.
+    fn begin_series(&mut self) -> Result<(), EvaluationError> {
+        if self.series == Progress::None {
             let State { q, v } = &self.state;
-            let outcome = self.dynamics.series(self.t, q, v, self.order);
-            outcome.map_err(|e| self.error(e))?;
-            self.expanded = true;
+            let rest = self.dynamics.begin_series(self.t, q, v, self.order)?;
+            self.series = if rest {
+                Progress::Begun
+            } else {
+                Progress::Complete
+            };
         }
         Ok(())
     }

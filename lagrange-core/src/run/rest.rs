@@ -5,8 +5,8 @@
 //! with what is left, and the slip is at rest once all that can still change is below the tolerance. A slip that only
 //! passes near zero is followed through.
 
-use super::Run;
 use super::instant::derivatives;
+use super::{Progress, Run};
 use crate::arithmetic::Scalar;
 use crate::dynamics::approach;
 use crate::error::Error;
@@ -117,7 +117,7 @@ impl<T: Scalar> Run<T> {
         }
         self.t += time;
         self.exact_rest(T::from_f64(back));
-        (self.valued, self.expanded) = (false, false);
+        (self.valued, self.series) = (false, Progress::None);
         true
     }
 
@@ -244,7 +244,7 @@ impl<T: Scalar> Run<T> {
         }
         self.dynamics.set_mode(&self.mode);
         self.trajectory.enter(&self.mode);
-        (self.valued, self.expanded) = (false, false);
+        (self.valued, self.series) = (false, Progress::None);
         self.hold_guards();
     }
 

@@ -1,6 +1,7 @@
 //! Many runs of one system in the same memory.
 
 use super::Run;
+use super::round::Member;
 use crate::arithmetic::Scalar;
 use crate::error::Error;
 use crate::simulation::{Held, Settings};
@@ -43,6 +44,34 @@ impl<S: System> Runner<S> {
         let execute = S::Scalar::entries().execute;
         execute(&mut self.run, start, span, self.trajectory.record())?;
         Ok(&self.trajectory)
+    }
+
+    /// Begins a run without going on with it.
+    pub(super) fn launch(
+        &mut self,
+        start: &State<S::Scalar>,
+        span: Range<f64>,
+    ) -> Result<(), Error> {
+        (S::Scalar::entries().launch)(&mut self.run, start, span, self.trajectory.record())
+    }
+
+    /// Whether the run that has begun has more to do.
+    pub(super) fn goes_on(&self) -> bool {
+        self.run.goes_on()
+    }
+
+    /// The run, among others.
+    pub(super) fn member(&mut self) -> Member<'_, S::Scalar> {
+        Member {
+            run: &mut self.run,
+            outcome: None,
+        }
+    }
+
+    /// Ends the run that has begun; its trajectory.
+    pub(super) fn land(&mut self) -> &Trajectory<S> {
+        (S::Scalar::entries().land)(&mut self.run, self.trajectory.record());
+        &self.trajectory
     }
 
     /// As [`Simulation::consistent`](crate::Simulation::consistent).

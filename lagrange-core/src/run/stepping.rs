@@ -1,9 +1,9 @@
 //! One accepted step: polynomials of the motion and of all guards, checked against an independent evaluation.
 
-use super::Run;
 use super::hits::Hit;
 use super::rest::JUST_BEFORE;
 use super::singular::{MOST_RETREATS, RETREAT};
+use super::{Progress, Run};
 use crate::arithmetic::Scalar;
 use crate::dynamics::EvaluationError;
 use crate::error::Error;
@@ -312,7 +312,9 @@ impl<T: Scalar> Run<T> {
             Ok(changed) => {
                 self.trajectory.work.projections += usize::from(changed);
                 self.valued &= !changed;
-                self.expanded &= !changed;
+                if changed {
+                    self.series = Progress::None;
+                }
                 Ok(())
             }
             Err(e) => Err(self.error(e)),

@@ -1,6 +1,6 @@
 //! A switch: forces just before, impact if something is hit, the next mode, the log.
 
-use super::Run;
+use super::{Progress, Run};
 use crate::arithmetic::Scalar;
 use crate::effects::Item;
 use crate::error::Error;
@@ -88,12 +88,15 @@ impl<T: Scalar> Run<T> {
         let edges = self.fallen.iter().filter(|g| matches!(g, Guard::Region(_)));
         self.zeros.extend(edges.map(|&edge| (edge, 1)));
         self.set_mode_decided();
-        self.expanded = self.decider.decision.expanded;
+        if self.decider.decision.expanded {
+            self.series = Progress::Complete;
+        }
         if hit || self.rows_have_joined() {
             self.project(true)?;
         }
-        self.expand()?;
+        self.begin_series().map_err(|e| self.error(e))?;
         if self.dynamics.has_dependent_rows() {
+            self.expand()?;
             let valued = self.valued;
             self.evaluate()?;
             self.valued = valued;

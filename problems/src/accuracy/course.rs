@@ -10,13 +10,13 @@ use std::time::Instant;
 const MAX_EVENTS: usize = 10_000;
 
 /// A system, and the run of it that a study is about.
-pub(crate) struct Course<'a, S> {
+pub(crate) struct Course<'a, S: System> {
     /// The system.
     pub system: &'a S,
     /// State at time 0.
     pub start: State<f64>,
-    /// What takes part.
-    pub effects: Effects,
+    /// How it is run, but for the setting.
+    pub simulation: Simulation<'a, S>,
     /// Last time, s.
     pub until: f64,
     /// Most steps of a run: what needs more is no choice for this scene.
@@ -25,10 +25,10 @@ pub(crate) struct Course<'a, S> {
 
 impl<S: System<Scalar = f64>> Course<'_, S> {
     fn simulation(&self, setting: Setting) -> Simulation<'_, S> {
-        Simulation::new(self.system)
+        self.simulation
+            .clone()
             .method(setting.method)
             .tolerance(setting.tolerance)
-            .effects(self.effects.clone())
             .max_steps(self.max_steps)
             .max_events(MAX_EVENTS)
     }

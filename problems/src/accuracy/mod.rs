@@ -17,6 +17,7 @@ pub use reference::Reference;
 pub use timing::Timing;
 
 pub(crate) use course::Course;
+use timing::Timed;
 
 use crate::closed_form::ClosedForm;
 use crate::request::{Refusal, Request};
@@ -85,7 +86,8 @@ impl Measured {
     }
 }
 
-/// Measures `study` on a scene. What fails half-way is a row that says why.
+/// Measures `study` on a scene. What fails half-way is a row that says why. If the progress of its request is stopped, there
+/// are the rows until then.
 ///
 /// # Errors
 /// Nothing to measure against: no run gets to the end, or two do not agree about what happens.
@@ -97,20 +99,26 @@ pub(crate) fn measure<S: System<Scalar = f64>>(
 ) -> Result<Accuracy, Refusal> {
     let (reference, scale) = reference::reference(course, closed_form)?;
     let settings = family::settings(&study.methods, &study.tolerances, scale);
-    let mut rows: Vec<Row> = settings
-        .into_iter()
-        .map(|setting| Row {
-            setting,
-            result: judge(course, setting, &reference),
-        })
-        .collect();
-    timing::fill(&mut rows, study.repeat, |setting| course.clock(setting));
+    let progress = study.request.progress.clone().unwrap_or_default();
+    progress.expect(settings.len() * timing::rounds(study.repeat));
+    let mut rows = Vec::new();
+    for setting in settings {
+        let result = judge(course, setting, &reference);
+        let mut row = Timed::new(Row { setting, result }, course.clock(setting));
+        row.round();
+        if progress.is_stopped() {
+            break;
+        }
+        rows.push(row);
+        progress.advance();
+    }
+    timing::rest(&mut rows, study.repeat, &progress);
     Ok(Accuracy {
         scene,
         description: S::DESCRIPTION,
         parameters: course.parameters(),
         reference,
-        rows,
+        rows: rows.into_iter().map(Timed::done).collect(),
     })
 }
 

@@ -140,7 +140,7 @@ pub(super) fn reference<S: System<Scalar = f64>>(
             // A check that gets stuck in ever smaller steps is of no use, and takes long.
             let patient = Course {
                 start: course.start.clone(),
-                effects: course.effects.clone(),
+                simulation: course.simulation.clone(),
                 max_steps: (10_000 + 100 * steps).min(course.max_steps),
                 ..*course
             };

@@ -1,6 +1,7 @@
 //! Times of all rows, taken in turn.
 
-use super::{Measured, Row, Setting};
+use super::Row;
+use crate::progress::Progress;
 
 /// Rounds, if the user does not say.
 const ROUNDS: usize = 15;
@@ -20,46 +21,75 @@ pub struct Timing {
     pub rounds: usize,
 }
 
-/// Times every row that has a result: `repeat` rounds, or a number that does not take too long. A clock gives the seconds
-/// that one of a number of runs takes.
-pub(super) fn fill<C: FnMut(usize) -> f64>(
-    rows: &mut [Row],
-    repeat: Option<usize>,
-    clock: impl Fn(Setting) -> C,
-) {
-    struct Timed<'r, C> {
-        measured: &'r mut Measured,
-        clock: C,
-        samples: Vec<f64>,
-        spent: f64,
-    }
-    let timed = rows.iter_mut().filter_map(|row| {
-        Some(Timed {
-            measured: row.result.as_mut().ok()?,
-            clock: clock(row.setting),
+/// A row and its clock, which gives the seconds that one of a number of runs takes.
+pub(super) struct Timed<C> {
+    row: Row,
+    clock: C,
+    samples: Vec<f64>,
+    spent: f64,
+}
+
+impl<C: FnMut(usize) -> f64> Timed<C> {
+    /// A row that has not been timed.
+    pub(super) fn new(row: Row, clock: C) -> Self {
+        Self {
+            row,
+            clock,
             samples: Vec::new(),
             spent: 0.0,
-        })
-    });
-    let mut timed: Vec<Timed<C>> = timed.collect();
-    for _ in 0..repeat.unwrap_or(ROUNDS) {
-        for row in &mut timed {
-            if repeat.is_none() && row.spent > SHARE {
-                continue;
-            }
-            // The first run of a burst meets the caches that another method has left, and tells how long the burst is.
-            let first = (row.clock)(1);
-            let runs = (BURST / first.max(1e-9)).min(1000.0) as usize;
-            let each = match runs {
-                0 => first,
-                _ => (row.clock)(runs),
-            };
-            row.spent += first + each * runs as f64;
-            row.samples.push(each);
         }
     }
-    for row in timed {
-        row.measured.time = Timing::of(row.samples);
+
+    /// One round, if the row has a result.
+    pub(super) fn round(&mut self) {
+        if self.row.result.is_err() {
+            return;
+        }
+        // The first run of a burst meets the caches that another method has left, and tells how long the burst is.
+        let first = (self.clock)(1);
+        let runs = (BURST / first.max(1e-9)).min(1000.0) as usize;
+        let each = match runs {
+            0 => first,
+            _ => (self.clock)(runs),
+        };
+        self.spent += first + each * runs as f64;
+        self.samples.push(each);
+    }
+
+    /// The row with its time.
+    pub(super) fn done(self) -> Row {
+        let mut row = self.row;
+        if let Ok(measured) = &mut row.result {
+            measured.time = Timing::of(self.samples);
+        }
+        row
+    }
+}
+
+/// Rounds in all.
+pub(super) fn rounds(repeat: Option<usize>) -> usize {
+    repeat.unwrap_or(ROUNDS)
+}
+
+/// Times all rows in turn: the rounds after the first, or as many as do not take too long. Ends early if it is stopped.
+pub(super) fn rest<C: FnMut(usize) -> f64>(
+    rows: &mut [Timed<C>],
+    repeat: Option<usize>,
+    progress: &Progress,
+) {
+    for _ in 1..rounds(repeat) {
+        for row in &mut *rows {
+            if repeat.is_some() || row.spent <= SHARE {
+                let before = row.samples.len();
+                row.round();
+                if progress.is_stopped() {
+                    // A run that was cut short says nothing.
+                    row.samples.truncate(before);
+                    return;
+                }
+            }
+            progress.advance();
+        }
     }
 }
 

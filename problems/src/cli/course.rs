@@ -1,28 +1,32 @@
-//! Which run of a scene is meant: arguments that several commands share.
+//! Which run of a scene is meant: arguments that several commands share, and the request that they make.
 
 use super::Trouble;
 use super::values::{named, positive};
 use clap::Args;
+use lagrange_core::prelude::{Impacts, Method};
 use lagrange_problems::catalogue::find;
-use lagrange_problems::request::Request;
+use lagrange_problems::names::method;
+use lagrange_problems::request::{Refusal, Request};
 use lagrange_problems::scene_file::{self, Outputs, SceneFile};
+use std::path::Path;
 
-/// The scene of this name, or what a file says if it is the path of one (`….toml`).
-pub(super) fn scene(name: &str) -> Result<SceneFile, Trouble> {
-    if !name.ends_with(".toml") {
-        return Ok(SceneFile {
-            scene: find(name).map_err(Trouble::usage)?,
-            request: Request::default(),
-            outputs: Outputs::default(),
-        });
-    }
-    let text = std::fs::read_to_string(name)
-        .map_err(|error| Trouble::usage(format_args!("cannot read {name}: {error}")))?;
-    scene_file::read(&text).map_err(|mistake| Trouble::usage(format_args!("{name}:{mistake}")))
-}
-
+/// What is to move, and how exactly it is followed.
 #[derive(Args)]
 pub(super) struct Course {
+    #[command(flatten)]
+    motion: Motion,
+    /// Tolerance of the integration, relative and absolute [default: 1e-9].
+    #[arg(long, value_name = "X", value_parser = positive, allow_hyphen_values = true)]
+    tolerance: Option<f64>,
+    /// Method of integration [default: taylor].
+    #[arg(long, value_name = "M", value_parser = method)]
+    method: Option<Method>,
+}
+
+/// What is to move: from which start, under which effects, until when.
+#[derive(Args)]
+#[command(next_help_heading = "The run")]
+pub(super) struct Motion {
     /// Set a parameter; may be repeated.
     #[arg(long, value_name = "NAME=VALUE", value_parser = named, allow_hyphen_values = true)]
     set: Vec<(String, f64)>,
@@ -43,11 +47,44 @@ pub(super) struct Course {
     /// End of the run, s [default: the scene's].
     #[arg(long, value_name = "T", value_parser = positive, allow_hyphen_values = true)]
     until: Option<f64>,
+    /// End the run after an event ("rim lost", "floor impact"); if given several times, once all of them have happened.
+    #[arg(long, value_name = "EVENT")]
+    end_after: Vec<String>,
+    /// Move a start that violates a constraint onto it instead of refusing it.
+    #[arg(long)]
+    project: bool,
+    /// How impacts at one instant are solved, instead of as the scene declares: `together` or `in_turn`.
+    #[arg(long, value_name = "HOW")]
+    impacts: Option<Impacts>,
 }
 
 impl Course {
-    /// This run: what the arguments leave open is as in `base`.
-    pub(super) fn request(&self, base: Request) -> Request {
+    /// The run of the scene of this name, or of a scene file; the command line has the last word.
+    pub(super) fn of(&self, name: &str) -> Result<SceneFile, Trouble> {
+        let file = self.motion.of(name)?;
+        Ok(SceneFile {
+            request: Request {
+                tolerance: self.tolerance.unwrap_or(file.request.tolerance),
+                method: self.method.unwrap_or(file.request.method),
+                ..file.request
+            },
+            ..file
+        })
+    }
+}
+
+impl Motion {
+    /// The same, as exact as the scene file has it.
+    pub(super) fn of(&self, name: &str) -> Result<SceneFile, Trouble> {
+        let file = scene(name)?;
+        Ok(SceneFile {
+            request: self.request(file.request),
+            ..file
+        })
+    }
+
+    /// What the arguments leave open is as in `base`.
+    fn request(&self, base: Request) -> Request {
         let effects = self.without.iter().map(|name| (name.clone(), false));
         let effects = effects.chain(self.with.iter().map(|name| (name.clone(), true)));
         Request {
@@ -56,8 +93,44 @@ impl Course {
             effects: base.effects.into_iter().chain(effects).collect(),
             start: instead(base.start, &self.start),
             until: self.until.or(base.until),
+            end_after: match self.end_after.is_empty() {
+                true => base.end_after,
+                false => self.end_after.clone(),
+            },
+            project: self.project || base.project,
+            impacts: self.impacts.or(base.impacts),
             ..base
         }
+    }
+}
+
+/// The scene of this name, or what a file says if it is the path of one (`….toml`).
+fn scene(name: &str) -> Result<SceneFile, Trouble> {
+    if !name.ends_with(".toml") {
+        return Ok(SceneFile {
+            scene: find(name).map_err(|refusal| unknown(name, &refusal))?,
+            request: Request::default(),
+            outputs: Outputs::default(),
+        });
+    }
+    let text = std::fs::read_to_string(name)
+        .map_err(|error| Trouble::usage(format_args!("cannot read {name}: {error}")))?;
+    scene_file::read(&text).map_err(|mistake| Trouble::usage(format_args!("{name}:{mistake}")))
+}
+
+/// A scene that there is not; perhaps a file was meant.
+fn unknown(name: &str, refusal: &Refusal) -> Trouble {
+    let file = format!("{name}.toml");
+    if Path::new(&file).is_file() {
+        return Trouble::usage(format_args!(
+            "no scene is called `{name}`; did you mean the file `{file}`?"
+        ));
+    }
+    match Path::new(name).is_file() {
+        true => Trouble::usage(format_args!(
+            "`{name}` is no scene; the name of a scene file ends in .toml"
+        )),
+        false => Trouble::usage(refusal),
     }
 }
 

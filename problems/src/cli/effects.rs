@@ -1,39 +1,44 @@
 //! `lagrange effects`: what each effect of a scene costs.
 
 use super::Trouble;
-use super::course::{Course, scene};
-use super::output::{Output, patiently};
-use super::values::positive;
+use super::course::Course;
+use super::output::{Output, ready};
+use super::terminal::patiently;
 use clap::Args;
 use lagrange_problems::cost::Costs;
+use lagrange_problems::progress::Progress;
 use lagrange_problems::report::{Format, cost as report};
 use lagrange_problems::request::Request;
 use std::io::{self, Write};
 
 /// Measure what each effect costs, mode by mode: operations and nanoseconds of a right-hand side, and of a whole run.
 #[derive(Args)]
+#[command(after_help = "Examples:
+  lagrange effects mass-on-wheel
+  lagrange effects mass-on-wheel --without floor --format json")]
 pub(super) struct Effects {
     /// The scene, or a scene file (….toml); `lagrange list` shows the scenes.
     scene: String,
     #[command(flatten)]
     course: Course,
-    /// Tolerance of the integration, relative and absolute [default: 1e-9].
-    #[arg(long, value_name = "X", value_parser = positive, allow_hyphen_values = true)]
-    tolerance: Option<f64>,
     #[command(flatten)]
     output: Output,
 }
 
 impl Effects {
     pub(super) fn execute(self) -> Result<(), Trouble> {
-        let file = scene(&self.scene)?;
-        let request = self.course.request(Request {
-            tolerance: self.tolerance.unwrap_or(file.request.tolerance),
+        let file = self.course.of(&self.scene)?;
+        ready(self.output.path(), std::slice::from_ref(&self.scene))?;
+        let progress = Progress::default();
+        let request = Request {
+            progress: Some(progress.clone()),
             ..file.request
-        });
-        let costs = patiently(&format!("measuring {}", file.scene.name()), || {
-            file.scene.costs(&request)
-        })
+        };
+        let costs = patiently(
+            &format!("measuring {}", file.scene.name()),
+            &progress,
+            || file.scene.costs(&request),
+        )
         .map_err(Trouble::refused)?;
         let format = self.output.format();
         self.output.write(|out| write(&costs, format, out))

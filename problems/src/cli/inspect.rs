@@ -1,7 +1,7 @@
 //! `lagrange inspect`: what was derived from a scene's declaration.
 
 use super::Trouble;
-use super::output::to_file;
+use super::output::{ready, to_file};
 use clap::{Args, ValueEnum};
 use lagrange_engine::inspect::{Derivation, print};
 use lagrange_problems::catalogue::find;
@@ -11,6 +11,10 @@ use std::path::PathBuf;
 /// Show what was derived: energies, equations of motion, constraints with their multipliers, every mode with its unknowns,
 /// guards and resets, what is conserved, and what it costs.
 #[derive(Args)]
+#[command(after_help = "Examples:
+  lagrange inspect mass-on-wheel
+  lagrange inspect mass-on-wheel --mode \"rim closed, grip sticks\"
+  lagrange inspect mass-on-wheel --format latex --output wheel.tex")]
 pub(super) struct Inspect {
     /// The scene; `lagrange list` shows them.
     scene: String,
@@ -48,6 +52,7 @@ enum Format {
 impl Inspect {
     pub(super) fn execute(&self) -> Result<(), Trouble> {
         let scene = find(&self.scene).map_err(Trouble::usage)?;
+        ready(self.output.as_deref(), &[])?;
         let declaration = scene.derivation().declaration;
         let tokens: proc_macro2::TokenStream = declaration.parse().map_err(Trouble::failed)?;
         let text = match (self.format, &self.mode) {

@@ -7,6 +7,9 @@ use std::io::{self, Write};
 
 /// List the scenes, or everything that one of them can be given.
 #[derive(Args)]
+#[command(after_help = "Examples:
+  lagrange list
+  lagrange list mass-on-wheel")]
 pub(super) struct List {
     /// A scene, to see its parameters, coordinates, starts and forces.
     scene: Option<String>,

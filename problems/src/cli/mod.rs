@@ -1,33 +1,60 @@
 //! The command line: arguments in, data to stdout, words to stderr.
 //!
 //! Exit codes: 0 all went well; 1 the run failed (what there is of it is still printed) or a file could not be
-//! written; 2 the request makes no sense.
+//! written; 2 the request makes no sense; 130 interrupted (what there is is still printed).
 
 mod accuracy;
 mod compare;
+mod complaint;
+mod completions;
 mod course;
 mod effects;
 mod inspect;
 mod list;
+mod merge;
 mod output;
 mod report;
+mod results;
 mod run;
 mod stability;
 mod sweep;
+mod terminal;
 mod values;
 
-use clap::error::ErrorKind;
-use clap::{Parser, Subcommand};
+use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
+use lagrange_core::Error;
 use lagrange_problems::request::Refusal;
+use lagrange_problems::sweep::launch;
+use std::ffi::OsString;
 use std::fmt::Display;
+use std::io::Write;
 use std::process::ExitCode;
 
 /// Runs textbook scenes of constrained mechanics: each declared once as a Lagrangian, every switch located.
 #[derive(Parser)]
 #[command(name = "lagrange", version, max_term_width = 100)]
+#[command(after_help = "Examples:
+  lagrange list                               # the scenes
+  lagrange list mass-on-wheel                 # what one of them can be given
+  lagrange run mass-on-wheel                  # what happens
+  lagrange report mass-on-wheel --output wheel.html
+
+lagrange COMMAND --help has examples of each command.")]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
+    /// No progress bars.
+    #[arg(long, global = true, display_order = 1000)]
+    quiet: bool,
+    /// Colours in help and messages; `auto` heeds NO_COLOR and CLICOLOR.
+    #[arg(
+        long,
+        global = true,
+        display_order = 1001,
+        value_name = "WHEN",
+        default_value_t
+    )]
+    color: ColorChoice,
 }
 
 #[derive(Subcommand)]
@@ -40,6 +67,8 @@ enum Command {
     Effects(effects::Effects),
     Stability(stability::Stability),
     Sweep(sweep::Sweeps),
+    Merge(merge::Merge),
+    Completions(completions::Completions),
 }
 
 /// What went wrong, and with it the exit code.
@@ -48,7 +77,12 @@ pub(crate) enum Trouble {
     Usage(String),
     /// It was run or written, and failed.
     Failed(String),
+    /// The user has ended it.
+    Interrupted(String),
 }
+
+/// Exit code of what Ctrl-C has ended: 128 and the number of the signal, as shells have it.
+const INTERRUPTED: i32 = 130;
 
 impl Trouble {
     fn usage(reason: impl Display) -> Self {
@@ -59,9 +93,20 @@ impl Trouble {
         Trouble::Failed(reason.to_string())
     }
 
+    /// A run ended early; what there is of it has been written.
+    fn ended(error: Error) -> Self {
+        match error {
+            Error::Interrupted { time } => Trouble::Interrupted(format!(
+                "interrupted at t = {time} s; what was run until then is kept"
+            )),
+            error => Trouble::failed(error),
+        }
+    }
+
     /// A name that is not known makes no sense; a start or a reference that does not exist was tried.
     fn refused(refusal: Refusal) -> Self {
         match refusal {
+            Refusal::Run(Error::Interrupted { .. }) => Trouble::Interrupted(refusal.to_string()),
             Refusal::Start(_) | Refusal::Run(_) | Refusal::Reference { .. } => {
                 Trouble::failed(refusal)
             }
@@ -72,15 +117,24 @@ impl Trouble {
 
 /// Runs the program with the arguments of the process.
 pub(crate) fn main() -> ExitCode {
-    let arguments = match Arguments::try_parse() {
+    let choice = colour_asked(std::env::args_os());
+    terminal::colour(choice);
+    let command = Arguments::command().color(choice);
+    let parsed = command.try_get_matches();
+    let arguments = match parsed.and_then(|matches| Arguments::from_arg_matches(&matches)) {
         Ok(arguments) => arguments,
-        Err(error) if error.use_stderr() => return complain(&Trouble::Usage(one_line(&error))),
+        Err(error) if error.use_stderr() => {
+            return complain(&Trouble::Usage(complaint::one_line(&error)));
+        }
         // `--help` and `--version` are answers, not errors.
         Err(answer) => {
             let _ = answer.print();
             return ExitCode::SUCCESS;
         }
     };
+    if arguments.quiet {
+        terminal::be_quiet();
+    }
     let result = match arguments.command {
         Command::List(list) => list.execute(),
         Command::Inspect(inspect) => inspect.execute(),
@@ -90,6 +144,8 @@ pub(crate) fn main() -> ExitCode {
         Command::Effects(effects) => effects.execute(),
         Command::Stability(stability) => stability.execute(),
         Command::Sweep(sweep) => sweep.execute(),
+        Command::Merge(merge) => merge.execute(),
+        Command::Completions(completions) => completions.execute(),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
@@ -101,36 +157,37 @@ fn complain(trouble: &Trouble) -> ExitCode {
     let (reason, code) = match trouble {
         Trouble::Usage(reason) => (reason, 2),
         Trouble::Failed(reason) => (reason, 1),
+        Trouble::Interrupted(reason) => (reason, INTERRUPTED as u8),
     };
-    eprintln!("lagrange: {reason}");
+    // Of processes that were started together with the same arguments, one is enough to say it.
+    if launch::place().is_none_or(|place| place.rank == 0) {
+        let style = anstyle::AnsiColor::Red.on_default().bold();
+        // There is nobody to tell that stderr is closed.
+        let _ = writeln!(anstream::stderr(), "{style}lagrange:{style:#} {reason}");
+    }
     ExitCode::from(code)
 }
 
-/// What clap has to say, without its usage paragraphs.
-fn one_line(error: &clap::Error) -> String {
-    if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        return "no command given; `lagrange list` shows the scenes, `lagrange run SCENE` runs one"
-            .to_owned();
-    }
-    let text = error.render().to_string();
-    let said = text
-        .lines()
-        .map(str::trim)
-        .take_while(|line| !line.starts_with("Usage:"));
-    let telling = |line: &&str| !line.is_empty() && !line.starts_with("For more information");
-    let words: Vec<&str> = said.filter(telling).collect();
-    words
-        .join("; ")
-        .replace(":; ", ": ")
-        .trim_start_matches("error: ")
-        .to_owned()
+/// The colours asked for, before anything is parsed: help and complaints about arguments need it.
+fn colour_asked(arguments: impl Iterator<Item = OsString>) -> ColorChoice {
+    let words: Vec<String> = arguments
+        .map(|argument| argument.to_string_lossy().into_owned())
+        .collect();
+    let given = |pair: &[String]| match pair[0].strip_prefix("--color") {
+        Some("") => pair.get(1).cloned(),
+        Some(rest) => rest.strip_prefix('=').map(str::to_owned),
+        None => None,
+    };
+    let asked = (0..words.len()).find_map(|k| given(&words[k..]));
+    asked
+        .and_then(|word| ColorChoice::from_str(&word, false).ok())
+        .unwrap_or_default()
 }
 
 /// Writes to stdout; a reader that has gone away (`| head`) is not an error.
 pub(crate) fn print(
-    write: impl FnOnce(&mut dyn std::io::Write) -> std::io::Result<()>,
+    write: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
 ) -> Result<(), Trouble> {
-    use std::io::Write;
     let mut out = std::io::BufWriter::new(std::io::stdout().lock());
     match write(&mut out).and_then(|()| out.flush()) {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Trouble::failed(

@@ -1,21 +1,20 @@
-//! Where results go, and signs of life while they are being made.
+//! Where results go.
 
 use super::Trouble;
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
 use lagrange_problems::report::Format;
+use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::time::Duration;
 
 /// What to print, and where to.
 #[derive(Args)]
+#[command(next_help_heading = "Results")]
 pub(super) struct Output {
-    /// What to print [default: table].
+    /// What to print [default: what the name of the output says, else table].
     #[arg(long, value_enum)]
     format: Option<Format>,
-    /// Write the result to a file instead of stdout.
+    /// Write the result to a file (….csv, ….json, ….txt) instead of stdout.
     #[arg(long, value_name = "FILE")]
     output: Option<PathBuf>,
 }
@@ -23,18 +22,13 @@ pub(super) struct Output {
 impl Output {
     /// What to print.
     pub(super) fn format(&self) -> Format {
-        self.format.unwrap_or(Format::Table)
+        let named = || self.output.as_deref().and_then(Format::of);
+        self.format.or_else(named).unwrap_or(Format::Table)
     }
 
-    /// Takes from a scene file what the command line leaves open.
-    pub(super) fn or(&mut self, format: Option<Format>, output: Option<PathBuf>) {
-        self.format = self.format.or(format);
-        self.output = self.output.take().or(output);
-    }
-
-    /// What to print, and where to, as given.
-    pub(super) fn given(&self) -> (Option<Format>, Option<PathBuf>) {
-        (self.format, self.output.clone())
+    /// The file, if it goes into one.
+    pub(super) fn path(&self) -> Option<&Path> {
+        self.output.as_deref()
     }
 
     /// Writes where the user wants it.
@@ -49,6 +43,55 @@ impl Output {
     }
 }
 
+/// Refuses, before any work is done, what could not be written when it is: outputs in folders that are not there or not
+/// writable, one in the place of another, and those in the place of an input.
+pub(super) fn ready<'a>(
+    outputs: impl IntoIterator<Item = &'a Path>,
+    inputs: &[String],
+) -> Result<(), Trouble> {
+    let place = |path: &Path| fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let inputs: Vec<PathBuf> = inputs.iter().map(|name| place(Path::new(name))).collect();
+    let mut seen = Vec::new();
+    for output in outputs {
+        let (here, shown) = (place(output), output.display());
+        // What is not there yet cannot be an input.
+        if here.is_file() && inputs.contains(&here) {
+            return Err(Trouble::usage(format_args!(
+                "{shown} is the scene file itself; choose another name for the output"
+            )));
+        }
+        if here.extension().is_some() && seen.contains(&here) {
+            return Err(Trouble::usage(format_args!(
+                "two results would go to {shown}; give each its own name"
+            )));
+        }
+        writable(output)
+            .map_err(|why| Trouble::failed(format_args!("cannot write {shown}: {why}")))?;
+        seen.push(here);
+    }
+    Ok(())
+}
+
+fn writable(path: &Path) -> Result<(), String> {
+    let folder = path.parent().filter(|folder| *folder != Path::new(""));
+    if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
+        let folder = folder.display();
+        return Err(format!("there is no folder {folder}; make it first"));
+    }
+    match fs::metadata(path) {
+        Ok(there) if there.is_dir() => Err("it is a folder".to_owned()),
+        Ok(there) if there.is_file() => {
+            let opened = OpenOptions::new().append(true).open(path);
+            opened.map(drop).map_err(|error| error.to_string())
+        }
+        // A device or a pipe.
+        Ok(_) => Ok(()),
+        Err(_) => File::create_new(path)
+            .and_then(|_| fs::remove_file(path))
+            .map_err(|error| error.to_string()),
+    }
+}
+
 /// Writes a file, at once when all of it is there.
 pub(super) fn to_file(
     path: &Path,
@@ -56,28 +99,6 @@ pub(super) fn to_file(
 ) -> Result<(), Trouble> {
     let mut text = Vec::new();
     write(&mut text)
-        .and_then(|()| std::fs::write(path, text))
+        .and_then(|()| fs::write(path, text))
         .map_err(|error| Trouble::failed(format_args!("cannot write {}: {error}", path.display())))
-}
-
-/// Does `work`; if it takes longer than a second, shows on stderr that it is alive.
-pub(super) fn patiently<T>(what: &str, work: impl FnOnce() -> T) -> T {
-    let (done, waiting) = channel::<()>();
-    std::thread::scope(|scope| {
-        scope.spawn(move || {
-            if waiting.recv_timeout(Duration::from_secs(1)) != Err(RecvTimeoutError::Timeout) {
-                return;
-            }
-            let spinner = ProgressBar::new_spinner().with_message(what.to_owned());
-            if let Ok(style) = ProgressStyle::with_template("{spinner} {msg}, {elapsed}") {
-                spinner.set_style(style);
-            }
-            spinner.enable_steady_tick(Duration::from_millis(100));
-            let _ = waiting.recv();
-            spinner.finish_and_clear();
-        });
-        let result = work();
-        drop(done);
-        result
-    })
 }

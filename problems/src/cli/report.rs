@@ -2,12 +2,13 @@
 
 use super::Trouble;
 use super::compare::Comparison;
-use super::course::{Course, scene};
-use super::output::{patiently, to_file};
+use super::course::Course;
+use super::output::to_file;
+use super::terminal::{keep_what_is_done, patiently};
 use super::values::positive;
 use clap::{Args, ValueEnum};
-use lagrange_core::prelude::{Impacts, Method};
 use lagrange_problems::catalogue::Scene;
+use lagrange_problems::progress::Progress;
 use lagrange_problems::report::frames::{self, Clock, Panel};
 use lagrange_problems::report::html::{self, Shown};
 use lagrange_problems::request::Request;
@@ -29,18 +30,6 @@ pub(super) struct Report {
     scenes: Vec<String>,
     #[command(flatten)]
     course: Course,
-    /// Tolerance of the integration, relative and absolute [default: 1e-9].
-    #[arg(long, value_name = "X", value_parser = positive, allow_hyphen_values = true)]
-    tolerance: Option<f64>,
-    /// Method of integration [default: taylor].
-    #[arg(long, value_name = "M")]
-    method: Option<Method>,
-    /// Move a start that violates a constraint onto it instead of refusing it.
-    #[arg(long)]
-    project: bool,
-    /// How impacts at one instant are solved, instead of as the scene declares: `together` or `in_turn`.
-    #[arg(long, value_name = "HOW")]
-    impacts: Option<Impacts>,
     /// Beside each scene, the same with something changed: without:ITEM, with:ITEM, set:NAME=VALUE, start:NAME=VALUE,
     /// from:START, until:T, tolerance:X, method:M, or several of them with commas between. May be repeated.
     #[arg(long, value_name = "CHANGE", allow_hyphen_values = true)]
@@ -73,17 +62,26 @@ enum Form {
 
 impl Report {
     pub(super) fn execute(self) -> Result<(), Trouble> {
-        let names = self.scenes.iter();
-        let runs: Vec<Shown> = names
-            .flat_map(|name| {
+        let progress = Progress::default();
+        progress.expect(self.runs());
+        keep_what_is_done(&progress);
+        let runs: Vec<Shown> = patiently("running", &progress, || {
+            let names = self.scenes.iter().flat_map(|name| {
                 let comparisons = self.compare.iter().map(Some);
                 let all = core::iter::once(None).chain(comparisons);
-                all.map(|comparison| self.shown(name, comparison))
-            })
-            .collect::<Result<_, _>>()?;
+                all.map(move |comparison| (name, comparison))
+            });
+            let shown = names.map(|(name, comparison)| self.shown(name, comparison, &progress));
+            shown.collect::<Result<_, _>>()
+        })?;
         self.write(&runs)?;
         let failed = runs.into_iter().find_map(|run| run.film.outcome.failure);
-        failed.map_or(Ok(()), |error| Err(Trouble::failed(error)))
+        failed.map_or(Ok(()), |error| Err(Trouble::ended(error)))
+    }
+
+    /// How many there are.
+    fn runs(&self) -> usize {
+        self.scenes.len() * (1 + self.compare.len())
     }
 
     fn write(&self, runs: &[Shown]) -> Result<(), Trouble> {
@@ -123,32 +121,27 @@ impl Report {
     }
 
     /// A scene's run or, with a comparison, the run that differs from it.
-    fn shown(&self, name: &str, comparison: Option<&Comparison>) -> Result<Shown, Trouble> {
-        let file = scene(name)?;
-        let request = self.course.request(Request {
-            tolerance: self.tolerance.unwrap_or(file.request.tolerance),
-            method: self.method.unwrap_or(file.request.method),
-            project: self.project || file.request.project,
-            impacts: self.impacts.or(file.request.impacts),
-            ..file.request
-        });
+    fn shown(
+        &self,
+        name: &str,
+        comparison: Option<&Comparison>,
+        progress: &Progress,
+    ) -> Result<Shown, Trouble> {
+        let file = self.course.of(name)?;
         let request = match comparison {
-            Some(comparison) => comparison.of(request),
-            None => request,
+            Some(comparison) => comparison.of(file.request),
+            None => file.request,
         };
-        let runs = self.scenes.len() * (1 + self.compare.len());
         let request = Request {
-            samples: html::intervals(file.scene, &request, runs),
+            samples: html::intervals(file.scene, &request, self.runs()),
+            progress: Some(progress.clone()),
             ..request
         };
-        let film = patiently(&format!("running {name}"), || file.scene.film(&request))
-            .map_err(Trouble::refused)?;
+        let film = file.scene.film(&request).map_err(Trouble::refused)?;
         Ok(Shown {
             title: title(name, file.scene, comparison),
             film,
             derivation: file.scene.derivation(),
-            tolerance: request.tolerance,
-            method: request.method,
         })
     }
 }

@@ -1,99 +1,164 @@
 //! `lagrange run`: one scene, from a start to its end.
 
 use super::Trouble;
-use super::course::{Course, scene};
-use super::output::{Output, patiently, to_file};
-use super::values::positive;
+use super::course::Course;
+use super::output::{ready, to_file};
+use super::terminal::{keep_what_is_done, patiently};
 use clap::Args;
-use lagrange_core::prelude::{Impacts, Method};
 use lagrange_problems::outcome::Outcome;
-use lagrange_problems::report::{Format, csv, json, plot, table};
+use lagrange_problems::progress::Progress;
+use lagrange_problems::report::{RunFormat, plot};
 use lagrange_problems::request::Request;
 use lagrange_problems::scene_file::{self, Outputs};
-use std::io::{self, Write};
-use std::path::PathBuf;
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
 
 /// Intervals at which tables of numbers and pictures sample a trajectory.
 const SAMPLES: usize = 400;
 
 /// Run a scene and tell what happened.
 #[derive(Args)]
+#[command(after_help = "Examples:
+  lagrange run mass-on-wheel
+  lagrange run mass-on-wheel --set mu_static=10 --tolerance 1e-12 --plot wheel.svg
+  lagrange run rolling-sphere --start theta=0.3 --start \"der(theta)=1\"
+  lagrange run rolling-sphere --end-after \"shell lost\" --output run.parquet
+  lagrange run mass-on-wheel --without grip --save smooth.toml
+  lagrange run smooth.toml --format json
+
+Ctrl-C ends a run; what there is of it is written. Exit codes: 0 all went well, 1 the run failed, 2 the request makes no sense, 130 interrupted.")]
 pub(super) struct Run {
     /// The scene, or a scene file (….toml); `lagrange list` shows the scenes.
     scene: String,
     #[command(flatten)]
     course: Course,
-    /// Tolerance of the integration, relative and absolute [default: 1e-9].
-    #[arg(long, value_name = "X", value_parser = positive, allow_hyphen_values = true)]
-    tolerance: Option<f64>,
-    /// Method of integration [default: taylor].
-    #[arg(long, value_name = "M")]
-    method: Option<Method>,
     #[command(flatten)]
-    output: Output,
+    results: Results,
+}
+
+/// What to write, and where to.
+#[derive(Args)]
+#[command(next_help_heading = "Results")]
+struct Results {
+    /// What to write [default: what the name of the output says, else table].
+    #[arg(long, value_enum)]
+    format: Option<RunFormat>,
+    /// Write the run to a file instead of stdout, in the format that its name says: ….csv, ….json, ….jsonl, ….parquet, ….txt.
+    /// May be repeated.
+    #[arg(long, value_name = "FILE")]
+    output: Vec<PathBuf>,
     /// Draw forces and state over time.
     #[arg(long, value_name = "FILE.svg")]
     plot: Option<PathBuf>,
-    /// Give the work of every item over time (csv: columns, json: a list).
+    /// Equal intervals of time to sample the motion at, beside the ends of its phases [default: 400].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
+    samples: Option<u32>,
+    /// Give the work of every item over time (csv, jsonl, parquet: columns; json: a list).
     #[arg(long)]
     ledger: bool,
-    /// Move a start that violates a constraint onto it instead of refusing it.
-    #[arg(long)]
-    project: bool,
-    /// How impacts at one instant are solved, instead of as the scene declares: `together` or `in_turn`.
-    #[arg(long, value_name = "HOW")]
-    impacts: Option<Impacts>,
     /// Write this run down as a scene file.
     #[arg(long, value_name = "FILE.toml")]
     save: Option<PathBuf>,
 }
 
 impl Run {
-    pub(super) fn execute(mut self) -> Result<(), Trouble> {
-        let file = scene(&self.scene)?;
-        let (scene, name) = (file.scene, file.scene.name());
-        self.output.or(file.outputs.format, file.outputs.output);
-        let plot = self.plot.or(file.outputs.plot);
-        let format = self.output.format();
-        let sampled = plot.is_some() || format == Format::Csv || self.ledger;
-        let base = Request {
-            samples: if sampled { SAMPLES } else { 0 },
-            tolerance: self.tolerance.unwrap_or(file.request.tolerance),
-            method: self.method.unwrap_or(file.request.method),
-            project: self.project || file.request.project,
-            impacts: self.impacts.or(file.request.impacts),
-            ledger: self.ledger || file.request.ledger,
+    pub(super) fn execute(self) -> Result<(), Trouble> {
+        let file = self.course.of(&self.scene)?;
+        let scene = file.scene;
+        let outputs = self.results.or(file.outputs);
+        let destinations = destinations(&outputs)?;
+        let files = destinations.iter().filter_map(|(_, path)| path.as_deref());
+        let files = files.chain(outputs.plot.as_deref());
+        let files = files.chain(self.results.save.as_deref());
+        ready(files, std::slice::from_ref(&self.scene))?;
+        let ledger = self.results.ledger || file.request.ledger;
+        let sampled = |(format, _): &(RunFormat, _)| format.is_sampled();
+        let sampled = ledger || outputs.plot.is_some() || destinations.iter().any(sampled);
+        let progress = Progress::default();
+        progress.expect(1);
+        let request = Request {
+            samples: match sampled {
+                true => outputs.samples.unwrap_or(SAMPLES),
+                false => 0,
+            },
+            ledger,
+            progress: Some(progress.clone()),
             ..file.request
         };
-        let request = self.course.request(base);
-        let outcome = patiently(&format!("running {name}"), || scene.run(&request))
-            .map_err(Trouble::refused)?;
-        if let Some(path) = &self.save {
-            let (format, output) = self.output.given();
-            let outputs = Outputs {
-                format,
-                output,
-                plot: plot.clone(),
-            };
+        keep_what_is_done(&progress);
+        let outcome = patiently(&format!("running {}", scene.name()), &progress, || {
+            scene.run(&request)
+        })
+        .map_err(Trouble::refused)?;
+        if let Some(path) = &self.results.save {
             let text = scene_file::write(scene, &request, &outputs).map_err(Trouble::failed)?;
             to_file(path, |out| out.write_all(text.as_bytes()))?;
         }
-        self.output.write(|out| write(&outcome, format, out))?;
-        if let Some(path) = &plot {
+        for (format, path) in &destinations {
+            write(&outcome, *format, path.as_deref())?;
+        }
+        if let Some(path) = &outputs.plot {
             let picture = plot::svg(&outcome).map_err(Trouble::failed)?;
             to_file(path, |out| out.write_all(picture.as_bytes()))?;
         }
-        match outcome.failure {
-            None => Ok(()),
-            Some(error) => Err(Trouble::failed(error)),
+        outcome
+            .failure
+            .map_or(Ok(()), |error| Err(Trouble::ended(error)))
+    }
+}
+
+impl Results {
+    /// What the command line leaves open is as in a scene file.
+    fn or(&self, file: Outputs) -> Outputs {
+        Outputs {
+            format: self.format.or(file.format),
+            output: match self.output.is_empty() {
+                true => file.output,
+                false => self.output.clone(),
+            },
+            plot: self.plot.clone().or(file.plot),
+            samples: self.samples.map(|n| n as usize).or(file.samples),
         }
     }
 }
 
-fn write(outcome: &Outcome, format: Format, out: &mut dyn Write) -> io::Result<()> {
-    match format {
-        Format::Table => table::write(outcome, out),
-        Format::Json => json::write(outcome, out),
-        Format::Csv => csv::write(outcome, out),
+/// In which format the run goes into which file, or to stdout.
+fn destinations(outputs: &Outputs) -> Result<Vec<(RunFormat, Option<PathBuf>)>, Trouble> {
+    let named = |path: &PathBuf| match (RunFormat::of(path), path.extension()) {
+        (Some(format), _) => Ok(format),
+        (None, None) => Ok(RunFormat::Table),
+        (None, Some(_)) => Err(Trouble::usage(format_args!(
+            "the name {} says no format: let it end in .csv, .json, .jsonl, .parquet or .txt, or give --format{}",
+            path.display(),
+            match path.extension().is_some_and(|end| end == "svg") {
+                true => "; pictures are drawn with --plot",
+                false => "",
+            }
+        ))),
+    };
+    match (outputs.format, &outputs.output[..]) {
+        (format, []) => {
+            let format = format.unwrap_or(RunFormat::Table);
+            if format == RunFormat::Parquet && std::io::stdout().is_terminal() {
+                let reason = "Parquet is not for a terminal; add --output run.parquet";
+                return Err(Trouble::usage(reason));
+            }
+            Ok(vec![(format, None)])
+        }
+        (Some(format), [path]) => Ok(vec![(format, Some(path.clone()))]),
+        (Some(_), _) => Err(Trouble::usage(
+            "several outputs have the formats that their names say; leave the format out",
+        )),
+        (None, paths) => {
+            let one = |path: &PathBuf| Ok((named(path)?, Some(path.clone())));
+            paths.iter().map(one).collect()
+        }
+    }
+}
+
+fn write(outcome: &Outcome, format: RunFormat, path: Option<&Path>) -> Result<(), Trouble> {
+    match path {
+        None => super::print(|out| format.write(outcome, out)),
+        Some(path) => to_file(path, |out| format.write(outcome, out)),
     }
 }

@@ -1,15 +1,24 @@
 //! `lagrange stability`: hard cases, each against an answer known by other means.
 
 use super::Trouble;
-use super::output::{Output, patiently};
+use super::output::{Output, ready};
+use super::terminal::{keep_what_is_done, patiently};
 use clap::Args;
+use lagrange_problems::progress::Progress;
 use lagrange_problems::report::Format;
 use lagrange_problems::report::stability as report;
+use lagrange_problems::request::Refusal;
 use lagrange_problems::stability::{CASES, Case, Extent, Report};
 use std::io::{self, Write};
 
 /// Run the hard cases: what breaks other programs, how far from the known answer each ends, and whether it keeps its bound.
 #[derive(Args)]
+#[command(after_help = "Examples:
+  lagrange stability
+  lagrange stability --only ladder,turntable --format json
+  lagrange stability --long                    # ten times as long
+
+Ctrl-C ends it after the case in hand; those before are shown.")]
 pub(super) struct Stability {
     /// Only these cases.
     #[arg(long, value_name = "CASE,…", value_delimiter = ',')]
@@ -24,15 +33,31 @@ pub(super) struct Stability {
 impl Stability {
     pub(super) fn execute(self) -> Result<(), Trouble> {
         let cases = self.cases()?;
+        ready(self.output.path(), &[])?;
         let extent = match self.long {
             true => Extent::Long,
             false => Extent::Short,
         };
-        let reports: Vec<Report> = patiently("running the hard cases", || {
-            cases.into_iter().map(|case| case.run(extent)).collect()
+        let (progress, all) = (Progress::default(), cases.len());
+        progress.expect(all);
+        keep_what_is_done(&progress);
+        let reports: Vec<Report> = patiently("running the hard cases", &progress, || {
+            let wanted = cases.into_iter().take_while(|_| !progress.is_stopped());
+            let run = |case: &'static Case| {
+                let report = case.run(extent);
+                progress.advance();
+                report
+            };
+            wanted.map(run).collect()
         });
         let format = self.output.format();
         self.output.write(|out| write(&reports, format, out))?;
+        if reports.len() < all {
+            return Err(Trouble::Interrupted(format!(
+                "interrupted after {} of {all} cases",
+                reports.len()
+            )));
+        }
         let failing = reports.iter().filter(|report| !report.holds());
         let names: Vec<&str> = failing.map(|report| report.case.name).collect();
         match names[..] {
@@ -48,11 +73,8 @@ impl Stability {
     fn cases(&self) -> Result<Vec<&'static Case>, Trouble> {
         let known = |name: &String| CASES.iter().any(|case| case.name == name);
         if let Some(name) = self.only.iter().find(|name| !known(name)) {
-            let names: Vec<&str> = CASES.iter().map(|case| case.name).collect();
-            return Err(Trouble::usage(format_args!(
-                "there is no case `{name}`; there are {}",
-                names.join(", ")
-            )));
+            let names = CASES.iter().map(|case| case.name);
+            return Err(Trouble::usage(Refusal::unknown("case", name, names)));
         }
         let asked = |case: &&Case| self.only.is_empty() || self.only.iter().any(|n| n == case.name);
         Ok(CASES.iter().filter(asked).collect())

@@ -1,20 +1,17 @@
 //! `lagrange sweep`: many runs of one scene, on all cores.
 
-use super::Trouble;
-use super::course::{Course, scene};
-use super::output::to_file;
-use super::values::positive;
+use super::course::Course;
+use super::results::{Results, beside, verdict};
+use super::{Trouble, terminal};
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
-use lagrange_core::prelude::Method;
-use lagrange_problems::report::{Format, sweep as report};
-use lagrange_problems::request::Request;
-use lagrange_problems::sweep::{Axis, Journal, Points, Sampling, Summary, Sweep, work};
-use std::path::{Path, PathBuf};
-use std::str::FromStr;
+use indicatif::ProgressBar;
+use lagrange_problems::sweep::launch::{self, Place};
+#[cfg(feature = "mpi")]
+use lagrange_problems::sweep::team::Team;
+use lagrange_problems::sweep::{Axis, Journal, Points, Sampling, Shard, Sweep, work};
 
 /// Run a scene many times, over parameters and starts, on all cores. Killed and started again, a sweep with --output goes
-/// on where it was.
+/// on where it was: what is done is kept in FILE.part until all is done.
 #[derive(Args)]
 pub(super) struct Sweeps {
     /// The scene, or a scene file (….toml); `lagrange list` shows the scenes.
@@ -28,10 +25,10 @@ pub(super) struct Sweeps {
         allow_hyphen_values = true
     )]
     vary: Vec<Axis>,
-    /// Take this many points of a Sobol sequence instead of a grid.
-    #[arg(long, value_name = "sobol:N")]
-    sample: Option<Sample>,
-    /// Which of many Sobol sequences.
+    /// Run a sample instead of a grid, with so many points: sobol:N (even), random:N (independent) or lhs:N (Latin hypercube).
+    #[arg(long, value_name = "KIND:N")]
+    sample: Option<Sampling>,
+    /// Which of many such samples.
     #[arg(long, default_value_t = 1, requires = "sample")]
     seed: u32,
     /// What to read from each run: "theta at shell lost", "t at grip slips", "count floor impact", "x" (at the end), or a named
@@ -40,166 +37,120 @@ pub(super) struct Sweeps {
     observe: Vec<String>,
     #[command(flatten)]
     course: Course,
-    /// Tolerance of the integration, relative and absolute [default: 1e-9].
-    #[arg(long, value_name = "X", value_parser = positive, allow_hyphen_values = true)]
-    tolerance: Option<f64>,
-    /// Method of integration [default: taylor].
-    #[arg(long, value_name = "M")]
-    method: Option<Method>,
-    /// Write a line per run, as Parquet (….parquet) or CSV (….csv). What is done is kept in FILE.part until all is done.
-    #[arg(long, value_name = "FILE")]
-    output: Option<PathBuf>,
-    /// Draw the first observation over one axis or two.
-    #[arg(long, value_name = "FILE.svg")]
-    plot: Option<PathBuf>,
-    /// In what form to print what came out, in a few numbers.
-    #[arg(long, value_enum, default_value_t = Format::Table)]
-    format: Format,
-    /// Cores to use [default: all].
+    #[command(flatten)]
+    results: Results,
+    /// Cores to use [default: all; under mpirun, one per process].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     workers: Option<u16>,
-    /// Do only part I of N (1/8 … 8/8), for array jobs; once all parts are done, the same command without --shard
-    /// writes the output.
+    /// Do only part I of N (1/8 … 8/8), for array jobs. What is done stays in FILE.part; `lagrange merge` puts parts together.
     #[arg(long, value_name = "I/N", requires = "output")]
     shard: Option<Shard>,
-    /// No progress bar.
-    #[arg(long)]
-    quiet: bool,
-}
-
-/// `sobol:N`
-#[derive(Clone, Copy)]
-struct Sample(usize);
-
-impl FromStr for Sample {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let count = text.strip_prefix("sobol:").and_then(|n| n.parse().ok());
-        match count {
-            Some(count) if (1..=1 << 32).contains(&count) => Ok(Sample(count)),
-            _ => Err("expected sobol:N with a number of points N".to_owned()),
-        }
-    }
-}
-
-/// `i/n`
-#[derive(Clone, Copy)]
-struct Shard {
-    part: usize,
-    of: usize,
-}
-
-impl FromStr for Shard {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let parts = text.split_once('/');
-        let numbers = parts.and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
-        match numbers {
-            Some((part, of)) if (1..=of).contains(&part) => Ok(Shard { part, of }),
-            _ => Err("expected I/N with I from 1 to N, for example 3/8".to_owned()),
-        }
-    }
 }
 
 impl Sweeps {
     pub(super) fn execute(self) -> Result<(), Trouble> {
-        let file = scene(&self.scene)?;
-        let request = self.course.request(Request {
-            tolerance: self.tolerance.unwrap_or(file.request.tolerance),
-            method: self.method.unwrap_or(file.request.method),
-            ..file.request
-        });
+        let file = self.course.of(&self.scene)?;
         let points = Points {
             axes: self.vary.clone(),
             sampling: match self.sample {
                 None => Sampling::Grid,
-                Some(Sample(count)) => Sampling::Sobol {
-                    count,
-                    seed: self.seed,
-                },
+                Some(sample) => sample.seeded(self.seed),
             },
         };
-        let sweep =
-            Sweep::new(file.scene, request, points, &self.observe).map_err(Trouble::refused)?;
-        let folder = self.output.as_deref().map(part);
-        let journal = match &folder {
-            None => Journal::in_memory(&sweep),
-            Some(folder) => Journal::in_folder(&sweep, folder).map_err(Trouble::failed)?,
-        };
-        self.work(&sweep, &journal)?;
-        if self.shard.is_some() {
-            return Ok(());
+        let sweep = Sweep::new(file.scene, file.request, points, &self.observe)
+            .map_err(Trouble::refused)?;
+        match launch::place() {
+            Some(place) if self.shard.is_none() => self.together(&sweep, place),
+            _ => self.alone(&sweep),
         }
-        if let Some(path) = &self.output {
-            write(path, &sweep, &journal)?;
-        }
-        if let Some(path) = &self.plot {
-            let picture = report::svg(&sweep, &journal).map_err(Trouble::failed)?;
-            to_file(path, |out| out.write_all(picture.as_bytes()))?;
-        }
-        let summary = Summary::new(&sweep, &journal).map_err(Trouble::failed)?;
-        super::print(|out| match self.format {
-            Format::Table => report::table(&sweep, &summary, out),
-            Format::Json => report::json(&sweep, &summary, out),
-            Format::Csv => report::csv(&sweep, &journal, out).map_err(std::io::Error::other),
-        })?;
-        journal.remove().map_err(Trouble::failed)
     }
 
-    /// Does what is not done yet.
-    fn work(&self, sweep: &Sweep, journal: &Journal) -> Result<(), Trouble> {
-        let ours = |chunk: usize| match self.shard {
-            None => true,
-            Some(Shard { part, of }) => chunk % of == part - 1,
-        };
-        let chunks = (0..sweep.chunks()).filter(|&chunk| ours(chunk));
-        let (done, open): (Vec<_>, Vec<_>) = chunks.partition(|&chunk| journal.has(sweep, chunk));
-        let count = |chunks: &[usize]| chunks.iter().map(|&c| sweep.chunk(c).len()).sum::<usize>();
-        let bar = match self.quiet {
-            true => ProgressBar::hidden(),
-            false => progress(count(&done) + count(&open)),
-        };
-        bar.set_position(count(&done) as u64);
-        bar.reset_eta();
+    /// The journal of a shard.
+    fn journal(&self, sweep: &Sweep, shard: Shard) -> Result<Journal, Trouble> {
+        match &self.results.output {
+            None => Ok(Journal::in_memory(sweep)),
+            Some(path) => {
+                Journal::in_folder(sweep, &beside(path, ".part"), shard).map_err(Trouble::failed)
+            }
+        }
+    }
+
+    /// On this machine.
+    fn alone(&self, sweep: &Sweep) -> Result<(), Trouble> {
+        let shard = self.shard.unwrap_or(Shard::WHOLE);
+        let journal = self.journal(sweep, shard)?;
         let workers = self.workers.map_or(0, usize::from);
         let pool = rayon::ThreadPoolBuilder::new().num_threads(workers).build();
         let pool = pool.map_err(Trouble::failed)?;
-        let outcome = pool.install(|| work(sweep, journal, ours, |points| bar.inc(points as u64)));
+        let ours = |chunk| shard.has(chunk);
+        let bar = self.bar(sweep, &journal, ours);
+        let outcome = pool.install(|| work(sweep, &journal, ours, |points| bar.inc(points as u64)));
         bar.finish_and_clear();
-        outcome.map_err(Trouble::failed)
+        outcome.map_err(Trouble::failed)?;
+        match self.shard {
+            Some(_) => Ok(()),
+            None => self.finish(sweep, journal),
+        }
     }
-}
 
-fn progress(runs: usize) -> ProgressBar {
-    let bar = ProgressBar::new(runs as u64);
-    let form = "{wide_bar} {human_pos} of {human_len} runs, {per_sec}, {eta} left";
-    if let Ok(style) = ProgressStyle::with_template(form) {
-        bar.set_style(style);
+    /// With all processes that were started together.
+    #[cfg(feature = "mpi")]
+    fn together(&self, sweep: &Sweep, place: Place) -> Result<(), Trouble> {
+        let mut team = Team::gather(place).map_err(Trouble::failed)?;
+        let workers = self.workers.map_or(1, usize::from);
+        if !team.leads() {
+            team.follow(sweep, workers);
+            return Ok(());
+        }
+        let result = match self.journal(sweep, Shard::WHOLE) {
+            Err(trouble) => {
+                team.dismiss();
+                Err(trouble)
+            }
+            Ok(journal) => {
+                let bar = self.bar(sweep, &journal, |_| true);
+                let count = |points| bar.inc(points as u64);
+                let outcome = team.lead(sweep, &journal, workers, count);
+                bar.finish_and_clear();
+                if team.lost() > 0 {
+                    let (lost, of) = (team.lost(), place.of);
+                    eprintln!(
+                        "lagrange: {lost} of {of} processes were lost; the others did their chunks"
+                    );
+                }
+                let done = outcome.map_err(Trouble::failed);
+                done.and_then(|()| self.finish(sweep, journal))
+            }
+        };
+        team.end(u8::from(result.is_err()));
+        result
     }
-    bar
-}
 
-/// Where what is done is kept.
-fn part(output: &Path) -> PathBuf {
-    let mut name = output.as_os_str().to_owned();
-    name.push(".part");
-    PathBuf::from(name)
-}
+    #[cfg(not(feature = "mpi"))]
+    fn together(&self, _: &Sweep, place: Place) -> Result<(), Trouble> {
+        Err(Trouble::usage(format_args!(
+            "{} processes were started together, but this program was built without MPI (cargo build --features mpi); or give each \
+             its part with --shard",
+            place.of
+        )))
+    }
 
-fn write(path: &Path, sweep: &Sweep, journal: &Journal) -> Result<(), Trouble> {
-    let cannot = |error: &dyn std::fmt::Display| {
-        Trouble::failed(format_args!("cannot write {}: {error}", path.display()))
-    };
-    // Under another name until it is complete.
-    let unfinished = part(path).join("output");
-    let file = std::fs::File::create(&unfinished).map_err(|e| cannot(&e))?;
-    let out = std::io::BufWriter::new(file);
-    let written = match path.extension().and_then(|e| e.to_str()) {
-        Some("csv") => report::csv(sweep, journal, out),
-        _ => report::parquet(sweep, journal, out),
-    };
-    written.map_err(|e| cannot(&e))?;
-    std::fs::rename(&unfinished, path).map_err(|e| cannot(&e))
+    /// What is made of all runs.
+    fn finish(&self, sweep: &Sweep, journal: Journal) -> Result<(), Trouble> {
+        let summary = self.results.write(sweep, &journal)?;
+        journal.remove().map_err(Trouble::failed)?;
+        verdict(&summary)
+    }
+
+    /// How far it is.
+    fn bar(&self, sweep: &Sweep, journal: &Journal, ours: impl Fn(usize) -> bool) -> ProgressBar {
+        let chunks = (0..sweep.chunks()).filter(|&chunk| ours(chunk));
+        let (done, open): (Vec<_>, Vec<_>) = chunks.partition(|&chunk| journal.has(sweep, chunk));
+        let count = |chunks: &[usize]| chunks.iter().map(|&c| sweep.chunk(c).len()).sum::<usize>();
+        let form = "{wide_bar} {human_pos} of {human_len} runs, {per_sec}, {eta} left";
+        let bar = terminal::bar((count(&done) + count(&open)) as u64, form);
+        bar.set_position(count(&done) as u64);
+        bar.reset_eta();
+        bar
+    }
 }

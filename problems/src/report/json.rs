@@ -1,5 +1,6 @@
 //! Outcome → JSON: everything, every number in full precision, names in the order of the declaration.
 
+use super::rows::Table;
 use super::{named_state, rate_unit, work_name};
 use crate::outcome::{Outcome, forces};
 use crate::request::velocity_name;
@@ -16,24 +17,50 @@ pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
 
 #[derive(Serialize)]
 struct Report {
+    #[serde(flatten)]
+    header: Header,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    start: Option<Instant>,
+    events: Vec<Happening>,
+    #[serde(rename = "final", skip_serializing_if = "Option::is_none")]
+    last: Option<Instant>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    energy_over_time: Vec<Balance>,
+    #[serde(flatten)]
+    ending: Ending,
+}
+
+/// What was run.
+#[derive(Serialize)]
+pub(super) struct Header {
     scene: &'static str,
     parameters: Numbers,
     #[serde(skip_serializing_if = "Texts::is_empty")]
     units: Texts,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     without: Vec<&'static str>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    start: Option<Instant>,
-    events: Vec<Happening>,
-    #[serde(rename = "final", skip_serializing_if = "Option::is_none")]
-    last: Option<Instant>,
+    method: String,
+    tolerance: f64,
+    version: &'static str,
+}
+
+/// What it came to.
+#[derive(Serialize)]
+pub(super) struct Ending {
     #[serde(skip_serializing_if = "Option::is_none")]
     energy: Option<Energy>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    energy_over_time: Vec<Balance>,
     work: Counts,
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<String>,
+}
+
+/// Both.
+#[derive(Serialize)]
+pub(super) struct Summary {
+    #[serde(flatten)]
+    header: Header,
+    #[serde(flatten)]
+    ending: Ending,
 }
 
 #[derive(Serialize)]
@@ -50,6 +77,13 @@ struct Instant {
 #[derive(Serialize)]
 struct Happening {
     time: f64,
+    #[serde(flatten)]
+    switch: Switch,
+}
+
+/// An event, but for its time.
+#[derive(Serialize)]
+pub(super) struct Switch {
     item: &'static str,
     kind: &'static str,
     from: String,
@@ -138,6 +172,49 @@ impl Serialize for Texts {
     }
 }
 
+/// What was run; units are those of the names in a JSON object.
+fn named(outcome: &Outcome, units: Texts) -> Header {
+    let names = outcome.description.parameters.iter();
+    let names = names.map(|p| p.name.to_owned());
+    Header {
+        scene: outcome.scene,
+        parameters: Numbers(names.zip(outcome.parameters.iter().copied()).collect()),
+        units,
+        without: outcome.left_out(),
+        method: outcome.method.to_string(),
+        tolerance: outcome.tolerance,
+        version: env!("CARGO_PKG_VERSION"),
+    }
+}
+
+/// What was run; units are those of parameters and of the columns of a table.
+pub(super) fn header(outcome: &Outcome) -> Header {
+    let parameters = outcome.description.parameters.iter();
+    let parameters = parameters.map(|p| (p.name.to_owned(), p.unit.to_owned()));
+    let columns = Table::new(outcome).columns().into_iter();
+    let columns = columns.map(|column| (column.name, column.unit));
+    let mut units: Vec<(String, String)> = parameters.chain(columns).collect();
+    units.retain(|(_, unit)| !unit.is_empty());
+    named(outcome, Texts(units))
+}
+
+/// What it came to.
+pub(super) fn ending(outcome: &Outcome) -> Ending {
+    Ending {
+        energy: outcome.ledger.as_ref().map(energy),
+        work: counts(outcome),
+        error: outcome.failure.as_ref().map(Error::to_string),
+    }
+}
+
+/// What was run and what it came to, beside a table.
+pub(super) fn summary(outcome: &Outcome) -> Summary {
+    Summary {
+        header: header(outcome),
+        ending: ending(outcome),
+    }
+}
+
 /// Units by name: of parameters, the state, forces, observed quantities and energies, as far as they are known.
 fn units(description: &Description) -> Texts {
     let units = &description.units;
@@ -164,7 +241,6 @@ fn is_false(flag: &bool) -> bool {
 
 fn report(outcome: &Outcome) -> Report {
     let description = outcome.description;
-    let names = description.parameters.iter().map(|p| p.name.to_owned());
     let instant = |sample: &crate::outcome::Sample| Instant {
         time: sample.time,
         mode: sample.mode.display(description).to_string(),
@@ -173,10 +249,7 @@ fn report(outcome: &Outcome) -> Report {
         undetermined: flagged(description, &sample.undetermined),
     };
     Report {
-        scene: outcome.scene,
-        parameters: Numbers(names.zip(outcome.parameters.iter().copied()).collect()),
-        without: outcome.left_out(),
-        units: units(description),
+        header: named(outcome, units(description)),
         start: outcome.first().map(instant),
         events: outcome
             .events
@@ -184,21 +257,26 @@ fn report(outcome: &Outcome) -> Report {
             .map(|event| happening(description, event))
             .collect(),
         last: outcome.last().map(instant),
-        energy: outcome.ledger.as_ref().map(energy),
         energy_over_time: outcome
             .samples
             .iter()
             .zip(&outcome.ledgers)
             .map(|(sample, ledger)| balance(sample.time, ledger))
             .collect(),
-        work: counts(outcome),
-        error: outcome.failure.as_ref().map(Error::to_string),
+        ending: ending(outcome),
     }
 }
 
 fn happening(description: &'static Description, event: &Event<f64>) -> Happening {
     Happening {
         time: event.time,
+        switch: switch(description, event),
+    }
+}
+
+/// An event, but for its time.
+pub(super) fn switch(description: &'static Description, event: &Event<f64>) -> Switch {
+    Switch {
         item: event.subject.name(description),
         kind: event.kind.word(),
         from: event.before.display(description).to_string(),

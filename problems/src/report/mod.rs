@@ -1,4 +1,4 @@
-//! Printers of an [`Outcome`](crate::outcome::Outcome): a table to read, JSON and CSV to compute with, a plot to look at;
+//! Printers of an [`Outcome`]: a table to read, JSON, JSON lines, CSV and Parquet to compute with, a plot to look at;
 //! in [`accuracy`] the same of an [`Accuracy`](crate::accuracy::Accuracy).
 
 pub mod accuracy;
@@ -7,27 +7,113 @@ pub mod csv;
 pub mod frames;
 pub mod html;
 pub mod json;
+pub mod jsonl;
+pub mod parquet;
 mod picture;
 pub mod plot;
+mod row_groups;
+mod rows;
 pub mod stability;
 pub mod sweep;
 pub mod table;
 
+use crate::outcome::Outcome;
 use clap::ValueEnum;
+use core::fmt;
 use lagrange_core::prelude::Entry;
 use lagrange_core::system::{Coordinate, Description};
-use serde::{Deserialize, Serialize};
+use std::io::{self, Write};
+use std::path::Path;
 
 /// In what form to print.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Deserialize, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Format {
     /// To read.
     Table,
     /// Every number in full precision.
     Json,
-    /// One line per sample (and event), or per method and tolerance.
+    /// One line each.
     Csv,
+}
+
+impl Format {
+    /// The format that the name of a file says, if it says one.
+    pub fn of(path: &Path) -> Option<Self> {
+        Some(match path.extension()?.to_str()? {
+            "json" => Format::Json,
+            "csv" => Format::Csv,
+            "txt" => Format::Table,
+            _ => return None,
+        })
+    }
+}
+
+/// In what form to write a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum RunFormat {
+    /// To read.
+    Table,
+    /// Every number in full precision.
+    Json,
+    /// The same over time: a line per sample and event.
+    Jsonl,
+    /// A line per sample, two per event.
+    Csv,
+    /// The same for pandas, polars and the like.
+    Parquet,
+}
+
+impl RunFormat {
+    /// The format that the name of a file says, if it says one.
+    pub fn of(path: &Path) -> Option<Self> {
+        Some(match path.extension()?.to_str()? {
+            "json" => RunFormat::Json,
+            "jsonl" | "ndjson" => RunFormat::Jsonl,
+            "csv" => RunFormat::Csv,
+            "parquet" => RunFormat::Parquet,
+            "txt" => RunFormat::Table,
+            _ => return None,
+        })
+    }
+
+    /// Whether it says how the run was between its events.
+    pub fn is_sampled(self) -> bool {
+        matches!(self, RunFormat::Jsonl | RunFormat::Csv | RunFormat::Parquet)
+    }
+
+    /// Writes a run.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn write(self, outcome: &Outcome, out: &mut dyn Write) -> io::Result<()> {
+        match self {
+            RunFormat::Table => table::write(outcome, out),
+            RunFormat::Json => json::write(outcome, out),
+            RunFormat::Jsonl => jsonl::write(outcome, out),
+            RunFormat::Csv => csv::write(outcome, out),
+            RunFormat::Parquet => parquet::write(outcome, out),
+        }
+    }
+}
+
+impl fmt::Display for RunFormat {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let name = self.to_possible_value();
+        f.write_str(name.as_ref().map_or("", |name| name.get_name()))
+    }
+}
+
+/// What a column of a table holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    /// A number in every row.
+    Number,
+    /// A number, or nothing.
+    MaybeNumber,
+    /// A text in every row.
+    Text,
+    /// A text, or nothing.
+    MaybeText,
 }
 
 /// Whether a coordinate is an angle, so that people read it in degrees: its unit is declared as `rad`, or its

@@ -3,24 +3,30 @@
 //! ```toml
 //! scene = "mass-on-wheel"
 //! tolerance = 1e-12
+//! end_after = "rim lost"
 //!
 //! [parameters]
 //! mu_static = 10
 //!
 //! [effects]
 //! grip = false
+//!
+//! [outputs]
+//! output = ["wheel.parquet", "wheel.csv"]
 //! ```
 
-use crate::catalogue::{self, Scene};
-use crate::report::Format;
-use crate::request::{Refusal, Request, find_effect, find_parameter, find_start, find_state};
+mod read;
+mod value;
+mod write;
+
+pub use read::read;
+pub use write::write;
+
+use crate::catalogue::Scene;
+use crate::report::RunFormat;
+use crate::request::Request;
 use core::fmt;
-use core::ops::Range;
-use lagrange_core::prelude::Method;
-use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
 use std::path::PathBuf;
-use toml::Spanned;
 
 /// What a scene file says.
 pub struct SceneFile {
@@ -32,25 +38,17 @@ pub struct SceneFile {
     pub outputs: Outputs,
 }
 
-/// Where the results of a run go; what is `None` is as the command line says.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
+/// Where the results of a run go; what is `None` or empty is as the command line says.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Outputs {
-    /// What to print.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub format: Option<Format>,
-    /// The file to write it to.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub output: Option<PathBuf>,
+    /// In what form to write the run; if `None`, as the names of the files say.
+    pub format: Option<RunFormat>,
+    /// The files to write it to.
+    pub output: Vec<PathBuf>,
     /// The picture to draw.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub plot: Option<PathBuf>,
-}
-
-impl Outputs {
-    fn is_empty(&self) -> bool {
-        *self == Self::default()
-    }
+    /// Intervals to sample the motion at.
+    pub samples: Option<usize>,
 }
 
 /// What is wrong with a scene file, and where.
@@ -64,6 +62,19 @@ pub struct Mistake {
     pub reason: String,
 }
 
+impl Mistake {
+    /// The mistake at this byte of a text.
+    fn at(text: &str, byte: usize, reason: String) -> Self {
+        let before = text.get(..byte).unwrap_or(text);
+        let line = before.rfind('\n').map_or(0, |end| end + 1);
+        Self {
+            line: before.matches('\n').count() + 1,
+            column: before[line..].chars().count() + 1,
+            reason,
+        }
+    }
+}
+
 impl fmt::Display for Mistake {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}:{}: {}", self.line, self.column, self.reason)
@@ -72,175 +83,21 @@ impl fmt::Display for Mistake {
 
 impl core::error::Error for Mistake {}
 
-/// The file as it is written. Tables by name, each name with its place.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Text {
-    scene: Spanned<String>,
-    until: Option<Spanned<f64>>,
-    tolerance: Option<Spanned<f64>>,
-    method: Option<Spanned<String>>,
-    #[serde(default)]
-    project: bool,
-    impacts: Option<Spanned<String>>,
-    #[serde(default)]
-    parameters: BTreeMap<Spanned<String>, Spanned<f64>>,
-    #[serde(default)]
-    start: BTreeMap<Spanned<String>, Spanned<Value>>,
-    #[serde(default)]
-    effects: BTreeMap<Spanned<String>, bool>,
-    #[serde(default)]
-    outputs: Outputs,
-}
-
-/// A value of the table `start`: a number, or the name of the start to begin from.
-#[derive(Deserialize)]
-#[serde(untagged, expecting = "expected a number")]
-enum Value {
-    Number(f64),
-    Name(String),
-}
-
-/// Reads a scene file.
-///
-/// # Errors
-/// The first mistake, at its place.
-pub fn read(text: &str) -> Result<SceneFile, Mistake> {
-    let mistake = |span: Range<usize>, reason: String| {
-        let before = &text[..span.start.min(text.len())];
-        let line = before.rfind('\n').map_or(0, |end| end + 1);
-        Mistake {
-            line: before.matches('\n').count() + 1,
-            column: before[line..].chars().count() + 1,
-            reason,
-        }
-    };
-    let refused = |span: Range<usize>| move |refusal: Refusal| mistake(span, refusal.to_string());
-    let positive = |number: &Spanned<f64>| match *number.get_ref() {
-        x if x.is_finite() && x > 0.0 => Ok(x),
-        _ => Err(mistake(
-            number.span(),
-            "the value must be above 0".to_owned(),
-        )),
-    };
-    let finite = |span: Range<usize>, x: f64| match x.is_finite() {
-        true => Ok(x),
-        false => Err(mistake(span, "the value must be finite".to_owned())),
-    };
-    let file: Text = toml::from_str(text).map_err(|error| {
-        let reason = error.message().replace('\n', "; ");
-        mistake(error.span().unwrap_or(0..0), reason)
-    })?;
-    let scene = catalogue::find(file.scene.get_ref()).map_err(refused(file.scene.span()))?;
-    let description = scene.description();
-    let mut request = Request {
-        project: file.project,
-        ..Request::default()
-    };
-    if let Some(until) = &file.until {
-        request.until = Some(positive(until)?);
-    }
-    if let Some(tolerance) = &file.tolerance {
-        request.tolerance = positive(tolerance)?;
-    }
-    if let Some(impacts) = &file.impacts {
-        let known = impacts.get_ref().parse();
-        let refused = |expected| mistake(impacts.span(), format!("impacts are {expected}"));
-        request.impacts = Some(known.map_err(refused)?);
-    }
-    if let Some(method) = &file.method {
-        let parsed: Result<Method, _> = method.get_ref().parse();
-        request.method = parsed.map_err(|reason| mistake(method.span(), reason.to_string()))?;
-    }
-    for (name, value) in &file.parameters {
-        find_parameter(description, name.get_ref()).map_err(refused(name.span()))?;
-        let value = finite(value.span(), *value.get_ref())?;
-        request.parameters.push((name.get_ref().clone(), value));
-    }
-    for (name, on) in &file.effects {
-        find_effect(description, name.get_ref()).map_err(refused(name.span()))?;
-        request.effects.push((name.get_ref().clone(), *on));
-    }
-    for (name, value) in &file.start {
-        match value.get_ref() {
-            Value::Name(start) if name.get_ref() == "from" => {
-                find_start(description, start).map_err(refused(value.span()))?;
-                request.from = Some(start.clone());
-            }
-            Value::Number(number) => {
-                find_state(description, name.get_ref()).map_err(refused(name.span()))?;
-                let number = finite(value.span(), *number)?;
-                request.start.push((name.get_ref().clone(), number));
-            }
-            Value::Name(_) => {
-                let reason = "expected a number; a named start is given as from = \"…\"";
-                return Err(mistake(value.span(), reason.to_owned()));
-            }
-        }
-    }
-    Ok(SceneFile {
-        scene,
-        request,
-        outputs: file.outputs,
-    })
-}
-
-/// The file as it is written by [`write`].
-#[derive(Serialize)]
-struct Record<'a> {
-    scene: &'a str,
-    until: f64,
-    tolerance: f64,
-    method: String,
-    #[serde(skip_serializing_if = "is_false")]
-    project: bool,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    impacts: Option<String>,
-    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
-    parameters: BTreeMap<&'a str, f64>,
-    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
-    start: BTreeMap<&'a str, toml::Value>,
-    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
-    effects: BTreeMap<&'a str, bool>,
-    #[serde(skip_serializing_if = "Outputs::is_empty")]
-    outputs: &'a Outputs,
-}
-
-fn is_false(flag: &bool) -> bool {
-    !flag
-}
-
-/// The scene file of a run; [`read`] gives the same run again.
-///
-/// # Errors
-/// What cannot be written in TOML, as a path that is not Unicode.
-pub fn write(
-    scene: &dyn Scene,
-    request: &Request,
-    outputs: &Outputs,
-) -> Result<String, toml::ser::Error> {
-    let numbers = request.start.iter();
-    let numbers = numbers.map(|(name, value)| (name.as_str(), toml::Value::Float(*value)));
-    let from = request.from.iter();
-    let from = from.map(|name| ("from", toml::Value::String(name.clone())));
-    let pairs = request.parameters.iter();
-    toml::to_string(&Record {
-        scene: scene.name(),
-        until: request.until.unwrap_or(scene.until()),
-        tolerance: request.tolerance,
-        method: request.method.to_string(),
-        project: request.project,
-        impacts: request.impacts.map(|impacts| impacts.to_string()),
-        parameters: pairs.map(|(name, value)| (name.as_str(), *value)).collect(),
-        start: from.chain(numbers).collect(),
-        effects: request
-            .effects
-            .iter()
-            .map(|(name, on)| (name.as_str(), *on))
-            .collect(),
-        outputs,
-    })
-}
+/// The keys of a scene file, outside and inside of its table `outputs`.
+const KEYS: [&str; 11] = [
+    "scene",
+    "until",
+    "end_after",
+    "tolerance",
+    "method",
+    "project",
+    "impacts",
+    "parameters",
+    "start",
+    "effects",
+    "outputs",
+];
+const OUTPUTS: [&str; 5] = ["format", "output", "plot", "ledger", "samples"];
 
 #[cfg(test)]
 mod tests;

@@ -4,17 +4,31 @@
 //! runs a worker had before. Points are worked off in chunks; a [`Journal`] keeps each chunk as it is done, so that a sweep that
 //! is killed goes on where it was.
 
+mod axis;
+mod failure;
 mod journal;
+pub mod launch;
 mod observe;
 mod points;
+mod quantile;
+mod recipe;
+mod sample;
+mod shard;
+mod sobol;
 mod summary;
+#[cfg(feature = "mpi")]
+pub mod team;
 mod work;
 mod worker;
 
-pub use journal::{Journal, Trouble};
+pub use axis::Axis;
+pub use failure::reason;
+pub use journal::{Journal, Missing, Trouble};
 pub use observe::Observation;
-pub use points::{Axis, Points, Sampling};
-pub use summary::{Column, Summary};
+pub(crate) use observe::event;
+pub use points::{Kind, Points, Sampling};
+pub use shard::Shard;
+pub use summary::{Column, Failed, QUANTILES, Summary};
 pub use work::work;
 pub(crate) use worker::worker;
 
@@ -62,7 +76,7 @@ impl Sweep {
         Ok(sweep)
     }
 
-    /// Numbers that are kept of a run: what is observed, then 0, or 1 if it failed.
+    /// Numbers that are kept of a run: what is observed, then 0, or the number of the [`reason`] why it failed.
     pub fn width(&self) -> usize {
         self.observed.len() + 1
     }
@@ -75,31 +89,6 @@ impl Sweep {
     /// Numbers of the points of a chunk.
     pub fn chunk(&self, index: usize) -> Range<usize> {
         index * CHUNK..((index + 1) * CHUNK).min(self.points.len())
-    }
-
-    /// The sweep in words: two that say the same have the same results.
-    pub fn signature(&self) -> String {
-        let Request {
-            parameters,
-            from,
-            effects,
-            start,
-            until,
-            tolerance,
-            method,
-            project,
-            ..
-        } = &self.request;
-        let axes: Vec<String> = self.points.axes.iter().map(ToString::to_string).collect();
-        let observed: Vec<&str> = self.observed.iter().map(|o| o.name.as_str()).collect();
-        format!(
-            "lagrange {} {}\nparameters {parameters:?}\nstart {from:?} {start:?}\neffects {effects:?}\n\
-             until {until:?} tolerance {tolerance:e} method {method} project {project}\n\
-             points {axes:?} {:?}\nobserved {observed:?}\nchunks of {CHUNK}\n",
-            env!("CARGO_PKG_VERSION"),
-            self.scene.name(),
-            self.points.sampling,
-        )
     }
 }
 

@@ -137,6 +137,21 @@ fn quantity_of(name: &str, description: &'static Description) -> Result<What, Re
     })
 }
 
+/// What `item kind` names, an event at its first occurrence.
+pub(crate) fn event(
+    text: &str,
+    description: &'static Description,
+) -> Result<(Subject, EventKind), Refusal> {
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    match event_of(&words, description)? {
+        At::Event(event, 1) => Ok((event.subject, event.kind)),
+        _ => {
+            let first = words.trim_end_matches(|c: char| c.is_ascii_digit() || c == ' ');
+            Err(Refusal::unknown("first event", text, [first].into_iter()))
+        }
+    }
+}
+
 /// `item kind`, `item kind 2`
 fn event_of(text: &str, description: &'static Description) -> Result<At, Refusal> {
     let words: Vec<&str> = text.split(' ').collect();
@@ -176,8 +191,12 @@ fn event_of(text: &str, description: &'static Description) -> Result<At, Refusal
         "" if kinds().count() == 1 => kinds().next(),
         _ => kinds().find(|known| known.word() == kind),
     };
-    let words = || kinds().map(|kind| kind.word());
-    let kind = *found.ok_or_else(|| Refusal::unknown("event of it", kind, words()))?;
+    let kind = *found.ok_or_else(|| {
+        let known: Vec<String> = kinds()
+            .map(|kind| format!("{item} {}", kind.word()))
+            .collect();
+        Refusal::unknown("event", text, known.iter().map(String::as_str))
+    })?;
     let number = number
         .ok_or_else(|| Refusal::unknown("number of an event", text, ["1", "2"].into_iter()))?;
     Ok(At::Event(Sought { subject, kind }, number))

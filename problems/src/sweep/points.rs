@@ -1,109 +1,95 @@
 //! The points of a sweep: a grid, or a sample of a box. Point number i is the same whoever asks for it.
 
+use super::{Axis, sample, sobol};
 use core::fmt;
 use core::str::FromStr;
-
-/// One number that is varied.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Axis {
-    /// A parameter, a coordinate (`theta`) or a velocity (`der(theta)`) of the start.
-    pub name: String,
-    /// First value.
-    pub from: f64,
-    /// Last value.
-    pub to: f64,
-    /// Number of values; 1 for a sample, which takes them anywhere.
-    pub count: usize,
-    /// Whether values are spaced by equal ratios.
-    pub logarithmic: bool,
-}
-
-impl Axis {
-    /// The value at a part of the way, 0 … 1.
-    fn at(&self, part: f64) -> f64 {
-        if part == 1.0 {
-            self.to
-        } else if self.logarithmic {
-            self.from * (self.to / self.from).powf(part)
-        } else {
-            self.from + (self.to - self.from) * part
-        }
-    }
-
-    /// Value number `index` of a grid.
-    fn value(&self, index: usize) -> f64 {
-        match self.count {
-            1 => self.from,
-            _ => self.at(index as f64 / (self.count - 1) as f64),
-        }
-    }
-}
-
-/// `name=from..to`, `name=from..to:count` or `name=from..to:count:log`.
-impl FromStr for Axis {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let form = "expected name=from..to:count, for example mass=0.1..2:50";
-        let (name, range) = text.split_once('=').ok_or(form)?;
-        let (from, rest) = range.split_once("..").ok_or(form)?;
-        let mut rest = rest.split(':');
-        let number = |text: &str| match text.trim().parse::<f64>() {
-            Ok(value) if value.is_finite() => Ok(value),
-            _ => Err(format!("`{}` is not a finite number", text.trim())),
-        };
-        let (from, to) = (number(from)?, number(rest.next().ok_or(form)?)?);
-        let count = match rest.next() {
-            None => 1,
-            Some(count) => match count.trim().parse::<usize>() {
-                Ok(count) if count > 0 => count,
-                _ => return Err(format!("`{}` is not a number of values", count.trim())),
-            },
-        };
-        let logarithmic = match rest.next().map(str::trim) {
-            None => false,
-            Some("log") => true,
-            Some(other) => return Err(format!("`{other}` is not a spacing; there is `log`")),
-        };
-        if logarithmic && !(from > 0.0 && to > 0.0) {
-            return Err("equal ratios need values above 0".to_owned());
-        }
-        match (name.trim(), rest.next()) {
-            ("", _) | (_, Some(_)) => Err(form.to_owned()),
-            (name, None) => Ok(Axis {
-                name: name.to_owned(),
-                from,
-                to,
-                count,
-                logarithmic,
-            }),
-        }
-    }
-}
-
-impl fmt::Display for Axis {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}={}..{}:{}", self.name, self.from, self.to, self.count)?;
-        match self.logarithmic {
-            true => write!(f, ":log"),
-            false => Ok(()),
-        }
-    }
-}
 
 /// How points are chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sampling {
     /// Every combination of the values of the axes; the last axis runs fastest.
     Grid,
-    /// Points of a Sobol sequence with Owen's scrambling (Burley 2020, Practical hash-based Owen scrambling): they fill the box
-    /// more evenly than random ones.
-    Sobol {
+    /// So many points of the box.
+    Sample {
+        /// How they are spread.
+        kind: Kind,
         /// Number of points.
         count: usize,
-        /// Chooses one of many such sequences.
+        /// Chooses one of many such samples.
         seed: u32,
     },
+}
+
+/// How the points of a sample are spread.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A Sobol sequence, scrambled (Owen 1995): fills the box more evenly than random points. The first 2ᵏ points are the most even.
+    Sobol,
+    /// Independently of each other.
+    Random,
+    /// A Latin hypercube (McKay, Beckman and Conover 1979): of as many slices of an axis as there are points, each has one.
+    Latin,
+}
+
+impl Kind {
+    const ALL: [(&'static str, Kind); 3] = [
+        ("sobol", Kind::Sobol),
+        ("random", Kind::Random),
+        ("lhs", Kind::Latin),
+    ];
+}
+
+impl Sampling {
+    /// The sample of the same kind and size with this seed.
+    pub fn seeded(self, seed: u32) -> Self {
+        match self {
+            Sampling::Grid => Sampling::Grid,
+            Sampling::Sample { kind, count, .. } => Sampling::Sample { kind, count, seed },
+        }
+    }
+
+    /// Which of many samples, if it is one.
+    pub fn seed(self) -> Option<u32> {
+        match self {
+            Sampling::Grid => None,
+            Sampling::Sample { seed, .. } => Some(seed),
+        }
+    }
+}
+
+/// `sobol:N`, `random:N` or `lhs:N`, with the seed 0.
+impl FromStr for Sampling {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let (word, count) = text.split_once(':').unwrap_or((text, ""));
+        let kind = Kind::ALL.iter().find(|(name, _)| *name == word);
+        let count = count.parse().ok();
+        match (kind, count) {
+            (Some(&(_, kind)), Some(count)) if (1..=1 << 32).contains(&count) => {
+                Ok(Sampling::Sample {
+                    kind,
+                    count,
+                    seed: 0,
+                })
+            }
+            _ => Err("expected sobol:N, random:N or lhs:N with a number of points N".to_owned()),
+        }
+    }
+}
+
+/// Without the seed.
+impl fmt::Display for Sampling {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Sampling::Grid => write!(f, "grid"),
+            Sampling::Sample { kind, count, .. } => {
+                let known = Kind::ALL.iter().find(|(_, other)| other == kind);
+                let word = known.map_or("", |(name, _)| name);
+                write!(f, "{word}:{count}")
+            }
+        }
+    }
 }
 
 /// The points of a sweep.
@@ -119,8 +105,11 @@ impl Points {
     /// Number of points.
     pub fn len(&self) -> usize {
         match self.sampling {
-            Sampling::Grid => self.axes.iter().map(|axis| axis.count).product(),
-            Sampling::Sobol { count, .. } => count,
+            Sampling::Grid => self
+                .axes
+                .iter()
+                .fold(1, |count, axis| count.saturating_mul(axis.count)),
+            Sampling::Sample { count, .. } => count,
         }
     }
 
@@ -139,11 +128,14 @@ impl Points {
                     rest /= axis.count;
                 }
             }
-            Sampling::Sobol { seed, .. } => {
-                let dimensions = self.axes.iter().zip(point).zip(0..);
-                for ((axis, value), dimension) in dimensions {
-                    let part = sobol_burley::sample(index as u32, dimension, seed);
-                    *value = axis.at(f64::from(part));
+            Sampling::Sample { kind, count, seed } => {
+                for ((dimension, axis), value) in self.axes.iter().enumerate().zip(point) {
+                    let (seed, index) = (seed.into(), index as u64);
+                    *value = axis.at(match kind {
+                        Kind::Sobol => sobol::coordinate(seed, dimension, index),
+                        Kind::Random => sample::random(seed, dimension, index),
+                        Kind::Latin => sample::latin(seed, dimension, index, count as u64),
+                    });
                 }
             }
         }
@@ -152,32 +144,7 @@ impl Points {
 
 #[cfg(test)]
 mod tests {
-    use super::{Axis, Points, Sampling};
-
-    #[test]
-    fn axes_are_read() {
-        let axis: Axis = "mu = 0.1..1:4".parse().expect("an axis");
-        assert_eq!((axis.name.as_str(), axis.count), ("mu", 4));
-        let values: Vec<f64> = (0..4).map(|i| axis.value(i)).collect();
-        for (value, expected) in values.iter().zip([0.1, 0.4, 0.7, 1.0]) {
-            assert!((value - expected).abs() < 1e-15);
-        }
-        let axis: Axis = "k=1e-2..1e4:7:log".parse().expect("an axis");
-        assert!((axis.value(3) - 10.0).abs() < 1e-13 && axis.value(6) == 1e4);
-        for wrong in [
-            "",
-            "mu",
-            "mu=1",
-            "mu=1..",
-            "=1..2:3",
-            "mu=1..2:0",
-            "mu=1..2:3:lin",
-            "mu=0..2:3:log",
-            "mu=1..inf:2",
-        ] {
-            assert!(wrong.parse::<Axis>().is_err(), "{wrong}");
-        }
-    }
+    use super::{Points, Sampling};
 
     #[test]
     fn a_grid_has_every_combination_once() {
@@ -206,24 +173,82 @@ mod tests {
         );
     }
 
-    #[test]
-    fn a_sobol_sample_fills_the_box_evenly() {
-        let axes = ["a=0..1", "b=2..4"].map(|axis| axis.parse().expect("an axis"));
+    /// All points of a sample of the unit square.
+    fn square(sample: &str) -> Vec<[f64; 2]> {
+        let axes = ["a=0..1", "b=0..1"].map(|axis| axis.parse().expect("an axis"));
+        let sampling: Sampling = sample.parse().expect("a sample");
         let points = Points {
             axes: axes.to_vec(),
-            sampling: Sampling::Sobol {
-                count: 1024,
-                seed: 7,
-            },
+            sampling: sampling.seeded(7),
         };
-        // Elementary intervals: each of 32 × 32 boxes holds one of 1024 points of a (0, 2)-sequence.
-        let mut boxes = vec![0; 1024];
         let mut point = [0.0; 2];
-        for i in 0..1024 {
+        let mut all = Vec::new();
+        for i in 0..points.len() {
             points.write(i, &mut point);
-            let cell = |x: f64| (x * 32.0) as usize;
-            boxes[cell(point[0]) * 32 + cell((point[1] - 2.0) / 2.0)] += 1;
+            all.push(point);
         }
-        assert!(boxes.iter().all(|count| *count == 1));
+        all
+    }
+
+    #[test]
+    fn a_sobol_sample_fills_the_box_evenly() {
+        // Elementary intervals: each box of 2ᵃ × 2ᵇ with a + b = 10 holds one of 1024 points of a (0, 2)-sequence, also of those
+        // after the first 2¹⁶.
+        let points = square("sobol:132096");
+        for run in [0..1024, 131_072..132_096] {
+            for wide in 0..=10 {
+                let mut boxes = vec![0; 1024];
+                for [x, y] in &points[run.clone()] {
+                    let cell = |x: f64, power: i32| (x * 2_f64.powi(power)) as usize;
+                    boxes[cell(*x, wide) << (10 - wide) | cell(*y, 10 - wide)] += 1;
+                }
+                assert!(boxes.iter().all(|count| *count == 1), "{run:?} {wide}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_latin_hypercube_has_a_point_in_each_slice() {
+        for count in [1, 2, 3, 1000, 1024, 1025] {
+            let points = square(&format!("lhs:{count}"));
+            for axis in 0..2 {
+                let mut slices = vec![0; count];
+                for point in &points {
+                    slices[(point[axis] * count as f64) as usize] += 1;
+                }
+                assert!(slices.iter().all(|n| *n == 1), "{count}");
+            }
+        }
+    }
+
+    #[test]
+    fn random_points_are_spread_as_chance_would() {
+        // χ² over 1024 boxes with 1023 degrees of freedom: mean 1023, deviation √2046 = 45.
+        let points = square("random:102400");
+        let mut boxes = vec![0.0; 1024];
+        let mut product = 0.0;
+        for [x, y] in &points {
+            boxes[((x * 32.0) as usize) * 32 + (y * 32.0) as usize] += 1.0;
+            product += (x - 0.5) * (y - 0.5);
+        }
+        let chi: f64 = boxes
+            .iter()
+            .map(|n: &f64| (n - 100.0).powi(2) / 100.0)
+            .sum();
+        assert!((chi - 1023.0).abs() < 4.0 * 45.2, "{chi}");
+        // Covariance 0 with deviation 1/12 √n.
+        assert!(product.abs() < 4.0 / 12.0 * 320.0, "{product}");
+    }
+
+    #[test]
+    fn seeds_and_samples_are_read() {
+        for wrong in ["sobol", "sobol:0", "sobol:x", "halton:5", ""] {
+            assert!(wrong.parse::<Sampling>().is_err(), "{wrong}");
+        }
+        for right in ["sobol:10", "random:3", "lhs:100"] {
+            let sampling: Sampling = right.parse().expect("a sample");
+            assert_eq!(sampling.to_string(), right);
+        }
+        assert_ne!(square("random:3"), square("lhs:3"));
     }
 }

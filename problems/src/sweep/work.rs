@@ -1,6 +1,6 @@
 //! Workers: the chunks that are not done yet, shared out over the cores.
 
-use super::{Journal, Sweep, Trouble};
+use super::{Journal, Sweep, Trouble, Worker};
 use rayon::prelude::*;
 
 /// Works off the chunks that the journal does not have and that are `ours`. `done` is told how many points each adds.
@@ -20,18 +20,23 @@ pub fn work(
         // Names and numbers were checked when the sweep was made.
         || sweep.scene.worker(sweep).ok(),
         |worker, chunk| {
-            let points = sweep.chunk(chunk);
-            let mut rows = vec![f64::NAN; points.len() * sweep.width()];
-            let mut point = vec![0.0; sweep.points.axes.len()];
-            if let Some(worker) = worker {
-                for (row, index) in rows.chunks_exact_mut(sweep.width()).zip(points.clone()) {
-                    sweep.points.write(index, &mut point);
-                    worker(&point, row);
-                }
-            }
-            journal.put(chunk, rows)?;
-            done(points.len());
+            journal.put(sweep, chunk, rows(sweep, worker.as_mut(), chunk))?;
+            done(sweep.chunk(chunk).len());
             Ok(())
         },
     )
+}
+
+/// The rows of a chunk.
+pub(super) fn rows(sweep: &Sweep, worker: Option<&mut Worker>, chunk: usize) -> Vec<f64> {
+    let points = sweep.chunk(chunk);
+    let mut rows = vec![f64::NAN; points.len() * sweep.width()];
+    let mut point = vec![0.0; sweep.points.axes.len()];
+    if let Some(worker) = worker {
+        for (row, index) in rows.chunks_exact_mut(sweep.width()).zip(points) {
+            sweep.points.write(index, &mut point);
+            worker(&point, row);
+        }
+    }
+    rows
 }

@@ -1,5 +1,6 @@
 //! A worker: one runner, from point to point.
 
+use super::failure::code;
 use super::{Sweep, Worker};
 use crate::request::{Quantity, Refusal, Start, find_parameter, find_state};
 use lagrange_core::prelude::*;
@@ -56,7 +57,7 @@ pub(crate) fn worker<S: System<Scalar = f64> + Default + Send + 'static>(
             Some(parts) => parts,
             None => return,
         };
-        *failed = f64::from(u8::from(outcome.is_err()));
+        *failed = outcome.as_ref().err().map_or(0.0, code);
         for (value, observation) in observed.iter_mut().zip(&sweep.observed) {
             *value = match outcome {
                 Ok(()) => observation.read(runner.trajectory()),

@@ -3,6 +3,7 @@
 use expect_test::{Expect, expect};
 use lagrange_core::prelude::*;
 use lagrange_problems::scenes::{CartesianPendulum, MassOnWheel};
+use lagrange_tests::{first_start, run_by};
 use std::fmt::Write;
 
 const METHODS: [&str; 7] = [
@@ -22,12 +23,7 @@ fn check<S: System<Scalar = f64> + Default>(until: f64, tolerance: f64, expected
         "method        steps  rejected  evaluations  series  factorizations  projections\n",
     );
     for name in METHODS {
-        let method: Method = name.parse().expect("a method");
-        let run = Simulation::new(&scene)
-            .method(method)
-            .tolerance(tolerance)
-            .run(first_start(&scene), 0.0..until)
-            .unwrap_or_else(|failure| panic!("{name}: {failure}"));
+        let run = run_by(&scene, (name, tolerance), first_start(&scene), until);
         let w = run.work();
         writeln!(
             table,
@@ -37,16 +33,6 @@ fn check<S: System<Scalar = f64> + Default>(until: f64, tolerance: f64, expected
         .expect("a string");
     }
     expected.assert_eq(&table);
-}
-
-fn first_start<S: System<Scalar = f64>>(scene: &S) -> State<f64> {
-    let n = S::DESCRIPTION.coordinates.len();
-    let mut start = State {
-        q: vec![0.0; n],
-        v: vec![0.0; n],
-    };
-    scene.start(0, 0.0, &mut start.q, &mut start.v);
-    start
 }
 
 #[test]
@@ -90,11 +76,7 @@ fn pendulum(method: &str, tolerance: f64) -> (f64, f64) {
     let scene = CartesianPendulum::default();
     let start = scene.at(<CartesianPendulum>::KICKED);
     let exact = scene.closed_form(&start, 2.0).expect("a pendulum");
-    let run = Simulation::new(&scene)
-        .method(method.parse().expect("a method"))
-        .tolerance(tolerance)
-        .run(start, 0.0..2.0)
-        .unwrap_or_else(|failure| panic!("{method}: {failure}"));
+    let run = run_by(&scene, (method, tolerance), start, 2.0);
     let end = run.final_state();
     let found = end.q.iter().chain(&end.v);
     let pairs = found.zip(exact.state.q.iter().chain(&exact.state.v));

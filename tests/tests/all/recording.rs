@@ -3,6 +3,7 @@
 use lagrange_core::prelude::*;
 use lagrange_problems::scenes::hard::{CueBall, HoopBead, InclineBlock, TurningPush};
 use lagrange_problems::scenes::*;
+use lagrange_tests::{first_start, run_by};
 use std::alloc::{GlobalAlloc, Layout, System as Heap};
 use std::cell::Cell;
 
@@ -51,11 +52,7 @@ fn steps_do_not_allocate<S: System<Scalar = f64>>(scene: &S) {
         let counted = |until: f64| {
             let start = first_start(scene);
             let before = ALLOCATIONS.get();
-            let run = Simulation::new(scene)
-                .method(method.parse().expect("a method"))
-                .tolerance(1e-9)
-                .run(start, 0.0..until)
-                .unwrap_or_else(|failure| panic!("{failure}"));
+            let run = run_by(scene, (method, 1e-9), start, until);
             (ALLOCATIONS.get() - before, run.work().steps)
         };
         counted(1.0);
@@ -69,16 +66,6 @@ fn steps_do_not_allocate<S: System<Scalar = f64>>(scene: &S) {
             "{method}: {short} allocations in {few} steps, {long} in {many}"
         );
     }
-}
-
-fn first_start<S: System<Scalar = f64>>(scene: &S) -> State<f64> {
-    let n = S::DESCRIPTION.coordinates.len();
-    let mut start = State {
-        q: vec![0.0; n],
-        v: vec![0.0; n],
-    };
-    scene.start(0, 0.0, &mut start.q, &mut start.v);
-    start
 }
 
 #[test]

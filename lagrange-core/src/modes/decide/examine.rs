@@ -58,7 +58,6 @@ impl<T: Scalar> Decider<T> {
         moment: Moment<'_, T>,
         mode: &Mode,
         known: &Known,
-        last: bool,
     ) -> Result<bool, EvaluationError> {
         let Moment { t, q, v, .. } = moment;
         self.posed.clone_from(mode);
@@ -87,12 +86,7 @@ impl<T: Scalar> Decider<T> {
             return Ok(self.violated.is_empty());
         }
         let settled = self.zeros.len();
-        let low = if last {
-            moment.order
-        } else {
-            LOW_ORDER.min(moment.order)
-        };
-        for order in [low, moment.order] {
+        for order in [LOW_ORDER.min(moment.order), moment.order] {
             dynamics.series(t, q, v, order)?;
             self.decision.expanded = serves && order == moment.order;
             match self.judge(dynamics, moment, known, order) {

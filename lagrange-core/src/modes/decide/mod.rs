@@ -210,10 +210,8 @@ impl<T: Scalar> Decider<T> {
             if best.is_some_and(|best: usize| unique || sticks(&candidates[best]) > sticks(mode)) {
                 continue;
             }
-            // What is found of the last one serves the coming step.
-            let last = best.is_none() && index + 1 == candidates.len();
             self.decision.expanded = false;
-            let outcome = self.examine(dynamics, table, moment, mode, known, last);
+            let outcome = self.examine(dynamics, table, moment, mode, known);
             // Another than the best leaves its own series behind.
             self.decision.expanded &= best.is_none();
             match outcome {

@@ -77,7 +77,7 @@ impl<T: Scalar> Decider<T> {
             if mode == *present && !known.located.is_empty() {
                 // A root of the present mode falls through zero: that mode is over.
                 self.violated.clone_from(&known.located);
-            } else if self.examine(dynamics, table, moment, &mode, known, false)? {
+            } else if self.examine(dynamics, table, moment, &mode, known)? {
                 self.decision.ambiguous = self.forks;
                 self.keep(dynamics);
                 return Ok(true);

@@ -1,6 +1,6 @@
 //! Expressions and comparisons.
 
-use super::{Index, Name};
+use super::{Index, Name, Reference};
 use crate::diagnostics::Extent;
 
 /// An expression.
@@ -10,6 +10,24 @@ pub struct Expr {
     pub kind: ExprKind,
     /// From its first to its last token.
     pub extent: Extent,
+}
+
+impl Expr {
+    /// The use of a name that this is, if it is nothing more: `x`, or `x[2]`.
+    pub fn as_reference(&self) -> Option<Reference> {
+        let (name, element) = match &self.kind {
+            ExprKind::Name(name) => (name, None),
+            ExprKind::Element(base, index) => match &base.kind {
+                ExprKind::Name(name) => (name, Some((**index).clone())),
+                _ => return None,
+            },
+            _ => return None,
+        };
+        Some(Reference {
+            name: name.clone(),
+            element,
+        })
+    }
 }
 
 /// digits · 10^exponent

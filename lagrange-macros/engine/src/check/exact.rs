@@ -5,11 +5,11 @@
 //! ≤ (d/2^61)^k; k is as large as it takes to bring that below 2^-120.
 
 use super::arithmetic::{Arithmetic, Exact};
+use super::degree::degree;
 use super::mechanics::Mechanics;
-use super::modes::{Grip, Mode};
+use super::modes::Mode;
 use super::motion::{Stuck, Tie, accelerations, rank, velocities};
-use crate::model::Normal;
-use crate::symbolic::field::{Angles, Degree, PRIMES, Point, Trouble};
+use crate::symbolic::field::{Angles, PRIMES, Point, Trouble};
 use crate::symbolic::{ExprId, Node, Pool, Symbol};
 use std::collections::BTreeSet;
 
@@ -202,110 +202,4 @@ fn at_point(pool: &Pool, case: &Case, point: &mut Exact) -> Result<(u64, Option<
         .into_iter()
         .find(|&symbol| pool.depends_on(case.claim, symbol));
     Ok((value, open.map(|symbol| pool.name(symbol).to_owned())))
-}
-
-/// A bound of the degree of the claim's numerator.
-fn degree(pool: &Pool, case: &Case, angles: &Angles) -> f64 {
-    let mechanics = case.mechanics;
-    let active = case.mode.active(mechanics);
-    // Fields are squares of random elements.
-    let base = |symbol: Symbol| {
-        Degree::polynomial(if mechanics.parameters.contains(&symbol) {
-            2.0
-        } else {
-            1.0
-        })
-    };
-    let of = |e: &[ExprId], symbol: &dyn Fn(Symbol) -> Degree| pool.degrees(e, angles, symbol);
-    let sum = |rows: &[Vec<Degree>]| {
-        // Cramer: determinants of rows that are brought to common denominators.
-        let heights = rows.iter().map(|row| Degree::of_sum(row).above);
-        let total: f64 = heights.sum();
-        Degree {
-            above: total,
-            below: total,
-        }
-    };
-    let row = |row: usize| &mechanics.rows[row];
-    let mut rows = Vec::new();
-    for &r in &active {
-        let entries = row(r).jacobian.iter().map(|&(_, e)| e);
-        rows.push(of(
-            &entries.chain([row(r).velocity]).collect::<Vec<_>>(),
-            &base,
-        ));
-    }
-    for tie in case.ties {
-        let entries = tie.jacobian.iter().map(|&(_, e)| e);
-        rows.push(of(&entries.chain([tie.whole]).collect::<Vec<_>>(), &base));
-    }
-    let velocity = if rows.is_empty() {
-        Degree::polynomial(1.0)
-    } else {
-        sum(&rows)
-    };
-    let moving = |symbol: Symbol| {
-        if mechanics.coordinates.iter().any(|q| q[1] == symbol) {
-            velocity
-        } else {
-            base(symbol)
-        }
-    };
-    // What a slipping friction multiplies its row by.
-    let mut factors = vec![Degree::NUMBER; mechanics.rows.len()];
-    for (friction, grip) in mechanics.frictions.iter().zip(&case.mode.grips) {
-        if !matches!(grip, Grip::Slips { .. }) {
-            continue;
-        }
-        let mut parts = vec![friction.kinetic_coefficient];
-        match friction.normal {
-            Normal::Given(e) => parts.push(e),
-            Normal::Contact(contact) => parts.extend(mechanics.contacts[contact].0),
-            Normal::Constraint(_) => {}
-        }
-        if friction.rows.len() > 1 {
-            parts.extend(friction.rows.iter().map(|&r| row(r).velocity));
-            parts.extend(friction.rows.iter().map(|&r| row(r).velocity));
-        }
-        let parts = of(&parts, &moving).into_iter();
-        let factor = parts.fold(Degree::NUMBER, Degree::times);
-        for &r in &friction.rows {
-            factors[r] = factor;
-        }
-    }
-    let n = mechanics.coordinates.len();
-    let forcing = of(&mechanics.forcing, &moving);
-    let mut rows: Vec<Vec<Degree>> = forcing.into_iter().map(|f| vec![f]).collect();
-    let mass: Vec<ExprId> = mechanics.mass.iter().map(|m| m.2).collect();
-    for (&(i, j, _), degree) in mechanics.mass.iter().zip(of(&mass, &moving)) {
-        rows[i].push(degree);
-        if i != j {
-            rows[j].push(degree);
-        }
-    }
-    for (r, factor) in factors.iter().enumerate() {
-        let entries: Vec<ExprId> = row(r).jacobian.iter().map(|&(_, e)| e).collect();
-        let entries = of(&entries, &moving);
-        for (&(j, _), degree) in row(r).jacobian.iter().zip(&entries) {
-            rows[j].push(degree.times(*factor));
-        }
-        if active.contains(&r) {
-            let mut equation = entries;
-            equation.extend(of(&[row(r).bias], &moving));
-            rows.push(equation);
-        }
-    }
-    for &(i, r, e) in &mechanics.couplings {
-        rows[i].push(of(&[e], &moving)[0].times(factors[r]));
-    }
-    debug_assert_eq!(rows.len(), n + active.len());
-    let solved = sum(&rows);
-    let known = |symbol: Symbol| {
-        if mechanics.coordinates.iter().any(|q| q[2] == symbol) {
-            return solved;
-        }
-        let own = mechanics.rows.iter().position(|r| r.force == symbol);
-        own.map_or_else(|| moving(symbol), |r| solved.times(factors[r]))
-    };
-    of(&[case.claim], &known)[0].above
 }

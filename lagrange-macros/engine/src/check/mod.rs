@@ -13,6 +13,7 @@
 
 mod arithmetic;
 mod bounded;
+mod degree;
 mod exact;
 mod linear;
 mod mechanics;

@@ -85,28 +85,11 @@ pub(super) fn derive(pool: &mut Pool, x: &Variables, group: &Group) -> Inertia {
         .iter()
         .map(|&i| (i, pool.differentiate(group.kinetic, x.velocities[i])))
         .collect();
-
-    let mut raw_mass = BTreeMap::new();
-    for &(i, p) in &raw_momenta {
-        if pool.is_full() {
-            break;
-        }
-        for j in x.velocities_in(pool, p).into_iter().filter(|&j| j <= i) {
-            raw_mass.insert((i, j), pool.differentiate(p, x.velocities[j]));
-        }
-    }
-    let mut mass = BTreeMap::new();
-    for (&place, &entry) in &raw_mass {
-        let entry = pool.simplify(entry);
-        if !pool.is_zero(entry) {
-            mass.insert(place, entry);
-        }
-    }
+    let mass = mass(pool, x, &raw_momenta);
     let quadratic = mass
         .values()
         .all(|&entry| x.velocities_in(pool, entry).is_empty());
     let expansion = quadratic.then(|| Quadratic::new(pool, x, group.kinetic, &raw_momenta, &mass));
-
     let (potential, conservative) = conservative(pool, x, group.potential);
 
     let small = moving.len() <= LARGE;
@@ -128,41 +111,83 @@ pub(super) fn derive(pool: &mut Pool, x: &Variables, group: &Group) -> Inertia {
     let company: Vec<ExprId> = mass.values().copied().collect();
     let forcing = cheapest(pool, &company, forms);
 
-    let (kinetic, momenta, motional, parts) = match &expansion {
-        Some(expansion) => {
-            let (kinetic, momenta) =
-                expansion.energy_and_momenta(pool, x, group.kinetic, &raw_momenta);
-            (
-                kinetic,
-                momenta,
-                expansion.motional(pool, x, kinetic),
-                expansion.coefficients(),
-            )
-        }
-        None => {
-            let kinetic = pool.simplify(group.kinetic);
-            let momenta: Vec<_> = raw_momenta
-                .iter()
-                .map(|&(i, p)| (i, pool.simplify(p)))
-                .collect();
-            let along = x.along_velocity(pool, &momenta);
-            let motional = pool.sub(along, kinetic);
-            (kinetic, momenta, pool.simplify(motional), vec![kinetic])
-        }
-    };
+    let energies = energies(pool, x, group.kinetic, &raw_momenta, expansion.as_ref());
+    let mut momenta = energies.momenta;
+    momenta.retain(|&(_, p)| !pool.is_zero(p));
     Inertia {
         need: group.need,
-        kinetic,
-        motional,
-        parts,
+        kinetic: energies.kinetic,
+        motional: energies.motional,
+        parts: energies.parts,
         potential,
-        momenta: momenta
-            .into_iter()
-            .filter(|&(_, p)| !pool.is_zero(p))
-            .collect(),
+        momenta,
         mass,
         forcing: present(pool, forcing),
         quadratic,
+    }
+}
+
+/// ((i, j ≤ i), ∂pᵢ/∂vⱼ) simplified, zeros left out.
+fn mass(
+    pool: &mut Pool,
+    x: &Variables,
+    momenta: &[(usize, ExprId)],
+) -> BTreeMap<(usize, usize), ExprId> {
+    let mut raw = BTreeMap::new();
+    for &(i, p) in momenta {
+        if pool.is_full() {
+            break;
+        }
+        for j in x.velocities_in(pool, p).into_iter().filter(|&j| j <= i) {
+            raw.insert((i, j), pool.differentiate(p, x.velocities[j]));
+        }
+    }
+    let mut mass = BTreeMap::new();
+    for (place, entry) in raw {
+        let entry = pool.simplify(entry);
+        if !pool.is_zero(entry) {
+            mass.insert(place, entry);
+        }
+    }
+    mass
+}
+
+/// T, ∂T/∂v, v·∂T/∂v − T, and what T depends on the positions by.
+struct Energies {
+    kinetic: ExprId,
+    momenta: Vec<(usize, ExprId)>,
+    motional: ExprId,
+    parts: Vec<ExprId>,
+}
+
+fn energies(
+    pool: &mut Pool,
+    x: &Variables,
+    kinetic: ExprId,
+    momenta: &[(usize, ExprId)],
+    expansion: Option<&Quadratic>,
+) -> Energies {
+    if let Some(expansion) = expansion {
+        let (kinetic, momenta) = expansion.energy_and_momenta(pool, x, kinetic, momenta);
+        return Energies {
+            kinetic,
+            momenta,
+            motional: expansion.motional(pool, x, kinetic),
+            parts: expansion.coefficients(),
+        };
+    }
+    let kinetic = pool.simplify(kinetic);
+    let momenta: Vec<_> = momenta
+        .iter()
+        .map(|&(i, p)| (i, pool.simplify(p)))
+        .collect();
+    let along = x.along_velocity(pool, &momenta);
+    let motional = pool.sub(along, kinetic);
+    Energies {
+        kinetic,
+        momenta,
+        motional: pool.simplify(motional),
+        parts: vec![kinetic],
     }
 }
 

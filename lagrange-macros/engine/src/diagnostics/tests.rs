@@ -3,6 +3,23 @@
 use super::{Code, Diagnostics};
 use proc_macro2::TokenStream;
 
+/// Whether each of these texts has one mistake, at its `line:column code`; tells of all that do not.
+#[track_caller]
+pub(crate) fn mistakes_are_at(wrong: &[(&str, &str)], read: impl Fn(&str) -> Result<(), String>) {
+    let mut failures = String::new();
+    for (text, expected) in wrong {
+        let found = read(text).err().unwrap_or("nothing wrong".to_owned());
+        let places: Vec<String> = found
+            .lines()
+            .map(|line| line.split(' ').take(2).collect::<Vec<_>>().join(" "))
+            .collect();
+        if places != [*expected] {
+            failures += &format!("{text}\n  expected {expected}\n  found {found}\n");
+        }
+    }
+    assert!(failures.is_empty(), "{failures}");
+}
+
 #[test]
 fn codes_are_distinct_and_ascending() {
     let codes: Vec<&str> = Code::ALL.iter().map(|code| code.row().code).collect();

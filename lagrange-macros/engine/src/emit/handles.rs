@@ -99,128 +99,73 @@ pub(super) fn inherent(target: TokenStream, constants: &[TokenStream]) -> TokenS
 
 /// All named items, in the order of the description.
 fn items(system: &System) -> Vec<Handle<'_>> {
+    let print = |e| format!("`{}`", system.pool.print(e));
+    let is = |e| format!(" = {}", print(e));
+    let nothing = String::new;
     let mut items = Vec::new();
-    let pool = &system.pool;
-    let mut add = |kind, index, name, text| {
-        items.push(Handle {
+    let s = system;
+    items.extend(of("CoordinateId", "Coordinate", &s.coordinates, |c| {
+        (&c.name, nothing())
+    }));
+    items.extend(of("KineticId", "Kinetic energy", &s.kinetic, |k| {
+        (&k.name, is(k.energy))
+    }));
+    items.extend(of("PotentialId", "Potential energy", &s.potential, |v| {
+        (&v.name, is(v.energy))
+    }));
+    items.extend(of("ConstraintId", "Constraint", &s.constraints, |c| {
+        (&c.name, format!(": `{} == 0`", s.pool.print(c.residual)))
+    }));
+    items.extend(of("ContactId", "Contact", &s.contacts, |c| {
+        (&c.name, format!(": `{} >= 0`", s.pool.print(c.gap)))
+    }));
+    items.extend(of("FrictionId", "Friction", &s.frictions, |f| {
+        let slip: Vec<String> = f.slip.iter().map(|&(slip, _)| print(slip)).collect();
+        let on = match f.normal {
+            Normal::Contact(c) => format!(" on contact `{}`", s.contacts[c].name.text),
+            Normal::Constraint(c) => format!(" on constraint `{}`", s.constraints[c].name.text),
+            Normal::Given(_) => String::new(),
+        };
+        (&f.name, format!("{on}: slip {}", slip.join(", ")))
+    }));
+    items.extend(of("ForceId", "Force", &s.forces, |f| {
+        (&f.name, is(f.value))
+    }));
+    items.extend(of("DissipationId", "Dissipation", &s.dissipations, |d| {
+        (&d.name, is(d.rayleigh))
+    }));
+    items.extend(of("StartId", "Start", &s.starts, |start| {
+        (&start.name, nothing())
+    }));
+    items.extend(of("StopId", "Stop", &s.stops, |stop| {
+        (&stop.name, nothing())
+    }));
+    items.extend(of("MarkId", "Mark", &s.marks, |mark| {
+        (&mark.name, nothing())
+    }));
+    items.extend(of("ObserveId", "Output", &s.observes, |o| {
+        (&o.name, is(o.value))
+    }));
+    items
+}
+
+/// Handles of a list: "Word `name`", and what `tell` says of each.
+fn of<'a, T>(
+    kind: &'static str,
+    word: &str,
+    list: &'a [T],
+    tell: impl Fn(&'a T) -> (&'a ItemName, String),
+) -> impl Iterator<Item = Handle<'a>> {
+    list.iter().enumerate().map(move |(index, item)| {
+        let (name, rest) = tell(item);
+        let text = format!("{word} `{}`{rest}.", name.text);
+        Handle {
             name,
             kind,
             index,
             text,
-        })
-    };
-    for (i, coordinate) in system.coordinates.iter().enumerate() {
-        add(
-            "CoordinateId",
-            i,
-            &coordinate.name,
-            format!("Coordinate `{}`.", coordinate.name.text),
-        );
-    }
-    for (i, term) in system.kinetic.iter().enumerate() {
-        let text = format!(
-            "Kinetic energy `{}` = `{}`.",
-            term.name.text,
-            pool.print(term.energy)
-        );
-        add("KineticId", i, &term.name, text);
-    }
-    for (i, term) in system.potential.iter().enumerate() {
-        let text = format!(
-            "Potential energy `{}` = `{}`.",
-            term.name.text,
-            pool.print(term.energy)
-        );
-        add("PotentialId", i, &term.name, text);
-    }
-    for (i, constraint) in system.constraints.iter().enumerate() {
-        let text = format!(
-            "Constraint `{}`: `{} == 0`.",
-            constraint.name.text,
-            pool.print(constraint.residual)
-        );
-        add("ConstraintId", i, &constraint.name, text);
-    }
-    for (i, contact) in system.contacts.iter().enumerate() {
-        let text = format!(
-            "Contact `{}`: `{} >= 0`.",
-            contact.name.text,
-            pool.print(contact.gap)
-        );
-        add("ContactId", i, &contact.name, text);
-    }
-    for (i, friction) in system.frictions.iter().enumerate() {
-        let slip: Vec<String> = friction
-            .slip
-            .iter()
-            .map(|(slip, _)| format!("`{}`", pool.print(*slip)))
-            .collect();
-        let on = match friction.normal {
-            Normal::Contact(contact) => {
-                format!(" on contact `{}`", system.contacts[contact].name.text)
-            }
-            Normal::Constraint(constraint) => format!(
-                " on constraint `{}`",
-                system.constraints[constraint].name.text
-            ),
-            Normal::Given(_) => String::new(),
-        };
-        let text = format!(
-            "Friction `{}`{on}: slip {}.",
-            friction.name.text,
-            slip.join(", ")
-        );
-        add("FrictionId", i, &friction.name, text);
-    }
-    for (i, force) in system.forces.iter().enumerate() {
-        let text = format!(
-            "Force `{}` = `{}`.",
-            force.name.text,
-            pool.print(force.value)
-        );
-        add("ForceId", i, &force.name, text);
-    }
-    for (i, item) in system.dissipations.iter().enumerate() {
-        let text = format!(
-            "Dissipation `{}` = `{}`.",
-            item.name.text,
-            pool.print(item.rayleigh)
-        );
-        add("DissipationId", i, &item.name, text);
-    }
-    for (i, start) in system.starts.iter().enumerate() {
-        add(
-            "StartId",
-            i,
-            &start.name,
-            format!("Start `{}`.", start.name.text),
-        );
-    }
-    for (i, stop) in system.stops.iter().enumerate() {
-        add(
-            "StopId",
-            i,
-            &stop.name,
-            format!("Stop `{}`.", stop.name.text),
-        );
-    }
-    for (i, mark) in system.marks.iter().enumerate() {
-        add(
-            "MarkId",
-            i,
-            &mark.name,
-            format!("Mark `{}`.", mark.name.text),
-        );
-    }
-    for (i, observe) in system.observes.iter().enumerate() {
-        let text = format!(
-            "Output `{}` = `{}`.",
-            observe.name.text,
-            pool.print(observe.value)
-        );
-        add("ObserveId", i, &observe.name, text);
-    }
-    items
+        }
+    })
 }
 
 /// `muStatic` and `mu_static` → `MU_STATIC`; `r#static` → `STATIC`.

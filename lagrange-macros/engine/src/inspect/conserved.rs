@@ -3,9 +3,11 @@
 use super::Conserved;
 use super::formula::{Formula, Statement};
 use super::letter::Letter;
-use super::motion::MOST_CYCLIC;
 use super::work::Work;
 use crate::symbolic::{ExprId, Symbol};
+
+/// Momenta that are shown.
+const MOST_CYCLIC: usize = 12;
 
 impl Work<'_> {
     /// Momenta of cyclic coordinates and the energy.

@@ -1,7 +1,7 @@
 //! What a right-hand side costs: operations per mode, and of each effect beside what it stands on.
 
 use super::Cost;
-use super::modes::{Choice, State};
+use super::choice::{Choice, State};
 use super::work::Work;
 use crate::derive::{NeedId, Stage};
 use crate::model::Normal;

@@ -5,9 +5,9 @@ use super::letter::Letter;
 use super::names::Names;
 use super::{Item, Part};
 use crate::ast::{
-    Action, Check, Claim, Clause, Contact, Declaration, Element, Friction, FrictionLaw, Head,
-    Impacts, Index, ItemKind, ModeWord, Observe, Order, Premise, Reference, Restitution, Start,
-    Trigger, Watch,
+    Action, Check, Claim, Clause, Contact, Coordinate, Declaration, Element, Expr, Friction,
+    FrictionLaw, Head, Impacts, Index, ItemKind, ModeWord, Observe, Order, Premise, Reference,
+    Restitution, Start, Trigger, Watch,
 };
 
 /// All items that say something about the system.
@@ -28,56 +28,27 @@ fn written(kind: &ItemKind, names: &Names, items: &mut Vec<Item>) {
         })
     };
     let formula = |e| Part::Formula(names.written(e));
+    let unnamed = String::new;
     match kind {
-        ItemKind::Coordinates(coordinates) => {
-            let mut parts = Vec::new();
-            for coordinate in coordinates {
-                let letter = Letter::new(&coordinate.name.text);
-                let Some(length) = &coordinate.length else {
-                    parts.push(Part::Formula(Formula::Letter(letter)));
-                    continue;
-                };
-                let length = length.to_string();
-                let last = match length.parse::<usize>() {
-                    Ok(count) => count.saturating_sub(1).to_string(),
-                    Err(_) => format!("{length}-1"),
-                };
-                parts.push(Part::Formula(Formula::Letter(letter.clone().element("0"))));
-                parts.push(Part::Word("…".to_owned()));
-                parts.push(Part::Formula(Formula::Letter(letter.element(&last))));
-            }
-            add("coordinates", String::new(), parts);
-        }
+        ItemKind::Coordinates(list) => add("coordinates", unnamed(), coordinates(list)),
         ItemKind::Define(definitions) => {
             for definition in definitions {
-                let letter = head_letter(&definition.head, names);
-                let statement =
-                    Statement::equal(Formula::Letter(letter), names.written(&definition.value));
-                let parts = vec![Part::Statement(statement)];
-                add("define", range(&definition.head.index), parts);
+                let defined = equal(&definition.head, &definition.value, names);
+                add("define", range(&definition.head.index), vec![defined]);
             }
         }
-        ItemKind::Kinetic(energy) => {
-            add("kinetic", name(&energy.head), vec![formula(&energy.value)])
+        ItemKind::Kinetic(term) => add("kinetic", name(&term.head), vec![formula(&term.value)]),
+        ItemKind::Potential(term) => {
+            add("potential", name(&term.head), vec![formula(&term.value)]);
         }
-        ItemKind::Potential(energy) => {
-            add(
-                "potential",
-                name(&energy.head),
-                vec![formula(&energy.value)],
-            );
-        }
-        ItemKind::Lagrangian(value) => add("lagrangian", String::new(), vec![formula(value)]),
-        ItemKind::Constraint(constraint) => {
-            let mut title = head_name(&constraint.head);
-            if let Some((_, contact)) = &constraint.while_contact {
-                title.push_str(&format!(" while {}", contact.name.text));
-            }
-            let statement = Statement::equal(
-                names.written(&constraint.left),
-                names.written(&constraint.right),
-            );
-            add("constraint", title, vec![Part::Statement(statement)]);
+        ItemKind::Lagrangian(value) => add("lagrangian", unnamed(), vec![formula(value)]),
+        ItemKind::Constraint(item) => {
+            let sides = (names.written(&item.left), names.written(&item.right));
+            let parts = vec![Part::Statement(Statement::equal(sides.0, sides.1))];
+            let contact = item.while_contact.as_ref();
+            let condition = contact.map(|(_, contact)| format!(" while {}", contact.name.text));
+            let title = head_name(&item.head) + &condition.unwrap_or_default();
+            add("constraint", title, parts);
         }
         ItemKind::Contact(item) => add("contact", head_name(&item.head), contact(item, names)),
         ItemKind::Friction(item) => {
@@ -86,86 +57,92 @@ fn written(kind: &ItemKind, names: &Names, items: &mut Vec<Item>) {
             add("friction", title, friction(item, names));
         }
         ItemKind::Force(force) => {
-            let parts = match &force.action {
-                Action::Generalized(coordinate, value) => vec![
-                    Part::Word("on".to_owned()),
-                    Part::Formula(names.reference(coordinate)),
-                    Part::Word(":".to_owned()),
-                    formula(value),
-                ],
-                Action::At(value, point) => {
-                    vec![formula(value), Part::Word("at".to_owned()), formula(point)]
-                }
-                Action::Along(value, speed) => {
-                    vec![
-                        formula(value),
-                        Part::Word("along".to_owned()),
-                        formula(speed),
-                    ]
-                }
-            };
-            add("force", head_name(&force.head), parts);
+            add(
+                "force",
+                head_name(&force.head),
+                action(&force.action, names),
+            );
         }
         ItemKind::Dissipation(item) => {
-            add(
-                "dissipation",
-                head_name(&item.head),
-                vec![formula(&item.value)],
-            );
+            let parts = vec![formula(&item.value)];
+            add("dissipation", head_name(&item.head), parts);
         }
         ItemKind::Start(item) => add("start", head_name(&item.head), start(item, names)),
         ItemKind::Observe(observes) => {
             let parts = observes.iter().map(|observe| match observe {
                 Observe::Known(name) => Part::Formula(Formula::Letter(names.declared(&name.text))),
-                Observe::New(head, value) => Part::Statement(Statement::equal(
-                    Formula::Letter(head_letter(head, names)),
-                    names.written(value),
-                )),
+                Observe::New(head, value) => equal(head, value, names),
             });
-            add("observe", String::new(), parts.collect());
+            add("observe", unnamed(), parts.collect());
         }
         ItemKind::Stop(watch) => add("stop", head_name(&watch.head), trigger(watch, names)),
         ItemKind::Mark(watch) => add("mark", head_name(&watch.head), trigger(watch, names)),
         ItemKind::Attitude(attitude) => {
             let quaternion = Formula::Letter(Letter::new(&attitude.coordinates.text));
-            add(
-                "attitude",
-                attitude.body.text.clone(),
-                vec![Part::Formula(quaternion)],
-            );
+            let body = attitude.body.text.clone();
+            add("attitude", body, vec![Part::Formula(quaternion)]);
         }
         ItemKind::Check(check) => add("check", name(&check.head), claim(check, names)),
-        ItemKind::Impacts(Impacts::InTurn) => {
-            add(
-                "impacts",
-                String::new(),
-                vec![Part::Word("in turn".to_owned())],
-            );
-        }
+        ItemKind::Impacts(Impacts::InTurn) => add("impacts", unnamed(), vec![word("in turn")]),
         ItemKind::Impacts(Impacts::Together) => {}
     }
 }
 
+fn word(text: &str) -> Part {
+    Part::Word(text.to_owned())
+}
+
+/// name = value
+fn equal(head: &Head, value: &Expr, names: &Names) -> Part {
+    let letter = Formula::Letter(head_letter(head, names));
+    Part::Statement(Statement::equal(letter, names.written(value)))
+}
+
+/// `x`, or `x₀ … xₙ`
+fn coordinates(coordinates: &[Coordinate]) -> Vec<Part> {
+    let mut parts = Vec::new();
+    for coordinate in coordinates {
+        let letter = Letter::new(&coordinate.name.text);
+        let Some(length) = &coordinate.length else {
+            parts.push(Part::Formula(Formula::Letter(letter)));
+            continue;
+        };
+        let length = length.to_string();
+        let last = match length.parse::<usize>() {
+            Ok(count) => count.saturating_sub(1).to_string(),
+            Err(_) => format!("{length}-1"),
+        };
+        parts.push(Part::Formula(Formula::Letter(letter.clone().element("0"))));
+        parts.push(word("…"));
+        parts.push(Part::Formula(Formula::Letter(letter.element(&last))));
+    }
+    parts
+}
+
+fn action(action: &Action, names: &Names) -> Vec<Part> {
+    let formula = |e| Part::Formula(names.written(e));
+    match action {
+        Action::Generalized(coordinate, value) => {
+            let coordinate = Part::Formula(names.reference(coordinate));
+            vec![word("on"), coordinate, word(":"), formula(value)]
+        }
+        Action::At(value, point) => vec![formula(value), word("at"), formula(point)],
+        Action::Along(value, speed) => vec![formula(value), word("along"), formula(speed)],
+    }
+}
+
 fn contact(contact: &Contact, names: &Names) -> Vec<Part> {
+    let formula = |e| Part::Formula(names.written(e));
     let mut parts = vec![Part::Statement(names.comparison(&contact.gap))];
-    let word = |text: &str, parts: &mut Vec<Part>| parts.push(Part::Word(text.to_owned()));
     if let Some(point) = &contact.at {
-        word("at", &mut parts);
-        parts.push(Part::Formula(names.written(point)));
+        parts.extend([word("at"), formula(point)]);
     }
     if let Some(region) = &contact.region {
-        word("where", &mut parts);
-        parts.push(Part::Statement(names.comparison(region)));
+        parts.extend([word("where"), Part::Statement(names.comparison(region))]);
     }
     match &contact.restitution {
-        Some(Restitution::Newton(e)) => {
-            word("restitution", &mut parts);
-            parts.push(Part::Formula(names.written(e)));
-        }
-        Some(Restitution::Poisson(e)) => {
-            word("restitution (Poisson)", &mut parts);
-            parts.push(Part::Formula(names.written(e)));
-        }
+        Some(Restitution::Newton(e)) => parts.extend([word("restitution"), formula(e)]),
+        Some(Restitution::Poisson(e)) => parts.extend([word("restitution (Poisson)"), formula(e)]),
         None => {}
     }
     parts
@@ -195,7 +172,6 @@ fn friction(friction: &Friction, names: &Names) -> Vec<Part> {
 }
 
 fn claim(check: &Check, names: &Names) -> Vec<Part> {
-    let word = |text: &str| Part::Word(text.to_owned());
     let equal = |a, b| Part::Statement(Statement::equal(names.written(a), names.written(b)));
     let mut parts = match &check.claim {
         Claim::Equal(left, right) => vec![equal(left, right)],

@@ -3,11 +3,16 @@
 //! A derivation is plain data; [`mod@print`] has the languages in which it can be said. It is read off the finished program:
 //! forms that are made for reading never reach the emitted code.
 
+mod choice;
 mod conserved;
 mod costs;
 mod declared;
 mod document;
 mod formula;
+mod friction;
+mod guards;
+mod impacts;
+mod kinetic;
 mod letter;
 mod modes;
 mod motion;
@@ -25,9 +30,9 @@ use crate::ast::Declaration;
 use crate::check::{Outcome, Verdict};
 use crate::plan::Program;
 
+pub use choice::UnknownMode;
 pub use formula::{Formula, Relation, Statement};
 pub use letter::{Letter, Mark};
-pub use modes::UnknownMode;
 
 /// Everything that was derived from one declaration.
 #[derive(Clone, Debug)]

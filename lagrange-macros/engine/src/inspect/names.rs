@@ -46,28 +46,9 @@ const FIRST: [&str; 3] = ["mMIJ", "kcμ", "g"];
 impl Names {
     /// Letters of everything that a system names.
     pub fn of(declaration: &Declaration, system: &System) -> Names {
-        let mut declared = BTreeMap::new();
-        let mut taken: Vec<Letter> = Vec::new();
-        for coordinate in &system.coordinates {
-            taken.push(Letter::new(&coordinate.name.text));
-        }
-        for field in &declaration.fields {
-            let name = &field.name.text;
-            let mut letter = match field.letter.as_str() {
-                "" => Letter::new(name),
-                letter => Letter::new(letter),
-            };
-            letter.tex = field.tex.clone();
-            // A letter stands for one thing only; the second keeps its name.
-            if taken.contains(&letter) {
-                letter = Letter::new(name);
-            }
-            taken.push(letter.clone());
-            declared.insert(name.clone(), letter);
-        }
         let mut names = Names {
             symbols: BTreeMap::new(),
-            declared,
+            declared: fields(declaration, system),
         };
         names.enter(system.time, Letter::new("t"), Kind::Time, 0);
         for (i, parameter) in system.parameters.iter().enumerate() {
@@ -96,32 +77,7 @@ impl Names {
                 names.enter(symbol, letter.clone().rate(rate), kind, i);
             }
         }
-        let mut forces = Vec::new();
-        for constraint in &system.constraints {
-            forces.push((constraint.force, Letter::of("λ", &constraint.name.text)));
-        }
-        for contact in &system.contacts {
-            let base = if contact.normal_factor.is_some() {
-                "λ"
-            } else {
-                "N"
-            };
-            forces.push((contact.force, Letter::of(base, &contact.name.text)));
-        }
-        for friction in &system.frictions {
-            for (k, &(_, force)) in friction.slip.iter().enumerate() {
-                let letter = Letter::of("F", &friction.name.text);
-                let letter = match friction.slip.len() {
-                    1 => letter,
-                    _ => letter.element(&(k + 1).to_string()),
-                };
-                forces.push((force, letter));
-            }
-        }
-        for force in &system.forces {
-            forces.push((force.force, Letter::of("F", &force.name.text)));
-        }
-        for (i, (symbol, letter)) in forces.into_iter().enumerate() {
+        for (i, (symbol, letter)) in forces(system).into_iter().enumerate() {
             names.enter(symbol, letter, Kind::Force, i);
         }
         names
@@ -162,4 +118,54 @@ impl Names {
             .cloned()
             .unwrap_or_else(|| Letter::new(name))
     }
+}
+
+/// Letters of the fields. A letter stands for one thing only; the second keeps its name.
+fn fields(declaration: &Declaration, system: &System) -> BTreeMap<String, Letter> {
+    let coordinates = system.coordinates.iter();
+    let mut taken: Vec<Letter> = coordinates.map(|c| Letter::new(&c.name.text)).collect();
+    let mut declared = BTreeMap::new();
+    for field in &declaration.fields {
+        let name = &field.name.text;
+        let mut letter = match field.letter.as_str() {
+            "" => Letter::new(name),
+            letter => Letter::new(letter),
+        };
+        letter.tex = field.tex.clone();
+        if taken.contains(&letter) {
+            letter = Letter::new(name);
+        }
+        taken.push(letter.clone());
+        declared.insert(name.clone(), letter);
+    }
+    declared
+}
+
+/// Letters of multipliers and applied forces.
+fn forces(system: &System) -> Vec<(Symbol, Letter)> {
+    let mut forces = Vec::new();
+    for constraint in &system.constraints {
+        forces.push((constraint.force, Letter::of("λ", &constraint.name.text)));
+    }
+    for contact in &system.contacts {
+        let base = match contact.normal_factor {
+            Some(_) => "λ",
+            None => "N",
+        };
+        forces.push((contact.force, Letter::of(base, &contact.name.text)));
+    }
+    for friction in &system.frictions {
+        for (k, &(_, force)) in friction.slip.iter().enumerate() {
+            let letter = Letter::of("F", &friction.name.text);
+            let letter = match friction.slip.len() {
+                1 => letter,
+                _ => letter.element(&(k + 1).to_string()),
+            };
+            forces.push((force, letter));
+        }
+    }
+    for force in &system.forces {
+        forces.push((force.force, Letter::of("F", &force.name.text)));
+    }
+    forces
 }

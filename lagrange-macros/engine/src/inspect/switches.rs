@@ -1,7 +1,7 @@
 //! Which mode can follow which: one item changes at a time.
 
 use super::Switch;
-use super::modes::{Choice, State, acts, states};
+use super::choice::{Choice, State, acts};
 use super::work::Work;
 use crate::model::System;
 
@@ -46,8 +46,6 @@ fn label(system: &System, before: &Choice, after: &Choice) -> Option<String> {
         ([], [friction]) => {
             let name = &system.frictions[*friction].name.text;
             let (was, is) = (before.frictions[*friction], after.frictions[*friction]);
-            let known = states(system, *friction);
-            debug_assert!(known.contains(&was) && known.contains(&is));
             Some(match (was, is) {
                 (_, State::Sticks) => format!("{name} sticks"),
                 (State::Sticks, _) => format!("{name} slips"),

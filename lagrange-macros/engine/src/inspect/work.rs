@@ -1,10 +1,10 @@
 //! What the parts of the derivation share while it is read off.
 
+use super::choice::{self, UnknownMode};
 use super::formula::Formula;
-use super::modes::UnknownMode;
 use super::names::Names;
 use super::readable::Reader;
-use super::{Derivation, Meaning, modes};
+use super::{Derivation, Meaning};
 use crate::ast::Declaration;
 use crate::derive::OutputId;
 use crate::model::System;
@@ -65,9 +65,41 @@ impl Work<'_> {
         constraints.chain(contacts).chain(slips).collect()
     }
 
+    /// What is left out where so many equations of motion are shown, and what is piecewise.
+    fn notes(&self, equations: usize) -> Vec<String> {
+        let mut notes = Vec::new();
+        let coordinates = self.system().coordinates.len();
+        if equations < coordinates {
+            notes.push(format!(
+                "{equations} of {coordinates} equations of motion are shown: the first ones and the last one."
+            ));
+        }
+        if !self.solves {
+            notes.push("Closed forms are shown for one mode at a time.".to_owned());
+        }
+        for branch in self.system().branches.iter().take(MOST_BRANCHES) {
+            notes.push(format!(
+                "Piecewise: {} has two sides; each side is smooth, and changing sides is an event.",
+                branch.text
+            ));
+        }
+        notes
+    }
+
     /// Number of the row of a contact.
     pub fn contact_row(&self, contact: usize) -> usize {
         self.system().constraints.len() + contact
+    }
+
+    /// Rows of a friction.
+    pub fn slip_rows(&self, friction: usize) -> std::ops::Range<usize> {
+        let system = self.system();
+        let before: usize = system.frictions[..friction]
+            .iter()
+            .map(|f| f.slip.len())
+            .sum();
+        let first = self.contact_row(system.contacts.len()) + before;
+        first..first + system.frictions[friction].slip.len()
     }
 }
 
@@ -87,7 +119,7 @@ pub(super) fn derivation(
         reader: Reader::new(pool, &names, guards),
         solves: true,
     };
-    let chosen = modes::choose(&work, mode)?;
+    let chosen = choice::choose(&work, mode)?;
     work.solves = chosen.shown.len() <= MOST_SOLVED;
     let structure = &program.equations.structure;
     let kinetic = work.kinetic();
@@ -100,33 +132,18 @@ pub(super) fn derivation(
     let modes: Vec<_> = chosen.shown.iter().map(|mode| work.mode(mode)).collect();
     let switches = work.switches(&chosen.shown);
     let mut notes = Vec::new();
-    if (modes.len() as u128) < chosen.count && mode.is_none() {
+    if mode.is_none() && (modes.len() as u128) < chosen.count {
         notes.push(format!(
             "{} of {} modes are shown: all contacts open, one of them closed, and all of them closed and sticking.",
             modes.len(),
             chosen.count
         ));
     }
-    let coordinates = system.coordinates.len();
-    if motion.len() < coordinates {
-        notes.push(format!(
-            "{} of {coordinates} equations of motion are shown: the first ones and the last one.",
-            motion.len()
-        ));
-    }
-    if !work.solves {
-        notes.push("Closed forms are shown for one mode at a time.".to_owned());
-    }
-    for branch in system.branches.iter().take(MOST_BRANCHES) {
-        notes.push(format!(
-            "Piecewise: {} has two sides; each side is smooth, and changing sides is an event.",
-            branch.text
-        ));
-    }
+    notes.extend(work.notes(motion.len()));
     Ok(Derivation {
         name: declaration.name.to_string(),
         summary: summary(&declaration.documentation),
-        symbols: meanings(declaration, system, &names),
+        symbols: meanings(declaration, &names),
         declared: super::declared::items(declaration, &names),
         kinetic,
         potential,
@@ -153,7 +170,7 @@ fn summary(documentation: &str) -> String {
     lines.map(str::trim).collect::<Vec<_>>().join(" ")
 }
 
-fn meanings(declaration: &Declaration, system: &System, names: &Names) -> Vec<Meaning> {
+fn meanings(declaration: &Declaration, names: &Names) -> Vec<Meaning> {
     let mut meanings = Vec::new();
     for field in &declaration.fields {
         let name = match field.length {
@@ -171,6 +188,5 @@ fn meanings(declaration: &Declaration, system: &System, names: &Names) -> Vec<Me
                 .unwrap_or_default(),
         });
     }
-    let _ = system;
     meanings
 }

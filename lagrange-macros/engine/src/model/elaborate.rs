@@ -5,8 +5,8 @@
 use super::names::{Kind, Meaning, Names};
 use super::reach::{Context, Depth, Reach};
 use super::value::Value;
-use super::{ItemName, System, Units};
-use crate::ast::{Declaration, Expr, Head, Impacts, Item, ItemKind, Name};
+use super::{ItemName, System};
+use crate::ast::{Declaration, Expr, Head, Item, ItemKind, Name};
 use crate::diagnostics::{Code, Diagnostics};
 use crate::symbolic::{ExprId, Pool, Symbol};
 use proc_macro2::Span;
@@ -123,30 +123,10 @@ impl<'a> Elaboration<'a> {
         let one = pool.integer(1);
         let core = || "::lagrange_core".parse().unwrap_or_default();
         let system = System {
-            name: declaration.name.clone(),
             documentation: declaration.documentation.clone(),
             scalar: declaration.scalar.clone(),
             core: declaration.core.clone().unwrap_or_else(core),
-            pool,
-            time,
-            parameters: Vec::new(),
-            coordinates: Vec::new(),
-            kinetic: Vec::new(),
-            potential: Vec::new(),
-            from_lagrangian: false,
-            constraints: Vec::new(),
-            contacts: Vec::new(),
-            frictions: Vec::new(),
-            forces: Vec::new(),
-            dissipations: Vec::new(),
-            branches: Vec::new(),
-            starts: Vec::new(),
-            observes: Vec::new(),
-            stops: Vec::new(),
-            marks: Vec::new(),
-            impacts: Impacts::default(),
-            units: Units::default(),
-            hints: Vec::new(),
+            ..System::empty(declaration.name.clone(), pool, time)
         };
         Elaboration {
             system,

@@ -1,15 +1,11 @@
 //! Expressions as written → values over the pool. `None`: there was a mistake, and it has been reported.
 
 use super::elaborate::Elaboration;
-use super::names::{Kind, Meaning};
-use super::reach::{Context, Reach};
+use super::reach::Context;
 use super::value::Value;
-use crate::ast::{Decimal, Expr, ExprKind, Factor, Index, Name, Range, Reference, Sign};
+use crate::ast::{Decimal, Expr, ExprKind, Factor, Sign};
 use crate::diagnostics::{Code, Extent};
-use crate::symbolic::{ExprId, MOST_OPERANDS, Rational};
-
-/// What sums and indexed items may unroll to.
-const MOST_ELEMENTS: i64 = 10_000;
+use crate::symbolic::{ExprId, Rational};
 
 /// Numerators and denominators of exponents are at most this.
 const HIGHEST_POWER: i64 = 1_000;
@@ -142,7 +138,7 @@ impl Elaboration<'_> {
     }
 
     /// Σ of values of one shape.
-    fn total(&mut self, values: Vec<Value>) -> Option<Value> {
+    pub(super) fn total(&mut self, values: Vec<Value>) -> Option<Value> {
         let first = values.first()?.clone();
         if let Value::Scalar(_) = first {
             let scalars: Vec<ExprId> = values.iter().flat_map(Value::scalars).collect();
@@ -154,7 +150,7 @@ impl Elaboration<'_> {
     }
 
     /// Whether a term has the shape of the first.
-    fn fits(&mut self, first: &Value, term: &Value, at: Extent) -> Option<()> {
+    pub(super) fn fits(&mut self, first: &Value, term: &Value, at: Extent) -> Option<()> {
         match (first, term) {
             (Value::Scalar(_), Value::Scalar(_)) => Some(()),
             (Value::List(a), Value::List(b)) if a.len() == b.len() => {
@@ -213,222 +209,6 @@ impl Elaboration<'_> {
         Some(match list {
             None => Value::Scalar(product),
             Some(list) => list.map(&mut |e| self.system.pool.mul(product, e)),
-        })
-    }
-
-    /// `pi`, `t`, an index, `energy`, or a name of the namespace.
-    fn named(&mut self, name: &Name, context: Context) -> Option<Value> {
-        let text = name.text.as_str();
-        match text {
-            "pi" => return Some(Value::Scalar(self.system.pool.pi())),
-            "t" => {
-                let time = self.system.time;
-                return Some(Value::Scalar(self.system.pool.leaf(time)));
-            }
-            "energy" => return self.energy(name, context).map(Value::Scalar),
-            _ => {}
-        }
-        if let Some(&(_, index)) = self.indices.iter().rev().find(|(known, _)| known == text) {
-            return Some(Value::Scalar(self.system.pool.integer(index)));
-        }
-        if super::names::is_reserved(text) {
-            let hint = format!("write `{text}(…)`");
-            self.sink.report(
-                Code::WrongKind,
-                name,
-                &[&text, &"function", &"value", &hint],
-            );
-            return None;
-        }
-        self.meaning(name, context).map(|(value, _)| value)
-    }
-
-    /// The value of a name of the namespace, and where its indices begin.
-    fn meaning(&mut self, name: &Name, context: Context) -> Option<(Value, i64)> {
-        let Some(entry) = self.names.get(&name.text) else {
-            self.unknown(name);
-            return None;
-        };
-        let kind = entry.kind;
-        match entry.meaning.clone() {
-            Meaning::Poisoned => None,
-            Meaning::Pending(definition) => {
-                self.define(definition);
-                self.meaning(name, context)
-            }
-            Meaning::Busy => {
-                let hint = "its value is needed to find its value";
-                self.sink.report(Code::Circular, name, &[&name.text, &hint]);
-                None
-            }
-            Meaning::Value { .. } if kind == Kind::Output && context.reach != Reach::Outputs => {
-                self.sink.report(Code::OutputOnly, name, &[&name.text]);
-                None
-            }
-            Meaning::Value {
-                value,
-                lower,
-                depth,
-            } => {
-                self.admit(depth, context, &name.text, name.into())?;
-                Some((value, lower))
-            }
-            Meaning::Item { elements, lower } => {
-                self.admit_item(name, kind, context)?;
-                let mut values: Vec<Value> = elements
-                    .into_iter()
-                    .map(|element| self.force_of(kind, element))
-                    .collect();
-                match lower {
-                    Some(lower) => Some((Value::List(values), lower)),
-                    None => values.pop().map(|only| (only, 0)),
-                }
-            }
-        }
-    }
-
-    /// `base[index]`
-    fn element(&mut self, base: &Expr, index: &Expr, context: Context) -> Option<Value> {
-        let is_name = |name: &Name| self.names.contains_key(&name.text);
-        let (value, lower) = match &base.kind {
-            ExprKind::Name(name) if is_name(name) => self.meaning(name, context)?,
-            _ => (self.value(base, context)?, 0),
-        };
-        let Value::List(mut elements) = value else {
-            let hint = format!("`{base}` is one number, take the index away");
-            self.sink.report(Code::ScalarForList, base.extent, &[&hint]);
-            return None;
-        };
-        let at = self.position(index, lower, elements.len())?;
-        Some(elements.swap_remove(at))
-    }
-
-    /// The position of an index in a list of `length` elements whose first index is `lower`.
-    pub fn position(&mut self, index: &Expr, lower: i64, length: usize) -> Option<usize> {
-        let value = self.integer(index)?;
-        let position = value
-            .checked_sub(lower)
-            .and_then(|k| usize::try_from(k).ok());
-        let position = position.filter(|&k| k < length);
-        if position.is_none() {
-            let upper = lower + length as i64;
-            self.sink
-                .report(Code::IndexRange, index.extent, &[&value, &lower, &upper]);
-        }
-        position
-    }
-
-    /// An integer known at build time.
-    pub fn integer(&mut self, expr: &Expr) -> Option<i64> {
-        let value = self.scalar(expr, Context::new(Reach::Definition, "an index"))?;
-        let integer = self
-            .system
-            .pool
-            .as_number(value)
-            .and_then(Rational::to_integer);
-        if integer.is_none() {
-            self.sink.report(Code::NotAnInteger, expr.extent, &[]);
-        }
-        integer
-    }
-
-    /// The bounds of a range that is not empty and not too long.
-    pub fn bounds(&mut self, range: &Range) -> Option<(i64, i64)> {
-        let (from, to) = (self.integer(&range.from), self.integer(&range.to));
-        let (from, to) = (from?, to?);
-        let extent = Extent::new(range.from.extent, range.to.extent);
-        if to
-            .checked_sub(from)
-            .is_none_or(|count| count > MOST_ELEMENTS)
-        {
-            let count = i128::from(to) - i128::from(from);
-            self.sink
-                .report(Code::TooMany, extent, &[&count, &MOST_ELEMENTS]);
-            return None;
-        }
-        Some((from, to))
-    }
-
-    /// Enters an index for as long as `body` runs.
-    pub fn with_index<R>(
-        &mut self,
-        name: &Name,
-        index: i64,
-        body: impl FnOnce(&mut Self) -> R,
-    ) -> R {
-        self.indices.push((name.text.clone(), index));
-        let result = body(self);
-        self.indices.pop();
-        result
-    }
-
-    /// Whether a name is free to be an index.
-    pub fn free_index(&mut self, name: &Name) -> Option<()> {
-        let text = name.text.as_str();
-        if super::names::is_reserved(text) {
-            self.sink.report(Code::ReservedName, name, &[&text]);
-            return None;
-        }
-        let hidden = match self.names.get(text) {
-            Some(entry) => entry.kind.text(),
-            None if self.indices.iter().any(|(known, _)| known == text) => "index",
-            None => return Some(()),
-        };
-        self.sink
-            .report(Code::IndexShadows, name, &[&text, &hidden]);
-        None
-    }
-
-    /// `sum(i in a..b: body)`; an empty range gives 0.
-    fn sum_over(
-        &mut self,
-        index: &Index,
-        body: &Expr,
-        at: Extent,
-        context: Context,
-    ) -> Option<Value> {
-        self.free_index(&index.name)?;
-        let (from, to) = self.bounds(&index.range)?;
-        let mut values = Vec::new();
-        for k in from..to {
-            if self.system.pool.is_full() {
-                let (name, most) = (self.system.name.clone(), MOST_OPERANDS);
-                self.sink.report(Code::TooLarge, at, &[&name, &most]);
-                return None;
-            }
-            let value = self.with_index(&index.name, k, |this| this.value(body, context))?;
-            if let Some(first) = values.first() {
-                self.fits(first, &value, at)?;
-            }
-            values.push(value);
-        }
-        if values.is_empty() {
-            return Some(Value::Scalar(self.system.pool.integer(0)));
-        }
-        self.total(values)
-    }
-
-    /// An item's name as the target of a call: `gap(c)`, `momentum(x[2])`.
-    pub fn reference(&mut self, expr: &Expr) -> Option<Reference> {
-        let found = match &expr.kind {
-            ExprKind::Name(name) => Some((name, None)),
-            ExprKind::Element(base, index) => match &base.kind {
-                ExprKind::Name(name) => Some((name, Some((**index).clone()))),
-                _ => None,
-            },
-            _ => None,
-        };
-        let Some((name, element)) = found else {
-            self.sink.report(
-                Code::Expected,
-                expr.extent,
-                &[&"the name of an item", &format!("`{expr}`")],
-            );
-            return None;
-        };
-        Some(Reference {
-            name: name.clone(),
-            element,
         })
     }
 }

@@ -17,6 +17,8 @@ mod energies;
 mod evaluate;
 mod forces;
 mod frictions;
+mod indices;
+mod lookup;
 mod names;
 mod outputs;
 mod piecewise;
@@ -31,7 +33,7 @@ mod value;
 use crate::ast::Impacts;
 use crate::diagnostics::Extent;
 use crate::symbolic::{ExprId, Pool, Symbol};
-use proc_macro2::{Ident, Span};
+use proc_macro2::{Ident, Span, TokenStream};
 
 pub use checks::{Check, Premise, checks};
 pub use elaborate::{Scope, scoped, system};
@@ -87,6 +89,38 @@ pub struct System {
     pub units: Units,
     /// What is right but may not be meant.
     pub hints: Vec<Hint>,
+}
+
+impl System {
+    /// A system without parameters, coordinates and items.
+    pub(crate) fn empty(name: Ident, pool: Pool, time: Symbol) -> System {
+        System {
+            name,
+            documentation: String::new(),
+            scalar: None,
+            core: TokenStream::new(),
+            pool,
+            time,
+            parameters: Vec::new(),
+            coordinates: Vec::new(),
+            kinetic: Vec::new(),
+            potential: Vec::new(),
+            from_lagrangian: false,
+            constraints: Vec::new(),
+            contacts: Vec::new(),
+            frictions: Vec::new(),
+            forces: Vec::new(),
+            dissipations: Vec::new(),
+            branches: Vec::new(),
+            starts: Vec::new(),
+            observes: Vec::new(),
+            stops: Vec::new(),
+            marks: Vec::new(),
+            impacts: Impacts::default(),
+            units: Units::default(),
+            hints: Vec::new(),
+        }
+    }
 }
 
 /// Units of what a run reports, beside those of parameters and coordinates; in the order of the system's lists. Empty

@@ -3,6 +3,7 @@
 use super::declaration;
 use crate::ast::{Declaration, Expr, ItemKind};
 use crate::diagnostics::Diagnostics;
+use crate::diagnostics::tests::mistakes_are_at;
 
 fn read(text: &str) -> Result<Declaration, String> {
     let mut sink = Diagnostics::new();
@@ -238,20 +239,9 @@ fn mistakes_point_at_their_token() {
         ("kinetic = \"text\"", "2:11 E008"),
         ("kinetic = 1 % 2", "2:13 E024"),
     ];
-    let mut failures = String::new();
-    for (items, expected) in wrong {
-        let found = read(&format!("#[lagrange(\n{items})] struct S {{}}"))
-            .map(|_| ())
-            .unwrap_err();
-        let places: Vec<String> = found
-            .lines()
-            .map(|line| line.split(' ').take(2).collect::<Vec<_>>().join(" "))
-            .collect();
-        if places != [expected] {
-            failures += &format!("{items}\n  expected {expected}\n  found {found}\n");
-        }
-    }
-    assert!(failures.is_empty(), "{failures}");
+    mistakes_are_at(&wrong, |items| {
+        read(&format!("#[lagrange(\n{items})] struct S {{}}")).map(|_| ())
+    });
 }
 
 #[test]

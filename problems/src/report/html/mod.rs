@@ -26,10 +26,6 @@ pub struct Shown {
     pub film: Film,
     /// What was derived for the scene.
     pub derivation: &'static Derivation,
-    /// Tolerance of the integration.
-    pub tolerance: f64,
-    /// Method of integration.
-    pub method: Method,
 }
 
 const PAGE: &str = include_str!("page.html");

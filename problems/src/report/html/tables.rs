@@ -154,10 +154,10 @@ fn accuracy(run: &Shown) -> String {
     let mut rows = vec![
         line("scene", escaped(outcome.scene)),
         line("program", format!("lagrange {}", env!("CARGO_PKG_VERSION"))),
-        line("method", escaped(&run.method.to_string())),
+        line("method", escaped(&outcome.method.to_string())),
         line(
             "tolerance, relative and absolute",
-            format!("{:e}", run.tolerance),
+            format!("{:e}", outcome.tolerance),
         ),
     ];
     if let Some(drift) = run.film.drift {

@@ -1,4 +1,4 @@
-//! A line per run; what a run does not have is empty.
+//! A line per run; what a run does not have is empty, and so is the reason of a failure where there was none.
 
 use super::{Failure, lines, names};
 use crate::sweep::{Journal, Sweep};
@@ -11,15 +11,15 @@ use std::io::{self, Write};
 pub fn csv(sweep: &Sweep, journal: &Journal, out: impl Write) -> Result<(), Failure> {
     let mut table = ::csv::Writer::from_writer(out);
     table
-        .write_record(names(sweep).chain(["failed"]))
+        .write_record(names(sweep).chain(["failure"]))
         .map_err(io::Error::from)?;
-    lines(sweep, journal, |point, observed, failed| {
+    lines(sweep, journal, |point, observed, failure| {
         let number = |x: &f64| match x.is_nan() {
             true => String::new(),
             false => x.to_string(),
         };
         let numbers = point.iter().chain(observed).map(number);
-        let line = numbers.chain([failed.to_string()]);
+        let line = numbers.chain([failure.unwrap_or_default().to_owned()]);
         Ok(table.write_record(line).map_err(io::Error::from)?)
     })?;
     Ok(table.flush()?)

@@ -10,7 +10,7 @@ pub use parquet::parquet;
 pub use picture::svg;
 pub use summary::{json, table};
 
-use crate::sweep::{Journal, Sweep, Trouble};
+use crate::sweep::{Journal, Sweep, Trouble, reason};
 use std::io;
 
 /// Why results could not be written.
@@ -46,18 +46,18 @@ impl From<io::Error> for Failure {
     }
 }
 
-/// Calls `each` with every run in order: the point, what was observed (NaN: nothing), and whether the run failed.
+/// Calls `each` with every run in order: the point, what was observed (NaN: nothing), and why the run failed, if it did.
 fn lines(
     sweep: &Sweep,
     journal: &Journal,
-    mut each: impl FnMut(&[f64], &[f64], bool) -> Result<(), Failure>,
+    mut each: impl FnMut(&[f64], &[f64], Option<&'static str>) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
     let mut point = vec![0.0; sweep.points.axes.len()];
     journal.read(sweep, |first, rows| {
         for (index, row) in rows.chunks_exact(sweep.width()).enumerate() {
             sweep.points.write(first + index, &mut point);
-            let (observed, failed) = row.split_at(sweep.observed.len());
-            each(&point, observed, failed != [0.0])?;
+            let (observed, code) = row.split_at(sweep.observed.len());
+            each(&point, observed, reason(code[0]))?;
         }
         Ok(())
     })

@@ -1,9 +1,10 @@
-//! Apache Parquet: a column per axis and observation (null where a run does not have it), and whether the run failed.
+//! Apache Parquet: a column per axis and observation (null where a run does not have it), and why the run failed (null
+//! where it did not).
 
 use super::{Failure, lines, names};
 use crate::sweep::{Journal, Sweep};
-use parquet::basic::{Compression, Repetition, Type as Physical};
-use parquet::data_type::{BoolType, DoubleType};
+use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
+use parquet::data_type::{ByteArray, ByteArrayType, DoubleType};
 use parquet::errors::ParquetError;
 use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
@@ -26,14 +27,14 @@ pub fn parquet(sweep: &Sweep, journal: &Journal, out: impl Write + Send) -> Resu
     let mut writer = SerializedFileWriter::new(out, Arc::new(schema(sweep)?), Arc::new(properties))
         .map_err(file)?;
     let mut group = Group::new(names(sweep).count());
-    lines(sweep, journal, |point, observed, failed| {
-        group.push(point.iter().chain(observed), failed);
-        match group.failed.len() {
+    lines(sweep, journal, |point, observed, failure| {
+        group.push(point.iter().chain(observed), failure);
+        match group.failures.len() {
             GROUP => group.write(&mut writer, point.len()),
             _ => Ok(()),
         }
     })?;
-    if !group.failed.is_empty() {
+    if !group.failures.is_empty() {
         group.write(&mut writer, sweep.points.axes.len())?;
     }
     writer.close().map_err(file)?;
@@ -54,7 +55,10 @@ fn schema(sweep: &Sweep) -> Result<Type, Failure> {
         };
         columns.push(column(name, Physical::DOUBLE, repetition)?);
     }
-    columns.push(column("failed", Physical::BOOLEAN, Repetition::REQUIRED)?);
+    let failure = Type::primitive_type_builder("failure", Physical::BYTE_ARRAY)
+        .with_logical_type(Some(LogicalType::String))
+        .with_repetition(Repetition::OPTIONAL);
+    columns.push(Arc::new(failure.build().map_err(file)?));
     let schema = Type::group_type_builder("runs").with_fields(columns);
     schema.build().map_err(file)
 }
@@ -65,7 +69,7 @@ struct Group {
     numbers: Vec<Vec<f64>>,
     /// Per row: 1 where there is a number.
     levels: Vec<Vec<i16>>,
-    failed: Vec<bool>,
+    failures: Vec<Option<&'static str>>,
 }
 
 impl Group {
@@ -73,11 +77,11 @@ impl Group {
         Self {
             numbers: vec![Vec::new(); columns],
             levels: vec![Vec::new(); columns],
-            failed: Vec::new(),
+            failures: Vec::new(),
         }
     }
 
-    fn push<'a>(&mut self, row: impl Iterator<Item = &'a f64>, failed: bool) {
+    fn push<'a>(&mut self, row: impl Iterator<Item = &'a f64>, failure: Option<&'static str>) {
         let columns = self.numbers.iter_mut().zip(&mut self.levels);
         for ((numbers, levels), x) in columns.zip(row) {
             levels.push(i16::from(!x.is_nan()));
@@ -85,7 +89,7 @@ impl Group {
                 numbers.push(*x);
             }
         }
-        self.failed.push(failed);
+        self.failures.push(failure);
     }
 
     /// Writes a row group; the first `axes` columns have no nulls.
@@ -108,11 +112,17 @@ impl Group {
             levels.clear();
         }
         if let Some(mut column) = group.next_column().map_err(file)? {
-            let typed = column.typed::<BoolType>();
-            typed.write_batch(&self.failed, None, None).map_err(file)?;
+            let there = self.failures.iter().flatten();
+            let there: Vec<ByteArray> = there.map(|&failure| failure.into()).collect();
+            let levels = self.failures.iter().map(|f| i16::from(f.is_some()));
+            let levels: Vec<i16> = levels.collect();
+            let typed = column.typed::<ByteArrayType>();
+            typed
+                .write_batch(&there, Some(&levels), None)
+                .map_err(file)?;
             column.close().map_err(file)?;
         }
-        self.failed.clear();
+        self.failures.clear();
         group.close().map_err(file)?;
         Ok(())
     }

@@ -1,32 +1,31 @@
 //! What came out of a sweep, to read and as JSON.
 
 use crate::report::table::page;
-use crate::sweep::{Summary, Sweep};
+use crate::sweep::{Column, QUANTILES, Summary, Sweep};
 use comfy_table::{CellAlignment, ContentArrangement};
-use serde_json::json;
+use serde_json::{Map, Value, json};
 use std::io::{self, Write};
 
-/// Writes a table with a line per observation.
+/// Writes a table with a line per observation, where the extremes are, and what failed.
 ///
 /// # Errors
 /// Of `out`.
 pub fn table(sweep: &Sweep, summary: &Summary, mut out: impl Write) -> io::Result<()> {
     let mut table = page();
     table.set_content_arrangement(ContentArrangement::Disabled);
-    table.set_header(["observed", "runs", "least", "mean", "greatest", "deviation"]);
+    let parts = QUANTILES.map(|part| format!("{} %", 100.0 * part));
+    let parts = parts.iter().map(String::as_str);
+    let header = ["observed", "runs", "mean", "deviation", "least"].into_iter();
+    table.set_header(header.chain(parts).chain(["greatest"]));
     for column in &summary.columns {
-        let number = |x: f64| match column.count {
-            0 => String::new(),
-            _ => format!("{x:.6}"),
-        };
-        table.add_row([
-            column.name.clone(),
-            column.count.to_string(),
-            number(column.least),
-            number(column.mean),
-            number(column.greatest),
-            number(column.deviation()),
-        ]);
+        let mut cells = vec![column.name.clone(), column.count.to_string()];
+        if column.count > 0 {
+            let spread = [column.mean, column.deviation(), column.least.0];
+            let numbers = spread.iter().chain(&column.quantiles);
+            let numbers = numbers.chain([&column.greatest.0]);
+            cells.extend(numbers.map(|x| figure(*x)));
+        }
+        table.add_row(cells);
     }
     for (index, column) in table.column_iter_mut().enumerate() {
         column.set_padding((if index == 0 { 0 } else { 1 }, 1));
@@ -35,16 +34,23 @@ pub fn table(sweep: &Sweep, summary: &Summary, mut out: impl Write) -> io::Resul
         }
     }
     writeln!(out, "{}\n", table.trim_fmt())?;
-    let failed = match summary.failed {
+    for column in summary.columns.iter().filter(|column| column.count > 0) {
+        let (name, least, greatest) = (&column.name, column.least.1, column.greatest.1);
+        let (least, greatest) = (place(sweep, least), place(sweep, greatest));
+        writeln!(out, "{name}: least at {least}; greatest at {greatest}")?;
+    }
+    let (runs, failures) = (summary.runs, summary.failures());
+    let failed = match failures {
         0 => String::new(),
-        failed => format!(", of which {failed} failed"),
+        _ => format!(", of which {failures} failed"),
     };
-    writeln!(
-        out,
-        "{} runs of {}{failed}.",
-        summary.runs,
-        sweep.scene.name()
-    )
+    writeln!(out, "{runs} runs of {}{failed}.", sweep.scene.name())?;
+    for failed in &summary.failed {
+        let (reason, count) = (failed.reason, failed.count);
+        let first = place(sweep, failed.first);
+        writeln!(out, "  {reason}: {count}, the first at {first}")?;
+    }
+    Ok(())
 }
 
 /// Writes one object.
@@ -52,21 +58,80 @@ pub fn table(sweep: &Sweep, summary: &Summary, mut out: impl Write) -> io::Resul
 /// # Errors
 /// Of `out`.
 pub fn json(sweep: &Sweep, summary: &Summary, mut out: impl Write) -> io::Result<()> {
-    let column = |column: &crate::sweep::Column| {
+    let column = |column: &Column| {
+        if column.count == 0 {
+            return json!({ "name": column.name, "runs": 0 });
+        }
+        let quantiles = QUANTILES.iter().zip(&column.quantiles);
+        let quantiles = quantiles.map(|(part, x)| (part.to_string(), json!(x)));
         json!({
             "name": column.name,
             "runs": column.count,
-            "least": column.least,
             "mean": column.mean,
-            "greatest": column.greatest,
             "deviation": column.deviation(),
+            "least": column.least.0,
+            "least_at": point(sweep, column.least.1),
+            "quantiles": quantiles.collect::<Map<String, Value>>(),
+            "greatest": column.greatest.0,
+            "greatest_at": point(sweep, column.greatest.1),
         })
     };
+    let failed = summary.failed.iter().map(|failed| {
+        json!({
+            "reason": failed.reason,
+            "runs": failed.count,
+            "first_at": point(sweep, failed.first),
+        })
+    });
     let value = json!({
         "scene": sweep.scene.name(),
         "runs": summary.runs,
-        "failed": summary.failed,
+        "failed": summary.failures(),
+        "failures": failed.collect::<Vec<_>>(),
         "observed": summary.columns.iter().map(column).collect::<Vec<_>>(),
     });
     writeln!(out, "{}", serde_json::to_string_pretty(&value)?)
+}
+
+/// The values of a point, by name.
+fn values(sweep: &Sweep, index: usize) -> impl Iterator<Item = (&str, f64)> {
+    let mut point = vec![0.0; sweep.points.axes.len()];
+    sweep.points.write(index, &mut point);
+    let names = sweep.points.axes.iter().map(|axis| axis.name.as_str());
+    names.zip(point)
+}
+
+/// `a = 1, b = 2`
+fn place(sweep: &Sweep, index: usize) -> String {
+    let values = values(sweep, index);
+    let values: Vec<String> = values
+        .map(|(name, x)| format!("{name} = {}", figure(x)))
+        .collect();
+    values.join(", ")
+}
+
+fn point(sweep: &Sweep, index: usize) -> Map<String, Value> {
+    let values = values(sweep, index);
+    values
+        .map(|(name, x)| (name.to_owned(), json!(x)))
+        .collect()
+}
+
+/// A number in six digits.
+fn figure(x: f64) -> String {
+    let text = format!("{x:.5e}");
+    let power = text
+        .split_once('e')
+        .and_then(|(_, power)| power.parse().ok());
+    match power {
+        Some(power @ -4..6) => {
+            let digits = (5 - power) as usize;
+            let plain = format!("{x:.digits$}");
+            match plain.contains('.') {
+                true => plain.trim_end_matches('0').trim_end_matches('.').to_owned(),
+                false => plain,
+            }
+        }
+        _ => text,
+    }
 }

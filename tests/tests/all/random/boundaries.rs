@@ -1,6 +1,6 @@
 //! Starts exactly on a boundary, tolerances from loose to tight, every method.
 
-use super::contacts::{Balls, Blocks, Rod};
+use super::systems::{Balls, Blocks, Rod};
 use super::{Tally, Trial};
 use lagrange_core::prelude::*;
 use lagrange_tests::Random;
@@ -20,22 +20,12 @@ struct Block {
     mu: f64,
 }
 
-fn rod(random: &mut Random) -> Rod {
-    Rod {
-        mass: random.between(0.2, 2.0),
-        inertia: random.between(0.05, 0.5),
-        half: random.between(0.2, 1.0),
-        bounce: random.between(0.0, 0.8),
-        mu: random.between(0.0, 0.8),
-    }
-}
-
 #[test]
 fn rods_that_start_on_the_floor() {
     let mut random = Random::new(401);
     let mut tally = Tally::default();
     for k in 0..60 {
-        let rod = rod(&mut random);
+        let rod = Rod::random(&mut random);
         // Lying on both ends, or standing on one, at rest, sliding, or with an end that just lifts off.
         let angle = if k % 2 == 0 {
             0.0
@@ -96,14 +86,13 @@ fn every_tolerance() {
     let mut tally = Tally::default();
     for k in 0..42 {
         let tolerance = 10_f64.powi(-6 - k % 7);
-        let rod = rod(&mut random);
-        let q = vec![0.0, random.between(1.1, 2.0), random.between(-1.5, 1.5)];
-        let v = (0..3).map(|_| random.between(-3.0, 3.0)).collect();
+        let rod = Rod::random(&mut random);
+        let start = Rod::thrown(&mut random);
         let trial = Trial {
             tolerance,
             ..Trial::until(3.0).rough(rod.mu)
         };
-        tally.run(&rod, &State { q, v }, trial);
+        tally.run(&rod, &start, trial);
     }
     tally.check();
 }
@@ -125,41 +114,15 @@ fn every_method() {
             tolerance: 1e-8,
             ..Trial::until(2.0)
         };
-        let rod = rod(&mut random);
-        let q = vec![0.0, random.between(1.1, 2.0), random.between(-1.5, 1.5)];
-        let v = (0..3).map(|_| random.between(-3.0, 3.0)).collect();
-        tally.run(&rod, &State { q, v }, trial.rough(rod.mu));
-        let balls = Balls {
-            mass: [(); 4].map(|()| random.between(0.1, 3.0)),
-            stiffness: random.between(0.0, 50.0),
-            bounce: random.between(0.1, 1.0),
-        };
-        let q = (0..4)
-            .map(|i| 0.3 + f64::from(i) + random.between(0.0, 0.4))
-            .collect();
-        let v = (0..4).map(|_| random.between(-3.0, 3.0)).collect();
-        tally.run(&balls, &State { q, v }, trial);
-        let blocks = Blocks {
-            mass: [(); 2].map(|()| random.between(0.2, 3.0)),
-            slope: random.between(-0.5, 0.5),
-            stiffness: random.between(5.0, 100.0),
-            mu: random.between(0.05, 0.8),
-            drive: random.between(0.0, 30.0),
-            rate: random.between(1.0, 20.0),
-        };
-        let q = vec![
-            random.between(-0.5, 0.5),
-            random.between(-0.5, 0.5),
-            0.0,
-            0.0,
-        ];
-        let v = vec![
-            random.between(-1.0, 1.0),
-            random.between(-1.0, 1.0),
-            0.0,
-            0.0,
-        ];
-        tally.run(&blocks, &State { q, v }, trial.rough(blocks.mu));
+        let rod = Rod::random(&mut random);
+        let start = Rod::thrown(&mut random);
+        tally.run(&rod, &start, trial.rough(rod.mu));
+        let balls = Balls::random(&mut random, |random| random.between(0.1, 1.0));
+        let start = Balls::apart(&mut random);
+        tally.run(&balls, &start, trial);
+        let blocks = Blocks::random(&mut random);
+        let start = Blocks::sliding(&mut random);
+        tally.run(&blocks, &start, trial.rough(blocks.mu));
     }
     tally.check();
 }

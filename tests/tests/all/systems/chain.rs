@@ -4,7 +4,7 @@ use super::state;
 use lagrange_core::prelude::*;
 use lagrange_tests::equations::Equations;
 use lagrange_tests::modes::flight;
-use lagrange_tests::{Random, agree, all_agree, closure, run};
+use lagrange_tests::{Random, agree, all_agree, closure, run, run_by};
 
 /// A chain of n links in ten lines.
 #[derive(Lagrangian, Clone, Debug)]
@@ -54,14 +54,9 @@ fn methods_agree() {
         ("verner98", 1e-12, 1e-10),
         ("rk4:0.0005", 1e-9, 1e-9),
     ] {
-        let method: Method = method.parse().expect("a method");
-        let run = Simulation::new(&chain)
-            .method(method)
-            .tolerance(tolerance)
-            .run(start.clone(), 0.0..2.0);
-        let end = run.expect("smooth");
+        let end = run_by(&chain, (method, tolerance), start.clone(), 2.0);
         for (a, b) in end.final_state().q.iter().zip(&reference.final_state().q) {
-            agree(&method.to_string(), *a, *b, accuracy);
+            agree(method, *a, *b, accuracy);
         }
     }
 }
@@ -129,11 +124,7 @@ fn a_chain_of_twelve_keeps_its_energy() {
     };
     let bent: Vec<f64> = (0..12).map(|i| 0.8 - 0.1 * f64::from(i)).collect();
     for (method, accuracy) in [("taylor", 1e-11), ("dop853", 1e-8)] {
-        let run = Simulation::new(&chain)
-            .method(method.parse().expect("a method"))
-            .tolerance(1e-12)
-            .run(state(&bent, &[0.0; 12]), 0.0..2.0)
-            .expect("smooth");
+        let run = run_by(&chain, (method, 1e-12), state(&bent, &[0.0; 12]), 2.0);
         assert!(closure(&run) < accuracy, "{method}: {}", closure(&run));
     }
 }

@@ -5,7 +5,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::{agree, all_agree, closure, event, run, words};
+use lagrange_tests::{agree, all_agree, closure, event, run, run_by, words};
 
 /// A block on a plane that is inclined by `slope`: x across, y downhill, z off the plane.
 #[derive(Lagrangian, Clone, Debug)]
@@ -179,13 +179,8 @@ fn all_methods_come_to_rest() {
         ("gauss6:1e-3", 1e-9, 1e-7),
     ] {
         let scene = block(ratio);
-        let simulation = Simulation::new(&scene)
-            .tolerance(tolerance)
-            .method(method.parse().expect("a method"));
         let start = state(&[0.0; 3], &[1.7, 0.0, 0.0]);
-        let trajectory = simulation
-            .run(start, 0.0..3.0)
-            .unwrap_or_else(|e| panic!("{method}: {e}"));
+        let trajectory = run_by(&scene, (method, tolerance), start, 3.0);
         assert_eq!(words(&trajectory), ["grip sticks"], "{method}");
         agree(
             method,

@@ -1,6 +1,7 @@
 //! Systems that are not in the library, declared here, each with something independent to compare with.
 
 mod ball;
+mod belt;
 mod block;
 mod blows;
 mod cart_pole;
@@ -11,11 +12,14 @@ mod cue_ball;
 mod damped;
 mod groove;
 mod hoop;
+mod in_turn;
 mod incline;
 mod kepler;
+mod landings;
 mod pendulum;
 mod piecewise;
 mod plate;
+mod pressed;
 mod region;
 mod rocking_block;
 mod skate;

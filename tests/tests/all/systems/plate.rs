@@ -2,7 +2,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::{agree, all_agree, closure, run, words};
+use lagrange_tests::{agree, all_agree, closure, run, run_by, words};
 
 /// Each leg carries a third of the weight.
 #[derive(Lagrangian, Clone, Debug)]
@@ -83,11 +83,7 @@ fn it_slides_and_spins() {
             agree("time", rest(&other), time, 1e-9);
         }
         for (method, bound) in [("dop853", 1e-9), ("verner98", 1e-9), ("radau5", 1e-8)] {
-            let simulation = Simulation::new(&PLATE).tolerance(1e-11);
-            let other = simulation
-                .method(method.parse().expect("a method"))
-                .run(start(), 0.0..5.0);
-            let other = other.unwrap_or_else(|e| panic!("{method}: {e}"));
+            let other = run_by(&PLATE, (method, 1e-11), start(), 5.0);
             all_agree(method, &other.final_state().q, &end.q, bound);
         }
     }

@@ -2,7 +2,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::{agree, all_agree, closure, event, run, words};
+use lagrange_tests::{agree, all_agree, closure, event, run, run_by, words};
 
 /// A puck on a level table that turns at ω = speed + acceleration t.
 #[derive(Lagrangian, Clone, Debug)]
@@ -70,10 +70,8 @@ fn a_puck_slips_off_a_table_that_speeds_up() {
             ("gauss6:1e-2", 1e-8),
             ("rk4:1e-3", 1e-8),
         ] {
-            let run = Simulation::new(&scene).tolerance(1e-11);
-            let run = run.method(method.parse().expect("a method"));
-            let other = run.run(state(&[r, 0.0, 0.0], &[0.0; 3]), 0.0..8.0);
-            let other = other.unwrap_or_else(|failure| panic!("{method}: {failure}"));
+            let start = state(&[r, 0.0, 0.0], &[0.0; 3]);
+            let other = run_by(&scene, (method, 1e-11), start, 8.0);
             all_agree(method, &end.q, &other.final_state().q, bound);
         }
     }

@@ -2,7 +2,7 @@
 
 use super::{PI, state};
 use lagrange_core::prelude::*;
-use lagrange_tests::{agree, all_agree, closure, event, root, run, words};
+use lagrange_tests::{agree, all_agree, closure, event, root, run, run_by, words};
 
 /// A bead on a circle in a plane that is inclined by `slope`, x downhill.
 #[derive(Lagrangian, Clone, Debug)]
@@ -245,10 +245,7 @@ fn all_methods_follow_the_bead() {
         ("rk4:1e-3", 1e-9, 1e-6),
         ("gauss6:1e-2", 1e-9, 1e-6),
     ] {
-        let simulation = Simulation::new(&bead).tolerance(tolerance);
-        let simulation = simulation.method(method.parse().expect("a method"));
-        let other = simulation.run(start(), 0.0..10.0);
-        let other = other.unwrap_or_else(|e| panic!("{method}: {e}"));
+        let other = run_by(&bead, (method, tolerance), start(), 10.0);
         assert_eq!(words(&trajectory), words(&other), "{method}");
         all_agree(
             method,

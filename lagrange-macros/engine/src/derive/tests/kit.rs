@@ -4,9 +4,9 @@ use super::notation::parse;
 use super::numbers::Derived;
 use crate::derive::equations;
 use crate::diagnostics::Diagnostics;
+use crate::model::tests::{bare, item};
 use crate::model::*;
-use crate::symbolic::{ExprId, Pool, Symbol};
-use proc_macro2::{Ident, Span, TokenStream};
+use crate::symbolic::{ExprId, Symbol};
 use std::collections::BTreeMap;
 
 /// A system under construction: names → expressions, in the notation of the language.
@@ -15,76 +15,23 @@ pub struct Build {
     names: BTreeMap<String, ExprId>,
 }
 
-fn name(text: &str) -> ItemName {
-    let ident = (!text.is_empty()).then(|| Ident::new(text, Span::call_site()));
-    ItemName {
-        text: text.to_owned(),
-        ident,
-        element: None,
-        span: Span::call_site(),
-    }
-}
-
 impl Build {
     /// Coordinates and parameters, separated by blanks.
     pub fn new(coordinates: &str, parameters: &str) -> Self {
-        let mut pool = Pool::new();
-        let mut names = BTreeMap::new();
-        let mut symbol = |pool: &mut Pool, text: &str| {
-            let symbol = pool.symbol(text);
-            names.insert(text.to_owned(), pool.leaf(symbol));
-            symbol
-        };
-        let time = symbol(&mut pool, "t");
-        let parameters = parameters
-            .split_whitespace()
-            .map(|text| Parameter {
-                field: Ident::new(text, Span::call_site()),
-                element: None,
-                name: text.to_owned(),
-                symbol: symbol(&mut pool, text),
-                documentation: String::new(),
-                unit: String::new(),
-                tex: String::new(),
-                letter: String::new(),
-            })
+        let mut system = bare(
+            parameters.split_whitespace(),
+            coordinates.split_whitespace(),
+        );
+        let mut symbols = vec![system.time];
+        symbols.extend(system.parameters.iter().map(|p| p.symbol));
+        for c in &system.coordinates {
+            symbols.extend([c.position, c.velocity, c.acceleration]);
+        }
+        let pool = &mut system.pool;
+        let names = symbols
+            .into_iter()
+            .map(|symbol| (pool.name(symbol).to_owned(), pool.leaf(symbol)))
             .collect();
-        let coordinates = coordinates
-            .split_whitespace()
-            .map(|text| Coordinate {
-                name: name(text),
-                position: symbol(&mut pool, text),
-                velocity: symbol(&mut pool, &format!("v_{text}")),
-                acceleration: symbol(&mut pool, &format!("a_{text}")),
-                unit: String::new(),
-            })
-            .collect();
-        let system = System {
-            name: Ident::new("Scene", Span::call_site()),
-            documentation: String::new(),
-            scalar: None,
-            core: TokenStream::new(),
-            pool,
-            time,
-            parameters,
-            coordinates,
-            kinetic: vec![],
-            potential: vec![],
-            from_lagrangian: false,
-            constraints: vec![],
-            contacts: vec![],
-            frictions: vec![],
-            forces: vec![],
-            dissipations: vec![],
-            branches: vec![],
-            starts: vec![],
-            observes: vec![],
-            stops: vec![],
-            marks: vec![],
-            impacts: crate::ast::Impacts::default(),
-            units: crate::model::Units::default(),
-            hints: Vec::new(),
-        };
         Self { system, names }
     }
 
@@ -111,7 +58,7 @@ impl Build {
     pub fn kinetic(mut self, text: &str, energy: &str) -> Self {
         let energy = self.e(energy);
         self.system.kinetic.push(EnergyTerm {
-            name: name(text),
+            name: item(text),
             energy,
         });
         self
@@ -120,7 +67,7 @@ impl Build {
     pub fn potential(mut self, text: &str, energy: &str) -> Self {
         let energy = self.e(energy);
         self.system.potential.push(EnergyTerm {
-            name: name(text),
+            name: item(text),
             energy,
         });
         self
@@ -140,11 +87,11 @@ impl Build {
         let kinetic = pool.sub(lagrangian, at_rest);
         let potential = pool.neg(at_rest);
         self.system.kinetic.push(EnergyTerm {
-            name: name(""),
+            name: item(""),
             energy: kinetic,
         });
         self.system.potential.push(EnergyTerm {
-            name: name(""),
+            name: item(""),
             energy: potential,
         });
         self.system.from_lagrangian = true;
@@ -154,7 +101,7 @@ impl Build {
     pub fn constraint(mut self, text: &str, level: Level, residual: &str) -> Self {
         let (residual, force) = (self.e(residual), self.force(text));
         self.system.constraints.push(Constraint {
-            name: name(text),
+            name: item(text),
             level,
             residual,
             while_contact: None,
@@ -166,9 +113,8 @@ impl Build {
     pub fn contact(mut self, text: &str, gap: &str) -> Self {
         let (gap, force) = (self.e(gap), self.force(text));
         let restitution = Restitution::Newton(self.e("0"));
-        let name = name(text);
         self.system.contacts.push(Contact {
-            name,
+            name: item(text),
             gap,
             normal_factor: None,
             restitution,
@@ -196,7 +142,7 @@ impl Build {
         }
         let coefficient = self.e(coefficient);
         self.system.frictions.push(Friction {
-            name: name(text),
+            name: item(text),
             slip: components,
             normal,
             static_coefficient: coefficient,
@@ -210,7 +156,7 @@ impl Build {
         let generalized = generalized.iter().map(|&(i, q)| (i, self.e(q))).collect();
         let force = self.force(text);
         self.system.forces.push(Force {
-            name: name(text),
+            name: item(text),
             value,
             generalized,
             force,
@@ -221,7 +167,7 @@ impl Build {
     pub fn dissipation(mut self, text: &str, rayleigh: &str) -> Self {
         let rayleigh = self.e(rayleigh);
         self.system.dissipations.push(Dissipation {
-            name: name(text),
+            name: item(text),
             rayleigh,
         });
         self
@@ -230,7 +176,7 @@ impl Build {
     pub fn observe(mut self, text: &str, value: &str) -> Self {
         let value = self.e(value);
         self.system.observes.push(Observe {
-            name: name(text),
+            name: item(text),
             value,
         });
         self
@@ -239,7 +185,7 @@ impl Build {
     pub fn stop(mut self, text: &str, terms: &[&str]) -> Self {
         let terms = terms.iter().map(|term| self.e(term)).collect();
         self.system.stops.push(Watch {
-            name: name(text),
+            name: item(text),
             terms,
             conditions: vec![],
             zeros: false,

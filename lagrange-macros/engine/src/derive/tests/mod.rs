@@ -1,9 +1,12 @@
 //! Derived equations against hand-derived ones, against exact numeric derivatives, and against the theorems.
 
+mod constrained;
+mod counts;
 mod hyperdual;
 mod kit;
 mod notation;
 mod numbers;
+mod smooth;
 mod structure;
-mod textbook;
+mod systems;
 mod theorems;

@@ -226,3 +226,11 @@ pub fn close(what: &str, got: f64, want: f64) {
         "{what}: got {got}, want {want}"
     );
 }
+
+/// Calls `check` at ten random points.
+pub fn at_random(derived: &Derived, check: impl Fn(&Point)) {
+    let mut random = Random(0x5eed);
+    for _ in 0..10 {
+        check(&derived.point(&mut random));
+    }
+}

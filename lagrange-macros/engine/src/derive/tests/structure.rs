@@ -2,7 +2,7 @@
 
 use super::kit::Build;
 use super::numbers::{Random, close};
-use super::textbook::{mass_on_shell, mass_on_wheel, rolling_sphere, sphere_in_sphere};
+use super::systems::{mass_on_shell, mass_on_wheel, rolling_sphere, sphere_in_sphere};
 use crate::derive::{NeedId, Stage};
 use crate::model::{Level, Normal};
 

@@ -3,7 +3,7 @@
 use super::hyperdual::evaluate;
 use super::kit::Build;
 use super::numbers::{Derived, Point, Random, close};
-use super::textbook;
+use super::systems;
 use crate::model::Level;
 use crate::symbolic::{ExprId, Symbol};
 
@@ -151,12 +151,12 @@ fn euler_lagrange_without_a_quadratic_form() {
 fn euler_lagrange_on_standard_systems() {
     let mut random = Random(11);
     for scene in [
-        textbook::mass_on_shell(),
-        textbook::rolling_sphere(),
-        textbook::mass_on_wheel(),
-        textbook::sphere_in_sphere(),
-        textbook::double_pendulum(),
-        textbook::cart_pole(),
+        systems::mass_on_shell(),
+        systems::rolling_sphere(),
+        systems::mass_on_wheel(),
+        systems::sphere_in_sphere(),
+        systems::double_pendulum(),
+        systems::cart_pole(),
         chain(5),
         chain(10),
     ] {
@@ -272,8 +272,8 @@ fn energy_theorem() {
 fn jacobi_integral_is_the_energy() {
     let mut random = Random(5);
     for scene in [
-        textbook::mass_on_wheel(),
-        textbook::double_pendulum(),
+        systems::mass_on_wheel(),
+        systems::double_pendulum(),
         chain(4),
     ] {
         let d = scene.derive();

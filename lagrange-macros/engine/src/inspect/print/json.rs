@@ -22,128 +22,138 @@
 use super::{latex, text};
 use crate::inspect::formula::{Formula, Relation, Statement};
 use crate::inspect::letter::Letter;
-use crate::inspect::{Derivation, Part};
+use crate::inspect::{
+    Checked, Conserved, Cost, Derivation, Equation, Impact, Item, Meaning, Mode, Part, Row, Switch,
+};
 
 /// The whole derivation as JSON.
 pub fn json(d: &Derivation) -> String {
-    let symbols = d.symbols.iter().map(|s| {
-        object(&[
-            ("name", quoted(&s.name)),
-            ("letter", letter(&s.letter)),
-            ("text", quoted(&s.text)),
-            ("unit", quoted(&s.unit)),
-        ])
-    });
-    let declared = d.declared.iter().map(|item| {
-        let parts = item.parts.iter().map(|part| match part {
-            Part::Word(word) => quoted(word),
-            Part::Formula(f) => formula(f),
-            Part::Statement(s) => statement(s),
-        });
-        object(&[
-            ("item", quoted(item.keyword)),
-            ("name", quoted(&item.name)),
-            ("parts", list(parts)),
-        ])
-    });
     let energies = object(&[
         ("kinetic", formula(&d.kinetic)),
         ("potential", formula(&d.potential)),
     ]);
-    let motion = d.motion.iter().map(|equation| {
-        object(&[
-            ("coordinate", letter(&equation.label)),
-            ("equation", statement(&equation.statement)),
-        ])
-    });
-    let rows = d.rows.iter().map(|row| {
-        object(&[
-            ("name", quoted(&row.name)),
-            ("kind", quoted(row.kind)),
-            ("declared", statement(&row.declared)),
-            ("acceleration", statement(&row.acceleration)),
-            ("multiplier", letter(&row.multiplier)),
-            ("acts", quoted(&row.when)),
-        ])
-    });
-    let modes = d.modes.iter().map(|mode| {
-        let guards = mode.guards.iter().map(|guard| {
-            object(&[
-                ("while", statement(&guard.statement)),
-                ("otherwise", quoted(&guard.otherwise)),
-            ])
-        });
-        object(&[
-            ("name", quoted(&mode.name)),
-            ("known", list(mode.known.iter().map(statement))),
-            ("unknowns", list(mode.unknowns.iter().map(letter))),
-            ("equations", list(mode.equations.iter().map(statement))),
-            ("solution", list(mode.solution.iter().map(statement))),
-            ("guards", list(guards)),
-            ("operations", mode.operations.to_string()),
-            ("operations_with_guards", mode.with_guards.to_string()),
-        ])
-    });
-    let switches = d.switches.iter().map(|switch| {
-        object(&[
-            ("from", switch.from.to_string()),
-            ("to", switch.to.to_string()),
-            ("label", quoted(&switch.label)),
-        ])
-    });
-    let impacts = d.impacts.iter().map(|impact| {
-        object(&[
-            ("contact", quoted(&impact.contact)),
-            ("when", list(impact.when.iter().map(statement))),
-            ("equations", list(impact.equations.iter().map(statement))),
-            ("note", quoted(&impact.note)),
-        ])
-    });
-    let conserved = d.conserved.iter().map(|item| {
-        object(&[
-            ("name", quoted(&item.name)),
-            ("quantity", statement(&item.quantity)),
-            (
-                "rate",
-                item.rate.as_ref().map_or("null".to_owned(), statement),
-            ),
-            ("when", quoted(&item.when)),
-        ])
-    });
-    let checks = d.checks.iter().map(|check| {
-        object(&[
-            ("name", quoted(&check.name)),
-            ("claim", quoted(&check.claim)),
-            ("outcome", quoted(&check.outcome)),
-        ])
-    });
-    let operations = d.costs.iter().map(|cost| {
-        object(&[
-            ("effect", quoted(&cost.name)),
-            ("alone", cost.before.to_string()),
-            ("shared", cost.after.to_string()),
-        ])
-    });
     let whole = object(&[
         ("schema", quoted("lagrange.derivation.1")),
         ("name", quoted(&d.name)),
         ("summary", quoted(&d.summary)),
-        ("symbols", list(symbols)),
-        ("declared", list(declared)),
+        ("symbols", list(d.symbols.iter().map(symbol))),
+        ("declared", list(d.declared.iter().map(declared))),
         ("energies", energies),
-        ("motion", list(motion)),
-        ("rows", list(rows)),
+        ("motion", list(d.motion.iter().map(motion))),
+        ("rows", list(d.rows.iter().map(row))),
         ("mode_count", d.mode_count.to_string()),
-        ("modes", list(modes)),
-        ("switches", list(switches)),
-        ("impacts", list(impacts)),
-        ("conserved", list(conserved)),
-        ("checks", list(checks)),
-        ("operations", list(operations)),
+        ("modes", list(d.modes.iter().map(mode))),
+        ("switches", list(d.switches.iter().map(switch))),
+        ("impacts", list(d.impacts.iter().map(impact))),
+        ("conserved", list(d.conserved.iter().map(conserved))),
+        ("checks", list(d.checks.iter().map(check))),
+        ("operations", list(d.costs.iter().map(cost))),
         ("hints", list(d.hints.iter().map(|hint| quoted(hint)))),
         ("notes", list(d.notes.iter().map(|note| quoted(note)))),
     ]);
     whole + "\n"
+}
+
+fn symbol(meaning: &Meaning) -> String {
+    object(&[
+        ("name", quoted(&meaning.name)),
+        ("letter", letter(&meaning.letter)),
+        ("text", quoted(&meaning.text)),
+        ("unit", quoted(&meaning.unit)),
+    ])
+}
+
+fn declared(item: &Item) -> String {
+    let parts = item.parts.iter().map(|part| match part {
+        Part::Word(word) => quoted(word),
+        Part::Formula(f) => formula(f),
+        Part::Statement(s) => statement(s),
+    });
+    object(&[
+        ("item", quoted(item.keyword)),
+        ("name", quoted(&item.name)),
+        ("parts", list(parts)),
+    ])
+}
+
+fn motion(equation: &Equation) -> String {
+    object(&[
+        ("coordinate", letter(&equation.label)),
+        ("equation", statement(&equation.statement)),
+    ])
+}
+
+fn row(row: &Row) -> String {
+    object(&[
+        ("name", quoted(&row.name)),
+        ("kind", quoted(row.kind)),
+        ("declared", statement(&row.declared)),
+        ("acceleration", statement(&row.acceleration)),
+        ("multiplier", letter(&row.multiplier)),
+        ("acts", quoted(&row.when)),
+    ])
+}
+
+fn mode(mode: &Mode) -> String {
+    let guards = mode.guards.iter().map(|guard| {
+        object(&[
+            ("while", statement(&guard.statement)),
+            ("otherwise", quoted(&guard.otherwise)),
+        ])
+    });
+    object(&[
+        ("name", quoted(&mode.name)),
+        ("known", list(mode.known.iter().map(statement))),
+        ("unknowns", list(mode.unknowns.iter().map(letter))),
+        ("equations", list(mode.equations.iter().map(statement))),
+        ("solution", list(mode.solution.iter().map(statement))),
+        ("guards", list(guards)),
+        ("operations", mode.operations.to_string()),
+        ("operations_with_guards", mode.with_guards.to_string()),
+    ])
+}
+
+fn switch(switch: &Switch) -> String {
+    object(&[
+        ("from", switch.from.to_string()),
+        ("to", switch.to.to_string()),
+        ("label", quoted(&switch.label)),
+    ])
+}
+
+fn impact(impact: &Impact) -> String {
+    object(&[
+        ("contact", quoted(&impact.contact)),
+        ("when", list(impact.when.iter().map(statement))),
+        ("equations", list(impact.equations.iter().map(statement))),
+        ("note", quoted(&impact.note)),
+    ])
+}
+
+fn conserved(item: &Conserved) -> String {
+    let rate = item.rate.as_ref();
+    object(&[
+        ("name", quoted(&item.name)),
+        ("quantity", statement(&item.quantity)),
+        ("rate", rate.map_or("null".to_owned(), statement)),
+        ("when", quoted(&item.when)),
+    ])
+}
+
+fn check(check: &Checked) -> String {
+    object(&[
+        ("name", quoted(&check.name)),
+        ("claim", quoted(&check.claim)),
+        ("outcome", quoted(&check.outcome)),
+    ])
+}
+
+fn cost(cost: &Cost) -> String {
+    object(&[
+        ("effect", quoted(&cost.name)),
+        ("alone", cost.before.to_string()),
+        ("shared", cost.after.to_string()),
+    ])
 }
 
 fn letter(l: &Letter) -> String {

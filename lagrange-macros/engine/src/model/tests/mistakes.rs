@@ -1,6 +1,7 @@
 //! Wrong declarations: what is reported, where, and how often.
 
 use super::{read, with};
+use crate::diagnostics::tests::mistakes_are_at;
 
 /// (items from line 2 on, mistakes as `line:col code`)
 #[test]
@@ -104,21 +105,7 @@ fn mistakes_point_at_their_token() {
         ("attitude(x: z)", "2:10 E202"),
         ("potential(p: theta_dot)", "2:14 E201"),
     ];
-    let mut failures = String::new();
-    for (items, expected) in wrong {
-        let found = match with(items) {
-            Ok(_) => "nothing wrong".to_string(),
-            Err(found) => found,
-        };
-        let places: Vec<String> = found
-            .lines()
-            .map(|line| line.split(' ').take(2).collect::<Vec<_>>().join(" "))
-            .collect();
-        if places != [expected] {
-            failures += &format!("{items}\n  expected {expected}\n  found {found}\n");
-        }
-    }
-    assert!(failures.is_empty(), "{failures}");
+    mistakes_are_at(&wrong, |items| with(items).map(|_| ()));
 }
 
 #[test]

@@ -4,10 +4,13 @@ use super::{Condition, Level, Normal, System};
 use crate::diagnostics::Diagnostics;
 use crate::symbolic::ExprId;
 
+mod bare;
 mod items;
 mod mistakes;
 mod structure;
 mod units;
+
+pub(crate) use bare::{bare, item};
 
 /// DESIGN's example.
 pub(crate) const MASS_ON_WHEEL: &str = r#"

@@ -8,17 +8,16 @@
 //! force along x       E/x                   (fx, fy) at (px, py): fᵢ in E/pᵢ; f along s: E s⁻¹/s
 //! ```
 
-use super::dimension::Dimension;
-use super::infer::{Role, Shape, is_number};
 use super::quantity::{Quantity, Unknowns};
+use super::remedy::is_number;
+use super::shape::{Role, Shape};
 use crate::ast::{
-    self, Action, Clause, Declaration, Expr, FrictionLaw, Head, ItemKind, Observe, Order,
-    Reference, Restitution, Trigger,
+    self, Action, Clause, Declaration, Expr, Head, ItemKind, Observe, Order, Reference, Trigger,
 };
-use crate::diagnostics::{Code, Diagnostics};
+use crate::diagnostics::Diagnostics;
+use crate::model::Level;
 use crate::model::elaborate::Elaboration;
 use crate::model::names::{Kind, Meaning};
-use crate::model::{Level, Normal};
 use crate::symbolic::Rational;
 use std::collections::BTreeMap;
 
@@ -110,18 +109,8 @@ impl Checker<'_, '_> {
                 }
                 Some(())
             }
-            (2, ItemKind::Constraint(constraint)) => {
-                self.each(&constraint.head, |this, element| {
-                    let residual = this.sides(&constraint.left, &constraint.right)?;
-                    let level = this.elaboration.system.constraints.get(element)?.level;
-                    let work = match level {
-                        Level::Position => energy.clone(),
-                        Level::Velocity => this.times_time(&energy, -1),
-                    };
-                    let force = this.unknowns.times(&work, &residual, Rational::MINUS_ONE);
-                    this.forces.constraints.insert(element, force);
-                    Some(())
-                })
+            (2, ItemKind::Constraint(item)) => {
+                self.each(&item.head, |this, element| this.constraint(item, element))
             }
             (3, ItemKind::Friction(friction)) => self.each(&friction.head, |this, element| {
                 this.friction(friction, element)
@@ -153,20 +142,32 @@ impl Checker<'_, '_> {
                 Some(())
             }
             (7, ItemKind::Stop(watch) | ItemKind::Mark(watch)) => {
-                self.each(&watch.head, |this, _| match &watch.trigger {
-                    Trigger::Zero(value) => this.one(value, None).map(|_| ()),
-                    Trigger::All(clauses) => {
-                        for clause in clauses {
-                            if let Clause::Comparison(comparison) = clause {
-                                this.loosely(comparison)?;
-                            }
-                        }
-                        Some(())
-                    }
-                })
+                self.each(&watch.head, |this, _| this.trigger(&watch.trigger))
             }
             (8, ItemKind::Check(check)) => self.check(check),
             _ => Some(()),
+        }
+    }
+
+    fn constraint(&mut self, constraint: &ast::Constraint, element: usize) -> Option<()> {
+        let residual = self.sides(&constraint.left, &constraint.right)?;
+        let energy = self.energy.clone();
+        let work = match self.elaboration.system.constraints.get(element)?.level {
+            Level::Position => energy,
+            Level::Velocity => self.times_time(&energy, -1),
+        };
+        let force = self.unknowns.times(&work, &residual, Rational::MINUS_ONE);
+        self.forces.constraints.insert(element, force);
+        Some(())
+    }
+
+    fn trigger(&mut self, trigger: &Trigger) -> Option<()> {
+        match trigger {
+            Trigger::Zero(value) => self.one(value, None).map(|_| ()),
+            Trigger::All(clauses) => clauses.iter().try_for_each(|clause| match clause {
+                Clause::Comparison(comparison) => self.loosely(comparison).map(|_| ()),
+                _ => Some(()),
+            }),
         }
     }
 
@@ -226,142 +227,6 @@ impl Checker<'_, '_> {
             None => self.expect(&term.value, &energy, what),
             Some(head) => self.each(head, |this, _| this.expect(&term.value, &energy, what)),
         }
-    }
-
-    fn contact(&mut self, contact: &ast::Contact, element: usize) -> Option<()> {
-        let gap = self.comparison(&contact.gap);
-        let restitution = match &contact.restitution {
-            None => Some(()),
-            Some(Restitution::Newton(e) | Restitution::Poisson(e)) => {
-                self.plain(e, "a restitution")
-            }
-        };
-        let region = match &contact.region {
-            None => Some(()),
-            Some(region) => self.loosely(region).map(|_| ()),
-        };
-        let gap = gap?;
-        let force = self.unknowns.times(&self.energy, &gap, Rational::MINUS_ONE);
-        self.forces.contacts.insert(element, force);
-        self.gaps.insert(element, gap);
-        if let Some(point) = &contact.at {
-            let mut components = self.shape(point, None)?.quantities().into_iter();
-            let first = components.next()?;
-            for component in components {
-                self.equal(
-                    &first,
-                    &component,
-                    "the first coordinate of this point",
-                    point,
-                )?;
-            }
-            let normal = self
-                .unknowns
-                .times(&self.energy, &first, Rational::MINUS_ONE);
-            self.forces.normals.insert(element, normal);
-        }
-        restitution.and(region)
-    }
-
-    fn friction(&mut self, friction: &ast::Friction, element: usize) -> Option<()> {
-        let power = self.times_time(&self.energy.clone(), -1);
-        let slip = self.shape(&friction.slip, None)?;
-        let components = slip.quantities();
-        let forces: Vec<Quantity> = components
-            .iter()
-            .map(|slip| self.unknowns.times(&power, slip, Rational::MINUS_ONE))
-            .collect();
-        self.slips.insert(element, slip);
-        self.forces.frictions.insert(element, forces.clone());
-        let force = forces.first()?;
-        for other in &forces {
-            let (one, another) = (self.unknowns.read(force)?, self.unknowns.read(other)?);
-            if self.unknowns.conflict(&one, &another).is_some() {
-                let (one, another) = (self.phrase(&one, true), self.phrase(&another, true));
-                let hint = "both components of a slip are velocities, in m/s";
-                self.mistake(
-                    Code::UnitExpected,
-                    friction.slip.extent,
-                    &[
-                        &"the force along the first component",
-                        &one,
-                        &another,
-                        &hint,
-                    ],
-                );
-                return None;
-            }
-        }
-        let normal = self.elaboration.system.frictions.get(element)?.normal;
-        let pressing = match (normal, &friction.on) {
-            (Normal::Contact(contact), Some(on)) => Some((Kind::Contact, contact, on)),
-            (Normal::Constraint(constraint), Some(on)) => Some((Kind::Constraint, constraint, on)),
-            _ => None,
-        };
-        if let Some((kind, item, on)) = pressing {
-            self.pressed(kind, item, on)?;
-            let speed: Quantity = Dimension::mechanical(0, 1, -1).into();
-            for slip in components {
-                self.equal(&speed, &slip, "a slip", &friction.slip)?;
-            }
-        }
-        match &friction.law {
-            FrictionLaw::Limit(limit) => match &limit.kind {
-                ast::ExprKind::List(limits) => limits.iter().try_for_each(|limit| {
-                    self.expect(
-                        limit,
-                        force,
-                        Role::force("the friction force along this slip"),
-                    )
-                }),
-                _ => self.expect(
-                    limit,
-                    force,
-                    Role::force("the friction force along this slip"),
-                ),
-            },
-            FrictionLaw::Coefficients {
-                normal,
-                stick,
-                slide,
-            } => {
-                let what = "a coefficient of friction";
-                let stick = self.plain(stick, what);
-                let slide = slide
-                    .as_ref()
-                    .map_or(Some(()), |slide| self.plain(slide, what));
-                let normal = normal.as_ref().map_or(Some(()), |normal| {
-                    self.expect(normal, force, Role::force("the normal force for this slip"))
-                });
-                stick.and(slide).and(normal)
-            }
-        }
-    }
-
-    /// What presses is a force: the gap or the constraint is a distance.
-    fn pressed(&mut self, kind: Kind, item: usize, on: &Reference) -> Option<()> {
-        let Some(Shape::One(force)) = self.forces.of(kind, item) else {
-            return None;
-        };
-        let newton =
-            self.unknowns
-                .times(&self.energy, &Dimension::LENGTH.into(), Rational::MINUS_ONE);
-        let Some((newton, force)) = self.unknowns.conflict(&newton, &force) else {
-            return Some(());
-        };
-        let hint = match kind {
-            Kind::Contact => {
-                "write the gap as a distance, in m; or say where it acts: `contact(… at (px, py))`"
-            }
-            _ => "write both sides of the constraint as distances, in m, or as velocities, in m/s",
-        };
-        let (force, newton) = (self.phrase(&force, true), self.phrase(&newton, true));
-        self.mistake(
-            Code::PressedBy,
-            &on.name,
-            &[&on.name.text, &force, &newton, &hint],
-        );
-        None
     }
 
     fn force(&mut self, force: &ast::Force, element: usize) -> Option<()> {

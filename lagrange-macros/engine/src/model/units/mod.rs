@@ -9,11 +9,20 @@
 //! * Energies are in J. Where no given unit contains kg, they may all be per unit of mass instead (a hint says so).
 //! * Units are coherent: a multiple like `mm` is refused, since numbers are never converted.
 
+mod agree;
+mod calls;
 mod check;
+mod contacts;
 mod dimension;
 mod grammar;
 mod infer;
+mod names;
 mod quantity;
+mod remedy;
+mod shape;
+mod table;
+#[cfg(test)]
+mod tests;
 
 use super::elaborate::Elaboration;
 use super::{Hint, Units};
@@ -22,8 +31,8 @@ use crate::diagnostics::{Code, Diagnostics};
 use check::{Checker, Forces};
 use dimension::Dimension;
 use grammar::{Refusal, Unit};
-use infer::Shape;
 use quantity::{Quantity, Unknowns};
+use shape::Shape;
 use std::collections::BTreeMap;
 
 /// A name with its number of elements and its unit.

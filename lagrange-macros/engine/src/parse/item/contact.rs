@@ -5,7 +5,8 @@ use super::super::expression::{expression, whole};
 use super::super::relation::{CONSTRAINT, comparison, equation, leftover};
 use super::{head, head_and_colon, key, named, no_more, once, reference};
 use crate::ast::{
-    Comparison, Constraint, Contact, Friction, FrictionLaw, ItemKind, Name, Restitution,
+    Comparison, Constraint, Contact, Expr, Friction, FrictionLaw, Head, ItemKind, Name, Reference,
+    Restitution,
 };
 use crate::diagnostics::{Code, Diagnostics};
 use proc_macro2::Delimiter;
@@ -115,7 +116,7 @@ pub(super) fn friction(
         )?),
     };
     first.require(":", sink)?;
-    let [mut slip, mut stick, mut slide, mut normal, mut limit] = [const { None }; 5];
+    let mut given = Given::default();
     for part in &mut parts {
         let keys = ["slip", "static", "kinetic", "normal", "limit"];
         let Some(key) = key(part, "friction", &keys, sink) else {
@@ -125,26 +126,51 @@ pub(super) fn friction(
             continue;
         };
         let slot = match key.text.as_str() {
-            "slip" => &mut slip,
-            "static" => &mut stick,
-            "kinetic" => &mut slide,
-            "normal" => &mut normal,
-            _ => &mut limit,
+            "slip" => &mut given.slip,
+            "static" => &mut given.stick,
+            "kinetic" => &mut given.slide,
+            "normal" => &mut given.normal,
+            _ => &mut given.limit,
         };
         once(slot, value, &key, sink);
     }
     if sink.count() > before {
         return None;
     }
-    let name = &head.name.text;
-    let mut missing = |what: &str, part: &str| {
-        sink.report(Code::MissingPart, &head.name, &[name, &what, &part]);
-    };
+    let slip = given.slip.take();
     if slip.is_none() {
-        missing("slip velocity", "slip = …");
+        missing(&head, "slip velocity", "slip = …", sink);
     }
-    let law = match (limit, stick) {
-        (Some(limit), None) if slide.is_none() && normal.is_none() && on.is_none() => {
+    let law = law(keyword, &head, on.as_ref(), given, sink);
+    let (slip, law) = (slip?, law?);
+    (sink.count() == before).then_some(ItemKind::Friction(Box::new(Friction {
+        head,
+        on,
+        slip,
+        law,
+    })))
+}
+
+/// Parts of a friction, by their keys.
+#[derive(Default)]
+struct Given {
+    slip: Option<Expr>,
+    stick: Option<Expr>,
+    slide: Option<Expr>,
+    normal: Option<Expr>,
+    limit: Option<Expr>,
+}
+
+/// `static` with a source of the normal force, or `limit` alone.
+fn law(
+    keyword: &Name,
+    head: &Head,
+    on: Option<&Reference>,
+    given: Given,
+    sink: &mut Diagnostics,
+) -> Option<FrictionLaw> {
+    match (given.limit, given.stick) {
+        (Some(limit), None) if given.slide.is_none() && given.normal.is_none() && on.is_none() => {
             Some(FrictionLaw::Limit(limit))
         }
         (Some(_), _) => {
@@ -153,33 +179,33 @@ pub(super) fn friction(
             None
         }
         (None, Some(stick)) => {
-            match (&on, &normal) {
-                (None, None) => missing("normal force", "on contact` or `normal = N"),
+            match (on, &given.normal) {
+                (None, None) => {
+                    missing(head, "normal force", "on contact` or `normal = N", sink);
+                }
                 (Some(on), Some(_)) => {
-                    sink.report(
-                        Code::Exclusive,
-                        &on.name,
-                        &[&"on", &"normal", &"keep one source of the normal force"],
-                    );
+                    let hint = "keep one source of the normal force";
+                    sink.report(Code::Exclusive, &on.name, &[&"on", &"normal", &hint]);
                 }
                 _ => {}
             }
             Some(FrictionLaw::Coefficients {
-                normal: normal.map(Box::new),
+                normal: given.normal.map(Box::new),
                 stick: Box::new(stick),
-                slide: slide.map(Box::new),
+                slide: given.slide.map(Box::new),
             })
         }
         (None, None) => {
-            missing("coefficient", "static = mu");
+            missing(head, "coefficient", "static = mu", sink);
             None
         }
-    };
-    let (slip, law) = (slip?, law?);
-    (sink.count() == before).then_some(ItemKind::Friction(Box::new(Friction {
-        head,
-        on,
-        slip,
-        law,
-    })))
+    }
+}
+
+fn missing(head: &Head, what: &str, part: &str, sink: &mut Diagnostics) {
+    sink.report(
+        Code::MissingPart,
+        &head.name,
+        &[&head.name.text, &what, &part],
+    );
 }

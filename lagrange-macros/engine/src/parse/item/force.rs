@@ -3,7 +3,7 @@
 use super::super::cursor::Cursor;
 use super::super::expression::{expression, whole};
 use super::{head_and_colon, no_more};
-use crate::ast::{Action, Expr, ExprKind, Force, ItemKind, Reference};
+use crate::ast::{Action, Expr, Force, ItemKind, Reference};
 use crate::diagnostics::{Code, Diagnostics};
 
 /// `name: theta = τ`, `name: (fx, fy) at (px, py)` or `name: f along s`
@@ -32,24 +32,13 @@ pub(super) fn force(mut parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<It
 
 /// A coordinate, read as an expression.
 fn coordinate(value: Expr, sink: &mut Diagnostics) -> Option<Reference> {
-    let found = match &value.kind {
-        ExprKind::Name(name) => Some((name, None)),
-        ExprKind::Element(base, index) => match &base.kind {
-            ExprKind::Name(name) => Some((name, Some((**index).clone()))),
-            _ => None,
-        },
-        _ => None,
-    };
-    let Some((name, element)) = found else {
+    let found = value.as_reference();
+    if found.is_none() {
         sink.report(
             Code::Expected,
             value.extent,
             &[&"a coordinate before `=`", &format!("`{value}`")],
         );
-        return None;
-    };
-    Some(Reference {
-        name: name.clone(),
-        element,
-    })
+    }
+    found
 }

@@ -1,10 +1,12 @@
 //! A run as plain data: what every printer starts from, whatever the type of the scene was.
 
-use core::iter;
-use lagrange_core::dynamics::{Dynamics, NeedSet};
+mod sampling;
+
+use crate::request::Request;
 use lagrange_core::mode::{FrictionMode, Mode};
 use lagrange_core::prelude::*;
-use lagrange_core::system::{Description, Friction, Normal};
+use lagrange_core::system::Description;
+pub(crate) use sampling::equal;
 
 /// Everything that happened in a run.
 pub struct Outcome {
@@ -16,6 +18,10 @@ pub struct Outcome {
     pub parameters: Vec<f64>,
     /// What takes part.
     pub effects: Effects,
+    /// Method of integration.
+    pub method: Method,
+    /// Its tolerance, relative and absolute.
+    pub tolerance: f64,
     /// Event log.
     pub events: Vec<Event<f64>>,
     /// Modes in order of time.
@@ -23,11 +29,16 @@ pub struct Outcome {
     /// The trajectory at some instants, and at the beginning and the end of every phase; in order of time.
     /// Empty if the run could not begin.
     pub samples: Vec<Sample>,
+    /// What is known beside the log just before and just after each event, if the run was sampled between its ends; nothing
+    /// between events at one instant.
+    pub around: Vec<[Option<Sample>; 2]>,
     /// Energy book; `None` if it could not be drawn up.
     pub ledger: Option<Ledger>,
     /// The same from the beginning to each sample, if that was asked for and can be drawn up; at the instant of an impact with
     /// the impact.
     pub ledgers: Vec<Ledger>,
+    /// The same at each event.
+    pub event_ledgers: Vec<Ledger>,
     /// Work counts.
     pub work: Work,
     /// Why the run ended early.
@@ -132,30 +143,51 @@ pub fn forces(description: &Description) -> Vec<Force> {
 }
 
 impl Outcome {
-    /// Collects what a trajectory knows; these times, in order, are sampled beside the ends of the phases.
+    /// Collects what a trajectory knows, sampled at equal intervals as the request says.
     pub(crate) fn new(
         scene: &'static str,
         trajectory: &Record<f64>,
         failure: Option<Error>,
+        request: &Request,
+    ) -> Self {
+        let times = equal(trajectory, request.samples);
+        Self::sampled(scene, trajectory, failure, request, &times)
+    }
+
+    /// The same, sampled at these times, which are in order.
+    pub(crate) fn sampled(
+        scene: &'static str,
+        trajectory: &Record<f64>,
+        failure: Option<Error>,
+        request: &Request,
         times: &[f64],
-        ledgers: bool,
     ) -> Self {
         let description = trajectory.description();
-        let samples = sample(trajectory, times);
-        let times: Vec<f64> = samples.iter().map(|sample| sample.time).collect();
-        let ledgers = ledgers.then(|| trajectory.ledgers(&times).ok()).flatten();
+        let samples = sampling::samples(trajectory, times);
+        let events = trajectory.events();
+        let ledgers = |times: Vec<f64>| match request.ledger {
+            true => trajectory.ledgers(&times).unwrap_or_default(),
+            false => Vec::new(),
+        };
         Outcome {
             scene,
             description,
             parameters: (0..description.parameters.len())
                 .map(|i| trajectory.parameter(i))
                 .collect(),
+            method: request.method,
+            tolerance: request.tolerance,
             effects: trajectory.effects().clone(),
-            events: trajectory.events().to_vec(),
+            events: events.to_vec(),
             phases: trajectory.phases(),
-            samples,
+            around: match request.samples {
+                0 => Vec::new(),
+                _ => sampling::around(trajectory),
+            },
             ledger: trajectory.ledger().ok(),
-            ledgers: ledgers.unwrap_or_default(),
+            ledgers: ledgers(samples.iter().map(|sample| sample.time).collect()),
+            event_ledgers: ledgers(events.iter().map(|event| event.time).collect()),
+            samples,
             work: trajectory.work(),
             failure,
         }
@@ -201,131 +233,5 @@ impl Outcome {
     /// The last instant, if the run began.
     pub fn last(&self) -> Option<&Sample> {
         self.samples.last()
-    }
-}
-
-/// The instants between so many equal intervals of a motion.
-pub(crate) fn equal(trajectory: &Record<f64>, intervals: usize) -> Vec<f64> {
-    let (first, last) = (trajectory.first_time(), trajectory.last_time());
-    let step = (last - first) / intervals.max(1) as f64;
-    (1..intervals).map(|k| first + k as f64 * step).collect()
-}
-
-/// Both ends of every phase, and between them these times, which are in order.
-fn sample(trajectory: &Record<f64>, times: &[f64]) -> Vec<Sample> {
-    let (first, last) = (trajectory.first_time(), trajectory.last_time());
-    let mut sampler = trajectory.sampler();
-    let mut limits = Limits::new(trajectory.dynamics());
-    let mut samples = Vec::new();
-    let at_once = || {
-        vec![Phase {
-            from: first,
-            to: first,
-            mode: trajectory.final_mode().clone(),
-        }]
-    };
-    let phases = Some(trajectory.phases())
-        .filter(|phases| !phases.is_empty())
-        .unwrap_or_else(at_once);
-    for (phase, span) in phases.iter().enumerate() {
-        let after = times.partition_point(|t| *t <= span.from);
-        let before = times.partition_point(|t| *t < span.to).max(after);
-        let inner = times[after..before].iter().copied();
-        limits.enter(&span.mode);
-        for time in iter::once(span.from)
-            .chain(inner)
-            .chain(iter::once(span.to))
-        {
-            // At a switch a sampler gives what is just after it: the end of a phase is read a trifle before.
-            let read = if time == span.to && time < last {
-                just_before(time)
-            } else {
-                time
-            };
-            let Ok(instant) = sampler.at(read) else {
-                continue;
-            };
-            if instant.mode != span.mode {
-                continue;
-            }
-            samples.push(Sample {
-                time,
-                phase,
-                limits: limits.at(time, &instant),
-                mode: instant.mode,
-                state: State {
-                    q: instant.q,
-                    v: instant.v,
-                },
-                forces: instant.forces,
-                undetermined: instant.undetermined,
-                kinetic: instant.kinetic,
-                potential: instant.potential,
-                observes: instant.observes,
-            });
-        }
-    }
-    if let Some(end) = samples.last_mut().filter(|end| end.time == last) {
-        end.state = trajectory.final_state().clone();
-    }
-    samples
-}
-
-fn just_before(time: f64) -> f64 {
-    time - 4.0 * f64::EPSILON * time.abs().max(1.0)
-}
-
-/// What frictions can hold: coefficient × normal force.
-struct Limits {
-    dynamics: Dynamics<f64>,
-}
-
-impl Limits {
-    fn new(mut dynamics: Dynamics<f64>) -> Self {
-        let description = dynamics.description();
-        let mut needs = NeedSet::new(description);
-        for friction in description.frictions {
-            needs.insert(friction.coefficients_need);
-        }
-        dynamics.set_extra_needs(&needs);
-        Self { dynamics }
-    }
-
-    fn enter(&mut self, mode: &Mode) {
-        self.dynamics.set_mode(mode);
-    }
-
-    fn at(&mut self, time: f64, instant: &Instant<f64>) -> Vec<Option<f64>> {
-        let description = self.dynamics.description();
-        let along = self.dynamics.value_along(time, &instant.q, &instant.v);
-        if along.is_err() {
-            return vec![None; description.frictions.len()];
-        }
-        let dynamics = &self.dynamics;
-        let limit = |(friction, mode): (&Friction, &FrictionMode)| {
-            let coefficient = match mode {
-                FrictionMode::Inactive => return None,
-                FrictionMode::Stick => friction.static_coefficient,
-                FrictionMode::Slip(_) => friction.kinetic_coefficient,
-            };
-            let normal = match friction.normal {
-                Normal::Contact(i) => {
-                    let contact = &description.contacts[i];
-                    let factor = contact
-                        .normal_factor
-                        .map_or(1.0, |place| dynamics.motion(place));
-                    factor * instant.forces[contact.row]
-                }
-                Normal::Constraint(i) => instant.forces[description.constraints[i].row].abs(),
-                Normal::Given(place) => dynamics.motion(place),
-            };
-            Some(dynamics.motion(coefficient) * normal)
-        };
-        description
-            .frictions
-            .iter()
-            .zip(&dynamics.mode().frictions)
-            .map(limit)
-            .collect()
     }
 }

@@ -1,0 +1,116 @@
+//! Taylor series of several motions at once.
+//!
+//! Motions in the same mode run the same list of operations on other numbers. A packet takes some of them through the list side by
+//! side, with one instruction of the processor for all, so that each gets, bit for bit, what it would get alone.
+
+use super::Dynamics;
+use super::tape::Shape;
+use crate::arithmetic::{Expansion, Pack, Scalar};
+use std::sync::Arc;
+
+/// Motions in a packet.
+const LANES: usize = 4;
+
+/// The motions of a mode side by side.
+#[derive(Debug)]
+struct Packet<T> {
+    shape: Arc<Shape>,
+    registers: Vec<Pack<T, LANES>>,
+    expansion: Expansion<Pack<T, LANES>>,
+}
+
+/// Packets by what runs in them.
+#[derive(Debug)]
+pub(crate) struct Packets<T> {
+    known: Vec<Packet<T>>,
+    /// (packet, motion)
+    members: Vec<(usize, usize)>,
+    processor: pulp::Arch,
+}
+
+impl<T: Scalar> Packets<T> {
+    /// None yet.
+    pub(crate) fn new() -> Self {
+        Self {
+            known: Vec::new(),
+            members: Vec::new(),
+            processor: pulp::Arch::new(),
+        }
+    }
+
+    /// Completes the series, up to `order`, of motions that have [begun](Dynamics::begin_series) one.
+    pub(crate) fn expand(&mut self, waiting: &mut [&mut Dynamics<T>], order: usize) {
+        let mut members = core::mem::take(&mut self.members);
+        members.clear();
+        for (motion, dynamics) in waiting.iter_mut().enumerate() {
+            match dynamics.shape_mut() {
+                Some(shape) => members.push((self.packet_of(shape), motion)),
+                None => dynamics.end_series(order),
+            }
+        }
+        members.sort_unstable();
+        for same in members.chunk_by(|a, b| a.0 == b.0) {
+            for group in same.chunks(LANES) {
+                match *group {
+                    [(_, alone)] => waiting[alone].end_series(order),
+                    _ => self.run(group, waiting, order),
+                }
+            }
+        }
+        self.members = members;
+    }
+
+    /// The packet in which a motion with this shape runs. Equal shapes become the same one.
+    fn packet_of(&mut self, shape: &mut Arc<Shape>) -> usize {
+        let same = |packet: &Packet<T>| Arc::ptr_eq(&packet.shape, shape);
+        if let Some(found) = self.known.iter().position(same) {
+            return found;
+        }
+        if let Some(found) = self.known.iter().position(|p| p.shape == *shape) {
+            shape.clone_from(&self.known[found].shape);
+            return found;
+        }
+        let Shape {
+            everything,
+            registers,
+            wanted,
+            ..
+        } = &**shape;
+        self.known.push(Packet {
+            registers: vec![Pack([T::zero(); LANES]); *registers],
+            expansion: Expansion::new(everything, *registers, wanted, None),
+            shape: shape.clone(),
+        });
+        self.known.len() - 1
+    }
+
+    /// Expands one group. Places that are left over repeat the last motion.
+    fn run(&mut self, group: &[(usize, usize)], waiting: &mut [&mut Dynamics<T>], order: usize) {
+        let motions: [usize; LANES] =
+            core::array::from_fn(|lane| group[lane.min(group.len() - 1)].1);
+        let Packet {
+            shape,
+            registers,
+            expansion,
+        } = &mut self.known[group[0].0];
+        let lanes = motions.map(|motion| waiting[motion].registers());
+        for (index, pack) in registers[..shape.used].iter_mut().enumerate() {
+            *pack = Pack(lanes.map(|lane| lane[index]));
+        }
+        self.processor.dispatch(
+            #[inline(always)]
+            || {
+                expansion.run(
+                    &shape.everything,
+                    registers,
+                    order,
+                    &shape.integrals,
+                    |_, _, _, _| {},
+                );
+            },
+        );
+        for (lane, &(_, motion)) in group.iter().enumerate() {
+            waiting[motion].take_series(expansion, lane, order);
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! Squares of velocities in the form of a kinetic energy.
+
+use super::ByCoordinate;
+use super::nested::{Terms, terms};
+use crate::derive::forms::Variables;
+use crate::symbolic::{ExprId, Node, Pool, Rational, Symbol};
+use std::collections::BTreeMap;
+
+/// (c, w) of all squares c w² that an energy is the sum of.
+pub(super) fn squares_in(
+    pool: &mut Pool,
+    x: &Variables,
+    kinetic: ExprId,
+) -> Option<Vec<(ExprId, ExprId)>> {
+    let mut found = Vec::new();
+    let mut open = vec![(x.one, kinetic)];
+    while let Some((c, e)) = open.pop() {
+        match pool.node(e).clone() {
+            Node::Sum { constant, terms } if constant.is_zero() => {
+                for (term, number) in terms.into_iter().rev() {
+                    open.push((pool.scale(c, number), term));
+                }
+            }
+            Node::Product(factors) => {
+                let (moving, rest): (Vec<_>, Vec<_>) = factors
+                    .into_iter()
+                    .partition(|&(base, _)| pool.depends_on_any(base, &x.velocities));
+                let rest = pool.monomial(Rational::ONE, &rest);
+                let c = pool.mul(c, rest);
+                match moving[..] {
+                    [(w, power)] if power == Rational::integer(2) && !x.changes(pool, c) => {
+                        found.push((c, w));
+                    }
+                    [(sum, power)] if power.is_one() => open.push((c, sum)),
+                    _ => return None,
+                }
+            }
+            _ => return None,
+        }
+    }
+    Some(found)
+}
+
+/// (j, ∂w/∂vⱼ) of a velocity that is linear and homogeneous in v by its form.
+pub(super) fn slopes(
+    pool: &mut Pool,
+    x: &Variables,
+    velocities: &BTreeMap<Symbol, usize>,
+    w: ExprId,
+) -> Option<ByCoordinate> {
+    let mut parts: BTreeMap<usize, Terms> = BTreeMap::new();
+    for (term, number) in terms(pool, w) {
+        let factors = match pool.node(term) {
+            Node::Product(factors) => factors.clone(),
+            Node::Symbol(_) => vec![(term, Rational::ONE)],
+            _ => return None,
+        };
+        let mut rest = Vec::with_capacity(factors.len());
+        let mut moving = None;
+        for (base, power) in factors {
+            let velocity = match pool.node(base) {
+                Node::Symbol(symbol) => velocities.get(symbol),
+                _ if pool.depends_on_any(base, &x.velocities) => return None,
+                _ => None,
+            };
+            match velocity {
+                Some(&j) if power.is_one() && moving.is_none() => moving = Some(j),
+                Some(_) => return None,
+                None => rest.push((base, power)),
+            }
+        }
+        let rest = pool.monomial(Rational::ONE, &rest);
+        parts.entry(moving?).or_default().push((rest, number));
+    }
+    let slopes = parts
+        .into_iter()
+        .map(|(j, terms)| (j, pool.linear(Rational::ZERO, terms)));
+    Some(slopes.filter(|&(_, slope)| slope != x.zero).collect())
+}

@@ -1,0 +1,155 @@
+//! Mᵢⱼ = Σₛ 2cₛ Jₛᵢ Jₛⱼ, factors that are fixed or shared kept together.
+
+use super::Squares;
+use super::nested::{Terms, nested, terms};
+use super::set::{Set, common, members};
+use crate::derive::forms::Variables;
+use crate::symbolic::{ExprId, Node, Pool, Rational};
+use std::collections::BTreeMap;
+
+/// A pair of directions that is used at least so often gets its fixed factor beforehand.
+const WORTHWHILE: usize = 4;
+
+/// inertia · own · other
+struct Product {
+    inertia: ExprId,
+    /// inertia and what is fixed of the other direction
+    scaled: ExprId,
+    own: ExprId,
+    other: ExprId,
+    /// What varies of the other direction.
+    varying: ExprId,
+}
+
+/// How often a fixed factor meets a direction.
+type Uses = BTreeMap<(ExprId, ExprId), usize>;
+
+impl Squares {
+    /// ((i, j ≤ i), Mᵢⱼ), zeros left out.
+    pub fn mass(&self, pool: &mut Pool, x: &Variables) -> BTreeMap<(usize, usize), ExprId> {
+        let (products, uses) = self.products(pool, x);
+        let mut mass = BTreeMap::new();
+        for ((i, j), list) in products {
+            let mut terms = Vec::with_capacity(list.len());
+            for product in list {
+                let [own, other] = match i == j {
+                    true => [pool.mul(product.inertia, product.own), product.other],
+                    false => product.halves(pool, &uses),
+                };
+                terms.push(pool.mul(own, other));
+            }
+            let entry = pool.sum(&terms);
+            let entry = pool.factor(entry);
+            if !pool.is_zero(entry) {
+                mass.insert((i, j), entry);
+            }
+        }
+        mass
+    }
+
+    /// The terms of all entries.
+    fn products(
+        &self,
+        pool: &mut Pool,
+        x: &Variables,
+    ) -> (BTreeMap<(usize, usize), Vec<Product>>, Uses) {
+        let inertias = self.inertias(pool);
+        let mut products: BTreeMap<(usize, usize), Vec<Product>> = BTreeMap::new();
+        let mut parts: BTreeMap<ExprId, (ExprId, ExprId)> = BTreeMap::new();
+        let mut uses = Uses::new();
+        for i in 0..self.size {
+            if pool.is_full() {
+                break;
+            }
+            for j in 0..=i {
+                for (own, other, set) in self.pairs(i, j) {
+                    let Some(&inertia) = inertias.get(&set) else {
+                        continue;
+                    };
+                    let (fixed, varying) =
+                        *parts.entry(other).or_insert_with(|| split(pool, x, other));
+                    let scaled = pool.mul(inertia, fixed);
+                    if i != j {
+                        *uses.entry((scaled, own)).or_default() += 1;
+                        *uses.entry((inertia, own)).or_default() += 1;
+                    }
+                    products.entry((i, j)).or_default().push(Product {
+                        inertia,
+                        scaled,
+                        own,
+                        other,
+                        varying,
+                    });
+                }
+            }
+        }
+        (products, uses)
+    }
+
+    /// Σ 2cₛ of all sets of squares in which two directions meet.
+    fn inertias(&self, pool: &mut Pool) -> BTreeMap<Set, ExprId> {
+        let mut lists: BTreeMap<Set, Terms> = BTreeMap::new();
+        for i in 0..self.size {
+            for j in 0..=i {
+                for (_, _, set) in self.pairs(i, j) {
+                    if lists.contains_key(&set) || set.iter().all(|word| *word == 0) {
+                        continue;
+                    }
+                    let list: Vec<ExprId> =
+                        members(&set).map(|s| self.squares[s].inertia).collect();
+                    let sum = pool.sum(&list);
+                    lists.insert(set, terms(pool, sum));
+                }
+            }
+        }
+        let (sets, lists): (Vec<Set>, Vec<Terms>) = lists.into_iter().unzip();
+        sets.into_iter().zip(nested(pool, &lists)).collect()
+    }
+
+    /// Directions of i and j, and the squares that have both.
+    fn pairs(&self, i: usize, j: usize) -> impl Iterator<Item = (ExprId, ExprId, Set)> {
+        self.directions[i].iter().flat_map(move |(own, set)| {
+            let others = self.directions[j].iter();
+            others.map(move |(other, others)| (*own, *other, common(set, others)))
+        })
+    }
+}
+
+impl Product {
+    /// The two factors of a term off the diagonal: what is used often is kept together.
+    fn halves(&self, pool: &mut Pool, uses: &Uses) -> [ExprId; 2] {
+        let often = |factor| {
+            uses.get(&(factor, self.own))
+                .is_some_and(|&n| n >= WORTHWHILE)
+        };
+        if often(self.scaled) {
+            let own = pool.mul(self.scaled, self.own);
+            [pool.group(own), self.varying]
+        } else if often(self.inertia) {
+            let own = pool.mul(self.inertia, self.own);
+            [pool.group(own), pool.group(self.other)]
+        } else {
+            [pool.mul(self.inertia, self.own), self.other]
+        }
+    }
+}
+
+/// What is fixed during a run of a direction, and what varies.
+fn split(pool: &mut Pool, x: &Variables, slope: ExprId) -> (ExprId, ExprId) {
+    let (number, core) = match pool.node(slope) {
+        Node::Sum { constant, terms } if constant.is_zero() && terms.len() == 1 => {
+            (terms[0].1, terms[0].0)
+        }
+        _ => (Rational::ONE, slope),
+    };
+    let (varying, fixed): (Vec<_>, Vec<_>) = match pool.node(core) {
+        Node::Product(factors) => factors
+            .iter()
+            .partition(|&&(base, _)| x.changes(pool, base)),
+        _ => (vec![(core, Rational::ONE)], Vec::new()),
+    };
+    (
+        pool.monomial(number, &fixed),
+        pool.monomial(Rational::ONE, &varying),
+    )
+}

@@ -1,0 +1,206 @@
+//! T = Σ cₛ wₛ², the velocities wₛ = Σ Jₛᵢ vᵢ left whole: mass matrix, forcing, momenta and T of large systems.
+//!
+//! ```text
+//! Mᵢⱼ = Σₛ 2cₛ Jₛᵢ Jₛⱼ        pᵢ = Σₛ 2cₛ Jₛᵢ wₛ
+//! fᵢ = −Σₛ 2cₛ (Jₛᵢ aₛ + wₛ (J̇ₛᵢ − ∂wₛ/∂qᵢ)),        aₛ = ẇₛ at v̇ = 0
+//! ```
+//!
+//! The first term of f is d'Alembert's: inertial forces projected on the directions of motion (Kane & Levinson 1985,
+//! section 4.11); the second vanishes where wₛ is the rate of a function of the positions. A chain's velocities are
+//! each the one before it and a term more, and so are the sums of inertial forces below a joint: kept as
+//! [groups](Pool::group) they cost n operations together, where the Christoffel symbols of M cost n².
+
+mod find;
+mod mass;
+mod nested;
+mod set;
+
+use super::forms::Variables;
+use crate::symbolic::{ExprId, Pool, Rational, Symbol};
+use find::{slopes, squares_in};
+use nested::{nested, terms};
+use set::{Set, members};
+use std::collections::BTreeMap;
+
+/// (i, expression)
+type ByCoordinate = Vec<(usize, ExprId)>;
+
+/// c w²
+struct Square {
+    /// 2c
+    inertia: ExprId,
+    /// (j, ∂w/∂vⱼ), without zeros, ascending.
+    slopes: ByCoordinate,
+}
+
+/// A kinetic energy as a sum of squares.
+pub(super) struct Squares {
+    squares: Vec<Square>,
+    /// Per coordinate: (Jₛᵢ, the squares that have it).
+    directions: Vec<Vec<(ExprId, Set)>>,
+    /// wₛ, each made of a shorter one where it contains it.
+    speeds: Vec<ExprId>,
+    /// Number of coordinates.
+    size: usize,
+}
+
+impl Squares {
+    /// None if the energy does not have this form.
+    pub fn of(pool: &mut Pool, x: &Variables, kinetic: ExprId) -> Option<Squares> {
+        let velocities: BTreeMap<Symbol, usize> = x
+            .velocities
+            .iter()
+            .enumerate()
+            .map(|(i, &v)| (v, i))
+            .collect();
+        let mut squares = Vec::new();
+        let mut lists = Vec::new();
+        for (c, w) in squares_in(pool, x, kinetic)? {
+            squares.push(Square {
+                inertia: pool.scale(c, Rational::integer(2)),
+                slopes: slopes(pool, x, &velocities, w)?,
+            });
+            lists.push(terms(pool, w));
+        }
+        let speeds = nested(pool, &lists);
+        let mut directions = vec![Vec::new(); x.len()];
+        for (s, square) in squares.iter().enumerate() {
+            for &(i, slope) in &square.slopes {
+                let known: &mut Vec<(ExprId, Set)> = &mut directions[i];
+                let at = match known.iter().position(|&(other, _)| other == slope) {
+                    Some(at) => at,
+                    None => {
+                        known.push((slope, set::empty(squares.len())));
+                        known.len() - 1
+                    }
+                };
+                set::insert(&mut known[at].1, s);
+            }
+        }
+        Some(Squares {
+            squares,
+            directions,
+            speeds,
+            size: x.len(),
+        })
+    }
+
+    /// T
+    pub fn energy(&self, pool: &mut Pool) -> ExprId {
+        let mut terms = Vec::with_capacity(self.squares.len());
+        for (square, &w) in self.squares.iter().zip(&self.speeds) {
+            let factors = [
+                (square.inertia, Rational::ONE),
+                (pool.group_sum(w), Rational::integer(2)),
+            ];
+            terms.push(pool.monomial(Rational::HALF, &factors));
+        }
+        pool.sum(&terms)
+    }
+
+    /// (i, ∂T/∂vᵢ)
+    pub fn momenta(&self, pool: &mut Pool) -> ByCoordinate {
+        let projected = self.projected(pool, &self.speeds);
+        let momenta: Vec<_> = projected
+            .into_iter()
+            .map(|p| pool.factor(p))
+            .enumerate()
+            .collect();
+        momenta
+            .into_iter()
+            .filter(|&(_, p)| !pool.is_zero(p))
+            .collect()
+    }
+
+    /// The inertial part of f.
+    pub fn forcing(&self, pool: &mut Pool, x: &Variables) -> Vec<ExprId> {
+        let mut lists = Vec::with_capacity(self.squares.len());
+        let mut twists: Vec<Vec<ExprId>> = vec![Vec::new(); self.size];
+        let mut known: BTreeMap<(usize, ExprId), (ExprId, ByCoordinate)> = BTreeMap::new();
+        for (square, &w) in self.squares.iter().zip(&self.speeds) {
+            let mut rates = Vec::with_capacity(square.slopes.len());
+            let mut twist: BTreeMap<usize, Vec<ExprId>> = BTreeMap::new();
+            for &(j, slope) in &square.slopes {
+                let (rate, turning) = known
+                    .entry((j, slope))
+                    .or_insert_with(|| rate_and_twist(pool, x, j, slope));
+                rates.push((*rate, Rational::ONE));
+                for &(i, part) in turning.iter() {
+                    twist.entry(i).or_default().push(part);
+                }
+            }
+            let rate = pool.linear(Rational::ZERO, rates);
+            lists.push(terms(pool, rate));
+            for (i, parts) in twist {
+                let part = pool.sum(&parts);
+                let part = pool.simplify(part);
+                let w = pool.group_sum(w);
+                twists[i].push(pool.product(&[square.inertia, w, part]));
+            }
+        }
+        let accelerations = nested(pool, &lists);
+        let mut forcing = self.projected(pool, &accelerations);
+        for (f, mut twist) in forcing.iter_mut().zip(twists) {
+            twist.push(*f);
+            let inertial = pool.sum(&twist);
+            *f = pool.neg(inertial);
+        }
+        forcing
+    }
+
+    /// Σₛ 2cₛ Jₛᵢ xₛ for every coordinate i.
+    fn projected(&self, pool: &mut Pool, x: &[ExprId]) -> Vec<ExprId> {
+        let x: Vec<ExprId> = x.iter().map(|&x| pool.group_sum(x)).collect();
+        let mut lists = Vec::new();
+        let mut factors = Vec::new();
+        for (slope, set) in self.directions.iter().flatten() {
+            let members: Vec<usize> = members(set).filter(|&s| !pool.is_zero(x[s])).collect();
+            let equal = members
+                .iter()
+                .all(|&s| self.squares[s].inertia == self.squares[members[0]].inertia);
+            let sum: Vec<ExprId> = members
+                .iter()
+                .map(|&s| match equal {
+                    true => x[s],
+                    false => pool.mul(self.squares[s].inertia, x[s]),
+                })
+                .collect();
+            let sum = pool.sum(&sum);
+            lists.push(terms(pool, sum));
+            factors.push(match members.first() {
+                Some(&s) if equal => pool.mul(*slope, self.squares[s].inertia),
+                _ => *slope,
+            });
+        }
+        let mut sums = nested(pool, &lists).into_iter().zip(factors);
+        let mut projected = Vec::with_capacity(self.size);
+        for directions in &self.directions {
+            let mut terms = Vec::with_capacity(directions.len());
+            for (sum, factor) in sums.by_ref().take(directions.len()) {
+                let sum = pool.group_sum(sum);
+                terms.push(pool.mul(factor, sum));
+            }
+            projected.push(pool.sum(&terms));
+        }
+        projected
+    }
+}
+
+/// Of J vⱼ: J̇ vⱼ, and what it adds to J̇ₛᵢ − ∂wₛ/∂qᵢ for each i, without zeros.
+fn rate_and_twist(
+    pool: &mut Pool,
+    x: &Variables,
+    j: usize,
+    slope: ExprId,
+) -> (ExprId, ByCoordinate) {
+    let rate = x.rate(pool, slope);
+    let mut twist = BTreeMap::from([(j, rate)]);
+    for i in x.positions_in(pool, slope) {
+        let turned = pool.differentiate(slope, x.positions[i]);
+        let turned = pool.mul(turned, x.rates[j]);
+        let before = twist.get(&i).copied().unwrap_or(x.zero);
+        twist.insert(i, pool.sub(before, turned));
+    }
+    twist.retain(|_, part| !pool.is_zero(*part));
+    (pool.mul(rate, x.rates[j]), twist.into_iter().collect())
+}

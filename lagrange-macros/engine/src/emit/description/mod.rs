@@ -1,0 +1,223 @@
+//! The table that says what the numbers of the tapes mean: `lagrange_core::system::Description`.
+
+mod items;
+
+use super::names::{self, index};
+use crate::ast::Impacts;
+use crate::derive::{NeedId, OutputId};
+use crate::model::{EnergyTerm, System, Watch};
+use crate::plan::{Program, Tape};
+use proc_macro2::TokenStream;
+use quote::quote;
+
+/// `Description { … }`
+pub fn description(program: &Program) -> TokenStream {
+    let equations = &program.equations;
+    let (system, structure) = (&equations.system, &equations.structure);
+    let core = &system.core;
+    let writer = Writer { program };
+    let (name, documentation) = (system.name.to_string(), &system.documentation);
+    let needs = index(equations.needs.len());
+    let constants = index(program.constants.outputs);
+    let (motion, report) = (writer.shape(&program.motion), writer.shape(&program.report));
+    let (parameters, coordinates) = (writer.parameters(), writer.coordinates());
+    let (mass, forcing) = (writer.mass(), writer.places(&structure.forcing));
+    let (rows, couplings) = (writer.rows(), writer.couplings());
+    let effect = |term: &EnergyTerm, need: &NeedId| writer.effect(&term.name, *need);
+    let kinetic = each(&system.kinetic, &structure.kinetic, effect);
+    let potential = each(&system.potential, &structure.potential, effect);
+    let constraints = writer.constraints();
+    let (contacts, frictions) = (writer.contacts(), writer.frictions());
+    let forces = each(&system.forces, &structure.forces, |force, load| {
+        writer.load(&force.name, load)
+    });
+    let dissipations = each(
+        &system.dissipations,
+        &structure.dissipations,
+        |item, load| writer.load(&item.name, load),
+    );
+    let (branches, energy) = (writer.branches(), writer.energy());
+    let momenta = writer.places(&structure.momenta.0);
+    let momenta_need = index(structure.momenta.1.0);
+    let observes = writer.observes();
+    let watch = |watch: &Watch, numbers: &(Vec<OutputId>, NeedId)| writer.watch(watch, numbers);
+    let stops = each(&system.stops, &structure.stops, watch);
+    let marks = each(&system.marks, &structure.marks, watch);
+    let starts = system.starts.iter().map(|start| &start.name.text);
+    let units = units(system);
+    let impacts = match system.impacts {
+        Impacts::Together => quote!(Together),
+        Impacts::InTurn => quote!(InTurn),
+    };
+    quote! {
+        #core::system::Description {
+            name: #name,
+            documentation: #documentation,
+            parameters: &[#(#parameters),*],
+            coordinates: &[#(#coordinates),*],
+            needs: #needs,
+            constants: #constants,
+            motion: #motion,
+            report: #report,
+            mass: &[#(#mass),*],
+            forcing: #forcing,
+            rows: &[#(#rows),*],
+            couplings: &[#(#couplings),*],
+            kinetic: &[#(#kinetic),*],
+            potential: &[#(#potential),*],
+            constraints: &[#(#constraints),*],
+            contacts: &[#(#contacts),*],
+            frictions: &[#(#frictions),*],
+            forces: &[#(#forces),*],
+            dissipations: &[#(#dissipations),*],
+            branches: &[#(#branches),*],
+            energy: #energy,
+            momenta: #core::system::Momenta { places: #momenta, need: #momenta_need },
+            observes: &[#(#observes),*],
+            stops: &[#(#stops),*],
+            marks: &[#(#marks),*],
+            starts: &[#(#starts),*],
+            units: #units,
+            impacts: #core::system::Impacts::#impacts,
+        }
+    }
+}
+
+/// What is declared with what was derived from it.
+fn each<A, B>(
+    declared: &[A],
+    derived: &[B],
+    write: impl Fn(&A, &B) -> TokenStream,
+) -> Vec<TokenStream> {
+    let pairs = declared.iter().zip(derived);
+    pairs.map(|(a, b)| write(a, b)).collect()
+}
+
+/// `Units { … }`
+fn units(system: &System) -> TokenStream {
+    let (core, units) = (&system.core, &system.units);
+    let (energy, forces, dissipations) = (&units.energy, &units.forces, &units.dissipations);
+    let frictions = system.frictions.iter().zip(&units.frictions);
+    let frictions = frictions.flat_map(|(friction, unit)| friction.slip.iter().map(move |_| unit));
+    let rows = units
+        .constraints
+        .iter()
+        .chain(&units.contacts)
+        .chain(frictions);
+    quote! {
+        #core::system::Units {
+            energy: #energy, rows: &[#(#rows),*], forces: &[#(#forces),*], dissipations: &[#(#dissipations),*],
+        }
+    }
+}
+
+/// Writes parts of the table.
+struct Writer<'a> {
+    program: &'a Program,
+}
+
+impl Writer<'_> {
+    fn core(&self) -> &TokenStream {
+        &self.program.equations.system.core
+    }
+
+    fn place(&self, output: OutputId) -> TokenStream {
+        names::place(&self.program.equations.system, self.program.place(output))
+    }
+
+    fn places(&self, outputs: &[OutputId]) -> TokenStream {
+        let places = outputs.iter().map(|output| self.place(*output));
+        quote!(&[#(#places),*])
+    }
+
+    fn maybe(&self, output: Option<OutputId>) -> TokenStream {
+        match output {
+            Some(output) => {
+                let place = self.place(output);
+                quote!(::core::option::Option::Some(#place))
+            }
+            None => quote!(::core::option::Option::None),
+        }
+    }
+
+    fn shape(&self, tape: &Tape) -> TokenStream {
+        let (core, slots, outputs) = (self.core(), index(tape.slots), index(tape.outputs));
+        quote!(#core::system::TapeShape { slots: #slots, outputs: #outputs })
+    }
+
+    fn parameters(&self) -> Vec<TokenStream> {
+        let core = self.core();
+        let parameters = self.program.equations.system.parameters.iter();
+        let parameters = parameters.map(|parameter| {
+            let (name, documentation) = (&parameter.name, &parameter.documentation);
+            let (unit, tex) = (&parameter.unit, &parameter.tex);
+            quote!(#core::system::Parameter { name: #name, documentation: #documentation, unit: #unit, tex: #tex })
+        });
+        parameters.collect()
+    }
+
+    fn coordinates(&self) -> Vec<TokenStream> {
+        let core = self.core();
+        let equations = &self.program.equations;
+        let (declared, cyclic) = (&equations.system.coordinates, &equations.structure.cyclic);
+        each(declared, cyclic, |coordinate, cyclic| {
+            let (name, unit) = (&coordinate.name.text, &coordinate.unit);
+            quote!(#core::system::Coordinate { name: #name, unit: #unit, cyclic: #cyclic })
+        })
+    }
+
+    fn mass(&self) -> Vec<TokenStream> {
+        let entries = self.program.equations.structure.mass.iter();
+        let entries = entries.map(|(row, column, entry)| {
+            let (row, column, entry) = (index(*row), index(*column), self.place(*entry));
+            quote!((#row, #column, #entry))
+        });
+        entries.collect()
+    }
+
+    fn rows(&self) -> Vec<TokenStream> {
+        let core = self.core();
+        let rows = self.program.equations.structure.rows.iter().map(|row| {
+            let jacobian = row.jacobian.iter().map(|(coordinate, entry)| {
+                let (coordinate, entry) = (index(*coordinate), self.place(*entry));
+                quote!((#coordinate, #entry))
+            });
+            let (bias, position, velocity) = (self.place(row.bias), self.maybe(row.position), self.place(row.velocity));
+            let [a, b, c, d] = row.needs.map(|need| index(need.0));
+            quote! {
+                #core::system::Row {
+                    jacobian: &[#(#jacobian),*],
+                    bias: #bias,
+                    position: #position,
+                    velocity: #velocity,
+                    needs: #core::system::RowNeeds { jacobian: #a, bias: #b, position: #c, velocity: #d },
+                }
+            }
+        });
+        rows.collect()
+    }
+
+    fn couplings(&self) -> Vec<TokenStream> {
+        let core = self.core();
+        let couplings = self.program.equations.structure.couplings.iter().map(|coupling| {
+            let (coordinate, row) = (index(coupling.coordinate), index(coupling.row));
+            let (factor, need) = (self.place(coupling.factor), index(coupling.need.0));
+            quote!(#core::system::Coupling { coordinate: #coordinate, row: #row, factor: #factor, need: #need })
+        });
+        couplings.collect()
+    }
+
+    fn energy(&self) -> TokenStream {
+        let core = self.core();
+        let (kinetic, potential, jacobi, time_power, need) =
+            self.program.equations.structure.energy;
+        let (kinetic, potential) = (self.place(kinetic), self.place(potential));
+        let (jacobi, time_power, need) =
+            (self.place(jacobi), self.place(time_power), index(need.0));
+        quote! {
+            #core::system::Energy {
+                kinetic: #kinetic, potential: #potential, jacobi: #jacobi, time_power: #time_power, need: #need,
+            }
+        }
+    }
+}

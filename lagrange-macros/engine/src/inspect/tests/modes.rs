@@ -1,0 +1,106 @@
+//! Modes: how they are found, how many are shown, and their solutions.
+
+use super::{derivation, scenes};
+use crate::inspect::formula::Relation;
+use crate::inspect::print;
+use quote::quote;
+
+#[test]
+fn modes_are_found_by_name() {
+    let tokens = quote! {
+        #[lagrange(
+            coordinates(x, y),
+            kinetic = m/2 * (der(x)^2 + der(y)^2),
+            potential = m * g * y,
+            contact(floor: y >= 0, restitution = 1/2),
+            friction(rub on floor: slip = der(x), static = mu),
+        )]
+        struct Puck { m: f64, g: f64, mu: f64 }
+    };
+    let one = |mode: &str| crate::inspect(tokens.clone(), Some(mode));
+    let mode = one(" floor closed,rub  sticks ")
+        .expect("a mode")
+        .modes
+        .remove(0);
+    assert_eq!(mode.name, "floor closed, rub sticks");
+    let lines: Vec<String> = mode.equations.iter().map(print::text::statement).collect();
+    assert_eq!(
+        lines,
+        ["m x\u{308} = F_rub", "N_floor = m g", "x\u{308} = 0"]
+    );
+    assert_eq!(mode.known[0].relation, Relation::Equal);
+    for wrong in [
+        "floor closed",
+        "rub sticks",
+        "floor closed, rub sticks, rub slips",
+        "roof open",
+    ] {
+        assert!(one(wrong).is_err(), "{wrong}");
+    }
+    let all = crate::inspect(tokens, None).expect("all modes");
+    assert_eq!((all.modes.len(), all.mode_count), (4, 4));
+    let bounce = print::text::statement(all.impacts[0].equations.last().expect("a law"));
+    assert_eq!(bounce, "y\u{307}⁺ = −½ y\u{307}⁻");
+}
+
+#[test]
+fn many_contacts_are_shown_in_part() {
+    let d = derivation(quote! {
+        #[lagrange(
+            coordinates(x[30]),
+            kinetic = sum(k in 0..30: m/2 * der(x[k])^2),
+            contact(pair[k in 0..29]: x[k + 1] - x[k] >= 2*a),
+        )]
+        struct Row { m: f64, a: f64 }
+    });
+    assert_eq!(d.mode_count, 1 << 29);
+    assert!(d.modes.len() < 10 && d.notes.len() == 2, "{:?}", d.notes);
+    assert!(print::plain(&d).len() < 40_000);
+}
+
+/// Results that textbooks derive by hand.
+#[test]
+fn modes_are_solved_where_the_solution_is_short() {
+    let solved = |scene: &str, mode: &str| {
+        let (_, tokens) = scenes()
+            .into_iter()
+            .find(|(name, _)| name == scene)
+            .expect("a scene");
+        let found = crate::inspect(tokens, Some(mode)).unwrap_or_else(|e| panic!("{e}"));
+        let lines = found.modes[0].solution.iter().map(print::text::statement);
+        lines.collect::<Vec<_>>().join("\n")
+    };
+    let check = |scene, mode, expected: &[&str]| {
+        let found = solved(scene, mode);
+        for line in expected {
+            assert!(
+                found.lines().any(|own| own == *line),
+                "{line}\nis not in\n{found}"
+            );
+        }
+    };
+    check(
+        "RollingSphere",
+        "shell closed",
+        &[
+            "θ\u{308} = 5 g/(7 (R + a)) sin θ",
+            "λ_rolling = −(2/7) m g sin θ",
+        ],
+    );
+    check(
+        "SphereInBowl",
+        "bowl closed, grip sticks",
+        &[
+            "θ\u{308} = −5 g/(7 (R − a)) sin θ",
+            "F_grip = (2/7) m g sin θ",
+        ],
+    );
+    check(
+        "Ladder",
+        "wall closed, floor closed",
+        &["θ\u{308} = −3 g/(2 l) cos θ"],
+    );
+    check("MassOnWheel", "rim open", &["x\u{308} = 0", "φ\u{308} = 0"]);
+    // Nothing to be read: nothing is said.
+    check("FiveLinkChain", "smooth", &[]);
+}

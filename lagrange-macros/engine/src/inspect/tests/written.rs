@@ -1,0 +1,82 @@
+//! Letters and expressions as a person writes them.
+
+use super::derivation;
+use crate::inspect::formula::Formula;
+use crate::inspect::letter::Letter;
+use crate::inspect::print;
+use proc_macro2::TokenStream;
+use quote::quote;
+
+#[test]
+fn names_become_letters() {
+    let text = |name: &str| print::text::formula(&Formula::Letter(Letter::new(name)));
+    let names = [
+        "theta",
+        "theta1",
+        "mu_s",
+        "mu_static",
+        "theta[3]",
+        "theta[12]",
+        "m_1[3]",
+    ];
+    assert_eq!(
+        names.map(text),
+        ["θ", "θ₁", "μₛ", "μ_static", "θ₃", "θ₁₂", "m_1,3"]
+    );
+    assert_eq!(
+        ["mass", "upper_mass", "x", "px"].map(text),
+        ["mass", "upper_mass", "x", "px"]
+    );
+    let rate = |name: &str, rate| Formula::Letter(Letter::new(name).rate(rate));
+    assert_eq!(print::text::formula(&rate("theta2", 1)), "θ\u{307}₂");
+    assert_eq!(print::text::formula(&rate("slider", 2)), "der(der(slider))");
+    assert_eq!(
+        print::latex::formula(&rate("theta2", 2)),
+        "\\ddot{\\theta}_{2}"
+    );
+    assert_eq!(
+        print::mathml::formula(&rate("theta2", 1)),
+        "<math><msub><mover><mi>θ</mi><mo>˙</mo></mover><mn>2</mn></msub></math>"
+    );
+}
+
+/// A particle whose potential is whatever is to be written.
+fn potential(expression: TokenStream) -> String {
+    let d = derivation(quote! {
+        #[lagrange(coordinates(x, y), kinetic = m/2 * (der(x)^2 + der(y)^2), potential = #expression)]
+        struct Particle { m: f64, a: f64, b: f64, g: f64 }
+    });
+    print::text::formula(&d.potential)
+}
+
+#[test]
+fn expressions_as_a_person_writes_them() {
+    let check =
+        |expression: TokenStream, expected: &str| assert_eq!(potential(expression), expected);
+    check(quote!(g * m * y), "m g y");
+    check(quote!(-x + y), "y − x");
+    check(quote!(m * g * x + m * g * y), "m g (x + y)");
+    check(quote!(a / 2 * x ^ 2 - b * x), "x (½ a x − b)");
+    check(quote!(2 * a * x / (7 * b)), "2 a x/(7 b)");
+    check(quote!(sin(x) * a / (a + b)), "a/(a + b) sin x");
+    check(quote!(a * sqrt(x ^ 2 + y ^ 2)), "a √(x² + y²)");
+    check(quote!(a / sqrt(x ^ 2 + y ^ 2)), "a/√(x² + y²)");
+    check(quote!(cos(x) ^ 2 * a), "a cos² x");
+    check(quote!(sin(2 * x) * sin(y)), "sin(2 x) sin y");
+    check(quote!(abs(x - y)), "|x − y|");
+    check(quote!(max(x, y)), "max(x, y)");
+    check(quote!(if(x >= 0, a*x, b*y)), "{a x if x ≥ 0, else b y}");
+    check(quote!(exp(-a * x)), "exp(−a x)");
+    check(quote!(pi * x), "π x");
+    check(quote!(x ^ a), "x^a");
+    check(quote!((a + b) * x + (a + b) * y), "(a + b) (x + y)");
+}
+
+#[test]
+fn long_formulas_are_shortened() {
+    let letters = (0..300).map(|i| Formula::Letter(Letter::new(&format!("x{i}"))));
+    let long = Formula::sum(letters);
+    let short = long.shortened(20);
+    assert!(short.size() < 30);
+    assert!(print::text::formula(&short).ends_with("… (290 more terms)"));
+}

@@ -1,0 +1,131 @@
+//! Units in words, and what to do about one that is wrong.
+
+use super::check::Checker;
+use super::dimension::Dimension;
+use super::quantity::Quantity;
+use crate::ast::{Expr, ExprKind};
+use crate::diagnostics::{Code, Extent};
+use crate::symbolic::Rational;
+
+impl Checker<'_, '_> {
+    /// `in m/s`, `a plain number`
+    pub fn phrase(&self, quantity: &Quantity, is_force: bool) -> String {
+        let known = self.unknowns.dimension(quantity);
+        let unit = match known.filter(|_| is_force) {
+            Some(dimension) => dimension.as_force(),
+            None => self.unknowns.text(quantity),
+        };
+        match unit.as_str() {
+            "" => "a plain number".to_string(),
+            unit => format!("in {unit}"),
+        }
+    }
+
+    /// `m/s`, `a plain number`
+    pub(super) fn noun(&self, quantity: &Quantity) -> String {
+        match self.unknowns.text(quantity) {
+            plain if plain.is_empty() => "a plain number".to_string(),
+            unit => unit,
+        }
+    }
+
+    /// What to do about an expression that has another unit than the wanted one.
+    pub fn remedy(&mut self, wanted: &Quantity, found: &Quantity, expr: &Expr) -> String {
+        let mut names = Vec::new();
+        names_in(expr, &mut names);
+        let inferred = names.into_iter().find_map(|name| {
+            let quantity = self.inferred.get(name)?;
+            Some(format!(
+                "`{name}` must be {} elsewhere: give it a unit, or another name here",
+                self.phrase(quantity, false)
+            ))
+            .filter(|_| self.unknowns.dimension(quantity).is_some())
+        });
+        inferred.unwrap_or_else(|| self.missing(wanted, found, expr))
+    }
+
+    /// The factor that is missing.
+    fn missing(&mut self, wanted: &Quantity, found: &Quantity, expr: &Expr) -> String {
+        let factor = self.unknowns.times(wanted, found, Rational::MINUS_ONE);
+        if is_number(expr) {
+            let unit = self.unknowns.text(&factor);
+            return format!(
+                "a number has no unit: make it a field with `#[lagrange(unit = \"{unit}\")]`"
+            );
+        }
+        let Some(factor) = self.unknowns.dimension(&factor) else {
+            return "units are `#[lagrange(unit = \"…\")]` on fields, and `coordinates(x: \"m\")`"
+                .to_string();
+        };
+        if let Some(number) = constant(expr) {
+            return format!(
+                "`{number}` is a plain number: make it a field with `#[lagrange(unit = \"{}\")]`",
+                factor.text()
+            );
+        }
+        let is_plain = wanted.known().is_some_and(Dimension::is_one);
+        match factor.as_time().filter(|_| !is_plain) {
+            Some(power) if power == Rational::MINUS_ONE => "is a `der(…)` missing?".to_string(),
+            Some(power) if power.is_one() => "is there a `der(…)` too many?".to_string(),
+            _ => format!("a factor in {} is missing", factor.text()),
+        }
+    }
+
+    /// Reports a mistake at tokens.
+    pub fn mistake(
+        &mut self,
+        code: Code,
+        at: impl Into<Extent>,
+        arguments: &[&dyn std::fmt::Display],
+    ) {
+        self.sink.report(code, at, arguments);
+    }
+}
+
+/// Whether an expression is made of numbers only.
+pub(super) fn is_number(expr: &Expr) -> bool {
+    match &expr.kind {
+        ExprKind::Number(_) => true,
+        ExprKind::Name(name) => name.text == "pi",
+        ExprKind::Negative(inner) => is_number(inner),
+        ExprKind::Sum(terms) => terms.iter().all(|(_, term)| is_number(term)),
+        ExprKind::Product(factors) => factors.iter().all(|(_, factor)| is_number(factor)),
+        ExprKind::Power(base, exponent) => is_number(base) && is_number(exponent),
+        _ => false,
+    }
+}
+
+/// A number in a product that looks like a constant of nature: one with decimals, or above ten.
+fn constant(expr: &Expr) -> Option<&Expr> {
+    match &expr.kind {
+        ExprKind::Number(number) if number.exponent < 0 || number.digits > 10 => Some(expr),
+        ExprKind::Negative(inner) => constant(inner),
+        ExprKind::Product(factors) => factors.iter().find_map(|(_, factor)| constant(factor)),
+        _ => None,
+    }
+}
+
+/// The names that an expression uses, in order.
+fn names_in<'a>(expr: &'a Expr, names: &mut Vec<&'a str>) {
+    match &expr.kind {
+        ExprKind::Number(_) => {}
+        ExprKind::Name(name) => names.push(&name.text),
+        ExprKind::Sum(terms) => terms.iter().for_each(|(_, term)| names_in(term, names)),
+        ExprKind::Product(factors) => factors
+            .iter()
+            .for_each(|(_, factor)| names_in(factor, names)),
+        ExprKind::Negative(inner) | ExprKind::SumOver(_, inner) => names_in(inner, names),
+        ExprKind::Member(inner, _) | ExprKind::Element(inner, _) => names_in(inner, names),
+        ExprKind::Power(base, exponent) => [base, exponent]
+            .into_iter()
+            .for_each(|part| names_in(part, names)),
+        ExprKind::Call(_, parts) | ExprKind::List(parts) => {
+            parts.iter().for_each(|part| names_in(part, names));
+        }
+        ExprKind::If(condition, then, otherwise) => {
+            for part in [&condition.left, &condition.right, then, otherwise] {
+                names_in(part, names);
+            }
+        }
+    }
+}

@@ -1,0 +1,61 @@
+//! How many operations a plan has.
+
+use crate::derive::Stage;
+use proc_macro2::TokenStream;
+use quote::quote;
+
+/// Operations of the motion tape when everything is held, and of the report.
+fn operations(declaration: TokenStream) -> (usize, usize) {
+    let program = crate::program(declaration).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+    let all = vec![!0; program.equations.needs.len().div_ceil(64)];
+    (
+        program.operations(Stage::Motion, &all),
+        program.operations(Stage::Report, &all),
+    )
+}
+
+#[test]
+fn operation_counts_do_not_grow() {
+    // By hand: three sin_cos and the difference, one scaling in M, 1 + 2 + 2 + 2 + 2 in f.
+    assert_eq!(operations(chain(2)), (14, 26));
+    // The same for six: 21 sin_cos and 15 differences, 15 in M, 15 + 6 + 30 + 30 + 6 in f.
+    assert_eq!(operations(chain(6)), (138, 186));
+    let wheel = crate::model::tests::MASS_ON_WHEEL.parse().expect("tokens");
+    assert_eq!(operations(wheel), (26, 34));
+    let top = quote! {
+        #[lagrange(
+            coordinates(phi, theta, psi),
+            kinetic = i1/2*(der(theta)^2 + der(phi)^2*sin(theta)^2) + i3/2*(der(psi) + der(phi)*cos(theta))^2,
+            potential = m*g*l*cos(theta),
+        )]
+        struct Top { i1: f64, i3: f64, m: f64, g: f64, l: f64 }
+    };
+    assert_eq!(operations(top), (19, 19));
+    // Three differences, their squares and two sums, root, cube, one division, three products and their negatives.
+    let two_bodies = quote! {
+        #[lagrange(
+            coordinates(x, y, z, u, v, w),
+            kinetic = m/2*(der(x)^2 + der(y)^2 + der(z)^2) + n/2*(der(u)^2 + der(v)^2 + der(w)^2),
+            potential = -g*m*n/sqrt((x - u)^2 + (y - v)^2 + (z - w)^2),
+        )]
+        struct Two { m: f64, n: f64, g: f64 }
+    };
+    assert_eq!(operations(two_bodies), (17, 31));
+}
+
+/// A chain of n point masses on rods.
+fn chain(n: usize) -> TokenStream {
+    let text = format!(
+        "#[lagrange(
+            coordinates(th[{n}]),
+            define(
+                px[k in 0..{n}] = sum(i in 0..k+1: l[i]*sin(th[i])),
+                py[k in 0..{n}] = sum(i in 0..k+1: -l[i]*cos(th[i])),
+            ),
+            kinetic = sum(k in 0..{n}: m[k]/2*(der(px[k])^2 + der(py[k])^2)),
+            potential = sum(k in 0..{n}: m[k]*g*py[k]),
+        )]
+        struct Chain {{ m: [f64; {n}], l: [f64; {n}], g: f64 }}"
+    );
+    text.parse().expect("tokens")
+}

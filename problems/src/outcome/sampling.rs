@@ -1,0 +1,177 @@
+//! Trajectory → samples: at given instants, at both ends of every phase, and on both sides of every event.
+
+use super::Sample;
+use core::iter;
+use lagrange_core::dynamics::{Dynamics, NeedSet};
+use lagrange_core::mode::{FrictionMode, Mode};
+use lagrange_core::prelude::*;
+use lagrange_core::system::{Friction, Normal};
+
+/// The instants between so many equal intervals of a motion.
+pub(crate) fn equal(trajectory: &Record<f64>, intervals: usize) -> Vec<f64> {
+    let (first, last) = (trajectory.first_time(), trajectory.last_time());
+    let step = (last - first) / intervals.max(1) as f64;
+    (1..intervals).map(|k| first + k as f64 * step).collect()
+}
+
+/// Both ends of every phase, and between them these times, which are in order.
+pub(super) fn samples(trajectory: &Record<f64>, times: &[f64]) -> Vec<Sample> {
+    let (first, last) = (trajectory.first_time(), trajectory.last_time());
+    let mut reader = Reader::new(trajectory);
+    let mut samples = Vec::new();
+    let at_once = || {
+        vec![Phase {
+            from: first,
+            to: first,
+            mode: trajectory.final_mode().clone(),
+        }]
+    };
+    let phases = Some(trajectory.phases())
+        .filter(|phases| !phases.is_empty())
+        .unwrap_or_else(at_once);
+    for (phase, span) in phases.iter().enumerate() {
+        let after = times.partition_point(|t| *t <= span.from);
+        let before = times.partition_point(|t| *t < span.to).max(after);
+        let inner = times[after..before].iter().copied();
+        for time in iter::once(span.from)
+            .chain(inner)
+            .chain(iter::once(span.to))
+        {
+            // At a switch a sampler gives what is just after it: the end of a phase is read a trifle before.
+            let read = if time == span.to && time < last {
+                just_before(time)
+            } else {
+                time
+            };
+            samples.extend(reader.sample(time, read, phase, &span.mode));
+        }
+    }
+    if let Some(end) = samples.last_mut().filter(|end| end.time == last) {
+        end.state = trajectory.final_state().clone();
+    }
+    samples
+}
+
+/// The instants just before and just after every event. Of events at one instant only what is before the first and after
+/// the last can be read from the trajectory: nothing for those that follow another state or lead to one.
+pub(super) fn around(trajectory: &Record<f64>) -> Vec<[Option<Sample>; 2]> {
+    let mut reader = Reader::new(trajectory);
+    let mut around = Vec::with_capacity(trajectory.events().len());
+    for group in trajectory.events().chunk_by(|a, b| a.time == b.time) {
+        let ([first, ..], [.., last]) = (group, group) else {
+            continue;
+        };
+        let (before, after) = (reader.before(first), reader.after(last));
+        around.extend(group.iter().map(|event| {
+            let begins = (&event.state, &event.before) == (&first.state, &first.before);
+            let ends = (&event.state_after, &event.after) == (&last.state_after, &last.after);
+            let before = before.as_ref().filter(|_| begins);
+            [before, after.as_ref().filter(|_| ends)].map(Option::<&Sample>::cloned)
+        }));
+    }
+    around
+}
+
+/// Reads samples from a trajectory.
+struct Reader<'a> {
+    sampler: Sampler<'a, f64>,
+    limits: Limits,
+}
+
+impl<'a> Reader<'a> {
+    fn new(trajectory: &'a Record<f64>) -> Self {
+        Self {
+            sampler: trajectory.sampler(),
+            limits: Limits::new(trajectory.dynamics()),
+        }
+    }
+
+    fn before(&mut self, event: &Event<f64>) -> Option<Sample> {
+        self.sample(event.time, just_before(event.time), 0, &event.before)
+    }
+
+    fn after(&mut self, event: &Event<f64>) -> Option<Sample> {
+        self.sample(event.time, event.time, 0, &event.after)
+    }
+
+    /// What is at `read`, as a sample at `time`; nothing if another mode is there.
+    fn sample(&mut self, time: f64, read: f64, phase: usize, mode: &Mode) -> Option<Sample> {
+        let instant = self.sampler.at(read).ok()?;
+        if instant.mode != *mode {
+            return None;
+        }
+        Some(Sample {
+            time,
+            phase,
+            limits: self.limits.at(time, &instant),
+            mode: instant.mode,
+            state: State {
+                q: instant.q,
+                v: instant.v,
+            },
+            forces: instant.forces,
+            undetermined: instant.undetermined,
+            kinetic: instant.kinetic,
+            potential: instant.potential,
+            observes: instant.observes,
+        })
+    }
+}
+
+fn just_before(time: f64) -> f64 {
+    time - 4.0 * f64::EPSILON * time.abs().max(1.0)
+}
+
+/// What frictions can hold: coefficient × normal force.
+struct Limits {
+    dynamics: Dynamics<f64>,
+}
+
+impl Limits {
+    fn new(mut dynamics: Dynamics<f64>) -> Self {
+        let description = dynamics.description();
+        let mut needs = NeedSet::new(description);
+        for friction in description.frictions {
+            needs.insert(friction.coefficients_need);
+        }
+        dynamics.set_extra_needs(&needs);
+        Self { dynamics }
+    }
+
+    fn at(&mut self, time: f64, instant: &Instant<f64>) -> Vec<Option<f64>> {
+        if *self.dynamics.mode() != instant.mode {
+            self.dynamics.set_mode(&instant.mode);
+        }
+        let description = self.dynamics.description();
+        let along = self.dynamics.value_along(time, &instant.q, &instant.v);
+        if along.is_err() {
+            return vec![None; description.frictions.len()];
+        }
+        let dynamics = &self.dynamics;
+        let limit = |(friction, mode): (&Friction, &FrictionMode)| {
+            let coefficient = match mode {
+                FrictionMode::Inactive => return None,
+                FrictionMode::Stick => friction.static_coefficient,
+                FrictionMode::Slip(_) => friction.kinetic_coefficient,
+            };
+            let normal = match friction.normal {
+                Normal::Contact(i) => {
+                    let contact = &description.contacts[i];
+                    let factor = contact
+                        .normal_factor
+                        .map_or(1.0, |place| dynamics.motion(place));
+                    factor * instant.forces[contact.row]
+                }
+                Normal::Constraint(i) => instant.forces[description.constraints[i].row].abs(),
+                Normal::Given(place) => dynamics.motion(place),
+            };
+            Some(dynamics.motion(coefficient) * normal)
+        };
+        description
+            .frictions
+            .iter()
+            .zip(&dynamics.mode().frictions)
+            .map(limit)
+            .collect()
+    }
+}

@@ -1,0 +1,122 @@
+//! A number that is varied, over which range, in which steps.
+
+use core::fmt;
+use core::str::FromStr;
+
+/// One number that is varied.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// A parameter, a coordinate (`theta`) or a velocity (`der(theta)`) of the start.
+    pub name: String,
+    /// First value.
+    pub from: f64,
+    /// Last value.
+    pub to: f64,
+    /// Number of values; 1 for a sample, which takes them anywhere.
+    pub count: usize,
+    /// Whether values are spaced by equal ratios.
+    pub logarithmic: bool,
+}
+
+impl Axis {
+    /// The value at a part of the way, 0 … 1.
+    pub(super) fn at(&self, part: f64) -> f64 {
+        if part == 1.0 {
+            self.to
+        } else if self.logarithmic {
+            self.from * (self.to / self.from).powf(part)
+        } else {
+            self.from + (self.to - self.from) * part
+        }
+    }
+
+    /// Value number `index` of a grid.
+    pub(super) fn value(&self, index: usize) -> f64 {
+        match self.count {
+            1 => self.from,
+            _ => self.at(index as f64 / (self.count - 1) as f64),
+        }
+    }
+}
+
+/// `name=from..to`, `name=from..to:count` or `name=from..to:count:log`.
+impl FromStr for Axis {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let form = "expected name=from..to:count, for example mass=0.1..2:50";
+        let (name, range) = text.split_once('=').ok_or(form)?;
+        let (from, rest) = range.split_once("..").ok_or(form)?;
+        let mut rest = rest.split(':');
+        let number = |text: &str| match text.trim().parse::<f64>() {
+            Ok(value) if value.is_finite() => Ok(value),
+            _ => Err(format!("`{}` is not a finite number", text.trim())),
+        };
+        let (from, to) = (number(from)?, number(rest.next().ok_or(form)?)?);
+        let count = match rest.next() {
+            None => 1,
+            Some(count) => match count.trim().parse::<usize>() {
+                Ok(count) if count > 0 => count,
+                _ => return Err(format!("`{}` is not a number of values", count.trim())),
+            },
+        };
+        let logarithmic = match rest.next().map(str::trim) {
+            None => false,
+            Some("log") => true,
+            Some(other) => return Err(format!("`{other}` is not a spacing; there is `log`")),
+        };
+        if logarithmic && !(from > 0.0 && to > 0.0) {
+            return Err("equal ratios need values above 0".to_owned());
+        }
+        match (name.trim(), rest.next()) {
+            ("", _) | (_, Some(_)) => Err(form.to_owned()),
+            (name, None) => Ok(Axis {
+                name: name.to_owned(),
+                from,
+                to,
+                count,
+                logarithmic,
+            }),
+        }
+    }
+}
+
+impl fmt::Display for Axis {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}={}..{}:{}", self.name, self.from, self.to, self.count)?;
+        match self.logarithmic {
+            true => write!(f, ":log"),
+            false => Ok(()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Axis;
+
+    #[test]
+    fn axes_are_read() {
+        let axis: Axis = "mu = 0.1..1:4".parse().expect("an axis");
+        assert_eq!((axis.name.as_str(), axis.count), ("mu", 4));
+        let values: Vec<f64> = (0..4).map(|i| axis.value(i)).collect();
+        for (value, expected) in values.iter().zip([0.1, 0.4, 0.7, 1.0]) {
+            assert!((value - expected).abs() < 1e-15);
+        }
+        let axis: Axis = "k=1e-2..1e4:7:log".parse().expect("an axis");
+        assert!((axis.value(3) - 10.0).abs() < 1e-13 && axis.value(6) == 1e4);
+        for wrong in [
+            "",
+            "mu",
+            "mu=1",
+            "mu=1..",
+            "=1..2:3",
+            "mu=1..2:0",
+            "mu=1..2:3:lin",
+            "mu=0..2:3:log",
+            "mu=1..inf:2",
+        ] {
+            assert!(wrong.parse::<Axis>().is_err(), "{wrong}");
+        }
+    }
+}

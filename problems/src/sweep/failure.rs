@@ -1,0 +1,51 @@
+//! Why a run failed, as a number that is kept with its results and as a word.
+
+use lagrange_core::prelude::Error;
+
+/// Words for reasons; the number of a reason is its place, from 1.
+const REASONS: [&str; 12] = [
+    "other",
+    "start",
+    "projection",
+    "singular",
+    "not finite",
+    "no mode",
+    "endless impacts",
+    "energy gain",
+    "step too small",
+    "step too large",
+    "no progress",
+    "limit",
+];
+
+/// The number of a reason; 0 is kept where a run did not fail.
+pub(super) fn code(error: &Error) -> f64 {
+    let word = match error {
+        Error::Start { .. } => "start",
+        Error::Projection { .. } => "projection",
+        Error::Singular { .. } => "singular",
+        Error::NotFinite { .. } => "not finite",
+        Error::NoMode { .. } => "no mode",
+        Error::EndlessImpacts { .. } => "endless impacts",
+        Error::EnergyGain { .. } => "energy gain",
+        Error::StepTooSmall { .. } => "step too small",
+        Error::StepTooLarge { .. } => "step too large",
+        Error::NoProgress { .. } => "no progress",
+        Error::Limit { .. } => "limit",
+        _ => "other",
+    };
+    let place = REASONS.iter().position(|reason| *reason == word);
+    place.map_or(1.0, |place| (place + 1) as f64)
+}
+
+/// The word for a kept number: `None` if the run did not fail.
+pub fn reason(code: f64) -> Option<&'static str> {
+    if code == 0.0 {
+        return None;
+    }
+    let reason = REASONS
+        .iter()
+        .zip(1..)
+        .find(|(_, place)| code == f64::from(*place));
+    Some(reason.map_or("other", |(reason, _)| reason))
+}

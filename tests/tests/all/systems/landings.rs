@@ -1,0 +1,171 @@
+//! Bodies that land on rough floors: what friction does in the impact.
+
+use super::state;
+use lagrange_core::prelude::*;
+use lagrange_tests::{Random, agree, closure, event, run};
+
+/// A body that lands on a rough plane: two directions of slip, each with a wheel of its own moment of inertia.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, z, a, b),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2 + der(z)^2) + first/2 * der(a)^2 + second/2 * der(b)^2,
+    potential = mass * gravity * z,
+    contact(floor: z >= 0, restitution = e),
+    friction(grip on floor: slip = (der(x) - radius * der(a), der(y) - radius * der(b)),
+        static = mu_static, kinetic = mu_kinetic),
+)]
+struct Lander {
+    mass: f64,
+    first: f64,
+    second: f64,
+    radius: f64,
+    gravity: f64,
+    e: f64,
+    mu_static: f64,
+    mu_kinetic: f64,
+}
+
+impl Lander {
+    fn slip(&self, s: &State<f64>) -> [f64; 2] {
+        [s.v[0] - self.radius * s.v[3], s.v[1] - self.radius * s.v[4]]
+    }
+
+    /// Whether the impulse of the first impact stops the slip; if not, it slides along what is left of it.
+    #[track_caller]
+    fn stops(&self, trajectory: &Record<f64>) -> bool {
+        let hit = event(trajectory, "floor", "impact");
+        let (before, after) = (self.slip(&hit.state), self.slip(&hit.state_after));
+        let arrival = -hit.state.v[2];
+        let normal = self.mass * (1.0 + self.e) * arrival;
+        agree("normal", hit.impulses[0], normal, 1e-12);
+        // Compliance of each direction.
+        let g = [self.first, self.second].map(|i| 1.0 / self.mass + self.radius.powi(2) / i);
+        let stop = [-before[0] / g[0], -before[1] / g[1]];
+        let impulse = [hit.impulses[1], hit.impulses[2]];
+        if stop[0].hypot(stop[1]) <= self.mu_static * normal {
+            for k in 0..2 {
+                agree("stops", impulse[k], stop[k], 1e-12);
+                assert!(after[k].abs() < 1e-13);
+            }
+            return true;
+        }
+        let speed = after[0].hypot(after[1]);
+        for k in 0..2 {
+            let friction = -self.mu_kinetic * normal * after[k] / speed;
+            agree("slides", impulse[k], friction, 1e-12);
+            agree("slip", after[k], before[k] + g[k] * impulse[k], 1e-12);
+        }
+        if self.first == self.second {
+            let turn = before[0] * after[1] - before[1] * after[0];
+            assert!(turn.abs() < 1e-12);
+        }
+        assert!(closure(trajectory) < 1e-11);
+        false
+    }
+}
+
+#[test]
+fn slip_with_two_components_slides_along_what_is_left_of_it_or_stops() {
+    let mut random = Random::new(12);
+    let mut stuck = 0;
+    for k in 0..100 {
+        let first = random.between(0.05, 0.5);
+        let scene = Lander {
+            mass: 1.5,
+            first,
+            second: match k % 2 {
+                0 => first,
+                _ => random.between(0.05, 0.5),
+            },
+            radius: 0.6,
+            gravity: 9.81,
+            e: random.between(0.1, 0.9),
+            mu_static: 0.12,
+            mu_kinetic: 0.09,
+        };
+        let v: Vec<f64> = (0..5).map(|_| random.between(-3.0, 3.0)).collect();
+        let start = state(&[0.0, 0.0, 0.05, 0.0, 0.0], &[v[0], v[1], -2.0, v[3], v[4]]);
+        stuck += usize::from(scene.stops(&run(&scene, start, 0.04)));
+    }
+    assert!((16..70).contains(&stuck), "{stuck}");
+}
+
+/// A rod in space by a quaternion, whose mass matrix is singular, strikes a rough floor in the plane y = 0.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, z),
+    attitude(body: q),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2 + der(z)^2)
+        + inertia/2 * (body.body_rate[0]^2 + body.body_rate[1]^2) + spin/2 * body.body_rate[2]^2,
+    define(px = x - half * body.axes[2][0], py = y - half * body.axes[2][1], pz = z - half * body.axes[2][2]),
+    contact(floor: pz >= 0, restitution = e),
+    friction(grip on floor: slip = (der(px), der(py)), static = mu),
+)]
+struct RodInSpace {
+    mass: f64,
+    inertia: f64,
+    spin: f64,
+    half: f64,
+    mu: f64,
+    e: f64,
+}
+
+/// In the plane: (x, z, θ from the vertical).
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, z, theta),
+    kinetic = mass/2 * (der(x)^2 + der(z)^2) + inertia/2 * der(theta)^2,
+    contact(floor: z - half * cos(theta) >= 0, restitution = e),
+    friction(grip on floor: slip = der(x - half * sin(theta)), static = mu),
+)]
+struct RodInPlane {
+    mass: f64,
+    inertia: f64,
+    half: f64,
+    mu: f64,
+    e: f64,
+}
+
+#[test]
+fn a_rod_in_quaternions_strikes_as_one_with_an_angle() {
+    for (mu, vx) in [(0.2, 1.0), (0.2, -1.5), (2.0, 0.7)] {
+        let theta: f64 = 0.5;
+        let space = RodInSpace {
+            mass: 1.2,
+            inertia: 0.15,
+            spin: 0.02,
+            half: 0.5,
+            mu,
+            e: 0.4,
+        };
+        let plane = RodInPlane {
+            mass: 1.2,
+            inertia: 0.15,
+            half: 0.5,
+            mu,
+            e: 0.4,
+        };
+        let height = 0.5 * theta.cos() + 0.02;
+        let (s, c) = (0.5 * theta).sin_cos();
+        // A turn about y by θ leans the axis to (sin θ, 0, cos θ).
+        let rate = 0.3;
+        let start = state(
+            &[0.0, 0.0, height, c, 0.0, s, 0.0],
+            &[vx, 0.0, -1.0, -0.5 * rate * s, 0.0, 0.5 * rate * c, 0.0],
+        );
+        let there = run(&space, start, 0.2);
+        let here = run(&plane, state(&[0.0, height, theta], &[vx, -1.0, rate]), 0.2);
+        let (a, b) = (
+            event(&there, "floor", "impact"),
+            event(&here, "floor", "impact"),
+        );
+        agree("time", a.time, b.time, 1e-11);
+        agree("vx", a.state_after.v[0], b.state_after.v[0], 1e-10);
+        agree("vz", a.state_after.v[2], b.state_after.v[1], 1e-10);
+        let (last, other) = (there.final_state(), here.final_state());
+        agree("x", last.q[0], other.q[0], 1e-10);
+        agree("z", last.q[2], other.q[1], 1e-10);
+        assert!(last.q[1].abs() < 1e-12);
+        assert!(closure(&there) < 1e-10);
+    }
+}
