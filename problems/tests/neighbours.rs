@@ -5,7 +5,7 @@ use lagrange_problems::catalogue::{Scene, scenes};
 use lagrange_problems::request::Request;
 use lagrange_problems::sweep::{Axis, Points, Sampling, Sweep};
 
-/// A sweep over some values of a parameter, each of which comes twice.
+/// A sweep over some values of a parameter.
 fn sweep(scene: &'static dyn Scene, name: &str, value: f64) -> Sweep {
     let axis = |name: &str, from: f64, to: f64, count: usize| Axis {
         name: name.to_owned(),
@@ -35,28 +35,26 @@ fn sweep(scene: &'static dyn Scene, name: &str, value: f64) -> Sweep {
 }
 
 #[test]
-fn a_run_in_used_memory_is_that_in_new_memory() {
+fn a_run_among_others_in_used_memory_is_that_run_alone_in_new_memory() {
     for scene in scenes() {
         let parameters = scene.description().parameters.iter();
         for (parameter, value) in parameters.zip(scene.defaults()) {
             let sweep = sweep(scene, parameter.name, value);
-            let mut used = scene.worker(&sweep).expect("a worker");
-            for index in [0, 2, 4, 1, 2, 3, 0] {
-                let mut point = [0.0];
-                sweep.points.write(index, &mut point);
-                let mut rows = [vec![0.0; sweep.width()], vec![0.0; sweep.width()]];
-                let mut new = scene.worker(&sweep).expect("a worker");
-                used(&point, &mut rows[0]);
-                new(&point, &mut rows[1]);
-                let [found, expected] =
-                    rows.map(|row| row.iter().map(|x: &f64| x.to_bits()).collect::<Vec<_>>());
-                assert_eq!(
-                    found,
-                    expected,
-                    "{} {point:?} of {}",
-                    parameter.name,
-                    scene.name()
-                );
+            let (points, width) = (sweep.points.len(), sweep.width());
+            let mut together = scene.worker(&sweep).expect("a worker");
+            let mut rows = vec![0.0; points * width];
+            together(0..points, &mut rows);
+            let bits = |row: &[f64]| row.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+            let (first, what) = (
+                bits(&rows),
+                format!("{} of {}", parameter.name, scene.name()),
+            );
+            together(0..points, &mut rows);
+            assert_eq!(bits(&rows), first, "{what} once more");
+            for (index, row) in rows.chunks(width).enumerate() {
+                let mut alone = vec![0.0; width];
+                scene.worker(&sweep).expect("a worker")(index..index + 1, &mut alone);
+                assert_eq!(bits(row), bits(&alone), "{what}, point {index}");
             }
         }
     }

@@ -54,6 +54,8 @@ const BERTHS: usize = 24;
 /// ```
 #[derive(Debug)]
 pub struct Ensemble<S: System> {
+    scene: S,
+    settings: Settings,
     runners: Vec<Runner<S>>,
     packets: Packets<S::Scalar>,
 }
@@ -61,7 +63,9 @@ pub struct Ensemble<S: System> {
 impl<S: System> Ensemble<S> {
     pub(crate) fn new(scene: &S, settings: &Settings) -> Self {
         Self {
-            runners: (0..BERTHS).map(|_| Runner::new(scene, settings)).collect(),
+            scene: scene.clone(),
+            settings: settings.clone(),
+            runners: Vec::new(),
             packets: Packets::new(),
         }
     }
@@ -75,6 +79,9 @@ impl<S: System> Ensemble<S> {
         mut prepare: impl FnMut(usize, &mut Runner<S>) -> Option<State<S::Scalar>>,
         mut take: impl FnMut(usize, Result<(), Error>, &Trajectory<S>),
     ) {
+        while self.runners.len() < count.min(BERTHS) {
+            self.runners.push(Runner::new(&self.scene, &self.settings));
+        }
         let mut coming = 0..count;
         // Which run each runner makes.
         let mut under_way: Vec<Option<usize>> = vec![None; self.runners.len()];

@@ -92,5 +92,5 @@ impl Sweep {
     }
 }
 
-/// Runs points one after the other: from the values of the axes to the numbers of [`Sweep::width`].
-pub type Worker<'a> = Box<dyn FnMut(&[f64], &mut [f64]) + Send + 'a>;
+/// Runs a range of points and writes the numbers of [`Sweep::width`] of each, one after the other.
+pub type Worker<'a> = Box<dyn FnMut(Range<usize>, &mut [f64]) + Send + 'a>;

@@ -31,12 +31,8 @@ pub fn work(
 pub(super) fn rows(sweep: &Sweep, worker: Option<&mut Worker>, chunk: usize) -> Vec<f64> {
     let points = sweep.chunk(chunk);
     let mut rows = vec![f64::NAN; points.len() * sweep.width()];
-    let mut point = vec![0.0; sweep.points.axes.len()];
     if let Some(worker) = worker {
-        for (row, index) in rows.chunks_exact_mut(sweep.width()).zip(points) {
-            sweep.points.write(index, &mut point);
-            worker(&point, row);
-        }
+        worker(points, &mut rows);
     }
     rows
 }

@@ -1,4 +1,4 @@
-//! A worker: one runner, from point to point.
+//! A worker: an ensemble of runs, over a range of points.
 
 use super::failure::code;
 use super::{Sweep, Worker};
@@ -34,35 +34,56 @@ pub(crate) fn worker<S: System<Scalar = f64> + Default + Send + 'static>(
     for (subject, kind) in ends.unwrap_or_default() {
         simulation = simulation.end_after(subject, kind);
     }
-    let mut runner = simulation.runner();
+    let mut ensemble = simulation.ensemble();
     let varies = targets
         .iter()
         .any(|target| matches!(target, Target::Parameter(_)));
     let until = request.until.unwrap_or(until);
-    Ok(Box::new(move |point, row| {
-        for (&target, &value) in targets.iter().zip(point) {
-            match target {
-                Target::Parameter(index) => system.set_parameter(index, value),
-                Target::Held(index) => start.held[index].2 = value,
+    let mut point = vec![0.0; targets.len()];
+    Ok(Box::new(move |points, rows| {
+        let first = points.start;
+        let mut refused = Vec::new();
+        ensemble.run(
+            points.len(),
+            0.0..until,
+            |index, runner| {
+                sweep.points.write(first + index, &mut point);
+                for (&target, &value) in targets.iter().zip(&point) {
+                    match target {
+                        Target::Parameter(index) => system.set_parameter(index, value),
+                        Target::Held(index) => start.held[index].2 = value,
+                    }
+                }
+                if varies {
+                    runner.set_scene(&system);
+                }
+                let state = start.state(&system, |reference, wanted, held| {
+                    runner.consistent(0.0, reference, wanted, held)
+                });
+                state
+                    .map_err(|error| refused.push((index, code(&error))))
+                    .ok()
+            },
+            |index, outcome, trajectory| {
+                let row = &mut rows[index * sweep.width()..][..sweep.width()];
+                let Some((failed, observed)) = row.split_last_mut() else {
+                    return;
+                };
+                *failed = outcome.as_ref().err().map_or(0.0, code);
+                for (value, observation) in observed.iter_mut().zip(&sweep.observed) {
+                    *value = match outcome {
+                        Ok(()) => observation.read(trajectory),
+                        Err(_) => f64::NAN,
+                    };
+                }
+            },
+        );
+        for (index, code) in refused {
+            let row = &mut rows[index * sweep.width()..][..sweep.width()];
+            row.fill(f64::NAN);
+            if let Some(failed) = row.last_mut() {
+                *failed = code;
             }
-        }
-        if varies {
-            runner.set_scene(&system);
-        }
-        let state = start.state(&system, |reference, wanted, held| {
-            runner.consistent(0.0, reference, wanted, held)
-        });
-        let outcome = state.and_then(|state| runner.run(&state, 0.0..until).map(|_| ()));
-        let (failed, observed) = match row.split_last_mut() {
-            Some(parts) => parts,
-            None => return,
-        };
-        *failed = outcome.as_ref().err().map_or(0.0, code);
-        for (value, observation) in observed.iter_mut().zip(&sweep.observed) {
-            *value = match outcome {
-                Ok(()) => observation.read(runner.trajectory()),
-                Err(_) => f64::NAN,
-            };
         }
     }))
 }
