@@ -179,6 +179,10 @@ impl<T: Scalar> Run<T> {
     }
 
     fn other_step(&mut self) -> Result<Hit, Error> {
+        if self.series == Progress::Begun {
+            // What it begins with does not stay.
+            self.series = Progress::None;
+        }
         let longest = self.end - self.t.value();
         let Stepper::Other(method, wanted) = &mut self.stepper else {
             return Ok(Hit::Nothing);

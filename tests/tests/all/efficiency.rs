@@ -42,13 +42,13 @@ fn work_on_the_wheel_does_not_grow() {
         1e-9,
         &expect![[r#"
             method        steps  rejected  evaluations  series  factorizations  projections
-            taylor           13         1           20      13               0            0
-            dop853           20         0          496       3               0            0
-            dopri5           91         0         1383       3               0            0
-            verner98         17         0          526       3               0            0
-            radau5          281         0         4522       3               9            0
-            rk4:0.005       603         0         7851       3               0            0
-            gauss6:0.01     303         0         6430       3               0            0
+            taylor           13         1           20      14               0            0
+            dop853           20         0          496       4               0            0
+            dopri5           91         0         1383       4               0            0
+            verner98         17         0          526       4               0            0
+            radau5          281         0         4522       4               9            0
+            rk4:0.005       603         0         7851       4               0            0
+            gauss6:0.01     303         0         6430       4               0            0
         "#]],
     );
 }
