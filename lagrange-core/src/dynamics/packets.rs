@@ -17,6 +17,9 @@ struct Packet<T> {
     shape: Arc<Shape>,
     registers: Vec<Pack<T, LANES>>,
     expansion: Expansion<Pack<T, LANES>>,
+    /// Right-hand sides of the equations, and those of one motion.
+    right: Vec<Pack<T, LANES>>,
+    side: Vec<T>,
 }
 
 /// Packets by what runs in them.
@@ -43,10 +46,7 @@ impl<T: Scalar> Packets<T> {
         let mut members = core::mem::take(&mut self.members);
         members.clear();
         for (motion, dynamics) in waiting.iter_mut().enumerate() {
-            match dynamics.shape_mut() {
-                Some(shape) => members.push((self.packet_of(shape), motion)),
-                None => dynamics.end_series(order),
-            }
+            members.push((self.packet_of(dynamics.shape_mut()), motion));
         }
         members.sort_unstable();
         for same in members.chunk_by(|a, b| a.0 == b.0) {
@@ -70,15 +70,11 @@ impl<T: Scalar> Packets<T> {
             shape.clone_from(&self.known[found].shape);
             return found;
         }
-        let Shape {
-            everything,
-            registers,
-            wanted,
-            ..
-        } = &**shape;
         self.known.push(Packet {
-            registers: vec![Pack([T::zero(); LANES]); *registers],
-            expansion: Expansion::new(everything, *registers, wanted, None),
+            registers: vec![Pack([T::zero(); LANES]); shape.registers],
+            expansion: shape.expansion(),
+            right: Vec::new(),
+            side: Vec::new(),
             shape: shape.clone(),
         });
         self.known.len() - 1
@@ -92,6 +88,8 @@ impl<T: Scalar> Packets<T> {
             shape,
             registers,
             expansion,
+            right,
+            side,
         } = &mut self.known[group[0].0];
         let lanes = motions.map(|motion| waiting[motion].registers());
         for (index, pack) in registers[..shape.used].iter_mut().enumerate() {
@@ -105,7 +103,27 @@ impl<T: Scalar> Packets<T> {
                     registers,
                     order,
                     &shape.integrals,
-                    |_, _, _, _| {},
+                    |_, now, first, earlier| {
+                        let Some(unsolved) = &shape.unsolved else {
+                            return;
+                        };
+                        right.clear();
+                        right.extend(unsolved.right.iter().map(|r| now[r.slot.index()]));
+                        for (&(equation, element, unknown), &earlier) in
+                            unsolved.elements.iter().zip(earlier)
+                        {
+                            let product = now[element.index()] * first[unknown.index()];
+                            right[equation] = right[equation] - (product + earlier);
+                        }
+                        for (lane, &motion) in motions.iter().enumerate() {
+                            side.clear();
+                            side.extend(right.iter().map(|pack| pack.0[lane]));
+                            waiting[motion].solve(side);
+                            for (slot, &x) in unsolved.unknowns.iter().zip(&*side) {
+                                now[slot.index()].0[lane] = x;
+                            }
+                        }
+                    },
                 );
             },
         );
