@@ -16,7 +16,11 @@
   const modes = [...new Set(runs.flatMap((run) => run.phases.map((phase) => phase.mode)))];
   const spanOf = (run, title, axis) => {
     const same = alike(run).flatMap((other) => other.plots).filter((plot) => plot.title === title && plot.axis === axis);
-    return range(same.flatMap((plot) => plot.curves.flatMap((curve) => curve.values)));
+    const of = (limit) => same.flatMap((plot) => plot.curves.filter((curve) => !!curve.limit === limit).flatMap((curve) => curve.values));
+    const [low, high] = range(of(false)), [least, most] = range(of(true));
+    if (least === 0 && most === 1 && !of(true).some((value) => value !== null)) return [low, high];
+    // What can be held may be far above what is: it leaves the plot then.
+    return [Math.min(low, least), high > low ? Math.max(high, Math.min(most, low + 3 * (high - low))) : most];
   };
   const sections = document.querySelectorAll(".runs > .run");
   const views = runs.map((run, i) => {

@@ -6,9 +6,9 @@ function nice(x) {
 
 const dashes = ["none", "7 4", "2 3", "9 3 2 3"];
 
-// A square of paper as wide as there is room, so that letters keep their size.
+// A piece of paper as wide as there is room, so that letters keep their size.
 function paper(figure) {
-  const width = Math.min(Math.max(Math.round(figure.clientWidth) || 440, 280), 1600), height = Math.min(Math.max(240, 0.3 * width), 320);
+  const width = Math.min(Math.max(Math.round(figure.clientWidth) || 440, 280), 1600), height = width > 900 ? 200 : 240;
   const root = svg("svg", { viewBox: `0 0 ${width} ${height}`, role: "img" }, figure);
   return { root, left: 62, right: width - 12, top: 26, bottom: height - 40, width, height };
 }
@@ -85,19 +85,21 @@ function curves(figure, legend, { title, axis, span, lines, clock, seek, under }
   set(box.root, { "aria-label": says });
   const scale = axes(box, clock, span || [low, high], "time [s]", axis);
   if (under) under(box, scale);
+  const [x, y, width, height] = [box.left, box.top, box.right - box.left, box.bottom - box.top];
+  const inside = svg("svg", { x, y, width, height, viewBox: `${x} ${y} ${width} ${height}` }, box.root);
   const shown = lines.map(({ name, times, values, dash }, i) => {
-    svg("path", { class: "curve", style: `stroke: ${colour(i)}`, "stroke-dasharray": dash, d: path(times, values, scale) }, box.root);
+    svg("path", { class: "curve", style: `stroke: ${colour(i)}`, "stroke-dasharray": dash, d: path(times, values, scale) }, inside);
     return [times, values, entry(legend, name, colour(i), dash)];
   });
   const cursor = svg("line", { class: "cursor", y1: box.top, y2: box.bottom }, box.root);
   box.root.addEventListener("click", (event) => {
     const on = box.root.getBoundingClientRect();
-    const x = ((event.clientX - on.left) / on.width) * box.width;
-    seek(scale.x0 + ((x - box.left) / (box.right - box.left)) * (scale.x1 - scale.x0));
+    const at = ((event.clientX - on.left) / on.width) * box.width;
+    seek(scale.x0 + ((at - box.left) / (box.right - box.left)) * (scale.x1 - scale.x0));
   });
   return (t) => {
-    const x = scale.X(Math.min(Math.max(t, scale.x0), scale.x1));
-    set(cursor, { x1: x, x2: x });
+    const now = scale.X(Math.min(Math.max(t, scale.x0), scale.x1));
+    set(cursor, { x1: now, x2: now });
     for (const [times, values, output] of shown) {
       output.textContent = digits(t > times[times.length - 1] + 1e-9 ? null : at(values, place(times, t)));
     }
