@@ -50,7 +50,7 @@ pub static SCENES: &[&dyn Scene] = &[
     &Entry::<DoublePendulum>::new("double-pendulum", 5.0).drawn(DoublePendulum::drawing),
     &Entry::<FiveLinkChain>::new("five-link-chain", 2.0).drawn(FiveLinkChain::drawing),
     &Entry::<Chain20>::new("chain", 2.0).drawn(Chain20::drawing),
-    &Entry::<Net>::new("net", 2.0),
+    &Entry::<Net>::new("net", 2.0).drawn(Net::drawing),
     &Entry::<CartesianPendulum>::new("cartesian-pendulum", 100.0)
         .known(CartesianPendulum::closed_form)
         .drawn(CartesianPendulum::drawing),
@@ -95,6 +95,12 @@ pub static HARD: &[&dyn Scene] = &[
     &Entry::<TumblingBody>::new("tumbling-body", 30.0).drawn(TumblingBody::drawing),
     &Entry::<LongPendulum>::new("long-pendulum", 10.0).drawn(LongPendulum::drawing),
 ];
+
+/// Stages of [`Progress`](crate::progress::Progress) that a run advances by: the run itself and the energy book; a film: one
+/// book more.
+pub const RUN_STAGES: usize = 2;
+/// See [`RUN_STAGES`].
+pub const FILM_STAGES: usize = 3;
 
 /// All scenes: the textbook's, then the hard cases.
 pub fn scenes() -> impl Iterator<Item = &'static dyn Scene> {
@@ -223,13 +229,7 @@ impl<S: System<Scalar = f64> + Default> Entry<S> {
         let simulation = request.simulation(system)?;
         let start = request.start(system, &simulation)?;
         let until = request.until.unwrap_or(self.until);
-        if let Some(progress) = &request.progress {
-            progress.runs_until(until);
-        }
-        let outcome = simulation.run(start, 0.0..until);
-        if let Some(progress) = &request.progress {
-            progress.advance();
-        }
+        let outcome = request.stage(until, || simulation.run(start, 0.0..until));
         Ok(match outcome {
             Ok(trajectory) => (trajectory, None),
             Err(stopped) => (*stopped.trajectory, Some(stopped.error)),
@@ -270,16 +270,21 @@ impl<S: System<Scalar = f64> + Default + Send + 'static> Scene for Entry<S> {
     fn film(&self, request: &Request) -> Result<Film, Refusal> {
         let system: S = request.system()?;
         let (trajectory, failure) = self.trajectory(&system, request)?;
-        let outcome = Outcome::new(self.name, &trajectory, failure, request);
+        let times = film::instants(&trajectory, request.samples);
+        let mut outcome = Outcome::sampled(self.name, &trajectory, failure, request, &times);
+        film::without_rounding(&mut outcome);
         let draw = |drawing: Picture<S>| {
             let samples = outcome.samples.iter();
             samples
                 .map(|sample| drawing(&system, sample.time, &sample.state.q))
                 .collect()
         };
+        let samples = outcome.samples.iter();
+        let instants = samples.map(|sample| (sample.time, &sample.mode, &sample.state));
         Ok(Film {
             drawings: self.drawing.map(draw).unwrap_or_default(),
-            books: film::books(&trajectory),
+            books: request.stage(trajectory.last_time(), || film::books(&trajectory)),
+            drift: film::drift(&trajectory, instants),
             outcome,
         })
     }

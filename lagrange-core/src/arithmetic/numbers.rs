@@ -18,8 +18,9 @@ pub struct Given<T> {
 /// Where the numbers of a recording are.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Numbers<T> {
-    /// Different numbers, in the order in which they came.
-    values: Vec<(Slot, T)>,
+    /// Different numbers, in the order in which they came, and their registers.
+    values: Vec<T>,
+    slots: Vec<Slot>,
     /// Of each number that was given: its register; register 0 if it is zero.
     places: Vec<Slot>,
     /// Products of known numbers: x, y, x y.
@@ -31,19 +32,20 @@ pub(super) struct Numbers<T> {
 impl<T: Scalar> Numbers<T> {
     /// The register of a number, if it is known.
     pub(super) fn find(&self, value: T) -> Option<Slot> {
-        let found = self.values.iter().find(|(_, known)| *known == value);
-        found.map(|&(slot, _)| slot)
+        let found = self.values.iter().position(|known| *known == value);
+        found.map(|index| self.slots[index])
     }
 
     /// The number in a register, if it is known.
     pub(super) fn value(&self, slot: Slot) -> Option<T> {
-        let found = self.values.iter().find(|(known, _)| *known == slot);
-        found.map(|&(_, value)| value)
+        let found = self.slots.iter().position(|known| *known == slot);
+        found.map(|index| self.values[index])
     }
 
     /// Puts a number that is not known yet into a register.
     pub(super) fn put(&mut self, slot: Slot, value: T) {
-        self.values.push((slot, value));
+        self.slots.push(slot);
+        self.values.push(value);
     }
 
     /// Notes where a given number is.
@@ -63,7 +65,7 @@ impl<T: Scalar> Numbers<T> {
 
     /// Writes all numbers into the registers.
     pub(super) fn write(&self, registers: &mut [T]) {
-        for &(slot, value) in &self.values {
+        for (slot, &value) in self.slots.iter().zip(&self.values) {
             registers[slot.index()] = value;
         }
     }
@@ -76,36 +78,48 @@ impl<T: Scalar> Numbers<T> {
         }
         // One and minus one are there from the beginning.
         let mut fresh = 2;
+        let mut same = true;
         let Self {
             values,
+            slots,
             places,
             products,
             ..
         } = self;
-        let mut take = |slot: Slot, value: T, registers: &mut [T]| match values.get_mut(fresh) {
-            Some((new, known)) if *new == slot => {
-                *known = value;
-                registers[slot.index()] = value;
+        let mut take = |slot: Slot, value: T, registers: &mut [T]| {
+            let register = &mut registers[slot.index()];
+            if slots.get(fresh) == Some(&slot) {
+                *register = value;
+                values[fresh] = value;
                 fresh += 1;
-                true
             }
-            _ => registers[slot.index()] == value,
+            same &= *register == value;
         };
         for (&slot, &value) in places.iter().zip(given) {
-            let zero = slot.index() == 0;
-            if value.is_zero() != zero || !(zero || take(slot, value, registers)) {
-                return false;
-            }
+            // Register 0 is zero.
+            take(slot, value, registers);
         }
         for &(x, y, to) in &*products {
             let value = registers[x.index()] * registers[y.index()];
-            if !take(to, value, registers) {
-                return false;
-            }
+            take(to, value, registers);
         }
-        let mut earlier = self.values.iter().enumerate();
-        earlier.all(|(i, (_, value))| self.values[..i].iter().all(|(_, other)| other != value))
+        same && all_different(values)
     }
+}
+
+/// Whether no number is zero, nor equal to another.
+fn all_different<T: Scalar>(values: &[T]) -> bool {
+    let mut rest = values;
+    let mut different = true;
+    while let Some((value, others)) = rest.split_first() {
+        // All are looked at, which takes less time than to stop at the first.
+        let equal = others
+            .iter()
+            .fold(false, |found, other| found | (other == value));
+        different &= !equal & !value.is_zero();
+        rest = others;
+    }
+    different
 }
 
 impl<T: Scalar> Arithmetic for Given<T> {

@@ -56,7 +56,9 @@ impl<T: Scalar> Dynamics<T> {
     fn known_solution(&mut self) -> Result<Vec<T>, EvaluationError> {
         let n = self.description().coordinates.len();
         let compiled = &self.modes[self.current];
-        let divides = compiled.tape().is_some_and(|tape| tape.unsolved.is_none());
+        let divides = compiled
+            .tape()
+            .is_some_and(|tape| tape.shape.unsolved.is_none());
         let mut known = core::mem::take(&mut self.solution);
         if divides {
             let free = compiled.plan.elimination.free.iter();

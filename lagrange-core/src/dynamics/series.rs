@@ -56,10 +56,16 @@ impl<T: Scalar> Dynamics<T> {
         self.take_headings_of_series();
     }
 
-    /// What the tape does, if it can do it side by side with others.
-    pub(super) fn shape_mut(&mut self) -> Option<&mut Arc<Shape>> {
+    /// What the tape does.
+    pub(super) fn shape_mut(&mut self) -> &mut Arc<Shape> {
         let (_, _, tape) = self.modes[self.current].parts();
-        tape.unsolved.is_none().then_some(&mut tape.shape)
+        &mut tape.shape
+    }
+
+    /// Solves the equations that the last value has left factored.
+    pub(super) fn solve(&mut self, right: &mut [T]) {
+        let (_, solver, _) = self.modes[self.current].parts();
+        solver.solve(right);
     }
 
     /// The numbers that the tape works with.
@@ -93,7 +99,6 @@ impl<T: Scalar> Dynamics<T> {
             shape,
             registers,
             expansion,
-            unsolved,
             headings: slots,
             ..
         } = tape;
@@ -108,7 +113,7 @@ impl<T: Scalar> Dynamics<T> {
             order,
             &shape.integrals,
             |k, now, first, earlier| {
-                let Some(unsolved) = unsolved.as_ref() else {
+                let Some(unsolved) = &shape.unsolved else {
                     return;
                 };
                 right.clear();

@@ -8,7 +8,8 @@ use super::needs::NeedSet;
 use super::solution::{Pivot, forces, right_hand_sides, solve};
 use super::values::Extent;
 use crate::arithmetic::{
-    Arithmetic, Expansion, Given, Program, Recorded, Recording, Renewal, Scalar, Slot, Variation,
+    Arithmetic, Coefficient, Expansion, Given, Program, Recorded, Recording, Renewal, Scalar, Slot,
+    Variation,
 };
 use crate::linear::Plan;
 use crate::system::{Description, Held, Place};
@@ -23,7 +24,7 @@ pub(super) const FORCES: usize = 1;
 pub(super) const REPORT: usize = 2;
 
 /// A linear system that the tape leaves to the solver.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Unsolved {
     /// Right-hand sides of the equations.
     pub right: Vec<Recorded>,
@@ -42,11 +43,31 @@ pub(super) struct Shape {
     accelerations: Program,
     /// Positions and velocities that may change, with their rates.
     pub integrals: Vec<(Slot, Slot)>,
+    /// None: the tape solves for the accelerations itself.
+    pub unsolved: Option<Unsolved>,
     /// Whose series are kept.
     pub wanted: Vec<Recorded>,
     /// How many registers there are, and how many of them are used.
     pub registers: usize,
     pub used: usize,
+}
+
+impl Shape {
+    /// Memory to expand it in.
+    pub(super) fn expansion<C: Coefficient>(&self) -> Expansion<C> {
+        let elements = self.unsolved.as_ref().map(|unsolved| {
+            let elements = unsolved.elements.iter();
+            elements
+                .map(|&(_, element, unknown)| (element, unknown))
+                .collect::<Vec<_>>()
+        });
+        Expansion::new(
+            &self.everything,
+            self.registers,
+            &self.wanted,
+            elements.as_deref(),
+        )
+    }
 }
 
 /// The recorded equations of a mode, and their registers.
@@ -71,8 +92,6 @@ pub(super) struct Tape<T> {
     /// Outputs of the motion tape, then results of the plan's program.
     pub nodes: Vec<Recorded>,
     report_nodes: Vec<Recorded>,
-    /// None: the tape solves for the accelerations itself.
-    pub unsolved: Option<Unsolved>,
     /// What it divides by when it does.
     pub pivots: Vec<Pivot>,
     /// Directions given from outside: (friction, components, their rates).
@@ -108,7 +127,7 @@ impl<T: Scalar> Tape<T> {
 
     /// Arithmetic operations of one evaluation; the solver's are those of elimination by pivots.
     pub(super) fn operations(&self) -> Operations {
-        let size = self.unsolved.as_ref().map_or(0, |u| u.unknowns.len());
+        let size = self.shape.unsolved.as_ref().map_or(0, |u| u.unknowns.len());
         let solver = size * (size + 1) * (4 * size + 5) / 6 - 2 * size;
         Operations {
             accelerations: self.shape.accelerations.operations() + solver,
@@ -226,10 +245,7 @@ impl<T: Scalar> Tape<T> {
                 }
             }
         }
-        let (sides, elements) = match &unsolved {
-            Some(unsolved) => (&unsolved.right[..], &unsolved.elements[..]),
-            None => (&[][..], &[][..]),
-        };
+        let sides = unsolved.as_ref().map_or(&[][..], |u| &u.right[..]);
         // What the solution needs besides.
         let mut system: Vec<Slot> = sides.iter().map(|r| r.slot).collect();
         for pivot in &pivots {
@@ -249,36 +265,34 @@ impl<T: Scalar> Tape<T> {
         let accelerations = Program::new(&mut recording, &accelerations);
         let used = recording.registers();
         let (registers, renewal) = recording.finish();
-        let products: Vec<_> = elements.iter().map(|&(_, e, u)| (e, u)).collect();
-        let products = unsolved.is_some().then_some(&products[..]);
-        let expansion = Expansion::new(&program, registers.len(), &wanted, products);
         let changes = (1..1 + 2 * n).filter(|&i| !inputs[i + n].is_zero());
         let changes = changes.map(|i| (inputs[i].slot, inputs[i + n].slot));
         let turns = headings
             .iter()
             .flat_map(|&(_, u, rates)| u.into_iter().zip(rates));
+        let shape = Shape {
+            everything: program,
+            accelerations,
+            integrals: changes.chain(turns).collect(),
+            unsolved,
+            wanted,
+            registers: registers.len(),
+            used,
+        };
         Tape {
             held: asked.held.clone(),
             extra: asked.extra.clone(),
             report: asked.report.cloned(),
             at_rest: asked.at_rest,
-            shape: Arc::new(Shape {
-                everything: program,
-                accelerations,
-                integrals: changes.chain(turns).collect(),
-                wanted,
-                registers: registers.len(),
-                used,
-            }),
+            expansion: shape.expansion(),
+            shape: Arc::new(shape),
             registers,
             renewal,
             evaluated: false,
-            expansion,
             order: 0,
             inputs,
             nodes,
             report_nodes,
-            unsolved,
             pivots,
             headings,
         }

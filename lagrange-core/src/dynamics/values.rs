@@ -52,7 +52,7 @@ impl<T: Scalar> Dynamics<T> {
         // A step ends with a value and the next begins with a series; where there is nothing to refine that is the same.
         let known = &tape.registers[1..2 + 2 * n];
         if tape.evaluated
-            && tape.unsolved.is_none()
+            && tape.shape.unsolved.is_none()
             && known[0] == t
             && known[1..=n] == *q
             && known[1 + n..] == *v
@@ -69,7 +69,7 @@ impl<T: Scalar> Dynamics<T> {
             }
         }
         tape.evaluate(extent, MOTION);
-        if tape.unsolved.is_some() {
+        if tape.shape.unsolved.is_some() {
             self.solve_start(refined)?;
         } else if !tape
             .pivots
@@ -137,7 +137,7 @@ impl<T: Scalar> Dynamics<T> {
         if outcome.is_ok() && refined && plan.size() > plan.free() {
             solver.refine(solution, &mut right[..plan.size()]);
         }
-        if let Some(unsolved) = &tape.unsolved {
+        if let Some(unsolved) = &tape.shape.unsolved {
             for (slot, &x) in unsolved.unknowns.iter().zip(&*solution) {
                 tape.registers[slot.index()] = x;
             }
@@ -152,7 +152,7 @@ impl<T: Scalar> Dynamics<T> {
     fn fill_right(&mut self) {
         let (_, _, tape) = self.modes[self.current].parts();
         self.right.clear();
-        if let Some(unsolved) = &tape.unsolved {
+        if let Some(unsolved) = &tape.shape.unsolved {
             let values = unsolved
                 .right
                 .iter()

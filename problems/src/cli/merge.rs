@@ -9,8 +9,9 @@ use std::path::PathBuf;
 /// Put the parts of a sweep together that were done with --shard. The result is the same byte for byte as without.
 #[derive(Args)]
 #[command(after_help = "Examples:
-  lagrange merge runs.parquet.part --output runs.parquet
-  lagrange merge node*/runs.parquet.part --output runs.parquet --plot runs.svg
+  lagrange sweep ladder --vary length=1..9:3000 --observe t --output one.csv --shard 1/2
+  lagrange sweep ladder --vary length=1..9:3000 --observe t --output two.csv --shard 2/2
+  lagrange merge one.csv.part two.csv.part --output both.csv
 
 Parts that are missing are named, and nothing is written then.")]
 pub(super) struct Merge {

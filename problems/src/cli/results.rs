@@ -10,6 +10,7 @@ use std::io::{BufWriter, Error};
 use std::path::{Path, PathBuf};
 
 #[derive(Args)]
+#[command(next_help_heading = "Results")]
 pub(super) struct Results {
     /// Write a line per run, as Parquet (….parquet) or CSV (….csv).
     #[arg(long, value_name = "FILE")]

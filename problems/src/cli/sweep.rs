@@ -14,10 +14,12 @@ use lagrange_problems::sweep::{Axis, Journal, Points, Sampling, Shard, Sweep, wo
 /// on where it was: what is done is kept in FILE.part until all is done.
 #[derive(Args)]
 #[command(after_help = "Examples:
-  lagrange sweep mass-on-wheel --vary mu_static=0.5..2:100 --observe \"leave angle\" --plot angles.svg
-  lagrange sweep mass-on-wheel --vary mu_static=0.5..2:40 --vary mass=0.1..10:40:log --observe \"t at rim lost\" --output runs.parquet
-  lagrange sweep mass-on-wheel --vary mu_static=0.5..2 --vary mass=0.1..1 --sample sobol:1024 --observe theta --output runs.csv
-  lagrange sweep mass-on-wheel --vary mu_static=0.5..2:5000 --observe theta --output parts.csv --shard 1/2
+  lagrange sweep mass-on-wheel --vary mu_static=0.3..1:40 --observe \"leave angle\" --plot leave.svg
+  lagrange sweep mass-on-shell --vary \"der(theta)=0..2:20\" --observe t --output shell.parquet
+  lagrange sweep ladder --vary length=1..9 --vary mass=1..9 --sample sobol:500 --observe t
+  lagrange sweep ladder --vary length=1..9:3000 --observe t --output one.csv --shard 1/2
+  lagrange sweep ladder --vary length=1..9:3000 --observe t --output two.csv --shard 2/2
+  lagrange merge one.csv.part two.csv.part --output both.csv
 
 A run that fails is a line that says why; the sweep goes on. Exit codes: 0 runs went well, 1 every run failed or a file could not be
 written, 2 the request makes no sense, 130 interrupted.")]
