@@ -110,7 +110,7 @@ impl Sweeps {
     /// With all processes that were started together.
     #[cfg(feature = "mpi")]
     fn together(&self, sweep: &Sweep, place: Place) -> Result<(), Trouble> {
-        let mut team = Team::gather(place).map_err(Trouble::failed)?;
+        let mut team = Team::gather(place, sweep).map_err(Trouble::failed)?;
         let workers = self.workers.map_or(1, usize::from);
         if !team.leads() {
             team.follow(sweep, workers);

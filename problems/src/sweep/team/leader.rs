@@ -2,11 +2,10 @@
 
 use super::crew::Crew;
 use super::office::Office;
-use super::{ANSWER, ASK, BYE, DONE, END, FAREWELL, GLANCE, STOP, WAIT};
+use super::post::Post;
+use super::{ASK, BYE, DONE, END, FAREWELL, GLANCE, STOP};
 use crate::sweep::{Journal, Sweep, Trouble};
-use mpi::Tag;
-use mpi::topology::{Rank, SimpleCommunicator};
-use mpi::traits::*;
+use mpi::topology::Rank;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::time::Instant;
@@ -16,7 +15,7 @@ use std::time::Instant;
 /// # Errors
 /// A chunk could not be kept.
 pub(super) fn work(
-    world: &SimpleCommunicator,
+    post: &mut Post,
     sweep: &Sweep,
     journal: &Journal,
     workers: usize,
@@ -41,13 +40,12 @@ pub(super) fn work(
         if let Some((chunk, rows)) = crew.finished(GLANCE) {
             keep(&mut office, 0, chunk, rows)?;
         }
-        while let Some((rank, tag, mut rows)) = receive(world) {
+        while let Some((rank, tag, mut rows)) = post.receive() {
             if tag == DONE && !rows.is_empty() {
                 let chunk = rows.remove(0) as usize;
                 keep(&mut office, rank, chunk, rows)?;
             } else if tag == ASK {
-                let chunk = office.give(rank);
-                answer(world, rank, chunk.map_or(WAIT, |chunk| chunk as i64));
+                post.give(rank, office.give(rank));
             }
         }
     }
@@ -55,14 +53,14 @@ pub(super) fn work(
 }
 
 /// Tells all ranks to stop, and waits for their goodbyes: how many do not say it.
-pub(super) fn dismiss(world: &SimpleCommunicator) -> usize {
-    let mut there: BTreeSet<Rank> = (1..world.size()).collect();
+pub(super) fn dismiss(post: &mut Post) -> usize {
+    let mut there: BTreeSet<Rank> = (1..post.ranks()).collect();
     for rank in &there {
-        answer(world, *rank, STOP);
+        post.say(*rank, STOP);
     }
     let mut heard = Instant::now();
     while !there.is_empty() && heard.elapsed() < FAREWELL {
-        match receive(world) {
+        match post.receive() {
             None => std::thread::sleep(GLANCE),
             Some((rank, BYE, _)) => {
                 there.remove(&rank);
@@ -75,20 +73,9 @@ pub(super) fn dismiss(world: &SimpleCommunicator) -> usize {
 }
 
 /// Tells all ranks that MPI may end.
-pub(super) fn end(world: &SimpleCommunicator) {
-    for rank in 1..world.size() {
-        answer(world, rank, END);
+pub(super) fn end(post: &mut Post) {
+    for rank in 1..post.ranks() {
+        post.say(rank, END);
     }
-}
-
-/// A short message, which is on its way at once, also to a rank that has died.
-fn answer(world: &SimpleCommunicator, rank: Rank, answer: i64) {
-    world.process_at_rank(rank).send_with_tag(&answer, ANSWER);
-}
-
-/// Takes a message, if there is one: who sends it, what it is, what is in it.
-fn receive(world: &SimpleCommunicator) -> Option<(Rank, Tag, Vec<f64>)> {
-    let message = world.any_process().immediate_matched_probe()?;
-    let (numbers, status) = message.matched_receive_vec();
-    Some((status.source_rank(), status.tag(), numbers))
+    post.leave();
 }

@@ -15,6 +15,7 @@ mod crew;
 mod leader;
 mod member;
 mod office;
+mod post;
 
 use super::launch::Place;
 use super::{Journal, Sweep, Trouble};
@@ -22,6 +23,7 @@ use mpi::environment::Universe;
 use mpi::topology::SimpleCommunicator;
 use mpi::traits::*;
 use mpi::{Tag, Threading};
+use post::Post;
 use std::sync::Arc;
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
@@ -55,16 +57,17 @@ pub struct Team {
     /// None when it has ended.
     universe: Option<Universe>,
     world: SimpleCommunicator,
+    post: Post,
     /// Number of ranks that no longer answer.
     lost: usize,
 }
 
 impl Team {
-    /// All processes that were started together with this one.
+    /// All processes that were started together with this one, for a sweep.
     ///
     /// # Errors
     /// The MPI library cannot be used.
-    pub fn gather(place: Place) -> Result<Self, String> {
+    pub fn gather(place: Place, sweep: &Sweep) -> Result<Self, String> {
         let (universe, _) = mpi::initialize_with_threading(Threading::Funneled)
             .ok_or("the MPI library could not be started")?;
         let world = universe.world();
@@ -77,6 +80,7 @@ impl Team {
             ));
         }
         Ok(Self {
+            post: Post::new(universe.world(), sweep.chunks()),
             universe: Some(universe),
             world,
             lost: 0,
@@ -107,14 +111,14 @@ impl Team {
         workers: usize,
         done: impl FnMut(usize),
     ) -> Result<(), Trouble> {
-        let outcome = leader::work(&self.world, sweep, journal, workers, done);
+        let outcome = leader::work(&mut self.post, sweep, journal, workers, done);
         self.dismiss();
         outcome
     }
 
     /// Sends the others home.
     pub fn dismiss(&mut self) {
-        self.lost = leader::dismiss(&self.world);
+        self.lost = leader::dismiss(&mut self.post);
         if self.lost == 0 {
             self.end(0);
         }
@@ -132,7 +136,7 @@ impl Team {
             return;
         };
         if self.leads() {
-            leader::end(&self.world);
+            leader::end(&mut self.post);
         }
         let (ended, waits) = channel::<()>();
         std::thread::spawn(move || {
