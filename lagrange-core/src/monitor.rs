@@ -27,7 +27,8 @@ impl Monitor {
         self.0.stopped.load(Relaxed)
     }
 
-    /// How far the run has come, s; 0 before it begins.
+    /// How far the run has come, s; 0 before it begins. After the run, while its energy is booked
+    /// ([`Record::ledger`](crate::trajectory::Record::ledger)), how far the books are.
     pub fn time(&self) -> f64 {
         f64::from_bits(self.0.time.load(Relaxed))
     }

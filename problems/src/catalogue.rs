@@ -96,6 +96,12 @@ pub static HARD: &[&dyn Scene] = &[
     &Entry::<LongPendulum>::new("long-pendulum", 10.0).drawn(LongPendulum::drawing),
 ];
 
+/// Stages of [`Progress`](crate::progress::Progress) that a run advances by: the run itself and the energy book; a film: one
+/// book more.
+pub const RUN_STAGES: usize = 2;
+/// See [`RUN_STAGES`].
+pub const FILM_STAGES: usize = 3;
+
 /// All scenes: the textbook's, then the hard cases.
 pub fn scenes() -> impl Iterator<Item = &'static dyn Scene> {
     SCENES.iter().chain(HARD).copied()
@@ -223,13 +229,7 @@ impl<S: System<Scalar = f64> + Default> Entry<S> {
         let simulation = request.simulation(system)?;
         let start = request.start(system, &simulation)?;
         let until = request.until.unwrap_or(self.until);
-        if let Some(progress) = &request.progress {
-            progress.runs_until(until);
-        }
-        let outcome = simulation.run(start, 0.0..until);
-        if let Some(progress) = &request.progress {
-            progress.advance();
-        }
+        let outcome = request.stage(until, || simulation.run(start, 0.0..until));
         Ok(match outcome {
             Ok(trajectory) => (trajectory, None),
             Err(stopped) => (*stopped.trajectory, Some(stopped.error)),
@@ -283,7 +283,7 @@ impl<S: System<Scalar = f64> + Default + Send + 'static> Scene for Entry<S> {
         let instants = samples.map(|sample| (sample.time, &sample.mode, &sample.state));
         Ok(Film {
             drawings: self.drawing.map(draw).unwrap_or_default(),
-            books: film::books(&trajectory),
+            books: request.stage(trajectory.last_time(), || film::books(&trajectory)),
             drift: film::drift(&trajectory, instants),
             outcome,
         })

@@ -32,10 +32,10 @@ impl Progress {
         self.counts.until.store(time.to_bits(), Relaxed);
     }
 
-    /// One stage more is done.
-    pub fn advance(&self) {
+    /// So many stages more are done.
+    pub fn advance(&self, stages: usize) {
         self.counts.until.store(0, Relaxed);
-        self.counts.done.fetch_add(1, Relaxed);
+        self.counts.done.fetch_add(stages, Relaxed);
     }
 
     /// The part that is done, from 0 to 1; `None` while nobody has said how much there is to do.
@@ -76,7 +76,7 @@ mod tests {
         assert_eq!(progress.part(), None);
         progress.expect(4);
         assert_eq!(progress.part(), Some(0.0));
-        progress.advance();
+        progress.advance(1);
         progress.runs_until(10.0);
         assert_eq!(progress.part(), Some(0.25));
         progress.expect(1);

@@ -4,10 +4,14 @@ use crate::names::nearest;
 use crate::progress::Progress;
 use crate::sweep::event;
 use core::fmt;
+use core::ops::RangeInclusive;
 use lagrange_core::effects::Item;
 use lagrange_core::prelude::*;
 use lagrange_core::system::Description;
 use std::collections::BTreeSet;
+
+/// Tolerances that an integration can have.
+pub const TOLERANCES: RangeInclusive<f64> = 1e-17..=0.1;
 
 /// A run of a scene as asked for. Names are those of the declaration.
 #[derive(Clone, Debug)]
@@ -177,6 +181,18 @@ impl Request {
             Some(progress) => simulation.monitor(progress.monitor()),
             None => simulation,
         })
+    }
+
+    /// A stage of the work that goes through the time of the run, seen by who watches it.
+    pub(crate) fn stage<W>(&self, until: f64, work: impl FnOnce() -> W) -> W {
+        if let Some(progress) = &self.progress {
+            progress.runs_until(until);
+        }
+        let done = work();
+        if let Some(progress) = &self.progress {
+            progress.advance(1);
+        }
+        done
     }
 
     /// What takes part.

@@ -58,7 +58,7 @@ fn list_has_every_scene_with_a_summary() {
 #[test]
 fn requests_without_sense_are_refused_in_one_line() {
     refuses(&[], 2, "lagrange list");
-    refuses(&["walk"], 2, "unrecognized subcommand 'walk'");
+    refuses(&["walk"], 2, "no command is called `walk`; there are: list");
     refuses(&["run"], 2, "<SCENE>");
     refuses(
         &["list", "mass-on-whele"],
@@ -84,7 +84,10 @@ fn requests_without_sense_are_refused_in_one_line() {
     );
     run(&["--until", "0"], "must be above 0");
     run(&["--tolerance", "-1"], "must be above 0");
-    run(&["--format", "xml"], "table, json, csv");
+    run(
+        &["--format", "xml"],
+        "there are: table, json, jsonl, csv, parquet",
+    );
 }
 
 #[test]

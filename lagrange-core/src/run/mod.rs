@@ -27,7 +27,8 @@ use crate::modes::guard::{self, Guard};
 use crate::modes::impact::Collider;
 use crate::modes::reading::Reading;
 use crate::modes::sharing::{Joint, Sharing};
-use crate::modes::start::{self, Survey};
+use crate::modes::start;
+use crate::modes::survey::Survey;
 use crate::modes::table::Table;
 use crate::pool::Pool;
 use crate::simulation::{Held, Settings};
@@ -196,7 +197,10 @@ impl<T: Scalar> Run<T> {
             stuck: Pool::default(),
             finished: false,
             work_before: crate::dynamics::Work::default(),
-            trajectory: Record::new(&system, &settings.effects, settings.record),
+            trajectory: Record {
+                monitor: settings.monitor.clone(),
+                ..Record::new(&system, &settings.effects, settings.record)
+            },
             state,
             mode,
         };

@@ -142,6 +142,7 @@ struct Books<'a, T: Scalar> {
 impl<'a, T: Scalar> Books<'a, T> {
     fn open(trajectory: &'a Record<T>) -> Result<Self, Error> {
         trajectory.check_recorded()?;
+        tell(trajectory, trajectory.first_time);
         let mut sampler = trajectory.sampler();
         let (mut booked, entries) = items(trajectory.description());
         let jumps = jumps(trajectory, &mut sampler, &mut booked)?;
@@ -164,7 +165,9 @@ impl<'a, T: Scalar> Books<'a, T> {
     /// Books the segments before number `segment`, and the next one up to `time` if one is given.
     fn turn_to(&mut self, segment: usize, time: Option<f64>) -> Result<(), Error> {
         while self.segments < segment {
-            let whole = self.trajectory.segments[self.segments].end.value();
+            let next = &self.trajectory.segments[self.segments];
+            let whole = next.end.value();
+            tell(self.trajectory, next.t);
             self.integrate(self.segments, whole)?;
             for (entry, part) in self.booked.iter_mut().zip(&self.part) {
                 entry.work += part;
@@ -227,6 +230,13 @@ impl<'a, T: Scalar> Books<'a, T> {
             closure: end.jacobi - start.jacobi - sum,
             work,
         }
+    }
+}
+
+/// Lets those who watch see how far the books are.
+fn tell<T: Scalar>(trajectory: &Record<T>, time: T) {
+    if let Some(monitor) = &trajectory.monitor {
+        monitor.tell(time.value());
     }
 }
 

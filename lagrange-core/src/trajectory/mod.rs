@@ -16,6 +16,7 @@ use crate::effects::Effects;
 use crate::error::Error;
 use crate::integrate::StepPolynomial;
 use crate::mode::Mode;
+use crate::monitor::Monitor;
 use crate::pool::Pool;
 use crate::system::{Description, System};
 use crate::tapes::Erased;
@@ -121,6 +122,8 @@ pub struct Record<T: Scalar> {
     pub(crate) coefficients: Vec<T>,
     pub(crate) events: Pool<Event<T>>,
     pub(crate) work: Work,
+    /// Who sees how far the books have been drawn up.
+    pub(crate) monitor: Option<Monitor>,
 }
 
 impl<T: Scalar> Record<T> {
@@ -139,6 +142,7 @@ impl<T: Scalar> Record<T> {
             coefficients: Vec::new(),
             events: Pool::default(),
             work: Work::default(),
+            monitor: None,
         }
     }
 

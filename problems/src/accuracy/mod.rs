@@ -86,6 +86,9 @@ impl Measured {
     }
 }
 
+/// The first round in units of the others: it judges a run, and what takes long sits out the others.
+const FIRST: usize = 30;
+
 /// Measures `study` on a scene. What fails half-way is a row that says why. If the progress of its request is stopped, there
 /// are the rows until then.
 ///
@@ -100,7 +103,8 @@ pub(crate) fn measure<S: System<Scalar = f64>>(
     let (reference, scale) = reference::reference(course, closed_form)?;
     let settings = family::settings(&study.methods, &study.tolerances, scale);
     let progress = study.request.progress.clone().unwrap_or_default();
-    progress.expect(settings.len() * timing::rounds(study.repeat));
+    let rounds = timing::rounds(study.repeat);
+    progress.expect(settings.len() * (FIRST + rounds - 1));
     let mut rows = Vec::new();
     for setting in settings {
         let result = judge(course, setting, &reference);
@@ -110,7 +114,7 @@ pub(crate) fn measure<S: System<Scalar = f64>>(
             break;
         }
         rows.push(row);
-        progress.advance();
+        progress.advance(FIRST);
     }
     timing::rest(&mut rows, study.repeat, &progress);
     Ok(Accuracy {

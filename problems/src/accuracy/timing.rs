@@ -88,7 +88,7 @@ pub(super) fn rest<C: FnMut(usize) -> f64>(
                     return;
                 }
             }
-            progress.advance();
+            progress.advance(1);
         }
     }
 }

@@ -15,7 +15,10 @@ use lagrange_problems::request::Request;
 use std::io::{self, Write};
 use std::path::PathBuf;
 
-/// Measure what accuracy costs: methods at tolerances, in time and work, against a reference that is made on the spot.
+/// Measure what accuracy costs, method by method.
+///
+/// Every method runs at every tolerance, and is measured in time and work against a reference that is made on the spot. What a
+/// scene file says of method and tolerance does not matter here.
 #[derive(Args)]
 #[command(after_help = "Examples:
   lagrange accuracy mass-on-wheel --tolerances 1e-6..1e-9 --plot accuracy.svg
@@ -24,7 +27,7 @@ use std::path::PathBuf;
 
 Ctrl-C ends the measurement; what has been measured is written.")]
 pub(super) struct Measure {
-    /// The scene, or a scene file; `lagrange list` shows the scenes.
+    /// The scene, or a scene file (….toml); `lagrange list` shows the scenes.
     scene: String,
     #[command(flatten)]
     motion: Motion,

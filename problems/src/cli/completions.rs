@@ -6,11 +6,11 @@ use clap::{Args, Command, CommandFactory, ValueHint};
 use clap_complete::{Generator, Shell};
 use lagrange_problems::catalogue::scenes;
 
-/// Print a script that makes a shell complete commands, options and names of scenes.
+/// Print what makes a shell complete commands, options and scenes.
 #[derive(Args)]
 #[command(after_help = "Examples:
   lagrange completions bash > ~/.local/share/bash-completion/completions/lagrange
-  lagrange completions zsh > ~/.zfunc/_lagrange          # a folder of your fpath
+  lagrange completions zsh > ~/.zfunc/_lagrange          a folder of your fpath
   lagrange completions fish > ~/.config/fish/completions/lagrange.fish")]
 pub(super) struct Completions {
     /// The shell.
@@ -24,8 +24,42 @@ impl Completions {
         command.build();
         let mut script = Vec::new();
         self.shell.generate(&command, &mut script);
+        match self.shell {
+            Shell::Fish => script.extend(fish(&command).bytes()),
+            Shell::Zsh => script = zsh(&String::from_utf8_lossy(&script)).into_bytes(),
+            _ => {}
+        }
         print(|out| out.write_all(&script))
     }
+}
+
+/// The script for zsh with files where a scene file will do: the generator knows names or files, not both.
+fn zsh(script: &str) -> String {
+    let names: Vec<&str> = scenes().map(|scene| scene.name()).collect();
+    let names = names.join(" ");
+    let files = r#""files:scene file:_files -g \"*.toml\"""#;
+    let both = format!(":{{_alternative \"scenes:scene:({names})\" {files}}}");
+    let line = |line: &str| match line.contains("scene file") {
+        true => line.replace(&format!(":({names})"), &both) + "\n",
+        false => format!("{line}\n"),
+    };
+    script.lines().map(line).collect()
+}
+
+/// Names of scenes for fish, to which the generator tells options only.
+fn fish(command: &Command) -> String {
+    let names: Vec<&str> = scenes().map(|scene| scene.name()).collect();
+    let names = names.join(" ");
+    let takes = |sub: &&Command| sub.get_arguments().any(|a| is_scene(a.get_id().as_str()));
+    let line = |sub: &Command| {
+        let seen = format!("__fish_seen_subcommand_from {}", sub.get_name());
+        format!("complete -c lagrange -n \"{seen}\" -a \"{names}\"\n")
+    };
+    command.get_subcommands().filter(takes).map(line).collect()
+}
+
+fn is_scene(id: &str) -> bool {
+    id == "scene" || id == "scenes"
 }
 
 /// The command with the names of the scenes where a scene is expected.
@@ -34,10 +68,9 @@ fn named(command: Command) -> Command {
         .get_subcommands()
         .map(|sub| sub.get_name().to_owned())
         .collect();
-    let scene = |id: &str| id == "scene" || id == "scenes";
     subcommands.into_iter().fold(command, |command, name| {
         command.mut_subcommand(name, |sub| {
-            sub.mut_args(|argument| match scene(argument.get_id().as_str()) {
+            sub.mut_args(|argument| match is_scene(argument.get_id().as_str()) {
                 true => argument
                     .value_parser(PossibleValuesParser::new(scenes().map(|s| s.name())))
                     .value_hint(ValueHint::FilePath),

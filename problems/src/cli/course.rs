@@ -1,7 +1,7 @@
 //! Which run of a scene is meant: arguments that several commands share, and the request that they make.
 
 use super::Trouble;
-use super::values::{named, positive};
+use super::values::{named, positive, tolerance};
 use clap::Args;
 use lagrange_core::prelude::{Impacts, Method};
 use lagrange_problems::catalogue::find;
@@ -16,7 +16,7 @@ pub(super) struct Course {
     #[command(flatten)]
     motion: Motion,
     /// Tolerance of the integration, relative and absolute [default: 1e-9].
-    #[arg(long, value_name = "X", value_parser = positive, allow_hyphen_values = true)]
+    #[arg(long, value_name = "X", value_parser = tolerance, allow_hyphen_values = true)]
     tolerance: Option<f64>,
     /// Method of integration [default: taylor].
     #[arg(long, value_name = "M", value_parser = method)]
@@ -105,7 +105,7 @@ impl Motion {
 }
 
 /// The scene of this name, or what a file says if it is the path of one (`….toml`).
-fn scene(name: &str) -> Result<SceneFile, Trouble> {
+pub(super) fn scene(name: &str) -> Result<SceneFile, Trouble> {
     if !name.ends_with(".toml") {
         return Ok(SceneFile {
             scene: find(name).map_err(|refusal| unknown(name, &refusal))?,

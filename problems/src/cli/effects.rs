@@ -11,7 +11,9 @@ use lagrange_problems::report::{Format, cost as report};
 use lagrange_problems::request::Request;
 use std::io::{self, Write};
 
-/// Measure what each effect costs, mode by mode: operations and nanoseconds of a right-hand side, and of a whole run.
+/// Measure what each effect costs, mode by mode.
+///
+/// Operations and nanoseconds of a right-hand side, with and without each item that can be left out, and of a whole run.
 #[derive(Args)]
 #[command(after_help = "Examples:
   lagrange effects mass-on-wheel

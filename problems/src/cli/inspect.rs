@@ -1,22 +1,24 @@
 //! `lagrange inspect`: what was derived from a scene's declaration.
 
 use super::Trouble;
+use super::course::scene;
 use super::output::{ready, to_file};
 use clap::{Args, ValueEnum};
 use lagrange_engine::inspect::{Derivation, print};
-use lagrange_problems::catalogue::find;
 use lagrange_problems::names::nearest;
 use std::path::PathBuf;
 
-/// Show what was derived: energies, equations of motion, constraints with their multipliers, every mode with its unknowns,
-/// guards and resets, what is conserved, and what it costs.
+/// Show what was derived from a scene.
+///
+/// Energies, equations of motion, constraints with their multipliers, every mode with its unknowns, guards and resets, what is
+/// conserved, and what it costs.
 #[derive(Args)]
 #[command(after_help = "Examples:
   lagrange inspect mass-on-wheel
   lagrange inspect mass-on-wheel --mode \"rim closed, grip sticks\"
   lagrange inspect mass-on-wheel --format latex --output wheel.tex")]
 pub(super) struct Inspect {
-    /// The scene; `lagrange list` shows them.
+    /// The scene, or a scene file (….toml); `lagrange list` shows the scenes.
     scene: String,
     /// How to write it.
     #[arg(long, value_enum, default_value_t = Format::Text)]
@@ -51,7 +53,7 @@ enum Format {
 
 impl Inspect {
     pub(super) fn execute(&self) -> Result<(), Trouble> {
-        let scene = find(&self.scene).map_err(Trouble::usage)?;
+        let scene = scene(&self.scene)?.scene;
         ready(self.output.as_deref(), &[])?;
         let declaration = scene.derivation().declaration;
         let tokens: proc_macro2::TokenStream = declaration.parse().map_err(Trouble::failed)?;

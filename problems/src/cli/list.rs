@@ -1,8 +1,9 @@
 //! `lagrange list`: what there is to run.
 
+use super::course::scene;
 use super::{Trouble, print};
 use clap::Args;
-use lagrange_problems::catalogue::{HARD, SCENES, Scene, find, scenes};
+use lagrange_problems::catalogue::{HARD, SCENES, Scene, scenes};
 use std::io::{self, Write};
 
 /// List the scenes, or everything that one of them can be given.
@@ -11,7 +12,7 @@ use std::io::{self, Write};
   lagrange list
   lagrange list mass-on-wheel")]
 pub(super) struct List {
-    /// A scene, to see its parameters, coordinates, starts and forces.
+    /// A scene (or scene file), to see its parameters, coordinates, starts and forces.
     scene: Option<String>,
 }
 
@@ -20,7 +21,7 @@ impl List {
         match &self.scene {
             None => print(all),
             Some(name) => {
-                let scene = find(name).map_err(Trouble::usage)?;
+                let scene = scene(name)?.scene;
                 print(|out| one(scene, out))
             }
         }

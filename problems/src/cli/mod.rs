@@ -27,16 +27,16 @@ use lagrange_problems::request::Refusal;
 use lagrange_problems::sweep::launch;
 use std::ffi::OsString;
 use std::fmt::Display;
-use std::io::Write;
+use std::io::{self, BufWriter, Write};
 use std::process::ExitCode;
 
 /// Runs textbook scenes of constrained mechanics: each declared once as a Lagrangian, every switch located.
 #[derive(Parser)]
 #[command(name = "lagrange", version, max_term_width = 100)]
 #[command(after_help = "Examples:
-  lagrange list                               # the scenes
-  lagrange list mass-on-wheel                 # what one of them can be given
-  lagrange run mass-on-wheel                  # what happens
+  lagrange list                               the scenes
+  lagrange list mass-on-wheel                 what one of them can be given
+  lagrange run mass-on-wheel                  what happens
   lagrange report mass-on-wheel --output wheel.html
 
 lagrange COMMAND --help has examples of each command.")]
@@ -185,14 +185,44 @@ fn colour_asked(arguments: impl Iterator<Item = OsString>) -> ColorChoice {
 }
 
 /// Writes to stdout; a reader that has gone away (`| head`) is not an error.
-pub(crate) fn print(
-    write: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
-) -> Result<(), Trouble> {
-    let mut out = std::io::BufWriter::new(std::io::stdout().lock());
-    match write(&mut out).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Trouble::failed(
-            format_args!("cannot write the result: {error}"),
-        )),
+pub(crate) fn print(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Trouble> {
+    let mut reader = Reader {
+        out: io::stdout().lock(),
+        gone: false,
+    };
+    let mut out = BufWriter::new(&mut reader);
+    let written = write(&mut out).and_then(|()| out.flush());
+    drop(out);
+    match written {
+        Err(error) if !reader.gone => Err(Trouble::failed(format_args!(
+            "cannot write the result: {error}"
+        ))),
         _ => Ok(()),
+    }
+}
+
+/// Who reads stdout. What writes tables wraps errors, so that only here it can be seen that nobody reads any more.
+struct Reader<W> {
+    out: W,
+    gone: bool,
+}
+
+impl<W: Write> Reader<W> {
+    fn note<T>(&mut self, written: io::Result<T>) -> io::Result<T> {
+        let broken = |error: &io::Error| error.kind() == io::ErrorKind::BrokenPipe;
+        self.gone |= written.as_ref().is_err_and(broken);
+        written
+    }
+}
+
+impl<W: Write> Write for Reader<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = self.out.write(bytes);
+        self.note(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        let flushed = self.out.flush();
+        self.note(flushed)
     }
 }

@@ -7,7 +7,7 @@ use super::output::to_file;
 use super::terminal::{keep_what_is_done, patiently};
 use super::values::positive;
 use clap::{Args, ValueEnum};
-use lagrange_problems::catalogue::Scene;
+use lagrange_problems::catalogue::{FILM_STAGES, Scene};
 use lagrange_problems::progress::Progress;
 use lagrange_problems::report::frames::{self, Clock, Panel};
 use lagrange_problems::report::html::{self, Shown};
@@ -63,7 +63,7 @@ enum Form {
 impl Report {
     pub(super) fn execute(self) -> Result<(), Trouble> {
         let progress = Progress::default();
-        progress.expect(self.runs());
+        progress.expect(self.runs() * FILM_STAGES);
         keep_what_is_done(&progress);
         let runs: Vec<Shown> = patiently("running", &progress, || {
             let names = self.scenes.iter().flat_map(|name| {

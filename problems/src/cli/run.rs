@@ -5,6 +5,7 @@ use super::course::Course;
 use super::output::{ready, to_file};
 use super::terminal::{keep_what_is_done, patiently};
 use clap::Args;
+use lagrange_problems::catalogue::RUN_STAGES;
 use lagrange_problems::outcome::Outcome;
 use lagrange_problems::progress::Progress;
 use lagrange_problems::report::{RunFormat, plot};
@@ -44,7 +45,7 @@ struct Results {
     #[arg(long, value_enum)]
     format: Option<RunFormat>,
     /// Write the run to a file instead of stdout, in the format that its name says: ….csv, ….json, ….jsonl, ….parquet, ….txt.
-    /// May be repeated.
+    /// May be repeated; `-` is stdout.
     #[arg(long, value_name = "FILE")]
     output: Vec<PathBuf>,
     /// Draw forces and state over time.
@@ -75,7 +76,7 @@ impl Run {
         let sampled = |(format, _): &(RunFormat, _)| format.is_sampled();
         let sampled = ledger || outputs.plot.is_some() || destinations.iter().any(sampled);
         let progress = Progress::default();
-        progress.expect(1);
+        progress.expect(RUN_STAGES);
         let request = Request {
             samples: match sampled {
                 true => outputs.samples.unwrap_or(SAMPLES),
@@ -136,23 +137,26 @@ fn destinations(outputs: &Outputs) -> Result<Vec<(RunFormat, Option<PathBuf>)>, 
             }
         ))),
     };
-    match (outputs.format, &outputs.output[..]) {
-        (format, []) => {
-            let format = format.unwrap_or(RunFormat::Table);
-            if format == RunFormat::Parquet && std::io::stdout().is_terminal() {
-                let reason = "Parquet is not for a terminal; add --output run.parquet";
-                return Err(Trouble::usage(reason));
-            }
-            Ok(vec![(format, None)])
+    let file = |path: &PathBuf| (path != Path::new("-")).then(|| path.clone());
+    let destinations = match (outputs.format, &outputs.output[..]) {
+        (format, []) => vec![(format.unwrap_or(RunFormat::Table), None)],
+        (Some(format), [path]) => vec![(format, file(path))],
+        (Some(_), _) => {
+            let reason =
+                "several outputs have the formats that their names say; leave the format out";
+            return Err(Trouble::usage(reason));
         }
-        (Some(format), [path]) => Ok(vec![(format, Some(path.clone()))]),
-        (Some(_), _) => Err(Trouble::usage(
-            "several outputs have the formats that their names say; leave the format out",
-        )),
         (None, paths) => {
-            let one = |path: &PathBuf| Ok((named(path)?, Some(path.clone())));
-            paths.iter().map(one).collect()
+            let one = |path: &PathBuf| Ok((named(path)?, file(path)));
+            paths.iter().map(one).collect::<Result<_, _>>()?
         }
+    };
+    let bytes = destinations.contains(&(RunFormat::Parquet, None));
+    match bytes && std::io::stdout().is_terminal() {
+        true => Err(Trouble::usage(
+            "Parquet is not for a terminal; add --output run.parquet",
+        )),
+        false => Ok(destinations),
     }
 }
 

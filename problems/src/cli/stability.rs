@@ -11,12 +11,14 @@ use lagrange_problems::request::Refusal;
 use lagrange_problems::stability::{CASES, Case, Extent, Report};
 use std::io::{self, Write};
 
-/// Run the hard cases: what breaks other programs, how far from the known answer each ends, and whether it keeps its bound.
+/// Run the hard cases, each against a known answer.
+///
+/// What breaks other programs, how far from the known answer each ends here, and whether it keeps its bound.
 #[derive(Args)]
 #[command(after_help = "Examples:
   lagrange stability
   lagrange stability --only ladder,turntable --format json
-  lagrange stability --long                    # ten times as long
+  lagrange stability --long                    ten times as long
 
 Ctrl-C ends it after the case in hand; those before are shown.")]
 pub(super) struct Stability {
@@ -45,7 +47,7 @@ impl Stability {
             let wanted = cases.into_iter().take_while(|_| !progress.is_stopped());
             let run = |case: &'static Case| {
                 let report = case.run(extent);
-                progress.advance();
+                progress.advance(1);
                 report
             };
             wanted.map(run).collect()

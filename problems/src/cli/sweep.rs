@@ -13,6 +13,16 @@ use lagrange_problems::sweep::{Axis, Journal, Points, Sampling, Shard, Sweep, wo
 /// Run a scene many times, over parameters and starts, on all cores. Killed and started again, a sweep with --output goes
 /// on where it was: what is done is kept in FILE.part until all is done.
 #[derive(Args)]
+#[command(after_help = "Examples:
+  lagrange sweep mass-on-wheel --vary mu_static=0.3..1:40 --observe \"leave angle\" --plot leave.svg
+  lagrange sweep mass-on-shell --vary \"der(theta)=0..2:20\" --observe t --output shell.parquet
+  lagrange sweep ladder --vary length=1..9 --vary mass=1..9 --sample sobol:500 --observe t
+  lagrange sweep ladder --vary length=1..9:3000 --observe t --output one.csv --shard 1/2
+  lagrange sweep ladder --vary length=1..9:3000 --observe t --output two.csv --shard 2/2
+  lagrange merge one.csv.part two.csv.part --output both.csv
+
+A run that fails is a line that says why; the sweep goes on. Exit codes: 0 runs went well, 1 every run failed or a file could not be
+written, 2 the request makes no sense, 130 interrupted.")]
 pub(super) struct Sweeps {
     /// The scene, or a scene file (….toml); `lagrange list` shows the scenes.
     scene: String,
@@ -49,6 +59,7 @@ pub(super) struct Sweeps {
 
 impl Sweeps {
     pub(super) fn execute(self) -> Result<(), Trouble> {
+        self.results.check()?;
         let file = self.course.of(&self.scene)?;
         let points = Points {
             axes: self.vary.clone(),
@@ -83,6 +94,9 @@ impl Sweeps {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(workers).build();
         let pool = pool.map_err(Trouble::failed)?;
         let ours = |chunk| shard.has(chunk);
+        if self.results.output.is_some() {
+            terminal::end_at_once("what is done is kept; the same command goes on from there");
+        }
         let bar = self.bar(sweep, &journal, ours);
         let outcome = pool.install(|| work(sweep, &journal, ours, |points| bar.inc(points as u64)));
         bar.finish_and_clear();

@@ -2,11 +2,11 @@
 //! first Ctrl-C that keeps what is done and the second that does not.
 
 use clap::ColorChoice;
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 use lagrange_problems::progress::Progress;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// What takes no longer shows no bar.
 const PATIENCE: Duration = Duration::from_secs(1);
@@ -48,18 +48,19 @@ pub(super) fn bar(length: u64, form: &str) -> ProgressBar {
 /// Does `work`; if it takes longer than a second, shows on stderr how far it is and how long it still takes.
 pub(super) fn patiently<T>(what: &str, progress: &Progress, work: impl FnOnce() -> T) -> T {
     let (done, waiting) = channel::<()>();
+    let begin = Instant::now();
     std::thread::scope(|scope| {
         scope.spawn(move || {
             let pause = |time| waiting.recv_timeout(time) == Err(RecvTimeoutError::Timeout);
             if !pause(PATIENCE) {
                 return;
             }
-            let form = "{msg} {wide_bar} {percent:>3} %, {elapsed} gone, {eta} left";
-            let bar = bar(PARTS, form).with_message(what.to_owned());
+            let form = "{prefix} {wide_bar} {percent:>3} %, {msg}";
+            let bar = bar(PARTS, form).with_prefix(what.to_owned());
             loop {
                 let part = progress.part().unwrap_or(0.0);
                 bar.set_position((part * PARTS as f64) as u64);
-                bar.tick();
+                bar.set_message(times(begin.elapsed(), part));
                 if !pause(TICK) {
                     break;
                 }
@@ -70,6 +71,20 @@ pub(super) fn patiently<T>(what: &str, progress: &Progress, work: impl FnOnce() 
         drop(done);
         result
     })
+}
+
+/// How long a part took, and how long the rest takes at that speed.
+fn times(gone: Duration, part: f64) -> String {
+    let left = gone.as_secs_f64() * (1.0 - part) / part;
+    let gone = HumanDuration(gone);
+    // A year is as good as for ever.
+    match left < 3e7 {
+        true => {
+            let left = HumanDuration(Duration::from_secs_f64(left));
+            format!("{gone:#} gone, {left:#} left")
+        }
+        false => format!("{gone:#} gone"),
+    }
 }
 
 /// Lets Ctrl-C end the work so that what is done is kept. Pressed again it ends the process at once.
@@ -83,4 +98,28 @@ pub(super) fn keep_what_is_done(progress: &Progress) {
     };
     // Without a handler Ctrl-C does what it always does.
     let _ = ctrlc::set_handler(interrupt);
+}
+
+/// Lets Ctrl-C end the process at once, with a word on what that costs.
+pub(super) fn end_at_once(word: &'static str) {
+    let interrupt = move || {
+        eprintln!("lagrange: interrupted; {word}");
+        std::process::exit(super::INTERRUPTED);
+    };
+    // Without a handler Ctrl-C does what it always does.
+    let _ = ctrlc::set_handler(interrupt);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_left_follows_from_what_is_done() {
+        let told = |part: f64| times(Duration::from_secs(60), part);
+        assert_eq!(told(0.75), "60s gone, 20s left");
+        assert_eq!(told(1.0), "60s gone, 0s left");
+        assert_eq!(told(0.0), "60s gone");
+        assert_eq!(told(1e-9), "60s gone");
+    }
 }

@@ -1,5 +1,7 @@
 //! `name=value` and numbers, as they come from the command line.
 
+use lagrange_problems::request::TOLERANCES;
+
 /// `name=value` with a finite value.
 pub(super) fn named(text: &str) -> Result<(String, f64), String> {
     let (name, value) = text
@@ -29,17 +31,21 @@ pub(super) fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
+/// A tolerance of an integration.
+pub(super) fn tolerance(text: &str) -> Result<f64, String> {
+    match positive(text)? {
+        tolerance if TOLERANCES.contains(&tolerance) => Ok(tolerance),
+        _ => Err("a tolerance is between 1e-17 and 0.1".to_owned()),
+    }
+}
+
 /// One tolerance, or every power of ten from one to another (`1e-3..1e-15`), loosest first.
 pub(super) fn tolerances(text: &str) -> Result<Vec<f64>, String> {
-    let one = |text: &str| match positive(text)? {
-        tolerance if (1e-17..=0.1).contains(&tolerance) => Ok(tolerance),
-        _ => Err("a tolerance is between 1e-17 and 0.1".to_owned()),
-    };
     let Some((from, to)) = text.split_once("..") else {
-        return Ok(vec![one(text)?]);
+        return Ok(vec![tolerance(text)?]);
     };
     let power = |text: &str| -> Result<i32, String> {
-        let power = one(text)?.log10();
+        let power = tolerance(text)?.log10();
         match (power - power.round()).abs() < 1e-9 {
             true => Ok(power.round() as i32),
             false => Err("a range is between powers of ten, as 1e-3..1e-15".to_owned()),
@@ -74,6 +80,9 @@ mod tests {
             assert!(named(wrong).is_err(), "{wrong}");
         }
         assert!(positive("0").is_err() && positive("-1").is_err() && positive("1e-12").is_ok());
+        assert!(
+            tolerance("0.2").is_err() && tolerance("1e-18").is_err() && tolerance("0.1").is_ok()
+        );
     }
 
     #[test]

@@ -116,7 +116,7 @@ pub(crate) fn measure<S: System<Scalar = f64>>(
         }
         let runs = runs.iter_mut().flatten();
         runs.for_each(WholeRun::time);
-        progress.advance();
+        progress.advance(1);
     }
     let mut costs = sides.into_iter().map(|sides| -> Vec<Option<Cost>> {
         let cost = |side: Option<(RightSide, Cost)>| side.map(|(_, cost)| cost);

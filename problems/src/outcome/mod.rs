@@ -184,7 +184,7 @@ impl Outcome {
                 0 => Vec::new(),
                 _ => sampling::around(trajectory),
             },
-            ledger: trajectory.ledger().ok(),
+            ledger: request.stage(trajectory.last_time(), || trajectory.ledger().ok()),
             ledgers: ledgers(samples.iter().map(|sample| sample.time).collect()),
             event_ledgers: ledgers(events.iter().map(|event| event.time).collect()),
             samples,

@@ -116,14 +116,12 @@ fn entries(outcome: &Outcome, items: &[Force]) -> Vec<Line> {
         .last()
         .is_some_and(|event| event.kind == EventKind::Stop);
     if let Some(last) = outcome.last().filter(|_| !stopped) {
-        lines.push(instant(
-            last,
-            if outcome.failure.is_some() {
-                "failed"
-            } else {
-                "end"
-            },
-        ));
+        let how = match outcome.failure {
+            None => "end",
+            Some(Error::Interrupted { .. }) => "interrupted",
+            Some(_) => "failed",
+        };
+        lines.push(instant(last, how));
     }
     lines
 }

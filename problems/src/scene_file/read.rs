@@ -5,7 +5,9 @@ use super::{KEYS, Mistake, OUTPUTS, Outputs, SceneFile};
 use crate::catalogue;
 use crate::names::{self, nearest};
 use crate::report::RunFormat;
-use crate::request::{Refusal, Request, find_effect, find_parameter, find_start, find_state};
+use crate::request::{
+    Refusal, Request, TOLERANCES, find_effect, find_parameter, find_start, find_state,
+};
 use crate::sweep::event;
 use clap::ValueEnum;
 use lagrange_core::prelude::{Impacts, Method};
@@ -70,7 +72,7 @@ fn contents(document: &DeTable) -> (Option<SceneFile>, Vec<Wrong>) {
     for (key, value) in document {
         match key.get_ref().as_ref() {
             "until" => request.until = reader.take(value, positive),
-            "tolerance" => request.tolerance = reader.take(value, positive).unwrap_or(1e-9),
+            "tolerance" => request.tolerance = reader.take(value, tolerance).unwrap_or(1e-9),
             "method" => request.method = reader.take(value, method).unwrap_or(request.method),
             "impacts" => request.impacts = reader.take(value, impacts),
             "project" => request.project = reader.take(value, flag).unwrap_or_default(),
@@ -194,6 +196,16 @@ fn misplaced(key: &Spanned<DeString>, wrong: Wrong) -> Wrong {
 
 fn refused<K, T>(place: &Spanned<K>, found: Result<T, Refusal>) -> Result<T, Wrong> {
     found.map_err(|refusal| (place.span().start, refusal.to_string()))
+}
+
+fn tolerance(value: &Value) -> Result<f64, Wrong> {
+    match positive(value)? {
+        tolerance if TOLERANCES.contains(&tolerance) => Ok(tolerance),
+        _ => {
+            let reason = "a tolerance is between 1e-17 and 0.1";
+            Err((value.span().start, reason.to_owned()))
+        }
+    }
 }
 
 /// A method, by its name.

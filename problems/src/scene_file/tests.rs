@@ -134,6 +134,7 @@ fn mistakes_are_told_at_their_place() {
             in_wheel("tolerance = -1"),
             "2:13: the value must be above 0",
         ),
+        (in_wheel("tolerance = 1"), "2:13: a tolerance is between"),
         (
             in_wheel("method = \"tayler\""),
             "2:10: no method is called `tayler`; did you mean `taylor`?",

@@ -1,12 +1,31 @@
-//! The program, called from tests.
+//! The program, called from tests. Each of them uses a part of this.
+#![allow(dead_code)]
 
+use std::fs;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 pub fn lagrange(arguments: &[&str]) -> Output {
+    lagrange_in(Path::new("."), arguments)
+}
+
+/// Runs it in a folder.
+pub fn lagrange_in(folder: &Path, arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_lagrange"))
+        .current_dir(folder)
         .args(arguments)
         .output()
         .expect("the program starts")
+}
+
+/// An empty folder of this name.
+pub fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    if folder.exists() {
+        fs::remove_dir_all(&folder).expect("it is ours");
+    }
+    fs::create_dir_all(&folder).expect("a folder");
+    folder
 }
 
 pub fn text(bytes: &[u8]) -> &str {

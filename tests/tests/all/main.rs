@@ -10,6 +10,7 @@ mod hostile;
 mod interpretation;
 mod large;
 mod ledgers;
+mod monitor;
 mod random;
 mod recording;
 mod runner;

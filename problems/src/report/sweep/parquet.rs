@@ -1,16 +1,20 @@
 //! Apache Parquet: a column per axis and observation (null where a run does not have it), and why the run failed (null
-//! where it did not).
+//! where it did not). The sweep itself is in the metadata of the file.
 
 use super::{Failure, lines, names};
 use crate::sweep::{Journal, Sweep};
 use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType};
 use parquet::errors::ParquetError;
+use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
 use std::io::{self, Write};
 use std::sync::Arc;
+
+/// Under this key of the file's metadata the sweep is written down: scene, parameters, points, tolerance, method, version.
+const RECIPE: &str = "lagrange.sweep";
 
 /// Rows of a row group.
 const GROUP: usize = 1 << 16;
@@ -20,7 +24,11 @@ const GROUP: usize = 1 << 16;
 /// # Errors
 /// The journal is not complete; those of `out`.
 pub fn parquet(sweep: &Sweep, journal: &Journal, out: impl Write + Send) -> Result<(), Failure> {
+    let recipe = sweep
+        .recipe()
+        .map_err(|reason| Failure::File(io::Error::other(reason)))?;
     let properties = WriterProperties::builder()
+        .set_key_value_metadata(Some(vec![KeyValue::new(RECIPE.to_owned(), recipe)]))
         .set_compression(Compression::UNCOMPRESSED)
         .set_created_by(concat!("lagrange ", env!("CARGO_PKG_VERSION")).to_owned())
         .build();

@@ -1,0 +1,227 @@
+//! What a user can get wrong at the command line: one line on stderr that says what to write instead, and an exit code.
+
+mod program;
+
+use program::{folder, lagrange, lagrange_in, refuses, text};
+use std::fs;
+use std::process::{Command, Stdio};
+
+#[test]
+fn names_that_are_nearly_right_are_recognised() {
+    let meant = |arguments: &[&str], meant: &str| {
+        refuses(arguments, 2, &format!("did you mean `{meant}`?"));
+    };
+    meant(&["rnu"], "run");
+    meant(&["run", "mass-on-whele"], "mass-on-wheel");
+    meant(&["list", "kepelr"], "kepler");
+    meant(&["inspect", "ladde"], "ladder");
+    meant(&["report", "kepler", "mas-on-wheel"], "mass-on-wheel");
+    meant(&["completions", "bahs"], "bash");
+    meant(&["stability", "--only", "laddr"], "ladder");
+    meant(&["run", "kepler", "--colour", "never"], "--color");
+    meant(&["run", "kepler", "--color", "nevr"], "never");
+    meant(
+        &["accuracy", "kepler", "--methods", "taylor,vernr98"],
+        "verner98",
+    );
+    let run = |arguments: &[&str], name: &str| {
+        meant(&[&["run", "mass-on-wheel"], arguments].concat(), name);
+    };
+    run(&["--set", "mu_statik=1"], "mu_static");
+    run(&["--start", "thta=1"], "theta");
+    run(&["--start", "der(thta)=1"], "der(theta)");
+    run(&["--from", "rset"], "rest");
+    run(&["--with", "gripp"], "grip");
+    run(&["--without", "flor"], "floor");
+    run(&["--end-after", "rim lots"], "rim lost");
+    run(&["--method", "tayler"], "taylor");
+    run(&["--format", "jsn"], "json");
+    run(&["--tolerence", "1e-9"], "--tolerance");
+    let sweep = |vary: &str, observe: &str, name: &str| {
+        let sweep = [
+            "sweep",
+            "mass-on-wheel",
+            "--vary",
+            vary,
+            "--observe",
+            observe,
+        ];
+        meant(&sweep, name);
+    };
+    sweep("mu_statik=1..2:2", "theta", "mu_static");
+    sweep("mu_static=1..2:2", "thta", "theta");
+    sweep("mu_static=1..2:2", "theta at rim lots", "rim lost");
+}
+
+#[test]
+fn what_is_missing_or_too_much_is_said() {
+    refuses(&["mass-on-wheel"], 2, "lagrange run mass-on-wheel");
+    refuses(&["run", "kepler", "more"], 2, "what is `more` for?");
+    refuses(
+        &["run", "kepler", "--set"],
+        2,
+        "a value is missing: --set <NAME=VALUE>",
+    );
+    refuses(
+        &["run", "kepler", "--until", "1", "--until", "2"],
+        2,
+        "`--until` is given twice",
+    );
+    refuses(&["run", "kepler", "--samples", "0"], 2, "--samples 0");
+    refuses(
+        &["run", "kepler", "--method", "rk4"],
+        2,
+        "give one as rk4:0.001",
+    );
+    refuses(
+        &["run", "kepler", "--method", "taylor:1"],
+        2,
+        "leave out the step size",
+    );
+    refuses(
+        &["accuracy", "kepler", "--tolerances", "2"],
+        2,
+        "between 1e-17 and 0.1",
+    );
+    refuses(
+        &["run", "kepler", "--tolerance", "2"],
+        2,
+        "between 1e-17 and 0.1",
+    );
+    refuses(
+        &["inspect", "kepler", "--format", "rust", "--mode", "x"],
+        2,
+        "leave out `--mode`",
+    );
+}
+
+#[test]
+fn scene_files_that_cannot_be_read_are_named() {
+    let folder = folder("scene-files");
+    fs::write(folder.join("wheel.toml"), "scene = \"mass-on-whele\"\n").expect("a file");
+    fs::write(folder.join("wheel"), "").expect("a file");
+    fs::write(folder.join("binary.toml"), [0xff, 0xfe, 0x00]).expect("a file");
+    fs::create_dir_all(folder.join("folder.toml")).expect("a folder");
+    let told = |arguments: &[&str], reason: &str| {
+        let output = lagrange_in(&folder, arguments);
+        let said = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert_eq!(said.lines().count(), 1, "{said}");
+        assert!(said.contains(reason), "{said}");
+    };
+    for command in ["run", "accuracy", "effects", "report"] {
+        told(
+            &[command, "wheel.toml"],
+            "wheel.toml:1:9: no scene is called `mass-on-whele`",
+        );
+        told(&[command, "nowhere.toml"], "cannot read nowhere.toml");
+    }
+    told(&["run", "wheel"], "did you mean the file `wheel.toml`?");
+    fs::remove_file(folder.join("wheel.toml")).expect("it was there");
+    told(&["run", "wheel"], "the name of a scene file ends in .toml");
+    told(&["run", "binary.toml"], "cannot read binary.toml");
+    told(&["run", "folder.toml"], "cannot read folder.toml");
+}
+
+#[test]
+fn outputs_that_cannot_be_written_are_refused_before_the_run() {
+    let folder = folder("outputs");
+    let scene = "scene = \"kepler\"\nuntil = 1e9\n";
+    fs::write(folder.join("long.toml"), scene).expect("a file");
+    fs::create_dir_all(folder.join("there.csv")).expect("a folder");
+    let told = |arguments: &[&str], code: i32, reason: &str| {
+        // The run would take minutes.
+        let output = lagrange_in(&folder, &[&["run", "long.toml"], arguments].concat());
+        let said = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(code), "{arguments:?}: {said}");
+        assert_eq!(said.lines().count(), 1, "{arguments:?}: {said}");
+        assert!(said.contains(reason), "{arguments:?}: {said}");
+    };
+    told(
+        &["--output", "no/run.csv"],
+        1,
+        "cannot write no/run.csv: there is no folder no; make it first",
+    );
+    told(&["--plot", "no/run.svg"], 1, "there is no folder no");
+    told(&["--save", "no/run.toml"], 1, "there is no folder no");
+    told(&["--output", "there.csv"], 1, "it is a folder");
+    told(
+        &["--output", "long.toml", "--format", "csv"],
+        2,
+        "long.toml is the scene file itself",
+    );
+    told(&["--save", "./long.toml"], 2, "is the scene file itself");
+    told(
+        &["--output", "a.csv", "--plot", "a.csv"],
+        2,
+        "two results would go to a.csv",
+    );
+    told(&["--output", "run.xlsx"], 2, "let it end in .csv");
+    told(
+        &["--output", "run.svg"],
+        2,
+        "pictures are drawn with --plot",
+    );
+    told(
+        &["--output", "a.csv", "--output", "b.csv", "--format", "csv"],
+        2,
+        "leave the format out",
+    );
+    let there: Vec<_> = fs::read_dir(&folder).expect("the folder").collect();
+    assert_eq!(there.len(), 2, "nothing was left behind");
+    assert_eq!(
+        fs::read_to_string(folder.join("long.toml")).expect("the file"),
+        scene
+    );
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_told() {
+    let full = || fs::OpenOptions::new().write(true).open("/dev/full");
+    let mut program = Command::new(env!("CARGO_BIN_EXE_lagrange"));
+    let output = program
+        .args(["run", "mass-on-wheel"])
+        .stdout(full().expect("the device"))
+        .stderr(Stdio::piped())
+        .output()
+        .expect("the program starts");
+    assert_eq!(output.status.code(), Some(1));
+    assert!(text(&output.stderr).starts_with("lagrange: cannot write the result: "));
+    refuses(
+        &["run", "mass-on-wheel", "--output", "/dev/full"],
+        1,
+        "cannot write /dev/full",
+    );
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_error() {
+    for arguments in [
+        &["list"][..],
+        &["run", "kepler", "--format", "csv"],
+        &["run", "--help"],
+    ] {
+        let mut program = Command::new(env!("CARGO_BIN_EXE_lagrange"))
+            .args(arguments)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("the program starts");
+        drop(program.stdout.take());
+        let output = program.wait_with_output().expect("it ends");
+        assert_eq!(text(&output.stderr), "", "{arguments:?}");
+        assert_eq!(output.status.code(), Some(0), "{arguments:?}");
+    }
+}
+
+#[test]
+fn colours_come_when_they_are_asked_for() {
+    let coloured = |arguments: &[&str]| text(&lagrange(arguments).stderr).contains('\u{1b}');
+    assert!(!coloured(&["run", "nothing"]), "stderr is no terminal");
+    assert!(coloured(&["run", "nothing", "--color", "always"]));
+    assert!(coloured(&["--color=always", "run"]));
+    assert!(!coloured(&["run", "nothing", "--color=never"]));
+    let help = lagrange(&["run", "--help", "--color", "always"]);
+    assert!(text(&help.stdout).contains('\u{1b}'));
+}

@@ -1,0 +1,260 @@
+//! A run as a table: JSON lines and Parquet say the same as CSV, in order of time, with the same names.
+
+mod program;
+
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::record::Field;
+use program::{folder, lagrange_in, says, text};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::path::Path;
+
+/// A row by column; what is missing is not there.
+type Row = BTreeMap<String, Value>;
+
+fn run(folder: &Path, arguments: &[&str]) {
+    let output = lagrange_in(folder, &[&["run"], arguments].concat());
+    assert_eq!(text(&output.stderr), "", "{arguments:?}");
+    assert_eq!(output.status.code(), Some(0), "{arguments:?}");
+}
+
+/// Names without units.
+fn csv_rows(path: &Path) -> Vec<Row> {
+    let mut reader = csv::Reader::from_path(path).expect("the table");
+    let header = reader.headers().expect("a header").clone();
+    let name = |column: &str| column.split(" [").next().unwrap_or(column).to_owned();
+    let value = |text: &str| match text.parse::<f64>() {
+        Ok(number) => Value::from(number),
+        Err(_) => Value::from(text),
+    };
+    let row = |record: csv::StringRecord| {
+        let cells = header.iter().zip(record.iter());
+        let there = cells.filter(|(_, text)| !text.is_empty());
+        there
+            .map(|(column, text)| (name(column), value(text)))
+            .collect()
+    };
+    reader
+        .records()
+        .map(|record| row(record.expect("a row")))
+        .collect()
+}
+
+fn parquet_rows(path: &Path) -> Vec<Row> {
+    let reader = SerializedFileReader::new(File::open(path).expect("the file")).expect("Parquet");
+    let value = |field: &Field| match field {
+        Field::Double(number) => Some(Value::from(*number)),
+        Field::Str(text) => Some(Value::from(text.as_str())),
+        Field::Null => None,
+        other => panic!("unexpected {other:?}"),
+    };
+    let rows = reader.get_row_iter(None).expect("rows");
+    rows.map(|row| {
+        let row = row.expect("a row");
+        let cells = row.get_column_iter();
+        cells
+            .filter_map(|(name, field)| Some((name.clone(), value(field)?)))
+            .collect()
+    })
+    .collect()
+}
+
+fn metadata(path: &Path) -> BTreeMap<String, Value> {
+    let reader = SerializedFileReader::new(File::open(path).expect("the file")).expect("Parquet");
+    let metadata = reader.metadata().file_metadata();
+    let pairs = metadata.key_value_metadata().expect("metadata");
+    let parsed = pairs.iter().map(|pair| {
+        let text = pair.value.as_deref().unwrap_or_default();
+        (pair.key.clone(), serde_json::from_str(text).expect("JSON"))
+    });
+    parsed.collect()
+}
+
+fn lines(path: &Path) -> Vec<Value> {
+    let text = fs::read_to_string(path).expect("the lines");
+    text.lines()
+        .map(|line| serde_json::from_str(line).expect("JSON"))
+        .collect()
+}
+
+/// Scenes with switches, impacts, friction in space, many events, none.
+const SCENES: [&str; 5] = [
+    "mass-on-wheel",
+    "bouncing-ball",
+    "five-ball-cradle",
+    "turning-push",
+    "kepler",
+];
+
+#[test]
+fn every_format_says_the_same() {
+    let folder = folder("formats");
+    for scene in SCENES {
+        let outputs = [
+            "--output",
+            "run.csv",
+            "--output",
+            "run.parquet",
+            "--output",
+            "run.jsonl",
+        ];
+        let arguments = [scene, "--samples", "50", "--ledger"];
+        run(&folder, &[&arguments[..], &outputs].concat());
+        let table = csv_rows(&folder.join("run.csv"));
+        assert_eq!(table, parquet_rows(&folder.join("run.parquet")), "{scene}");
+        let lines = lines(&folder.join("run.jsonl"));
+        let of = |kind: &str| lines.iter().filter(|line| line["type"] == kind).count();
+        let events = table.iter().filter(|row| row.contains_key("event")).count();
+        assert_eq!((of("header"), of("end")), (1, 1), "{scene}");
+        assert_eq!(2 * of("event"), events, "{scene}");
+        assert_eq!(of("sample") + events, table.len(), "{scene}");
+        let samples = lines.iter().filter(|line| line["type"] == "sample");
+        let rows = table.iter().filter(|row| !row.contains_key("event"));
+        for (sample, row) in samples.zip(rows) {
+            assert!(
+                row.iter().all(|(name, value)| sample[name] == *value),
+                "{scene}"
+            );
+        }
+        let times = lines.iter().filter_map(|line| line["t"].as_f64());
+        assert!(times.is_sorted(), "{scene}");
+    }
+}
+
+#[test]
+fn energies_are_known_at_switches_and_the_modes_are_in_order() {
+    let folder = folder("switches");
+    run(&folder, &["mass-on-wheel", "--output", "run.parquet"]);
+    let table = parquet_rows(&folder.join("run.parquet"));
+    assert!(
+        table
+            .iter()
+            .all(|row| row.contains_key("kinetic") && row.contains_key("px"))
+    );
+    let mut modes: Vec<&str> = table
+        .iter()
+        .filter_map(|row| row["mode"].as_str())
+        .collect();
+    modes.dedup();
+    assert_eq!(
+        modes,
+        [
+            "rim closed, grip sticks",
+            "rim closed, grip slips forward",
+            "rim open"
+        ]
+    );
+    // In free flight energy is conserved; what is lost before is the work of friction.
+    let energy = |row: &Row| row["kinetic"].as_f64().zip(row["potential"].as_f64());
+    let energy = |row: &Row| energy(row).map_or(f64::NAN, |(t, v)| t + v);
+    let flight: Vec<f64> = table
+        .iter()
+        .filter(|row| row["mode"] == "rim open")
+        .map(energy)
+        .collect();
+    assert!(flight.len() > 10 && flight.iter().all(|e| (e - flight[0]).abs() < 1e-9));
+}
+
+#[test]
+fn a_parquet_file_says_what_was_run() {
+    let folder = folder("metadata");
+    let arguments = [
+        "mass-on-wheel",
+        "--set",
+        "mu_static=2",
+        "--tolerance",
+        "1e-10",
+        "--without",
+        "floor",
+    ];
+    run(
+        &folder,
+        &[&arguments[..], &["--until", "1", "--output", "run.parquet"]].concat(),
+    );
+    let metadata = metadata(&folder.join("run.parquet"));
+    let keys: Vec<&str> = metadata.keys().map(String::as_str).collect();
+    assert_eq!(keys, ["PANDAS_ATTRS", "lagrange"]);
+    assert_eq!(metadata["PANDAS_ATTRS"], metadata["lagrange"]);
+    let what = &metadata["lagrange"];
+    assert_eq!(what["scene"], "mass-on-wheel");
+    assert_eq!(what["parameters"]["mu_static"], 2.0);
+    assert_eq!(what["units"]["der(theta)"], "rad/s");
+    assert_eq!(what["without"], serde_json::json!(["floor"]));
+    assert_eq!(
+        (&what["method"], &what["tolerance"]),
+        (&Value::from("taylor"), &Value::from(1e-10))
+    );
+    assert_eq!(what["version"], env!("CARGO_PKG_VERSION"));
+}
+
+#[test]
+fn samples_are_as_many_as_asked_for() {
+    let table = says(&[
+        "run",
+        "double-pendulum",
+        "--samples",
+        "1000",
+        "--format",
+        "csv",
+    ]);
+    assert_eq!(table.lines().count(), 1 + 1001);
+    let table = says(&[
+        "run",
+        "double-pendulum",
+        "--samples",
+        "1",
+        "--format",
+        "csv",
+    ]);
+    assert_eq!(table.lines().count(), 1 + 2);
+}
+
+#[test]
+fn a_dash_is_stdout() {
+    let folder = folder("dash");
+    let output = lagrange_in(
+        &folder,
+        &["run", "kepler", "--output", "-", "--output", "run.json"],
+    );
+    assert_eq!(text(&output.stdout), says(&["run", "kepler"]));
+    assert!(folder.join("run.json").exists());
+    let output = lagrange_in(
+        &folder,
+        &["run", "kepler", "--output", "-", "--format", "parquet"],
+    );
+    assert!(output.stdout.starts_with(b"PAR1") && output.stdout.ends_with(b"PAR1"));
+}
+
+#[test]
+fn a_scene_file_says_where_everything_goes() {
+    let folder = folder("outputs-of-a-file");
+    let text = "scene = \"mass-on-wheel\"\nend_after = \"grip slips\"\n[outputs]\noutput = [\"a.csv\", \"a.parquet\"]\n\
+                plot = \"a.svg\"\nsamples = 10\nledger = true\n";
+    fs::write(folder.join("a.toml"), text).expect("a file");
+    run(&folder, &["a.toml", "--save", "b.toml"]);
+    let table = csv_rows(&folder.join("a.csv"));
+    let last = table.last().expect("rows");
+    assert_eq!(last["event"], "grip slips (after)");
+    assert!(
+        last.contains_key("work(grip)") && table.len() == 12,
+        "{}",
+        table.len()
+    );
+    assert!(folder.join("a.svg").exists() && folder.join("a.parquet").exists());
+    // What was saved does the same again.
+    let before = fs::read(folder.join("a.parquet")).expect("the file");
+    for name in ["a.csv", "a.parquet", "a.svg"] {
+        fs::remove_file(folder.join(name)).expect("it is there");
+    }
+    run(&folder, &["b.toml"]);
+    assert_eq!(
+        before,
+        fs::read(folder.join("a.parquet")).expect("the file")
+    );
+    assert!(folder.join("a.svg").exists());
+    // The command line has the last word.
+    fs::remove_file(folder.join("a.csv")).expect("it is there");
+    run(&folder, &["b.toml", "--output", "c.jsonl"]);
+    assert!(folder.join("c.jsonl").exists() && !folder.join("a.csv").exists());
+}
