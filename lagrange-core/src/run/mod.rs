@@ -192,7 +192,7 @@ impl<T: Scalar> Run<T> {
             impacts: vec![Impacts::default(); d.contacts.len()],
             train: Train::default(),
             scratch_mode: mode.clone(),
-            rank: Rank::new(d),
+            rank: Rank::new(d, &settings.effects),
             distance: 1.0,
             stuck: Pool::default(),
             finished: false,
