@@ -12,6 +12,7 @@ use super::Run;
 use super::hits::Hit;
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
+use crate::effects::{Effects, Item};
 use crate::integrate::taylor;
 use crate::system::{Description, Place};
 
@@ -50,8 +51,8 @@ pub(super) struct Rank {
 }
 
 impl Rank {
-    /// Watches the constraints whose Jacobian depends on the state and that act at all times.
-    pub(super) fn new(d: &Description) -> Self {
+    /// Watches the constraints whose Jacobian depends on the state and that act at all times, as far as these effects have them.
+    pub(super) fn new(d: &Description, effects: &Effects) -> Self {
         let n = d.coordinates.len();
         let changes = |row: usize| {
             let jacobian = d.rows[row].jacobian.iter();
@@ -59,8 +60,11 @@ impl Rank {
                 .clone()
                 .any(|(_, place)| matches!(place, Place::Node(_)))
         };
-        let constraints = d.constraints.iter().filter(|c| c.while_contact.is_none());
-        let mut rows: Vec<usize> = constraints.map(|c| c.row).collect();
+        let constraints = d.constraints.iter().enumerate();
+        let acting = constraints.filter(|(i, constraint)| {
+            constraint.while_contact.is_none() && effects.includes(d, Item::Constraint(*i))
+        });
+        let mut rows: Vec<usize> = acting.map(|(_, constraint)| constraint.row).collect();
         // A row that is constant cannot lose rank alone, but one that is not may come to depend on it.
         if !rows.iter().any(|&row| changes(row)) {
             rows.clear();

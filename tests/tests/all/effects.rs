@@ -180,6 +180,40 @@ impl Visitor for Equal {
     }
 }
 
+/// A ball whose stop and mark wait for the floor to be left.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(z),
+    kinetic = mass/2 * der(z)^2,
+    contact(floor: z >= 0),
+    force(pull: z = mass * (t - 1)),
+    stop(off: open(floor)),
+    mark(left: open(floor)),
+)]
+struct Pulled {
+    mass: f64,
+}
+
+#[test]
+fn stops_and_marks_that_are_left_out_do_not_act() {
+    let ball = Pulled { mass: 1.0 };
+    let run = |effects: Effects| {
+        let rest = State {
+            q: vec![0.0],
+            v: vec![0.0],
+        };
+        let trajectory = Simulation::new(&ball).effects(effects).run(rest, 0.0..2.0);
+        let trajectory = trajectory.expect("a run");
+        let kinds: Vec<EventKind> = trajectory.events().iter().map(|event| event.kind).collect();
+        (trajectory.last_time(), kinds)
+    };
+    let (end, kinds) = run(Effects::all().without(Pulled::LEFT));
+    assert!((end - 1.0).abs() < 1e-9, "{end}");
+    assert_eq!(kinds, [EventKind::Lost, EventKind::Stop]);
+    let neither = Effects::all().without(Pulled::OFF).without(Pulled::LEFT);
+    assert_eq!(run(neither), (2.0, vec![EventKind::Lost]));
+}
+
 #[test]
 fn every_kind_of_item_costs_nothing_where_it_is_left_out() {
     let mut equal = Equal(0);
