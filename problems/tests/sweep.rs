@@ -105,6 +105,116 @@ fn what_is_observed_is_what_a_single_run_tells() {
 }
 
 #[test]
+fn failures_are_told_by_reason_and_place() {
+    let said = says(&sweep(&[]));
+    // With mu_static below mu_kinetic there is a moment when it can neither stick nor slip.
+    let told = "9000 runs of rolling-slipping-sphere, of which 1200 failed.\n  no mode: 1200, the first at mu_static = 0.2, theta = 0.01\n";
+    assert!(said.ends_with(told), "{said}");
+    let said = says(&sweep(&["--format", "json"]));
+    let value: serde_json::Value = serde_json::from_str(&said).expect("JSON");
+    assert_eq!(value["failures"][0]["reason"], "no mode");
+    assert_eq!(value["failures"][0]["first_at"]["mu_static"], 0.2);
+    assert_eq!(value["observed"][0]["runs"], 7800);
+    let said = says(&sweep(&["--format", "csv"]));
+    assert_eq!(
+        said.lines()
+            .filter(|line| line.ends_with(",no mode"))
+            .count(),
+        1200
+    );
+    // If every run fails, so does the sweep.
+    let scene = ["sweep", "rolling-slipping-sphere", "--quiet"];
+    let failing = ["--vary", "mu_static=0.1..0.2:5", "--observe", "leave angle"];
+    let output = program::lagrange(&[&scene[..], &failing].concat());
+    assert_eq!(output.status.code(), Some(1));
+    assert!(program::text(&output.stdout).contains("5 failed"));
+    assert!(program::text(&output.stderr).contains("every run failed"));
+}
+
+#[test]
+fn a_summary_is_that_of_the_lines() {
+    let said = says(&[
+        "sweep",
+        "kepler",
+        "--vary",
+        "x=1..2:11",
+        "--observe",
+        "x",
+        "--until",
+        "1e-12",
+        "--format",
+        "json",
+        "--quiet",
+    ]);
+    let value: serde_json::Value = serde_json::from_str(&said).expect("JSON");
+    let column = &value["observed"][0];
+    let near = |key: &serde_json::Value, expected: f64| {
+        let number = key.as_f64().expect("a number");
+        assert!((number - expected).abs() < 1e-9, "{number} {expected}");
+    };
+    near(&column["mean"], 1.5);
+    near(&column["deviation"], 0.1 * 10_f64.sqrt());
+    near(&column["quantiles"]["0.25"], 1.25);
+    near(&column["quantiles"]["0.95"], 1.95);
+    near(&column["least"], 1.0);
+    near(&column["greatest_at"]["x"], 2.0);
+}
+
+#[test]
+fn pictures_have_units_and_do_not_grow() {
+    let draw = |more: &[&str]| {
+        let file = place("picture.svg");
+        let scene = [
+            "sweep",
+            "rolling-slipping-sphere",
+            "--quiet",
+            "--plot",
+            path(&file),
+        ];
+        says(&[&scene[..], more].concat());
+        let text = fs::read_to_string(&file).expect("a picture");
+        assert!(text.len() < 300_000, "{more:?}: {}", text.len());
+        text
+    };
+    let leave = ["--observe", "leave angle"];
+    let [mu, theta] = ["mu_static=0.2..1:20", "theta=0.01..0.4:30"];
+    let map = draw(&[&leave[..], &["--vary", mu, "--vary", theta]].concat());
+    for words in [
+        "theta [rad]",
+        "mu_static",
+        "leave angle [rad]",
+        "failed",
+        "url(#failed)",
+    ] {
+        assert!(map.contains(words), "{words}");
+    }
+    let mean = draw(
+        &[
+            &leave[..],
+            &["--vary", mu, "--vary", theta, "--vary", "mass=1..2:2"],
+        ]
+        .concat(),
+    );
+    assert!(mean.contains("mean over mass"));
+    let curve = [
+        "--vary",
+        "mu_static=0.3..1:5000",
+        "--observe",
+        "t at grip slips",
+    ];
+    assert!(draw(&[&leave[..], &curve].concat()).contains("t at grip slips [s]"));
+    let sample = [
+        "--vary",
+        "mu_static=0.3..1",
+        "--vary",
+        "theta=0.01..0.4",
+        "--sample",
+        "lhs:6000",
+    ];
+    assert!(draw(&[&leave[..], &sample].concat()).contains("the first 5000 of 6000 points"));
+}
+
+#[test]
 fn sweeps_without_sense_are_refused_in_one_line() {
     let of_wheel = |more: &[&'static str], reason: &str| {
         refuses(
@@ -144,7 +254,7 @@ fn sweeps_without_sense_are_refused_in_one_line() {
     );
     of_wheel(
         &["--vary", "mass=1..2:3", "--observe", "theta at rim loss"],
-        "did you mean `lost`?",
+        "did you mean `rim lost`?",
     );
     of_wheel(
         &["--vary", "mass=1..2:3", "--observe", "theta at rimm lost"],
@@ -164,6 +274,17 @@ fn sweeps_without_sense_are_refused_in_one_line() {
     of_wheel(
         &["--vary", "mass=1..2:3", "--observe", "x", "--shard", "1/2"],
         "--output",
+    );
+    of_wheel(
+        &[
+            "--vary",
+            "mass=1..2:3",
+            "--observe",
+            "x",
+            "--output",
+            "x.json",
+        ],
+        "name it",
     );
 }
 

@@ -11,7 +11,9 @@ use std::path::PathBuf;
 #[command(after_help = "Examples:
   lagrange sweep ladder --vary length=1..9:3000 --observe t --output one.csv --shard 1/2
   lagrange sweep ladder --vary length=1..9:3000 --observe t --output two.csv --shard 2/2
-  lagrange merge one.csv.part two.csv.part --output both.csv")]
+  lagrange merge one.csv.part two.csv.part --output both.csv
+
+Parts that are missing are named, and nothing is written then.")]
 pub(super) struct Merge {
     /// The folders of the parts (FILE.part), in any order; they stay as they are.
     #[arg(required = true, value_name = "FILE.part")]
@@ -22,6 +24,7 @@ pub(super) struct Merge {
 
 impl Merge {
     pub(super) fn execute(self) -> Result<(), Trouble> {
+        self.results.check()?;
         let (sweep, journal) = Journal::gather(&self.folders).map_err(Trouble::failed)?;
         verdict(&self.results.write(&sweep, &journal)?)
     }

@@ -24,6 +24,20 @@ pub(super) struct Results {
 }
 
 impl Results {
+    /// Refuses what could not be written, before anything is run.
+    pub(super) fn check(&self) -> Result<(), Trouble> {
+        let ending = |path: &PathBuf| path.extension().and_then(|e| e.to_str()).map(str::to_owned);
+        if let Some(path) = &self.output
+            && !matches!(ending(path).as_deref(), Some("csv" | "parquet"))
+        {
+            let path = path.display();
+            return Err(Trouble::usage(format_args!(
+                "cannot tell the format of {path}; name it ….parquet or ….csv"
+            )));
+        }
+        Ok(())
+    }
+
     /// Writes and prints them.
     pub(super) fn write(&self, sweep: &Sweep, journal: &Journal) -> Result<Summary, Trouble> {
         let summary = Summary::new(sweep, journal).map_err(Trouble::failed)?;

@@ -100,6 +100,16 @@ pub(super) fn keep_what_is_done(progress: &Progress) {
     let _ = ctrlc::set_handler(interrupt);
 }
 
+/// Lets Ctrl-C end the process at once, with a word on what that costs.
+pub(super) fn end_at_once(word: &'static str) {
+    let interrupt = move || {
+        super::say(&format!("interrupted; {word}"));
+        std::process::exit(super::INTERRUPTED);
+    };
+    // Without a handler Ctrl-C does what it always does.
+    let _ = ctrlc::set_handler(interrupt);
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

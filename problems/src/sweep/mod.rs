@@ -33,8 +33,10 @@ pub use work::work;
 pub(crate) use worker::worker;
 
 use crate::catalogue::Scene;
-use crate::request::{Refusal, Request};
+use crate::report::rate_unit;
+use crate::request::{Quantity, Refusal, Request, find_state};
 use core::ops::Range;
+use lagrange_core::system::Description;
 
 /// Points of a chunk: a second's work or less.
 pub const CHUNK: usize = 1024;
@@ -81,6 +83,22 @@ impl Sweep {
         self.observed.len() + 1
     }
 
+    /// Unit of what an axis varies; empty for a plain number.
+    pub fn unit_varied(&self, axis: usize) -> String {
+        let (name, description) = (&self.points.axes[axis].name, self.scene.description());
+        let parameter = description.parameters.iter().find(|p| p.name == name);
+        match (parameter, find_state(description, name)) {
+            (Some(parameter), _) => parameter.unit.to_owned(),
+            (None, Ok((index, level))) => unit(description, index, level),
+            (None, Err(_)) => String::new(),
+        }
+    }
+
+    /// Unit of what is observed; empty for a plain number.
+    pub fn unit_observed(&self, index: usize) -> String {
+        self.observed[index].unit(self.scene.description())
+    }
+
     /// Number of chunks.
     pub fn chunks(&self) -> usize {
         self.points.len().div_ceil(CHUNK)
@@ -89,6 +107,15 @@ impl Sweep {
     /// Numbers of the points of a chunk.
     pub fn chunk(&self, index: usize) -> Range<usize> {
         index * CHUNK..((index + 1) * CHUNK).min(self.points.len())
+    }
+}
+
+/// Unit of a coordinate or a velocity.
+fn unit(description: &Description, index: usize, level: Quantity) -> String {
+    let unit = description.coordinates[index].unit;
+    match level {
+        Quantity::Position => unit.to_owned(),
+        Quantity::Velocity => rate_unit(unit),
     }
 }
 

@@ -7,6 +7,7 @@
 //! theta                      at the end of the run
 //! ```
 
+use super::unit;
 use crate::catalogue::Scene;
 use crate::outcome::{Force, forces};
 use crate::request::{Quantity, Refusal, find_state};
@@ -85,6 +86,17 @@ impl Observation {
             what,
             at,
         })
+    }
+
+    /// Its unit; empty for a plain number.
+    pub(super) fn unit(&self, description: &Description) -> String {
+        match self.what {
+            What::Time => "s".to_owned(),
+            What::Position(index) => unit(description, index, Quantity::Position),
+            What::Velocity(index) => unit(description, index, Quantity::Velocity),
+            What::Force(row) => description.units.row(row).to_owned(),
+            What::Count => String::new(),
+        }
     }
 
     /// The event after whose first occurrence a run has no more to say to this, if there is one.

@@ -26,7 +26,7 @@ impl Sweep {
     ///
     /// # Errors
     /// What cannot be written in TOML.
-    pub(super) fn recipe(&self) -> Result<String, String> {
+    pub(crate) fn recipe(&self) -> Result<String, String> {
         let run = scene_file::write(self.scene, &self.request, &Outputs::default());
         let sampling = self.points.sampling;
         let recipe = Recipe {

@@ -1,0 +1,121 @@
+//! The points of a sample: values over one axis, colours over two.
+
+use super::curves::{frame, look, names};
+use super::frame::Frame;
+use super::marks::{Look, Marks};
+use super::scale::Scale;
+use super::{Picture, heading, observed, varied};
+use crate::report::plot::{COLOURS, px};
+use crate::report::sweep::{Failure, lines};
+use crate::sweep::{Journal, Sweep};
+
+/// Most points that are drawn: the first, which are as well spread as all.
+const MOST: usize = 5000;
+
+/// A point that is drawn.
+struct Dot {
+    point: Vec<f64>,
+    observed: Vec<f64>,
+    failed: bool,
+}
+
+fn dots(sweep: &Sweep, journal: &Journal) -> Result<Vec<Dot>, Failure> {
+    let mut dots = Vec::new();
+    lines(sweep, journal, |point, observed, failure| {
+        if dots.len() < MOST {
+            dots.push(Dot {
+                point: point.to_vec(),
+                observed: observed.to_vec(),
+                failed: failure.is_some(),
+            });
+        }
+        Ok(())
+    })?;
+    Ok(dots)
+}
+
+/// Least and greatest.
+fn edges<'d>(values: impl Iterator<Item = &'d f64>) -> Option<(f64, f64)> {
+    values.filter(|v| !v.is_nan()).fold(None, |edges, &v| {
+        let (low, high) = edges.unwrap_or((v, v));
+        Some((v.min(low), v.max(high)))
+    })
+}
+
+fn marks(dots: &[Dot]) -> Marks {
+    Marks::of_size(px(if dots.len() > 1000 { 4 } else { 6 }))
+}
+
+/// What is said of points that are not drawn.
+fn note(sweep: &Sweep, dots: &[Dot]) -> String {
+    match sweep.points.len() {
+        all if all > dots.len() => format!(", the first {} of {all} points", dots.len()),
+        _ => String::new(),
+    }
+}
+
+/// `None` if no run has what was observed.
+pub(super) fn over_one(sweep: &Sweep, journal: &Journal) -> Result<Option<Picture>, Failure> {
+    let dots = dots(sweep, journal)?;
+    let Some(edges) = edges(dots.iter().flat_map(|dot| &dot.observed)) else {
+        return Ok(None);
+    };
+    let frame = frame(sweep, Scale::of(&sweep.points.axes[0], 0.0), edges);
+    let mut marks = marks(&dots);
+    for dot in &dots {
+        for (value, colour) in dot.observed.iter().zip(COLOURS.iter().cycle()) {
+            if !value.is_nan() {
+                marks.dot(look(*colour), frame.place(dot.point[0], *value));
+            }
+        }
+        if dot.failed {
+            let x = frame.column(frame.x.part(dot.point[0]));
+            marks.dot(Look::Failed, (x, frame.bottom - px(5)));
+        }
+    }
+    let crosses = if dots.iter().any(|dot| dot.failed) {
+        " (crosses: failed)"
+    } else {
+        ""
+    };
+    Ok(Some(Picture {
+        heading: format!("{}{}{crosses}", sweep.scene.name(), note(sweep, &dots)),
+        names: names(sweep),
+        frame,
+        colours: None,
+        marks,
+    }))
+}
+
+/// `None` if no run has what was observed.
+pub(super) fn over_two(sweep: &Sweep, journal: &Journal) -> Result<Option<Picture>, Failure> {
+    let dots = dots(sweep, journal)?;
+    let Some((low, high)) = edges(dots.iter().map(|dot| &dot.observed[0])) else {
+        return Ok(None);
+    };
+    let colours = Scale::around(low, high, 0.0);
+    let axes = &sweep.points.axes;
+    let frame = Frame::new(
+        (Scale::of(&axes[0], 0.0), varied(sweep, 0)),
+        (Scale::of(&axes[1], 0.0), varied(sweep, 1)),
+        false,
+        0,
+    );
+    let mut marks = marks(&dots);
+    for dot in &dots {
+        let look = match dot.observed[0] {
+            value if !value.is_nan() => Look::at(colours.part(value)),
+            _ if dot.failed => Look::Failed,
+            _ => Look::None,
+        };
+        marks.dot(look, frame.place(dot.point[0], dot.point[1]));
+    }
+    marks.explain();
+    Ok(Some(Picture {
+        heading: heading(sweep) + &note(sweep, &dots),
+        names: Vec::new(),
+        frame,
+        colours: Some((colours, observed(sweep, 0))),
+        marks,
+    }))
+}
