@@ -12,16 +12,11 @@ mod clock;
 mod hand;
 
 use criterion::Criterion;
-use lagrange_core::dynamics::Dynamics;
-use lagrange_core::integrate::Acceleration;
-use lagrange_core::mode::Mode;
 use lagrange_core::prelude::*;
+use lagrange_problems::cost::{MOVE, Place, RightSide, places};
 use lagrange_problems::scenes::*;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
-
-/// Part of an acceleration that a call moves the state by.
-const MOVE: f64 = 1e-13;
 
 fn main() {
     let mut bench = Bench {
@@ -69,36 +64,33 @@ impl Bench {
         self.mode(&spring, "", 0, [0, 1], hand::spring_pendulum);
     }
 
-    /// The phase number `phase` of a scene's run from its first start, and its closed form in some of the coordinates.
-    fn mode<S: System<Scalar = f64>, const K: usize, const N: usize>(
+    /// The mode number `mode` that a scene's run from its first start meets, and its closed form in some of the coordinates.
+    fn mode<S: System<Scalar = f64> + Starts, const K: usize, const N: usize>(
         &mut self,
         system: &S,
         name: &str,
-        phase: usize,
+        mode: usize,
         coordinates: [usize; K],
         by_hand: impl Fn(&[f64; N], &mut [f64; N]) + Copy,
     ) {
         let name = format!("{} {name}", S::DESCRIPTION.name);
-        let (mode, time, state) = middle(system, phase);
-        let mut dynamics = Dynamics::new(system, &Effects::all());
-        dynamics.set_mode(&mode);
+        let place = place(system, mode);
+        let state = &place.state;
+        let mut side = RightSide::new(system, &Effects::all(), &place).expect("a place on the way");
         let mut start = [0.0; N];
         for (i, &j) in coordinates.iter().enumerate() {
             (start[i], start[K + i]) = (state.q[j], state.v[j]);
         }
         let mut slope = [0.0; N];
         by_hand(&start, &mut slope);
-        dynamics
-            .value(time, &state.q, &state.v)
-            .expect("a state on the way");
         for (i, &j) in coordinates.iter().enumerate() {
-            let ours = dynamics.acceleration()[j];
+            let ours = side.accelerations()[j];
             let difference = (ours - slope[K + i]).abs() / ours.abs().max(1.0);
             assert!(difference < 1e-9, "{name}: {ours}, not {}", slope[K + i]);
         }
 
         let mut hand = |calls: u64| chain_by_hand(by_hand, start, calls);
-        let mut ours = |calls: u64| chain(&mut dynamics, time, &state, calls);
+        let mut ours = |calls: u64| side.chain(calls);
         if self.table {
             const CALLS: u64 = 10_000;
             let mut contestants: [&mut dyn FnMut() -> Duration; 2] =
@@ -132,46 +124,11 @@ fn chain_by_hand<const N: usize>(
     begin.elapsed()
 }
 
-fn chain(dynamics: &mut Dynamics<f64>, time: f64, start: &State<f64>, calls: u64) -> Duration {
-    let mut state = black_box(start.clone());
-    let mut rates = vec![0.0; state.v.len()];
-    let begin = Instant::now();
-    for _ in 0..calls {
-        // An error would leave the last accelerations; none occurs near the start.
-        let _ = black_box(Acceleration::acceleration(
-            dynamics, time, &state.q, &state.v, &mut rates,
-        ));
-        for (q, v) in state.q.iter_mut().zip(&state.v) {
-            *q += MOVE * v;
-        }
-        for (v, a) in state.v.iter_mut().zip(&rates) {
-            *v += MOVE * a;
-        }
-    }
-    black_box(state);
-    begin.elapsed()
-}
-
-/// Mode, time and state in the middle of a phase of the run from the first start.
-fn middle<S: System<Scalar = f64>>(system: &S, phase: usize) -> (Mode, f64, State<f64>) {
-    let n = S::DESCRIPTION.coordinates.len();
-    let mut start = State {
-        q: vec![0.0; n],
-        v: vec![0.0; n],
-    };
-    system.start(0, 0.0, &mut start.q, &mut start.v);
+/// The first mode number `index` of the run from the first start, in the middle of its first phase.
+fn place<S: System<Scalar = f64> + Starts>(system: &S, index: usize) -> Place {
     let trajectory = Simulation::new(system)
         .tolerance(1e-12)
-        .run(start, 0.0..4.0)
+        .run(system.at(StartId(0)), 0.0..4.0)
         .unwrap_or_else(|failure| panic!("{failure}"));
-    let phases = trajectory.phases();
-    let phase = &phases[phase];
-    let time = 0.5 * (phase.from + phase.to);
-    let mut sampler = trajectory.sampler();
-    let instant = sampler.at(time).expect("a time of the run");
-    let state = State {
-        q: instant.q.clone(),
-        v: instant.v.clone(),
-    };
-    (phase.mode.clone(), time, state)
+    places(&trajectory).swap_remove(index)
 }

@@ -50,7 +50,7 @@ pub static SCENES: &[&dyn Scene] = &[
     &Entry::<DoublePendulum>::new("double-pendulum", 5.0).drawn(DoublePendulum::drawing),
     &Entry::<FiveLinkChain>::new("five-link-chain", 2.0).drawn(FiveLinkChain::drawing),
     &Entry::<Chain20>::new("chain", 2.0).drawn(Chain20::drawing),
-    &Entry::<Net>::new("net", 2.0),
+    &Entry::<Net>::new("net", 2.0).drawn(Net::drawing),
     &Entry::<CartesianPendulum>::new("cartesian-pendulum", 100.0)
         .known(CartesianPendulum::closed_form)
         .drawn(CartesianPendulum::drawing),
@@ -270,16 +270,21 @@ impl<S: System<Scalar = f64> + Default + Send + 'static> Scene for Entry<S> {
     fn film(&self, request: &Request) -> Result<Film, Refusal> {
         let system: S = request.system()?;
         let (trajectory, failure) = self.trajectory(&system, request)?;
-        let outcome = Outcome::new(self.name, &trajectory, failure, request);
+        let times = film::instants(&trajectory, request.samples);
+        let mut outcome = Outcome::sampled(self.name, &trajectory, failure, request, &times);
+        film::without_rounding(&mut outcome);
         let draw = |drawing: Picture<S>| {
             let samples = outcome.samples.iter();
             samples
                 .map(|sample| drawing(&system, sample.time, &sample.state.q))
                 .collect()
         };
+        let samples = outcome.samples.iter();
+        let instants = samples.map(|sample| (sample.time, &sample.mode, &sample.state));
         Ok(Film {
             drawings: self.drawing.map(draw).unwrap_or_default(),
             books: request.stage(trajectory.last_time(), || film::books(&trajectory)),
+            drift: film::drift(&trajectory, instants),
             outcome,
         })
     }

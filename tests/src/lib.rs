@@ -4,6 +4,7 @@
 
 pub mod equations;
 pub mod modes;
+pub mod pairs;
 
 use lagrange_core::prelude::*;
 pub use lagrange_problems::reference::{agm, extrapolate, integral, root};

@@ -1,7 +1,7 @@
 //! Modes by hand.
 
 use lagrange_core::mode::{FrictionMode, Mode, Sliding};
-use lagrange_core::system::System;
+use lagrange_core::system::{Description, Normal, System};
 
 /// Everything open.
 pub fn flight<S: System>() -> Mode {
@@ -21,4 +21,43 @@ pub fn slipping<S: System>(sign: f64) -> Mode {
     let mut mode = stuck::<S>();
     mode.frictions.fill(FrictionMode::Slip(Sliding::sign(sign)));
     mode
+}
+
+/// All modes: contacts open or closed, frictions that can act sticking or slipping either way, or along their slip.
+pub fn all(description: &Description) -> Vec<Mode> {
+    let mut modes = vec![Mode::open(description)];
+    for contact in 0..description.contacts.len() {
+        let closed = modes.clone().into_iter().map(|mut mode| {
+            mode.contacts[contact] = true;
+            mode
+        });
+        modes.extend(closed.collect::<Vec<_>>());
+    }
+    for (i, friction) in description.frictions.iter().enumerate() {
+        let slips = match friction.components {
+            1 => vec![Sliding::sign(1.0), Sliding::sign(-1.0)],
+            _ => vec![Sliding::along_slip()],
+        };
+        let states = core::iter::once(FrictionMode::Stick);
+        let states: Vec<_> = states
+            .chain(slips.into_iter().map(FrictionMode::Slip))
+            .collect();
+        let with_states = |mode: Mode| -> Vec<Mode> {
+            let acts = match friction.normal {
+                Normal::Contact(contact) => mode.contacts[contact],
+                _ => true,
+            };
+            if !acts {
+                return vec![mode];
+            }
+            let with = |state: &FrictionMode| {
+                let mut mode = mode.clone();
+                mode.frictions[i] = *state;
+                mode
+            };
+            states.iter().map(with).collect()
+        };
+        modes = modes.into_iter().flat_map(with_states).collect();
+    }
+    modes
 }

@@ -5,6 +5,7 @@
 
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError};
+use crate::effects::{Effects, Item};
 use crate::integrate::StepPolynomial;
 use crate::mode::Mode;
 use crate::modes::guard::Guard;
@@ -23,7 +24,10 @@ pub(super) struct Curves {
     width: usize,
     /// Number of guards of the mode.
     guards: usize,
-    /// Terms of stops and marks before the first of each.
+    /// The stops and marks that take part.
+    pub(super) stops: Vec<usize>,
+    pub(super) marks: Vec<usize>,
+    /// Terms of those before the first of each.
     first_stop: Vec<usize>,
     first_mark: Vec<usize>,
     watches: Vec<Guard>,
@@ -33,18 +37,24 @@ pub(super) struct Curves {
 }
 
 impl Curves {
-    /// Room for the stops and marks of a system.
-    pub(super) fn new(d: &Description) -> Self {
+    /// Room for the stops and marks of a system, as far as these effects have them.
+    pub(super) fn new(d: &Description, effects: &Effects) -> Self {
         let mut curves = Curves::default();
         for (i, stop) in d.stops.iter().enumerate() {
             curves.first_stop.push(curves.watches.len());
-            let terms = (0..stop.terms.len()).map(|k| Guard::Stop(i, k));
-            curves.watches.extend(terms);
+            if effects.includes(d, Item::Stop(i)) {
+                curves.stops.push(i);
+                let terms = (0..stop.terms.len()).map(|k| Guard::Stop(i, k));
+                curves.watches.extend(terms);
+            }
         }
         for (i, mark) in d.marks.iter().enumerate() {
             curves.first_mark.push(curves.watches.len());
-            let terms = (0..mark.terms.len()).map(|k| Guard::Mark(i, k));
-            curves.watches.extend(terms);
+            if effects.includes(d, Item::Mark(i)) {
+                curves.marks.push(i);
+                let terms = (0..mark.terms.len()).map(|k| Guard::Mark(i, k));
+                curves.watches.extend(terms);
+            }
         }
         curves
     }

@@ -145,8 +145,8 @@ impl<T: Scalar> Run<T> {
         let d = self.description();
         let curves = &self.curves;
         let mut best: Option<(usize, f64)> = None;
-        for (i, watch) in d.stops.iter().enumerate() {
-            let mode = &self.mode;
+        for &i in &curves.stops {
+            let (watch, mode) = (&d.stops[i], &self.mode);
             let below = &self.stop_below;
             let first = becomes_true(
                 watch,
@@ -169,7 +169,8 @@ impl<T: Scalar> Run<T> {
         let d = self.description();
         let curves = &self.curves;
         list.clear();
-        for (i, watch) in d.marks.iter().enumerate() {
+        for &i in &curves.marks {
+            let watch = &d.marks[i];
             if watch.zeros {
                 let mut all = RootList::new();
                 roots(curves.mark_term(i, 0), &mut all);
@@ -203,13 +204,13 @@ impl<T: Scalar> Run<T> {
         let d = self.description();
         let curves = &self.curves;
         let below = |curve: &[f64]| value(curve, end) < 0.0;
-        for (i, watch) in d.stops.iter().enumerate() {
-            for k in 0..watch.terms.len() {
+        for &i in &curves.stops {
+            for k in 0..d.stops[i].terms.len() {
                 self.stop_below[i][k] = below(curves.stop_term(i, k));
             }
         }
-        for (i, watch) in d.marks.iter().enumerate() {
-            for k in 0..watch.terms.len() {
+        for &i in &curves.marks {
+            for k in 0..d.marks[i].terms.len() {
                 self.mark_below[i][k] = below(curves.mark_term(i, k));
             }
         }

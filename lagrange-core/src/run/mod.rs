@@ -181,7 +181,7 @@ impl<T: Scalar> Run<T> {
             marks: Vec::new(),
             step: StepPolynomial::new(n, 1),
             powers: Vec::new(),
-            curves: Curves::new(d),
+            curves: Curves::new(d, &settings.effects),
             survey: Survey::new(d),
             decider: Decider::new(d),
             collider: Collider::default(),
@@ -432,7 +432,7 @@ impl<T: Scalar> Run<T> {
     }
 
     fn log_marks(&mut self, end: f64) {
-        if self.description().marks.is_empty() {
+        if self.curves.marks.is_empty() {
             return;
         }
         let mut marks = core::mem::take(&mut self.marks);
@@ -454,15 +454,17 @@ impl<T: Scalar> Run<T> {
     /// Stops whose conditions the switch has just made true.
     fn stops_of_the_mode(&mut self) -> Result<(), Error> {
         let d = self.description();
-        for (i, watch) in d.stops.iter().enumerate() {
-            if self.has_become_true(watch, |k| Guard::Stop(i, k)) {
+        for at in 0..self.curves.stops.len() {
+            let i = self.curves.stops[at];
+            if self.has_become_true(&d.stops[i], |k| Guard::Stop(i, k)) {
                 self.evaluate()?;
                 self.finish(i);
                 return Ok(());
             }
         }
-        for (i, watch) in d.marks.iter().enumerate() {
-            if self.has_become_true(watch, |k| Guard::Mark(i, k)) {
+        for at in 0..self.curves.marks.len() {
+            let i = self.curves.marks[at];
+            if self.has_become_true(&d.marks[i], |k| Guard::Mark(i, k)) {
                 self.evaluate()?;
                 let state = core::mem::take(&mut self.state);
                 self.log_watch(Subject::Mark(i), EventKind::Mark, self.t, &state);
@@ -502,18 +504,13 @@ impl<T: Scalar> Run<T> {
 
     /// Asks for the stops and marks that take part.
     fn watch(&mut self) {
-        use crate::effects::Item;
         let d = self.description();
         let mut needs = NeedSet::new(d);
-        for (i, stop) in d.stops.iter().enumerate() {
-            if self.settings.effects.includes(d, Item::Stop(i)) {
-                needs.insert(stop.need);
-            }
+        for &i in &self.curves.stops {
+            needs.insert(d.stops[i].need);
         }
-        for (i, mark) in d.marks.iter().enumerate() {
-            if self.settings.effects.includes(d, Item::Mark(i)) {
-                needs.insert(mark.need);
-            }
+        for &i in &self.curves.marks {
+            needs.insert(d.marks[i].need);
         }
         self.dynamics.set_report_needs(&needs);
     }

@@ -130,9 +130,22 @@ fn too_large<T>(declaration: &Declaration, sink: &mut Diagnostics) -> Option<T> 
 /// # Errors
 /// The declaration has mistakes, or there is no such mode.
 pub fn inspect(input: TokenStream, mode: Option<&str>) -> Result<inspect::Derivation, Refusal> {
+    inspect_without(input, &[], mode)
+}
+
+/// The same where the items of these names are left out.
+///
+/// # Errors
+/// As [`inspect`]; something that stays speaks of what is left out.
+pub fn inspect_without(
+    input: TokenStream,
+    left_out: &[&str],
+    mode: Option<&str>,
+) -> Result<inspect::Derivation, Refusal> {
     let mut sink = Diagnostics::new();
     let declaration = parse::declaration(input, &mut sink);
-    let planned = declaration.and_then(|declaration| {
+    let planned = declaration.and_then(|mut declaration| {
+        declaration.leave_out(left_out);
         let (program, verdicts) = planned(&declaration, &mut sink)?;
         Some((declaration, program, verdicts))
     });

@@ -1,6 +1,7 @@
 //! One run, again and again with other methods; and what is read from a run.
 
 use super::Setting;
+use crate::film::drift;
 use core::hint::black_box;
 use lagrange_core::prelude::*;
 use std::time::Instant;
@@ -101,26 +102,14 @@ pub(super) fn energy_drift(trajectory: &Record<f64>) -> Option<f64> {
     Some(ledger.closure.abs() / ledger.scale.max(f64::MIN_POSITIVE))
 }
 
-/// Largest relative residual of the rows that act, just before each event and at the end; `None` if none ever acts.
+/// What has to hold is off by this much just before each event and at the end; `None` if nothing ever has to.
 pub(super) fn constraint_drift(trajectory: &Record<f64>) -> Option<f64> {
-    let mut dynamics = trajectory.dynamics();
-    let mut residual = |time: f64, mode: &Mode, state: &State<f64>| {
-        dynamics.set_mode(mode);
-        if dynamics.acting_rows().is_empty() {
-            return None;
-        }
-        let (position, velocity) = dynamics.residuals(time, &state.q, &state.v);
-        Some(position.relative.max(velocity.relative))
-    };
-    let events = trajectory.events();
-    let before: Vec<Option<f64>> = events
-        .iter()
-        .map(|event| residual(event.time, &event.before, &event.state))
-        .collect();
-    let last = residual(
+    let events = trajectory.events().iter();
+    let before = events.map(|event| (event.time, &event.before, &event.state));
+    let end = (
         trajectory.last_time(),
         trajectory.final_mode(),
         trajectory.final_state(),
     );
-    before.into_iter().chain([last]).flatten().reduce(f64::max)
+    drift(trajectory, before.chain([end]))
 }

@@ -4,6 +4,7 @@
 //! written; 2 the request makes no sense; 130 interrupted (what there is is still printed).
 
 mod accuracy;
+mod compare;
 mod complaint;
 mod completions;
 mod course;

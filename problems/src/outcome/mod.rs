@@ -6,6 +6,7 @@ use crate::request::Request;
 use lagrange_core::mode::{FrictionMode, Mode};
 use lagrange_core::prelude::*;
 use lagrange_core::system::Description;
+pub(crate) use sampling::equal;
 
 /// Everything that happened in a run.
 pub struct Outcome {
@@ -25,7 +26,7 @@ pub struct Outcome {
     pub events: Vec<Event<f64>>,
     /// Modes in order of time.
     pub phases: Vec<Phase>,
-    /// The trajectory at equal intervals, and at the beginning and the end of every phase; in order of time.
+    /// The trajectory at some instants, and at the beginning and the end of every phase; in order of time.
     /// Empty if the run could not begin.
     pub samples: Vec<Sample>,
     /// What is known beside the log just before and just after each event, if the run was sampled between its ends; nothing
@@ -142,15 +143,27 @@ pub fn forces(description: &Description) -> Vec<Force> {
 }
 
 impl Outcome {
-    /// Collects what a trajectory knows, sampled as the request says.
+    /// Collects what a trajectory knows, sampled at equal intervals as the request says.
     pub(crate) fn new(
         scene: &'static str,
         trajectory: &Record<f64>,
         failure: Option<Error>,
         request: &Request,
     ) -> Self {
+        let times = equal(trajectory, request.samples);
+        Self::sampled(scene, trajectory, failure, request, &times)
+    }
+
+    /// The same, sampled at these times, which are in order.
+    pub(crate) fn sampled(
+        scene: &'static str,
+        trajectory: &Record<f64>,
+        failure: Option<Error>,
+        request: &Request,
+        times: &[f64],
+    ) -> Self {
         let description = trajectory.description();
-        let samples = sampling::samples(trajectory, request.samples);
+        let samples = sampling::samples(trajectory, times);
         let events = trajectory.events();
         let ledgers = |times: Vec<f64>| match request.ledger {
             true => trajectory.ledgers(&times).unwrap_or_default(),
@@ -178,6 +191,16 @@ impl Outcome {
             work: trajectory.work(),
             failure,
         }
+    }
+
+    /// Whether what a force is of takes part.
+    pub fn includes(&self, source: Source) -> bool {
+        let item = match source {
+            Source::Constraint(i) => Item::Constraint(i),
+            Source::Contact(i) => Item::Contact(i),
+            Source::Friction(i) => Item::Friction(i),
+        };
+        self.effects.includes(self.description, item)
     }
 
     /// Names of what was left out.

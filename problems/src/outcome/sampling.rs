@@ -1,4 +1,4 @@
-//! Trajectory → samples: at equal intervals, at both ends of every phase, and on both sides of every event.
+//! Trajectory → samples: at given instants, at both ends of every phase, and on both sides of every event.
 
 use super::Sample;
 use core::iter;
@@ -7,10 +7,16 @@ use lagrange_core::mode::{FrictionMode, Mode};
 use lagrange_core::prelude::*;
 use lagrange_core::system::{Friction, Normal};
 
-/// Both ends of every phase, and between them the multiples of the whole time over `intervals`.
-pub(super) fn samples(trajectory: &Record<f64>, intervals: usize) -> Vec<Sample> {
+/// The instants between so many equal intervals of a motion.
+pub(crate) fn equal(trajectory: &Record<f64>, intervals: usize) -> Vec<f64> {
     let (first, last) = (trajectory.first_time(), trajectory.last_time());
     let step = (last - first) / intervals.max(1) as f64;
+    (1..intervals).map(|k| first + k as f64 * step).collect()
+}
+
+/// Both ends of every phase, and between them these times, which are in order.
+pub(super) fn samples(trajectory: &Record<f64>, times: &[f64]) -> Vec<Sample> {
+    let (first, last) = (trajectory.first_time(), trajectory.last_time());
     let mut reader = Reader::new(trajectory);
     let mut samples = Vec::new();
     let at_once = || {
@@ -24,10 +30,9 @@ pub(super) fn samples(trajectory: &Record<f64>, intervals: usize) -> Vec<Sample>
         .filter(|phases| !phases.is_empty())
         .unwrap_or_else(at_once);
     for (phase, span) in phases.iter().enumerate() {
-        let inside = |t: &f64| span.from < *t && *t < span.to;
-        let inner = (1..intervals)
-            .map(|k| first + k as f64 * step)
-            .filter(inside);
+        let after = times.partition_point(|t| *t <= span.from);
+        let before = times.partition_point(|t| *t < span.to).max(after);
+        let inner = times[after..before].iter().copied();
         for time in iter::once(span.from)
             .chain(inner)
             .chain(iter::once(span.to))

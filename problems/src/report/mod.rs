@@ -4,10 +4,12 @@
 pub mod accuracy;
 pub mod cost;
 pub mod csv;
+pub mod frames;
 pub mod html;
 pub mod json;
 pub mod jsonl;
 pub mod parquet;
+mod picture;
 pub mod plot;
 mod row_groups;
 mod rows;
@@ -182,5 +184,31 @@ pub(crate) fn symbol(name: &str) -> String {
     match GREEK.iter().find(|(word, _)| *word == stem) {
         Some((_, letter)) => format!("{letter}{rest}"),
         None => name.to_owned(),
+    }
+}
+
+/// Whether nothing in a scene can switch.
+pub(crate) fn one_mode(description: &Description) -> bool {
+    let d = description;
+    d.contacts.is_empty() && d.frictions.is_empty() && d.branches.is_empty()
+}
+
+/// To six significant digits: no picture shows more. What is not finite is 0: JSON cannot hold it.
+pub(crate) fn significant(x: f64) -> f64 {
+    if !x.is_finite() || x == 0.0 {
+        return 0.0;
+    }
+    format!("{x:.5e}").parse().unwrap_or(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::significant;
+
+    #[test]
+    fn numbers_are_short_and_finite() {
+        assert_eq!(significant(1.0 / 3.0), 0.333333);
+        assert_eq!(significant(-0.0), 0.0);
+        assert_eq!(significant(f64::NAN), 0.0);
     }
 }

@@ -1,5 +1,6 @@
 //! A net of point masses and springs in space.
 
+use crate::drawing::{Drawing, Shape, aslant};
 use lagrange_core::prelude::*;
 
 /// A net of eight by eight knots hangs by its corners from four hooks and drops under its own weight.
@@ -46,5 +47,24 @@ impl Default for Net {
             length: 0.1,
             drag: 0.01,
         }
+    }
+}
+
+impl Net {
+    /// The rows and columns, the corners with their hooks.
+    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
+        let flat = |row: usize, column: usize| [column, row].map(|n| self.length * n as f64);
+        let knot = |row: usize, column: usize| {
+            let (k, [x, y]) = (8 * row + column, flat(row, column));
+            aslant([x + q[k], y + q[64 + k], q[128 + k]])
+        };
+        let rows = (0..8).map(|row| (0..8).map(|column| knot(row, column)).collect());
+        let columns = (0..8).map(|column| (0..8).map(|row| knot(row, column)).collect());
+        let hooks = [[0, 0], [0, 7], [7, 0], [7, 7]].map(|[row, column]| {
+            let [x, y] = flat(row, column);
+            vec![aslant([x, y, self.length]), knot(row, column)]
+        });
+        let lines = rows.chain(columns).chain(hooks);
+        Drawing::of(lines.map(Shape::Rod))
     }
 }

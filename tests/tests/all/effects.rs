@@ -2,6 +2,8 @@
 
 use lagrange_core::dynamics::{Dynamics, Operations, add_guards};
 use lagrange_core::prelude::*;
+use lagrange_tests::modes::all;
+use lagrange_tests::pairs::{Pair, Visitor, visit};
 
 /// A cart with everything.
 #[derive(Lagrangian, Clone, Debug)]
@@ -118,4 +120,103 @@ fn each_effect_adds_its_own_operations() {
             _ => assert!(less.accelerations < all.accelerations, "{name}"),
         }
     }
+}
+
+/// Operations and accelerations in a mode, with all that a step watches; nothing if the equations cannot be solved.
+fn cost_in<S: System<Scalar = f64>>(
+    system: &S,
+    effects: &Effects,
+    mode: &Mode,
+) -> Option<(Operations, Vec<f64>)> {
+    let d = S::DESCRIPTION;
+    let mut dynamics = Dynamics::new(system, effects);
+    dynamics.set_mode(mode);
+    let mut needs = dynamics.motion_needs().clone();
+    add_guards(d, effects, mode, &mut needs);
+    dynamics.set_extra_needs(&needs);
+    let place = |from: f64, step: f64| -> Vec<f64> {
+        let numbers = (0..d.coordinates.len()).map(|i| from + step * i as f64);
+        numbers.collect()
+    };
+    dynamics
+        .value(0.2, &place(0.4, 0.17), &place(0.9, -0.23))
+        .ok()?;
+    Some((dynamics.operations(), dynamics.acceleration().to_vec()))
+}
+
+/// The mode of the whole that is this mode of the part: what is left out, declared last, does not act.
+fn widened<Whole: System>(mode: &Mode) -> Mode {
+    let mut wide = Mode::open(Whole::DESCRIPTION);
+    wide.contacts[..mode.contacts.len()].copy_from_slice(&mode.contacts);
+    wide.frictions[..mode.frictions.len()].copy_from_slice(&mode.frictions);
+    wide
+}
+
+/// Every kind of item, in every mode: left out, it costs as many operations as if it had never been declared.
+struct Equal(usize);
+
+impl Visitor for Equal {
+    fn pair<Whole, Part>(&mut self, pair: &Pair, whole: &Whole, part: &Part)
+    where
+        Whole: System<Scalar = f64> + Starts,
+        Part: System<Scalar = f64> + Starts,
+    {
+        for mode in all(Part::DESCRIPTION) {
+            let what = format!("{}: {}", pair.name, mode.display(Part::DESCRIPTION));
+            let left_out = cost_in(whole, &pair.without, &widened::<Whole>(&mode));
+            let undeclared = cost_in(part, &Effects::all(), &mode);
+            match (left_out, undeclared) {
+                (Some(left_out), Some(undeclared)) => {
+                    assert_eq!(left_out.0, undeclared.0, "{what}");
+                    for (a, b) in left_out.1.iter().zip(&undeclared.1) {
+                        let error = (a - b).abs() / b.abs().max(1.0);
+                        assert!(error <= 1e-13, "{what}: {a}, not {b}");
+                    }
+                    self.0 += 1;
+                }
+                (a, b) => assert_eq!(a.is_some(), b.is_some(), "{what}"),
+            }
+        }
+    }
+}
+
+/// A ball whose stop and mark wait for the floor to be left.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(z),
+    kinetic = mass/2 * der(z)^2,
+    contact(floor: z >= 0),
+    force(pull: z = mass * (t - 1)),
+    stop(off: open(floor)),
+    mark(left: open(floor)),
+)]
+struct Pulled {
+    mass: f64,
+}
+
+#[test]
+fn stops_and_marks_that_are_left_out_do_not_act() {
+    let ball = Pulled { mass: 1.0 };
+    let run = |effects: Effects| {
+        let rest = State {
+            q: vec![0.0],
+            v: vec![0.0],
+        };
+        let trajectory = Simulation::new(&ball).effects(effects).run(rest, 0.0..2.0);
+        let trajectory = trajectory.expect("a run");
+        let kinds: Vec<EventKind> = trajectory.events().iter().map(|event| event.kind).collect();
+        (trajectory.last_time(), kinds)
+    };
+    let (end, kinds) = run(Effects::all().without(Pulled::LEFT));
+    assert!((end - 1.0).abs() < 1e-9, "{end}");
+    assert_eq!(kinds, [EventKind::Lost, EventKind::Stop]);
+    let neither = Effects::all().without(Pulled::OFF).without(Pulled::LEFT);
+    assert_eq!(run(neither), (2.0, vec![EventKind::Lost]));
+}
+
+#[test]
+fn every_kind_of_item_costs_nothing_where_it_is_left_out() {
+    let mut equal = Equal(0);
+    visit(&mut equal);
+    assert!(equal.0 >= 33, "only {} modes", equal.0);
 }

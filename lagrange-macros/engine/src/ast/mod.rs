@@ -6,6 +6,7 @@
 mod expression;
 mod item;
 mod print;
+mod without;
 
 use crate::diagnostics::Extent;
 use proc_macro2::{Ident, Span, TokenStream};

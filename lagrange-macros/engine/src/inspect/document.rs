@@ -279,7 +279,7 @@ fn mode_blocks(mode: &Mode, blocks: &mut Vec<Block>) {
     }
 }
 
-fn said(item: &Item) -> Vec<Piece> {
+pub(super) fn said(item: &Item) -> Vec<Piece> {
     let mut pieces = Vec::new();
     for (i, part) in item.parts.iter().enumerate() {
         let after_word = i > 0 && matches!(item.parts[i - 1], Part::Word(_));

@@ -23,17 +23,19 @@ impl Work<'_> {
     fn contact_guard(&mut self, contact: usize, closed: bool, known: &Known) -> Guard {
         let item = &self.program.equations.system.contacts[contact];
         let name = &item.name.text;
-        let (value, otherwise) = match closed {
+        let (meaning, value, otherwise) = match closed {
             true => {
                 let force = Formula::Letter(self.names.letter(item.force));
-                (force, format!("{name} lost"))
+                (format!("{name} presses"), force, format!("{name} lost"))
             }
             false => {
                 let gap = self.pool().substitute(item.gap, known);
-                (self.reader.formula(gap), format!("impact at {name}"))
+                let gap = self.reader.formula(gap);
+                (format!("{name} is open"), gap, format!("impact at {name}"))
             }
         };
         Guard {
+            meaning,
             statement: Statement::new(value, Relation::AtLeast, Formula::ZERO),
             otherwise,
         }
@@ -42,12 +44,13 @@ impl Work<'_> {
     fn friction_guard(&mut self, friction: usize, state: State, known: &Known) -> Option<Guard> {
         let item = &self.program.equations.system.frictions[friction];
         let name = &item.name.text;
-        let (statement, otherwise) = match state {
+        let (meaning, statement, otherwise) = match state {
             State::Inactive => return None,
             State::Sticks => {
                 let force = norm(&self.forces(friction));
                 let most = self.strength(friction, item.static_coefficient);
                 (
+                    format!("static friction of {name} suffices"),
                     Statement::new(force, Relation::AtMost, most),
                     format!("{name} slips"),
                 )
@@ -59,6 +62,7 @@ impl Work<'_> {
                 };
                 let slip = self.rate(self.slip_rows(friction).start, known);
                 (
+                    format!("{name} {}", state.verb()),
                     Statement::new(slip, relation, Formula::ZERO),
                     format!("{name} sticks, or slips the other way"),
                 )
@@ -66,12 +70,14 @@ impl Work<'_> {
             State::Slips => {
                 let speed = norm(&self.slip(friction, known));
                 (
+                    format!("{name} slips"),
                     Statement::new(speed, Relation::Above, Formula::ZERO),
                     format!("{name} sticks, or slips on"),
                 )
             }
         };
         Some(Guard {
+            meaning,
             statement,
             otherwise,
         })

@@ -171,6 +171,8 @@ pub struct Mode {
 /// What must hold in a mode.
 #[derive(Clone, Debug)]
 pub struct Guard {
+    /// What must hold, in words: `rim presses`.
+    pub meaning: String,
     /// What must hold.
     pub statement: Statement,
     /// What happens where it ceases to hold.

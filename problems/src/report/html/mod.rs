@@ -2,11 +2,16 @@
 //!
 //! Tables and equations are written here; what moves is drawn by the script from the numbers that the page carries.
 
+mod curves;
 mod data;
+mod difference;
+mod equations;
 mod tables;
 
 use crate::catalogue::Scene;
 use crate::film::Film;
+use crate::report::frames::Panel;
+use crate::report::picture::palette;
 use crate::request::Request;
 use data::data;
 use lagrange_core::prelude::*;
@@ -21,35 +26,49 @@ pub struct Shown {
     pub film: Film,
     /// What was derived for the scene.
     pub derivation: &'static Derivation,
-    /// Tolerance of the integration.
-    pub tolerance: f64,
-    /// Method of integration.
-    pub method: Method,
 }
 
 const PAGE: &str = include_str!("page.html");
 const STYLE: &str = include_str!("style.css");
-const SCRIPTS: [&str; 3] = [
+const SCRIPTS: [&str; 5] = [
+    include_str!("elements.js"),
     include_str!("picture.js"),
     include_str!("plots.js"),
+    include_str!("comparison.js"),
     include_str!("player.js"),
 ];
 
-/// At how many intervals a page shows a run: thirty a second, as far as its size allows.
-pub fn intervals(scene: &dyn Scene, request: &Request) -> usize {
+impl Shown {
+    /// What frames need of it.
+    pub fn panel(&self) -> Panel<'_> {
+        Panel {
+            title: &self.title,
+            film: &self.film,
+        }
+    }
+}
+
+/// At how many intervals a page with so many runs shows one of them: thirty a second, as far as its size allows.
+pub fn intervals(scene: &dyn Scene, request: &Request, runs: usize) -> usize {
     const PER_SECOND: f64 = 30.0;
-    /// Numbers that a page may carry for one run; each takes about nine bytes.
-    const NUMBERS: usize = 50_000;
+    /// Numbers that a page may carry; each takes about eight bytes.
+    const NUMBERS: usize = 70_000;
+    /// Numbers for one run, at most.
+    const MOST: usize = 50_000;
     let description = scene.description();
     let per_sample = 10 + 6 * description.coordinates.len() + 3 * description.rows.len();
-    let most = (NUMBERS / per_sample).clamp(100, 3000);
+    let most = NUMBERS / runs.max(1);
+    let most = (most.min(MOST) / per_sample).clamp(150, 3000);
     let until = request.until.unwrap_or(scene.until());
     ((PER_SECOND * until) as usize).clamp(most.min(900), most)
 }
 
-/// Writes the page.
-pub fn write(runs: &[Shown], mut out: impl Write) -> io::Result<()> {
-    let numbers = data(runs.iter().map(|run| (run.title.as_str(), &run.film)));
+/// Writes the page; it plays at this speed, or at one that suits.
+///
+/// # Errors
+/// Of `out`.
+pub fn write(runs: &[Shown], speed: Option<f64>, mut out: impl Write) -> io::Result<()> {
+    let numbers = data(runs, speed);
     // A script ends at the first `</`, whatever it is in.
     let numbers = serde_json::to_string(&numbers)
         .map_err(io::Error::from)?
@@ -57,9 +76,9 @@ pub fn write(runs: &[Shown], mut out: impl Write) -> io::Result<()> {
     let titles: Vec<&str> = runs.iter().map(|run| run.title.as_str()).collect();
     let sections: String = runs.iter().enumerate().map(section).collect();
     let parts = [
-        ("title", escaped(&titles.join(", "))),
+        ("title", escaped(&titles.join(" · "))),
         ("version", env!("CARGO_PKG_VERSION").to_owned()),
-        ("style", STYLE.to_owned()),
+        ("style", palette::for_pages() + STYLE),
         ("runs", sections),
         ("numbers", numbers),
         ("script", SCRIPTS.concat()),
@@ -88,13 +107,25 @@ fn section((index, run): (usize, &Shown)) -> String {
         ),
         None => String::new(),
     };
-    let equations = run.derivation.equations;
+    let equations = equations::equations(run);
     let tables = tables::tables(run);
     format!(
         "<section class=\"run\" aria-labelledby=\"{id}\">\n<h2 id=\"{id}\">{title}</h2>\n<p>{summary}</p>\n{failure}\
          <div class=\"stage\"></div>\n<p class=\"mode\"></p>\n<div class=\"timeline\"></div>\n<div class=\"plots\"></div>\n\
-         {tables}<h3>Equations of motion</h3>\n\
-         <div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"Equations of motion of {title}\">{equations}</div>\n\
-         </section>\n"
+         {tables}{equations}</section>\n"
     )
+}
+
+/// Six digits.
+fn short(x: f64) -> String {
+    let size = x.abs();
+    let text = match size {
+        0.0 => return "0".to_owned(),
+        s if !(1e-4..1e6).contains(&s) => return format!("{x:.3e}").replace('-', "−"),
+        s => {
+            let decimals = (5 - s.log10().floor() as i32).max(0) as usize;
+            format!("{x:.decimals$}")
+        }
+    };
+    text.replace('-', "−")
 }

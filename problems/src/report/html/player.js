@@ -1,7 +1,6 @@
-
 // One clock for all runs.
 (() => {
-  const { runs } = JSON.parse(document.getElementById("numbers").textContent);
+  const { runs, speeds, speed: usual } = JSON.parse(document.getElementById("numbers").textContent);
   const element = (id) => document.getElementById(id);
   const [play, scrub, now, speed, arrows] = ["play", "time", "now", "speed", "arrows"].map(element);
   const still = matchMedia("(prefers-reduced-motion: reduce)");
@@ -12,7 +11,18 @@
   const decimals = Math.max(0, 3 - Math.floor(Math.log10(duration)));
   let time = first, playing = false, since = 0;
 
-  const sections = document.querySelectorAll(".run");
+  // Runs of one scene have the same axes.
+  const alike = (run) => runs.filter((other) => other.scene === run.scene && other.time.length);
+  const modes = [...new Set(runs.flatMap((run) => run.phases.map((phase) => phase.mode)))];
+  const spanOf = (run, title, axis) => {
+    const same = alike(run).flatMap((other) => other.plots).filter((plot) => plot.title === title && plot.axis === axis);
+    const of = (limit) => same.flatMap((plot) => plot.curves.filter((curve) => !!curve.limit === limit).flatMap((curve) => curve.values));
+    const [low, high] = range(of(false)), [least, most] = range(of(true));
+    if (least === 0 && most === 1 && !of(true).some((value) => value !== null)) return [low, high];
+    // What can be held may be far above what is: it leaves the plot then.
+    return [Math.min(low, least), high > low ? Math.max(high, Math.min(most, low + 3 * (high - low))) : most];
+  };
+  const sections = document.querySelectorAll(".runs > .run");
   const views = runs.map((run, i) => {
     const part = (name) => sections[i].querySelector("." + name);
     const shows = [];
@@ -22,31 +32,47 @@
       shows.push((t) => show(place(run.time, t), arrows.checked));
     }
     shows.push(timeline(part("timeline"), part("mode"), run));
-    for (const spec of run.plots) shows.push(plot(part("plots"), spec, run.time, seek));
-    shows.push(portrait(part("plots"), run.phase, run.time, run.title));
+    for (const spec of run.plots) {
+      const span = spanOf(run, spec.title, spec.axis);
+      shows.push(plot(part("plots"), spec, run, { modes, span, clock: [first, end], seek }));
+    }
+    const portraits = (k) => ["q", "v"].map((name) => range(alike(run).flatMap((other) => other.phase[k][name])));
+    shows.push(portrait(part("plots"), run.phase, run, portraits));
     return shows;
   });
+  const scenes = new Set(runs.map((run) => run.scene));
+  for (const scene of scenes) {
+    const same = runs.filter((run) => run.scene === scene && run.time.length);
+    if (same.length > 1 && same[0].phase.length) views.push([comparison(element("together"), same, [first, end], seek)]);
+  }
 
   // A bar of modes, a colour for each, and the present one in words.
   function timeline(bar, words, run) {
-    const modes = [...new Set(run.phases.map((phase) => phase.mode))];
     bar.setAttribute("aria-hidden", "true");
-    for (const phase of run.phases) {
-      const colour = `var(--c${modes.indexOf(phase.mode) % 6})`;
-      html("span", { title: phase.mode, style: `flex: ${Math.max(phase.to - phase.from, 0)} 1 0; background: ${colour}` }, bar);
-    }
+    bar.hidden = words.hidden = run.one_mode;
+    const last = run.time[run.time.length - 1], begin = run.time[0], part = (t) => (t - first) / duration;
+    const blocks = run.phases.map(({ from, to, mode }) => {
+      const place = `left: ${100 * part(from)}%; width: ${100 * part(to) - 100 * part(from)}%`;
+      return html("span", { title: mode, style: `${place}; background: ${colour(modes.indexOf(mode))}` }, bar);
+    });
+    const own = [...new Set(run.phases.map((phase) => phase.mode))];
+    const legend = html("ul", { class: "legend" });
+    if (own.length > 1) bar.after(legend);
+    for (const mode of own.slice(0, 8)) entry(legend, mode, colour(modes.indexOf(mode)));
     const cursor = html("span", { class: "cursor" }, bar);
-    const last = run.time[run.time.length - 1], begin = run.time[0], long = last - begin || 1;
     bar.addEventListener("click", (event) => {
-      const box = bar.getBoundingClientRect();
-      seek(begin + ((event.clientX - box.left) / box.width) * long);
+      // A click on a block goes to where it was hit, on its left end to the switch itself.
+      const box = bar.getBoundingClientRect(), t = first + ((event.clientX - box.left) / box.width) * duration;
+      const near = run.phases.find((phase) => Math.abs(part(phase.from) - part(t)) * box.width < 6);
+      seek(near ? near.from : Math.min(Math.max(t, begin), last));
     });
     words.setAttribute("role", "status");
     return (t) => {
       const phase = run.phases.findLast((phase) => phase.from <= t) || run.phases[0];
       const text = phase ? `Mode: ${phase.mode || "one"}${t > last ? " (ended)" : ""}` : "";
       if (words.textContent !== text) words.textContent = text;
-      cursor.style.left = `${(Math.min(Math.max((t - begin) / long, 0), 1) * 100).toFixed(2)}%`;
+      blocks.forEach((block, i) => block.classList.toggle("present", run.phases[i] === phase));
+      cursor.style.left = `${(Math.min(Math.max(part(t), 0), 1) * 100).toFixed(2)}%`;
     };
   }
 
@@ -88,11 +114,9 @@
     seek(next ?? (forward ? end : first));
   }
 
-  const rates = [0.05, 0.1, 0.25, 0.5, 1, 2, 5, 10, 20];
-  const wanted = rates.findLast((rate) => rate <= Math.max(duration / 40, 1) && duration / rate >= 4) ?? 0.05;
-  for (const rate of rates) {
+  for (const rate of speeds) {
     const option = html("option", { value: rate }, speed, `${rate} ×`);
-    option.selected = rate === wanted;
+    option.selected = rate === usual;
   }
   [scrub.min, scrub.max] = [first, end];
   play.addEventListener("click", () => run(!playing));

@@ -1,6 +1,6 @@
 //! What a page says in tables: events, parameters, energy and accuracy.
 
-use super::Shown;
+use super::{Shown, short};
 use crate::outcome::{Force, forces};
 use crate::report::{is_angle, symbol};
 use lagrange_core::prelude::*;
@@ -10,7 +10,8 @@ use lagrange_engine::inspect::print::mathml::escaped;
 const EVENTS: usize = 200;
 
 pub(super) fn tables(run: &Shown) -> String {
-    [events(run), parameters(run), energy(run), accuracy(run)].concat()
+    let small = [parameters(run), energy(run), accuracy(run)].concat();
+    format!("{}<div class=\"tables\">\n{small}</div>\n", events(run))
 }
 
 /// A table that scrolls by itself on narrow screens.
@@ -62,7 +63,7 @@ fn events(run: &Shown) -> String {
     );
     let row = |event: &Event<f64>| {
         let mut row = vec![
-            number(event.time),
+            short(event.time),
             escaped(&format!(
                 "{} {}",
                 event.subject.name(description),
@@ -71,14 +72,14 @@ fn events(run: &Shown) -> String {
             escaped(&event.after.display(description).to_string()),
         ];
         row.extend(coordinates.iter().zip(&event.state.q).map(|(c, q)| {
-            number(match is_angle(c) {
+            short(match is_angle(c) {
                 true => q.to_degrees(),
                 false => *q,
             })
         }));
         let acts = |force: &Force| force.acts(description, &event.before);
         row.extend(all.iter().map(|force| match acts(force) {
-            true => number(event.forces[force.row]),
+            true => short(event.forces[force.row]),
             false => "–".to_owned(),
         }));
         row
@@ -123,7 +124,7 @@ fn energy(run: &Shown) -> String {
         "" => String::new(),
         unit => format!(" [{}]", escaped(unit)),
     };
-    let line = |name: &str, value: f64| vec![escaped(name), number(value)];
+    let line = |name: &str, value: f64| vec![escaped(name), short(value)];
     let mut rows = vec![
         line("kinetic, at the start", ledger.start.kinetic),
         line("potential, at the start", ledger.start.potential),
@@ -153,12 +154,21 @@ fn accuracy(run: &Shown) -> String {
     let mut rows = vec![
         line("scene", escaped(outcome.scene)),
         line("program", format!("lagrange {}", env!("CARGO_PKG_VERSION"))),
-        line("method", escaped(&run.method.to_string())),
+        line("method", escaped(&outcome.method.to_string())),
         line(
             "tolerance, relative and absolute",
-            format!("{:e}", run.tolerance),
+            format!("{:e}", outcome.tolerance),
         ),
     ];
+    if let Some(drift) = run.film.drift {
+        rows.push(line(
+            "what must hold is off by at most",
+            match drift {
+                0.0 => "0".to_owned(),
+                drift => format!("{drift:.1e} of its scale"),
+            },
+        ));
+    }
     if let Some(ledger) = &outcome.ledger {
         let relative = ledger.closure.abs() / ledger.scale.max(f64::MIN_POSITIVE);
         rows.push(line(
@@ -175,6 +185,10 @@ fn accuracy(run: &Shown) -> String {
         line("Taylor series", work.series.to_string()),
         line("factorizations", work.factorizations.to_string()),
     ]);
+    rows.push(line(
+        "projections onto constraints",
+        work.projections.to_string(),
+    ));
     let left_out = outcome.left_out();
     if !left_out.is_empty() {
         rows.push(line("left out", escaped(&left_out.join(", "))));
@@ -192,18 +206,4 @@ fn accuracy(run: &Shown) -> String {
         &["what".to_owned(), "value".to_owned()],
         &rows,
     )
-}
-
-/// Six digits.
-fn number(x: f64) -> String {
-    let size = x.abs();
-    let text = match size {
-        0.0 => return "0".to_owned(),
-        s if !(1e-4..1e6).contains(&s) => return format!("{x:.3e}").replace('-', "−"),
-        s => {
-            let decimals = (5 - s.log10().floor() as i32).max(0) as usize;
-            format!("{x:.decimals$}")
-        }
-    };
-    text.replace('-', "−")
 }

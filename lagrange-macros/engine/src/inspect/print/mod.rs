@@ -14,6 +14,6 @@ pub mod text;
 pub use diagram::{dot, mermaid};
 pub use json::json;
 pub use markdown::markdown;
-pub use page::{equations, page};
+pub use page::{equations, page, said, titled};
 pub use paper::paper;
 pub use plain::{brief, plain};

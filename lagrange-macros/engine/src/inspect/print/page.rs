@@ -1,9 +1,9 @@
 //! A derivation as HTML with MathML: a `<section>` to be put into a page, and the equations for a doc comment.
 
 use super::{mathml, text};
-use crate::inspect::document::{Block, Piece};
+use crate::inspect::document::{self, Block, Piece};
 use crate::inspect::formula::Statement;
-use crate::inspect::{Derivation, Equation};
+use crate::inspect::{Derivation, Equation, Item};
 
 /// A doc comment with more than this is not continued.
 const MOST_BYTES: usize = 12_000;
@@ -49,8 +49,13 @@ pub fn equations(derivation: &Derivation) -> String {
     out + "</div>"
 }
 
+/// What an item of the declaration says, in a line.
+pub fn said(item: &Item) -> String {
+    line(&document::said(item))
+}
+
 /// A statement with its plain text as title.
-fn titled(statement: &Statement) -> String {
+pub fn titled(statement: &Statement) -> String {
     let plain = mathml::escaped(&text::statement(statement));
     format!(
         "<div style=\"margin:0.5em 0\" title=\"{plain}\">{}</div>",

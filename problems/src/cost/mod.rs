@@ -6,16 +6,15 @@
 //! of the rounds counts.
 
 use crate::progress::Progress;
+mod right_side;
+
 use core::hint::black_box;
-use lagrange_core::dynamics::Dynamics;
-use lagrange_core::integrate::Acceleration;
 use lagrange_core::prelude::*;
+pub use right_side::{MOVE, Place, RightSide, places};
 use std::time::Instant;
 
-/// Part of an acceleration that a call moves the state by: less than rounding, so that calls form a chain.
-const MOVE: f64 = 1e-13;
 /// Calls of a right-hand side in a round.
-const CALLS: usize = 500;
+const CALLS: u64 = 500;
 /// Most events of a run: what has more without an effect goes in circles.
 const MOST_EVENTS: usize = 10_000;
 /// Rounds.
@@ -65,13 +64,6 @@ pub struct Costs {
     pub run: f64,
 }
 
-/// A mode met at a state.
-struct Place {
-    mode: Mode,
-    time: f64,
-    state: State<f64>,
-}
-
 /// Measures a run of `simulation`, with the effects given, from `start` until a time.
 ///
 /// # Errors
@@ -97,12 +89,18 @@ pub(crate) fn measure<S: System<Scalar = f64>>(
         .collect();
     let without = items.iter().map(|item| effects.clone().without(*item));
     let choices: Vec<Effects> = core::iter::once(effects.clone()).chain(without).collect();
-    let mut sides: Vec<Vec<Option<RightSide>>> = choices
+    let mut sides: Vec<Vec<Option<(RightSide, Cost)>>> = choices
         .iter()
         .map(|chosen| {
-            let sides = places
-                .iter()
-                .map(|place| RightSide::new(Dynamics::new(system, chosen), place));
+            let sides = places.iter();
+            let sides = sides.map(|place| {
+                let side = RightSide::new(system, chosen, place)?;
+                let cost = Cost {
+                    operations: side.operations(),
+                    nanoseconds: f64::INFINITY,
+                };
+                Some((side, cost))
+            });
             sides.collect()
         })
         .collect();
@@ -112,14 +110,16 @@ pub(crate) fn measure<S: System<Scalar = f64>>(
         .collect();
     progress.expect(ROUNDS);
     for _ in 0..ROUNDS {
-        let sides = sides.iter_mut().flatten().flatten();
-        sides.for_each(RightSide::time);
+        for (side, cost) in sides.iter_mut().flatten().flatten() {
+            let each = side.chain(CALLS).as_secs_f64() * 1e9 / CALLS as f64;
+            cost.nanoseconds = cost.nanoseconds.min(each);
+        }
         let runs = runs.iter_mut().flatten();
         runs.for_each(WholeRun::time);
         progress.advance(1);
     }
     let mut costs = sides.into_iter().map(|sides| -> Vec<Option<Cost>> {
-        let cost = |side: Option<RightSide>| side.map(|side| side.cost);
+        let cost = |side: Option<(RightSide, Cost)>| side.map(|(_, cost)| cost);
         sides.into_iter().map(cost).collect()
     });
     let mut runs = runs.into_iter().map(|run| run.map(|run| run.best));
@@ -141,95 +141,6 @@ pub(crate) fn measure<S: System<Scalar = f64>>(
         effects: items.into_iter().zip(costs.zip(runs)).map(effect).collect(),
         run,
     })
-}
-
-/// The middle of the first phase in each mode.
-fn places(trajectory: &Record<f64>) -> Vec<Place> {
-    let mut sampler = trajectory.sampler();
-    let mut places: Vec<Place> = Vec::new();
-    for phase in trajectory.phases() {
-        let time = 0.5 * (phase.from + phase.to);
-        if places.iter().any(|place| place.mode == phase.mode) {
-            continue;
-        }
-        let Ok(instant) = sampler.at(time) else {
-            continue;
-        };
-        let state = State {
-            q: instant.q.clone(),
-            v: instant.v.clone(),
-        };
-        places.push(Place {
-            mode: phase.mode,
-            time,
-            state,
-        });
-    }
-    places
-}
-
-/// The equations in one mode, again and again.
-struct RightSide {
-    dynamics: Dynamics<f64>,
-    time: f64,
-    start: State<f64>,
-    rates: Vec<f64>,
-    cost: Cost,
-}
-
-impl RightSide {
-    /// The mode of a place, as far as these effects have it; `None` if it has no accelerations there.
-    fn new(mut dynamics: Dynamics<f64>, place: &Place) -> Option<Self> {
-        let effects = dynamics.effects().clone();
-        dynamics.set_mode(&remaining(dynamics.description(), &effects, &place.mode));
-        let State { q, v } = &place.state;
-        dynamics.value(place.time, q, v).ok()?;
-        let cost = Cost {
-            operations: dynamics.operations().accelerations,
-            nanoseconds: f64::INFINITY,
-        };
-        Some(Self {
-            dynamics,
-            time: place.time,
-            start: place.state.clone(),
-            rates: vec![0.0; v.len()],
-            cost,
-        })
-    }
-
-    fn time(&mut self) {
-        let State { mut q, mut v } = black_box(self.start.clone());
-        let begin = Instant::now();
-        for _ in 0..CALLS {
-            let rates = &mut self.rates;
-            // An error would leave the last accelerations; none occurred at the start.
-            let done = Acceleration::acceleration(&mut self.dynamics, self.time, &q, &v, rates);
-            let _ = black_box(done.is_ok());
-            for (q, v) in q.iter_mut().zip(&v) {
-                *q += MOVE * v;
-            }
-            for (v, a) in v.iter_mut().zip(&self.rates) {
-                *v += MOVE * a;
-            }
-        }
-        black_box((&q, &v));
-        let each = begin.elapsed().as_secs_f64() * 1e9 / CALLS as f64;
-        self.cost.nanoseconds = self.cost.nanoseconds.min(each);
-    }
-}
-
-/// The mode without the contacts and frictions that are left out.
-fn remaining(description: &Description, effects: &Effects, mode: &Mode) -> Mode {
-    let mut mode = mode.clone();
-    for (i, contact) in mode.contacts.iter_mut().enumerate() {
-        *contact &= effects.includes(description, Item::Contact(i));
-    }
-    for (i, friction) in mode.frictions.iter_mut().enumerate() {
-        if !effects.includes(description, Item::Friction(i)) {
-            *friction = FrictionMode::Inactive;
-        }
-    }
-    mode
 }
 
 /// A run from start to end, again and again, without recording.

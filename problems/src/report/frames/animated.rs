@@ -1,0 +1,246 @@
+//! One file that moves by itself, over and over (SMIL, which browsers play in pages and slides, from `<img>` too).
+//!
+//! Who prefers reduced motion is shown some instants upon each other instead; so is who prints.
+
+use super::element::{self, Element};
+use super::layout::{CURSOR, LETTER, Layout, Place};
+use super::still::{arrows, decimals, marks};
+use super::{Clock, Panel};
+use crate::report::picture::{self, Form, Mark, WIDTH, nice};
+use lagrange_engine::inspect::print::mathml::escaped;
+use std::fmt::Write;
+
+/// Seconds that the last instant stays.
+const PAUSE: f64 = 1.0;
+/// Instants that a picture without motion has.
+const GHOSTS: usize = 6;
+/// Readings of the clock, at most.
+const READINGS: f64 = 80.0;
+
+const STYLE: &str = ".still { display: none; } .ghost { opacity: .25; }
+@media (prefers-reduced-motion: reduce) { .moving { display: none; } .still { display: inline; } }
+@media print { .moving { display: none; } .still { display: inline; } }
+";
+
+/// The pictures of a clock's instants as one SVG file.
+pub fn animated(panels: &[Panel], clock: &Clock) -> String {
+    let layout = Layout::new(panels);
+    let reel = Reel::new(clock);
+    let mut out = layout.open(STYLE);
+    for (i, panel) in layout.panels.iter().enumerate() {
+        panel.open(&mut out, layout.panels.len() > 1);
+        let _ = writeln!(out, "<g clip-path=\"url(#clip{i})\">\n<g class=\"moving\">");
+        reel.scene(panel, &mut out);
+        out.push_str("</g>\n<g class=\"still\">\n");
+        ghosts(panel, &layout, &mut out);
+        out.push_str("</g>\n");
+        panel.rulers(&mut out);
+        out.push_str("</g>\n");
+        panel.bar(&layout, &mut out);
+        out.push_str("<g class=\"moving\">\n");
+        reel.below(panel, &layout, &mut out);
+        out.push_str("</g>\n</g>\n");
+    }
+    out + "</svg>\n"
+}
+
+/// Some instants upon each other, the last one in full.
+fn ghosts(panel: &Place, layout: &Layout, out: &mut String) {
+    out.push_str("<g class=\"ghost\">\n");
+    for k in 0..GHOSTS - 1 {
+        let part = k as f64 / (GHOSTS - 1) as f64;
+        marks(
+            panel,
+            layout.first + part * (layout.last - layout.first),
+            out,
+        );
+    }
+    out.push_str("</g>\n");
+    marks(panel, layout.last, out);
+    arrows(panel, layout.last, out);
+}
+
+/// The instants that are shown, equally long each.
+struct Reel {
+    instants: Vec<f64>,
+    /// Of all, s.
+    seconds: f64,
+}
+
+impl Reel {
+    fn new(clock: &Clock) -> Self {
+        let last = clock.instants.last().copied().unwrap_or(0.0);
+        let hold = (PAUSE * clock.rate).ceil() as usize;
+        let instants: Vec<f64> = clock
+            .instants
+            .iter()
+            .copied()
+            .chain(vec![last; hold])
+            .collect();
+        Self {
+            seconds: (instants.len() - 1) as f64 / clock.rate,
+            instants,
+        }
+    }
+
+    fn scene(&self, panel: &Place, out: &mut String) {
+        let Some(picture) = &panel.picture else {
+            return;
+        };
+        let places = self.instants.iter();
+        let places: Vec<picture::Place> = places
+            .map(|t| picture::Place::of(*t, &panel.times))
+            .collect();
+        for mark in &picture.marks {
+            if mark.form == Form::Trace {
+                self.trace(mark, &places, out);
+                continue;
+            }
+            let elements = places.iter();
+            let elements = elements.filter_map(|place| element::mark(mark, *place, picture.height));
+            self.moving(&elements.collect::<Vec<_>>(), "", out);
+        }
+        for (i, arrow) in picture.arrows.iter().enumerate() {
+            let all = places
+                .iter()
+                .map(|place| element::arrow(i, arrow, *place, picture.height));
+            let (arrows, names): (Vec<Element>, Vec<Option<Element>>) = all.unzip();
+            self.moving(&arrows, "", out);
+            let seen = self.seen(&names.iter().map(Option::is_some).collect::<Vec<_>>());
+            // Where there is no name it waits at the next place that it has, or the last.
+            let mut next = names.iter().flatten().next_back().cloned();
+            let mut placed: Vec<Element> = Vec::new();
+            for name in names.iter().rev() {
+                next = name.clone().or(next);
+                placed.extend(next.clone());
+            }
+            placed.reverse();
+            self.moving(&placed, &seen, out);
+        }
+    }
+
+    /// An element with all that it does.
+    fn moving(&self, elements: &[Element], inside: &str, out: &mut String) {
+        let Some(first) = elements.first() else {
+            return;
+        };
+        let mut inside = inside.to_owned();
+        for (k, (name, value)) in first.moving.iter().enumerate() {
+            let values: Vec<&str> = elements.iter().map(|e| e.moving[k].1.as_str()).collect();
+            if values.iter().any(|other| other != value) {
+                inside.push_str(&self.animate(name, &values));
+            }
+        }
+        first.write(&inside, out);
+    }
+
+    /// A path that grows.
+    fn trace(&self, mark: &Mark, places: &[picture::Place], out: &mut String) {
+        let points = places
+            .iter()
+            .map(|place| [0, 1].map(|k| mark.numbers[k].at(*place)));
+        let points: Vec<[f64; 2]> = points.collect();
+        let mut lengths = vec![0.0];
+        for pair in points.windows(2) {
+            let step = (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1]);
+            lengths.push(lengths[lengths.len() - 1] + step);
+        }
+        let whole = lengths[lengths.len() - 1];
+        if whole > 0.0 {
+            let left = lengths
+                .iter()
+                .map(|length| format!("{:.4}", 1.0 - length / whole));
+            let left: Vec<String> = left.collect();
+            let left: Vec<&str> = left.iter().map(String::as_str).collect();
+            let _ = writeln!(
+                out,
+                "<polyline class=\"trace\" pathLength=\"1\" stroke-dasharray=\"1 2\" points=\"{}\">{}</polyline>",
+                element::pairs(&points.concat()),
+                self.animate("stroke-dashoffset", &left)
+            );
+        }
+    }
+
+    /// The mark of the present instant, the time, and the mode in words.
+    fn below(&self, panel: &Place, layout: &Layout, out: &mut String) {
+        let (top, y) = (panel.bar_top() - 4.0, panel.words_at());
+        let places = self.instants.iter();
+        let places: Vec<String> = places
+            .map(|t| format!("{:.1} 0", WIDTH * layout.part(*t)))
+            .collect();
+        let _ = writeln!(
+            out,
+            "<path class=\"cursor\" d=\"M0 {top:.1}v{CURSOR}\"><animateTransform attributeName=\"transform\" type=\"translate\" \
+             {} values=\"{}\"/></path>",
+            self.timing(),
+            places.join(";")
+        );
+        let step = nice(2.5 * (layout.last - layout.first) / READINGS);
+        let decimals = decimals(step).saturating_sub(3);
+        let readings = self
+            .instants
+            .iter()
+            .map(|t| format!("t = {:.decimals$} s", (t / step).floor() * step));
+        self.words(&readings.collect::<Vec<_>>(), 0.0, y, out);
+        let modes = self.instants.iter().map(|t| layout.mode(panel, *t));
+        self.words(&modes.collect::<Vec<_>>(), 9.0 * LETTER, y, out);
+    }
+
+    /// Words that change.
+    fn words(&self, said: &[String], x: f64, y: f64, out: &mut String) {
+        let mut different: Vec<&String> = Vec::new();
+        for words in said {
+            if !different.contains(&words) {
+                different.push(words);
+            }
+        }
+        for words in different {
+            let seen: Vec<bool> = said.iter().map(|other| other == words).collect();
+            let _ = writeln!(
+                out,
+                "<text class=\"words\" x=\"{x:.1}\" y=\"{y:.1}\"{}>{}{}</text>",
+                if seen[0] {
+                    ""
+                } else {
+                    " visibility=\"hidden\""
+                },
+                escaped(words),
+                self.seen(&seen)
+            );
+        }
+    }
+
+    /// When something is seen.
+    fn seen(&self, seen: &[bool]) -> String {
+        let mut times = vec!["0".to_owned()];
+        let word = |seen: bool| if seen { "visible" } else { "hidden" };
+        let mut values = vec![word(seen.first() == Some(&true))];
+        for (k, pair) in seen.windows(2).enumerate() {
+            if pair[0] != pair[1] {
+                times.push(format!("{:.5}", (k + 1) as f64 / (seen.len() - 1) as f64));
+                values.push(word(pair[1]));
+            }
+        }
+        if values == ["visible"] {
+            return String::new();
+        }
+        format!(
+            "<animate attributeName=\"visibility\" calcMode=\"discrete\" {} keyTimes=\"{}\" values=\"{}\"/>",
+            self.timing(),
+            times.join(";"),
+            values.join(";")
+        )
+    }
+
+    fn animate(&self, attribute: &str, values: &[&str]) -> String {
+        let values = values.join(";");
+        format!(
+            "<animate attributeName=\"{attribute}\" {} values=\"{values}\"/>",
+            self.timing()
+        )
+    }
+
+    fn timing(&self) -> String {
+        format!("dur=\"{:.3}s\" repeatCount=\"indefinite\"", self.seconds)
+    }
+}

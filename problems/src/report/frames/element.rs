@@ -1,0 +1,124 @@
+//! Marks and arrows at an instant → elements of an SVG file: what in them moves, and what does not.
+
+use super::layout::LETTER;
+use crate::report::picture::palette::colour;
+use crate::report::picture::{Arrow, Form, Mark, Place, WIDTH, label, outline};
+use lagrange_engine::inspect::print::mathml::escaped;
+use std::fmt::Write;
+
+/// An element at an instant.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Element {
+    tag: &'static str,
+    /// Attributes that never change, each with a space before it.
+    fixed: String,
+    /// Name and value of the others.
+    pub moving: Vec<(&'static str, String)>,
+    /// What stands in it.
+    text: String,
+}
+
+impl Element {
+    fn new(tag: &'static str, fixed: String, moving: Vec<(&'static str, String)>) -> Self {
+        Self {
+            tag,
+            fixed,
+            moving,
+            text: String::new(),
+        }
+    }
+
+    /// As text, with more inside.
+    pub fn write(&self, inside: &str, out: &mut String) {
+        let Self {
+            tag, fixed, text, ..
+        } = self;
+        let _ = write!(out, "<{tag}{fixed}");
+        for (name, value) in &self.moving {
+            let _ = write!(out, " {name}=\"{value}\"");
+        }
+        let _ = match (inside, text.as_str()) {
+            ("", "") => writeln!(out, "/>"),
+            _ => writeln!(out, ">{text}{inside}</{tag}>"),
+        };
+    }
+}
+
+/// A mark at a place among the samples.
+pub(super) fn mark(mark: &Mark, place: Place, height: f64) -> Option<Element> {
+    let n: Vec<f64> = mark.numbers.iter().map(|column| column.at(place)).collect();
+    let class = format!(" class=\"{}\"", mark.class);
+    Some(match (&mark.form, n.as_slice()) {
+        (Form::Circle, [x, y, r]) => {
+            let moving = vec![("cx", short(*x)), ("cy", short(*y)), ("r", short(*r))];
+            Element::new("circle", class, moving)
+        }
+        (Form::Polygon, points) => Element::new("polygon", class, vec![("points", pairs(points))]),
+        (Form::Polyline, points) => {
+            Element::new("polyline", class, vec![("points", pairs(points))])
+        }
+        (Form::Ground, [y]) => {
+            let (width, height) = (WIDTH + 18.0, short(height + 9.0));
+            let fixed = format!("{class} x=\"-9\" width=\"{width}\" height=\"{height}\"");
+            Element::new("rect", fixed, vec![("y", short(*y))])
+        }
+        (Form::Trace, [x, y]) => {
+            let so_far = mark.path(place.sample).chain([[*x, *y]]);
+            let so_far: Vec<f64> = so_far.flatten().collect();
+            Element::new("polyline", class, vec![("points", pairs(&so_far))])
+        }
+        (Form::Placed { line }, [x, y, angle, stretch]) => {
+            let (sin, cos) = angle.to_radians().sin_cos();
+            let joint = |[along, across]: &[f64; 2]| {
+                let along = along * stretch;
+                [
+                    x + along * cos - across * sin,
+                    y + along * sin + across * cos,
+                ]
+            };
+            let joints: Vec<f64> = line.iter().flat_map(joint).collect();
+            Element::new("polyline", class, vec![("points", pairs(&joints))])
+        }
+        _ => return None,
+    })
+}
+
+/// The arrow number `index`: its outline, and its name if it is long enough for one.
+pub(super) fn arrow(
+    index: usize,
+    arrow: &Arrow,
+    place: Place,
+    height: f64,
+) -> (Element, Option<Element>) {
+    let ends = arrow.numbers.each_ref().map(|column| column.at(place));
+    let fill = format!(" fill=\"{}\"", colour(index));
+    let corners = outline(ends).unwrap_or([[ends[0], ends[1]]; 7]);
+    let points = vec![("points", pairs(&corners.concat()))];
+    let name = label(ends, arrow.name.chars().count(), LETTER, height);
+    let name = name.map(|[x, y]| Element {
+        text: escaped(&arrow.name),
+        ..Element::new(
+            "text",
+            format!(" class=\"name\"{fill}"),
+            vec![("x", short(x)), ("y", short(y))],
+        )
+    });
+    (Element::new("polygon", fill, points), name)
+}
+
+/// `x,y x,y …`
+pub(super) fn pairs(numbers: &[f64]) -> String {
+    let mut text = String::new();
+    for pair in numbers.chunks_exact(2) {
+        let space = if text.is_empty() { "" } else { " " };
+        let _ = write!(text, "{space}{},{}", short(pair[0]), short(pair[1]));
+    }
+    text
+}
+
+/// To a tenth of a unit.
+fn short(x: f64) -> String {
+    let tenths = (x * 10.0).round() / 10.0;
+    // Not `-0`.
+    (tenths + 0.0).to_string()
+}

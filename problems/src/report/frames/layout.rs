@@ -1,0 +1,212 @@
+//! Where the panels stand, and what in them does not move.
+
+use super::{Panel, span};
+use crate::film::Film;
+use crate::report::one_mode;
+use crate::report::picture::palette::{self, colour};
+use crate::report::picture::{Picture, WIDTH, pictures};
+use lagrange_engine::inspect::print::mathml::escaped;
+use std::fmt::Write;
+
+/// Between panels, and around them.
+const GAP: f64 = 24.0;
+/// Size of letters.
+pub(super) const LETTER: f64 = 24.0;
+/// Height of the bar of modes.
+const BAR: f64 = 16.0;
+
+/// Everything that does not depend on the instant.
+pub(super) struct Layout<'a> {
+    pub panels: Vec<Place<'a>>,
+    width: f64,
+    height: f64,
+    pub first: f64,
+    pub last: f64,
+}
+
+/// A panel and where it stands.
+pub(super) struct Place<'a> {
+    title: &'a str,
+    pub film: &'a Film,
+    pub picture: Option<Picture>,
+    pub x: f64,
+    pub y: f64,
+    /// Of its picture.
+    pub height: f64,
+    /// Times of the samples, s.
+    pub times: Vec<f64>,
+}
+
+impl<'a> Layout<'a> {
+    pub fn new(panels: &[Panel<'a>]) -> Self {
+        let films: Vec<&Film> = panels.iter().map(|panel| panel.film).collect();
+        let pictures = pictures(&films);
+        let heights = pictures.iter().flatten().map(|picture| picture.height);
+        let height = heights.fold(0.0, f64::max);
+        let top = if panels.len() > 1 {
+            GAP + 1.5 * LETTER
+        } else {
+            GAP
+        };
+        let (first, last) = span(films.iter().copied());
+        let place = |(i, (panel, picture)): (usize, (&Panel<'a>, Option<Picture>))| Place {
+            title: panel.title,
+            film: panel.film,
+            picture,
+            x: GAP + i as f64 * (WIDTH + GAP),
+            y: top,
+            height,
+            times: panel.film.outcome.samples.iter().map(|s| s.time).collect(),
+        };
+        Self {
+            panels: panels.iter().zip(pictures).enumerate().map(place).collect(),
+            width: GAP + panels.len() as f64 * (WIDTH + GAP),
+            height: top + height + GAP + BAR + 2.0 * LETTER,
+            first,
+            last,
+        }
+    }
+
+    /// The file up to what moves; `style` is added to the look of pictures.
+    pub fn open(&self, style: &str) -> String {
+        let titles: Vec<&str> = self.panels.iter().map(|panel| panel.title).collect();
+        let (width, height, title) = (self.width, self.height, escaped(&titles.join(", ")));
+        let look = palette::for_pictures();
+        let mut out = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\" \
+             font-size=\"{LETTER}\" role=\"img\" aria-label=\"{title}\">\n<title>{title}</title>\n<style>\n\
+             svg:root {{ max-width: 100%; max-height: 100%; }}\n{look}{style}</style>\n\
+             <rect class=\"paper\" width=\"{width}\" height=\"{height}\"/>\n"
+        );
+        for (i, panel) in self.panels.iter().enumerate() {
+            let _ = writeln!(
+                out,
+                "<clipPath id=\"clip{i}\"><rect width=\"{WIDTH}\" height=\"{}\"/></clipPath>",
+                panel.height
+            );
+        }
+        out
+    }
+
+    /// Part of the bar up to a time, from 0 to 1.
+    pub fn part(&self, time: f64) -> f64 {
+        let long = self.last - self.first;
+        match long > 0.0 {
+            true => ((time - self.first) / long).clamp(0.0, 1.0),
+            false => 0.0,
+        }
+    }
+
+    /// The mode of a panel at a time, in words.
+    pub fn mode(&self, panel: &Place, time: f64) -> String {
+        let outcome = &panel.film.outcome;
+        let mut latest_first = outcome.phases.iter().rev();
+        let phase = latest_first.find(|phase| phase.from <= time);
+        let phase = phase.or(outcome.phases.first());
+        let over = outcome.last().is_some_and(|end| time > end.time);
+        let one = one_mode(outcome.description);
+        match phase {
+            Some(_) if one => String::new(),
+            Some(phase) if over => format!("{} (ended)", phase.mode.display(outcome.description)),
+            Some(phase) => phase.mode.display(outcome.description).to_string(),
+            None => String::new(),
+        }
+    }
+
+    /// Number of a mode among those of all panels.
+    fn number(&self, words: &str) -> usize {
+        let mut seen: Vec<String> = Vec::new();
+        for panel in &self.panels {
+            for phase in &panel.film.outcome.phases {
+                let other = phase
+                    .mode
+                    .display(panel.film.outcome.description)
+                    .to_string();
+                if other == words {
+                    return seen.iter().position(|s| *s == other).unwrap_or(seen.len());
+                }
+                if !seen.contains(&other) {
+                    seen.push(other);
+                }
+            }
+        }
+        seen.len()
+    }
+}
+
+impl Place<'_> {
+    /// Opens the group of the panel, with its title.
+    pub fn open(&self, out: &mut String, titled: bool) {
+        let _ = writeln!(out, "<g transform=\"translate({} {})\">", self.x, self.y);
+        if titled {
+            let title = escaped(self.title);
+            let _ = writeln!(
+                out,
+                "<text class=\"words\" y=\"{}\">{title}</text>",
+                -0.5 * LETTER
+            );
+        }
+        if self.picture.is_none() {
+            let y = 0.5 * self.height;
+            let _ = writeln!(
+                out,
+                "<text class=\"words\" x=\"500\" y=\"{y}\" text-anchor=\"middle\">no picture</text>"
+            );
+        }
+    }
+
+    /// What lengths of the picture mean.
+    pub fn rulers(&self, out: &mut String) {
+        let Some(picture) = &self.picture else { return };
+        let y = picture.height - 16.0;
+        let mut x = 16.0;
+        for (i, ruler) in picture.rulers.iter().enumerate() {
+            let end = x + ruler.length;
+            let path = match i {
+                0 => format!(
+                    "M{x:.1} {:.1}v12M{x:.1} {y:.1}H{end:.1}M{end:.1} {:.1}v12",
+                    y - 6.0,
+                    y - 6.0
+                ),
+                _ => format!("M{x:.1} {y:.1}H{end:.1}m-14 -7l14 7l-14 7"),
+            };
+            let _ = writeln!(
+                out,
+                "<path class=\"ruler\" d=\"{path}\"/><text class=\"words\" x=\"{x:.1}\" y=\"{:.1}\">{}</text>",
+                y - 14.0,
+                ruler.text
+            );
+            x = end.max(x + 0.6 * LETTER * ruler.text.len() as f64) + 2.0 * LETTER;
+        }
+    }
+
+    /// The bar of modes.
+    pub fn bar(&self, layout: &Layout, out: &mut String) {
+        let outcome = &self.film.outcome;
+        for phase in &outcome.phases {
+            let words = phase.mode.display(outcome.description).to_string();
+            let [from, to] = [phase.from, phase.to].map(|t| WIDTH * layout.part(t));
+            let _ = writeln!(
+                out,
+                "<rect x=\"{from:.1}\" y=\"{:.1}\" width=\"{:.1}\" height=\"{BAR}\" fill=\"{}\"><title>{}</title></rect>",
+                self.bar_top(),
+                (to - from).max(0.5),
+                colour(layout.number(&words)),
+                escaped(&words)
+            );
+        }
+    }
+
+    /// Top of the bar.
+    pub fn bar_top(&self) -> f64 {
+        self.height + 0.5 * GAP
+    }
+
+    /// Below the bar: y of what is said there.
+    pub fn words_at(&self) -> f64 {
+        self.bar_top() + BAR + 1.2 * LETTER
+    }
+}
+
+/// Height of the mark of the present instant.
+pub(super) const CURSOR: f64 = BAR + 8.0;

@@ -1,0 +1,72 @@
+//! One instant.
+
+use super::element;
+use super::layout::{CURSOR, LETTER, Layout, Place};
+use super::{Clock, Panel};
+use crate::report::picture::{self, WIDTH};
+use lagrange_engine::inspect::print::mathml::escaped;
+use std::fmt::Write;
+
+/// The pictures of a clock's instants, each as the text of an SVG file.
+pub fn stills<'a>(panels: &'a [Panel], clock: &'a Clock) -> impl Iterator<Item = String> + 'a {
+    let layout = Layout::new(panels);
+    let decimals = decimals(layout.last - layout.first);
+    clock.instants.iter().map(move |&time| {
+        let mut out = layout.open("");
+        for (i, panel) in layout.panels.iter().enumerate() {
+            panel.open(&mut out, layout.panels.len() > 1);
+            let _ = writeln!(out, "<g clip-path=\"url(#clip{i})\">");
+            marks(panel, time, &mut out);
+            arrows(panel, time, &mut out);
+            panel.rulers(&mut out);
+            out.push_str("</g>\n");
+            panel.bar(&layout, &mut out);
+            let x = WIDTH * layout.part(time);
+            let (top, y) = (panel.bar_top() - 4.0, panel.words_at());
+            let mode = layout.mode(panel, time);
+            let _ = writeln!(
+                out,
+                "<path class=\"cursor\" d=\"M{x:.1} {top:.1}v{CURSOR}\"/><text class=\"words\" y=\"{y:.1}\">\
+                 t = {time:.decimals$} s</text><text class=\"words\" x=\"{:.1}\" y=\"{y:.1}\">{}</text>\n</g>",
+                9.0 * LETTER,
+                escaped(&mode)
+            );
+        }
+        out + "</svg>\n"
+    })
+}
+
+/// Digits after the point with which times of a film are told.
+pub(super) fn decimals(duration: f64) -> usize {
+    match duration > 0.0 {
+        true => (3 - duration.log10().floor() as i32).clamp(0, 9) as usize,
+        false => 0,
+    }
+}
+
+/// The scene at an instant, without forces.
+pub(super) fn marks(panel: &Place, time: f64, out: &mut String) {
+    let Some(picture) = &panel.picture else {
+        return;
+    };
+    let place = picture::Place::of(time, &panel.times);
+    for mark in &picture.marks {
+        if let Some(element) = element::mark(mark, place, picture.height) {
+            element.write("", out);
+        }
+    }
+}
+
+/// Forces at an instant.
+pub(super) fn arrows(panel: &Place, time: f64, out: &mut String) {
+    let Some(picture) = &panel.picture else {
+        return;
+    };
+    let place = picture::Place::of(time, &panel.times);
+    for (i, arrow) in picture.arrows.iter().enumerate() {
+        let (arrow, name) = element::arrow(i, arrow, place, picture.height);
+        for element in [Some(arrow), name].into_iter().flatten() {
+            element.write("", out);
+        }
+    }
+}

@@ -1,0 +1,30 @@
+// Runs of one scene in one plot: a coordinate or its rate, or how far the others are from the first run.
+function comparison(parent, runs, clock, seek) {
+  const figure = html("figure", { class: "run" }, parent);
+  html("figcaption", {}, figure, `Together: ${runs[0].scene}`);
+  const row = html("p", { class: "choices" }, figure);
+  const what = html("select", {}, html("label", {}, row, "Show "));
+  const kinds = [
+    (c) => [c.name, named(c.name, c.unit), c.q],
+    (c) => [`d${c.name}/dt`, named(`d${c.name}/dt`, c.rate_unit), c.v],
+    (c) => [`${c.name} less that of the first run`, named(`difference of ${c.name}`, c.unit), c.apart],
+  ];
+  kinds.forEach((kind, k) => runs[0].phase.forEach((c, i) => html("option", { value: `${k} ${i}` }, what, kind(c)[0])));
+  const stage = html("div", {}, figure);
+  let last = 0, show = () => {};
+  const draw = () => {
+    const [k, i] = what.value.split(" ");
+    stage.replaceChildren();
+    const legend = html("ul", { class: "legend" });
+    const all = runs.map((run, r) => ({ name: run.title, times: run.time, values: kinds[k](run.phase[i])[2], dash: dashes[r % dashes.length] }));
+    // The first run has no difference from itself.
+    const lines = all.map((line) => ({ ...line, values: line.values || line.times.map(() => 0) }));
+    const [title, axis] = kinds[k](runs[0].phase[i]);
+    show = curves(stage, legend, { title, axis, lines, clock, seek });
+    stage.append(legend);
+    show(last);
+  };
+  what.addEventListener("change", draw);
+  draw();
+  return (t) => { last = t; show(t); };
+}

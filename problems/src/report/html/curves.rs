@@ -1,0 +1,230 @@
+//! Film → plots: forces beside their limits, energies, work, and the phase plots.
+
+use super::super::{is_angle, rate_unit, significant, symbol, with_unit};
+use super::difference::difference;
+use crate::film::Film;
+use crate::outcome::{Force, Outcome, Sample, Source, forces};
+use lagrange_core::system::Friction;
+use serde::Serialize;
+
+/// Curves over a common axis.
+#[derive(Serialize)]
+pub(super) struct Plot {
+    title: String,
+    /// What its values are, with the unit.
+    axis: String,
+    /// Of every value, s; the samples if there are none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    time: Vec<f64>,
+    curves: Vec<Curve>,
+}
+
+#[derive(Serialize)]
+pub(super) struct Curve {
+    name: String,
+    /// Whether it bounds the other one.
+    #[serde(skip_serializing_if = "is_false")]
+    limit: bool,
+    values: Vec<Option<f64>>,
+}
+
+/// A coordinate and its rate.
+#[derive(Serialize)]
+pub(super) struct Portrait {
+    name: String,
+    unit: String,
+    rate_unit: String,
+    q: Vec<f64>,
+    v: Vec<f64>,
+    /// Less that of the first run of the scene.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    apart: Vec<Option<f64>>,
+}
+
+/// More coordinates than this do not have portraits.
+const PORTRAITS: usize = 12;
+/// More rows than this do not have plots.
+const PLOTS: usize = 12;
+/// More items than this do not have curves in one plot.
+const CURVES: usize = 6;
+
+/// All plots over time.
+pub(super) fn plots(film: &Film) -> Vec<Plot> {
+    let outcome = &film.outcome;
+    let mut plots = frictions(outcome);
+    plots.extend(pushes(outcome, "Contact forces", |source| {
+        matches!(source, Source::Contact(_))
+    }));
+    plots.extend(pushes(outcome, "Constraint forces", |source| {
+        matches!(source, Source::Constraint(_))
+    }));
+    plots.truncate(PLOTS);
+    plots.push(energies(outcome));
+    plots.extend(work(film));
+    plots
+}
+
+/// Each friction beside what it can hold.
+fn frictions(outcome: &Outcome) -> Vec<Plot> {
+    let description = outcome.description;
+    let plot = |(i, friction): (usize, &Friction)| {
+        let held = |sample: &Sample| {
+            let rows = &sample.forces[friction.row..friction.row + friction.components];
+            sample.limits[i].map(|_| rows.iter().fold(0.0, |sum: f64, f| sum.hypot(*f)))
+        };
+        let name = friction.name;
+        Plot {
+            title: format!("Friction {name} and what it can hold"),
+            axis: force_axis(description.units.row(friction.row)),
+            time: Vec::new(),
+            curves: vec![
+                curve(outcome, format!("|{name}|"), false, held),
+                curve(outcome, "μN".to_owned(), true, |sample| sample.limits[i]),
+            ],
+        }
+    };
+    let list = description.frictions.iter().enumerate();
+    let present = list.filter(|(i, _)| outcome.includes(Source::Friction(*i)));
+    present.map(plot).collect()
+}
+
+/// Forces of one kind, a plot for each unit.
+fn pushes(outcome: &Outcome, title: &str, of_kind: fn(Source) -> bool) -> Vec<Plot> {
+    let description = outcome.description;
+    let all = forces(description);
+    let present = |force: &&Force| of_kind(force.source) && outcome.includes(force.source);
+    let all: Vec<&Force> = all.iter().filter(present).collect();
+    let unit = |force: &Force| description.units.row(force.row);
+    let mut units: Vec<&str> = Vec::new();
+    for force in &all {
+        if !units.contains(&unit(force)) {
+            units.push(unit(force));
+        }
+    }
+    let plot = |of: &str| {
+        let same = all.iter().filter(|force| unit(force) == of).take(CURVES);
+        let curves = same.map(|force| {
+            curve(outcome, force.name.clone(), false, |sample| {
+                let acts = force.acts(description, &sample.mode);
+                acts.then_some(sample.forces[force.row])
+            })
+        });
+        Plot {
+            title: title.to_owned(),
+            axis: force_axis(of),
+            time: Vec::new(),
+            curves: curves.collect(),
+        }
+    };
+    units.into_iter().map(plot).collect()
+}
+
+fn force_axis(unit: &str) -> String {
+    let name = match unit {
+        "" | "N" => "force",
+        "N m" => "torque",
+        _ => "multiplier",
+    };
+    with_unit(name, unit)
+}
+
+fn energies(outcome: &Outcome) -> Plot {
+    type Energy = (&'static str, fn(&Sample) -> f64);
+    let energies: [Energy; 3] = [
+        ("kinetic", |s| s.kinetic),
+        ("potential", |s| s.potential),
+        ("sum", |s| s.kinetic + s.potential),
+    ];
+    let energies =
+        energies.map(|(name, of)| curve(outcome, name.to_owned(), false, move |s| Some(of(s))));
+    Plot {
+        title: "Energy".to_owned(),
+        axis: with_unit("energy", outcome.description.units.energy),
+        time: Vec::new(),
+        curves: energies.into(),
+    }
+}
+
+/// The work of every item that does some, from the beginning.
+fn work(film: &Film) -> Option<Plot> {
+    let (_, last) = film.books.last()?;
+    let worked = |i: usize| {
+        let books = film.books.iter();
+        books
+            .map(|(_, ledger)| ledger.work[i].work.abs())
+            .fold(0.0, f64::max)
+    };
+    let curves: Vec<Curve> = last
+        .work
+        .iter()
+        .enumerate()
+        .filter(|(i, _)| worked(*i) > 1e-9 * last.scale)
+        .take(CURVES)
+        .map(|(i, entry)| Curve {
+            name: format!("{} ({})", entry.name, entry.kind),
+            limit: false,
+            values: film
+                .books
+                .iter()
+                .map(|(_, ledger)| Some(significant(ledger.work[i].work)))
+                .collect(),
+        })
+        .collect();
+    (!curves.is_empty()).then(|| Plot {
+        title: "Work since the start".to_owned(),
+        axis: with_unit("work", film.outcome.description.units.energy),
+        time: film
+            .books
+            .iter()
+            .map(|(time, _)| significant(*time))
+            .collect(),
+        curves,
+    })
+}
+
+/// The coordinates; with how far they are from those of another run, if one is given.
+pub(super) fn portraits(outcome: &Outcome, other: Option<&Outcome>) -> Vec<Portrait> {
+    let coordinates = outcome.description.coordinates;
+    let shown = coordinates.iter().enumerate().take(PORTRAITS);
+    shown
+        .map(|(i, coordinate)| {
+            let unit = match is_angle(coordinate) {
+                true => "rad",
+                false => coordinate.unit,
+            };
+            Portrait {
+                name: symbol(coordinate.name),
+                unit: unit.to_owned(),
+                rate_unit: rate_unit(unit),
+                q: over(outcome, |sample| sample.state.q[i]),
+                v: over(outcome, |sample| sample.state.v[i]),
+                apart: other.map_or(Vec::new(), |other| {
+                    let apart = difference(outcome, other, i).into_iter();
+                    apart.map(|value| value.map(significant)).collect()
+                }),
+            }
+        })
+        .collect()
+}
+
+fn curve(
+    outcome: &Outcome,
+    name: String,
+    limit: bool,
+    of: impl Fn(&Sample) -> Option<f64>,
+) -> Curve {
+    let values = outcome.samples.iter().map(of);
+    Curve {
+        name,
+        limit,
+        values: values.map(|value| value.map(significant)).collect(),
+    }
+}
+
+pub(super) fn over(outcome: &Outcome, of: impl Fn(&Sample) -> f64) -> Vec<f64> {
+    outcome.samples.iter().map(|s| significant(of(s))).collect()
+}
+
+fn is_false(flag: &bool) -> bool {
+    !flag
+}

@@ -1,0 +1,54 @@
+"use strict";
+
+// Elements of a drawing; the page lends the name of their language.
+const svgSpace = document.getElementById("blank").namespaceURI;
+
+function set(element, attributes) {
+  for (const [name, value] of Object.entries(attributes || {})) element.setAttribute(name, value);
+  return element;
+}
+
+function svg(kind, attributes, parent) {
+  const element = set(document.createElementNS(svgSpace, kind), attributes);
+  if (parent) parent.append(element);
+  return element;
+}
+
+function html(kind, attributes, parent, text) {
+  const element = set(document.createElement(kind), attributes);
+  if (text !== undefined) element.textContent = text;
+  if (parent) parent.append(element);
+  return element;
+}
+
+const colour = (i) => `var(--c${i % 6})`;
+
+const digits = (x) => (x === null || x === undefined ? "–" : Number(x.toPrecision(4)).toString().replace("-", "−"));
+
+// Where a time lies among the samples: index of the one before, and the part of the way to the next.
+function place(times, t) {
+  let low = 0, high = times.length - 1;
+  if (high < 1 || t >= times[high]) return [Math.max(high, 0), 0];
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (times[middle] <= t) low = middle; else high = middle;
+  }
+  const width = times[high] - times[low];
+  return [low, width > 0 ? Math.min(Math.max((t - times[low]) / width, 0), 1) : 0];
+}
+
+function at(column, [index, part]) {
+  if (!Array.isArray(column)) return column;
+  const a = column[index], b = column[index + 1];
+  if (part === 0 || a === null || b === null || b === undefined) return a;
+  return a + part * (b - a);
+}
+
+// A line of a legend: a sample of the stroke, a name, and a place for the present value.
+function entry(legend, name, stroke, dashes) {
+  const item = html("li", {}, legend);
+  const swatch = svg("svg", { viewBox: "0 0 32 14", "aria-hidden": "true" }, item);
+  svg("line", { x1: 1, x2: 31, y1: 7, y2: 7, style: `stroke: ${stroke}; stroke-width: 3`, "stroke-dasharray": dashes || "none" }, swatch);
+  item.append(` ${name} `);
+  return html("output", { "aria-live": "off" }, item);
+}

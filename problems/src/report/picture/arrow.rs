@@ -1,0 +1,109 @@
+//! Forces as arrows.
+
+use super::frame::{CUT, Frame};
+use super::{Column, hundredths};
+use crate::film::Film;
+use crate::outcome::forces;
+use crate::report::significant;
+use serde::Serialize;
+
+/// A force over time.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub(crate) struct Arrow {
+    /// Name of the item.
+    pub name: String,
+    /// How large it is, N.
+    pub size: Column,
+    /// Where it acts and where it points: x, y, x, y.
+    pub numbers: [Column; 4],
+}
+
+/// Shorter arrows are not drawn.
+pub(crate) const SHORTEST: f64 = 2.0;
+
+impl Arrow {
+    /// Whether it is ever too strong to be drawn to scale.
+    pub fn is_cut(&self, frame: &Frame) -> bool {
+        let most = CUT * frame.strongest;
+        match &self.size {
+            Column::Constant(size) => *size > most,
+            Column::Varying(sizes) => sizes.iter().any(|size| *size > most),
+        }
+    }
+}
+
+pub(super) fn arrows(film: &Film, frame: &Frame) -> Vec<Arrow> {
+    let rows = forces(film.outcome.description);
+    let Some(first) = film.drawings.first() else {
+        return Vec::new();
+    };
+    let arrow = |(i, arrow): (usize, &crate::drawing::Arrow)| {
+        let force = rows.iter().find(|force| force.name == arrow.force)?;
+        let row = film.outcome.includes(force.source).then_some(force.row)?;
+        let samples = film.drawings.iter().zip(&film.outcome.samples);
+        let pushes: Vec<([f64; 2], [f64; 2])> = samples
+            .map(|(drawing, sample)| {
+                let arrow = &drawing.arrows[i];
+                (arrow.at, arrow.along.map(|c| c * sample.forces[row]))
+            })
+            .collect();
+        let over = |number: fn(&Frame, [f64; 2], [f64; 2]) -> f64| {
+            let numbers = pushes.iter().map(|(at, force)| number(frame, *at, *force));
+            Column::of(numbers.map(hundredths))
+        };
+        Some(Arrow {
+            name: arrow.force.to_owned(),
+            size: Column::of(pushes.iter().map(|(_, [x, y])| significant(x.hypot(*y)))),
+            numbers: [
+                over(|frame, at, _| frame.x(at[0])),
+                over(|frame, at, _| frame.y(at[1])),
+                over(|frame, at, force| frame.x(at[0] + frame.arrow(force)[0])),
+                over(|frame, at, force| frame.y(at[1] + frame.arrow(force)[1])),
+            ],
+        })
+    };
+    first.arrows.iter().enumerate().filter_map(arrow).collect()
+}
+
+/// The outline of an arrow from one point to another; nothing if it is too short to be seen.
+pub(crate) fn outline([x1, y1, x2, y2]: [f64; 4]) -> Option<[[f64; 2]; 7]> {
+    let length = (x2 - x1).hypot(y2 - y1);
+    if length < SHORTEST {
+        return None;
+    }
+    let (ux, uy) = ((x2 - x1) / length, (y2 - y1) / length);
+    let tip = (0.5 * length).min(18.0);
+    // Along the arrow from its beginning, and to its left.
+    let corners = [
+        (0.0, 1.5),
+        (length - tip, 1.5),
+        (length - tip, 0.45 * tip),
+        (length, 0.0),
+        (length - tip, -0.45 * tip),
+        (length - tip, -1.5),
+        (0.0, -1.5),
+    ];
+    Some(corners.map(|(along, left)| [x1 + along * ux - left * uy, y1 + along * uy + left * ux]))
+}
+
+/// Where the middle of the foot of an arrow's name stands, in letters of a size: beyond its tip, inside the picture. None for
+/// arrows so short that the name would hide them.
+pub(crate) fn label(
+    [x1, y1, x2, y2]: [f64; 4],
+    characters: usize,
+    letter: f64,
+    height: f64,
+) -> Option<[f64; 2]> {
+    let length = (x2 - x1).hypot(y2 - y1);
+    if length < 0.5 * letter {
+        return None;
+    }
+    let half = 0.3 * letter * characters as f64;
+    let x = x2 + (x2 - x1) / length * (half + 6.0);
+    let middle = y2 + (y2 - y1) / length * (0.5 * letter + 6.0);
+    let within = |value: f64, most: f64, margin: f64| value.min(most - margin).max(margin);
+    Some([
+        within(x, super::WIDTH, half),
+        within(middle, height, 0.6 * letter) + 0.35 * letter,
+    ])
+}

@@ -1,0 +1,118 @@
+//! Which part of the plane is seen, and how long arrows are.
+
+use super::WIDTH;
+use crate::drawing::{Shape, union};
+use crate::film::Film;
+use crate::outcome::forces;
+
+/// Part of the picture that the strongest force takes.
+const LONGEST: f64 = 0.2;
+/// Part of the forces that is drawn to scale at least: few peaks must not make all others invisible.
+const TO_SCALE: f64 = 0.95;
+/// Arrows of stronger forces, in terms of the strongest one that is to scale, are cut.
+pub(super) const CUT: f64 = 1.2;
+
+/// A window on the plane.
+pub(crate) struct Frame {
+    left: f64,
+    right: f64,
+    low: f64,
+    high: f64,
+    /// Largest extent of what is drawn, m.
+    pub size: f64,
+    /// Units per metre.
+    pub scale: f64,
+    /// The strongest force that is drawn to scale, N; 0 if there are none.
+    pub strongest: f64,
+}
+
+impl Frame {
+    /// Around all that is ever drawn in these films, arrows too.
+    pub fn around<'a>(films: impl Iterator<Item = &'a Film> + Clone) -> Option<Self> {
+        let drawings = films.clone().flat_map(|film| &film.drawings);
+        let extents = drawings.flat_map(|d| &d.shapes).map(Shape::extent);
+        let [left, right, low, high] = extents.reduce(union)?;
+        let size = [right - left, high - low, 1e-9]
+            .into_iter()
+            .filter(|x| x.is_finite())
+            .fold(0.0, f64::max);
+        let pushes: Vec<[f64; 4]> = films.flat_map(pushes).collect();
+        let mut sizes: Vec<f64> = pushes.iter().map(|[_, _, x, y]| x.hypot(*y)).collect();
+        sizes.retain(|f| f.is_finite() && *f > 0.0);
+        sizes.sort_by(f64::total_cmp);
+        let at = (TO_SCALE * sizes.len() as f64) as usize;
+        let mut frame = Self {
+            left,
+            right,
+            low,
+            high,
+            size,
+            scale: 1.0,
+            strongest: sizes.get(at).copied().unwrap_or(0.0),
+        };
+        for [x, y, fx, fy] in pushes {
+            let [dx, dy] = frame.arrow([fx, fy]);
+            (frame.left, frame.right) = (frame.left.min(x + dx), frame.right.max(x + dx));
+            (frame.low, frame.high) = (frame.low.min(y + dy), frame.high.max(y + dy));
+        }
+        let grow = |from: f64, to: f64, least: f64| {
+            let more = (0.5 * (least - (to - from))).max(0.0) + 0.06 * size;
+            (from - more, to + more)
+        };
+        (frame.left, frame.right) = grow(frame.left, frame.right, 0.5 * size);
+        (frame.low, frame.high) = grow(frame.low, frame.high, 0.25 * size);
+        frame.scale = WIDTH / (frame.right - frame.left);
+        Some(frame)
+    }
+
+    /// Units across.
+    pub fn x(&self, x: f64) -> f64 {
+        (x - self.left) * self.scale
+    }
+
+    /// Units down.
+    pub fn y(&self, y: f64) -> f64 {
+        (self.high - y) * self.scale
+    }
+
+    /// Units from top to bottom.
+    pub fn height(&self) -> f64 {
+        (self.high - self.low) * self.scale
+    }
+
+    /// A length for a ruler, m.
+    pub fn ruler(&self) -> f64 {
+        super::nice((self.right - self.left) / 6.0)
+    }
+
+    /// Metres of an arrow for each newton.
+    pub fn reach(&self) -> f64 {
+        match self.strongest > 0.0 {
+            true => LONGEST * self.size / self.strongest,
+            false => 0.0,
+        }
+    }
+
+    /// The arrow of a force, m.
+    pub fn arrow(&self, [fx, fy]: [f64; 2]) -> [f64; 2] {
+        let force = fx.hypot(fy);
+        let most = CUT * self.strongest;
+        let cut = if force > most { most / force } else { 1.0 };
+        [fx, fy].map(|f| f * cut * self.reach())
+    }
+}
+
+/// Places and forces of all arrows at all samples: x and y, m, and the components, N.
+fn pushes(film: &Film) -> impl Iterator<Item = [f64; 4]> + '_ {
+    let rows = forces(film.outcome.description);
+    let samples = film.drawings.iter().zip(&film.outcome.samples);
+    samples.flat_map(move |(drawing, sample)| {
+        let push = |arrow: &crate::drawing::Arrow| {
+            let row = rows.iter().find(|force| force.name == arrow.force)?.row;
+            let force = sample.forces[row];
+            let [x, y] = arrow.at;
+            Some([x, y, arrow.along[0] * force, arrow.along[1] * force])
+        };
+        drawing.arrows.iter().filter_map(push).collect::<Vec<_>>()
+    })
+}

@@ -1,0 +1,159 @@
+//! Shapes of a scene → marks on the page: circles, polygons and lines, each with its numbers over time.
+
+use super::frame::Frame;
+use super::{Column, Place, hundredths};
+use crate::drawing::{Drawing, Point, Shape};
+use serde::Serialize;
+use std::cell::Cell;
+
+/// A mark.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub(crate) struct Mark {
+    /// How it looks.
+    pub class: &'static str,
+    /// What it is.
+    #[serde(flatten)]
+    pub form: Form,
+    /// Its numbers over time.
+    pub numbers: Vec<Column>,
+}
+
+/// What a mark is.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase", tag = "form")]
+pub(crate) enum Form {
+    /// x, y, radius
+    Circle,
+    /// x, y of every corner
+    Polygon,
+    /// x, y of every joint
+    Polyline,
+    /// Everything below y
+    Ground,
+    /// The path of x, y so far
+    Trace,
+    /// A line on the unit length, moved to x, y, turned by degrees clockwise and stretched along.
+    Placed {
+        /// Joints, x along from 0 to 1, y across.
+        line: Vec<Point>,
+    },
+}
+
+/// Zigzags of a spring.
+const TURNS: usize = 16;
+
+/// A mark for each shape, but two for a disc: its rim and its spoke.
+pub(super) fn marks(drawings: &[Drawing], frame: &Frame) -> Vec<Mark> {
+    let Some(first) = drawings.first() else {
+        return Vec::new();
+    };
+    let masses = first.shapes.iter();
+    let masses = masses.filter(|s| matches!(s, Shape::Mass(_))).count();
+    // Many masses are small.
+    let dot = 0.016 * frame.size * frame.scale / (masses as f64 / 4.0).max(1.0);
+    let mut marks = Vec::new();
+    for (i, shape) in first.shapes.iter().enumerate() {
+        let shapes = || drawings.iter().map(move |drawing| &drawing.shapes[i]);
+        let mut add = |class, form, numbers: &dyn Fn(&Shape) -> Vec<f64>| {
+            let lists: Vec<Vec<f64>> = shapes().map(numbers).collect();
+            let width = lists.iter().map(Vec::len).min().unwrap_or(0);
+            let column = |k: usize| Column::of(lists.iter().map(|list| hundredths(list[k])));
+            marks.push(Mark {
+                class,
+                form,
+                numbers: (0..width).map(column).collect(),
+            });
+        };
+        let points = |shape: &Shape| match shape {
+            Shape::Fixed(points) | Shape::Block(points) | Shape::Rod(points) => points
+                .iter()
+                .flat_map(|[x, y]| [frame.x(*x), frame.y(*y)])
+                .collect(),
+            _ => Vec::new(),
+        };
+        let circle = |shape: &Shape| match shape {
+            Shape::Shell([x, y], r) | Shape::Bowl([x, y], r) | Shape::Disc([x, y], r, _) => {
+                vec![frame.x(*x), frame.y(*y), r * frame.scale]
+            }
+            Shape::Mass([x, y]) => vec![frame.x(*x), frame.y(*y), dot],
+            _ => Vec::new(),
+        };
+        match shape {
+            Shape::Floor(_) => add("ground", Form::Ground, &|shape| match shape {
+                Shape::Floor(y) => vec![frame.y(*y)],
+                _ => Vec::new(),
+            }),
+            Shape::Fixed(_) => add("ground", Form::Polygon, &points),
+            Shape::Block(_) => add("body", Form::Polygon, &points),
+            Shape::Rod(_) => add("rod", Form::Polyline, &points),
+            Shape::Shell(..) => add("ground", Form::Circle, &circle),
+            Shape::Bowl(..) => add("hollow", Form::Circle, &circle),
+            Shape::Mass(_) => add("point", Form::Circle, &circle),
+            Shape::Disc(..) => {
+                add("body", Form::Circle, &circle);
+                add("rod", spoke(), &|shape| match shape {
+                    Shape::Disc([x, y], r, angle) => vec![
+                        frame.x(*x),
+                        frame.y(*y),
+                        angle.to_degrees() - 90.0,
+                        r * frame.scale,
+                    ],
+                    _ => Vec::new(),
+                });
+            }
+            Shape::Spring(..) => {
+                let before = Cell::new(0.0);
+                add("rod", spring(frame), &|shape| match shape {
+                    Shape::Spring([x1, y1], [x2, y2]) => {
+                        let (dx, dy) = (x2 - x1, y1 - y2);
+                        let angle = dy.atan2(dx).to_degrees();
+                        // The nearest of all that mean the same: a spring does not spin.
+                        let angle = angle + 360.0 * ((before.get() - angle) / 360.0_f64).round();
+                        before.set(angle);
+                        let length = dx.hypot(dy) * frame.scale;
+                        vec![frame.x(*x1), frame.y(*y1), angle, length]
+                    }
+                    _ => Vec::new(),
+                });
+            }
+            Shape::Trace(_) => add("trace", Form::Trace, &|shape| match shape {
+                Shape::Trace([x, y]) => vec![frame.x(*x), frame.y(*y)],
+                _ => Vec::new(),
+            }),
+        }
+    }
+    marks
+}
+
+/// From the centre to the rim.
+fn spoke() -> Form {
+    Form::Placed {
+        line: vec![[0.0, 0.0], [1.0, 0.0]],
+    }
+}
+
+/// A zigzag of the same width however long it is.
+fn spring(frame: &Frame) -> Form {
+    let wide = hundredths(0.025 * frame.size * frame.scale);
+    let joint = |i: usize| {
+        let side = match i {
+            0 | TURNS => 0.0,
+            i if i % 2 == 0 => wide,
+            _ => -wide,
+        };
+        [i as f64 / TURNS as f64, side]
+    };
+    Form::Placed {
+        line: (0..=TURNS).map(joint).collect(),
+    }
+}
+
+impl Mark {
+    /// The first two numbers at the samples up to one: the path so far.
+    pub fn path(&self, last: usize) -> impl Iterator<Item = Point> + '_ {
+        (0..=last).map(|sample| {
+            let place = Place { sample, part: 0.0 };
+            [0, 1].map(|k| self.numbers.get(k).map_or(0.0, |column| column.at(place)))
+        })
+    }
+}

@@ -1,0 +1,88 @@
+//! `lagrange report` for slides: numbered frames, and a picture that moves by itself.
+
+mod markup;
+mod program;
+
+use lagrange_problems::catalogue::scenes;
+use lagrange_problems::report::frames::{Clock, Panel, animated, stills};
+use lagrange_problems::request::Request;
+use markup::unclosed;
+use program::{refuses, says};
+
+#[test]
+fn every_scene_moves_in_a_file_that_is_whole_and_small() {
+    for scene in scenes() {
+        let request = Request {
+            samples: 300,
+            ..Request::default()
+        };
+        let film = scene.film(&request).expect("a film");
+        let name = scene.name();
+        let panels = [Panel {
+            title: name,
+            film: &film,
+        }];
+        let clock = Clock::new(&panels, 25.0, None).expect("a clock");
+        let picture = animated(&panels, &clock);
+        assert_eq!(unclosed(&picture), Vec::<&str>::new(), "{name}");
+        assert!(
+            !picture.contains("NaN") && !picture.contains("var("),
+            "{name}"
+        );
+        assert!(picture.len() < 1_000_000, "{name}: {} bytes", picture.len());
+        assert!(picture.contains("<animate"), "{name}");
+        // All lists of values are as long: instants are shown equally long.
+        let animate = picture.split("<animate ").skip(1);
+        let lists = animate.filter(|tag| !tag.contains("calcMode"));
+        let lengths: Vec<usize> = lists
+            .filter_map(|tag| tag.split("values=\"").nth(1)?.split('"').next())
+            .map(|values| values.split(';').count())
+            .collect();
+        assert!(lengths.iter().all(|n| *n == lengths[0]), "{name}");
+        let first = stills(&panels, &clock).next().expect("a frame");
+        assert_eq!(unclosed(&first), Vec::<&str>::new(), "{name}");
+    }
+}
+
+#[test]
+fn frames_are_numbered_and_show_their_instants() {
+    let folder = std::env::temp_dir().join(format!("lagrange-frames-{}", std::process::id()));
+    let path = folder.to_str().expect("UTF-8");
+    let wheel = ["report", "mass-on-wheel", "--fps", "2", "--speed", "0.5"];
+    says(&[&wheel[..], &["--frames", path]].concat());
+    let mut names: Vec<String> = std::fs::read_dir(&folder)
+        .expect("the folder")
+        .map(|file| {
+            file.expect("a file")
+                .file_name()
+                .into_string()
+                .expect("UTF-8")
+        })
+        .collect();
+    names.sort();
+    // A quarter of a second apart, and the end at 3.007 s.
+    let expected: Vec<String> = (1..=14).map(|i| format!("frame-{i:04}.svg")).collect();
+    assert_eq!(names, expected);
+    let read = |name: &str| std::fs::read_to_string(folder.join(name)).expect("a frame");
+    let slips = read("frame-0011.svg");
+    assert!(
+        slips.contains("t = 2.500 s") && slips.contains(">rim closed, grip slips forward</text>")
+    );
+    // Both arrows at the mass, and their names.
+    assert!(slips.contains(">rim</text>") && slips.contains(">grip</text>"));
+    let end = read("frame-0014.svg");
+    assert!(end.contains("t = 3.007 s") && !end.contains(">grip</text>"));
+    says(&[&wheel[..], &["--until", "1", "--frames", path]].concat());
+    assert_eq!(std::fs::read_dir(&folder).expect("the folder").count(), 5);
+    std::fs::remove_dir_all(&folder).expect("it is ours");
+}
+
+#[test]
+fn what_makes_no_sense_is_refused() {
+    let long = ["report", "kepler", "--frames", "frames", "--speed", "0.01"];
+    refuses(&long, 2, "choose a lower --fps");
+    let both = ["report", "kepler", "--frames", "frames", "--format", "svg"];
+    refuses(&both, 2, "--format");
+    refuses(&["report", "kepler", "--fps", "0"], 2, "above 0");
+    assert!(!std::path::Path::new("frames").exists());
+}

@@ -1,0 +1,210 @@
+//! Reports in a real browser: no errors, quickly open, usable from the keyboard, accessible. Skipped where there is no Chromium.
+//!
+//! Accessibility is judged by axe-core where `AXE` is the path of its `axe.min.js`; `.ci/run` gets it from PyPI.
+
+mod browser;
+
+use browser::{Browser, Reader};
+use lagrange_problems::catalogue::scenes;
+use std::path::PathBuf;
+use std::process::Command;
+
+const AT_A_DESK: Reader = Reader {
+    width: 1200,
+    dark: false,
+    reduced_motion: false,
+};
+const ON_A_PHONE: Reader = Reader {
+    width: 390,
+    dark: true,
+    reduced_motion: false,
+};
+
+/// A file that is removed in the end.
+struct Written(PathBuf);
+
+impl Written {
+    fn report(name: &str, arguments: &[&str]) -> Self {
+        let path = std::env::temp_dir().join(format!("lagrange-{}-{name}", std::process::id()));
+        let mut program = Command::new(env!("CARGO_BIN_EXE_lagrange"));
+        let program = program
+            .arg("report")
+            .args(arguments)
+            .arg("--output")
+            .arg(&path);
+        assert!(
+            program.status().expect("the program").success(),
+            "{arguments:?}"
+        );
+        Self(path)
+    }
+}
+
+impl Drop for Written {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_file(&self.0);
+    }
+}
+
+/// The instant that the page shows, s.
+fn now(browser: &mut Browser) -> f64 {
+    let time = browser.evaluate("Number(document.getElementById('time').value)");
+    time.as_f64().expect("a time")
+}
+
+#[test]
+fn every_page_opens_within_a_second_without_complaints() {
+    let Some(mut browser) = Browser::start() else {
+        return;
+    };
+    for (i, scene) in scenes().enumerate() {
+        let name = scene.name();
+        let page = Written::report(&format!("{name}.html"), &[name]);
+        let size = std::fs::metadata(&page.0).expect("the page").len();
+        assert!(size < 1_000_000, "{name}: {size} bytes");
+        let reader = if i % 2 == 0 { AT_A_DESK } else { ON_A_PHONE };
+        // Other work on the machine can only make it slower.
+        let mut opened = f64::INFINITY;
+        for _ in 0..5 {
+            opened = opened.min(browser.open(&page.0, reader));
+            if opened < 1000.0 {
+                break;
+            }
+        }
+        assert!(opened < 1000.0, "{name} opens in {opened} ms");
+        assert_eq!(browser.complaints, Vec::<String>::new(), "{name}");
+        let wide = browser.evaluate("document.documentElement.scrollWidth");
+        let fits = wide
+            .as_u64()
+            .is_some_and(|wide| wide <= u64::from(reader.width));
+        assert!(fits, "{name} is {wide} wide");
+        let drawn = browser.evaluate("document.querySelectorAll('.stage > svg').length");
+        assert_eq!(drawn, 1, "{name} is drawn");
+    }
+}
+
+#[test]
+fn it_plays_and_is_searched_by_keyboard_and_mouse() {
+    let Some(mut browser) = Browser::start() else {
+        return;
+    };
+    let page = Written::report("keys.html", &["mass-on-wheel"]);
+    browser.open(&page.0, AT_A_DESK);
+    assert_eq!(now(&mut browser), 0.0);
+    let playing = "document.getElementById('play').textContent === 'Pause'";
+    browser.press(" ");
+    browser.wait(playing);
+    browser.wait("Number(document.getElementById('time').value) > 0.05");
+    browser.press(" ");
+    browser.wait(&format!("!({playing})"));
+    let paused = now(&mut browser);
+    assert_eq!(now(&mut browser), paused);
+
+    let end = 3.007037;
+    let near = |t: f64, wanted: f64| assert!((t - wanted).abs() < 1e-4, "{t}, not {wanted}");
+    browser.press("Home");
+    near(now(&mut browser), 0.0);
+    browser.press("ArrowRight");
+    near(now(&mut browser), end / 200.0);
+    browser.press("ArrowLeft");
+    near(now(&mut browser), 0.0);
+    for event in [2.461759, 2.732116, end] {
+        browser.press("PageDown");
+        near(now(&mut browser), event);
+    }
+    browser.press("PageUp");
+    near(now(&mut browser), 2.732116);
+    let mode = browser.evaluate("document.querySelector('.mode').textContent");
+    assert_eq!(mode, "Mode: rim open");
+    browser.press("End");
+    near(now(&mut browser), end);
+
+    browser.click(".timeline", 0.5);
+    assert!((now(&mut browser) - 0.5 * end).abs() < 0.01);
+    browser.click(".plots svg", 0.5);
+    assert!((now(&mut browser) - 0.5 * end).abs() < 0.2);
+    // The forces of the scene are those that are told beside the plot.
+    let told = browser.evaluate("document.querySelector('.stage .legend').textContent");
+    assert!(
+        told.as_str()
+            .is_some_and(|text| text.contains("force rim 1.")),
+        "{told}"
+    );
+    assert_eq!(browser.complaints, Vec::<String>::new());
+}
+
+#[test]
+fn runs_are_compared_on_one_clock() {
+    let Some(mut browser) = Browser::start() else {
+        return;
+    };
+    let page = Written::report("both.html", &["mass-on-wheel", "--compare", "without:grip"]);
+    browser.open(&page.0, ON_A_PHONE);
+    browser.press("End");
+    let modes = "[...document.querySelectorAll('.mode')].map((mode) => mode.textContent).join(';')";
+    assert_eq!(
+        browser.evaluate(modes),
+        "Mode: rim open;Mode: rim open (ended)"
+    );
+    let choices = browser.evaluate("document.querySelector('#together select').length");
+    assert_eq!(choices, 12);
+    let lines = "(() => { const s = document.querySelector('#together select'); s.value = '2 3'; \
+                 s.dispatchEvent(new Event('change')); return document.querySelectorAll('#together .curve').length; })()";
+    assert_eq!(browser.evaluate(lines), 2);
+    assert_eq!(browser.complaints, Vec::<String>::new());
+}
+
+#[test]
+fn moving_pictures_move_unless_that_is_unwelcome() {
+    let Some(mut browser) = Browser::start() else {
+        return;
+    };
+    let picture = Written::report("wheel.svg", &["mass-on-wheel"]);
+    browser.open(&picture.0, AT_A_DESK);
+    let x = "(() => { const s = document.documentElement; s.pauseAnimations(); s.setCurrentTime(TIME); \
+             return document.querySelector('.moving circle').cx.animVal.value; })()";
+    let at = |browser: &mut Browser, time: &str| {
+        let value = browser.evaluate(&x.replace("TIME", time));
+        value.as_f64().expect("a number")
+    };
+    let (begin, late) = (at(&mut browser, "0"), at(&mut browser, "5.9"));
+    assert!(late > begin + 100.0, "{begin} to {late}");
+    let shown = "['.moving', '.still'].map((name) => getComputedStyle(document.querySelector(name)).display).join()";
+    assert_eq!(browser.evaluate(shown), "inline,none");
+    let quiet = Reader {
+        reduced_motion: true,
+        ..AT_A_DESK
+    };
+    browser.open(&picture.0, quiet);
+    assert_eq!(browser.evaluate(shown), "none,inline");
+    assert_eq!(browser.complaints, Vec::<String>::new());
+}
+
+#[test]
+fn pages_are_accessible() {
+    let Some(axe) = std::env::var_os("AXE") else {
+        println!("skipped: AXE does not say where axe.min.js is");
+        return;
+    };
+    let Some(mut browser) = Browser::start() else {
+        return;
+    };
+    let axe = std::fs::read_to_string(axe).expect("axe.min.js");
+    let found = "axe.run(document, { resultTypes: ['violations'] }).then((result) => \
+                 result.violations.map((v) => `${v.impact} ${v.id}: ${v.nodes[0].html}`).join('\\n'))";
+    let both = ["mass-on-wheel", "--compare", "without:grip"];
+    let pages: [&[&str]; 4] = [
+        &both,
+        &["rocking-block"],
+        &["double-pendulum"],
+        &["cue-ball"],
+    ];
+    for (i, arguments) in pages.into_iter().enumerate() {
+        let page = Written::report(&format!("axe-{i}.html"), arguments);
+        for reader in [AT_A_DESK, ON_A_PHONE] {
+            browser.open(&page.0, reader);
+            browser.evaluate(&format!("{axe}; 0"));
+            assert_eq!(browser.evaluate(found), "", "{arguments:?} {reader:?}");
+        }
+    }
+}
