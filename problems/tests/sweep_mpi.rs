@@ -134,9 +134,12 @@ fn a_job_that_is_aborted_goes_on() {
             return;
         };
         assert_ne!(kill(command, rank, &folder, &output), Some(0));
-        assert!(!output.exists());
-        let kept = format!("{}.part", path(&output));
-        refuses(&["merge", &kept], 1, "of 45000 runs are missing");
+        if rank == 0 {
+            // Nobody else writes. Of the others, rank 0 may have done the rest before the job was ended.
+            assert!(!output.exists());
+            let kept = format!("{}.part", path(&output));
+            refuses(&["merge", &kept], 1, "of 45000 runs are missing");
+        }
         // With another number of processes.
         let command = mpirun(2, &[], &folder, &output);
         let ended = command.expect("as before").output().expect("it starts");

@@ -1,6 +1,7 @@
 //! A derived number against a formula at many states, and the state where they differ most.
 
-use super::state::{Checks, Moment};
+use super::moment::Moment;
+use super::state::Checks;
 use crate::error::Error;
 use crate::system::System;
 use core::fmt;
@@ -29,6 +30,21 @@ pub struct Worst {
     pub by_hand: f64,
     /// |derived − by hand| over the larger of both and 1; infinite where one is not a number.
     pub difference: f64,
+}
+
+impl Worst {
+    fn of(derived: f64, by_hand: f64) -> Worst {
+        let size = derived.abs().max(by_hand.abs()).max(1.0);
+        let difference = (derived - by_hand).abs() / size;
+        Worst {
+            derived,
+            by_hand,
+            difference: match difference.is_finite() {
+                true => difference,
+                false => f64::INFINITY,
+            },
+        }
+    }
 }
 
 impl Comparison {
@@ -80,23 +96,12 @@ pub(super) fn compare<S: System<Scalar = f64>>(
             Err(_) => continue,
         };
         states += 1;
-        let (a, b) = both(&scene, &moment);
-        let size = a.abs().max(b.abs()).max(1.0);
-        let difference = (a - b).abs() / size;
-        let difference = if difference.is_finite() {
-            difference
-        } else {
-            f64::INFINITY
-        };
+        let (derived, by_hand) = both(&scene, &moment);
+        let here = Worst::of(derived, by_hand);
         if worst
             .as_ref()
-            .is_none_or(|(worst, ..)| difference > worst.difference)
+            .is_none_or(|(worst, ..)| here.difference > worst.difference)
         {
-            let here = Worst {
-                derived: a,
-                by_hand: b,
-                difference,
-            };
             worst = Some((here, scene, moment));
         }
     }
@@ -107,6 +112,17 @@ pub(super) fn compare<S: System<Scalar = f64>>(
             item: S::DESCRIPTION.name,
         });
     };
+    Ok(Comparison {
+        states,
+        tolerance: checks.tolerance,
+        worst,
+        state: numbers(&scene, &moment),
+        mode: moment.now.mode.display(S::DESCRIPTION).to_string(),
+    })
+}
+
+/// (name, value) of parameters, coordinates and velocities.
+fn numbers<S: System<Scalar = f64>>(scene: &S, moment: &Moment) -> Vec<(String, f64)> {
     let d = S::DESCRIPTION;
     let mut state = Vec::new();
     for (i, parameter) in d.parameters.iter().enumerate() {
@@ -118,11 +134,5 @@ pub(super) fn compare<S: System<Scalar = f64>>(
     for (coordinate, &v) in d.coordinates.iter().zip(&moment.now.v) {
         state.push((format!("der({})", coordinate.name), v));
     }
-    Ok(Comparison {
-        states,
-        tolerance: checks.tolerance,
-        worst,
-        state,
-        mode: moment.now.mode.display(d).to_string(),
-    })
+    state
 }

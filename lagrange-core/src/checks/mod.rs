@@ -22,12 +22,14 @@
 //! ```
 
 mod compare;
+mod moment;
 mod state;
 #[cfg(test)]
 mod tests;
 
 pub use compare::{Comparison, Worst};
-pub use state::{Checks, Moment};
+pub use moment::Moment;
+pub use state::Checks;
 
 /// A `check(…)` of a declaration, and how far it is known to hold; what is known to be false does not compile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

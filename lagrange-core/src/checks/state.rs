@@ -1,15 +1,16 @@
 //! Random states on the constraint surface of a mode, with accelerations and forces.
 
 use super::compare::{Comparison, compare};
-use crate::dynamics::Dynamics;
-use crate::effects::{Effects, Item};
+use super::moment::Moment;
+use crate::dynamics::{Dynamics, EvaluationError};
+use crate::effects::Effects;
 use crate::error::Error;
-use crate::handle::{ContactId, CoordinateId, FrictionId, ObserveId};
+use crate::handle::{ContactId, FrictionId};
 use crate::mode::{FrictionMode, Mode, Sliding};
 use crate::modes::guard;
 use crate::modes::sharing::Sharing;
-use crate::system::{Normal, Place, System};
-use crate::trajectory::{Instant, State, instant, report_everything};
+use crate::system::{Normal, System};
+use crate::trajectory::{State, instant, report_everything};
 
 /// Where formulas are compared: a mode, and how its states are drawn.
 ///
@@ -147,164 +148,66 @@ impl<'a, S: System<Scalar = f64>> Checks<'a, S> {
             moved.map(|x| x + self.spread * random.signed()).collect()
         };
         let (mut q, mut v) = (near(&self.around.q), near(&self.around.v));
-        let mut mode = self.mode.clone();
         let mut dynamics = Dynamics::new(&scene, &Effects::all());
         report_everything(&mut dynamics);
-        dynamics.set_mode(&mode);
-        let failed = |e, mode: &Mode| Error::from_evaluation(e, 0.0, mode, d);
-        dynamics
-            .project(0.0, &mut q, &mut v, 0.0)
-            .map_err(|e| failed(e, &mode))?;
-        // Slips and branches go with the state; the force of a constraint only shows when it has been solved for.
+        dynamics.set_mode(&self.mode);
+        let outcome = dynamics.project(0.0, &mut q, &mut v, 0.0);
+        outcome.map_err(|e| Error::from_evaluation(e, 0.0, &self.mode, d))?;
+        let state = State { q, v };
+        let mut mode = self.mode.clone();
+        let outcome = self.settle(&mut dynamics, &state, &mut mode);
+        outcome.map_err(|e| Error::from_evaluation(e, 0.0, &mode, d))?;
+        let now = instant(&mut dynamics, &mut Sharing::default(), 0.0, &state);
+        Ok((scene, Moment::new(&dynamics, now)))
+    }
+
+    /// Lets slips and branches go with the state; the force of a constraint only shows when it has been solved for.
+    fn settle(
+        &self,
+        dynamics: &mut Dynamics<f64>,
+        state: &State<f64>,
+        mode: &mut Mode,
+    ) -> Result<(), EvaluationError> {
+        let d = dynamics.description();
         for round in 0..2 + d.branches.len() {
             let needs = guard::all_row_needs(d, dynamics.motion_needs());
             dynamics.set_extra_needs(&needs);
-            dynamics.value(0.0, &q, &v).map_err(|e| failed(e, &mode))?;
+            dynamics.value(0.0, &state.q, &state.v)?;
             let before = mode.clone();
             for &f in &self.slipping {
-                let friction = &d.frictions[f];
-                let mut sliding = match friction.components {
-                    1 => {
-                        let slip = dynamics.motion(d.rows[friction.row].velocity);
-                        Sliding::sign(if slip < 0.0 { -1.0 } else { 1.0 })
-                    }
-                    _ => Sliding::along_slip(),
-                };
-                if let Normal::Constraint(c) = friction.normal
-                    && dynamics.force(d.constraints[c].row) < 0.0
-                {
-                    sliding.normal_sign = -1.0;
+                mode.frictions[f] = FrictionMode::Slip(sliding(dynamics, f));
+            }
+            for (b, branch) in d.branches.iter().enumerate() {
+                if !branch.after_solve {
+                    mode.set_branch(b, dynamics.motion(branch.guard) >= 0.0);
                 }
-                mode.frictions[f] = FrictionMode::Slip(sliding);
             }
-            for (b, branch) in d
-                .branches
-                .iter()
-                .enumerate()
-                .filter(|(_, b)| !b.after_solve)
-            {
-                mode.set_branch(b, dynamics.motion(branch.guard) >= 0.0);
-            }
-            if mode == before && round > 0 {
+            if *mode == before && round > 0 {
                 break;
             }
-            dynamics.set_mode(&mode);
+            dynamics.set_mode(mode);
         }
-        let outcome = dynamics.value_along(0.0, &q, &v);
-        outcome.map_err(|e| failed(e, &mode))?;
-        let now = instant(&mut dynamics, &mut Sharing::default(), 0.0, &State { q, v });
-        let margins = (0..d.frictions.len())
-            .map(|f| margin(&dynamics, f))
-            .collect();
-        let rows = d.contacts.iter().map(|c| c.row);
-        let contacts = rows.collect();
-        Ok((
-            scene,
-            Moment {
-                constraints: d.constraints.iter().map(|c| c.row).collect(),
-                contacts,
-                frictions: d.frictions.iter().map(|f| f.row).collect(),
-                slips: slips_of::<S>(),
-                margins,
-                now,
-            },
-        ))
+        dynamics.value_along(0.0, &state.q, &state.v)
     }
 }
 
-/// Place of each friction's first slip in [`Instant::slips`].
-fn slips_of<S: System>() -> Vec<usize> {
-    let mut place = 0;
-    let components = S::DESCRIPTION.frictions.iter().map(|f| f.components);
-    components
-        .map(|count| {
-            place += count;
-            place - count
-        })
-        .collect()
-}
-
-/// μs N − |F|
-fn margin(dynamics: &Dynamics<f64>, f: usize) -> f64 {
+/// How friction `f` slides at the last value.
+fn sliding(dynamics: &Dynamics<f64>, f: usize) -> Sliding {
     let d = dynamics.description();
     let friction = &d.frictions[f];
-    let normal = match friction.normal {
-        Normal::Contact(c) => {
-            let factor = d.contacts[c].normal_factor;
-            let factor = factor.map_or(1.0, |place: Place| dynamics.motion(place));
-            factor * dynamics.force(d.contacts[c].row)
+    let mut sliding = match friction.components {
+        1 => {
+            let slip = dynamics.motion(d.rows[friction.row].velocity);
+            Sliding::sign(if slip < 0.0 { -1.0 } else { 1.0 })
         }
-        Normal::Constraint(c) => dynamics.force(d.constraints[c].row).abs(),
-        Normal::Given(place) => dynamics.motion(place),
+        _ => Sliding::along_slip(),
     };
-    let rows = friction.row..friction.row + friction.components;
-    let square: f64 = rows.map(|row| dynamics.force(row).powi(2)).sum();
-    dynamics.motion(friction.static_coefficient) * normal - square.sqrt()
-}
-
-/// A state of a mode with everything derived.
-#[derive(Clone, Debug)]
-pub struct Moment {
-    /// All numbers by index.
-    pub now: Instant<f64>,
-    constraints: Vec<usize>,
-    contacts: Vec<usize>,
-    frictions: Vec<usize>,
-    slips: Vec<usize>,
-    margins: Vec<f64>,
-}
-
-impl Moment {
-    /// Position.
-    pub fn q(&self, coordinate: CoordinateId) -> f64 {
-        self.now.q[coordinate.0]
+    if let Normal::Constraint(c) = friction.normal
+        && dynamics.force(d.constraints[c].row) < 0.0
+    {
+        sliding.normal_sign = -1.0;
     }
-
-    /// Velocity.
-    pub fn v(&self, coordinate: CoordinateId) -> f64 {
-        self.now.v[coordinate.0]
-    }
-
-    /// Acceleration.
-    pub fn a(&self, coordinate: CoordinateId) -> f64 {
-        self.now.acceleration[coordinate.0]
-    }
-
-    /// Force of a contact, constraint, friction (first component) or applied force; 0 for other items.
-    pub fn force(&self, item: impl Into<Item>) -> f64 {
-        match item.into() {
-            Item::Constraint(i) => self.now.forces[self.constraints[i]],
-            Item::Contact(i) => self.now.forces[self.contacts[i]],
-            Item::Friction(i) => self.now.forces[self.frictions[i]],
-            Item::Force(i) => self.now.loads[i],
-            _ => 0.0,
-        }
-    }
-
-    /// The guard of an open contact.
-    pub fn gap(&self, contact: ContactId) -> f64 {
-        self.now.gaps[contact.0]
-    }
-
-    /// The guard of a slipping friction (first component).
-    pub fn slip(&self, friction: FrictionId) -> f64 {
-        self.now.slips[self.slips[friction.0]]
-    }
-
-    /// The guard of a sticking friction: μs N − |F|.
-    pub fn margin(&self, friction: FrictionId) -> f64 {
-        self.margins[friction.0]
-    }
-
-    /// A declared output.
-    pub fn observe(&self, output: ObserveId) -> f64 {
-        self.now.observes[output.0]
-    }
-
-    /// T + V as declared.
-    pub fn energy(&self) -> f64 {
-        self.now.kinetic + self.now.potential
-    }
+    sliding
 }
 
 /// Seeded random numbers.

@@ -11,14 +11,16 @@ use std::sync::Arc;
 /// Motions in a packet.
 const LANES: usize = 4;
 
+type Lanes<T> = Pack<T, LANES>;
+
 /// The motions of a mode side by side.
 #[derive(Debug)]
 struct Packet<T> {
     shape: Arc<Shape>,
-    registers: Vec<Pack<T, LANES>>,
-    expansion: Expansion<Pack<T, LANES>>,
+    registers: Vec<Lanes<T>>,
+    expansion: Expansion<Lanes<T>>,
     /// Right-hand sides of the equations, and those of one motion.
-    right: Vec<Pack<T, LANES>>,
+    right: Vec<Lanes<T>>,
     side: Vec<T>,
 }
 
@@ -95,40 +97,68 @@ impl<T: Scalar> Packets<T> {
         for (index, pack) in registers[..shape.used].iter_mut().enumerate() {
             *pack = Pack(lanes.map(|lane| lane[index]));
         }
-        self.processor.dispatch(
-            #[inline(always)]
-            || {
-                expansion.run(
-                    &shape.everything,
-                    registers,
-                    order,
-                    &shape.integrals,
-                    |_, now, first, earlier| {
-                        let Some(unsolved) = &shape.unsolved else {
-                            return;
-                        };
-                        right.clear();
-                        right.extend(unsolved.right.iter().map(|r| now[r.slot.index()]));
-                        for (&(equation, element, unknown), &earlier) in
-                            unsolved.elements.iter().zip(earlier)
-                        {
-                            let product = now[element.index()] * first[unknown.index()];
-                            right[equation] = right[equation] - (product + earlier);
-                        }
-                        for (lane, &motion) in motions.iter().enumerate() {
-                            side.clear();
-                            side.extend(right.iter().map(|pack| pack.0[lane]));
-                            waiting[motion].solve(side);
-                            for (slot, &x) in unsolved.unknowns.iter().zip(&*side) {
-                                now[slot.index()].0[lane] = x;
-                            }
-                        }
-                    },
-                );
-            },
-        );
+        let solve = |_: usize, now: &mut [Lanes<T>], first: &[Lanes<T>], earlier: &[Lanes<T>]| {
+            let Some(unsolved) = &shape.unsolved else {
+                return;
+            };
+            right.clear();
+            right.extend(unsolved.right.iter().map(|r| now[r.slot.index()]));
+            let elements = unsolved.elements.iter().zip(earlier);
+            for (&(equation, element, unknown), &earlier) in elements {
+                let product = now[element.index()] * first[unknown.index()];
+                right[equation] = right[equation] - (product + earlier);
+            }
+            for (lane, &motion) in motions.iter().enumerate() {
+                side.clear();
+                side.extend(right.iter().map(|pack| pack.0[lane]));
+                waiting[motion].solve(side);
+                for (slot, &x) in unsolved.unknowns.iter().zip(&*side) {
+                    now[slot.index()].0[lane] = x;
+                }
+            }
+        };
+        self.processor.dispatch(Expand {
+            expansion,
+            shape,
+            registers,
+            order,
+            solve,
+        });
         for (lane, &(_, motion)) in group.iter().enumerate() {
             waiting[motion].take_series(expansion, lane, order);
         }
+    }
+}
+
+/// An expansion, to be compiled for every kind of processor.
+struct Expand<'a, T, F> {
+    expansion: &'a mut Expansion<Lanes<T>>,
+    shape: &'a Shape,
+    registers: &'a mut [Lanes<T>],
+    order: usize,
+    solve: F,
+}
+
+impl<T, F> pulp::WithSimd for Expand<'_, T, F>
+where
+    T: Scalar,
+    F: FnMut(usize, &mut [Lanes<T>], &[Lanes<T>], &[Lanes<T>]),
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) {
+        let Shape {
+            everything,
+            integrals,
+            ..
+        } = self.shape;
+        self.expansion.run(
+            everything,
+            self.registers,
+            self.order,
+            integrals,
+            self.solve,
+        );
     }
 }

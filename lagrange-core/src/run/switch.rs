@@ -5,7 +5,7 @@ use crate::arithmetic::Scalar;
 use crate::effects::Item;
 use crate::error::Error;
 use crate::mode::FrictionMode;
-use crate::modes::decide::{Known, Moment};
+use crate::modes::decide::{Juncture, Known, Moment};
 use crate::modes::guard::Guard;
 use crate::modes::impact::Impact;
 use crate::system::Normal;
@@ -70,20 +70,19 @@ impl<T: Scalar> Run<T> {
         if !hit {
             self.rest_where_slip_vanishes(known)?;
         }
-        let moment = Moment {
-            t: self.t,
-            q: &self.state.q,
-            v: &self.state.v,
-            order: self.order,
-            tolerance: self.settings.tolerance,
-        };
-        self.decider.decide(
-            &mut self.dynamics,
-            &mut self.table,
-            moment,
-            &self.mode,
+        let here = Juncture {
+            moment: Moment {
+                t: self.t,
+                q: &self.state.q,
+                v: &self.state.v,
+                order: self.order,
+                tolerance: self.settings.tolerance,
+            },
+            present: &self.mode,
             known,
-        )?;
+        };
+        self.decider
+            .decide(&mut self.dynamics, &mut self.table, here)?;
         self.zeros.clone_from(&self.decider.decision.zeros);
         let edges = self.fallen.iter().filter(|g| matches!(g, Guard::Region(_)));
         self.zeros.extend(edges.map(|&edge| (edge, 1)));

@@ -1,6 +1,6 @@
 //! A real ball on a sphere: it rolls, slips, and only then leaves.
 
-use crate::drawing::{Drawing, Shape, from_top};
+use crate::drawing::Drawing;
 use lagrange_core::prelude::*;
 
 /// A solid sphere rolls down a fixed spherical shell, begins to slip, leaves and falls.
@@ -88,16 +88,6 @@ impl Default for RollingSlippingSphere {
 impl RollingSlippingSphere {
     /// The shell, the sphere and the path of its centre.
     pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        let (r, theta, phi) = (q[0], q[1], q[2]);
-        let centre = from_top([0.0; 2], r, theta);
-        let touching = from_top([0.0; 2], r - self.sphere_radius, theta);
-        Drawing::of([
-            Shape::Floor(-self.radius - self.sphere_radius),
-            Shape::Shell([0.0; 2], self.radius),
-            Shape::Trace(centre),
-            Shape::Disc(centre, self.sphere_radius, phi),
-        ])
-        .force("shell", touching, [theta.sin(), theta.cos()])
-        .force("grip", touching, [theta.cos(), -theta.sin()])
+        super::alike::sphere_on_shell(self.radius, self.sphere_radius, [q[0], q[1], q[2]], "grip")
     }
 }

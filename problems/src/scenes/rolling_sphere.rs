@@ -1,7 +1,7 @@
 //! A ball rolls down a sphere: where does it leave?
 
 use crate::closed_form::{ClosedForm, slide};
-use crate::drawing::{Drawing, Shape, from_top};
+use crate::drawing::Drawing;
 use lagrange_core::prelude::*;
 
 /// A solid sphere rolls without slipping down a fixed spherical shell, leaves it and falls, still spinning.
@@ -102,16 +102,11 @@ impl RollingSphere {
 impl RollingSphere {
     /// The shell, the sphere and the path of its centre.
     pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        let (r, theta, phi) = (q[0], q[1], q[2]);
-        let centre = from_top([0.0; 2], r, theta);
-        let touching = from_top([0.0; 2], r - self.sphere_radius, theta);
-        Drawing::of([
-            Shape::Floor(-self.radius - self.sphere_radius),
-            Shape::Shell([0.0; 2], self.radius),
-            Shape::Trace(centre),
-            Shape::Disc(centre, self.sphere_radius, phi),
-        ])
-        .force("shell", touching, [theta.sin(), theta.cos()])
-        .force("rolling", touching, [theta.cos(), -theta.sin()])
+        super::alike::sphere_on_shell(
+            self.radius,
+            self.sphere_radius,
+            [q[0], q[1], q[2]],
+            "rolling",
+        )
     }
 }

@@ -1,6 +1,6 @@
 //! A pendulum whose rod is a very stiff spring: two time scales.
 
-use crate::drawing::{Drawing, Shape, from_bottom};
+use crate::drawing::Drawing;
 use lagrange_core::prelude::*;
 
 /// A point mass swings on a spring so stiff that it is almost a rod.
@@ -56,11 +56,6 @@ impl Default for StiffSpringPendulum {
 impl StiffSpringPendulum {
     /// The spring, the mass and its path.
     pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        let mass = from_bottom([0.0; 2], q[0], q[1]);
-        Drawing::of([
-            Shape::Trace(mass),
-            Shape::Spring([0.0; 2], mass),
-            Shape::Mass(mass),
-        ])
+        super::alike::mass_on_spring(q[0], q[1])
     }
 }

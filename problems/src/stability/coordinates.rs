@@ -1,6 +1,6 @@
 //! Coordinates that fail at a point, and attitudes.
 
-use super::kit::{TOLERANCE, distance, relative, run, violation};
+use super::kit::{TOLERANCE, cross, distance, relative, run, violation};
 use super::{Extent, Figure, Surprise};
 use crate::reference::{agm, jacobi, over_a_turn};
 use crate::scenes::hard::{PolarParticle, SphericalPendulum, TumblingBody};
@@ -87,15 +87,6 @@ pub fn polar_particle(_: Extent) -> Result<Vec<Figure>, Surprise> {
             1e-12,
         ),
     ])
-}
-
-/// a × b
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
 }
 
 /// Quaternion product.

@@ -156,3 +156,15 @@ pub fn violation(trajectory: &Record<f64>) -> Result<f64, Surprise> {
     }
     Ok(worst)
 }
+
+/// In space.
+pub type Vector = [f64; 3];
+
+/// a × b
+pub fn cross(a: Vector, b: Vector) -> Vector {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}

@@ -1,6 +1,6 @@
 //! Rolling bodies: conditions on velocities that no condition on positions replaces.
 
-use super::kit::{closure, distance, relative, run, violation};
+use super::kit::{Vector, closure, cross, distance, relative, run, violation};
 use super::{Extent, Figure, Surprise};
 use crate::reference::extrapolate;
 use crate::scenes::hard::{Rattleback, RollingDisk, Turntable};
@@ -9,12 +9,17 @@ use lagrange_core::prelude::*;
 
 pub fn rolling_disk(_: Extent) -> Result<Vec<Figure>, Surprise> {
     let scene = RollingDisk::default();
-    let RollingDisk {
-        radius: r, gravity, ..
-    } = scene;
-    // Per unit of mass R².
-    let (thin, axle, weight) = (0.25, 0.5, gravity / r);
-    // In a circle: the lean balances, A ω₂² cot θ = (C + 1) ω₂ ω₃ + (g/R) cos θ.
+    let circle = disk_in_a_circle(&scene)?.into_iter();
+    Ok(circle.chain(disk_leaning_over(&scene)?).collect())
+}
+
+/// A and C of a disk, per unit of mass R².
+const DISK: [f64; 2] = [0.25, 0.5];
+
+/// The lean balances, A ω₂² cot θ = (C + 1) ω₂ ω₃ + (g/R) cos θ.
+fn disk_in_a_circle(scene: &RollingDisk) -> Result<[Figure; 2], Surprise> {
+    let [thin, axle] = DISK;
+    let (r, weight) = (scene.radius, scene.gravity / scene.radius);
     let (theta, turn) = (1.0_f64, -1.5_f64);
     let (s, c) = theta.sin_cos();
     let (w2, w2cot) = (turn * s, turn * c);
@@ -30,11 +35,16 @@ pub fn rolling_disk(_: Extent) -> Result<Vec<Figure>, Surprise> {
     let (start, end) = (trajectory.first_state(), trajectory.final_state());
     let back = distance(end.q[0], start.q[0]).hypot(distance(end.q[1], start.q[1]));
     let way = 3.0 * round * r * circle.spin.abs();
-    let mut figures = vec![
+    Ok([
         Figure::new("circle: closes after 3 turns", back / way, 1e-9),
         Figure::new("circle: lean, rad", distance(end.q[3], theta), 1e-9),
-    ];
-    // Let go it leans over almost to the floor; Appell's equations for (ω₁, ω₂, ω₃, θ, φ, ψ).
+    ])
+}
+
+/// Let go it leans over almost to the floor; Appell's equations for (ω₁, ω₂, ω₃, θ, φ, ψ).
+fn disk_leaning_over(scene: &RollingDisk) -> Result<[Figure; 4], Surprise> {
+    let [thin, axle] = DISK;
+    let weight = scene.gravity / scene.radius;
     let until = 3.0;
     let equations = |_: f64, y: &[f64; 6]| {
         let [w1, w2, w3, theta, ..] = *y;
@@ -49,36 +59,19 @@ pub fn rolling_disk(_: Extent) -> Result<Vec<Figure>, Surprise> {
         ]
     };
     let (s, c) = scene.start_angle.sin_cos();
-    let start = [
-        0.0,
-        scene.turn * s,
-        scene.spin + scene.turn * c,
-        scene.start_angle,
-        0.0,
-        0.0,
-    ];
+    let rates = [0.0, scene.turn * s, scene.spin + scene.turn * c];
+    let start = [rates[0], rates[1], rates[2], scene.start_angle, 0.0, 0.0];
     let expected = extrapolate(equations, 0.0, until, start, 4000);
-    let trajectory = run(&scene, RollingDisk::LEANING, until)?;
+    let trajectory = run(scene, RollingDisk::LEANING, until)?;
     let end = trajectory.final_state();
-    let lowest = trajectory.sampler();
-    let lean = lowest_lean(lowest, until)?;
-    figures.push(Figure::new(
-        format!("down to {lean:.2} rad: lean, rad"),
-        distance(end.q[3], expected[3]),
-        1e-9,
-    ));
-    figures.push(Figure::new(
-        "heading",
-        relative(end.q[2], expected[4]),
-        1e-9,
-    ));
-    figures.push(Figure::new(
-        "turn of the disk",
-        relative(end.q[4], expected[5]),
-        1e-9,
-    ));
-    figures.push(Figure::new("ledger", closure(&trajectory)?, 1e-11));
-    Ok(figures)
+    let lean = lowest_lean(trajectory.sampler(), until)?;
+    let lowest = format!("down to {lean:.2} rad: lean, rad");
+    Ok([
+        Figure::new(lowest, distance(end.q[3], expected[3]), 1e-9),
+        Figure::new("heading", relative(end.q[2], expected[4]), 1e-9),
+        Figure::new("turn of the disk", relative(end.q[4], expected[5]), 1e-9),
+        Figure::new("ledger", closure(&trajectory)?, 1e-11),
+    ])
 }
 
 fn lowest_lean(mut sampler: Sampler<'_, f64>, until: f64) -> Result<f64, Surprise> {
@@ -87,16 +80,6 @@ fn lowest_lean(mut sampler: Sampler<'_, f64>, until: f64) -> Result<f64, Surpris
         lowest = lowest.min(sampler.at(until * f64::from(k) / 3000.0)?.q[3]);
     }
     Ok(lowest)
-}
-
-type Vector = [f64; 3];
-
-fn cross(a: Vector, b: Vector) -> Vector {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
 }
 
 fn combine(a: Vector, factor: f64, b: Vector) -> Vector {

@@ -2,6 +2,7 @@
 
 use super::kit::{closure, event, relative, run, violation};
 use super::{Extent, Figure, Surprise};
+use crate::reference::root;
 use crate::scenes::hard::{BeamOnSupports, RodOnSupports, Sled, Table};
 
 /// 1 unless `flags` are those expected.
@@ -69,19 +70,6 @@ pub fn rod_on_supports(_: Extent) -> Result<Vec<Figure>, Surprise> {
         Figure::new("penetration, m", violation(&trajectory)?, 1e-12),
         Figure::new("ledger", closure(&trajectory)?, 1e-11),
     ])
-}
-
-/// The root of a growing function.
-fn root(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
-    for _ in 0..200 {
-        let middle = 0.5 * (low + high);
-        if f(middle) < 0.0 {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    0.5 * (low + high)
 }
 
 pub fn beam_on_supports(_: Extent) -> Result<Vec<Figure>, Surprise> {

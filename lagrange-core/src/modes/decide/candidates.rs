@@ -1,6 +1,6 @@
 //! The modes that the known facts allow: each choice of contacts, frictions and branches.
 
-use super::{Known, Moment, sticks};
+use super::{Juncture, sticks};
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, NeedSet};
 use crate::effects::Item;
@@ -20,21 +20,16 @@ const MOST_STATES: usize = 5;
 /// All modes that the known facts allow, in order of preference; false if they are too many.
 pub fn list_candidates<T: Scalar>(
     dynamics: &mut Dynamics<T>,
-    moment: Moment<'_, T>,
-    present: &Mode,
-    known: &Known,
+    here: Juncture<'_, T>,
     rows: &NeedSet,
     scratch: &mut Mode,
     out: &mut Pool<Mode>,
 ) -> bool {
-    look_at_slips(dynamics, moment, present, known, rows);
+    look_at_slips(dynamics, here, rows);
+    let Juncture { present, known, .. } = here;
     out.clear();
     let mut listing = Listing {
-        choices: Choices {
-            dynamics,
-            present,
-            known,
-        },
+        choices: Choices { dynamics, here },
         out,
     };
     scratch.clone_from(present);
@@ -62,14 +57,9 @@ pub fn list_candidates<T: Scalar>(
 }
 
 /// Evaluates the slips whose direction is not known.
-pub fn look_at_slips<T: Scalar>(
-    dynamics: &mut Dynamics<T>,
-    moment: Moment<'_, T>,
-    present: &Mode,
-    known: &Known,
-    rows: &NeedSet,
-) {
+pub fn look_at_slips<T: Scalar>(dynamics: &mut Dynamics<T>, here: Juncture<'_, T>, rows: &NeedSet) {
     let d = dynamics.description();
+    let Juncture { moment, known, .. } = here;
     let slides_unknown = |f: usize| {
         let closes = match d.frictions[f].normal {
             Normal::Contact(c) => known.touching[c],
@@ -79,7 +69,7 @@ pub fn look_at_slips<T: Scalar>(
             && d.frictions[f].components == 1
             && !known.resting[f]
             && dynamics.effects().includes(d, Item::Friction(f))
-            && slip_sign(f, present, known).is_none()
+            && slip_sign(f, here).is_none()
     };
     if (0..d.frictions.len()).any(slides_unknown) {
         dynamics.set_extra_needs(rows);
@@ -88,12 +78,12 @@ pub fn look_at_slips<T: Scalar>(
 }
 
 /// The way friction `f` has been sliding, if nothing has changed that.
-fn slip_sign(f: usize, present: &Mode, known: &Known) -> Option<f64> {
-    match present.frictions[f] {
+fn slip_sign<T>(f: usize, here: Juncture<'_, T>) -> Option<f64> {
+    match here.present.frictions[f] {
         FrictionMode::Slip(Sliding {
             direction: Direction::Fixed([sign, 0.0]),
             ..
-        }) if !known.jumped => Some(sign),
+        }) if !here.known.jumped => Some(sign),
         _ => None,
     }
 }
@@ -101,8 +91,7 @@ fn slip_sign(f: usize, present: &Mode, known: &Known) -> Option<f64> {
 /// What the items of a mode may do at an instant.
 pub struct Choices<'a, T: Scalar> {
     pub dynamics: &'a Dynamics<T>,
-    pub present: &'a Mode,
-    pub known: &'a Known,
+    pub here: Juncture<'a, T>,
 }
 
 impl<T: Scalar> Choices<'_, T> {
@@ -124,7 +113,7 @@ impl<T: Scalar> Choices<'_, T> {
             &[1.0]
         };
         if friction.components > 1 {
-            let direction = if self.known.resting[f] {
+            let direction = if self.here.known.resting[f] {
                 put(FrictionMode::Stick);
                 // Where to is found when the candidate is examined.
                 Direction::Incipient([0.0; 2])
@@ -138,14 +127,14 @@ impl<T: Scalar> Choices<'_, T> {
                 };
                 put(FrictionMode::Slip(sliding));
             }
-        } else if self.known.resting[f] {
+        } else if self.here.known.resting[f] {
             put(FrictionMode::Stick);
             for &bearing in bearings {
                 put(slide(1.0, bearing));
                 put(slide(-1.0, bearing));
             }
         } else {
-            let sign = slip_sign(f, self.present, self.known).unwrap_or_else(|| {
+            let sign = slip_sign(f, self.here).unwrap_or_else(|| {
                 let slip = self.dynamics.motion(d.rows[friction.row].velocity);
                 if slip.value() < 0.0 { -1.0 } else { 1.0 }
             });
@@ -171,7 +160,7 @@ impl<T: Scalar> Listing<'_, T> {
         if self.out.len() > MOST_CANDIDATES {
             return;
         }
-        if self.choices.known.touching[c] {
+        if self.choices.here.known.touching[c] {
             mode.contacts[c] = true;
             self.contacts(mode, c + 1);
         }
@@ -208,7 +197,7 @@ impl<T: Scalar> Listing<'_, T> {
             return self.out.push(mode);
         }
         self.branches(mode, b + 1);
-        if self.choices.known.balanced[b] {
+        if self.choices.here.known.balanced[b] {
             let side = mode.branch(b);
             mode.set_branch(b, !side);
             self.branches(mode, b + 1);

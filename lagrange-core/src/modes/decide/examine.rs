@@ -1,7 +1,7 @@
 //! Whether one candidate mode is feasible: its guards just after the instant.
 
 use super::questions::{concerns, leading, list_questions, unit_of_order};
-use super::{Decider, Known, Moment};
+use super::{Decider, Juncture, Moment};
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError};
 use crate::integrate::{Tolerance, taylor};
@@ -34,8 +34,7 @@ enum Leading {
 /// What happens after the moment, by a series of the order `order`, over times up to about `h`.
 struct Ahead<'a, T: Scalar> {
     dynamics: &'a Dynamics<T>,
-    moment: Moment<'a, T>,
-    known: &'a Known,
+    here: Juncture<'a, T>,
     order: usize,
     h: f64,
 }
@@ -55,10 +54,10 @@ impl<T: Scalar> Decider<T> {
         &mut self,
         dynamics: &mut Dynamics<T>,
         table: &mut Table,
-        moment: Moment<'_, T>,
+        here: Juncture<'_, T>,
         mode: &Mode,
-        known: &Known,
     ) -> Result<bool, EvaluationError> {
+        let Juncture { moment, known, .. } = here;
         let Moment { t, q, v, .. } = moment;
         self.posed.clone_from(mode);
         self.forks = false;
@@ -81,7 +80,7 @@ impl<T: Scalar> Decider<T> {
         dynamics.value(t, q, v)?;
         self.sizes.take(dynamics);
         self.share(dynamics);
-        self.ask_values(dynamics, moment, known);
+        self.ask_values(dynamics, here);
         if !self.violated.is_empty() || self.questions.is_empty() {
             return Ok(self.violated.is_empty());
         }
@@ -89,7 +88,7 @@ impl<T: Scalar> Decider<T> {
         for order in [LOW_ORDER.min(moment.order), moment.order] {
             dynamics.series(t, q, v, order)?;
             self.decision.expanded = serves && order == moment.order;
-            match self.judge(dynamics, moment, known, order) {
+            match self.judge(dynamics, here, order) {
                 Some(feasible) => return Ok(feasible),
                 None => self.zeros.truncate(settled),
             }
@@ -118,7 +117,8 @@ impl<T: Scalar> Decider<T> {
     }
 
     /// Answers the questions that values answer: what remains is asked of the series.
-    fn ask_values(&mut self, dynamics: &Dynamics<T>, moment: Moment<'_, T>, known: &Known) {
+    fn ask_values(&mut self, dynamics: &Dynamics<T>, here: Juncture<'_, T>) {
+        let known = here.known;
         let Self {
             sizes,
             questions,
@@ -140,7 +140,7 @@ impl<T: Scalar> Decider<T> {
                 return true;
             };
             let noise = if concerns(guard, joints, known) {
-                1e3 * moment.blur(known)
+                1e3 * here.blur()
             } else {
                 1e-6
             };
@@ -167,10 +167,10 @@ impl<T: Scalar> Decider<T> {
     fn judge(
         &mut self,
         dynamics: &Dynamics<T>,
-        moment: Moment<'_, T>,
-        known: &Known,
+        here: Juncture<'_, T>,
         order: usize,
     ) -> Option<bool> {
+        let Juncture { moment, known, .. } = here;
         let last = order == moment.order;
         // A low order's last coefficient is small enough at the same step for a loose tolerance only.
         let allowed = Tolerance::both(if last { moment.tolerance } else { 1e-3 });
@@ -178,8 +178,7 @@ impl<T: Scalar> Decider<T> {
         let h = step.filter(|h| h.is_finite()).unwrap_or(1.0);
         let ahead = Ahead {
             dynamics,
-            moment,
-            known,
+            here,
             order,
             h,
         };
@@ -252,13 +251,9 @@ impl<T: Scalar> Decider<T> {
         series: &mut [f64],
     ) -> Leading {
         let Ahead {
-            dynamics,
-            moment,
-            known,
-            h,
-            ..
+            dynamics, here, h, ..
         } = ahead;
-        let tolerance = moment.tolerance;
+        let tolerance = here.moment.tolerance;
         let reading = Reading::Series(dynamics);
         sharing::series(guard, &self.joints, &self.posed, &reading, series);
         let mut power = 1.0;
@@ -269,8 +264,8 @@ impl<T: Scalar> Decider<T> {
             size = size.max(c.abs());
         }
         // The residue of a located root, and what follows from it, has the size of the integration error.
-        let (relative, absolute) = if concerns(guard, &self.joints, known) {
-            ((100.0 * tolerance).clamp(1e-11, 1e-3), moment.blur(known))
+        let (relative, absolute) = if concerns(guard, &self.joints, here.known) {
+            ((100.0 * tolerance).clamp(1e-11, 1e-3), here.blur())
         } else {
             (1e-13, 1e-14)
         };

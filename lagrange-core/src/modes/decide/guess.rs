@@ -16,7 +16,7 @@
 //! Signs at the instant are not the last word (both members of a pair may vanish): the guess is where pivoting begins.
 
 use super::candidates::{Choices, slide};
-use super::{Decider, Known, Moment};
+use super::{Decider, Juncture, Known};
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
 use crate::effects::Item;
@@ -45,11 +45,10 @@ impl<T: Scalar> Decider<T> {
     pub(super) fn guess(
         &mut self,
         dynamics: &mut Dynamics<T>,
-        moment: Moment<'_, T>,
-        present: &Mode,
-        known: &Known,
+        here: Juncture<'_, T>,
         mode: &mut Mode,
     ) {
+        let Juncture { moment, known, .. } = here;
         let d = dynamics.description();
         dynamics.set_mode(mode);
         dynamics.set_extra_needs(&self.everything);
@@ -69,16 +68,8 @@ impl<T: Scalar> Decider<T> {
         for (k, &c) in contacts.iter().enumerate() {
             mode.contacts[c] = lemke.is_active(k);
         }
-        let choices = Choices {
-            dynamics,
-            present,
-            known,
-        };
-        let mut states = Vec::new();
         for f in 0..d.frictions.len() {
-            states.clear();
-            choices.of_friction(mode, f, |state| states.push(state));
-            mode.frictions[f] = states.first().copied().unwrap_or(FrictionMode::Inactive);
+            Choices { dynamics, here }.set_first(mode, f);
         }
         let first = contacts.len();
         for (k, resting) in resting.iter().enumerate() {

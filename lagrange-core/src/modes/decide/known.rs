@@ -1,5 +1,6 @@
-//! What a decision starts from: what is known exactly at the instant, and the instant.
+//! What a decision starts from: the instant, the mode up to it, and what is known exactly.
 
+use crate::mode::Mode;
 use crate::modes::guard::Guard;
 use crate::system::Description;
 
@@ -56,11 +57,28 @@ pub struct Moment<'a, T> {
     pub tolerance: f64,
 }
 
-impl<T> Moment<'_, T> {
+/// Where a mode ends and another is looked for.
+#[derive(Clone, Copy, Debug)]
+pub struct Juncture<'a, T> {
+    /// The instant.
+    pub moment: Moment<'a, T>,
+    /// The mode up to it.
+    pub present: &'a Mode,
+    /// What is known exactly.
+    pub known: &'a Known,
+}
+
+impl<T> Juncture<'_, T> {
     /// How far forces located as zero, and what follows from them, are from it, relative to what they are made of.
-    pub fn blur(&self, known: &Known) -> f64 {
+    pub fn blur(&self) -> f64 {
         // Where all forces vanish at once a residue has nothing to be compared with.
-        let residue = known.residue.min(self.tolerance.max(1e-6));
-        self.tolerance.max(1e-14).max(4.0 * residue)
+        let tolerance = self.moment.tolerance;
+        let residue = self.known.residue.min(tolerance.max(1e-6));
+        tolerance.max(1e-14).max(4.0 * residue)
+    }
+
+    /// Whether a mode is over: a root of it falls through zero.
+    pub fn ends(&self, mode: &Mode) -> bool {
+        mode == self.present && !self.known.located.is_empty()
     }
 }

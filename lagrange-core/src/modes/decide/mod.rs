@@ -29,7 +29,7 @@ use crate::pool::Pool;
 use crate::system::Description;
 use candidates::list_candidates;
 use incipient::Beginning;
-pub use known::{Known, Moment};
+pub use known::{Juncture, Known, Moment};
 
 /// The mode that goes on.
 #[derive(Clone, Debug)]
@@ -111,7 +111,7 @@ impl<T: Scalar> Decider<T> {
         }
     }
 
-    /// Finds the mode in which the motion goes on from a moment, into [`Self::decision`].
+    /// Finds the mode in which the motion goes on, into [`Self::decision`].
     ///
     /// On success `dynamics` is left in that mode. Where a few modes are possible all are looked at; the order of preference among
     /// feasible ones is: closed before open, stick before slip, then the present mode, then the fewest changes. Where they are many, see
@@ -123,30 +123,20 @@ impl<T: Scalar> Decider<T> {
         &mut self,
         dynamics: &mut Dynamics<T>,
         table: &mut Table,
-        moment: Moment<'_, T>,
-        present: &Mode,
-        known: &Known,
+        here: Juncture<'_, T>,
     ) -> Result<(), Error> {
         let d = dynamics.description();
         let mut candidates = core::mem::take(&mut self.candidates);
         let scratch = &mut self.decision.mode;
-        let few = list_candidates(
-            dynamics,
-            moment,
-            present,
-            known,
-            &self.rows,
-            scratch,
-            &mut candidates,
-        );
+        let few = list_candidates(dynamics, here, &self.rows, scratch, &mut candidates);
         self.tried = 0;
         let outcome = if few {
-            self.best(dynamics, table, moment, present, known, &candidates)
+            self.best(dynamics, table, here, &candidates)
         } else {
-            self.pivot(dynamics, table, moment, present, known)
+            self.pivot(dynamics, table, here)
         };
         self.candidates = candidates;
-        let time = moment.t.value();
+        let time = here.moment.t.value();
         match outcome {
             Ok(true) => {
                 self.decision.mode.clone_from(&self.best);
@@ -155,8 +145,8 @@ impl<T: Scalar> Decider<T> {
             }
             Ok(false) => Err(Error::NoMode {
                 time,
-                mode: present.display(d).to_string(),
-                item: concerned(d, known, present),
+                mode: here.present.display(d).to_string(),
+                item: concerned(d, here.known, here.present),
                 tried: self.tried,
             }),
             Err(error) => Err(Error::from_evaluation(error, time, dynamics.mode(), d)),
@@ -189,21 +179,18 @@ impl<T: Scalar> Decider<T> {
         &mut self,
         dynamics: &mut Dynamics<T>,
         table: &mut Table,
-        moment: Moment<'_, T>,
-        present: &Mode,
-        known: &Known,
+        here: Juncture<'_, T>,
         candidates: &[Mode],
     ) -> Result<bool, EvaluationError> {
         let (mut best, mut failure) = (None, None);
         // Without friction the accelerations are the only ones that Gauss's principle allows: no other mode has others.
         let idle = |mode: &Mode| mode.frictions.iter().all(|f| *f == FrictionMode::Inactive);
         let unique = dynamics.description().couplings.is_empty()
-            && !known.balanced.contains(&true)
+            && !here.known.balanced.contains(&true)
             && candidates.iter().all(idle);
         for (index, mode) in candidates.iter().enumerate() {
             self.tried += 1;
-            // A root of the present mode falls through zero: that mode is over.
-            if *mode == *present && !known.located.is_empty() {
+            if here.ends(mode) {
                 continue;
             }
             // Stick is preferred to slip without being ambiguous (μs > μk allows both).
@@ -211,7 +198,7 @@ impl<T: Scalar> Decider<T> {
                 continue;
             }
             self.decision.expanded = false;
-            let outcome = self.examine(dynamics, table, moment, mode, known);
+            let outcome = self.examine(dynamics, table, here, mode);
             // Another than the best leaves its own series behind.
             self.decision.expanded &= best.is_none();
             match outcome {

@@ -11,7 +11,7 @@
 //! would do as well is not asked.
 
 use super::candidates::{Choices, look_at_slips, slide};
-use super::{Decider, Known, Moment};
+use super::{Decider, Juncture};
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError};
 use crate::mode::{Direction, FrictionMode, Mode, Sliding};
@@ -31,23 +31,21 @@ impl<T: Scalar> Decider<T> {
         &mut self,
         dynamics: &mut Dynamics<T>,
         table: &mut Table,
-        moment: Moment<'_, T>,
-        present: &Mode,
-        known: &Known,
+        here: Juncture<'_, T>,
     ) -> Result<bool, EvaluationError> {
         self.decision.ambiguous = false;
-        look_at_slips(dynamics, moment, present, known, &self.rows);
-        let mut near = present.clone();
-        Exchange::new(dynamics, present, known).begin(&mut near);
+        look_at_slips(dynamics, here, &self.rows);
+        let mut near = here.present.clone();
+        Choices { dynamics, here }.begin(&mut near);
         let mut outcome = Ok(false);
         for (guesses, sticks_first) in [(false, true), (true, true), (false, false), (true, false)]
         {
             let mut mode = near.clone();
             if guesses {
-                self.guess(dynamics, moment, present, known, &mut mode);
+                self.guess(dynamics, here, &mut mode);
             }
             self.sticks_first = sticks_first;
-            outcome = self.pivot_from(dynamics, table, moment, present, known, mode);
+            outcome = self.pivot_from(dynamics, table, here, mode);
             self.sticks_first = false;
             if let Ok(true) = outcome {
                 break;
@@ -60,11 +58,10 @@ impl<T: Scalar> Decider<T> {
         &mut self,
         dynamics: &mut Dynamics<T>,
         table: &mut Table,
-        moment: Moment<'_, T>,
-        present: &Mode,
-        known: &Known,
+        here: Juncture<'_, T>,
         mut mode: Mode,
     ) -> Result<bool, EvaluationError> {
+        let known = here.known;
         let flags = [&known.touching, &known.resting, &known.balanced];
         let open: usize = flags
             .iter()
@@ -74,10 +71,9 @@ impl<T: Scalar> Decider<T> {
         for _ in 0..20 + 4 * open {
             self.tried += 1;
             self.decision.expanded = false;
-            if mode == *present && !known.located.is_empty() {
-                // A root of the present mode falls through zero: that mode is over.
+            if here.ends(&mode) {
                 self.violated.clone_from(&known.located);
-            } else if self.examine(dynamics, table, moment, &mode, known)? {
+            } else if self.examine(dynamics, table, here, &mode)? {
                 self.decision.ambiguous = self.forks;
                 self.keep(dynamics);
                 return Ok(true);
@@ -94,7 +90,7 @@ impl<T: Scalar> Decider<T> {
                 violated.clear();
                 violated.extend(last);
             }
-            Exchange::new(dynamics, present, known).apply(&violated, &mut mode);
+            Choices { dynamics, here }.exchange(&violated, &mut mode);
             self.violated = violated;
         }
         Ok(false)
@@ -114,25 +110,10 @@ fn order(guard: &Guard) -> (usize, usize) {
     }
 }
 
-/// Exchanges what violated guards forbid for its complement.
-struct Exchange<'a, T: Scalar> {
-    choices: Choices<'a, T>,
-}
-
-impl<'a, T: Scalar> Exchange<'a, T> {
-    fn new(dynamics: &'a Dynamics<T>, present: &'a Mode, known: &'a Known) -> Self {
-        Self {
-            choices: Choices {
-                dynamics,
-                present,
-                known,
-            },
-        }
-    }
-
+impl<T: Scalar> Choices<'_, T> {
     /// From the present mode to the nearest that is not over: what was located is exchanged, what touches is closed.
     fn begin(&self, mode: &mut Mode) {
-        let known = self.choices.known;
+        let known = self.here.known;
         for (closed, touching) in mode.contacts.iter_mut().zip(&known.touching) {
             *closed = *touching;
         }
@@ -141,18 +122,18 @@ impl<'a, T: Scalar> Exchange<'a, T> {
         }
         let ended = |guard: &&Guard| !matches!(guard, Guard::Gap(_) | Guard::Slip(_));
         let located: Vec<Guard> = known.located.iter().filter(ended).copied().collect();
-        self.apply(&located, mode);
+        self.exchange(&located, mode);
     }
 
     /// The first choice of friction `f`.
-    fn set_first(&self, mode: &mut Mode, f: usize) {
+    pub(super) fn set_first(&self, mode: &mut Mode, f: usize) {
         let mut first = None;
-        self.choices
-            .of_friction(mode, f, |state| first = first.or(Some(state)));
+        self.of_friction(mode, f, |state| first = first.or(Some(state)));
         mode.frictions[f] = first.unwrap_or(FrictionMode::Inactive);
     }
 
-    fn apply(&self, violated: &[Guard], mode: &mut Mode) {
+    /// Exchanges what violated guards forbid for its complement.
+    fn exchange(&self, violated: &[Guard], mode: &mut Mode) {
         for &guard in violated {
             match guard {
                 Guard::StickUpper(f) => mode.frictions[f] = slide(-1.0, 1.0),
@@ -181,7 +162,7 @@ impl<'a, T: Scalar> Exchange<'a, T> {
                 _ => continue,
             };
             mode.contacts[c] = closed;
-            for (f, friction) in self.choices.description().frictions.iter().enumerate() {
+            for (f, friction) in self.description().frictions.iter().enumerate() {
                 if matches!(friction.normal, Normal::Contact(on) if on == c) {
                     self.set_first(mode, f);
                 }
@@ -191,13 +172,13 @@ impl<'a, T: Scalar> Exchange<'a, T> {
 
     /// How friction `f` slips when its force, at the last value, is too large.
     fn leaves_its_cone(&self, f: usize) -> FrictionMode {
-        let friction = &self.choices.description().frictions[f];
+        let friction = &self.description().frictions[f];
         let sign = |row: usize| {
-            let force = self.choices.dynamics.force(row).value();
+            let force = self.dynamics.force(row).value();
             if force < 0.0 { -1.0 } else { 1.0 }
         };
         let normal_sign = match friction.normal {
-            Normal::Constraint(i) => sign(self.choices.description().constraints[i].row),
+            Normal::Constraint(i) => sign(self.description().constraints[i].row),
             _ => 1.0,
         };
         if friction.components == 1 {

@@ -41,37 +41,8 @@ impl<T: Scalar> Gathering<T> {
         let bilateral = self.bilateral.len();
         let size = n + bilateral;
         out.size = self.rows.len();
-        self.jacobian.clear();
-        self.jacobian.resize((out.size + bilateral) * n, T::zero());
-        let all = self.rows.iter().chain(&self.bilateral);
-        for (&row, a) in all.zip(self.jacobian.chunks_exact_mut(n.max(1))) {
-            for &(j, place) in d.rows[row].jacobian {
-                a[j] = dynamics.motion(place);
-            }
-        }
-        // [M −Bᵀ; B 0]
-        self.matrix.clear();
-        self.matrix.resize(size * size, T::zero());
-        for &(i, j, place) in d.mass {
-            self.matrix[i * size + j] = dynamics.motion(place);
-            self.matrix[j * size + i] = dynamics.motion(place);
-        }
-        for k in 0..bilateral {
-            for j in 0..n {
-                let a = self.jacobian[(out.size + k) * n + j];
-                self.matrix[(n + k) * size + j] = a;
-                self.matrix[j * size + n + k] = -a;
-            }
-        }
-        self.factors.factor(&mut self.matrix, size);
-        self.answers.clear();
-        self.answers.resize(out.size * size, T::zero());
-        for k in 0..out.size {
-            let answer = &mut self.answers[k * size..(k + 1) * size];
-            answer[..n].copy_from_slice(&self.jacobian[k * n..(k + 1) * n]);
-            if !self.factors.solve(answer) {
-                return false;
-            }
+        if !self.answer(dynamics) {
+            return false;
         }
         out.response.clear();
         out.rates.clear();
@@ -93,44 +64,57 @@ impl<T: Scalar> Gathering<T> {
         true
     }
 
+    /// What a unit impulse of each row does; false if that is not finite.
+    fn answer(&mut self, dynamics: &Dynamics<T>) -> bool {
+        let d = dynamics.description();
+        let n = d.coordinates.len();
+        let (count, bilateral) = (self.rows.len(), self.bilateral.len());
+        let size = n + bilateral;
+        self.jacobian.clear();
+        self.jacobian.resize((count + bilateral) * n, T::zero());
+        let all = self.rows.iter().chain(&self.bilateral);
+        for (&row, a) in all.zip(self.jacobian.chunks_exact_mut(n.max(1))) {
+            for &(j, place) in d.rows[row].jacobian {
+                a[j] = dynamics.motion(place);
+            }
+        }
+        // [M −Bᵀ; B 0]
+        self.matrix.clear();
+        self.matrix.resize(size * size, T::zero());
+        for &(i, j, place) in d.mass {
+            self.matrix[i * size + j] = dynamics.motion(place);
+            self.matrix[j * size + i] = dynamics.motion(place);
+        }
+        for k in 0..bilateral {
+            for j in 0..n {
+                let a = self.jacobian[(count + k) * n + j];
+                self.matrix[(n + k) * size + j] = a;
+                self.matrix[j * size + n + k] = -a;
+            }
+        }
+        self.factors.factor(&mut self.matrix, size);
+        self.answers.clear();
+        self.answers.resize(count * size, T::zero());
+        for k in 0..count {
+            let answer = &mut self.answers[k * size..(k + 1) * size];
+            answer[..n].copy_from_slice(&self.jacobian[k * n..(k + 1) * n]);
+            if !self.factors.solve(answer) {
+                return false;
+            }
+        }
+        true
+    }
+
     /// Which rows there are.
     fn list_rows(&mut self, dynamics: &Dynamics<T>, near: &[usize], out: &mut Collision<T>) {
         let d = dynamics.description();
-        let effects = dynamics.effects();
-        let mode = dynamics.mode();
         self.rows.clear();
         self.at_rest.clear();
         self.bilateral.clear();
         out.conditional.clear();
         out.touches.clear();
         out.rubs.clear();
-        let rubs = |f: &usize| effects.includes(d, Item::Friction(*f));
-        let frictions = || (0..d.frictions.len()).filter(rubs);
-        let carries = |i: usize| {
-            frictions().any(|f| matches!(d.frictions[f].normal, Normal::Constraint(c) if c == i))
-        };
-        let constraints = (0..d.constraints.len())
-            .filter(|i| effects.includes(d, Item::Constraint(*i)))
-            .filter(|i| d.constraints[*i].while_contact.is_none());
-        for i in constraints {
-            if carries(i) {
-                self.rows.push(d.constraints[i].row);
-            } else {
-                self.bilateral.push(d.constraints[i].row);
-            }
-        }
-        out.links = self.rows.len();
-        self.at_rest.resize(out.links, true);
-        for (i, constraint) in d.constraints.iter().enumerate() {
-            let place = |c| near.iter().position(|n| *n == c);
-            if let Some(touch) = constraint.while_contact.and_then(place)
-                && effects.includes(d, Item::Constraint(i))
-            {
-                out.conditional.push((self.rows.len(), touch));
-                self.rows.push(constraint.row);
-                self.at_rest.push(mode.contacts[near[touch]]);
-            }
-        }
+        self.list_constraints(dynamics, near, out);
         for &c in near {
             let (restitution, poisson) = match d.contacts[c].restitution {
                 Restitution::Newton(place) => (place, false),
@@ -143,40 +127,80 @@ impl<T: Scalar> Gathering<T> {
                 poisson,
             });
             self.rows.push(d.contacts[c].row);
-            self.at_rest.push(mode.contacts[c]);
+            self.at_rest.push(dynamics.mode().contacts[c]);
         }
-        for f in frictions() {
-            let friction = &d.frictions[f];
-            let (bearer, factor) = match friction.normal {
-                Normal::Contact(c) => (
-                    near.iter().position(|n| *n == c).map(Bearer::Touch),
-                    d.contacts[c].normal_factor,
-                ),
-                Normal::Constraint(i) => {
-                    let row = d.constraints[i].row;
-                    let among = self.rows[..out.links].iter().position(|r| *r == row);
-                    (among.map(Bearer::Link), None)
-                }
-                // A given force is finite: it does nothing in no time.
-                Normal::Given(_) => (None, None),
-            };
-            let Some(bearer) = bearer else {
-                continue;
-            };
-            out.rubs.push(Rub {
-                friction: f,
-                row: self.rows.len(),
-                components: friction.components,
-                bearer,
-                factor: factor.map_or(T::one(), |place: Place| dynamics.motion(place)),
-                stick: dynamics.motion(friction.static_coefficient),
-                slide: dynamics.motion(friction.kinetic_coefficient),
-            });
-            let components = friction.row..friction.row + friction.components;
-            self.rows.extend(components);
-            let sticks = mode.frictions[f] == FrictionMode::Stick;
-            self.at_rest.resize(self.rows.len(), sticks);
+        for f in frictions(dynamics) {
+            self.list_friction(dynamics, f, near, out);
         }
+    }
+
+    /// Constraints that carry friction, then those of contacts that are hit; the others are solved with M.
+    fn list_constraints(&mut self, dynamics: &Dynamics<T>, near: &[usize], out: &mut Collision<T>) {
+        let d = dynamics.description();
+        let carries = |i: usize| {
+            frictions(dynamics)
+                .any(|f| matches!(d.frictions[f].normal, Normal::Constraint(c) if c == i))
+        };
+        let included = |i: &usize| dynamics.effects().includes(d, Item::Constraint(*i));
+        let constraints = || (0..d.constraints.len()).filter(included);
+        for i in constraints().filter(|i| d.constraints[*i].while_contact.is_none()) {
+            match carries(i) {
+                true => self.rows.push(d.constraints[i].row),
+                false => self.bilateral.push(d.constraints[i].row),
+            }
+        }
+        out.links = self.rows.len();
+        self.at_rest.resize(out.links, true);
+        for i in constraints() {
+            let constraint = &d.constraints[i];
+            let place = |c| near.iter().position(|n| *n == c);
+            if let Some(touch) = constraint.while_contact.and_then(place) {
+                out.conditional.push((self.rows.len(), touch));
+                self.rows.push(constraint.row);
+                self.at_rest.push(dynamics.mode().contacts[near[touch]]);
+            }
+        }
+    }
+
+    /// A friction, if what it rubs on takes part.
+    fn list_friction(
+        &mut self,
+        dynamics: &Dynamics<T>,
+        f: usize,
+        near: &[usize],
+        out: &mut Collision<T>,
+    ) {
+        let d = dynamics.description();
+        let friction = &d.frictions[f];
+        let (bearer, factor) = match friction.normal {
+            Normal::Contact(c) => (
+                near.iter().position(|n| *n == c).map(Bearer::Touch),
+                d.contacts[c].normal_factor,
+            ),
+            Normal::Constraint(i) => {
+                let row = d.constraints[i].row;
+                let among = self.rows[..out.links].iter().position(|r| *r == row);
+                (among.map(Bearer::Link), None)
+            }
+            // A given force is finite: it does nothing in no time.
+            Normal::Given(_) => (None, None),
+        };
+        let Some(bearer) = bearer else {
+            return;
+        };
+        out.rubs.push(Rub {
+            friction: f,
+            row: self.rows.len(),
+            components: friction.components,
+            bearer,
+            factor: factor.map_or(T::one(), |place: Place| dynamics.motion(place)),
+            stick: dynamics.motion(friction.static_coefficient),
+            slide: dynamics.motion(friction.kinetic_coefficient),
+        });
+        self.rows
+            .extend(friction.row..friction.row + friction.components);
+        let sticks = dynamics.mode().frictions[f] == FrictionMode::Stick;
+        self.at_rest.resize(self.rows.len(), sticks);
     }
 
     /// Velocities after the impulses of the rows, and the impulses of all rows of the description.
@@ -217,6 +241,12 @@ impl<T: Scalar> Gathering<T> {
             out.undetermined = true;
         }
     }
+}
+
+/// Frictions that are not left out.
+fn frictions<T: Scalar>(dynamics: &Dynamics<T>) -> impl Iterator<Item = usize> + '_ {
+    let d = dynamics.description();
+    (0..d.frictions.len()).filter(move |&f| dynamics.effects().includes(d, Item::Friction(f)))
 }
 
 fn dot<T: Scalar>(a: &[T], b: &[T]) -> T {

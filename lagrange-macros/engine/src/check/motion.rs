@@ -6,10 +6,10 @@
 //! ```
 
 use super::arithmetic::Arithmetic;
+use super::forces::{Affine, forces};
 use super::linear::solve;
 use super::mechanics::Mechanics;
-use super::modes::{Grip, Mode};
-use crate::model::Normal;
+use super::modes::Mode;
 use crate::symbolic::field::Trouble;
 use crate::symbolic::{ExprId, Pool, Symbol};
 
@@ -32,12 +32,6 @@ impl From<Trouble> for Stuck {
 pub(super) struct Tie {
     pub jacobian: Vec<(usize, ExprId)>,
     pub whole: ExprId,
-}
-
-/// Σ cₖ xₖ + constant over the unknowns.
-struct Affine<N> {
-    terms: Vec<(usize, N)>,
-    constant: N,
 }
 
 /// Values in the order in which they were asked for.
@@ -125,16 +119,48 @@ pub(super) fn accelerations<A: Arithmetic>(
     mechanics: &Mechanics,
     mode: &Mode,
 ) -> Result<Vec<Symbol>, Stuck> {
-    let n = mechanics.coordinates.len();
     let active = mode.active(mechanics);
+    let forces = forces(a, pool, mechanics, mode, &active)?;
+    let equations = equations(a, pool, mechanics, &active, &forces)?;
+    // What stays undetermined is given some value: a claim about it must not depend on which.
+    let accelerations = mechanics.coordinates.iter().map(|q| q[2]);
+    let unknowns = accelerations.chain(active.iter().map(|&row| mechanics.rows[row].force));
+    let free: Vec<A::Number> = unknowns.map(|symbol| a.symbol(symbol)).collect();
+    let solution = solve(a, equations, &free)?.ok_or(Stuck::Impossible)?;
+    let mut undetermined = Vec::new();
+    for (k, &[_, _, symbol]) in mechanics.coordinates.iter().enumerate() {
+        a.bind(symbol, solution.x[k]);
+        undetermined.extend((!solution.determined[k]).then_some(symbol));
+    }
+    for (row, force) in mechanics.rows.iter().zip(&forces) {
+        let mut value = force.constant;
+        let mut determined = true;
+        for &(k, c) in &force.terms {
+            value = a.add(value, a.mul(c, solution.x[k]));
+            determined &= solution.determined[k];
+        }
+        a.bind(row.force, value);
+        undetermined.extend((!determined).then_some(row.force));
+    }
+    Ok(undetermined)
+}
+
+/// Balances of the coordinates, then the active rows; the right-hand side last.
+fn equations<A: Arithmetic>(
+    a: &mut A,
+    pool: &Pool,
+    mechanics: &Mechanics,
+    active: &[usize],
+    forces: &[Affine<A::Number>],
+) -> Result<Vec<Vec<A::Number>>, Stuck> {
+    let n = mechanics.coordinates.len();
     let size = n + active.len();
     let zero = a.integer(0);
-    let forces = forces(a, pool, mechanics, mode, &active)?;
-    let acts = |row: usize| {
-        let force: &Affine<A::Number> = &forces[row];
+    let acts = |row: &usize| {
+        let force = &forces[*row];
         !force.terms.is_empty() || a.size(force.constant) != 0.0
     };
-    let acting: Vec<usize> = (0..mechanics.rows.len()).filter(|&row| acts(row)).collect();
+    let acting: Vec<usize> = (0..mechanics.rows.len()).filter(acts).collect();
     let entries = |row: usize| mechanics.rows[row].jacobian.iter().map(|&(_, e)| e);
     let mut needed: Vec<ExprId> = mechanics.mass.iter().map(|&(_, _, m)| m).collect();
     needed.extend(&mechanics.forcing);
@@ -155,7 +181,7 @@ pub(super) fn accelerations<A: Arithmetic>(
     for equation in &mut equations[..n] {
         equation[size] = numbers.next();
     }
-    let mut push = |a: &A, i: usize, factor: A::Number, force: &Affine<A::Number>| {
+    let mut push = |i: usize, factor: A::Number, force: &Affine<A::Number>| {
         for &(k, c) in &force.terms {
             equations[i][k] = a.sub(equations[i][k], a.mul(factor, c));
         }
@@ -163,11 +189,11 @@ pub(super) fn accelerations<A: Arithmetic>(
     };
     for &row in &acting {
         for &(j, _) in &mechanics.rows[row].jacobian {
-            push(a, j, numbers.next(), &forces[row]);
+            push(j, numbers.next(), &forces[row]);
         }
     }
     for &(i, row, _) in &mechanics.couplings {
-        push(a, i, numbers.next(), &forces[row]);
+        push(i, numbers.next(), &forces[row]);
     }
     for (k, &row) in active.iter().enumerate() {
         for &(j, _) in &mechanics.rows[row].jacobian {
@@ -175,100 +201,5 @@ pub(super) fn accelerations<A: Arithmetic>(
         }
         equations[n + k][size] = a.sub(zero, numbers.next());
     }
-    // What stays undetermined is given some value: a claim about it must not depend on which.
-    let mut free = vec![zero; size];
-    for (place, symbol) in mechanics.coordinates.iter().map(|q| q[2]).enumerate() {
-        free[place] = a.symbol(symbol);
-    }
-    for (k, &row) in active.iter().enumerate() {
-        free[n + k] = a.symbol(mechanics.rows[row].force);
-    }
-    let solution = solve(a, equations, &free)?.ok_or(Stuck::Impossible)?;
-    let mut undetermined = Vec::new();
-    for (k, &[_, _, symbol]) in mechanics.coordinates.iter().enumerate() {
-        a.bind(symbol, solution.x[k]);
-        undetermined.extend((!solution.determined[k]).then_some(symbol));
-    }
-    for (row, force) in mechanics.rows.iter().zip(&forces) {
-        let mut value = force.constant;
-        let mut determined = true;
-        for &(k, c) in &force.terms {
-            value = a.add(value, a.mul(c, solution.x[k]));
-            determined &= solution.determined[k];
-        }
-        a.bind(row.force, value);
-        undetermined.extend((!determined).then_some(row.force));
-    }
-    Ok(undetermined)
-}
-
-/// The force of every row, in the unknowns: v̇, then the forces of the active rows.
-fn forces<A: Arithmetic>(
-    a: &mut A,
-    pool: &Pool,
-    mechanics: &Mechanics,
-    mode: &Mode,
-    active: &[usize],
-) -> Result<Vec<Affine<A::Number>>, Stuck> {
-    let n = mechanics.coordinates.len();
-    let mut forces: Vec<Affine<A::Number>> = Vec::new();
-    for row in 0..mechanics.rows.len() {
-        let place = active.iter().position(|&r| r == row);
-        forces.push(Affine {
-            terms: place.map(|k| (n + k, a.integer(1))).into_iter().collect(),
-            constant: a.integer(0),
-        });
-    }
-    for (friction, grip) in mechanics.frictions.iter().zip(&mode.grips) {
-        let Grip::Slips { forward } = *grip else {
-            continue;
-        };
-        let mu = a.values(pool, &[friction.kinetic_coefficient])?[0];
-        let backward = a.integer(if forward { -1 } else { 1 });
-        let mut directions = vec![backward];
-        if friction.rows.len() > 1 {
-            let slips: Vec<ExprId> = friction
-                .rows
-                .iter()
-                .map(|&row| mechanics.rows[row].velocity)
-                .collect();
-            let slips = a.values(pool, &slips)?;
-            let square = slips
-                .iter()
-                .fold(a.integer(0), |sum, &s| a.add(sum, a.mul(s, s)));
-            let speed = a.sqrt(square)?;
-            directions.clear();
-            for s in slips {
-                directions.push(a.mul(backward, a.div(s, speed)?));
-            }
-        }
-        let (terms, constant) = match friction.normal {
-            Normal::Given(e) => (Vec::new(), a.values(pool, &[e])?[0]),
-            Normal::Contact(contact) => {
-                let factor = match mechanics.contacts[contact].0 {
-                    None => a.integer(1),
-                    Some(factor) => a.values(pool, &[factor])?[0],
-                };
-                let row = mechanics.constraints + contact;
-                let scaled = |&(k, c): &(usize, A::Number)| (k, a.mul(factor, c));
-                let terms = forces[row].terms.iter().map(scaled).collect();
-                (terms, a.integer(0))
-            }
-            Normal::Constraint(constraint) => {
-                let sign = a.integer(if mode.positive[constraint] { 1 } else { -1 });
-                let scaled = |&(k, c): &(usize, A::Number)| (k, a.mul(sign, c));
-                let terms = forces[constraint].terms.iter().map(scaled).collect();
-                (terms, a.integer(0))
-            }
-        };
-        for (&row, direction) in friction.rows.iter().zip(directions) {
-            let factor = a.mul(mu, direction);
-            let scaled = |&(k, c): &(usize, A::Number)| (k, a.mul(factor, c));
-            forces[row] = Affine {
-                terms: terms.iter().map(scaled).collect(),
-                constant: a.mul(factor, constant),
-            };
-        }
-    }
-    Ok(forces)
+    Ok(equations)
 }

@@ -50,14 +50,12 @@ pub(super) fn allocate(system: &System) -> Needs {
         labels.push(label);
         NeedId(labels.len() - 1)
     };
-    let kinetic = system
-        .kinetic
-        .iter()
+    let kinetic = system.kinetic.iter();
+    let kinetic = kinetic
         .map(|k| effect("kinetic", &k.name, &mut new))
         .collect();
-    let potential = system
-        .potential
-        .iter()
+    let potential = system.potential.iter();
+    let potential = potential
         .map(|v| effect("potential", &v.name, &mut new))
         .collect();
     let mut load = |name: &ItemName| {
@@ -69,50 +67,26 @@ pub(super) fn allocate(system: &System) -> Needs {
     let forces = system.forces.iter().map(|f| load(&f.name)).collect();
     let dissipations = system.dissipations.iter().map(|d| load(&d.name)).collect();
 
-    let mut rows = Vec::new();
-    for constraint in &system.constraints {
-        rows.push(row(&constraint.name, "residual", "rate", &mut new));
-    }
-    for contact in &system.contacts {
-        rows.push(row(&contact.name, "gap", "rate", &mut new));
-    }
-    for friction in &system.frictions {
-        let [jacobian, bias] =
-            ["jacobian", "bias"].map(|part| new(format!("{part} of {}", friction.name.text)));
-        let slip = new(format!("slip of {}", friction.name.text));
-        // A slip is a velocity: it has no position level, and no need for one.
-        rows.extend(friction.slip.iter().map(|_| [jacobian, bias, slip, slip]));
-    }
-    let restitution = system
-        .contacts
-        .iter()
-        .map(|c| new(format!("restitution of {}", c.name.text)))
-        .collect();
-    let coefficients = system
-        .frictions
-        .iter()
-        .map(|f| new(format!("coefficients of {}", f.name.text)))
+    let rows = rows(system, &mut new);
+    let mut named = |what: &str, name: &ItemName| new(format!("{what} {}", name.text));
+    let contacts = system.contacts.iter();
+    let restitution = contacts.map(|c| named("restitution of", &c.name)).collect();
+    let frictions = system.frictions.iter();
+    let coefficients = frictions
+        .map(|f| named("coefficients of", &f.name))
         .collect();
     let branches = (0..system.branches.len())
         .map(|i| new(format!("branch {i}")))
         .collect();
     let energy = new("energy".to_owned());
     let momenta = new("momenta".to_owned());
-    let observes = system
-        .observes
-        .iter()
-        .map(|o| new(format!("observe {}", o.name.text)))
-        .collect();
-    let stops = system
-        .stops
-        .iter()
-        .map(|s| new(format!("stop {}", s.name.text)))
-        .collect();
-    let marks = system
-        .marks
-        .iter()
-        .map(|m| new(format!("mark {}", m.name.text)))
-        .collect();
+    let mut named = |what: &str, name: &ItemName| new(format!("{what} {}", name.text));
+    let observes = system.observes.iter();
+    let observes = observes.map(|o| named("observe", &o.name)).collect();
+    let stops = system.stops.iter();
+    let stops = stops.map(|s| named("stop", &s.name)).collect();
+    let marks = system.marks.iter();
+    let marks = marks.map(|m| named("mark", &m.name)).collect();
     Needs {
         labels,
         kinetic,
@@ -137,6 +111,24 @@ fn effect(kind: &str, name: &ItemName, new: &mut impl FnMut(String) -> NeedId) -
         Some(_) => new(format!("{kind} {}", name.text)),
         None => ALWAYS,
     }
+}
+
+/// Jacobian, bias, position and velocity of each row.
+fn rows(system: &System, new: &mut impl FnMut(String) -> NeedId) -> Vec<[NeedId; 4]> {
+    let mut rows = Vec::new();
+    for constraint in &system.constraints {
+        rows.push(row(&constraint.name, "residual", "rate", new));
+    }
+    for contact in &system.contacts {
+        rows.push(row(&contact.name, "gap", "rate", new));
+    }
+    for friction in &system.frictions {
+        let [jacobian, bias, slip] = ["jacobian", "bias", "slip"]
+            .map(|part| new(format!("{part} of {}", friction.name.text)));
+        // A slip is a velocity: it has no position level, and no need for one.
+        rows.extend(friction.slip.iter().map(|_| [jacobian, bias, slip, slip]));
+    }
+    rows
 }
 
 fn row(

@@ -6,6 +6,9 @@ use super::letter::Letter;
 use super::work::Work;
 use crate::symbolic::{ExprId, Symbol};
 
+/// Takers of energy that are named.
+const MOST_TAKERS: usize = 8;
+
 /// Momenta that are shown.
 const MOST_CYCLIC: usize = 12;
 
@@ -110,7 +113,6 @@ impl Work<'_> {
     /// The Jacobi integral; T + V where T is quadratic in the velocities.
     fn energy(&mut self) -> Conserved {
         let structure = &self.program.equations.structure;
-        let system = &self.program.equations.system;
         let (kinetic, potential, jacobi, time_power, _) = structure.energy;
         let [t, v, h, power] = [kinetic, potential, jacobi, time_power].map(|o| self.output(o));
         let pool = self.pool();
@@ -138,37 +140,9 @@ impl Work<'_> {
                 Some(Statement::equal(rate, power))
             }
         };
-        let mut takers: Vec<String> = Vec::new();
-        takers.extend(
-            system
-                .forces
-                .iter()
-                .map(|f| format!("{} acts", f.name.text)),
-        );
-        let drains = system.dissipations.iter();
-        takers.extend(drains.map(|d| format!("{} acts", d.name.text)));
-        for (i, constraint) in system.constraints.iter().enumerate() {
-            if self.does_work(i) {
-                takers.push(format!("{} moves", constraint.name.text));
-            }
-        }
-        for (i, contact) in system.contacts.iter().enumerate() {
-            if self.does_work(self.contact_row(i)) {
-                takers.push(format!("{} moves", contact.name.text));
-            }
-        }
-        takers.extend(
-            system
-                .frictions
-                .iter()
-                .map(|f| format!("{} slips", f.name.text)),
-        );
-        if !system.contacts.is_empty() {
-            takers.push("an impact takes some".to_owned());
-        }
-        let shown = takers.len().min(8);
-        let mut list = takers[..shown].join(", ");
-        if shown < takers.len() {
+        let takers = self.takers();
+        let mut list = takers[..takers.len().min(MOST_TAKERS)].join(", ");
+        if takers.len() > MOST_TAKERS {
             list.push_str(", …");
         }
         let when = match (&rate, takers.is_empty()) {
@@ -183,6 +157,28 @@ impl Work<'_> {
             rate,
             when,
         }
+    }
+
+    /// What takes energy, or gives some.
+    fn takers(&mut self) -> Vec<String> {
+        let system = &self.program.equations.system;
+        let mut takers: Vec<String> = Vec::new();
+        let loads = system.forces.iter().map(|f| &f.name);
+        let loads = loads.chain(system.dissipations.iter().map(|d| &d.name));
+        takers.extend(loads.map(|name| format!("{} acts", name.text)));
+        let constraints = system.constraints.iter().map(|c| &c.name);
+        let rows = constraints.chain(system.contacts.iter().map(|c| &c.name));
+        for (row, name) in rows.enumerate() {
+            if self.does_work(row) {
+                takers.push(format!("{} moves", name.text));
+            }
+        }
+        let frictions = system.frictions.iter();
+        takers.extend(frictions.map(|f| format!("{} slips", f.name.text)));
+        if !system.contacts.is_empty() {
+            takers.push("an impact takes some".to_owned());
+        }
+        takers
     }
 
     /// Whether a row holds something that moves by itself: its rate is not linear in v alone.

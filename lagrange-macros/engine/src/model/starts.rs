@@ -5,7 +5,7 @@ use super::Start;
 use super::elaborate::Elaboration;
 use super::reach::{Context, Reach};
 use super::value::Value;
-use crate::ast::{self, Element, Order, StartValue};
+use crate::ast::{self, Element, Index, Order, StartValue};
 use crate::diagnostics::Code;
 use crate::symbolic::ExprId;
 
@@ -54,82 +54,73 @@ impl Elaboration<'_> {
     /// One `x = e`, for one coordinate or several.
     fn setting(&mut self, declared: &StartValue) -> Option<Vec<Setting>> {
         let (first, length) = self.coordinates_of(&declared.name)?;
-        let order = declared.order;
-        match (&declared.element, length) {
-            (Element::Whole, None) => {
-                Some(vec![(order, first, self.scalar(&declared.value, START)?)])
-            }
-            (Element::Whole, Some(length)) => {
-                let hint = format!(
-                    "`{0}` has {length} elements: `{0}[k in 0..{length}] = …`",
-                    declared.name.text
-                );
-                match self.value(&declared.value, START)? {
-                    Value::Scalar(_) => {
-                        self.sink
-                            .report(Code::ScalarForList, declared.value.extent, &[&hint]);
-                        None
-                    }
-                    list => {
-                        let elements = list.scalars();
-                        if elements.len() != length || list.length() != Some(length) {
-                            let count = list.length().unwrap_or(1);
-                            self.sink.report(
-                                Code::Lengths,
-                                declared.value.extent,
-                                &[&count, &length],
-                            );
-                            return None;
-                        }
-                        Some(
-                            elements
-                                .into_iter()
-                                .enumerate()
-                                .map(|(k, e)| (order, first + k, e))
-                                .collect(),
-                        )
-                    }
-                }
-            }
+        let values = match (&declared.element, length) {
+            (Element::Whole, None) => vec![(0, self.scalar(&declared.value, START)?)],
+            (Element::Whole, Some(length)) => self.all_elements(declared, length)?,
             (Element::One(index), Some(length)) => {
                 let k = self.position(index, 0, length)?;
-                Some(vec![(
-                    order,
-                    first + k,
-                    self.scalar(&declared.value, START)?,
-                )])
+                vec![(k, self.scalar(&declared.value, START)?)]
             }
-            (Element::Each(index), Some(length)) => {
-                self.free_index(&index.name)?;
-                let (from, to) = self.bounds(&index.range)?;
-                let (lower, upper) = (0, length as i64);
-                if from < lower || to > upper {
-                    let outside = if from < lower { from } else { to - 1 };
-                    self.sink.report(
-                        Code::IndexRange,
-                        index.range.to.extent,
-                        &[&outside, &lower, &upper],
-                    );
-                    return None;
-                }
-                (from..to)
-                    .map(|k| {
-                        let e = self.with_index(&index.name, k, |this| {
-                            this.scalar(&declared.value, START)
-                        })?;
-                        Some((order, first + k as usize, e))
-                    })
-                    .collect()
-            }
+            (Element::Each(index), Some(length)) => self.some_elements(declared, index, length)?,
             (Element::One(_) | Element::Each(_), None) => {
-                let hint = format!(
-                    "`{}` is one coordinate, take the index away",
-                    declared.name.text
-                );
-                self.sink
-                    .report(Code::ScalarForList, &declared.name, &[&hint]);
-                None
+                let name = &declared.name;
+                let hint = format!("`{}` is one coordinate, take the index away", name.text);
+                self.sink.report(Code::ScalarForList, name, &[&hint]);
+                return None;
             }
+        };
+        let order = declared.order;
+        let settings = values.into_iter().map(|(k, e)| (order, first + k, e));
+        Some(settings.collect())
+    }
+
+    /// `x = [a, b, c]`
+    fn all_elements(
+        &mut self,
+        declared: &StartValue,
+        length: usize,
+    ) -> Option<Vec<(usize, ExprId)>> {
+        let list = self.value(&declared.value, START)?;
+        let at = declared.value.extent;
+        if let Value::Scalar(_) = list {
+            let hint = format!(
+                "`{0}` has {length} elements: `{0}[k in 0..{length}] = …`",
+                declared.name.text
+            );
+            self.sink.report(Code::ScalarForList, at, &[&hint]);
+            return None;
         }
+        let elements = list.scalars();
+        if elements.len() != length || list.length() != Some(length) {
+            let count = list.length().unwrap_or(1);
+            self.sink.report(Code::Lengths, at, &[&count, &length]);
+            return None;
+        }
+        Some(elements.into_iter().enumerate().collect())
+    }
+
+    /// `x[k in a..b] = e`
+    fn some_elements(
+        &mut self,
+        declared: &StartValue,
+        index: &Index,
+        length: usize,
+    ) -> Option<Vec<(usize, ExprId)>> {
+        self.free_index(&index.name)?;
+        let (from, to) = self.bounds(&index.range)?;
+        let (lower, upper) = (0, length as i64);
+        if from < lower || to > upper {
+            let outside = if from < lower { from } else { to - 1 };
+            let at = index.range.to.extent;
+            self.sink
+                .report(Code::IndexRange, at, &[&outside, &lower, &upper]);
+            return None;
+        }
+        (from..to)
+            .map(|k| {
+                let value = |this: &mut Self| this.scalar(&declared.value, START);
+                Some((k as usize, self.with_index(&index.name, k, value)?))
+            })
+            .collect()
     }
 }

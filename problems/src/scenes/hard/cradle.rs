@@ -1,6 +1,7 @@
 //! Newton's cradle: one ball hits two that touch.
 
-use crate::drawing::{Drawing, Shape};
+use crate::drawing::Drawing;
+use crate::scenes::alike;
 use lagrange_core::prelude::*;
 
 /// Three equal balls on a line, the second and third touching, struck by the first.
@@ -47,7 +48,6 @@ impl Default for Cradle {
 impl Cradle {
     /// The balls.
     pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        let ball = |&x: &f64| Shape::Disc([x, 0.0], self.radius, 0.0);
-        Drawing::of(q.iter().map(ball))
+        alike::balls(self.radius, q)
     }
 }

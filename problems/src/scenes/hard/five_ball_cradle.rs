@@ -1,6 +1,7 @@
 //! The cradle as one sees it: blows are passed on, one after the other.
 
-use crate::drawing::{Drawing, Shape};
+use crate::drawing::Drawing;
+use crate::scenes::alike;
 use lagrange_core::prelude::*;
 
 /// Five equal balls on a line; one, two or three of them strike the others, which touch.
@@ -54,7 +55,6 @@ impl Default for FiveBallCradle {
 impl FiveBallCradle {
     /// The balls.
     pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        let ball = |&x: &f64| Shape::Disc([x, 0.0], self.radius, 0.0);
-        Drawing::of(q.iter().map(ball))
+        alike::balls(self.radius, q)
     }
 }

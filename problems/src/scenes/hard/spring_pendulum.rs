@@ -1,6 +1,7 @@
 //! A pendulum on a very stiff spring: two time scales ten thousand apart.
 
-use crate::drawing::{Drawing, Shape, from_bottom};
+use crate::drawing::Drawing;
+use crate::scenes::alike;
 use lagrange_core::prelude::*;
 
 /// A mass swings on a spring so stiff that it hardly stretches, and rings at √(k/m).
@@ -49,11 +50,6 @@ impl Default for SpringPendulum {
 impl SpringPendulum {
     /// The spring, the mass and its path.
     pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        let mass = from_bottom([0.0; 2], q[0], q[1]);
-        Drawing::of([
-            Shape::Trace(mass),
-            Shape::Spring([0.0; 2], mass),
-            Shape::Mass(mass),
-        ])
+        alike::mass_on_spring(q[0], q[1])
     }
 }

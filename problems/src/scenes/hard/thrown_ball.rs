@@ -1,6 +1,7 @@
 //! A thrown ball bounces, grips the floor in one of its bounces, and rolls away.
 
-use crate::drawing::{Drawing, Shape};
+use crate::drawing::Drawing;
+use crate::scenes::alike;
 use lagrange_core::prelude::*;
 
 /// A solid ball with friction is thrown sideways, without spin, from a height.
@@ -61,14 +62,6 @@ impl Default for ThrownBall {
 impl ThrownBall {
     /// The floor, the ball and the path of its centre.
     pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        let (x, y) = (q[0], q[1]);
-        let bottom = [x, y - self.radius];
-        Drawing::of([
-            Shape::Floor(0.0),
-            Shape::Trace([x, y]),
-            Shape::Disc([x, y], self.radius, q[2]),
-        ])
-        .force("floor", bottom, [0.0, 1.0])
-        .force("grip", bottom, [1.0, 0.0])
+        alike::ball_on_floor(self.radius, [q[0], q[1]], q[2])
     }
 }

@@ -1,0 +1,110 @@
+//! What does not hold of a combination that has been solved, and where its slips go.
+
+use super::{Pattern, Phase, Slide, length};
+use crate::arithmetic::Scalar;
+use crate::modes::impact::collision::{Bearer, Collision, Rub};
+
+/// What does not hold.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::modes::impact) enum Violation {
+    Touch(usize),
+    Rub(usize),
+}
+
+impl<T: Scalar> Pattern<T> {
+    /// The worst inequality that does not hold, rounding apart.
+    pub fn violation(&self, c: &Collision<T>, phase: &Phase<T>) -> Option<Violation> {
+        let mut worst: Option<(f64, Violation)> = None;
+        let mut judge = |excess: f64, noise: f64, what: Violation| {
+            let relative = excess / noise.max(f64::MIN_POSITIVE);
+            if excess > noise && worst.is_none_or(|(w, _)| relative > w) {
+                worst = Some((relative, what));
+            }
+        };
+        for (k, touch) in c.touches.iter().enumerate() {
+            let i = touch.row;
+            if !phase.within[k] {
+                continue;
+            }
+            let excess = if self.pressed[k] {
+                (phase.least[k] - self.impulses[i]).value() * c.g(i, i).value()
+            } else {
+                (phase.aims[k] - self.after[i]).value()
+            };
+            judge(excess, self.noise[i], Violation::Touch(k));
+        }
+        for (r, rub) in c.rubs.iter().enumerate() {
+            if let Some((excess, noise)) = self.excess(c, rub, self.slides[r]) {
+                judge(excess, noise, Violation::Rub(r));
+            }
+        }
+        worst.map(|(_, what)| what)
+    }
+
+    /// How far a friction is beyond its law, as a rate, and what rounding leaves of that.
+    fn excess(&self, c: &Collision<T>, rub: &Rub<T>, slide: Slide) -> Option<(f64, f64)> {
+        let bearer = c.bearing_row(rub);
+        let press = self.impulses[bearer].value();
+        let normal = rub.factor.value() * press.abs();
+        let impulse = length(&self.impulses[rub.row..rub.row + rub.components]);
+        let own = c.g(rub.row, rub.row).value();
+        let noise = |mu: f64| {
+            let bearing = c.g(bearer, bearer).value().max(f64::MIN_POSITIVE);
+            self.noise[rub.row] + mu * rub.factor.value() * own / bearing * self.noise[bearer]
+        };
+        match slide {
+            Slide::Idle => None,
+            Slide::Stick => {
+                let mu = rub.stick.value();
+                Some(((impulse - mu * normal) * own, noise(mu)))
+            }
+            Slide::Along(sign) => {
+                let sign = match rub.bearer {
+                    Bearer::Link(_) if press < 0.0 => -sign,
+                    _ => sign,
+                };
+                let excess = -sign * self.after[rub.row].value();
+                Some((excess, self.noise[rub.row]))
+            }
+            Slide::Turning(_) => {
+                let mu = rub.slide.value();
+                Some(((impulse - mu * normal).abs() * own, noise(mu)))
+            }
+        }
+    }
+
+    /// How far the slip of turning friction `r` is from the direction that is held: (across it, along it).
+    pub fn deviation(&self, c: &Collision<T>, r: usize) -> (f64, f64) {
+        let s = lead(&c.rubs[r], &self.impulses, &self.after);
+        match self.slides[r] {
+            Slide::Turning([x, y]) => (x * s[1] - y * s[0], x * s[0] + y * s[1]),
+            _ => (0.0, 0.0),
+        }
+    }
+
+    /// Puts the direction of each turning friction along the slip that it leaves.
+    pub fn align(&mut self, c: &Collision<T>) {
+        for (rub, slide) in c.rubs.iter().zip(&mut self.slides) {
+            if let Slide::Turning(direction) = slide {
+                let s = lead(rub, &self.impulses, &self.after);
+                let length = s[0].hypot(s[1]);
+                if length > 0.0 {
+                    // Half-way: a direction that turns round would swing for ever.
+                    let mean = [0, 1].map(|k| direction[k] + s[k] / length);
+                    let size = mean[0].hypot(mean[1]);
+                    if size > 1e-3 {
+                        *direction = mean.map(|x| x / size);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Where the friction impulse of a rub with two components points away from: its slip, times the sign of the bearing impulse
+/// on a constraint.
+fn lead<T: Scalar>(rub: &Rub<T>, impulses: &[T], after: &[T]) -> [f64; 2] {
+    let against = matches!(rub.bearer, Bearer::Link(row) if impulses[row].value() < 0.0);
+    let sign = if against { -1.0 } else { 1.0 };
+    [0, 1].map(|k| sign * after[rub.row + k].value())
+}

@@ -1,0 +1,64 @@
+//! Which combination holds: all of them in order where they are few, else Lemke's method.
+//!
+//! Few: contacts pressed before free, frictions sticking before sliding, so that of several solutions the one with most
+//! contacts and stick is taken. Many: the linear complementarity problem of Stewart & Trinkle (1996), with a cone of eight
+//! sides where a slip has two components, says which combination it is; that one is then solved as equations. Several
+//! frictions with two components: relaxation says which it is and where the slips are to be looked for.
+
+mod directions;
+mod enumeration;
+mod guesses;
+
+use super::collision::Collision;
+use super::complement::Linear;
+use super::pattern::{Pattern, Phase};
+use super::relaxation::Relaxation;
+use crate::arithmetic::Scalar;
+use crate::linear::{Equilibrated, Lemke};
+
+/// So many combinations are tried one after the other before Lemke's method is asked.
+const FEW: usize = 100;
+
+/// So many are tried if that has failed.
+const MOST: usize = 20_000;
+
+/// A search for the combination that holds; the memory is reused.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Search<T> {
+    pub pattern: Pattern<T>,
+    /// Combinations solved so far.
+    pub tried: usize,
+    lemke: Lemke,
+    problem: Linear,
+    relaxation: Relaxation,
+    factors: Equilibrated<f64>,
+    /// Touches that take part, and frictions that can act.
+    taking: Vec<usize>,
+    acting: Vec<usize>,
+    choice: Vec<usize>,
+}
+
+impl<T: Scalar> Search<T> {
+    /// Finds a combination that holds and leaves it in `pattern`; false if there is none.
+    pub fn find(&mut self, c: &Collision<T>, phase: &Phase<T>) -> bool {
+        self.taking.clear();
+        self.taking
+            .extend((0..c.touches.len()).filter(|k| phase.within[*k]));
+        let count = self.combinations(c);
+        let several = c.rubs.iter().filter(|rub| rub.components > 1).count() > 1;
+        if several {
+            return self.relax(c, phase)
+                || self.complement(c, phase)
+                || count.is_some_and(|n| n <= FEW) && self.enumerate(c, phase);
+        }
+        if count.is_some_and(|n| n <= FEW) {
+            return self.enumerate(c, phase) || self.complement(c, phase);
+        }
+        self.complement(c, phase) || count.is_some_and(|n| n <= MOST) && self.enumerate(c, phase)
+    }
+
+    /// Solves and judges the present combination.
+    fn holds(&mut self, c: &Collision<T>, phase: &Phase<T>) -> bool {
+        self.pattern.solve(c, phase) && self.pattern.violation(c, phase).is_none()
+    }
+}

@@ -1,0 +1,238 @@
+//! What a state is like: which contacts touch, which frictions rest, and what constraints leave.
+
+use crate::arithmetic::Scalar;
+use crate::dynamics::{Dynamics, NeedSet};
+use crate::effects::Item;
+use crate::error::{Error, Level};
+use crate::mode::{FrictionMode, Mode, Sliding};
+use crate::modes::decide::Known;
+use crate::modes::guard;
+use crate::system::{Description, Normal, Place};
+use crate::trajectory::State;
+
+/// What is accepted as zero in a start, relative to the size of the state: a start is typed or computed by a user.
+pub(super) fn slack(tolerance: f64) -> f64 {
+    tolerance.clamp(1e-10, 1e-6)
+}
+
+/// What a state is like.
+#[derive(Clone, Debug)]
+pub struct Survey {
+    /// Every touching contact closed, every vanishing slip at rest.
+    pub mode: Mode,
+    /// What vanishes.
+    pub known: Known,
+    /// (row, level, residual, size) of every constraint.
+    residuals: Vec<(usize, Level, f64, f64)>,
+    /// (contact, gap, size) of every contact.
+    gaps: Vec<(usize, f64, f64)>,
+    /// Contacts whose gap is negative outside their region.
+    pub below: Vec<usize>,
+    /// Needs of everything that is looked at.
+    pub needs: NeedSet,
+}
+
+impl Survey {
+    /// Memory for a system.
+    pub fn new(description: &Description) -> Self {
+        Self {
+            mode: Mode::open(description),
+            known: Known::default(),
+            residuals: Vec::new(),
+            gaps: Vec::new(),
+            below: Vec::new(),
+            needs: guard::all_row_needs(description, &NeedSet::new(description)),
+        }
+    }
+
+    /// Evaluates every gap, slip and residual of a state.
+    pub fn look<T: Scalar>(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        t: T,
+        state: &State<T>,
+        tolerance: f64,
+    ) {
+        let d = dynamics.description();
+        self.mode.clear();
+        self.known.clear(d);
+        self.residuals.clear();
+        self.gaps.clear();
+        self.below.clear();
+        let Self {
+            mode, known, needs, ..
+        } = self;
+        branches(dynamics, t, state, needs, mode, known);
+        let view = View {
+            dynamics,
+            state,
+            near: slack(tolerance),
+            extent: state.q.iter().fold(1.0_f64, |m, x| m.max(x.value().abs())),
+        };
+        let includes = |item: Item| dynamics.effects().includes(d, item);
+        for c in (0..d.contacts.len()).filter(|&c| includes(Item::Contact(c))) {
+            self.look_at_contact(c, &view);
+        }
+        for f in (0..d.frictions.len()).filter(|&f| includes(Item::Friction(f))) {
+            self.look_at_friction(f, &view);
+        }
+        for i in (0..d.constraints.len()).filter(|&i| includes(Item::Constraint(i))) {
+            self.look_at_constraint(i, &view);
+        }
+    }
+
+    /// Whether constraints and contacts hold.
+    ///
+    /// # Errors
+    /// [`Error::Start`]: the first that does not.
+    pub fn refuse_violations(&self, d: &'static Description, tolerance: f64) -> Result<(), Error> {
+        let near = slack(tolerance);
+        let penetrated = self.gaps.iter().map(|&(c, gap, size)| {
+            let excess = (-gap).max(0.0);
+            (d.contacts[c].name, Level::Position, gap, excess, size)
+        });
+        let violated = self.residuals.iter().map(|&(row, level, residual, size)| {
+            let item = crate::dynamics::row_name(d, row);
+            (item, level, residual, residual.abs(), size)
+        });
+        for (item, level, residual, excess, size) in penetrated.chain(violated) {
+            if excess > near * size {
+                return Err(Error::Start {
+                    item,
+                    level,
+                    residual,
+                    tolerance: near * size,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    fn look_at_contact<T: Scalar>(&mut self, c: usize, view: &View<T>) {
+        let d = view.dynamics.description();
+        let contact = &d.contacts[c];
+        let View { near, extent, .. } = *view;
+        let row = &d.rows[contact.row];
+        let gap = view.number(row.position.unwrap_or(Place::Zero));
+        let region = contact.region.map_or(0.0, |place| view.number(place));
+        if region < -near * extent {
+            self.below.extend((gap < 0.0).then_some(c));
+            return;
+        }
+        self.gaps.push((c, gap, extent));
+        if gap.abs() > near * extent {
+            return;
+        }
+        let rate = view.number(row.velocity);
+        let size = view.speed(contact.row);
+        if rate > near * size {
+            self.known.parting[c] = true;
+        } else {
+            self.known.touching[c] = true;
+            self.known.arriving[c] = rate < -near * size;
+            self.mode.contacts[c] = !self.known.arriving[c];
+        }
+    }
+
+    fn look_at_friction<T: Scalar>(&mut self, f: usize, view: &View<T>) {
+        let d = view.dynamics.description();
+        let friction = &d.frictions[f];
+        if matches!(friction.normal, Normal::Contact(c) if !self.mode.contacts[c]) {
+            return;
+        }
+        let mut rows = friction.row..friction.row + friction.components;
+        let slip = |row: usize| view.number(d.rows[row].velocity);
+        if rows.all(|row| slip(row).abs() <= view.near * view.speed(row)) {
+            self.known.resting[f] = true;
+            self.mode.frictions[f] = FrictionMode::Stick;
+            return;
+        }
+        self.mode.frictions[f] = FrictionMode::Slip(match friction.components {
+            1 => Sliding::sign(slip(friction.row).signum()),
+            _ => Sliding::along_slip(),
+        });
+    }
+
+    fn look_at_constraint<T: Scalar>(&mut self, i: usize, view: &View<T>) {
+        let d = view.dynamics.description();
+        let constraint = &d.constraints[i];
+        if constraint
+            .while_contact
+            .is_some_and(|c| !self.mode.contacts[c])
+        {
+            return;
+        }
+        let index = constraint.row;
+        let row = &d.rows[index];
+        if let Some(place) = row.position {
+            let residual = view.number(place);
+            self.residuals
+                .push((index, Level::Position, residual, view.extent));
+        }
+        let rate = view.number(row.velocity);
+        self.residuals
+            .push((index, Level::Velocity, rate, view.speed(index)));
+    }
+}
+
+/// A state whose tape has run, and what counts as zero there.
+struct View<'a, T: Scalar> {
+    dynamics: &'a Dynamics<T>,
+    state: &'a State<T>,
+    /// Relative to sizes.
+    near: f64,
+    /// Size of positions.
+    extent: f64,
+}
+
+impl<T: Scalar> View<'_, T> {
+    fn number(&self, place: Place) -> f64 {
+        self.dynamics.motion(place).value()
+    }
+
+    /// Size of the rate of a row.
+    fn speed(&self, row: usize) -> f64 {
+        let terms = self.dynamics.description().rows[row].jacobian.iter();
+        terms
+            .map(|&(j, place)| (self.number(place) * self.state.v[j].value()).abs())
+            .fold(1.0_f64, f64::max)
+    }
+}
+
+/// Puts every branch on its side; the guard of one may depend on the side of another.
+fn branches<T: Scalar>(
+    dynamics: &mut Dynamics<T>,
+    t: T,
+    state: &State<T>,
+    needs: &NeedSet,
+    mode: &mut Mode,
+    known: &mut Known,
+) {
+    let d = dynamics.description();
+    let evaluate = |dynamics: &mut Dynamics<T>, mode: &Mode| {
+        dynamics.set_mode(mode);
+        dynamics.set_extra_needs(needs);
+        dynamics.tape(t, &state.q, &state.v);
+    };
+    evaluate(dynamics, mode);
+    for _ in 0..d.branches.len() {
+        let mut changed = false;
+        for (b, branch) in d
+            .branches
+            .iter()
+            .enumerate()
+            .filter(|(_, b)| !b.after_solve)
+        {
+            let guard = dynamics.motion(branch.guard).value();
+            known.balanced[b] = guard == 0.0;
+            if mode.branch(b) != (guard >= 0.0) {
+                mode.set_branch(b, guard >= 0.0);
+                changed = true;
+            }
+        }
+        if !changed {
+            break;
+        }
+        evaluate(dynamics, mode);
+    }
+}
