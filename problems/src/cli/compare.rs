@@ -1,8 +1,8 @@
 //! `--compare`: a run that differs in something from another one.
 
-use super::values::{named, positive};
+use super::values::{named, positive, tolerance};
 use lagrange_core::prelude::Method;
-use lagrange_problems::names::nearest;
+use lagrange_problems::names::{method, nearest};
 use lagrange_problems::request::Request;
 use std::fmt;
 use std::str::FromStr;
@@ -90,8 +90,8 @@ fn change(text: &str) -> Result<Change, String> {
         "with" => Change::With(value.to_owned()),
         "from" => Change::From(value.to_owned()),
         "until" => Change::Until(positive(value)?),
-        "tolerance" => Change::Tolerance(positive(value)?),
-        "method" => Change::Method(value.parse().map_err(|e| format!("{e}"))?),
+        "tolerance" => Change::Tolerance(tolerance(value)?),
+        "method" => Change::Method(method(value)?),
         "set" => named(value).map(|(name, value)| Change::Set(name, value))?,
         _ => named(value).map(|(name, value)| Change::Start(name, value))?,
     })

@@ -161,11 +161,16 @@ fn complain(trouble: &Trouble) -> ExitCode {
     };
     // Of processes that were started together with the same arguments, one is enough to say it.
     if launch::place().is_none_or(|place| place.rank == 0) {
-        let style = anstyle::AnsiColor::Red.on_default().bold();
-        // There is nobody to tell that stderr is closed.
-        let _ = writeln!(anstream::stderr(), "{style}lagrange:{style:#} {reason}");
+        say(reason);
     }
     ExitCode::from(code)
+}
+
+/// Words to the user, in one line.
+fn say(words: &str) {
+    let style = anstyle::AnsiColor::Red.on_default().bold();
+    // There is nobody to tell that stderr is closed.
+    let _ = writeln!(anstream::stderr(), "{style}lagrange:{style:#} {words}");
 }
 
 /// The colours asked for, before anything is parsed: help and complaints about arguments need it.

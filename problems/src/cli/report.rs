@@ -3,7 +3,7 @@
 use super::Trouble;
 use super::compare::Comparison;
 use super::course::Course;
-use super::output::to_file;
+use super::output::{ready, to_file};
 use super::terminal::{keep_what_is_done, patiently};
 use super::values::positive;
 use clap::{Args, ValueEnum};
@@ -14,8 +14,13 @@ use lagrange_problems::report::html::{self, Shown};
 use lagrange_problems::request::Request;
 use std::path::{Path, PathBuf};
 
-/// Run scenes and write a page that shows them: animation, forces and their limits, energy, events, equations. The page is one
-/// file and needs no network. For slides: an SVG file that moves by itself, or numbered frames.
+/// Heading of what is written, in the help.
+const RESULTS: &str = "Results";
+
+/// Run scenes and write a page that shows them.
+///
+/// Animation, forces and their limits, energy, events, equations. The page is one file and needs no network. For slides: an SVG
+/// file that moves by itself, or numbered frames.
 #[derive(Args)]
 #[command(after_help = "Examples:
   lagrange report mass-on-wheel --output wheel.html
@@ -32,23 +37,23 @@ pub(super) struct Report {
     course: Course,
     /// Beside each scene, the same with something changed: without:ITEM, with:ITEM, set:NAME=VALUE, start:NAME=VALUE,
     /// from:START, until:T, tolerance:X, method:M, or several of them with commas between. May be repeated.
-    #[arg(long, value_name = "CHANGE", allow_hyphen_values = true)]
+    #[arg(long, help_heading = RESULTS, value_name = "CHANGE", allow_hyphen_values = true)]
     compare: Vec<Comparison>,
     /// What to write [default: svg if the output is called so, else html].
-    #[arg(long, value_enum)]
+    #[arg(long, help_heading = RESULTS, value_enum)]
     format: Option<Form>,
     /// The file to write [default: report.html, or report.svg].
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, help_heading = RESULTS, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Write numbered pictures into a folder instead: frame-0001.svg, frame-0002.svg, … What is there of an earlier, longer
     /// sequence is removed.
-    #[arg(long, value_name = "DIR", conflicts_with_all = ["format", "output"])]
+    #[arg(long, help_heading = RESULTS, value_name = "DIR", conflicts_with_all = ["format", "output"])]
     frames: Option<PathBuf>,
     /// Pictures a second, of frames and of a picture that moves.
-    #[arg(long, value_name = "N", default_value = "25", value_parser = positive, allow_hyphen_values = true)]
+    #[arg(long, help_heading = RESULTS, value_name = "N", default_value = "25", value_parser = positive, allow_hyphen_values = true)]
     fps: f64,
     /// How much faster than it happens it is shown [default: so that it takes some seconds].
-    #[arg(long, value_name = "X", value_parser = positive, allow_hyphen_values = true)]
+    #[arg(long, help_heading = RESULTS, value_name = "X", value_parser = positive, allow_hyphen_values = true)]
     speed: Option<f64>,
 }
 
@@ -62,6 +67,8 @@ enum Form {
 
 impl Report {
     pub(super) fn execute(self) -> Result<(), Trouble> {
+        self.form()?;
+        ready(self.output.as_deref(), &self.scenes)?;
         let progress = Progress::default();
         progress.expect(self.runs() * FILM_STAGES);
         keep_what_is_done(&progress);
@@ -84,13 +91,21 @@ impl Report {
         self.scenes.len() * (1 + self.compare.len())
     }
 
+    /// What to write, if it is not frames.
+    fn form(&self) -> Result<Form, Trouble> {
+        let ending = self.output.as_deref().and_then(Path::extension);
+        match (self.format, ending.and_then(|ending| ending.to_str())) {
+            (Some(form), _) => Ok(form),
+            (None, Some("svg")) => Ok(Form::Svg),
+            (None, Some("html" | "htm") | None) => Ok(Form::Html),
+            (None, Some(other)) => Err(Trouble::usage(format_args!(
+                "a report is no .{other}: let the output end in .html or .svg, or give --format"
+            ))),
+        }
+    }
+
     fn write(&self, runs: &[Shown]) -> Result<(), Trouble> {
-        let named_svg = |path: &PathBuf| path.extension().is_some_and(|e| e == "svg");
-        let form = self.format.unwrap_or(match &self.output {
-            Some(path) if named_svg(path) => Form::Svg,
-            _ => Form::Html,
-        });
-        if self.frames.is_none() && form == Form::Html {
+        if self.frames.is_none() && self.form()? == Form::Html {
             let path = self.output.as_deref().unwrap_or(Path::new("report.html"));
             return to_file(path, |out| html::write(runs, self.speed, out));
         }

@@ -14,15 +14,13 @@ use lagrange_problems::sweep::{Axis, Journal, Points, Sampling, Shard, Sweep, wo
 /// on where it was: what is done is kept in FILE.part until all is done.
 #[derive(Args)]
 #[command(after_help = "Examples:
-  lagrange sweep mass-on-wheel --vary mu_static=0.3..1:40 --observe \"leave angle\" --plot leave.svg
-  lagrange sweep mass-on-shell --vary \"der(theta)=0..2:20\" --observe t --output shell.parquet
+  lagrange sweep mass-on-wheel --vary mu_static=0.5..2:99 --observe \"leave angle\" --plot angles.svg
+  lagrange sweep ladder --vary length=1..9:20 --vary mass=0.1..10:20:log --observe t --plot map.svg
   lagrange sweep ladder --vary length=1..9 --vary mass=1..9 --sample sobol:500 --observe t
+  lagrange sweep ladder --vary \"der(theta)=-2..0:99\" --observe theta --output runs.parquet
   lagrange sweep ladder --vary length=1..9:3000 --observe t --output one.csv --shard 1/2
-  lagrange sweep ladder --vary length=1..9:3000 --observe t --output two.csv --shard 2/2
-  lagrange merge one.csv.part two.csv.part --output both.csv
 
-A run that fails is a line that says why; the sweep goes on. Exit codes: 0 runs went well, 1 every run failed or a file could not be
-written, 2 the request makes no sense, 130 interrupted.")]
+A run that fails is a line that says why; the sweep goes on. Exit codes: 0 runs went well, 1 every run failed or a file could not be written, 2 the request makes no sense, 130 interrupted.")]
 pub(super) struct Sweeps {
     /// The scene, or a scene file (….toml); `lagrange list` shows the scenes.
     scene: String,
@@ -128,9 +126,9 @@ impl Sweeps {
                 bar.finish_and_clear();
                 if team.lost() > 0 {
                     let (lost, of) = (team.lost(), place.of);
-                    eprintln!(
-                        "lagrange: {lost} of {of} processes were lost; the others did their chunks"
-                    );
+                    super::say(&format!(
+                        "{lost} of {of} processes were lost; the others did their chunks"
+                    ));
                 }
                 let done = outcome.map_err(Trouble::failed);
                 done.and_then(|()| self.finish(sweep, journal))

@@ -103,7 +103,7 @@ pub(super) fn keep_what_is_done(progress: &Progress) {
 /// Lets Ctrl-C end the process at once, with a word on what that costs.
 pub(super) fn end_at_once(word: &'static str) {
     let interrupt = move || {
-        eprintln!("lagrange: interrupted; {word}");
+        super::say(&format!("interrupted; {word}"));
         std::process::exit(super::INTERRUPTED);
     };
     // Without a handler Ctrl-C does what it always does.
