@@ -14,6 +14,10 @@ use num_traits::{Num, One, Zero};
 /// A scene with parameters of this type runs as with `f64`, and everything that its trajectory holds has derivatives: states,
 /// forces, impulses and the instants of events, through switches and impacts.
 ///
+/// At an event, and at a stop that ends the run, a derivative is that of the state at an instant which itself moves; elsewhere
+/// it is that at a fixed time. Where several guards fall at once by symmetry, it is that of the first of them. Left out are how
+/// a slip in space turns at its very beginning, and a restitution that was lowered.
+///
 /// ```
 /// use lagrange_core::arithmetic::Dual;
 /// use lagrange_core::prelude::*;

@@ -4,6 +4,10 @@ use core::fmt;
 use core::str::FromStr;
 
 /// A way to integrate.
+///
+/// All of them locate the same events. Whatever the method, the mode that follows a switch is decided by Taylor series of the
+/// candidates, and friction in space begins and comes to rest by Taylor series: a few steps of a method with fixed steps are
+/// not of the length asked for there. Where such friction hardly slips the equations are stiff, and steps are many.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum Method {
