@@ -136,7 +136,7 @@ pub fn inspect(input: TokenStream, mode: Option<&str>) -> Result<inspect::Deriva
 /// The same where the items of these names are left out.
 ///
 /// # Errors
-/// As [`inspect`]; something that stays speaks of what is left out.
+/// As [`inspect()`]; something that stays speaks of what is left out.
 pub fn inspect_without(
     input: TokenStream,
     left_out: &[&str],
