@@ -1,4 +1,4 @@
-//! Outcome → CSV: the [rows](super::rows) of the run, every number in full, each column with its unit where it is known, `x [m]`.
+//! Outcome → CSV: the rows of the run, every number in full, each column with its unit where it is known, `x [m]`.
 
 use super::rows::{Cell, Table};
 use super::with_unit;
