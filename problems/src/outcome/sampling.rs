@@ -91,7 +91,9 @@ impl<'a> Reader<'a> {
     }
 
     fn after(&mut self, event: &Event<f64>) -> Option<Sample> {
-        self.sample(event.time, event.time, 0, &event.after)
+        // A slip in space that begins is under way at once.
+        let mode = event.after.under_way();
+        self.sample(event.time, event.time, 0, &mode)
     }
 
     /// What is at `read`, as a sample at `time`; nothing if another mode is there.

@@ -1,4 +1,8 @@
-//! Outcome → CSV: the [rows](super::rows) of the run, every number in full, each column with its unit where it is known, `x [m]`.
+//! Outcome → CSV: one line per sample, two (before and after) per event, in order of time; every number in full.
+//!
+//! Columns: `t`, `event` (empty for a sample, else `grip slips`, `grip slips (after)`), coordinates, velocities,
+//! `force(item)`, `kinetic`, `potential`, `work(item)` if asked for, `observe`d names, `mode`; each with its unit where it is
+//! known, `x [m]`. Samples at the instant of an event are its two lines.
 
 use super::rows::{Cell, Table};
 use super::with_unit;

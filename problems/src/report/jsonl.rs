@@ -1,7 +1,7 @@
 //! Outcome → JSON lines: what was run, then samples and events in order of time, then what it came to. Every line is an object
 //! whose `type` is `header`, `sample`, `event` or `end`.
 //!
-//! A sample has the columns of the [table](super::rows) as its fields; an event has the state and the forces before and after.
+//! A sample has the columns of [`csv`](super::csv) as its fields, without units; an event has the state and the forces before and after.
 
 use super::json::{Ending, Header, Switch, ending, header, switch};
 use super::rows::{Cell, Column, Row, Table};

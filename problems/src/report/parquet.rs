@@ -1,4 +1,5 @@
-//! Outcome → Parquet: the [rows](super::rows) of the run as a table that pandas, polars, DuckDB … read; what the run was, as metadata.
+//! Outcome → Parquet: the table of [`csv`](super::csv), without units in the names, for pandas, polars, DuckDB …; what the run
+//! was, as metadata.
 //!
 //! The metadata is one JSON object under two keys: `lagrange`, and `PANDAS_ATTRS`, which pandas shows as `DataFrame.attrs`.
 //! Events are rows, marked in the column `event`, and not a second file: they are rows in CSV as well, one schema does for all

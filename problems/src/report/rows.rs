@@ -1,8 +1,8 @@
-//! Outcome → the rows of a table over time: one per sample, two (before and after) per event, in order of time.
+//! Outcome → the rows of a table over time, for [`csv`](super::csv) (which tells the columns), [`jsonl`](super::jsonl) and
+//! [`parquet`](super::parquet): one per sample, two (before and after) per event, in order of time.
 //!
-//! Columns: `t`, `event` (nothing for a sample, else `grip slips`, `grip slips (after)`), coordinates, velocities,
-//! `force(item)`, `kinetic`, `potential`, `work(item)` if asked for, `observe`d names, `mode`. Between two events at one instant
-//! energies and what is observed are not known, nor is work just before an event.
+//! Between two events at one instant, and before one at the start, energies and what is observed are not known; work is not known
+//! just before an event.
 
 use super::{Kind, rate_unit, work_name};
 use crate::outcome::{Force, Outcome, Sample, forces};

@@ -55,7 +55,7 @@ impl std::error::Error for TooMany {}
 
 impl Clock {
     /// So many pictures a second of films that are shown `speed` times as fast as they happen; by default as
-    /// [`usual_speed`] says.
+    /// `usual_speed` says.
     ///
     /// # Errors
     /// There would be too many.
