@@ -95,7 +95,7 @@ impl fmt::Display for EvaluationError {
             Self::Undetermined { row } => {
                 write!(
                     f,
-                    "the equations do not determine the force of row {row}; lower its kinetic friction"
+                    "the equations do not determine the force of row {row}: it depends on other rows there, or its kinetic friction is too large"
                 )
             }
             Self::Inconsistent { row, residual } => write!(
