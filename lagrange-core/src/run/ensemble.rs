@@ -9,8 +9,9 @@ use crate::system::System;
 use crate::trajectory::{State, Trajectory};
 use core::ops::Range;
 
-/// Runs under way at a time: enough that most find others in the same mode, few enough that all stay in the cache.
-const BERTHS: usize = 8;
+/// Runs under way at a time: as many as a packet takes. More would find more company in their mode, but all that they work with would
+/// no longer stay in the cache, which costs more.
+const BERTHS: usize = 4;
 
 /// Runs many motions of one system, with other parameters or from other states, several at a time: those that are in the same
 /// mode share the instructions of the processor (SIMD), each in a lane of its own. A motion comes out, bit for bit, as it would
