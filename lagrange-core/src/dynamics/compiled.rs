@@ -10,8 +10,9 @@ use crate::mode::Mode;
 use crate::system::{Description, Held};
 use crate::tapes::Tapes;
 
-/// Tapes kept per mode: what is asked for beside the motion changes between stepping and switching.
-const MOST_TAPES: usize = 8;
+/// Tapes kept per mode: what is asked for beside the motion changes between stepping and switching, and numbers coincide for some
+/// parameters that differ for others.
+const MOST_TAPES: usize = 12;
 
 /// The equations of one mode.
 #[derive(Clone, Debug)]
@@ -35,8 +36,8 @@ pub(super) struct Compiled<T> {
     pub on_tape: bool,
     /// Coordinates that cannot accelerate.
     pub pinned: Vec<usize>,
+    /// The one in use comes first.
     tapes: Vec<Tape<T>>,
-    current: usize,
 }
 
 /// What a tape is recorded for.
@@ -74,7 +75,6 @@ impl<T: Scalar> Compiled<T> {
             factored: false,
             on_tape: true,
             tapes: Vec::new(),
-            current: 0,
         };
         compiled.set_numbers(system, effects);
         compiled.reserve(d);
@@ -103,22 +103,18 @@ impl<T: Scalar> Compiled<T> {
         self.pinned.extend(pinned);
     }
 
-    /// Takes the parameters of another system of the same kind. Tapes are kept where recording anew would give the same;
-    /// `given` is memory.
-    pub(super) fn renew(&mut self, system: &dyn Tapes<T>, effects: &Effects, given: &mut Given<T>) {
+    /// Takes the parameters of another system of the same kind. The tapes take them when they are selected.
+    pub(super) fn renew(&mut self, system: &dyn Tapes<T>, effects: &Effects) {
         core::mem::swap(&mut self.plan, &mut self.spare);
         self.set_numbers(system, effects);
         self.factored = false;
-        let mut tapes = core::mem::take(&mut self.tapes);
         if self.on_tape && self.plan.is_like(&self.spare) {
-            tapes.retain_mut(|tape| tape.renew(system, self, given));
+            self.tapes.iter_mut().for_each(Tape::outdate);
         } else {
-            tapes.clear();
+            self.tapes.clear();
             self.reserve(system.description());
         }
-        self.tapes = tapes;
         self.on_tape = true;
-        self.current = 0;
     }
 
     /// Undoes [`Self::leave_to_solver`]: one motion must not depend on those before it.
@@ -132,13 +128,13 @@ impl<T: Scalar> Compiled<T> {
     /// The tape in use, if one has been recorded.
     #[inline]
     pub(super) fn tape(&self) -> Option<&Tape<T>> {
-        self.tapes.get(self.current)
+        self.tapes.first()
     }
 
     /// The parts that an evaluation works with.
     #[inline]
     pub(super) fn parts(&mut self) -> (&Plan<T>, &mut Solver<T>, &mut Tape<T>) {
-        (&self.plan, &mut self.solver, &mut self.tapes[self.current])
+        (&self.plan, &mut self.solver, &mut self.tapes[0])
     }
 
     /// Leaves all systems to the solver from now on.
@@ -147,16 +143,21 @@ impl<T: Scalar> Compiled<T> {
         self.tapes.clear();
     }
 
-    /// Makes the tape for what is asked current, recording it if there is none.
-    pub(super) fn select(&mut self, system: &dyn Tapes<T>, asked: &Asked) {
-        if let Some(index) = self.tapes.iter().position(|tape| tape.is_for(asked)) {
-            self.current = index;
-            return;
+    /// Makes the tape for what is asked current, with the numbers of the present parameters, recording it if there is none: for what
+    /// is asked there may be several, for parameters with different coincidences. `given` is memory.
+    pub(super) fn select(&mut self, system: &dyn Tapes<T>, asked: &Asked, given: &mut Given<T>) {
+        let mut tapes = core::mem::take(&mut self.tapes);
+        let found = tapes
+            .iter_mut()
+            .position(|tape| tape.is_for(asked) && tape.renew(system, self, given));
+        match found {
+            // The one used last comes first.
+            Some(index) => tapes[..=index].rotate_right(1),
+            None => {
+                tapes.truncate(MOST_TAPES - 1);
+                tapes.insert(0, Tape::record(system, self, asked));
+            }
         }
-        if self.tapes.len() == MOST_TAPES {
-            self.tapes.remove(0);
-        }
-        self.tapes.push(Tape::record(system, self, asked));
-        self.current = self.tapes.len() - 1;
+        self.tapes = tapes;
     }
 }

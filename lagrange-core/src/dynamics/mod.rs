@@ -241,7 +241,7 @@ impl<T: Scalar> Dynamics<T> {
     /// Brings the present mode up to date with the parameters.
     fn renew(&mut self) {
         if core::mem::take(&mut self.stale[self.current]) {
-            self.modes[self.current].renew(&*self.system, &self.effects, &mut self.given);
+            self.modes[self.current].renew(&*self.system, &self.effects);
         }
     }
 
@@ -281,7 +281,7 @@ impl<T: Scalar> Dynamics<T> {
             report: self.reports.then_some(&self.report_held),
             at_rest,
         };
-        compiled.select(&*self.system, &asked);
+        compiled.select(&*self.system, &asked, &mut self.given);
         self.selected = true;
     }
 

@@ -82,6 +82,8 @@ pub(super) struct Tape<T> {
     pub registers: Vec<T>,
     /// Exchanges the numbers in the registers that depend on parameters.
     renewal: Renewal<T>,
+    /// Whether the numbers are those of other parameters.
+    outdated: bool,
     /// Whether the registers hold everything at the state in them.
     pub evaluated: bool,
     pub expansion: Expansion<T>,
@@ -151,16 +153,26 @@ impl<T: Scalar> Tape<T> {
         program.evaluate(part, &mut self.registers);
     }
 
-    /// Takes the numbers of other parameters; `given` is memory. False: with them the tape must be recorded anew.
+    /// The parameters have changed.
+    pub(super) fn outdate(&mut self) {
+        self.outdated = true;
+    }
+
+    /// Takes the numbers of the present parameters, if they have changed; `given` is memory. False: with them another tape must be
+    /// recorded.
     pub(super) fn renew(
         &mut self,
         system: &dyn Tapes<T>,
         compiled: &Compiled<T>,
         given: &mut Given<T>,
     ) -> bool {
+        if !self.outdated {
+            return true;
+        }
         self.evaluated = false;
         collect(system, compiled, &self.held, self.report.as_ref(), given);
-        self.renewal.renew(&given.list, &mut self.registers)
+        self.outdated = !self.renewal.renew(&given.list, &mut self.registers);
+        !self.outdated
     }
 
     /// Records the equations of a mode.
@@ -288,6 +300,7 @@ impl<T: Scalar> Tape<T> {
             shape: Arc::new(shape),
             registers,
             renewal,
+            outdated: false,
             evaluated: false,
             order: 0,
             inputs,
