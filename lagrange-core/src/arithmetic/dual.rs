@@ -15,7 +15,7 @@ use num_traits::{Num, One, Zero};
 /// forces, impulses and the instants of events, through switches and impacts.
 ///
 /// At an event, and at a stop that ends the run, a derivative is that of the state at an instant which itself moves; elsewhere
-/// it is that at a fixed time. Where several guards fall at once by symmetry, it is that of the first of them. Left out are how
+/// it is that at a fixed time ([`Sampler::at`](crate::trajectory::Sampler::at)). Where several guards fall at once by symmetry, it is that of the first of them. Left out are how
 /// a slip in space turns at its very beginning, and a restitution that was lowered.
 ///
 /// ```
@@ -51,8 +51,6 @@ use num_traits::{Num, One, Zero};
 /// assert!((time.derivative[1] - 1.3 * fall).abs() < 1e-9);
 /// ```
 ///
-/// The derivative of a state at an event, or at a stop that ends a run, is that of the state at an instant which itself moves;
-/// between events and at the end of the span it is that at a fixed time ([`Sampler::at`](crate::trajectory::Sampler::at)).
 /// Steps are chosen for values only; derivatives are about as exact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dual<T, const N: usize> {

@@ -300,8 +300,8 @@ impl<T: Coefficient> Expansion<T> {
         }
     }
 
-    /// Coefficients 1…`order` of everything after [`Self::begin`], from values in the registers `first`. `integrals` are numbers with their rates;
-    /// register 1 is time. `solve` puts coefficient k of the caller's unknowns into the registers that it is given; it gets
+    /// Coefficients 1…`order` of everything after [`Self::begin`], from values in the registers `first`. `integrals` are numbers with
+    /// their rates; register 1 is time. `solve` puts coefficient k of the caller's unknowns into the registers that it is given; it gets
     /// the values of all registers, and of each product what earlier coefficients give to coefficient k.
     #[inline(always)]
     pub fn run(

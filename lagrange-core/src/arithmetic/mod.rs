@@ -25,10 +25,10 @@ mod tests;
 pub use direct::{Derivative, Value};
 pub use dual::Dual;
 pub use expansion::{Expansion, MAX_ORDER, Operation};
-pub use numbers::Given;
+pub use numbers::{Given, Numbers};
 pub use pack::{Coefficient, Pack};
 pub use program::Program;
-pub use record::{Recorded, Recorder, Recording, Renewal, Slot, Variation};
+pub use record::{Recorded, Recorder, Recording, Slot, Variation};
 
 use crate::entries::Entries;
 use core::fmt::Debug;

@@ -17,7 +17,7 @@ pub struct Given<T> {
 
 /// Where the numbers of a recording are.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Numbers<T> {
+pub struct Numbers<T> {
     /// Different numbers, in the order in which they came, and their registers.
     values: Vec<T>,
     slots: Vec<Slot>,
@@ -70,9 +70,9 @@ impl<T: Scalar> Numbers<T> {
         }
     }
 
-    /// Takes other numbers in the place of those that were given, and writes all into the registers. False: the recording is not
-    /// the one that these would give.
-    pub(super) fn renew(&mut self, given: &[T], registers: &mut [T]) -> bool {
+    /// Takes other numbers in the place of those that were given, and writes all into the registers. False: with these numbers
+    /// recording gives another tape, and the registers are of no use.
+    pub fn renew(&mut self, given: &[T], registers: &mut [T]) -> bool {
         if self.foreign || given.len() != self.places.len() {
             return false;
         }

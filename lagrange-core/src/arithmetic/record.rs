@@ -102,7 +102,7 @@ pub struct Recording<T> {
 
 impl<T: Scalar> Recording<T> {
     /// An empty recording; registers from `registers` on are free for the recorder's own use. `given` are all the numbers that
-    /// the tape will be given: with others in their place it can be [renewed](Renewal).
+    /// the tape will be given: with others in their place it can be [renewed](Numbers::renew).
     pub fn new(registers: usize, given: &[T]) -> Self {
         let mut recording = Self {
             parts: vec![Part::default()],
@@ -171,22 +171,10 @@ impl<T: Scalar> Recording<T> {
     }
 
     /// All registers with the numbers that are known, and what renews these.
-    pub fn finish(self) -> (Vec<T>, Renewal<T>) {
+    pub fn finish(self) -> (Vec<T>, Numbers<T>) {
         let mut registers = vec![T::zero(); room(self.registers)];
         self.numbers.write(&mut registers);
-        (registers, Renewal(self.numbers))
-    }
-}
-
-/// The numbers of a recorded tape, to be exchanged.
-#[derive(Clone, Debug)]
-pub struct Renewal<T>(Numbers<T>);
-
-impl<T: Scalar> Renewal<T> {
-    /// Exchanges the numbers that the tape was given for others in its registers. False: with these numbers recording gives
-    /// another tape, and the registers are of no use.
-    pub fn renew(&mut self, given: &[T], registers: &mut [T]) -> bool {
-        self.0.renew(given, registers)
+        (registers, self.numbers)
     }
 }
 

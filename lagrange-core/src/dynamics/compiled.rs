@@ -32,6 +32,8 @@ pub(super) struct Compiled<T> {
     pub solver: Solver<T>,
     /// Whether the solver holds the factors of this plan.
     pub factored: bool,
+    /// Whether numbers and plan are those of other parameters.
+    outdated: bool,
     /// Whether a tape may solve small systems itself.
     pub on_tape: bool,
     /// Coordinates that cannot accelerate.
@@ -73,6 +75,7 @@ impl<T: Scalar> Compiled<T> {
             spare: Plan::default(),
             solver: Solver::default(),
             factored: false,
+            outdated: false,
             on_tape: true,
             tapes: Vec::new(),
         };
@@ -103,18 +106,26 @@ impl<T: Scalar> Compiled<T> {
         self.pinned.extend(pinned);
     }
 
-    /// Takes the parameters of another system of the same kind. The tapes take them when they are selected.
+    /// The parameters have changed.
+    pub(super) fn outdate(&mut self) {
+        self.outdated = true;
+    }
+
+    /// Takes the present parameters, if they have changed. The tapes take them when they are selected.
     pub(super) fn renew(&mut self, system: &dyn Tapes<T>, effects: &Effects) {
+        if !core::mem::take(&mut self.outdated) {
+            return;
+        }
+        self.restart();
         core::mem::swap(&mut self.plan, &mut self.spare);
         self.set_numbers(system, effects);
         self.factored = false;
-        if self.on_tape && self.plan.is_like(&self.spare) {
+        if self.plan.is_like(&self.spare) {
             self.tapes.iter_mut().for_each(Tape::outdate);
         } else {
             self.tapes.clear();
             self.reserve(system.description());
         }
-        self.on_tape = true;
     }
 
     /// Undoes [`Self::leave_to_solver`]: one motion must not depend on those before it.
@@ -155,7 +166,7 @@ impl<T: Scalar> Compiled<T> {
             Some(index) => tapes[..=index].rotate_right(1),
             None => {
                 tapes.truncate(MOST_TAPES - 1);
-                tapes.insert(0, Tape::record(system, self, asked));
+                tapes.insert(0, Tape::record(system, self, asked, given));
             }
         }
         self.tapes = tapes;

@@ -73,8 +73,6 @@ pub struct Dynamics<T: Scalar> {
     /// Modes met so far, and which is the present one.
     modes: Vec<Compiled<T>>,
     current: usize,
-    /// Those that have not yet taken the parameters of the system.
-    stale: Vec<bool>,
     /// Memory of renewals.
     given: Given<T>,
     /// The next of them to go.
@@ -130,7 +128,6 @@ impl<T: Scalar> Dynamics<T> {
             system,
             description: d,
             current: 0,
-            stale: vec![false],
             given: Given::default(),
             oldest: 0,
             held: NeedSet::new(d),
@@ -233,16 +230,14 @@ impl<T: Scalar> Dynamics<T> {
     /// Takes another system of the same kind. What has been recorded stays, with other numbers in it.
     pub(crate) fn set_system(&mut self, system: Erased<T>) {
         self.system = system;
-        self.stale.fill(true);
+        self.modes.iter_mut().for_each(Compiled::outdate);
         self.renew();
         self.selected = false;
     }
 
     /// Brings the present mode up to date with the parameters.
     fn renew(&mut self) {
-        if core::mem::take(&mut self.stale[self.current]) {
-            self.modes[self.current].renew(&*self.system, &self.effects);
-        }
+        self.modes[self.current].renew(&*self.system, &self.effects);
     }
 
     /// Forgets what could make a motion depend on those before it.
@@ -258,12 +253,10 @@ impl<T: Scalar> Dynamics<T> {
         let compiled = Compiled::new(&*self.system, &self.effects, mode);
         if self.modes.len() < MOST_MODES {
             self.modes.push(compiled);
-            self.stale.push(false);
             return self.modes.len() - 1;
         }
         self.oldest = (self.oldest + 1) % MOST_MODES;
         self.modes[self.oldest] = compiled;
-        self.stale[self.oldest] = false;
         self.oldest
     }
 

@@ -101,13 +101,7 @@ impl<T: Scalar> Packets<T> {
             let Some(unsolved) = &shape.unsolved else {
                 return;
             };
-            right.clear();
-            right.extend(unsolved.right.iter().map(|r| now[r.slot.index()]));
-            let elements = unsolved.elements.iter().zip(earlier);
-            for (&(equation, element, unknown), &earlier) in elements {
-                let product = now[element.index()] * first[unknown.index()];
-                right[equation] = right[equation] - (product + earlier);
-            }
+            unsolved.right_hand_sides(now, first, earlier, right);
             for (lane, &motion) in motions.iter().enumerate() {
                 side.clear();
                 side.extend(right.iter().map(|pack| pack.0[lane]));

@@ -116,13 +116,7 @@ impl<T: Scalar> Dynamics<T> {
                 let Some(unsolved) = &shape.unsolved else {
                     return;
                 };
-                right.clear();
-                let sides = unsolved.right.iter();
-                right.extend(sides.map(|r| now[r.slot.index()]));
-                let elements = unsolved.elements.iter().zip(earlier);
-                for (&(equation, element, unknown), &earlier) in elements {
-                    right[equation] -= now[element.index()] * first[unknown.index()] + earlier;
-                }
+                unsolved.right_hand_sides(now, first, earlier, right);
                 solver.solve(right);
                 for (slot, &x) in unsolved.unknowns.iter().zip(&*right) {
                     now[slot.index()] = x;

@@ -8,7 +8,7 @@ use super::needs::NeedSet;
 use super::solution::{Pivot, forces, right_hand_sides, solve};
 use super::values::Extent;
 use crate::arithmetic::{
-    Arithmetic, Coefficient, Expansion, Given, Program, Recorded, Recording, Renewal, Scalar, Slot,
+    Arithmetic, Coefficient, Expansion, Given, Numbers, Program, Recorded, Recording, Scalar, Slot,
     Variation,
 };
 use crate::linear::Plan;
@@ -32,6 +32,27 @@ pub(super) struct Unsolved {
     pub unknowns: Vec<Slot>,
     /// Elements that change with time: (equation, element, unknown).
     pub elements: Vec<(usize, Slot, Slot)>,
+}
+
+impl Unsolved {
+    /// Right-hand sides of one order, from the coefficients `now`, the values `first`, and what `earlier` coefficients of the elements
+    /// and unknowns give.
+    #[inline(always)]
+    pub(super) fn right_hand_sides<C: Coefficient>(
+        &self,
+        now: &[C],
+        first: &[C],
+        earlier: &[C],
+        right: &mut Vec<C>,
+    ) {
+        right.clear();
+        right.extend(self.right.iter().map(|r| now[r.slot.index()]));
+        let elements = self.elements.iter().zip(earlier);
+        for (&(equation, element, unknown), &earlier) in elements {
+            let product = now[element.index()] * first[unknown.index()];
+            right[equation] = right[equation] - (product + earlier);
+        }
+    }
 }
 
 /// The recorded equations of a mode without their numbers.
@@ -81,7 +102,7 @@ pub(super) struct Tape<T> {
     pub shape: Arc<Shape>,
     pub registers: Vec<T>,
     /// Exchanges the numbers in the registers that depend on parameters.
-    renewal: Renewal<T>,
+    numbers: Numbers<T>,
     /// Whether the numbers are those of other parameters.
     outdated: bool,
     /// Whether the registers hold everything at the state in them.
@@ -171,18 +192,22 @@ impl<T: Scalar> Tape<T> {
         }
         self.evaluated = false;
         collect(system, compiled, &self.held, self.report.as_ref(), given);
-        self.outdated = !self.renewal.renew(&given.list, &mut self.registers);
+        self.outdated = !self.numbers.renew(&given.list, &mut self.registers);
         !self.outdated
     }
 
-    /// Records the equations of a mode.
-    pub(super) fn record(system: &dyn Tapes<T>, compiled: &Compiled<T>, asked: &Asked) -> Self {
+    /// Records the equations of a mode; `given` is memory.
+    pub(super) fn record(
+        system: &dyn Tapes<T>,
+        compiled: &Compiled<T>,
+        asked: &Asked,
+        given: &mut Given<T>,
+    ) -> Self {
         let d = system.description();
         let plan = &compiled.plan;
         let parts = layout(d, plan.program.len());
         let n = d.coordinates.len();
-        let mut given = Given::default();
-        collect(system, compiled, asked.held, asked.report, &mut given);
+        collect(system, compiled, asked.held, asked.report, given);
         let mut recording = Recording::new(parts.end, &given.list);
         let mut inputs = inputs(d, plan, asked.at_rest);
         let mut nodes = vec![Recorded::ZERO; d.motion.outputs];
@@ -276,7 +301,7 @@ impl<T: Scalar> Tape<T> {
         let program = Program::new(&mut recording, &all);
         let accelerations = Program::new(&mut recording, &accelerations);
         let used = recording.registers();
-        let (registers, renewal) = recording.finish();
+        let (registers, numbers) = recording.finish();
         let changes = (1..1 + 2 * n).filter(|&i| !inputs[i + n].is_zero());
         let changes = changes.map(|i| (inputs[i].slot, inputs[i + n].slot));
         let turns = headings
@@ -299,7 +324,7 @@ impl<T: Scalar> Tape<T> {
             expansion: shape.expansion(),
             shape: Arc::new(shape),
             registers,
-            renewal,
+            numbers,
             outdated: false,
             evaluated: false,
             order: 0,
