@@ -42,6 +42,7 @@ pub(crate) fn worker<S: System<Scalar = f64> + Default + Send + 'static>(
     let mut point = vec![0.0; targets.len()];
     Ok(Box::new(move |points, rows| {
         let first = points.start;
+        rows.fill(f64::NAN);
         let mut refused = Vec::new();
         ensemble.run(
             points.len(),
@@ -70,20 +71,15 @@ pub(crate) fn worker<S: System<Scalar = f64> + Default + Send + 'static>(
                     return;
                 };
                 *failed = outcome.as_ref().err().map_or(0.0, code);
-                for (value, observation) in observed.iter_mut().zip(&sweep.observed) {
-                    *value = match outcome {
-                        Ok(()) => observation.read(trajectory),
-                        Err(_) => f64::NAN,
-                    };
+                if outcome.is_ok() {
+                    for (value, observation) in observed.iter_mut().zip(&sweep.observed) {
+                        *value = observation.read(trajectory);
+                    }
                 }
             },
         );
         for (index, code) in refused {
-            let row = &mut rows[index * sweep.width()..][..sweep.width()];
-            row.fill(f64::NAN);
-            if let Some(failed) = row.last_mut() {
-                *failed = code;
-            }
+            rows[(index + 1) * sweep.width() - 1] = code;
         }
     }))
 }
