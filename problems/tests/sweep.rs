@@ -2,9 +2,9 @@
 
 mod program;
 
-use program::{refuses, says};
+use program::{folder, path, refuses, says};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 const SWEEP: &[&str] = &[
     "sweep",
@@ -22,13 +22,7 @@ const SWEEP: &[&str] = &[
 
 /// A file of this name in a folder of its own.
 fn place(name: &str) -> PathBuf {
-    let folder = std::env::temp_dir().join(format!("lagrange-sweep-{}-{name}", std::process::id()));
-    fs::create_dir_all(&folder).expect("a folder");
-    folder.join(name)
-}
-
-fn path(file: &Path) -> &str {
-    file.to_str().expect("unicode")
+    folder(&format!("sweep-{name}")).join(name)
 }
 
 fn sweep<'a>(more: &[&'a str]) -> Vec<&'a str> {

@@ -2,7 +2,7 @@
 
 mod program;
 
-use program::{lagrange, refuses, says, text};
+use program::{folder, lagrange, path, refuses, says, text};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
@@ -27,14 +27,7 @@ const CHUNKS: usize = 9;
 
 /// A folder of its own, empty.
 fn place(name: &str) -> PathBuf {
-    let folder = std::env::temp_dir().join(format!("lagrange-kept-{}-{name}", std::process::id()));
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).expect("a folder");
-    folder
-}
-
-fn path(file: &Path) -> &str {
-    file.to_str().expect("unicode")
+    folder(&format!("kept-{name}"))
 }
 
 fn sweep<'a>(more: &[&'a str]) -> Vec<&'a str> {

@@ -4,7 +4,7 @@
 
 mod program;
 
-use program::{refuses, says, text};
+use program::{folder, path, refuses, says, text};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -26,14 +26,7 @@ const SWEEP: &[&str] = &[
 
 /// A folder of its own, empty.
 fn place(name: &str) -> PathBuf {
-    let folder = std::env::temp_dir().join(format!("lagrange-mpi-{}-{name}", std::process::id()));
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).expect("a folder");
-    folder
-}
-
-fn path(file: &Path) -> &str {
-    file.to_str().expect("unicode")
+    folder(&format!("mpi-{name}"))
 }
 
 /// The program under mpirun, each process telling its number in a file named by its rank; `None` without mpirun.

@@ -28,6 +28,10 @@ pub fn folder(name: &str) -> PathBuf {
     folder
 }
 
+pub fn path(file: &Path) -> &str {
+    file.to_str().expect("unicode")
+}
+
 pub fn text(bytes: &[u8]) -> &str {
     core::str::from_utf8(bytes).expect("output is UTF-8")
 }
