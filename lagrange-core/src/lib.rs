@@ -10,6 +10,7 @@ mod derivation;
 pub mod dynamics;
 pub mod effects;
 mod entries;
+pub mod equations;
 pub mod error;
 pub mod events;
 pub mod handle;

@@ -10,6 +10,7 @@
 
 use crate::arithmetic::{Arithmetic, Scalar};
 use crate::derivation::Derivation;
+use crate::equations::{ModeEquations, ModeStructure, Number};
 use core::fmt;
 use core::str::FromStr;
 
@@ -91,6 +92,27 @@ pub trait System: Clone + Send + Sync + 'static {
         x: &[A::Node],
         y: &mut [A::Node],
     );
+
+    /// The modes whose equations are [emitted](Self::mode_equations).
+    const MODES: &'static [ModeStructure] = &[];
+
+    /// Everything that depends on parameters only in mode `mode` of [`Self::MODES`]; `signs` are, per friction, those of its slip
+    /// and of the multiplier that presses. False if the parameters do not allow the pivots that were chosen at build time.
+    fn mode_constants(
+        &self,
+        mode: usize,
+        held: &Held,
+        signs: &[Self::Scalar],
+        c: &mut [Self::Scalar],
+    ) -> bool {
+        let _ = (mode, held, signs, c);
+        false
+    }
+
+    /// The functions of the modes, in the order of [`Self::MODES`].
+    fn mode_equations<N: Number>() -> &'static [ModeEquations<N>] {
+        &[]
+    }
 }
 
 /// The size of a tape.

@@ -5,6 +5,7 @@
 
 use crate::arithmetic::{Arithmetic, Given, Recorder, Scalar, Value};
 use crate::dynamics::Seeded;
+use crate::equations::{ModeEquations, ModeStructure};
 use crate::system::{Description, Held, System};
 use core::fmt;
 use std::sync::Arc;
@@ -37,6 +38,15 @@ pub(crate) trait Tapes<T: Scalar>: Send + Sync {
 
     /// Everything that depends on parameters only.
     fn constants(&self, held: &Held, c: &mut [T]);
+
+    /// The modes whose equations are emitted.
+    fn structures(&self) -> &'static [ModeStructure];
+
+    /// Their functions.
+    fn mode_equations(&self) -> &'static [ModeEquations<T>];
+
+    /// Their constants; false if the parameters do not allow the pivots that were chosen at build time.
+    fn mode_constants(&self, mode: usize, held: &Held, signs: &[T], c: &mut [T]) -> bool;
 
     /// Written down.
     fn record(&self, which: Which, call: Call<'_, Recorder<'_, T>>);
@@ -71,6 +81,24 @@ impl<S: System> Tapes<S::Scalar> for S {
 
     fn constants(&self, held: &Held, c: &mut [S::Scalar]) {
         System::constants(self, held, c);
+    }
+
+    fn structures(&self) -> &'static [ModeStructure] {
+        S::MODES
+    }
+
+    fn mode_equations(&self) -> &'static [ModeEquations<S::Scalar>] {
+        S::mode_equations::<S::Scalar>()
+    }
+
+    fn mode_constants(
+        &self,
+        mode: usize,
+        held: &Held,
+        signs: &[S::Scalar],
+        c: &mut [S::Scalar],
+    ) -> bool {
+        System::mode_constants(self, mode, held, signs, c)
     }
 
     fn record(&self, which: Which, call: Call<'_, Recorder<'_, S::Scalar>>) {

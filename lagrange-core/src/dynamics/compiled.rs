@@ -5,6 +5,7 @@ use super::needs::{self, NeedSet};
 use super::tape::Tape;
 use crate::arithmetic::{Given, Scalar};
 use crate::effects::Effects;
+use crate::equations::Emitted;
 use crate::linear::{Plan, Solver};
 use crate::mode::Mode;
 use crate::system::{Description, Held};
@@ -16,7 +17,7 @@ const MOST_TAPES: usize = 12;
 
 /// The equations of one mode.
 #[derive(Clone, Debug)]
-pub(super) struct Compiled<T> {
+pub(super) struct Compiled<T: Scalar> {
     pub mode: Mode,
     /// Of the equations of motion.
     pub motion_needs: NeedSet,
@@ -34,6 +35,8 @@ pub(super) struct Compiled<T> {
     pub factored: bool,
     /// Whether numbers and plan are those of other parameters.
     outdated: bool,
+    /// The functions of this mode, if they have been emitted.
+    pub emitted: Option<Emitted<T>>,
     /// Whether a tape may solve small systems itself.
     pub on_tape: bool,
     /// Coordinates that cannot accelerate.
@@ -76,6 +79,7 @@ impl<T: Scalar> Compiled<T> {
             solver: Solver::default(),
             factored: false,
             outdated: false,
+            emitted: Emitted::of(system, effects, mode),
             on_tape: true,
             tapes: Vec::new(),
         };
@@ -94,6 +98,9 @@ impl<T: Scalar> Compiled<T> {
         self.constants.clear();
         self.constants.resize(d.constants, T::default());
         system.constants(&held, &mut self.constants);
+        if let Some(emitted) = &mut self.emitted {
+            emitted.renew(system, &held);
+        }
         self.plan.set(d, effects, &self.mode, &mut self.constants);
     }
 
@@ -134,6 +141,17 @@ impl<T: Scalar> Compiled<T> {
             self.on_tape = true;
             self.tapes.clear();
         }
+    }
+
+    /// What the functions of the mode are told, with the needs that are held.
+    #[inline]
+    pub(super) fn emitted<'a>(
+        &'a mut self,
+        needs: &'a NeedSet,
+    ) -> Option<(&'a mut Emitted<T>, Held<'a>)> {
+        let branches = &self.mode.branches;
+        let held = Held { needs, branches };
+        self.emitted.as_mut().map(|emitted| (emitted, held))
     }
 
     /// The tape in use, if one has been recorded.

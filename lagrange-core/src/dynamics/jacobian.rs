@@ -29,7 +29,10 @@ impl<T: Scalar> Dynamics<T> {
         v: &[T],
         columns: &mut [T],
     ) -> Result<(), EvaluationError> {
-        self.value(t, q, v)?;
+        self.on_tape_only = true;
+        let outcome = self.value(t, q, v);
+        self.on_tape_only = false;
+        outcome?;
         let n = self.description().coordinates.len();
         let known = self.known_solution()?;
         let mut outcome = Ok(());

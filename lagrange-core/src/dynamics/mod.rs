@@ -29,6 +29,7 @@ pub use projection::Residual;
 
 use crate::arithmetic::{Given, Scalar, Value};
 use crate::effects::Effects;
+use crate::equations::Emitted;
 use crate::linear::{SolveError, Solver};
 use crate::mode::Mode;
 use crate::system::System;
@@ -84,10 +85,16 @@ pub struct Dynamics<T: Scalar> {
     /// What the report tape is told: the effects' own needs and what was asked for.
     report_held: NeedSet,
     reports: bool,
+    /// What the functions of a mode are told for a series.
+    series_held: NeedSet,
     /// Of the named energies.
     energies: NeedSet,
     /// Whether the tape in use is that of the present mode and needs.
     selected: bool,
+    /// Whether the last evaluation was by the functions of the mode.
+    by_functions: bool,
+    /// Whether the functions of the mode are left aside, by who needs the factors of its linear system.
+    on_tape_only: bool,
     /// Runs tapes for values and derivatives.
     plain: Value<T>,
     lanes: jacobian::Seeded<T>,
@@ -135,8 +142,11 @@ impl<T: Scalar> Dynamics<T> {
             report_needs: NeedSet::new(d),
             report_held: NeedSet::new(d),
             reports: false,
+            series_held: NeedSet::new(d),
             energies: needs::of_energies(d),
             selected: false,
+            by_functions: false,
+            on_tape_only: false,
             plain: Value::new(),
             lanes: jacobian::Seeded::new(),
             inputs: vec![zero; 1 + 3 * n + rows],
@@ -194,6 +204,13 @@ impl<T: Scalar> Dynamics<T> {
 
     /// Operations of the last [`Self::value`]: what takes no part in the mode is not among them.
     pub fn operations(&self) -> Operations {
+        if let Some(emitted) = self.in_use() {
+            let operations = emitted.operations();
+            return Operations {
+                accelerations: operations,
+                everything: operations,
+            };
+        }
         let tape = self.compiled().tape();
         tape.map(|tape| tape.operations()).unwrap_or_default()
     }
@@ -201,6 +218,25 @@ impl<T: Scalar> Dynamics<T> {
     /// The rows that act as equations in this mode, ascending.
     pub fn acting_rows(&self) -> &[usize] {
         &self.compiled().plan.acting
+    }
+
+    /// The functions of the mode, if the last evaluation was by them.
+    #[inline]
+    fn in_use(&self) -> Option<&Emitted<T>> {
+        let emitted = self.compiled().emitted.as_ref();
+        emitted.filter(|_| self.by_functions)
+    }
+
+    /// Decides by what the coming evaluation is.
+    #[inline]
+    fn choose(&mut self, q: &[T], v: &[T]) -> bool {
+        let compiled = &self.modes[self.current];
+        let emitted = compiled
+            .emitted
+            .as_ref()
+            .filter(|_| compiled.on_tape && !self.on_tape_only);
+        self.by_functions = emitted.is_some_and(|emitted| emitted.holds_at(q, v));
+        self.by_functions
     }
 
     #[inline(always)]
@@ -304,6 +340,12 @@ impl<T: Scalar> Dynamics<T> {
         let motion = self.modes[self.current].motion_needs.iter();
         self.held
             .assign(motion.zip(self.extra.iter()).map(|(a, b)| a | b));
+        self.series_held.assign(
+            self.held
+                .iter()
+                .zip(self.report_needs.iter())
+                .map(|(a, b)| a | b),
+        );
         // The named energies stand under their own needs also in the report, for the energy balance alone.
         let balance =
             self.report_needs.contains(d.energy.need) || self.report_needs.contains(d.momenta.need);

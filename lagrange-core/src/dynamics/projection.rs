@@ -111,7 +111,7 @@ impl<T: Scalar> Dynamics<T> {
         if moved {
             self.move_velocities(t, q, v, &[], least)?;
         }
-        self.settle_pinned(v, threshold);
+        self.settle_pinned(q, v, threshold);
         let carries = T::DERIVATIVES > 0 && !self.acting_rows().is_empty();
         if carries {
             self.move_derivatives(t, q, v, [&[], &[]]);
@@ -140,15 +140,21 @@ impl<T: Scalar> Dynamics<T> {
         self.run_rows(t, q, v);
     }
 
-    /// Takes the rounding out of the velocities of coordinates that a row of their own pins: a coordinate that is exactly
-    /// at rest is constant in a Taylor expansion. The last tape was run at `v`.
-    fn settle_pinned(&self, v: &mut [T], threshold: f64) {
+    /// Takes the rounding out of the positions and velocities of coordinates that a row of their own pins: a coordinate that is
+    /// exactly at rest where it is pinned is a number in the equations of the mode. The last tape was run at (q, v).
+    fn settle_pinned(&self, q: &mut [T], v: &mut [T], threshold: f64) {
         let plan = &self.compiled().plan;
         for &row in &plan.acting {
             let row = &self.description().rows[row];
             if let [(j, factor)] = *row.jacobian
                 && plan.is_pinned(j)
             {
+                if let Some(position) = row.position {
+                    let excess = self.motion(position) / self.motion(factor);
+                    if excess.value().abs() <= threshold * q[j].value().abs().max(1.0) {
+                        q[j] -= excess;
+                    }
+                }
                 let excess = self.motion(row.velocity) / self.motion(factor);
                 if excess.value().abs() <= threshold * v[j].value().abs().max(1.0) {
                     v[j] -= excess;

@@ -13,6 +13,7 @@ use super::tape::{REPORT, Shape, Tape};
 use super::values::Extent;
 use super::{Dynamics, EvaluationError};
 use crate::arithmetic::{Expansion, MAX_ORDER, Pack, Scalar};
+use crate::equations::Refused;
 use crate::system::Place;
 use std::sync::Arc;
 
@@ -40,6 +41,16 @@ impl<T: Scalar> Dynamics<T> {
         let order = order.min(MAX_ORDER);
         self.work.series += 1;
         self.work.coefficients += order + 1;
+        if self.choose(q, v) {
+            let expanded = self.modes[self.current].emitted(&self.series_held);
+            match expanded.map(|(emitted, held)| emitted.series(&held, order, t, q, v)) {
+                Some(Ok(())) => return Ok(false),
+                Some(Err(Refused::NoSeries(operation))) => {
+                    return Err(EvaluationError::NoSeries { operation });
+                }
+                Some(Err(Refused::Pivot)) | None => self.leave_to_solver(),
+            }
+        }
         self.run(t, q, v, Extent::Everything, true)?;
         if self.compiled().plan.headings.is_empty() {
             self.start_series(order)?;
@@ -168,6 +179,9 @@ impl<T: Scalar> Dynamics<T> {
     }
 
     fn input_series(&self, index: usize) -> &[T] {
+        if let Some(emitted) = self.in_use() {
+            return emitted.input_series(self.description, index);
+        }
         self.compiled()
             .tape()
             .map_or(&[], |t| t.input_series(index))
@@ -176,6 +190,12 @@ impl<T: Scalar> Dynamics<T> {
     /// Coefficients of a number of the motion tape that depends on the state. Its need must have been asked for by
     /// [`Self::set_extra_needs`]; of other numbers, zeros.
     pub fn motion_series(&self, place: Place) -> &[T] {
+        if let Some(emitted) = self.in_use() {
+            return match place {
+                Place::Node(node) => emitted.motion_series(self.description, node),
+                Place::Zero | Place::Constant(_) => emitted.zero_series(self.description),
+            };
+        }
         let tape = self.compiled().tape();
         tape.map_or(&[], |tape| match place {
             Place::Node(node) => tape.node_series(node),
@@ -186,6 +206,12 @@ impl<T: Scalar> Dynamics<T> {
     /// Coefficients of a number of the report tape that depends on the state. Its need must have been asked for by
     /// [`Self::set_report_needs`]; of other numbers, zeros.
     pub fn report_series(&self, place: Place) -> &[T] {
+        if let Some(emitted) = self.in_use() {
+            return match place {
+                Place::Node(node) => emitted.report_series(self.description, node),
+                Place::Zero | Place::Constant(_) => emitted.zero_series(self.description),
+            };
+        }
         let tape = self.compiled().tape();
         tape.map_or(&[], |tape| match place {
             Place::Node(node) => tape.report_series(node),

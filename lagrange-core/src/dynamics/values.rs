@@ -1,7 +1,7 @@
 //! The value reading: accelerations and forces at one state.
 
 use super::compiled::Compiled;
-use super::tape::{FORCES, MOTION, Tape};
+use super::tape::{FORCES, MOTION};
 use super::{Dynamics, EvaluationError};
 use crate::arithmetic::Scalar;
 use crate::linear::{Inertia, SolveError, epsilon};
@@ -28,9 +28,9 @@ impl<T: Scalar> Dynamics<T> {
         self.work.values += 1;
         self.run(t, q, v, Extent::Everything, false)?;
         self.check_accelerations()?;
-        let (_, _, tape) = self.modes[self.current].parts();
-        let count = self.inputs.len();
-        self.inputs.copy_from_slice(&tape.registers[1..=count]);
+        let mut inputs = core::mem::take(&mut self.inputs);
+        inputs.copy_from_slice(self.results());
+        self.inputs = inputs;
         self.tape(t, q, v);
         Ok(())
     }
@@ -46,6 +46,14 @@ impl<T: Scalar> Dynamics<T> {
         extent: Extent,
         refined: bool,
     ) -> Result<(), EvaluationError> {
+        if self.choose(q, v) {
+            let forces = extent == Extent::Everything;
+            let evaluated = self.modes[self.current].emitted(&self.held);
+            if evaluated.is_some_and(|(emitted, held)| emitted.value(&held, forces, t, q, v)) {
+                return Ok(());
+            }
+            self.leave_to_solver();
+        }
         self.select(v);
         let (_, _, tape) = self.modes[self.current].parts();
         let n = q.len();
@@ -76,8 +84,7 @@ impl<T: Scalar> Dynamics<T> {
             .iter()
             .all(|pivot| pivot.is_safe(&tape.registers))
         {
-            self.modes[self.current].leave_to_solver();
-            self.selected = false;
+            self.leave_to_solver();
             return self.run(t, q, v, extent, refined);
         }
         let (_, _, tape) = self.modes[self.current].parts();
@@ -98,24 +105,50 @@ impl<T: Scalar> Dynamics<T> {
         self.run(t, q, v, Extent::Accelerations, false)?;
         self.check_accelerations()?;
         let n = q.len();
-        let (_, _, tape) = self.modes[self.current].parts();
-        Ok(&tape.registers[2 + 2 * n..2 + 3 * n])
+        Ok(&self.results()[1 + 2 * n..1 + 3 * n])
     }
 
-    /// Whether all accelerations in the registers are finite.
+    /// t, q, v, v̇, λ of the last run.
     #[inline]
-    fn check_accelerations(&mut self) -> Result<(), EvaluationError> {
+    fn results(&self) -> &[T] {
+        match self.in_use() {
+            Some(emitted) => &emitted.state,
+            None => {
+                let count = self.inputs_len();
+                self.compiled()
+                    .tape()
+                    .map_or(&[], |tape| &tape.registers[1..=count])
+            }
+        }
+    }
+
+    fn inputs_len(&self) -> usize {
+        let d = self.description();
+        1 + 3 * d.coordinates.len() + d.rows.len()
+    }
+
+    /// Leaves the linear systems of the mode to the solver from now on.
+    pub(super) fn leave_to_solver(&mut self) {
+        self.modes[self.current].leave_to_solver();
+        (self.selected, self.by_functions) = (false, false);
+    }
+
+    /// Whether all accelerations of the last run are finite.
+    #[inline]
+    pub(super) fn check_accelerations(&self) -> Result<(), EvaluationError> {
         let n = self.description().coordinates.len();
-        let (_, _, tape) = self.modes[self.current].parts();
+        let accelerations = &self.results()[1 + 2 * n..1 + 3 * n];
         // The sum of zeros is zero unless one of the factors is not finite.
-        let poison = tape.registers[2 + 2 * n..2 + 3 * n]
+        let poison = accelerations
             .iter()
             .fold(0.0, |sum, x| sum + 0.0 * x.value());
         if poison == 0.0 {
-            Ok(())
-        } else {
-            Err(self.not_finite_register())
+            return Ok(());
         }
+        let bad = accelerations.iter().position(|x| !x.value().is_finite());
+        Err(EvaluationError::NotFiniteAcceleration {
+            coordinate: bad.unwrap_or(0),
+        })
     }
 
     /// Solves for the unknowns, from values in the registers.
@@ -175,20 +208,6 @@ impl<T: Scalar> Dynamics<T> {
                 Ok(())
             }
             Err(e) => Err(self.solve_error(e)),
-        }
-    }
-
-    /// The acceleration or force in the registers that is not finite.
-    #[cold]
-    fn not_finite_register(&self) -> EvaluationError {
-        let n = self.description().coordinates.len();
-        let compiled = self.compiled();
-        let bad = |j: &usize| {
-            let tape: Option<&Tape<_>> = compiled.tape();
-            tape.is_some_and(|tape| !tape.registers[2 + 2 * n + j].value().is_finite())
-        };
-        EvaluationError::NotFiniteAcceleration {
-            coordinate: (0..n).find(bad).unwrap_or(0),
         }
     }
 

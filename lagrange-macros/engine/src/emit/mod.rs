@@ -5,6 +5,7 @@ mod checks;
 mod code;
 mod derivation;
 mod description;
+mod equations;
 mod fallback;
 mod handles;
 mod names;
@@ -51,6 +52,7 @@ pub fn emit(program: &Program, verdicts: &[Verdict]) -> TokenStream {
     let constants = scalar::constants(program);
     let motion = tape::tape(program, Stage::Motion);
     let report = tape::tape(program, Stage::Report);
+    let equations = equations::equations(program);
     quote! {
         #handles
         #checks
@@ -68,6 +70,7 @@ pub fn emit(program: &Program, verdicts: &[Verdict]) -> TokenStream {
             #constants
             #motion
             #report
+            #equations
         }
     }
 }

@@ -53,12 +53,30 @@ pub fn constants(program: &Program) -> TokenStream {
             }
         };
     }
+    let fields: Vec<_> = system.parameters.iter().map(names::field).collect();
+    let body = masked(program, tape, |at| fields[at].clone());
+    quote! {
+        fn constants(&self, #held: &#core::system::Held, #c: &mut [Self::Scalar]) {
+            #body
+        }
+    }
+}
+
+/// A masked program whose outputs are the constants `c`.
+pub fn masked(program: &Program, tape: &Tape, input: impl Fn(usize) -> TokenStream) -> TokenStream {
+    let system = &program.equations.system;
+    let c = local("c");
     let outputs = names::index(tape.outputs);
     let outputs = names::array(&c, quote!(#c.first_chunk_mut::<#outputs>()));
     let needs = names::needs(program.equations.needs.len());
     let crossing = names::crossing(tape);
     let declared = crossing.iter().map(|value| names::value(*value));
-    let inputs = parameters(system, tape);
+    let read = names::read(tape);
+    let inputs = (0..tape.inputs).filter(|at| read.contains(&Value(*at)));
+    let inputs = inputs.map(|at| {
+        let (name, input) = (names::value(Value(at)), input(at));
+        quote!(let #name = #input;)
+    });
     let blocks = tape.blocks.iter().map(|block| {
         let steps = steps(
             system,
@@ -81,13 +99,11 @@ pub fn constants(program: &Program) -> TokenStream {
         quote!(if #condition { #body })
     });
     quote! {
-        fn constants(&self, #held: &#core::system::Held, #c: &mut [Self::Scalar]) {
-            #outputs
-            #needs
-            #inputs
-            #(let mut #declared = <Self::Scalar as ::core::default::Default>::default();)*
-            #(#blocks)*
-        }
+        #outputs
+        #needs
+        #(#inputs)*
+        #(let mut #declared = <Self::Scalar as ::core::default::Default>::default();)*
+        #(#blocks)*
     }
 }
 

@@ -12,6 +12,7 @@ mod distribute;
 mod form;
 mod graph;
 mod lower;
+pub mod mode;
 mod needs;
 mod outputs;
 mod schedule;
@@ -56,6 +57,8 @@ pub struct Program {
     pub report: Tape,
     /// In order of declaration.
     pub starts: Vec<Start>,
+    /// One program for each mode that can be listed.
+    pub modes: Vec<mode::ModeProgram>,
 }
 
 /// A named start. Scalar operations.
@@ -99,6 +102,7 @@ pub fn plan(mut equations: Equations) -> Program {
     let motion = stage_tape(&mut equations, Stage::Motion, &mut constants, &mut places);
     let report = stage_tape(&mut equations, Stage::Report, &mut constants, &mut places);
     let starts = starts(&mut equations.system, &parameters);
+    let modes = mode::programs(&mut equations);
 
     let targets: Vec<Target> = constants
         .sources
@@ -121,6 +125,7 @@ pub fn plan(mut equations: Equations) -> Program {
         motion,
         report,
         starts,
+        modes,
     }
 }
 

@@ -1,0 +1,190 @@
+//! The equations of each mode as Rust: `constants`, `value` and `series`, and the table that says where their numbers are.
+
+mod products;
+mod series;
+mod solve;
+mod value;
+mod writer;
+
+use super::names::{self, index, local, plain};
+use super::scalar;
+use crate::derive::Stage;
+use crate::model::System;
+use crate::plan::mode::{FrictionState, ModeProgram};
+use crate::plan::{Place, Program};
+use proc_macro2::{Ident, TokenStream};
+use quote::quote;
+
+/// The type parameter of emitted functions.
+fn number() -> Ident {
+    plain("LagrangeNumber")
+}
+
+/// Everything of `impl System` that belongs to modes; nothing if no mode is emitted.
+pub fn equations(program: &Program) -> TokenStream {
+    if program.modes.is_empty() {
+        return TokenStream::new();
+    }
+    let core = &program.equations.system.core;
+    let number = number();
+    let (mut structures, mut constants, mut functions, mut entries) =
+        (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    for (at, mode) in program.modes.iter().enumerate() {
+        let plan = products::Plan::new(mode);
+        structures.push(structure(program, mode, &plan));
+        let body = mode_constants(program, mode);
+        let at_index = index(at);
+        constants.push(quote!(#at_index => { #body }));
+        let (value, series) = (
+            plain(&format!("value_{at}")),
+            plain(&format!("series_{at}")),
+        );
+        let heading = format!(" {}.", describe(&program.equations.system, mode));
+        functions.push(value::function(&value, &heading, program, mode));
+        functions.push(series::function(&series, &heading, program, mode, &plan));
+        entries.push(quote! {
+            #core::equations::ModeEquations { value: #value::<#number>, series: #series::<#number> }
+        });
+    }
+    let (mode, held, signs, c) = (local("mode"), local("held"), local("signs"), local("c"));
+    quote! {
+        const MODES: &'static [#core::equations::ModeStructure] = &[#(#structures),*];
+
+        fn mode_constants(
+            &self,
+            #mode: usize,
+            #held: &#core::system::Held,
+            #signs: &[Self::Scalar],
+            #c: &mut [Self::Scalar],
+        ) -> bool {
+            match #mode {
+                #(#constants)*
+                _ => false,
+            }
+        }
+
+        fn mode_equations<#number: #core::equations::Number>(
+        ) -> &'static [#core::equations::ModeEquations<#number>] {
+            #(#functions)*
+            const { &[#(#entries),*] }
+        }
+    }
+}
+
+/// The mode in words.
+fn describe(system: &System, mode: &ModeProgram) -> String {
+    let mut words = Vec::new();
+    for (contact, &closed) in system.contacts.iter().zip(&mode.mode.contacts) {
+        let state = if closed { "closed" } else { "open" };
+        words.push(format!("{} {state}", contact.name.text));
+    }
+    for (friction, state) in system.frictions.iter().zip(&mode.mode.frictions) {
+        let verb = match state {
+            FrictionState::Inactive => continue,
+            FrictionState::Stick => "sticks",
+            FrictionState::Slip => "slips",
+        };
+        words.push(format!("{} {verb}", friction.name.text));
+    }
+    if words.is_empty() {
+        words.push("The equations of motion".to_owned());
+    }
+    words.join(", ")
+}
+
+/// `ModeStructure { … }`
+fn structure(program: &Program, mode: &ModeProgram, plan: &products::Plan) -> TokenStream {
+    let core = &program.equations.system.core;
+    let contacts = &mode.mode.contacts;
+    let frictions = mode.mode.frictions.iter().map(|state| match state {
+        FrictionState::Inactive => quote!(Inactive),
+        FrictionState::Stick => quote!(Stick),
+        FrictionState::Slip => quote!(Slip),
+    });
+    let system = &program.equations.system;
+    let pins = mode.pins.iter().map(|&(j, place)| {
+        let (j, place) = (index(j), names::place(system, place));
+        quote!((#j, #place))
+    });
+    let numbers = mode.extras.iter().filter_map(|extra| {
+        let row = index(plan.extra_row(mode, extra)?);
+        let list = match program.equations.outputs[extra.output.0].stage {
+            Stage::Motion => quote!(motion),
+            Stage::Report => quote!(report),
+        };
+        match program.place(extra.output) {
+            Place::Node(node) => {
+                let node = index(node);
+                Some((list.to_string(), quote!((#node, #row))))
+            }
+            Place::Zero | Place::Constant(_) => None,
+        }
+    });
+    let (mut motion, mut report) = (Vec::new(), Vec::new());
+    for (list, entry) in numbers {
+        if list == "motion" {
+            motion.push(entry)
+        } else {
+            report.push(entry)
+        }
+    }
+    let count = index(mode.constants.outputs);
+    let rows = index(plan.rows);
+    let convolutions = index(plan.convolutions());
+    let operations = index(
+        mode.tape
+            .blocks
+            .iter()
+            .zip(&mode.phases)
+            .filter(|(_, phase)| **phase < crate::plan::mode::Phase::Forces)
+            .flat_map(|(block, _)| &block.steps)
+            .filter(|step| step.operation.is_work())
+            .count()
+            + solve::operations(&mode.system),
+    );
+    quote! {
+        #core::equations::ModeStructure {
+            contacts: &[#(#contacts),*],
+            frictions: &[#(#core::equations::FrictionState::#frictions),*],
+            constants: #count,
+            pins: &[#(#pins),*],
+            rows: #rows,
+            motion: &[#(#motion),*],
+            report: &[#(#report),*],
+            operations: #operations,
+            convolutions: #convolutions,
+        }
+    }
+}
+
+/// The body of `mode_constants` for one mode.
+fn mode_constants(program: &Program, mode: &ModeProgram) -> TokenStream {
+    let system = &program.equations.system;
+    let core = &system.core;
+    let scalar = quote!(#core::arithmetic::Scalar);
+    let fields: Vec<_> = system.parameters.iter().map(names::field).collect();
+    let parameters = fields.len();
+    let signs = local("signs");
+    let input = |at: usize| match fields.get(at) {
+        Some(field) => field.clone(),
+        None => {
+            let at = index(at - parameters);
+            quote!(#signs[#at])
+        }
+    };
+    let body = scalar::masked(program, &mode.constants, input);
+    let c = local("c");
+    let place = |place: &Place| match place {
+        Place::Constant(at) => {
+            let at = index(*at);
+            quote!(#scalar::value(#c[#at]).abs())
+        }
+        Place::Zero | Place::Node(_) => quote!(0.0),
+    };
+    let tests = mode.divisors.iter().map(|(pivot, against)| {
+        let pivot = place(pivot);
+        let against = against.iter().map(place);
+        quote!(#core::equations::is_safe_divisor(#pivot, &[#(#against),*]))
+    });
+    quote!(#body true #(&& #tests)*)
+}

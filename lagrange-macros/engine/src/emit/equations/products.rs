@@ -1,0 +1,214 @@
+//! Which series an expansion keeps: the operands of products, in rows of memory.
+//!
+//! Coefficient k of a product is a sum over the earlier coefficients of its operands; everything else is linear and needs
+//! only coefficient k itself.
+
+use crate::plan::mode::{Extra, ModeProgram};
+use crate::plan::{Mode, Operation, Place, Step, Value};
+use std::collections::BTreeMap;
+
+/// A series that is kept.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum Row {
+    /// Of a value.
+    Value(Value),
+    /// k times coefficient k of a value.
+    Weighted(Value),
+    /// The auxiliary series of a function: u of tan, asin, ….
+    Auxiliary(Value),
+    /// k times coefficient k of that.
+    Sum(usize),
+    /// A number that does not change, of an extra output.
+    Fixed(usize),
+}
+
+/// A sum over earlier coefficients: Σ xⱼ yₖ₋ⱼ for 0 < j < k.
+pub type Product = (Row, Row);
+
+/// The rows and products of a mode.
+pub struct Plan {
+    /// Whether each value of the tape changes with time.
+    pub varying: Vec<bool>,
+    /// Outputs that several writes enter, and whether they change with time.
+    pub sums: BTreeMap<usize, bool>,
+    /// The value of each output that one write sets.
+    pub set: BTreeMap<usize, Value>,
+    rows_of: BTreeMap<Row, usize>,
+    /// Number of rows.
+    pub rows: usize,
+    products: usize,
+}
+
+impl Plan {
+    pub fn new(mode: &ModeProgram) -> Plan {
+        let mut plan = Plan {
+            varying: mode.varying(),
+            sums: BTreeMap::new(),
+            set: BTreeMap::new(),
+            rows_of: BTreeMap::new(),
+            rows: 0,
+            products: 0,
+        };
+        for write in mode.tape.blocks.iter().flat_map(|block| &block.writes) {
+            let varies = plan.varying[write.value.0];
+            if write.mode == Mode::Set {
+                plan.set.insert(write.output, write.value);
+            } else {
+                let set = plan
+                    .set
+                    .get(&write.output)
+                    .is_some_and(|v| plan.varying[v.0]);
+                *plan.sums.entry(write.output).or_insert(set) |= varies;
+            }
+        }
+        let (n, forces) = (mode.inputs.coordinates, mode.forces.len());
+        for j in 0..n {
+            plan.rows_of.insert(Row::Value(mode.inputs.position(j)), j);
+            plan.rows_of
+                .insert(Row::Value(mode.inputs.velocity(j)), n + j);
+        }
+        for (r, force) in mode.forces.iter().enumerate() {
+            if force.is_some() {
+                plan.rows_of
+                    .insert(Row::Value(mode.inputs.force(r)), 2 * n + r);
+            }
+        }
+        // The row after the forces stays zero.
+        plan.rows = 2 * n + forces + 1;
+        for block in &mode.tape.blocks {
+            for step in &block.steps {
+                let products = plan.products(step);
+                plan.take(&products);
+            }
+        }
+        for (_, _, product) in plan.system_products(mode) {
+            plan.take(&[product]);
+        }
+        for extra in &mode.extras {
+            let row = match extra.place {
+                Place::Node(output) => plan.row_of_output(output),
+                Place::Constant(at) => Row::Fixed(at),
+                Place::Zero => continue,
+            };
+            plan.keep(row);
+        }
+        plan
+    }
+
+    fn keep(&mut self, row: Row) {
+        let next = self.rows;
+        if *self.rows_of.entry(row).or_insert(next) == next {
+            self.rows += 1;
+        }
+    }
+
+    fn take(&mut self, products: &[Product]) {
+        self.products += products.len();
+        for &(x, y) in products {
+            self.keep(x);
+            self.keep(y);
+        }
+    }
+
+    /// Sums over earlier coefficients for each new one.
+    pub fn convolutions(&self) -> usize {
+        self.products
+    }
+
+    /// Where a series is kept, if it is.
+    pub fn row(&self, row: Row) -> Option<usize> {
+        self.rows_of.get(&row).copied()
+    }
+
+    /// The numbers that do not change and are kept: (constant, row).
+    pub fn fixed(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        self.rows_of.iter().filter_map(|(row, &at)| match row {
+            Row::Fixed(constant) => Some((*constant, at)),
+            _ => None,
+        })
+    }
+
+    /// The series of an output of the tape.
+    pub fn row_of_output(&self, output: usize) -> Row {
+        if self.sums.contains_key(&output) {
+            Row::Sum(output)
+        } else {
+            Row::Value(self.set[&output])
+        }
+    }
+
+    /// Where an extra output is kept; none if it is always zero.
+    pub fn extra_row(&self, mode: &ModeProgram, extra: &Extra) -> Option<usize> {
+        match extra.place {
+            Place::Node(output) => self.row(self.row_of_output(output)),
+            Place::Constant(at) => self.row(Row::Fixed(at)),
+            Place::Zero => Some(2 * mode.inputs.coordinates + mode.forces.len()),
+        }
+    }
+
+    /// Whether an output of the tape changes with time.
+    pub fn output_varies(&self, output: usize) -> bool {
+        match self.sums.get(&output) {
+            Some(varies) => *varies,
+            None => self.varying[self.set[&output].0],
+        }
+    }
+
+    /// The products of a step, in the order in which its rule of differentiation names them.
+    pub fn products(&self, step: &Step) -> Vec<Product> {
+        use Row::{Auxiliary, Value as Plain, Weighted};
+        if !self.varying[step.value.0] {
+            return Vec::new();
+        }
+        let z = step.value;
+        let u = Value(z.0 + 1);
+        match step.operation {
+            Operation::Mul(x, y) if self.varying[x.0] && self.varying[y.0] => {
+                vec![(Plain(x), Plain(y))]
+            }
+            Operation::Square(x) => vec![(Plain(x), Plain(x))],
+            Operation::Div(_, y) if self.varying[y.0] => vec![(Plain(z), Plain(y))],
+            Operation::Ratio(_, y) => vec![(Plain(z), Plain(y))],
+            Operation::Sqrt(_) => vec![(Plain(z), Plain(z))],
+            Operation::Powf(x, _) => vec![(Weighted(z), Plain(x)), (Weighted(x), Plain(z))],
+            Operation::Exp(x) => vec![(Weighted(x), Plain(z))],
+            Operation::Ln(x) => vec![(Weighted(z), Plain(x))],
+            Operation::SinCos(x) | Operation::SinhCosh(x) => {
+                vec![(Weighted(x), Plain(u)), (Weighted(x), Plain(z))]
+            }
+            Operation::Tan(x) | Operation::Tanh(x) => {
+                vec![(Weighted(x), Auxiliary(z)), (Plain(z), Plain(z))]
+            }
+            Operation::Asin(x) | Operation::Acos(x) => vec![
+                (Weighted(z), Auxiliary(z)),
+                (Plain(x), Plain(x)),
+                (Auxiliary(z), Auxiliary(z)),
+            ],
+            Operation::Atan(x) => vec![(Weighted(z), Auxiliary(z)), (Plain(x), Plain(x))],
+            Operation::Atan2(y, x) => vec![
+                (Weighted(z), Auxiliary(z)),
+                (Weighted(y), Plain(x)),
+                (Weighted(x), Plain(y)),
+                (Plain(y), Plain(y)),
+                (Plain(x), Plain(x)),
+            ],
+            _ => Vec::new(),
+        }
+    }
+
+    /// The products of the linear system: (row, column, Kᵢⱼ ∗ wⱼ).
+    pub fn system_products(&self, mode: &ModeProgram) -> Vec<(usize, usize, Product)> {
+        let mut products = Vec::new();
+        for (i, row) in mode.system.matrix.iter().enumerate() {
+            for (j, place) in row.iter().enumerate() {
+                if let Place::Node(output) = *place
+                    && self.output_varies(output)
+                {
+                    let unknown = Row::Value(mode.inputs.unknown(j));
+                    products.push((i, j, (self.row_of_output(output), unknown)));
+                }
+            }
+        }
+        products
+    }
+}

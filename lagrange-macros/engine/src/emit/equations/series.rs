@@ -1,0 +1,788 @@
+//! `series`: Taylor coefficients of the motion and of everything that guards read, order by order.
+//!
+//! ```text
+//! (x y)ₖ = x₀ yₖ + xₖ y₀ + Σ xⱼ yₖ₋ⱼ        K₀ wₖ = bₖ − Kₖ w₀ − Σ Kⱼ wₖ₋ⱼ        vₖ₊₁ = v̇ₖ/(k+1), qₖ = vₖ₋₁/k
+//! ```
+//!
+//! The sums over earlier coefficients come first, all in one loop; one factorization serves every order. Rules: Jorba & Zou
+//! 2005, Experimental Mathematics 14, section 2; Griewank & Walther 2008, section 13.2.
+
+use super::super::names::{self, index, local};
+use super::number;
+use super::products::{Plan, Product, Row};
+use super::solve::Elimination;
+use super::value;
+use super::writer::{Writer, coefficient};
+use crate::plan::mode::{ModeProgram, Phase};
+use crate::plan::{Block, Coefficient, Mode, Operation, Place, Program, Step, Value};
+use proc_macro2::{Ident, TokenStream};
+use quote::quote;
+use std::collections::BTreeSet;
+
+/// Writes the coefficients of one mode.
+struct Expansion<'a> {
+    writer: Writer<'a>,
+    plan: &'a Plan,
+    mode: &'a ModeProgram,
+    /// Values whose coefficient leaves its block.
+    crossing: BTreeSet<Value>,
+}
+
+fn coefficient_of(value: Value) -> Ident {
+    local(&format!("d{}", value.0))
+}
+
+fn auxiliary(value: Value) -> Ident {
+    local(&format!("u{}", value.0))
+}
+
+fn auxiliary_coefficient(value: Value) -> Ident {
+    local(&format!("e{}", value.0))
+}
+
+fn inverse(value: Value) -> Ident {
+    local(&format!("i{}", value.0))
+}
+
+fn sum_coefficient(output: usize) -> Ident {
+    local(&format!("dsum{output}"))
+}
+
+fn product(value: Value, at: usize) -> Ident {
+    local(&format!("s{}_{at}", value.0))
+}
+
+fn system_product(i: usize, j: usize) -> Ident {
+    local(&format!("t{i}_{j}"))
+}
+
+/// `fn series_…`
+pub fn function(
+    name: &Ident,
+    heading: &str,
+    program: &Program,
+    mode: &ModeProgram,
+    plan: &Plan,
+) -> TokenStream {
+    let system = &program.equations.system;
+    let core = &system.core;
+    let blocks = mode
+        .tape
+        .blocks
+        .iter()
+        .filter(|block| !block.needs.is_always());
+    let steps = blocks.flat_map(|block| &block.steps);
+    let declared = steps
+        .flat_map(|step| (0..step.operation.values()).map(|offset| Value(step.value.0 + offset)));
+    let expansion = Expansion {
+        writer: Writer {
+            system,
+            mode,
+            declared: declared.collect(),
+            sums: value::sums(mode),
+        },
+        plan,
+        mode,
+        crossing: names::crossing(&mode.tape),
+    };
+    let number = number();
+    let elimination = Elimination::new(&expansion.writer, &mode.system);
+    let first = expansion.first(&elimination, core);
+    let next = expansion.next(&elimination);
+    let (c, held, order, x, rows) = (
+        local("c"),
+        local("held"),
+        local("order"),
+        local("x"),
+        local("rows"),
+    );
+    let prologue = expansion.writer.prologue();
+    let needs = names::needs(program.equations.needs.len());
+    let count = index(plan.rows);
+    let bound = names::array(&rows, quote!(#rows.first_chunk_mut::<#count>()));
+    quote! {
+        #[doc = #heading]
+        fn #name<#number: #core::equations::Number>(
+            #c: &[#number],
+            #held: &#core::system::Held,
+            #order: usize,
+            #x: &[#number],
+            #rows: &mut [#core::equations::Row<#number>],
+        ) -> ::core::result::Result<(), #core::equations::Refused> {
+            #prologue
+            #bound
+            #needs
+            #first
+            #next
+            ::core::result::Result::Ok(())
+        }
+    }
+}
+
+impl Expansion<'_> {
+    /// `rows[row][at] = value;`
+    fn store(&self, row: usize, at: TokenStream, value: TokenStream) -> TokenStream {
+        let (rows, row) = (local("rows"), index(row));
+        quote!(#rows[#row][#at] = #value;)
+    }
+
+    /// The coefficient of a value, if it has any.
+    fn d(&self, value: Value) -> Option<TokenStream> {
+        self.plan.varying[value.0].then(|| {
+            let name = coefficient_of(value);
+            quote!(#name)
+        })
+    }
+
+    fn d_of_output(&self, output: usize) -> Option<TokenStream> {
+        if self.plan.sums.contains_key(&output) {
+            let name = sum_coefficient(output);
+            return self.plan.sums[&output].then(|| quote!(#name));
+        }
+        self.d(self.plan.set[&output])
+    }
+
+    fn d_of_place(&self, place: Place) -> Option<TokenStream> {
+        match place {
+            Place::Node(output) => self.d_of_output(output),
+            Place::Zero | Place::Constant(_) => None,
+        }
+    }
+
+    /// Order 0 of everything.
+    fn first(&self, elimination: &Elimination, core: &TokenStream) -> TokenStream {
+        let (writer, mode, plan) = (&self.writer, self.mode, self.plan);
+        let number = number();
+        let zero = quote!(0);
+        let mut code = writer.declarations();
+        code.extend(self.auxiliary_declarations());
+        let n = mode.inputs.coordinates;
+        let x = local("x");
+        for input in 0..2 * n {
+            let at = index(1 + input);
+            code.extend(self.store(input, zero.clone(), quote!(#x[#at])));
+        }
+        if let Some(row) = plan.row(Row::Value(Value(0))) {
+            let time = names::value(Value(0));
+            code.extend(self.store(row, zero.clone(), quote!(#time)));
+            code.extend(self.store(row, quote!(1), quote!(#number::of(1.0))));
+        }
+        if let Some(row) = plan.row(Row::Weighted(Value(0))) {
+            code.extend(self.store(row, quote!(1), quote!(#number::of(1.0))));
+        }
+        for (constant, row) in plan.fixed() {
+            let value = coefficient(Coefficient::Constant(constant));
+            code.extend(self.store(row, zero.clone(), value));
+        }
+        code.extend(self.first_of(Phase::Assembly, core));
+        code.extend(elimination.code.clone());
+        let safe = local("safe");
+        code.extend(quote! {
+            if !#safe {
+                return ::core::result::Result::Err(#core::equations::Refused::Pivot);
+            }
+        });
+        let right = mode.system.right.iter().map(|place| match place {
+            Place::Zero => None,
+            place => Some(writer.place(*place)),
+        });
+        let (solve, mut solution) = elimination.solve(writer, right.collect(), "");
+        code.extend(solve);
+        if mode.system.matrix.len() > mode.system.accelerations {
+            // Forces feel the rounding of the elimination, the same in every step.
+            let residuals = elimination.residuals(writer, &solution);
+            let (again, correction) = elimination.solve(writer, residuals, "c");
+            code.extend(again);
+            let refined = (0..solution.len()).map(|i| local(&format!("w{i}")));
+            let refined: Vec<Ident> = refined.collect();
+            code.extend(quote!(#(let #refined = #solution + #correction;)*));
+            solution = refined;
+        }
+        for (i, x) in solution.iter().enumerate() {
+            let value = mode.inputs.unknown(i);
+            let name = names::value(value);
+            code.extend(quote!(let #name = #x;));
+            code.extend(self.keep_first(value));
+        }
+        code.extend(self.first_of(Phase::Accelerations, core));
+        for (j, place) in mode.accelerations.iter().enumerate() {
+            if *place != Place::Zero {
+                let value = writer.place(*place);
+                code.extend(self.store(n + j, quote!(1), value));
+            }
+        }
+        code.extend(self.first_of(Phase::Forces, core));
+        for (r, place) in mode.forces.iter().enumerate() {
+            if let Some(place) = place {
+                let value = writer.place(*place);
+                code.extend(self.store(2 * n + r, zero.clone(), value));
+            }
+        }
+        for (value, place) in value::results(mode) {
+            let (name, result) = (names::value(value), writer.place(place));
+            code.extend(quote!(let #name = #result;));
+            if value.0 < mode.inputs.force(0).0 {
+                code.extend(self.keep_first(value));
+            }
+        }
+        code.extend(self.first_of(Phase::Outputs, core));
+        for &output in plan.sums.keys() {
+            if let Some(row) = plan.row(Row::Sum(output)) {
+                let sum = names::sum(output);
+                code.extend(self.store(row, zero.clone(), quote!(#sum)));
+            }
+        }
+        code
+    }
+
+    /// Inverses and auxiliary values that leave a block.
+    fn auxiliary_declarations(&self) -> TokenStream {
+        let blocks = self.mode.tape.blocks.iter();
+        let steps = blocks
+            .filter(|block| !block.needs.is_always())
+            .flat_map(|block| &block.steps);
+        let idle = names::value(Value(0));
+        let lines = steps
+            .filter(|step| self.plan.varying[step.value.0])
+            .map(|step| {
+                let (u, i) = (auxiliary(step.value), inverse(step.value));
+                let second = needs_auxiliary(step.operation).then(|| quote!(let mut #u = #idle;));
+                let inverse = needs_inverse(step.operation).then(|| quote!(let mut #i = #idle;));
+                quote!(#second #inverse)
+            });
+        quote!(#(#lines)*)
+    }
+
+    /// The values of a phase, what rules of differentiation need beside them, and what is kept.
+    fn first_of(&self, phase: Phase, core: &TokenStream) -> TokenStream {
+        let blocks = self.mode.blocks(phase).map(|block| {
+            let steps = block.steps.iter().map(|step| {
+                let (before, after) = self.beside(step, core);
+                let value = self.writer.step(step);
+                let kept = (0..step.operation.values())
+                    .map(|offset| self.keep_first(Value(step.value.0 + offset)));
+                quote!(#before #value #after #(#kept)*)
+            });
+            let writes = self.writer.writes(block);
+            let body = quote!(#(#steps)* #writes);
+            if block.needs.is_always() {
+                return body;
+            }
+            let condition = names::condition(&block.needs);
+            quote!(if #condition { #body })
+        });
+        quote!(#(#blocks)*)
+    }
+
+    fn keep_first(&self, value: Value) -> TokenStream {
+        match self.plan.row(Row::Value(value)) {
+            Some(row) => {
+                let name = names::value(value);
+                self.store(row, quote!(0), quote!(#name))
+            }
+            None => TokenStream::new(),
+        }
+    }
+
+    /// What a step needs besides its value: whether its series exists, an inverse, an auxiliary value.
+    fn beside(&self, step: &Step, core: &TokenStream) -> (TokenStream, TokenStream) {
+        if !self.plan.varying[step.value.0] {
+            return (TokenStream::new(), TokenStream::new());
+        }
+        let n = names::value;
+        let number = number();
+        let z = step.value;
+        let refuse = |condition: TokenStream, operation: &str| {
+            let operation = names::plain(operation);
+            quote! {
+                if #condition {
+                    return ::core::result::Result::Err(
+                        #core::equations::Refused::NoSeries(#core::arithmetic::Operation::#operation)
+                    );
+                }
+            }
+        };
+        let outside = self.writer.declared.contains(&z);
+        let set = |name: Ident, value: TokenStream| {
+            if outside {
+                quote!(#name = #value;)
+            } else {
+                quote!(let #name = #value;)
+            }
+        };
+        let none = TokenStream::new();
+        match step.operation {
+            Operation::Div(_, y) | Operation::Ratio(_, y) => {
+                let name = n(y);
+                let check = refuse(quote!(#number::any_zero(#name)), "Division");
+                (check, set(inverse(z), quote!(#number::of(1.0) / #name)))
+            }
+            Operation::Sqrt(x) => {
+                let (x, root) = (n(x), n(z));
+                let check = refuse(quote!(!#number::all_positive(#x)), "SquareRoot");
+                (check, set(inverse(z), quote!(#number::of(0.5) / #root)))
+            }
+            Operation::Powf(x, _) | Operation::Ln(x) => {
+                let what = match step.operation {
+                    Operation::Ln(_) => "Logarithm",
+                    _ => "Power",
+                };
+                let x = n(x);
+                let check = refuse(quote!(!#number::all_positive(#x)), what);
+                (check, set(inverse(z), quote!(#number::of(1.0) / #x)))
+            }
+            Operation::Tan(_) => {
+                let z_value = n(z);
+                let u = quote!(#number::of(1.0) + #z_value * #z_value);
+                let u = self.keep_auxiliary(z, set(auxiliary(z), u));
+                (none, u)
+            }
+            Operation::Tanh(_) => {
+                let z_value = n(z);
+                let u = quote!(#number::of(1.0) - #z_value * #z_value);
+                (none, self.keep_auxiliary(z, set(auxiliary(z), u)))
+            }
+            Operation::Asin(x) | Operation::Acos(x) => {
+                let x = n(x);
+                let check = refuse(quote!(!#number::all_inside_unit(#x)), "InverseSine");
+                let u = set(
+                    auxiliary(z),
+                    quote!(#number::sqrt(#number::of(1.0) - #x * #x)),
+                );
+                let name = auxiliary(z);
+                let inverse = set(inverse(z), quote!(#number::of(1.0) / #name));
+                let u = self.keep_auxiliary(z, u);
+                (check, quote!(#u #inverse))
+            }
+            Operation::Atan(x) => {
+                let x = n(x);
+                let u = set(auxiliary(z), quote!(#number::of(1.0) + #x * #x));
+                let name = auxiliary(z);
+                let inverse = set(inverse(z), quote!(#number::of(1.0) / #name));
+                let u = self.keep_auxiliary(z, u);
+                (none, quote!(#u #inverse))
+            }
+            Operation::Atan2(y, x) => {
+                let (y, x) = (n(y), n(x));
+                let u = set(auxiliary(z), quote!(#y * #y + #x * #x));
+                let name = auxiliary(z);
+                let check = refuse(quote!(#number::any_zero(#name)), "Angle");
+                let inverse = set(inverse(z), quote!(#number::of(1.0) / #name));
+                let u = self.keep_auxiliary(z, u);
+                (none, quote!(#u #check #inverse))
+            }
+            _ => (none.clone(), none),
+        }
+    }
+
+    fn keep_auxiliary(&self, value: Value, set: TokenStream) -> TokenStream {
+        let store = self.plan.row(Row::Auxiliary(value)).map(|row| {
+            let name = auxiliary(value);
+            self.store(row, quote!(0), quote!(#name))
+        });
+        quote!(#set #store)
+    }
+
+    /// The loop over the orders from 1 on.
+    fn next(&self, elimination: &Elimination) -> TokenStream {
+        let (mode, plan) = (self.mode, self.plan);
+        let number = number();
+        let core = &self.writer.system.core;
+        let n = mode.inputs.coordinates;
+        let (k, p, weight, share) = (local("k"), local("p"), local("weight"), local("share"));
+        let (order, rows) = (local("order"), local("rows"));
+        let mut body = TokenStream::new();
+        // Sums over earlier coefficients.
+        let mut products = Vec::new();
+        for block in mode
+            .tape
+            .blocks
+            .iter()
+            .filter(|block| block.needs.is_always())
+        {
+            products.extend(self.products_of(block));
+        }
+        for (i, j, product) in plan.system_products(mode) {
+            products.push((system_product(i, j), product));
+        }
+        body.extend(self.sums(&products));
+        let crossing = self.crossing.iter().filter(|value| plan.varying[value.0]);
+        for value in crossing {
+            let name = coefficient_of(*value);
+            body.extend(quote!(let mut #name = #number::of(0.0);));
+        }
+        // Coefficient k of the inputs.
+        let read = names::read(&mode.tape);
+        if read.contains(&Value(0)) {
+            let name = coefficient_of(Value(0));
+            body.extend(quote!(let #name = #number::of(if #k == 1 { 1.0 } else { 0.0 });));
+        }
+        for j in 0..n {
+            let (q, v) = (mode.inputs.position(j), mode.inputs.velocity(j));
+            if !plan.varying[q.0] {
+                continue;
+            }
+            let (dq, dv) = (coefficient_of(q), coefficient_of(v));
+            let velocity = index(n + j);
+            body.extend(quote!(let #dq = #rows[#velocity][(#k - 1) & 31] * #share;));
+            body.extend(self.store(j, quote!(#p), quote!(#dq)));
+            if read.contains(&v) || plan.row(Row::Weighted(v)).is_some() {
+                body.extend(quote!(let #dv = #rows[#velocity][#p];));
+            }
+            for value in [q, v] {
+                if let Some(row) = plan.row(Row::Weighted(value)) {
+                    let d = coefficient_of(value);
+                    body.extend(self.store(row, quote!(#p), quote!(#d * #weight)));
+                }
+            }
+        }
+        body.extend(self.next_of(Phase::Assembly));
+        for (&output, &varies) in &plan.sums {
+            if let Some(row) = plan
+                .row(Row::Sum(output))
+                .filter(|_| varies && self.is_in(output, Phase::Assembly))
+            {
+                let d = sum_coefficient(output);
+                body.extend(self.store(row, quote!(#p), quote!(#d)));
+            }
+        }
+        // The linear system.
+        let mut right: Vec<Option<TokenStream>> = mode
+            .system
+            .right
+            .iter()
+            .map(|place| self.d_of_place(*place))
+            .collect();
+        for (i, j, _) in plan.system_products(mode) {
+            let w = names::value(mode.inputs.unknown(j));
+            let Some(d) = self.d_of_place(mode.system.matrix[i][j]) else {
+                continue;
+            };
+            let earlier = system_product(i, j);
+            right[i] = Some(match right[i].take() {
+                None => quote!((-(#d * #w + #earlier))),
+                Some(sum) => quote!((#sum - (#d * #w + #earlier))),
+            });
+        }
+        let (solve, solution) = elimination.solve(&self.writer, right, "d");
+        body.extend(solve);
+        for (i, x) in solution.iter().enumerate() {
+            let value = mode.inputs.unknown(i);
+            let name = coefficient_of(value);
+            body.extend(quote!(let #name = #x;));
+            body.extend(self.keep_next(value));
+        }
+        body.extend(self.next_of(Phase::Accelerations));
+        for (j, place) in mode.accelerations.iter().enumerate() {
+            if let Some(d) = self.d_of_place(*place) {
+                let velocity = index(n + j);
+                body.extend(quote! {
+                    #rows[#velocity][(#k + 1) & 31] = #d * #number::of(#core::equations::INVERSES[(#k + 1) & 31]);
+                });
+            }
+        }
+        body.extend(self.next_of(Phase::Forces));
+        for (r, place) in mode.forces.iter().enumerate() {
+            if let Some(d) = place.and_then(|place| self.d_of_place(place)) {
+                body.extend(self.store(2 * n + r, quote!(#p), d));
+            }
+        }
+        for (value, place) in value::results(mode) {
+            if let Some(d) = self.d_of_place(place) {
+                let name = coefficient_of(value);
+                body.extend(quote!(let #name = #d;));
+                if value.0 < mode.inputs.force(0).0 {
+                    body.extend(self.keep_next(value));
+                }
+            }
+        }
+        body.extend(self.next_of(Phase::Outputs));
+        for (&output, &varies) in &plan.sums {
+            if let Some(row) = plan
+                .row(Row::Sum(output))
+                .filter(|_| varies && !self.is_in(output, Phase::Assembly))
+            {
+                let d = sum_coefficient(output);
+                body.extend(self.store(row, quote!(#p), quote!(#d)));
+            }
+        }
+        // Constant accelerations: the second coefficient of the velocity and all beyond are zero.
+        quote! {
+            for #k in 1..=#order {
+                let #p = #k & 31;
+                let #weight = #number::of(#k as f64);
+                let #share = #number::of(#core::equations::INVERSES[#p]);
+                #body
+            }
+        }
+    }
+
+    /// Whether an output belongs to a phase.
+    fn is_in(&self, output: usize, phase: Phase) -> bool {
+        let mut writes = self.mode.blocks(phase).flat_map(|block| &block.writes);
+        writes.any(|write| write.output == output)
+    }
+
+    fn products_of(&self, block: &Block) -> Vec<(Ident, Product)> {
+        let steps = block.steps.iter();
+        let all = steps.flat_map(|step| {
+            let products = self.plan.products(step).into_iter().enumerate();
+            products.map(|(at, product_of)| (product(step.value, at), product_of))
+        });
+        all.collect()
+    }
+
+    /// Σ xⱼ yₖ₋ⱼ for 0 < j < k of all products, in one loop.
+    fn sums(&self, products: &[(Ident, Product)]) -> TokenStream {
+        if products.is_empty() {
+            return TokenStream::new();
+        }
+        let number = number();
+        let (k, j, i, rows) = (local("k"), local("j"), local("i"), local("rows"));
+        let names = products.iter().map(|(name, _)| name);
+        let lines = products.iter().map(|(name, (x, y))| {
+            let at = |row: &Row| index(self.plan.row(*row).unwrap_or_default());
+            let (x, y) = (at(x), at(y));
+            quote!(#name = #number::mul_add(#rows[#x][#j & 31], #rows[#y][#i], #name);)
+        });
+        quote! {
+            #(let mut #names = #number::of(0.0);)*
+            for #j in 1..#k {
+                let #i = (#k - #j) & 31;
+                #(#lines)*
+            }
+        }
+    }
+
+    /// Coefficient k of the values of a phase.
+    fn next_of(&self, phase: Phase) -> TokenStream {
+        let blocks = self.mode.blocks(phase).map(|block| {
+            let conditional = !block.needs.is_always();
+            let sums = conditional.then(|| self.sums(&self.products_of(block)));
+            let steps = block.steps.iter().map(|step| {
+                let line = self.coefficient(step);
+                let kept = (0..step.operation.values())
+                    .map(|offset| self.keep_next(Value(step.value.0 + offset)));
+                quote!(#line #(#kept)*)
+            });
+            let writes = self.next_writes(block);
+            let body = quote!(#sums #(#steps)* #writes);
+            if !conditional {
+                return body;
+            }
+            let condition = names::condition(&block.needs);
+            quote!(if #condition { #body })
+        });
+        quote!(#(#blocks)*)
+    }
+
+    fn next_writes(&self, block: &Block) -> TokenStream {
+        let number = number();
+        let writes = block.writes.iter();
+        let writes = writes.filter(|write| self.plan.sums.get(&write.output) == Some(&true));
+        let lines = writes.map(|write| {
+            let sum = sum_coefficient(write.output);
+            match (write.mode, self.d(write.value)) {
+                (Mode::Set, None) => quote!(let mut #sum = #number::of(0.0);),
+                (Mode::Set, Some(d)) => quote!(let mut #sum = #d;),
+                (_, None) => TokenStream::new(),
+                (Mode::Add(_), Some(d)) => quote!(#sum = #sum + #d;),
+                (Mode::Sub(_), Some(d)) => quote!(#sum = #sum - #d;),
+            }
+        });
+        quote!(#(#lines)*)
+    }
+
+    fn keep_next(&self, value: Value) -> TokenStream {
+        if !self.plan.varying[value.0] {
+            return TokenStream::new();
+        }
+        let (d, p, weight) = (coefficient_of(value), local("p"), local("weight"));
+        let plain = self.plan.row(Row::Value(value));
+        let plain = plain.map(|row| self.store(row, quote!(#p), quote!(#d)));
+        let weighted = self.plan.row(Row::Weighted(value));
+        let weighted = weighted.map(|row| self.store(row, quote!(#p), quote!(#d * #weight)));
+        quote!(#plain #weighted)
+    }
+
+    /// Coefficient k of a step.
+    fn coefficient(&self, step: &Step) -> TokenStream {
+        if !self.plan.varying[step.value.0] {
+            return TokenStream::new();
+        }
+        let number = number();
+        let n = names::value;
+        let share = local("share");
+        let z = step.value;
+        let s = |at: usize| product(z, at);
+        let d = |x: Value| self.d(x);
+        let i = inverse(z);
+        let zero = || quote!(#number::of(0.0));
+        let bind = |value: Value, result: TokenStream| {
+            let name = coefficient_of(value);
+            if self.crossing.contains(&value) {
+                quote!(#name = #result;)
+            } else {
+                quote!(let #name = #result;)
+            }
+        };
+        let twice = |x: TokenStream| quote!((#x + #x));
+        let result = match step.operation {
+            Operation::Add(x, y) => match (d(x), d(y)) {
+                (Some(x), Some(y)) => quote!(#x + #y),
+                (Some(x), None) | (None, Some(x)) => x,
+                (None, None) => zero(),
+            },
+            Operation::Sub(x, y) => match (d(x), d(y)) {
+                (Some(x), Some(y)) => quote!(#x - #y),
+                (Some(x), None) => x,
+                (None, Some(y)) => quote!(-#y),
+                (None, None) => zero(),
+            },
+            Operation::Neg(x) => {
+                let x = d(x);
+                quote!(-#x)
+            }
+            Operation::Offset(_, x) => {
+                let x = d(x);
+                quote!(#x)
+            }
+            Operation::Scale(c, x) => {
+                let (c, x) = (coefficient(c), d(x));
+                quote!(#c * #x)
+            }
+            Operation::Mul(x, y) => {
+                let (x0, y0) = (n(x), n(y));
+                match (d(x), d(y)) {
+                    (Some(dx), Some(dy)) => {
+                        let s = s(0);
+                        quote!(#number::mul_add(#x0, #dy, #number::mul_add(#dx, #y0, #s)))
+                    }
+                    (Some(dx), None) => quote!(#dx * #y0),
+                    (None, Some(dy)) => quote!(#x0 * #dy),
+                    (None, None) => zero(),
+                }
+            }
+            Operation::Square(x) => {
+                let (x0, dx, s) = (n(x), d(x), s(0));
+                quote!(#number::mul_add(#x0 + #x0, #dx, #s))
+            }
+            Operation::Div(x, y) => {
+                let z0 = n(z);
+                match (d(x), d(y)) {
+                    (dx, Some(dy)) => {
+                        let s = s(0);
+                        let dx = dx.unwrap_or_else(zero);
+                        quote!((#dx - #number::mul_add(#z0, #dy, #s)) * #i)
+                    }
+                    (dx, None) => quote!(#dx * #i),
+                }
+            }
+            Operation::Ratio(_, y) => {
+                let (z0, dy, s) = (n(z), d(y), s(0));
+                quote!(-#number::mul_add(#z0, #dy, #s) * #i)
+            }
+            Operation::Sqrt(x) => {
+                let (dx, s) = (d(x), s(0));
+                quote!((#dx - #s) * #i)
+            }
+            Operation::Powf(x, c) => {
+                let (z0, dx, one, two) = (n(z), d(x), s(0), s(1));
+                let c = names::float(c);
+                quote!((#number::of(#c) * #dx * #z0 + (#number::of(#c) * #two - #one) * #share) * #i)
+            }
+            Operation::Exp(x) => {
+                let (z0, dx, s) = (n(z), d(x), s(0));
+                quote!(#number::mul_add(#z0, #dx, #s * #share))
+            }
+            Operation::Ln(x) => {
+                let (dx, s) = (d(x), s(0));
+                quote!((#dx - #s * #share) * #i)
+            }
+            Operation::SinCos(x) | Operation::SinhCosh(x) => {
+                let second = Value(z.0 + 1);
+                let (z0, u0, dx) = (n(z), n(second), d(x));
+                let (one, two) = (s(0), s(1));
+                let first = bind(z, quote!(#number::mul_add(#u0, #dx, #one * #share)));
+                let other = quote!(#number::mul_add(#z0, #dx, #two * #share));
+                let other = match step.operation {
+                    Operation::SinCos(_) => bind(second, quote!(-#other)),
+                    _ => bind(second, other),
+                };
+                return quote!(#first #other);
+            }
+            Operation::Tan(x) | Operation::Tanh(x) => {
+                let (z0, u0, dx, one, two) = (n(z), auxiliary(z), d(x), s(0), s(1));
+                let first = bind(z, quote!(#number::mul_add(#u0, #dx, #one * #share)));
+                let dz = coefficient_of(z);
+                let half = twice(quote!(#z0 * #dz));
+                let change = match step.operation {
+                    Operation::Tan(_) => quote!(#half + #two),
+                    _ => quote!(-(#half + #two)),
+                };
+                let second = self.auxiliary_next(z, change);
+                return quote!(#first #second);
+            }
+            Operation::Asin(x) | Operation::Acos(x) => {
+                let (x0, dx) = (n(x), d(x));
+                let (one, two, three) = (s(0), s(1), s(2));
+                let half = twice(quote!(#x0 * #dx));
+                let u = quote!(-(#half + #two + #three) * #number::of(0.5) * #i);
+                let second = self.auxiliary_next(z, u);
+                let turn = match step.operation {
+                    Operation::Asin(_) => quote!(#dx),
+                    _ => quote!((-#dx)),
+                };
+                let first = bind(z, quote!((#turn - #one * #share) * #i));
+                return quote!(#first #second);
+            }
+            Operation::Atan(x) => {
+                let (x0, dx, one, two) = (n(x), d(x), s(0), s(1));
+                let half = twice(quote!(#x0 * #dx));
+                let second = self.auxiliary_next(z, quote!(#half + #two));
+                let first = bind(z, quote!((#dx - #one * #share) * #i));
+                return quote!(#first #second);
+            }
+            Operation::Atan2(y, x) => {
+                let (y0, x0) = (n(y), n(x));
+                let (dy, dx) = (d(y).unwrap_or_else(zero), d(x).unwrap_or_else(zero));
+                let [one, two, three, four, five] = [s(0), s(1), s(2), s(3), s(4)];
+                let half = twice(quote!((#y0 * #dy + #x0 * #dx)));
+                let second = self.auxiliary_next(z, quote!(#half + #four + #five));
+                let earlier = quote!((#one - #two + #three) * #share);
+                let first = bind(z, quote!((#dy * #x0 - #dx * #y0 - #earlier) * #i));
+                return quote!(#first #second);
+            }
+            Operation::Select(branch, x, y) => {
+                let (held, branch) = (local("held"), index(branch));
+                let (x, y) = (d(x).unwrap_or_else(zero), d(y).unwrap_or_else(zero));
+                quote!(if #held.branch(#branch) { #x } else { #y })
+            }
+            Operation::Constant(_) | Operation::Choose(..) => zero(),
+        };
+        bind(z, result)
+    }
+
+    fn auxiliary_next(&self, value: Value, result: TokenStream) -> TokenStream {
+        let (name, p) = (auxiliary_coefficient(value), local("p"));
+        let row = self.plan.row(Row::Auxiliary(value));
+        let store = row.map(|row| self.store(row, quote!(#p), quote!(#name)));
+        quote!(let #name = #result; #store)
+    }
+}
+
+fn needs_auxiliary(operation: Operation) -> bool {
+    use Operation::*;
+    matches!(
+        operation,
+        Tan(_) | Tanh(_) | Asin(_) | Acos(_) | Atan(_) | Atan2(..)
+    )
+}
+
+fn needs_inverse(operation: Operation) -> bool {
+    use Operation::*;
+    matches!(
+        operation,
+        Div(..) | Ratio(..) | Sqrt(_) | Powf(..) | Ln(_) | Asin(_) | Acos(_) | Atan(_) | Atan2(..)
+    )
+}

@@ -1,0 +1,210 @@
+//! The equations of motion of a mode before anything is eliminated.
+//!
+//! ```text
+//! Σⱼ mass[j] v̇ⱼ − Σᵣ forces[r] λᵣ = load        one for each coordinate
+//! ```
+//!
+//! Sliding friction acts through the force that presses: λ_slip = factor · λ_source, with factor = −μₖ ν d.
+
+use super::masked::{ALWAYS, Masked};
+use super::{FrictionState, Mode};
+use crate::derive::{Equations, OutputId};
+use crate::model::Normal;
+use crate::symbolic::{ExprId, Pool, Symbol};
+use std::collections::BTreeMap;
+
+/// The balance of one coordinate.
+#[derive(Clone, Default, Debug)]
+pub(super) struct Balance {
+    pub mass: BTreeMap<usize, Masked>,
+    pub forces: BTreeMap<usize, Masked>,
+    pub load: Masked,
+}
+
+/// The force of a slip that slides: factor · λ[source], or the factor itself.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Slide {
+    pub row: usize,
+    pub factor: ExprId,
+    pub source: Option<usize>,
+}
+
+/// All of a mode.
+pub(super) struct Balances {
+    /// By coordinate.
+    pub list: Vec<Balance>,
+    pub slides: Vec<Slide>,
+}
+
+impl Balance {
+    /// Takes `factor` times another balance away.
+    pub fn subtract(&mut self, pool: &mut Pool, factor: ExprId, other: &Balance) {
+        let minus = pool.neg(factor);
+        for (sums, others) in [
+            (&mut self.mass, &other.mass),
+            (&mut self.forces, &other.forces),
+        ] {
+            for (&index, sum) in others {
+                let entry = sums.entry(index).or_default();
+                entry.add_scaled(pool, minus, sum);
+                if entry.is_zero() {
+                    sums.remove(&index);
+                }
+            }
+        }
+        self.load.add_scaled(pool, minus, &other.load);
+    }
+}
+
+/// The expression of an output that cannot be left out, with symbols replaced.
+pub(super) fn whole(
+    equations: &mut Equations,
+    output: OutputId,
+    known: &[(Symbol, ExprId)],
+) -> ExprId {
+    let pool = &mut equations.system.pool;
+    let terms: Vec<ExprId> = equations.outputs[output.0]
+        .terms
+        .iter()
+        .map(|&(_, e)| e)
+        .collect();
+    let sum = pool.sum(&terms);
+    let sum = pool.substitute(sum, known);
+    pool.simplify(sum)
+}
+
+/// The balances of a mode in which `acting` rows hold; `known` is what it says of the state. `signs` are, per friction, the
+/// symbols of the sign of its slip and of the multiplier that presses. None where a slip has two components.
+pub(super) fn balances(
+    equations: &mut Equations,
+    mode: &Mode,
+    acting: &[usize],
+    known: &[(Symbol, ExprId)],
+    signs: &[[Symbol; 2]],
+) -> Option<Balances> {
+    let mut list = vec![Balance::default(); equations.system.coordinates.len()];
+    for (i, j, output) in equations.structure.mass.clone() {
+        let (pool, outputs) = (&mut equations.system.pool, &equations.outputs);
+        let entry = Masked::of(pool, &outputs[output.0], known);
+        if !entry.is_zero() {
+            list[i].mass.insert(j, entry.clone());
+            list[j].mass.insert(i, entry);
+        }
+    }
+    for (balance, output) in list.iter_mut().zip(equations.structure.forcing.clone()) {
+        let (pool, outputs) = (&mut equations.system.pool, &equations.outputs);
+        balance.load = Masked::of(pool, &outputs[output.0], known);
+    }
+    for &row in acting {
+        for (j, a) in jacobian(equations, row, known) {
+            let column = Masked::always(&equations.system.pool, a);
+            list[j].forces.insert(row, column);
+        }
+    }
+    let slides = slides(equations, mode, acting, known, signs)?;
+    for slide in &slides {
+        for (j, a) in jacobian(equations, slide.row, known) {
+            let pool = &mut equations.system.pool;
+            let force = pool.mul(slide.factor, a);
+            let sum = match slide.source {
+                Some(source) => list[j].forces.entry(source).or_default(),
+                None => &mut list[j].load,
+            };
+            sum.add(pool, ALWAYS, force);
+        }
+    }
+    for at in 0..equations.structure.couplings.len() {
+        let coupling = &equations.structure.couplings[at];
+        let (j, row, need) = (coupling.coordinate, coupling.row, coupling.need);
+        let factor = whole(equations, coupling.factor, known);
+        let pool = &mut equations.system.pool;
+        if acting.contains(&row) {
+            list[j]
+                .forces
+                .entry(row)
+                .or_default()
+                .add(pool, need, factor);
+        } else if let Some(slide) = slides.iter().find(|slide| slide.row == row) {
+            let force = pool.mul(factor, slide.factor);
+            let sum = match slide.source {
+                Some(source) => list[j].forces.entry(source).or_default(),
+                None => &mut list[j].load,
+            };
+            sum.add(pool, need, force);
+        }
+    }
+    Some(Balances { list, slides })
+}
+
+/// The row of the Jacobian, without zeros.
+pub(super) fn jacobian(
+    equations: &mut Equations,
+    row: usize,
+    known: &[(Symbol, ExprId)],
+) -> Vec<(usize, ExprId)> {
+    let entries = equations.structure.rows[row].jacobian.clone();
+    let mut row = Vec::with_capacity(entries.len());
+    for (j, output) in entries {
+        let a = whole(equations, output, known);
+        if !equations.system.pool.is_zero(a) {
+            row.push((j, a));
+        }
+    }
+    row
+}
+
+fn slides(
+    equations: &mut Equations,
+    mode: &Mode,
+    acting: &[usize],
+    known: &[(Symbol, ExprId)],
+    signs: &[[Symbol; 2]],
+) -> Option<Vec<Slide>> {
+    let mut slides = Vec::new();
+    for (i, &[direction, pressing]) in signs.iter().enumerate() {
+        if mode.frictions[i] != FrictionState::Slip {
+            continue;
+        }
+        if equations.system.frictions[i].slip.len() > 1 {
+            return None;
+        }
+        let friction = &equations.structure.frictions[i];
+        let (row, given) = (friction.row, friction.given_normal);
+        let coefficient = friction.kinetic_coefficient;
+        let mut factor = whole(equations, coefficient, known);
+        let constraints = equations.system.constraints.len();
+        let source = match equations.system.frictions[i].normal {
+            Normal::Contact(contact) => {
+                if let Some(output) = equations.structure.contacts[contact].normal_factor {
+                    let normal = whole(equations, output, known);
+                    factor = equations.system.pool.mul(factor, normal);
+                }
+                Some(constraints + contact)
+            }
+            Normal::Constraint(constraint) => {
+                let pool = &mut equations.system.pool;
+                let pressing = pool.leaf(pressing);
+                factor = pool.mul(factor, pressing);
+                Some(constraint)
+            }
+            Normal::Given(_) => {
+                let normal = whole(equations, given?, known);
+                factor = equations.system.pool.mul(factor, normal);
+                None
+            }
+        };
+        if source.is_some_and(|row| !acting.contains(&row)) {
+            continue;
+        }
+        let pool = &mut equations.system.pool;
+        let direction = pool.leaf(direction);
+        let factor = pool.mul(factor, direction);
+        let factor = pool.neg(factor);
+        slides.push(Slide {
+            row,
+            factor,
+            source,
+        });
+    }
+    Some(slides)
+}

@@ -1,0 +1,652 @@
+//! Equations × mode → [`ModeProgram`]: the equations of one mode as a straight line, its linear system in the middle.
+//!
+//! What the mode says is put in first: pinned coordinates are numbers, constant rows are eliminated ([`reduce`]), so most
+//! terms are gone before anything is shared. What is left is
+//!
+//! ```text
+//! assembly         K, b of (t, q, v)
+//! solve            K w = b,   w = (u, −λ of the rows that stay)
+//! accelerations    v̇ of w
+//! forces           λ of (t, q, v, w)
+//! outputs          of (t, q, v, v̇, λ), each under its need
+//! ```
+
+mod balance;
+mod masked;
+mod reduce;
+mod stages;
+
+use super::constants::Constants;
+use super::form::Fixed;
+use super::outputs::Target;
+use super::tape::{Block, Tape, Value};
+use super::{Place, outputs, tape};
+use crate::derive::{Equations, Output, OutputId, Stage};
+use crate::model::{Level, System};
+use crate::symbolic::{ExprId, Symbol};
+use masked::Masked;
+use std::collections::{BTreeMap, BTreeSet};
+
+pub use stages::Phase;
+
+/// Systems with more operations in a mode are interpreted.
+const MOST_OPERATIONS: usize = 220;
+/// Systems with more unknowns are interpreted.
+const MOST_UNKNOWNS: usize = 8;
+/// More modes than these are not listed.
+const MOST_MODES: usize = 16;
+
+/// How a friction acts; the sign of its slip is an argument.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum FrictionState {
+    /// No force.
+    Inactive,
+    /// The slip is zero.
+    Stick,
+    /// The force is μₖ N against the slip.
+    Slip,
+}
+
+/// Which contacts are closed and how frictions act.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Mode {
+    /// Per contact.
+    pub contacts: Vec<bool>,
+    /// Per friction.
+    pub frictions: Vec<FrictionState>,
+}
+
+/// The linear system K w = b.
+pub struct LinearSystem {
+    /// The first unknowns are accelerations, the others −λ of the rows that stay.
+    pub accelerations: usize,
+    /// Whether K is symmetric among the accelerations.
+    pub symmetric: bool,
+    /// K, row by row.
+    pub matrix: Vec<Vec<Place>>,
+    /// b
+    pub right: Vec<Place>,
+    /// 1/Kₚₚ where it depends on parameters only.
+    pub reciprocals: Vec<Option<Place>>,
+}
+
+/// What a program gives besides accelerations and forces.
+pub struct Extra {
+    /// Whose number it is.
+    pub output: OutputId,
+    /// Where it is.
+    pub place: Place,
+}
+
+/// The equations of one mode.
+pub struct ModeProgram {
+    /// The mode.
+    pub mode: Mode,
+    /// Inputs: parameters, then per friction the sign of its slip and of the multiplier that presses.
+    pub constants: Tape,
+    /// Inputs: see [`Inputs`]. Blocks in the order of [`Self::phases`].
+    pub tape: Tape,
+    /// Which phase each block of the tape belongs to.
+    pub phases: Vec<Phase>,
+    /// Numbers of the inputs.
+    pub inputs: Inputs,
+    /// The system in the middle.
+    pub system: LinearSystem,
+    /// v̇, one per coordinate.
+    pub accelerations: Vec<Place>,
+    /// λ, one per row; none where a row has no force.
+    pub forces: Vec<Option<Place>>,
+    /// Gaps, slips, coefficients, guards, terms of stops and marks.
+    pub extras: Vec<Extra>,
+    /// Coordinates that stand still, and where.
+    pub pins: Vec<(usize, Place)>,
+    /// Constants that are divided by, and those that they must not be small against.
+    pub divisors: Vec<(Place, Vec<Place>)>,
+}
+
+/// Where the inputs of a mode's tape begin: t, q, v, w, v̇, λ.
+#[derive(Clone, Copy, Debug)]
+pub struct Inputs {
+    /// Number of coordinates.
+    pub coordinates: usize,
+    /// Number of unknowns.
+    pub unknowns: usize,
+}
+
+impl Inputs {
+    /// Position of coordinate `j`.
+    pub fn position(self, j: usize) -> Value {
+        Value(1 + j)
+    }
+    /// Velocity of coordinate `j`.
+    pub fn velocity(self, j: usize) -> Value {
+        Value(1 + self.coordinates + j)
+    }
+    /// Unknown `i`.
+    pub fn unknown(self, i: usize) -> Value {
+        Value(1 + 2 * self.coordinates + i)
+    }
+    /// Acceleration of coordinate `j`.
+    pub fn acceleration(self, j: usize) -> Value {
+        Value(1 + 2 * self.coordinates + self.unknowns + j)
+    }
+    /// Force of row `r`.
+    pub fn force(self, r: usize) -> Value {
+        Value(1 + 3 * self.coordinates + self.unknowns + r)
+    }
+}
+
+/// The modes that a system is listed in, all open first; empty if there are more than [`MOST_MODES`].
+fn modes(system: &System) -> Vec<Mode> {
+    use crate::model::Normal;
+    let mut all = vec![Mode {
+        contacts: Vec::new(),
+        frictions: Vec::new(),
+    }];
+    for _ in &system.contacts {
+        let each = all.iter().flat_map(|mode| {
+            [false, true].map(|closed| {
+                let mut mode = mode.clone();
+                mode.contacts.push(closed);
+                mode
+            })
+        });
+        all = each.collect();
+        if all.len() > MOST_MODES {
+            return Vec::new();
+        }
+    }
+    for friction in &system.frictions {
+        let each = all.iter().flat_map(|mode| {
+            let pressed = match friction.normal {
+                Normal::Contact(contact) => mode.contacts[contact],
+                Normal::Constraint(i) => system.constraints[i]
+                    .while_contact
+                    .is_none_or(|contact| mode.contacts[contact]),
+                Normal::Given(_) => true,
+            };
+            let states: &[FrictionState] = match (pressed, friction.slip.len()) {
+                (false, _) => &[FrictionState::Inactive],
+                (true, 1) => &[
+                    FrictionState::Stick,
+                    FrictionState::Slip,
+                    FrictionState::Inactive,
+                ],
+                _ => &[FrictionState::Stick, FrictionState::Inactive],
+            };
+            states.iter().map(move |&state| {
+                let mut mode = mode.clone();
+                mode.frictions.push(state);
+                mode
+            })
+        });
+        all = each.collect();
+        if all.len() > MOST_MODES {
+            return Vec::new();
+        }
+    }
+    all.sort_by_key(|mode| mode.contacts.iter().filter(|closed| **closed).count());
+    all
+}
+
+/// Rows that hold as equations: constraints, contacts, slip components.
+fn acting(system: &System, mode: &Mode) -> Vec<usize> {
+    let mut rows = Vec::new();
+    for (i, constraint) in system.constraints.iter().enumerate() {
+        if constraint
+            .while_contact
+            .is_none_or(|contact| mode.contacts[contact])
+        {
+            rows.push(i);
+        }
+    }
+    let mut next = system.constraints.len();
+    for &closed in &mode.contacts {
+        rows.extend(closed.then_some(next));
+        next += 1;
+    }
+    for (friction, &state) in system.frictions.iter().zip(&mode.frictions) {
+        if state == FrictionState::Stick {
+            rows.extend(next..next + friction.slip.len());
+        }
+        next += friction.slip.len();
+    }
+    rows
+}
+
+/// The programs of the modes that can be listed.
+pub(super) fn programs(equations: &mut Equations) -> Vec<ModeProgram> {
+    let parameters: Vec<Symbol> = equations
+        .system
+        .parameters
+        .iter()
+        .map(|p| p.symbol)
+        .collect();
+    let frictions = equations.system.frictions.len();
+    let pool = &mut equations.system.pool;
+    let signs: Vec<[Symbol; 2]> = (0..frictions)
+        .map(|i| {
+            [
+                pool.symbol(&format!("direction{i}")),
+                pool.symbol(&format!("pressing{i}")),
+            ]
+        })
+        .collect();
+    pool.fix(&signs.concat());
+    let mut fixed: BTreeMap<Symbol, usize> = BTreeMap::new();
+    for symbol in parameters.into_iter().chain(signs.concat()) {
+        let next = fixed.len();
+        fixed.insert(symbol, next);
+    }
+    let modes = modes(&equations.system);
+    let unknowns: Vec<Symbol> = (0..MOST_UNKNOWNS)
+        .map(|i| equations.system.pool.symbol(&format!("w{i}")))
+        .collect();
+    modes
+        .into_iter()
+        .filter_map(|mode| specialise(equations, mode, &signs, &fixed, &unknowns))
+        .collect()
+}
+
+/// Position-level rows that say coordinate = number or parameter.
+fn pins(equations: &mut Equations, acting: &[usize]) -> Vec<(usize, ExprId)> {
+    let parameters: Vec<Symbol> = equations
+        .system
+        .parameters
+        .iter()
+        .map(|p| p.symbol)
+        .collect();
+    let mut pins: Vec<(usize, ExprId)> = Vec::new();
+    for &row in acting {
+        let position_level = equations
+            .system
+            .constraints
+            .get(row)
+            .is_none_or(|c| c.level == Level::Position);
+        let structure = &equations.structure.rows[row];
+        let (Some(position), &[(j, _)]) = (structure.position, structure.jacobian.as_slice())
+        else {
+            continue;
+        };
+        let entry = structure.jacobian[0].1;
+        let gap = balance::whole(equations, position, &[]);
+        let entry = balance::whole(equations, entry, &[]);
+        let pool = &mut equations.system.pool;
+        let Some(sign) = pool
+            .as_number(entry)
+            .filter(|n| position_level && n.is_unit())
+        else {
+            continue;
+        };
+        // g = ±(q − value)
+        let leaf = pool.leaf(equations.system.coordinates[j].position);
+        let scaled = pool.scale(gap, sign);
+        let value = pool.sub(leaf, scaled);
+        let fixed = pool.branches(value).is_empty()
+            && pool.symbols(value).iter().all(|s| parameters.contains(s));
+        if fixed && !pins.iter().any(|&(pinned, _)| pinned == j) {
+            pins.push((j, value));
+        }
+    }
+    pins
+}
+
+/// The program of a mode; none where numbers must decide how to solve it, or where it is too long.
+fn specialise(
+    equations: &mut Equations,
+    mode: Mode,
+    signs: &[[Symbol; 2]],
+    fixed: &BTreeMap<Symbol, usize>,
+    unknowns: &[Symbol],
+) -> Option<ModeProgram> {
+    let acting = acting(&equations.system, &mode);
+    let pins = pins(equations, &acting);
+    let zero = equations.system.pool.integer(0);
+    let mut known = Vec::new();
+    for &(j, value) in &pins {
+        let coordinate = &equations.system.coordinates[j];
+        known.push((coordinate.position, value));
+        known.push((coordinate.velocity, zero));
+        known.push((coordinate.acceleration, zero));
+    }
+    let coordinates = &equations.system.coordinates;
+    let positions = coordinates.iter().map(|c| c.position);
+    let velocities = coordinates.iter().map(|c| c.velocity);
+    let state: Vec<Symbol> = std::iter::once(equations.system.time)
+        .chain(positions)
+        .chain(velocities)
+        .collect();
+    let balances = balance::balances(equations, &mode, &acting, &known, signs)?;
+    let reduced = reduce::reduce(equations, &balances, &acting, &known, &state)?;
+    let free = reduced.free.len();
+    let size = free + reduced.kept.len();
+    if size > MOST_UNKNOWNS {
+        return None;
+    }
+    let mut sheet = Sheet::default();
+    let pool = &mut equations.system.pool;
+
+    // K and b.
+    let mut matrix = vec![vec![OutputId(usize::MAX); size]; size];
+    let mut right = Vec::with_capacity(size);
+    let nothing = sheet.add("0", &Masked::default());
+    let index = |k: &usize| reduced.free.iter().position(|f| f == k);
+    for (i, balance) in reduced.balances.iter().enumerate() {
+        let inertia = reduced.inertia(pool, &balance.mass);
+        for (k, entry) in &inertia {
+            let j = index(k)?;
+            if !(reduced.symmetric && j > i) {
+                matrix[i][j] = sheet.add(format!("K[{i}, {j}]"), entry);
+            }
+        }
+        for (m, (row, ..)) in reduced.kept.iter().enumerate() {
+            if let Some(force) = balance.forces.get(row) {
+                let force = force.simplified(pool);
+                matrix[i][free + m] = sheet.add(format!("K[{i}, {}]", free + m), &force);
+            }
+        }
+        let load = balance.load.simplified(pool);
+        right.push(sheet.add(format!("b[{i}]"), &load));
+    }
+    for (m, (_, along, bias)) in reduced.kept.iter().enumerate() {
+        for (k, &a) in along {
+            let j = index(k)?;
+            let a = Masked::always(pool, a);
+            matrix[free + m][j] = sheet.add(format!("K[{}, {j}]", free + m), &a);
+        }
+        let minus = pool.neg(*bias);
+        let minus = Masked::always(pool, minus);
+        right.push(sheet.add(format!("b[{}]", free + m), &minus));
+    }
+    for i in 0..size {
+        for j in 0..size {
+            if matrix[i][j].0 == usize::MAX {
+                let mirrored = reduced.symmetric && i < j && j < free;
+                matrix[i][j] = if mirrored { matrix[j][i] } else { nothing };
+            }
+            if matrix[i][j].0 == usize::MAX {
+                matrix[i][j] = nothing;
+            }
+        }
+    }
+    let mut reciprocals = Vec::with_capacity(free);
+    for (i, row) in matrix.iter().enumerate().take(free) {
+        let whole = match sheet.list[row[i].0].terms[..] {
+            [(need, e)] if need == masked::ALWAYS && !pool.depends_on_any(e, &state) => {
+                Some(e).filter(|&e| pool.branches(e).is_empty())
+            }
+            _ => None,
+        };
+        let one = pool.integer(1);
+        let inverse = whole.and_then(|e| pool.div(one, e));
+        reciprocals
+            .push(inverse.map(|e| sheet.add(format!("1/K[{i}, {i}]"), &Masked::always(pool, e))));
+    }
+    let solved = sheet.list.len();
+
+    // v̇ of w
+    let w: Vec<ExprId> = unknowns.iter().map(|&w| pool.leaf(w)).collect();
+    let mut accelerations = Vec::new();
+    for combination in &reduced.accelerations {
+        let mut terms = Vec::new();
+        for (k, &z) in combination {
+            terms.push(pool.mul(z, w[index(k)?]));
+        }
+        let sum = pool.sum(&terms);
+        accelerations.push(sheet.add("acceleration", &Masked::always(pool, sum)));
+    }
+    let accelerated = sheet.list.len();
+
+    // λ of (t, q, v, w), the last eliminated first.
+    let rows = equations.structure.rows.len();
+    let mut forces: Vec<Option<Masked>> = vec![None; rows];
+    for (m, &(row, ..)) in reduced.kept.iter().enumerate() {
+        let minus = pool.neg(w[free + m]);
+        forces[row] = Some(Masked::always(pool, minus));
+    }
+    let one = pool.integer(1);
+    let minus_one = pool.integer(-1);
+    for solved in reduced.solved.iter().rev() {
+        let inverse = pool.div(one, solved.coefficient)?;
+        let mut sum = Masked::default();
+        for (k, entry) in &reduced.inertia(pool, &solved.balance.mass) {
+            sum.add_scaled(pool, w[index(k)?], entry);
+        }
+        sum.add_scaled(pool, minus_one, &solved.balance.load);
+        for (row, factor) in solved
+            .balance
+            .forces
+            .iter()
+            .filter(|(row, _)| **row != solved.row)
+        {
+            let factor = factor.whole(pool)?;
+            let factor = pool.neg(factor);
+            sum.add_scaled(pool, factor, forces[*row].as_ref()?);
+        }
+        let mut force = Masked::default();
+        force.add_scaled(pool, inverse, &sum);
+        forces[solved.row] = Some(force.simplified(pool));
+    }
+    for slide in &balances.slides {
+        let mut force = Masked::default();
+        match slide.source {
+            Some(source) => force.add_scaled(pool, slide.factor, forces[source].as_ref()?),
+            None => force = Masked::always(pool, slide.factor),
+        }
+        forces[slide.row] = Some(force);
+    }
+    let forces: Vec<Option<OutputId>> = forces
+        .iter()
+        .map(|force| Some(sheet.add("force", force.as_ref()?)))
+        .collect();
+    let forced = sheet.list.len();
+    let total: BTreeSet<OutputId> = (0..forced).map(OutputId).collect();
+
+    // Pins, divisors, and what guards, stops and marks read.
+    let mut divisors = Vec::new();
+    for divisor in &reduced.divisors {
+        let pivot = sheet.add("divisor", &Masked::always(pool, divisor.pivot));
+        let against = divisor.against.iter();
+        let against = against.map(|&e| sheet.add("beside", &Masked::always(pool, e)));
+        divisors.push((pivot, against.collect::<Vec<_>>()));
+    }
+    let pinned: Vec<(usize, OutputId)> = pins
+        .iter()
+        .map(|&(j, value)| (j, sheet.add("pin", &Masked::always(pool, value))))
+        .collect();
+    let mut extras = Vec::new();
+    for output in extras_of(equations) {
+        let pool = &mut equations.system.pool;
+        let mut terms = Vec::new();
+        for &(need, e) in &equations.outputs[output.0].terms {
+            let e = pool.substitute(e, &known);
+            terms.push((need, pool.simplify(e)));
+        }
+        terms.retain(|&(_, e)| !pool.is_zero(e));
+        sheet.list.push(Output {
+            stage: Stage::Motion,
+            label: equations.outputs[output.0].label.clone(),
+            terms,
+        });
+        extras.push((output, OutputId(sheet.list.len() - 1)));
+    }
+
+    // One tape for all of them.
+    let inputs = Inputs {
+        coordinates: equations.system.coordinates.len(),
+        unknowns: size,
+    };
+    let numbered = numbered(&equations.system, &state, &unknowns[..size]);
+    let pool = &mut equations.system.pool;
+    let mut constants = Constants::new(BTreeMap::new());
+    let mut places = vec![Place::Zero; sheet.list.len()];
+    let targets = outputs::targets(
+        pool,
+        &sheet.list,
+        (Stage::Motion, &total),
+        &numbered,
+        &mut constants,
+        &mut places,
+    );
+    let mut whole = tape(
+        pool,
+        &mut constants,
+        &numbered,
+        Fixed::Parameters,
+        None,
+        &targets,
+    );
+    if whole.blocks.iter().map(|b| b.steps.len()).sum::<usize>() > MOST_OPERATIONS {
+        return None;
+    }
+    let sources: Vec<Target> = constants
+        .sources
+        .into_iter()
+        .map(Target::of_constant)
+        .collect();
+    let constants = tape(
+        pool,
+        &mut Constants::closed(),
+        fixed,
+        Fixed::Numbers,
+        None,
+        &sources,
+    );
+    let node = |id: &OutputId| match places[id.0] {
+        Place::Node(node) => Some(node),
+        Place::Zero | Place::Constant(_) => None,
+    };
+    let group = |range: std::ops::Range<usize>| -> BTreeSet<usize> {
+        range.filter_map(|i| node(&OutputId(i))).collect()
+    };
+    let goals = [
+        group(0..solved),
+        group(solved..accelerated),
+        group(accelerated..forced),
+    ];
+    let phases = stages::arrange(&mut whole, &goals);
+    let place = |id: &OutputId| places[id.0];
+    Some(ModeProgram {
+        mode,
+        constants,
+        phases,
+        inputs,
+        system: LinearSystem {
+            accelerations: free,
+            symmetric: reduced.symmetric,
+            matrix: matrix
+                .iter()
+                .map(|row| row.iter().map(place).collect())
+                .collect(),
+            right: right.iter().map(place).collect(),
+            reciprocals: reciprocals.iter().map(|r| r.as_ref().map(place)).collect(),
+        },
+        accelerations: accelerations.iter().map(place).collect(),
+        forces: forces.iter().map(|f| f.as_ref().map(place)).collect(),
+        extras: extras
+            .iter()
+            .map(|(output, id)| Extra {
+                output: *output,
+                place: place(id),
+            })
+            .collect(),
+        pins: pinned.iter().map(|(j, id)| (*j, place(id))).collect(),
+        divisors: divisors
+            .iter()
+            .map(|(pivot, against)| (place(pivot), against.iter().map(place).collect()))
+            .collect(),
+        tape: whole,
+    })
+}
+
+/// The outputs of a mode, before they have places.
+#[derive(Default)]
+struct Sheet {
+    list: Vec<Output>,
+}
+
+impl Sheet {
+    fn add(&mut self, label: impl Into<String>, sum: &Masked) -> OutputId {
+        self.list.push(Output {
+            stage: Stage::Motion,
+            label: label.into(),
+            terms: sum.terms(),
+        });
+        OutputId(self.list.len() - 1)
+    }
+}
+
+/// Numbers of the inputs: t, q, v, w, v̇, λ.
+fn numbered(system: &System, state: &[Symbol], unknowns: &[Symbol]) -> BTreeMap<Symbol, usize> {
+    let accelerations = system.coordinates.iter().map(|c| c.acceleration);
+    let constraints = system.constraints.iter().map(|c| c.force);
+    let contacts = system.contacts.iter().map(|c| c.force);
+    let slips = system
+        .frictions
+        .iter()
+        .flat_map(|f| f.slip.iter().map(|(_, force)| *force));
+    let inputs = state.iter().copied().chain(unknowns.iter().copied());
+    super::numbered(
+        inputs
+            .chain(accelerations)
+            .chain(constraints)
+            .chain(contacts)
+            .chain(slips),
+    )
+}
+
+/// What guards, stops and marks read of a series.
+fn extras_of(equations: &Equations) -> Vec<OutputId> {
+    let structure = &equations.structure;
+    let mut list = Vec::new();
+    for row in &structure.rows {
+        list.extend(row.position);
+        list.push(row.velocity);
+    }
+    for contact in &structure.contacts {
+        list.extend(contact.normal_factor);
+        list.extend(contact.region);
+    }
+    for friction in &structure.frictions {
+        list.extend(friction.given_normal);
+        list.push(friction.static_coefficient);
+        list.push(friction.kinetic_coefficient);
+    }
+    list.extend(structure.branches.iter().map(|branch| branch.guard));
+    list.extend(structure.stops.iter().flat_map(|(terms, _)| terms));
+    list.extend(structure.marks.iter().flat_map(|(terms, _)| terms));
+    list
+}
+
+impl ModeProgram {
+    /// The operations of a phase, block by block.
+    pub fn blocks(&self, phase: Phase) -> impl Iterator<Item = &Block> {
+        let blocks = self.tape.blocks.iter().zip(&self.phases);
+        blocks
+            .filter(move |(_, p)| **p == phase)
+            .map(|(block, _)| block)
+    }
+
+    /// Whether each value of the tape changes with time.
+    pub fn varying(&self) -> Vec<bool> {
+        let mut varies = vec![false; self.tape.values];
+        varies[..self.tape.inputs].fill(true);
+        for &(j, _) in &self.pins {
+            varies[self.inputs.position(j).0] = false;
+            varies[self.inputs.velocity(j).0] = false;
+        }
+        for (j, place) in self.accelerations.iter().enumerate() {
+            varies[self.inputs.acceleration(j).0] = matches!(place, Place::Node(_));
+        }
+        for (r, place) in self.forces.iter().enumerate() {
+            varies[self.inputs.force(r).0] = matches!(place, Some(Place::Node(_)));
+        }
+        for step in self.tape.blocks.iter().flat_map(|block| &block.steps) {
+            let any = step.operation.operands().iter().any(|x| varies[x.0]);
+            for offset in 0..step.operation.values() {
+                varies[step.value.0 + offset] = any;
+            }
+        }
+        varies
+    }
+}

@@ -1,0 +1,247 @@
+//! Rows that depend on parameters only leave the system when the program is made.
+//!
+//! A row a v̇ = 0 with constant a (a pinned coordinate, rolling on a constant radius, sticking) says how one acceleration
+//! follows from the others, and the balance of one coordinate gives its force once the accelerations are known:
+//!
+//! ```text
+//! v̇ = Z u        Wᵀ (M Z u − C λ − f) = 0        λ_e = (M v̇ − C λ − f)ₚ / Cₚₑ
+//! ```
+//!
+//! Reference: null-space (coordinate partitioning) method, Wehage & Haug 1982, J. Mech. Design 104.
+
+use super::balance::{Balance, Balances, jacobian, whole};
+use super::masked::Masked;
+use crate::derive::Equations;
+use crate::symbolic::{ExprId, Pool, Symbol};
+use std::collections::BTreeMap;
+
+/// A number that is divided by, and what it must not be small against.
+#[derive(Clone, Debug)]
+pub(super) struct Divisor {
+    pub pivot: ExprId,
+    pub against: Vec<ExprId>,
+}
+
+/// The balance that gives the force of an eliminated row.
+#[derive(Clone, Debug)]
+pub(super) struct Solved {
+    pub row: usize,
+    pub balance: Balance,
+    pub coefficient: ExprId,
+}
+
+/// What is left of the equations of a mode.
+pub(super) struct Reduced {
+    /// v̇ⱼ = Σ factor · u[coordinate]; nothing for a coordinate that cannot accelerate.
+    pub accelerations: Vec<BTreeMap<usize, ExprId>>,
+    /// Coordinates whose accelerations are left, ascending.
+    pub free: Vec<usize>,
+    /// Balances that are left, as many.
+    pub balances: Vec<Balance>,
+    /// Rows that stay in the system: (row, coefficients of u, bias).
+    pub kept: Vec<(usize, BTreeMap<usize, ExprId>, ExprId)>,
+    /// In order of elimination: the balance of one may hold forces of later ones.
+    pub solved: Vec<Solved>,
+    /// Whether Wᵀ M Z is symmetric.
+    pub symmetric: bool,
+    /// Divisors that parameters could make small.
+    pub divisors: Vec<Divisor>,
+}
+
+/// How good an expression is to divide by: numbers come before parameters, short before long.
+fn rank(pool: &Pool, e: ExprId) -> (u8, usize) {
+    match pool.as_number(e) {
+        Some(number) if number.is_unit() => (0, 0),
+        Some(_) => (1, 0),
+        None => (2, pool.iter_reachable(&[e]).len()),
+    }
+}
+
+fn is_fixed(pool: &Pool, varying: &[Symbol], e: ExprId) -> bool {
+    pool.branches(e).is_empty() && !pool.depends_on_any(e, varying)
+}
+
+/// Σ factors · Z
+fn along(
+    pool: &mut Pool,
+    row: &[(usize, ExprId)],
+    accelerations: &[BTreeMap<usize, ExprId>],
+) -> BTreeMap<usize, ExprId> {
+    let mut sums: BTreeMap<usize, Vec<ExprId>> = BTreeMap::new();
+    for &(j, a) in row {
+        for (&k, &z) in &accelerations[j] {
+            let term = pool.mul(a, z);
+            sums.entry(k).or_default().push(term);
+        }
+    }
+    let mut combined = BTreeMap::new();
+    for (k, terms) in sums {
+        let sum = pool.sum(&terms);
+        let sum = pool.simplify(sum);
+        if !pool.is_zero(sum) {
+            combined.insert(k, sum);
+        }
+    }
+    combined
+}
+
+/// Eliminates the constant rows among `acting`. None where one follows from the others, or where elimination combines
+/// what a row that stays is made of: the solver of the core then finds out what is determined.
+pub(super) fn reduce(
+    equations: &mut Equations,
+    balances: &Balances,
+    acting: &[usize],
+    known: &[(Symbol, ExprId)],
+    varying: &[Symbol],
+) -> Option<Reduced> {
+    let n = equations.system.coordinates.len();
+    let mut list: Vec<Option<Balance>> = balances.list.iter().cloned().map(Some).collect();
+    let one = equations.system.pool.integer(1);
+    let mut accelerations: Vec<BTreeMap<usize, ExprId>> =
+        (0..n).map(|j| BTreeMap::from([(j, one)])).collect();
+    let mut reduced = Reduced {
+        accelerations: Vec::new(),
+        free: Vec::new(),
+        balances: Vec::new(),
+        kept: Vec::new(),
+        solved: Vec::new(),
+        symmetric: true,
+        divisors: Vec::new(),
+    };
+    let mut staying = Vec::new();
+    for &row in acting {
+        let a = jacobian(equations, row, known);
+        let bias = whole(equations, equations.structure.rows[row].bias, known);
+        let cyclic = equations.structure.cyclic.clone();
+        let pool = &mut equations.system.pool;
+        let fixed = |pool: &Pool, e: ExprId| is_fixed(pool, varying, e);
+        let column: Vec<(usize, Option<ExprId>)> = (0..n)
+            .filter_map(|i| Some((i, list[i].as_ref()?.forces.get(&row)?.whole(pool))))
+            .collect();
+        let constant = pool.is_zero(bias)
+            && a.iter().all(|&(_, a)| fixed(pool, a))
+            && column
+                .iter()
+                .all(|&(_, c)| c.is_some_and(|c| fixed(pool, c)));
+        if !constant {
+            staying.push((row, a, bias));
+            continue;
+        }
+        let declared: Vec<(usize, Option<ExprId>)> = (0..n)
+            .filter_map(|i| Some((i, balances.list[i].forces.get(&row)?.whole(pool))))
+            .collect();
+        reduced.symmetric &= declared
+            .iter()
+            .map(|&(i, c)| (i, c))
+            .eq(a.iter().map(|&(j, a)| (j, Some(a))));
+        // The acceleration that follows.
+        let along = along(pool, &a, &accelerations);
+        let (&pivot, &divisor) = along
+            .iter()
+            .min_by_key(|&(&j, &a)| (rank(pool, a), !cyclic[j], j))?;
+        reduced.divide(pool, divisor, along.values().copied());
+        let mut follows = BTreeMap::new();
+        for (&k, &a) in along.iter().filter(|&(&k, _)| k != pivot) {
+            let ratio = pool.div(a, divisor)?;
+            let ratio = pool.neg(ratio);
+            follows.insert(k, pool.simplify(ratio));
+        }
+        for combination in &mut accelerations {
+            let Some(factor) = combination.remove(&pivot) else {
+                continue;
+            };
+            for (&k, &z) in &follows {
+                let term = pool.mul(factor, z);
+                let sum = match combination.get(&k) {
+                    Some(&before) => pool.add(before, term),
+                    None => term,
+                };
+                let sum = pool.simplify(sum);
+                if pool.is_zero(sum) {
+                    combination.remove(&k);
+                } else {
+                    combination.insert(k, sum);
+                }
+            }
+        }
+        // The balance that gives its force.
+        let mut column: BTreeMap<usize, ExprId> = column
+            .into_iter()
+            .filter_map(|(i, c)| Some((i, pool.simplify(c?))))
+            .collect();
+        column.retain(|_, c| !pool.is_zero(*c));
+        let at = match column.contains_key(&pivot) {
+            true => pivot,
+            false => *column.iter().min_by_key(|&(&i, &c)| (rank(pool, c), i))?.0,
+        };
+        reduced.symmetric &= at == pivot;
+        let coefficient = column[&at];
+        reduced.divide(pool, coefficient, column.values().copied());
+        let balance = list[at].take()?;
+        for (&i, &c) in column.iter().filter(|&(&i, _)| i != at) {
+            let ratio = pool.div(c, coefficient)?;
+            let ratio = pool.simplify(ratio);
+            let Some(other) = list[i].as_mut() else {
+                continue;
+            };
+            other.subtract(pool, ratio, &balance);
+            other.forces.remove(&row);
+        }
+        reduced.solved.push(Solved {
+            row,
+            balance,
+            coefficient,
+        });
+    }
+    let pool = &mut equations.system.pool;
+    for (row, a, bias) in staying {
+        // Where elimination adds terms up they can cancel, which only the numbers tell.
+        let combines = a
+            .iter()
+            .any(|(j, _)| match accelerations[*j].iter().next() {
+                Some((_, &z)) => accelerations[*j].len() > 1 || !pool.is_one(z),
+                None => false,
+            });
+        if combines {
+            return None;
+        }
+        let along = along(pool, &a, &accelerations);
+        if along.is_empty() {
+            return None;
+        }
+        reduced.kept.push((row, along, bias));
+    }
+    reduced.free = (0..n)
+        .filter(|j| accelerations.iter().any(|z| z.contains_key(j)))
+        .collect();
+    reduced.balances = list.into_iter().flatten().collect();
+    reduced.accelerations = accelerations;
+    (reduced.balances.len() == reduced.free.len()).then_some(reduced)
+}
+
+impl Reduced {
+    /// Notes a divisor; exact numbers need no test.
+    fn divide(&mut self, pool: &Pool, pivot: ExprId, row: impl Iterator<Item = ExprId>) {
+        if pool.as_number(pivot).is_none() {
+            let against = row.filter(|&e| e != pivot).collect();
+            self.divisors.push(Divisor { pivot, against });
+        }
+    }
+
+    /// Row of the reduced inertia: Σⱼ mass[j] Z[j].
+    pub fn inertia(
+        &self,
+        pool: &mut Pool,
+        mass: &BTreeMap<usize, Masked>,
+    ) -> BTreeMap<usize, Masked> {
+        let mut row: BTreeMap<usize, Masked> = BTreeMap::new();
+        for (&j, entry) in mass {
+            for (&k, &z) in &self.accelerations[j] {
+                row.entry(k).or_default().add_scaled(pool, z, entry);
+            }
+        }
+        row.values_mut().for_each(|sum| *sum = sum.simplified(pool));
+        row.retain(|_, sum| !sum.is_zero());
+        row
+    }
+}
