@@ -8,6 +8,7 @@ pub mod emit;
 pub mod inspect;
 pub mod interpret;
 pub mod model;
+pub mod modes;
 pub mod parse;
 pub mod plan;
 pub mod symbolic;

@@ -1,66 +1,53 @@
 //! What a mode and the conditions of a check decide beforehand: branches, and the directions of slips.
 
 use super::Court;
-use super::modes::{Grip, Mode};
 use crate::model::{Check, Normal, Premise};
+use crate::modes::{Mode, Sign};
 use crate::symbolic::{ExprId, Pool, Rational};
 
 impl Court<'_> {
     /// Whether the conditions on the state exclude the direction of a slip.
     pub(super) fn contradicts(&mut self, check: &Check, mode: &Mode) -> bool {
-        let system = &mut self.equations.system;
-        let mut slips = system.frictions.iter().zip(&mode.grips);
+        let mut slips = self.system.frictions.iter().zip(&mode.frictions);
         let at_least = check.premises.iter().filter_map(|premise| match premise {
             Premise::AtLeast(e) => Some(*e),
             Premise::Zero(_) => None,
         });
         let at_least: Vec<ExprId> = at_least.collect();
-        slips.any(|(friction, grip)| match (grip, &friction.slip[..]) {
-            (Grip::Slips { forward }, &[(slip, _)]) => at_least.iter().any(|&e| {
-                let ratio = ratio(&mut system.pool, e, slip);
-                ratio.is_some_and(|ratio| ratio.is_negative() == *forward)
-            }),
-            _ => false,
+        slips.any(|(friction, state)| {
+            state.is_forward().is_some_and(|forward| {
+                at_least.iter().any(|&e| {
+                    let ratio = ratio(self.pool, e, friction.slip[0].0);
+                    ratio.is_some_and(|ratio| ratio.is_negative() == forward)
+                })
+            })
         })
     }
 
     /// Branches on what the mode or the conditions say: a closed contact pushes, an open gap is positive, a slip has its
-    /// direction.
+    /// direction, against which friction acts, and a constraint that carries it pushes as the mode says.
     pub(super) fn decided(&mut self, check: &Check, mode: &Mode) -> Vec<(usize, bool)> {
-        let system = &mut self.equations.system;
+        let pool = &mut *self.pool;
         let mut positive = Vec::new();
-        for (contact, &closed) in system.contacts.iter().zip(&mode.closed) {
+        for (contact, &closed) in self.system.contacts.iter().zip(&mode.contacts) {
             positive.push(if closed {
-                system.pool.leaf(contact.force)
+                pool.leaf(contact.force)
             } else {
                 contact.gap
             });
         }
-        for (friction, grip) in system.frictions.iter().zip(&mode.grips) {
-            if let (Grip::Slips { forward }, [(slip, _)]) = (grip, &friction.slip[..]) {
-                positive.push(if *forward {
-                    *slip
-                } else {
-                    system.pool.neg(*slip)
-                });
-            }
-        }
-        // Friction acts against the slip, and the mode says which way the constraint pushes that carries it.
-        for (friction, grip) in system.frictions.iter().zip(&mode.grips) {
-            let (Grip::Slips { forward }, [(_, force)]) = (grip, &friction.slip[..]) else {
+        for (friction, state) in self.system.frictions.iter().zip(&mode.frictions) {
+            let Some(forward) = state.is_forward() else {
                 continue;
             };
-            let mut signed = vec![(*force, !forward)];
+            let (slip, force) = friction.slip[0];
+            let mut signed = vec![(slip, forward), (pool.leaf(force), !forward)];
             if let Normal::Constraint(i) = friction.normal {
-                signed.push((system.constraints[i].force, mode.positive[i]));
+                let force = pool.leaf(self.system.constraints[i].force);
+                signed.push((force, mode.normal_signs[i] == Sign::Positive));
             }
-            for (force, is_positive) in signed {
-                let force = system.pool.leaf(force);
-                positive.push(if is_positive {
-                    force
-                } else {
-                    system.pool.neg(force)
-                });
+            for (e, is_positive) in signed {
+                positive.push(if is_positive { e } else { pool.neg(e) });
             }
         }
         for premise in &check.premises {
@@ -71,7 +58,7 @@ impl Court<'_> {
         let mut decided = Vec::new();
         for (i, branch) in self.branches.iter().enumerate() {
             let mut known = positive.iter();
-            let ratio = known.find_map(|&known| ratio(&mut system.pool, branch.guard, known));
+            let ratio = known.find_map(|&known| ratio(pool, branch.guard, known));
             decided.extend(ratio.map(|ratio| (i, !ratio.is_negative())));
         }
         decided

@@ -4,7 +4,6 @@
 //! degree is at most the sum of the degrees of their rows, brought to common denominators.
 
 use super::exact::Case;
-use super::modes::Grip;
 use crate::model::Normal;
 use crate::symbolic::field::{Angles, Degree};
 use crate::symbolic::{ExprId, Pool, Symbol};
@@ -12,7 +11,7 @@ use crate::symbolic::{ExprId, Pool, Symbol};
 /// A bound of the degree of the claim's numerator.
 pub(super) fn degree(pool: &Pool, case: &Case, angles: &Angles) -> f64 {
     let bounds = Bounds { pool, case, angles };
-    let active = case.mode.active(case.mechanics);
+    let active = case.mode.acting_rows(case.mechanics.system);
     let velocity = bounds.velocity(&active);
     let moving = |symbol: Symbol| {
         let mut coordinates = case.mechanics.coordinates.iter();
@@ -80,8 +79,8 @@ impl Bounds<'_> {
     fn factors(&self, moving: Known) -> Vec<Degree> {
         let mechanics = self.case.mechanics;
         let mut factors = vec![Degree::NUMBER; mechanics.rows.len()];
-        for (friction, grip) in mechanics.frictions.iter().zip(&self.case.mode.grips) {
-            if !matches!(grip, Grip::Slips { .. }) {
+        for (friction, state) in mechanics.frictions.iter().zip(&self.case.mode.frictions) {
+            if !state.slips() {
                 continue;
             }
             let mut parts = vec![friction.kinetic_coefficient];

@@ -7,8 +7,8 @@
 use super::arithmetic::{Arithmetic, Exact};
 use super::degree::degree;
 use super::mechanics::Mechanics;
-use super::modes::Mode;
 use super::motion::{Stuck, Tie, accelerations, rank, velocities};
+use crate::modes::Mode;
 use crate::symbolic::field::{Angles, PRIMES, Point, Trouble};
 use crate::symbolic::{ExprId, Node, Pool, Symbol};
 use std::collections::BTreeSet;
@@ -28,7 +28,7 @@ pub(super) enum Finding {
 
 /// Everything in the free symbols of a sheet.
 pub(super) struct Case<'a> {
-    pub mechanics: &'a Mechanics,
+    pub mechanics: &'a Mechanics<'a>,
     pub mode: &'a Mode,
     pub ties: &'a [Tie],
     /// Independent rows on position level.
@@ -194,7 +194,7 @@ fn at_point(pool: &Pool, case: &Case, point: &mut Exact) -> Result<(u64, Option<
     if rank(point, pool, mechanics, case.positions)? < case.positions.len() {
         return Err(Stuck::Impossible);
     }
-    let active = case.mode.active(mechanics);
+    let active = case.mode.acting_rows(mechanics.system);
     velocities(point, pool, mechanics, &active, case.ties)?;
     let undetermined = accelerations(point, pool, mechanics, case.mode)?;
     let value = point.values(pool, &[case.claim])?[0];

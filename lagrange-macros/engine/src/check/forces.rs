@@ -2,9 +2,9 @@
 
 use super::arithmetic::Arithmetic;
 use super::mechanics::{Friction, Mechanics};
-use super::modes::{Grip, Mode};
 use super::motion::Stuck;
 use crate::model::Normal;
+use crate::modes::{FrictionState, Mode, Sign};
 use crate::symbolic::{ExprId, Pool};
 
 /// Σ cₖ xₖ + constant over the unknowns.
@@ -30,12 +30,12 @@ pub(super) fn forces<A: Arithmetic>(
             constant: a.integer(0),
         });
     }
-    for (friction, grip) in mechanics.frictions.iter().zip(&mode.grips) {
-        let Grip::Slips { forward } = *grip else {
+    for (friction, &state) in mechanics.frictions.iter().zip(&mode.frictions) {
+        if !state.slips() {
             continue;
-        };
+        }
         let mu = a.values(pool, &[friction.kinetic_coefficient])?[0];
-        let directions = directions(a, pool, mechanics, friction, forward)?;
+        let directions = directions(a, pool, mechanics, friction, state)?;
         let normal = normal_force(a, pool, mechanics, mode, friction.normal, &forces)?;
         for (&row, direction) in friction.rows.iter().zip(directions) {
             let factor = a.mul(mu, direction);
@@ -55,11 +55,10 @@ fn directions<A: Arithmetic>(
     pool: &Pool,
     mechanics: &Mechanics,
     friction: &Friction,
-    forward: bool,
+    state: FrictionState,
 ) -> Result<Vec<A::Number>, Stuck> {
-    let backward = a.integer(if forward { -1 } else { 1 });
-    if friction.rows.len() == 1 {
-        return Ok(vec![backward]);
+    if let Some(forward) = state.is_forward() {
+        return Ok(vec![a.integer(if forward { -1 } else { 1 })]);
     }
     let rows = friction.rows.iter();
     let slips: Vec<ExprId> = rows.map(|&row| mechanics.rows[row].velocity).collect();
@@ -70,7 +69,7 @@ fn directions<A: Arithmetic>(
     let speed = a.sqrt(square)?;
     let mut directions = Vec::new();
     for s in slips {
-        directions.push(a.mul(backward, a.div(s, speed)?));
+        directions.push(a.sub(a.integer(0), a.div(s, speed)?));
     }
     Ok(directions)
 }
@@ -96,11 +95,11 @@ fn normal_force<A: Arithmetic>(
                 None => a.integer(1),
                 Some(factor) => a.values(pool, &[factor])?[0],
             };
-            (mechanics.constraints + contact, factor)
+            (mechanics.system.contact_row(contact), factor)
         }
         Normal::Constraint(constraint) => {
-            let sign = if mode.positive[constraint] { 1 } else { -1 };
-            (constraint, a.integer(sign))
+            let negative = mode.normal_signs[constraint] == Sign::Negative;
+            (constraint, a.integer(if negative { -1 } else { 1 }))
         }
     };
     let scaled = |&(k, c): &(usize, A::Number)| (k, a.mul(factor, c));

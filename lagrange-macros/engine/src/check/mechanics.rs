@@ -1,11 +1,13 @@
 //! The derived numbers as expressions, every effect acting: what a check is held against.
 
 use crate::derive::{Equations, OutputId};
-use crate::model::Normal;
+use crate::model::{Normal, System};
 use crate::symbolic::{ExprId, Pool, Symbol};
 
 /// M v̇ = f + Σ aᵢᵀ λᵢ + couplings, aᵢ v̇ + γᵢ = 0.
-pub(super) struct Mechanics {
+pub(super) struct Mechanics<'a> {
+    /// The system, without its pool.
+    pub system: &'a System,
     /// Lower triangle of M.
     pub mass: Vec<(usize, usize, ExprId)>,
     /// f
@@ -14,10 +16,6 @@ pub(super) struct Mechanics {
     pub rows: Vec<Row>,
     /// (coordinate, row, factor): Q += factor · λ.
     pub couplings: Vec<(usize, usize, ExprId)>,
-    /// Number of constraints: their rows come first.
-    pub constraints: usize,
-    /// Per constraint: the contact without which it does not hold.
-    pub while_contact: Vec<Option<usize>>,
     /// Per contact: N/λ if it is not 1, and the edge of its region.
     pub contacts: Vec<(Option<ExprId>, Option<ExprId>)>,
     /// Per friction.
@@ -39,7 +37,6 @@ pub(super) struct Row {
     pub velocity: ExprId,
     /// λ
     pub force: Symbol,
-    pub name: String,
 }
 
 /// What a friction needs.
@@ -51,30 +48,19 @@ pub(super) struct Friction {
     pub kinetic_coefficient: ExprId,
 }
 
-impl Mechanics {
-    /// Collects what has been derived.
-    pub fn of(equations: &mut Equations) -> Mechanics {
-        let (outputs, structure) = (&equations.outputs, &equations.structure);
-        let system = &mut equations.system;
-        let pool = &mut system.pool;
-        let mut total = |id: OutputId| total(pool, outputs, id);
-        let names = system.constraints.iter().map(|c| (&c.name.text, c.force));
-        let names = names.chain(system.contacts.iter().map(|c| (&c.name.text, c.force)));
-        let slips = system.frictions.iter().flat_map(|f| {
-            let components = f.slip.iter();
-            components.map(|&(_, force)| (&f.name.text, force))
-        });
-        let rows = structure
-            .rows
-            .iter()
-            .zip(names.chain(slips))
-            .map(|(row, (name, force))| Row {
+impl<'a> Mechanics<'a> {
+    /// Collects what has been derived. The pool is that of the equations, lent by them.
+    pub fn of(equations: &'a Equations, pool: &mut Pool) -> Self {
+        let (system, structure) = (&equations.system, &equations.structure);
+        let mut total = |id: OutputId| equations.total(pool, id);
+        let rows = structure.rows.iter().zip(system.multipliers());
+        let rows = rows
+            .map(|(row, force)| Row {
                 jacobian: row.jacobian.iter().map(|&(j, a)| (j, total(a))).collect(),
                 bias: total(row.bias),
                 position: row.position.map(&mut total),
                 velocity: total(row.velocity),
                 force,
-                name: name.clone(),
             })
             .collect();
         let mass = structure.mass.iter();
@@ -96,12 +82,11 @@ impl Mechanics {
         });
         let frictions = frictions.collect();
         Mechanics {
+            system,
             mass,
             forcing,
             rows,
             couplings,
-            constraints: system.constraints.len(),
-            while_contact: system.constraints.iter().map(|c| c.while_contact).collect(),
             contacts,
             frictions,
             applied: system.forces.iter().map(|f| (f.force, f.value)).collect(),
@@ -115,8 +100,9 @@ impl Mechanics {
     }
 
     /// Replaces every expression.
-    pub fn map(&self, f: &mut impl FnMut(ExprId) -> ExprId) -> Mechanics {
+    pub fn map(&self, f: &mut impl FnMut(ExprId) -> ExprId) -> Self {
         Mechanics {
+            system: self.system,
             mass: self.mass.iter().map(|&(i, j, e)| (i, j, f(e))).collect(),
             forcing: self.forcing.iter().map(|&e| f(e)).collect(),
             rows: self
@@ -128,7 +114,6 @@ impl Mechanics {
                     position: row.position.map(&mut *f),
                     velocity: f(row.velocity),
                     force: row.force,
-                    name: row.name.clone(),
                 })
                 .collect(),
             couplings: self
@@ -136,8 +121,6 @@ impl Mechanics {
                 .iter()
                 .map(|&(i, row, e)| (i, row, f(e)))
                 .collect(),
-            constraints: self.constraints,
-            while_contact: self.while_contact.clone(),
             contacts: self
                 .contacts
                 .iter()
@@ -171,10 +154,4 @@ impl Mechanics {
         });
         all
     }
-}
-
-/// All terms of an output.
-fn total(pool: &mut Pool, outputs: &[crate::derive::Output], id: OutputId) -> ExprId {
-    let terms: Vec<ExprId> = outputs[id.0].terms.iter().map(|&(_, term)| term).collect();
-    pool.sum(&terms)
 }

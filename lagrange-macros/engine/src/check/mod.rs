@@ -1,7 +1,7 @@
 //! Checks: what the user derived by hand, proven or refuted on the states of the modes that it speaks of.
 //!
 //! ```text
-//! modes      every mode that the conditions leave open                                    modes
+//! modes      every mode that the conditions leave open                                    crate::modes
 //! surface    its positions, solved exactly for some symbols                               surface
 //! proof      left − right at random points of finite fields, forces from linear equations  exact, motion
 //! refutation a real state at which both sides differ by more than rounding               sample, bounded
@@ -19,7 +19,6 @@ mod exact;
 mod forces;
 mod linear;
 mod mechanics;
-mod modes;
 mod motion;
 mod refute;
 mod ruling;
@@ -31,11 +30,14 @@ mod tests;
 use crate::ast::Declaration;
 use crate::derive::Equations;
 use crate::diagnostics::{Code, Diagnostics};
-use crate::model::{self, Branch, Check, Scope};
+use crate::model::{self, Branch, Check, Scope, System};
+use crate::modes::{self, Mode};
 use crate::symbolic::{ExprId, Pool};
 use mechanics::Mechanics;
-use modes::modes;
 use ruling::{Prepared, Ruling};
+
+/// More modes than these are not looked through.
+const MOST_MODES: u128 = 256;
 
 /// What is known of a check.
 #[derive(Clone, PartialEq, Debug)]
@@ -78,50 +80,48 @@ pub fn verdicts(
     if checks.is_empty() {
         return (equations, Vec::new());
     }
-    let mechanics = Mechanics::of(&mut equations);
+    // Checks need the pool for themselves; it is put back with more in it.
+    let mut pool = std::mem::take(&mut equations.system.pool);
     let mut court = Court {
+        system: &equations.system,
         guards: branches.iter().map(|branch| branch.guard).collect(),
         branches,
-        mechanics,
-        equations: &mut equations,
+        mechanics: Mechanics::of(&equations, &mut pool),
+        pool: &mut pool,
         prepared: Vec::new(),
     };
     let mut verdicts = Vec::new();
     for check in &checks {
         verdicts.extend(court.judge(check, sink));
     }
+    equations.system.pool = pool;
     (equations, verdicts)
 }
 
 struct Court<'a> {
-    equations: &'a mut Equations,
-    mechanics: Mechanics,
+    /// The system, without its pool.
+    system: &'a System,
+    pool: &'a mut Pool,
+    mechanics: Mechanics<'a>,
     branches: Vec<Branch>,
     guards: Vec<ExprId>,
     /// Modes that have been looked at.
-    prepared: Vec<Prepared>,
+    prepared: Vec<Prepared<'a>>,
 }
 
 impl Court<'_> {
-    fn pool(&mut self) -> &mut Pool {
-        &mut self.equations.system.pool
-    }
-
     fn judge(&mut self, check: &Check, sink: &mut Diagnostics) -> Option<Verdict> {
-        let mut modes = match modes(&self.mechanics, &check.conditions) {
-            Ok(modes) => modes,
-            Err(count) => {
-                sink.report(Code::CheckModes, check.extent, &[&count]);
-                return None;
-            }
-        };
+        let modes = modes::all(self.system).under(&check.conditions);
+        let count = modes.count();
+        if count > MOST_MODES {
+            sink.report(Code::CheckModes, check.extent, &[&count]);
+            return None;
+        }
+        let signed = |mode: Mode| mode.with_normal_signs(self.system);
+        let mut modes: Vec<Mode> = modes.iter().flat_map(signed).collect();
         modes.retain(|mode| !self.contradicts(check, mode));
-        let applied = self.mechanics.applied.clone();
-        let claim = {
-            let pool = self.pool();
-            let claim = pool.sub(check.left, check.right);
-            pool.substitute(claim, &applied)
-        };
+        let claim = self.pool.sub(check.left, check.right);
+        let claim = self.pool.substitute(claim, &self.mechanics.applied);
         let (mut proven, mut tested) = (0, None);
         for mode in &modes {
             match self.rule(check, claim, mode) {
@@ -132,11 +132,9 @@ impl Court<'_> {
                     tested = Some((sum + states, because));
                 }
                 Ruling::Refuted(state) => {
-                    let described = mode.describe(&self.mechanics);
-                    let when = if described.is_empty() {
-                        described
-                    } else {
-                        format!(" while {described}")
+                    let when = match mode.frictions.is_empty() && mode.contacts.is_empty() {
+                        true => String::new(),
+                        false => format!(" while {}", mode.name(self.system)),
                     };
                     sink.report(
                         Code::CheckFalse,

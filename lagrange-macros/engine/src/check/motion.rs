@@ -9,7 +9,7 @@ use super::arithmetic::Arithmetic;
 use super::forces::{Affine, forces};
 use super::linear::solve;
 use super::mechanics::Mechanics;
-use super::modes::Mode;
+use crate::modes::Mode;
 use crate::symbolic::field::Trouble;
 use crate::symbolic::{ExprId, Pool, Symbol};
 
@@ -119,7 +119,7 @@ pub(super) fn accelerations<A: Arithmetic>(
     mechanics: &Mechanics,
     mode: &Mode,
 ) -> Result<Vec<Symbol>, Stuck> {
-    let active = mode.active(mechanics);
+    let active = mode.acting_rows(mechanics.system);
     let forces = forces(a, pool, mechanics, mode, &active)?;
     let equations = equations(a, pool, mechanics, &active, &forces)?;
     // What stays undetermined is given some value: a claim about it must not depend on which.

@@ -3,12 +3,12 @@
 use super::Court;
 use super::exact::{Case, Finding, exact};
 use super::mechanics::Mechanics;
-use super::modes::Mode;
 use super::motion;
 use super::refute;
 use super::sample::{Newton, Positions, Region};
 use super::surface::{Sheet, Surface, surface, ties};
 use crate::model::{Check, Premise};
+use crate::modes::Mode;
 use crate::symbolic::{ExprId, Pool};
 
 /// What one mode says.
@@ -20,12 +20,12 @@ pub(super) enum Ruling {
 }
 
 /// A mode with its surface.
-pub(super) struct Prepared {
+pub(super) struct Prepared<'a> {
     mode: Mode,
     zeros: Vec<ExprId>,
     surface: Surface,
     /// Everything in the free symbols of each sheet.
-    mechanics: Vec<Mechanics>,
+    mechanics: Vec<Mechanics<'a>>,
     newton: Newton,
 }
 
@@ -34,7 +34,7 @@ impl Court<'_> {
     pub(super) fn rule(&mut self, check: &Check, claim: ExprId, mode: &Mode) -> Ruling {
         let at = self.prepare(check, claim, mode);
         let decided = self.decided(check, mode);
-        let pool = &mut self.equations.system.pool;
+        let pool = &mut *self.pool;
         let prepared = &self.prepared[at];
         let ties = ties(pool, &self.mechanics, &check.premises);
         let (sheets, findings): (&[Sheet], Findings) = match &prepared.surface {
@@ -68,7 +68,7 @@ impl Court<'_> {
             ties: &ties,
             premises: &check.premises,
             guards: &self.guards,
-            time: self.equations.system.time,
+            time: self.system.time,
             positions: if sheets.is_empty() {
                 Positions::Iterated(&prepared.newton)
             } else {
@@ -93,8 +93,8 @@ impl Court<'_> {
         if let Some(at) = self.prepared.iter().position(same) {
             return at;
         }
-        let active = mode.active(&self.mechanics);
-        let pool = &mut self.equations.system.pool;
+        let active = mode.acting_rows(self.system);
+        let pool = &mut *self.pool;
         let surface = surface(pool, &self.mechanics, &active, &check.premises, &[claim]);
         let mut substituted = Vec::new();
         if let Surface::Sheets(sheets) = &surface {

@@ -4,17 +4,17 @@ use super::arithmetic::Arithmetic;
 use super::bounded::{Bounded, Floating};
 use super::linear::solve;
 use super::mechanics::Mechanics;
-use super::modes::{Grip, Mode};
 use super::motion::{Stuck, Tie, accelerations, velocities};
 use super::surface::Sheet;
 use crate::model::{Normal, Premise};
+use crate::modes::{FrictionState, Mode, Sign};
 use crate::symbolic::field::Trouble;
 use crate::symbolic::{ExprId, Pool, Symbol};
 use std::collections::BTreeMap;
 
 /// Where states are looked for.
 pub(super) struct Region<'a> {
-    pub mechanics: &'a Mechanics,
+    pub mechanics: &'a Mechanics<'a>,
     pub mode: &'a Mode,
     pub ties: &'a [Tie],
     pub premises: &'a [Premise],
@@ -78,7 +78,7 @@ pub(super) fn sample<'a>(pool: &Pool, region: &Region<'a>, seed: u64) -> Result<
     }
     let speeds: Vec<Symbol> = mechanics.coordinates.iter().map(|q| q[1]).collect();
     let moves = |e: ExprId| pool.depends_on_any(e, &speeds);
-    let active = region.mode.active(mechanics);
+    let active = region.mode.acting_rows(mechanics.system);
     match region.positions {
         Positions::Iterated(newton) => {
             iterate(pool, mechanics, newton, &mut numbers)?;
@@ -167,8 +167,8 @@ fn feasible(pool: &Pool, region: &Region, numbers: &mut Floating) -> Result<bool
     let (mechanics, mode) = (region.mechanics, region.mode);
     let mut at_least =
         |e: ExprId| -> Result<bool, Stuck> { Ok(numbers.values(pool, &[e])?[0].value >= 0.0) };
-    for (i, &closed) in mode.closed.iter().enumerate() {
-        let row = &mechanics.rows[mechanics.constraints + i];
+    for (i, &closed) in mode.contacts.iter().enumerate() {
+        let row = &mechanics.rows[mechanics.system.contact_row(i)];
         let gap = row.position.filter(|_| !closed);
         let edge = mechanics.contacts[i].1.filter(|_| closed);
         for e in gap.into_iter().chain(edge) {
@@ -178,12 +178,12 @@ fn feasible(pool: &Pool, region: &Region, numbers: &mut Floating) -> Result<bool
         }
     }
     let force = |numbers: &Floating, row: usize| numbers.symbol(mechanics.rows[row].force).value;
-    for (i, &closed) in mode.closed.iter().enumerate() {
-        if closed && force(numbers, mechanics.constraints + i) < 0.0 {
+    for (i, &closed) in mode.contacts.iter().enumerate() {
+        if closed && force(numbers, mechanics.system.contact_row(i)) < 0.0 {
             return Ok(false);
         }
     }
-    for (friction, grip) in mechanics.frictions.iter().zip(&mode.grips) {
+    for (friction, &state) in mechanics.frictions.iter().zip(&mode.frictions) {
         let normal = match friction.normal {
             Normal::Given(e) => numbers.values(pool, &[e])?[0].value,
             Normal::Contact(i) => {
@@ -191,20 +191,22 @@ fn feasible(pool: &Pool, region: &Region, numbers: &mut Floating) -> Result<bool
                     None => 1.0,
                     Some(e) => numbers.values(pool, &[e])?[0].value,
                 };
-                factor * force(numbers, mechanics.constraints + i)
+                factor * force(numbers, mechanics.system.contact_row(i))
             }
             Normal::Constraint(i) => {
-                if matches!(grip, Grip::Slips { .. })
-                    && (force(numbers, i) >= 0.0) != mode.positive[i]
-                {
+                let sign = match force(numbers, i) >= 0.0 {
+                    true => Sign::Positive,
+                    false => Sign::Negative,
+                };
+                if state.slips() && sign != mode.normal_signs[i] {
                     return Ok(false);
                 }
                 force(numbers, i).abs()
             }
         };
-        match grip {
-            Grip::Inactive => {}
-            Grip::Sticks => {
+        match state {
+            FrictionState::Inactive => {}
+            FrictionState::Stick => {
                 let most = numbers.values(pool, &[friction.static_coefficient])?[0].value * normal;
                 let rows = friction.rows.iter();
                 let square: f64 = rows.map(|&row| force(numbers, row).powi(2)).sum();
@@ -212,10 +214,11 @@ fn feasible(pool: &Pool, region: &Region, numbers: &mut Floating) -> Result<bool
                     return Ok(false);
                 }
             }
-            Grip::Slips { forward } => {
-                if let &[row] = &friction.rows[..] {
-                    let slip = numbers.values(pool, &[mechanics.rows[row].velocity])?[0].value;
-                    if (slip > 0.0) != *forward {
+            FrictionState::Slip(_) => {
+                if let Some(forward) = state.is_forward() {
+                    let slip = mechanics.rows[friction.rows[0]].velocity;
+                    let slip = numbers.values(pool, &[slip])?[0].value;
+                    if (slip > 0.0) != forward {
                         return Ok(false);
                     }
                 }

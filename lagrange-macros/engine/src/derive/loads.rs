@@ -40,7 +40,7 @@ pub(super) fn loads(sheet: &mut Sheet) -> Loads {
 }
 
 fn force(sheet: &mut Sheet, index: usize, loads: &mut Loads) {
-    let multipliers = sheet.multipliers();
+    let multipliers = sheet.system.multipliers();
     let [need, report_need] = sheet.needs.forces[index];
     let force = &sheet.system.forces[index];
     let (name, value) = (force.name.text.clone(), force.value);

@@ -22,7 +22,7 @@ mod tests;
 
 use crate::diagnostics::Diagnostics;
 use crate::model::System;
-use crate::symbolic::ExprId;
+use crate::symbolic::{ExprId, Pool};
 use euler_lagrange::Inertia;
 use loads::Loads;
 use sheet::Sheet;
@@ -65,6 +65,15 @@ pub struct Equations {
     pub outputs: Vec<Output>,
     /// What they mean.
     pub structure: Structure<OutputId>,
+}
+
+impl Equations {
+    /// An output as one expression, every need held. The pool is that of the equations, lent by them.
+    pub fn total(&self, pool: &mut Pool, output: OutputId) -> ExprId {
+        let terms = self.outputs[output.0].terms.iter();
+        let terms: Vec<ExprId> = terms.map(|&(_, term)| term).collect();
+        pool.sum(&terms)
+    }
 }
 
 /// Derives all equations of a system. None if it is structurally singular, which the sink then tells. Where the pool is

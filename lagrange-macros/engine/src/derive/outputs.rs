@@ -84,6 +84,7 @@ pub(super) fn branches(sheet: &mut Sheet) -> Vec<Branch<OutputId>> {
         }
     }
     let results: BTreeSet<Symbol> = sheet
+        .system
         .multipliers()
         .into_iter()
         .chain(sheet.system.coordinates.iter().map(|c| c.acceleration))

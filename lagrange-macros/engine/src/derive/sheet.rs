@@ -61,18 +61,6 @@ impl Sheet {
         &self.system.coordinates[i].name.text
     }
 
-    /// Symbols of the multipliers, row by row: constraints, contacts, slip components.
-    pub fn multipliers(&self) -> Vec<Symbol> {
-        let system = &self.system;
-        let constraints = system.constraints.iter().map(|c| c.force);
-        let contacts = system.contacts.iter().map(|c| c.force);
-        let frictions = system
-            .frictions
-            .iter()
-            .flat_map(|f| f.slip.iter().map(|&(_, force)| force));
-        constraints.chain(contacts).chain(frictions).collect()
-    }
-
     /// An expression of the report: names of applied forces become their values, then simplified.
     pub fn reported(&mut self, e: ExprId) -> ExprId {
         let values: Vec<(Symbol, ExprId)> = self

@@ -96,7 +96,7 @@ impl Work<'_> {
             let slope = pool.differentiate(dissipation.rayleigh, velocity);
             terms.push(pool.neg(slope));
         }
-        let multipliers = self.multipliers();
+        let multipliers = self.system().multipliers();
         for &row in rows {
             for &(j, entry) in &self.program.equations.structure.rows[row].jacobian {
                 if j == i {
@@ -204,7 +204,8 @@ impl Work<'_> {
         if let Some(contact) = system.contacts.get(row - contacts) {
             return &contact.name.text;
         }
-        let friction = (0..system.frictions.len()).find(|&f| self.slip_rows(f).contains(&row));
+        let friction =
+            (0..system.frictions.len()).find(|&f| self.system().slip_rows(f).contains(&row));
         friction.map_or("", |f| &system.frictions[f].name.text)
     }
 }

@@ -1,10 +1,10 @@
 //! What a right-hand side costs: operations per mode, and of each effect beside what it stands on.
 
 use super::Cost;
-use super::choice::{Choice, State};
 use super::work::Work;
 use crate::derive::{NeedId, Stage};
 use crate::model::Normal;
+use crate::modes::{FrictionState, Mode};
 use crate::symbolic::{ExprId, Node, Pool};
 use std::collections::BTreeMap;
 
@@ -26,11 +26,11 @@ impl Mask {
 
 impl Work<'_> {
     /// Operations of the equations of motion of a mode, and the same with its guards.
-    pub(super) fn operations(&self, choice: &Choice) -> [usize; 2] {
+    pub(super) fn operations(&self, mode: &Mode) -> [usize; 2] {
         let mut mask = self.energies_and_loads();
-        self.hold_mode(choice, &mut mask);
+        self.hold_mode(mode, &mut mask);
         let motion = self.program.operations(Stage::Motion, &mask.0);
-        self.hold_guards(choice, &mut mask);
+        self.hold_guards(mode, &mut mask);
         [motion, self.program.operations(Stage::Motion, &mask.0)]
     }
 
@@ -53,10 +53,6 @@ impl Work<'_> {
             with.hold(need);
             self.cost(name, &core, &with, &mut costs);
         }
-        let none = Choice {
-            contacts: vec![false; system.contacts.len()],
-            frictions: vec![State::Inactive; system.frictions.len()],
-        };
         for (i, constraint) in system.constraints.iter().enumerate() {
             let mut with = Mask(base.0.clone());
             self.hold_row(i, &mut with);
@@ -65,20 +61,21 @@ impl Work<'_> {
         for (i, contact) in system.contacts.iter().enumerate() {
             let name = &contact.name.text;
             let mut gap = Mask(base.0.clone());
-            gap.hold(structure.rows[self.contact_row(i)].needs[2]);
+            gap.hold(structure.rows[self.system().contact_row(i)].needs[2]);
             self.cost(&format!("{name} open"), &base, &gap, &mut costs);
             let mut with = Mask(base.0.clone());
-            self.hold_row(self.contact_row(i), &mut with);
+            self.hold_row(self.system().contact_row(i), &mut with);
             self.cost(&format!("{name} closed"), &base, &with, &mut costs);
         }
         for (i, friction) in system.frictions.iter().enumerate() {
             let mut pressed = Mask(base.0.clone());
             if let Normal::Contact(contact) = friction.normal {
-                self.hold_row(self.contact_row(contact), &mut pressed);
+                self.hold_row(self.system().contact_row(contact), &mut pressed);
             }
-            for (verb, state) in [("sticks", State::Sticks), ("slips", State::Forward)] {
-                let mut choice = none.clone();
-                choice.frictions[i] = state;
+            for (verb, state) in [
+                ("sticks", FrictionState::Stick),
+                ("slips", FrictionState::FORWARD),
+            ] {
                 let mut with = Mask(pressed.0.clone());
                 self.hold_friction(i, state, &mut with);
                 let name = format!("{} {verb}", friction.name.text);
@@ -113,13 +110,13 @@ impl Work<'_> {
         mask.hold(bias);
     }
 
-    fn hold_friction(&self, friction: usize, state: State, mask: &mut Mask) {
+    fn hold_friction(&self, friction: usize, state: FrictionState, mask: &mut Mask) {
         let structure = &self.program.equations.structure;
-        let rows = self.slip_rows(friction);
+        let rows = self.system().slip_rows(friction);
         match state {
-            State::Inactive => {}
-            State::Sticks => rows.for_each(|row| self.hold_row(row, mask)),
-            _ => {
+            FrictionState::Inactive => {}
+            FrictionState::Stick => rows.for_each(|row| self.hold_row(row, mask)),
+            FrictionState::Slip(_) => {
                 let two = rows.len() > 1;
                 mask.hold(structure.frictions[friction].coefficients_need);
                 for row in rows {
@@ -132,28 +129,28 @@ impl Work<'_> {
         }
     }
 
-    fn hold_mode(&self, choice: &Choice, mask: &mut Mask) {
-        for row in self.acting(choice) {
+    fn hold_mode(&self, mode: &Mode, mask: &mut Mask) {
+        for row in mode.acting_rows(self.system()) {
             self.hold_row(row, mask);
         }
-        for (i, state) in choice.frictions.iter().enumerate() {
+        for (i, state) in mode.frictions.iter().enumerate() {
             self.hold_friction(i, *state, mask);
         }
     }
 
-    fn hold_guards(&self, choice: &Choice, mask: &mut Mask) {
+    fn hold_guards(&self, mode: &Mode, mask: &mut Mask) {
         let structure = &self.program.equations.structure;
         for (i, contact) in structure.contacts.iter().enumerate() {
-            if !choice.contacts[i] || contact.region.is_some() {
+            if !mode.contacts[i] || contact.region.is_some() {
                 mask.hold(structure.rows[contact.row].needs[2]);
             }
         }
-        for (i, state) in choice.frictions.iter().enumerate() {
+        for (i, state) in mode.frictions.iter().enumerate() {
             match state {
-                State::Inactive => {}
-                State::Sticks => mask.hold(structure.frictions[i].coefficients_need),
-                _ => {
-                    for row in self.slip_rows(i) {
+                FrictionState::Inactive => {}
+                FrictionState::Stick => mask.hold(structure.frictions[i].coefficients_need),
+                FrictionState::Slip(_) => {
+                    for row in self.system().slip_rows(i) {
                         mask.hold(structure.rows[row].needs[3]);
                     }
                 }

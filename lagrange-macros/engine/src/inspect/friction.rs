@@ -1,44 +1,51 @@
 //! Laws of friction.
 
-use super::choice::State;
 use super::formula::{Formula, Statement};
 use super::motion::Known;
 use super::work::Work;
 use crate::model::Normal;
+use crate::modes::FrictionState;
 use crate::symbolic::{ExprId, Rational};
 
 impl Work<'_> {
     /// F = ∓μ N
-    pub(super) fn sliding(&mut self, friction: usize, state: State) -> Vec<Statement> {
+    pub(super) fn sliding(&mut self, friction: usize, state: FrictionState) -> Vec<Statement> {
+        if !state.slips() {
+            return Vec::new();
+        }
         let item = &self.program.equations.system.frictions[friction];
         let strength = self.strength(friction, item.kinetic_coefficient);
         let letters = self.forces(friction);
-        match state {
-            State::Inactive | State::Sticks => Vec::new(),
-            State::Forward => vec![Statement::equal(letters[0].clone(), strength.negated())],
-            State::Backward => vec![Statement::equal(letters[0].clone(), strength)],
-            State::Slips => {
-                let slip = self.slip(friction, &[]);
-                let size = norm(&slip);
-                letters
-                    .into_iter()
-                    .zip(slip)
-                    .map(|(letter, slip)| {
-                        let share = Formula::Fraction(Box::new(slip), Box::new(size.clone()));
-                        let force = Formula::Product(vec![strength.clone(), share]);
-                        Statement::equal(letter, force.negated())
-                    })
-                    .collect()
-            }
+        if let Some(forward) = state.is_forward() {
+            let law = if forward {
+                strength.negated()
+            } else {
+                strength
+            };
+            return vec![Statement::equal(letters[0].clone(), law)];
         }
+        let slip = self.slip(friction, &[]);
+        let size = norm(&slip);
+        letters
+            .into_iter()
+            .zip(slip)
+            .map(|(letter, slip)| {
+                let share = Formula::Fraction(Box::new(slip), Box::new(size.clone()));
+                let force = Formula::Product(vec![strength.clone(), share]);
+                Statement::equal(letter, force.negated())
+            })
+            .collect()
     }
 
     /// F ± μ N where that is linear in the forces.
-    pub(super) fn sliding_residual(&mut self, friction: usize, state: State) -> Option<ExprId> {
-        let sign = match state {
-            State::Forward => Rational::ONE,
-            State::Backward => Rational::MINUS_ONE,
-            State::Inactive | State::Sticks | State::Slips => return None,
+    pub(super) fn sliding_residual(
+        &mut self,
+        friction: usize,
+        state: FrictionState,
+    ) -> Option<ExprId> {
+        let sign = match state.is_forward()? {
+            true => Rational::ONE,
+            false => Rational::MINUS_ONE,
         };
         let item = &self.program.equations.system.frictions[friction];
         let normal = match item.normal {
@@ -97,7 +104,7 @@ impl Work<'_> {
 
     /// Components of a slip.
     pub(super) fn slip(&mut self, friction: usize, known: &Known) -> Vec<Formula> {
-        let rows = self.slip_rows(friction);
+        let rows = self.system().slip_rows(friction);
         rows.map(|row| self.rate(row, known)).collect()
     }
 }

@@ -1,20 +1,20 @@
 //! What must hold in a mode, and what happens where it ceases to.
 
 use super::Guard;
-use super::choice::{Choice, State};
 use super::formula::{Formula, Relation, Statement};
 use super::friction::norm;
 use super::motion::Known;
 use super::work::Work;
+use crate::modes::{FrictionState, Mode};
 
 impl Work<'_> {
     /// Guards of contacts, then of frictions.
-    pub(super) fn guards(&mut self, choice: &Choice, known: &Known) -> Vec<Guard> {
+    pub(super) fn guards(&mut self, mode: &Mode, known: &Known) -> Vec<Guard> {
         let mut guards = Vec::new();
-        for contact in Work::shown(choice.contacts.len()) {
-            guards.push(self.contact_guard(contact, choice.contacts[contact], known));
+        for contact in Work::shown(mode.contacts.len()) {
+            guards.push(self.contact_guard(contact, mode.contacts[contact], known));
         }
-        for (friction, state) in choice.frictions.iter().enumerate() {
+        for (friction, state) in mode.frictions.iter().enumerate() {
             guards.extend(self.friction_guard(friction, *state, known));
         }
         guards
@@ -41,12 +41,17 @@ impl Work<'_> {
         }
     }
 
-    fn friction_guard(&mut self, friction: usize, state: State, known: &Known) -> Option<Guard> {
+    fn friction_guard(
+        &mut self,
+        friction: usize,
+        state: FrictionState,
+        known: &Known,
+    ) -> Option<Guard> {
         let item = &self.program.equations.system.frictions[friction];
         let name = &item.name.text;
         let (meaning, statement, otherwise) = match state {
-            State::Inactive => return None,
-            State::Sticks => {
+            FrictionState::Inactive => return None,
+            FrictionState::Stick => {
                 let force = norm(&self.forces(friction));
                 let most = self.strength(friction, item.static_coefficient);
                 (
@@ -55,24 +60,28 @@ impl Work<'_> {
                     format!("{name} slips"),
                 )
             }
-            State::Forward | State::Backward => {
-                let relation = match state {
-                    State::Forward => Relation::Above,
-                    _ => Relation::Below,
+            FrictionState::Slip(_) => {
+                let zero = Formula::ZERO;
+                let (statement, otherwise) = match state.is_forward() {
+                    Some(forward) => {
+                        let row = self.system().slip_rows(friction).start;
+                        let slip = self.rate(row, known);
+                        let side = if forward {
+                            Relation::Above
+                        } else {
+                            Relation::Below
+                        };
+                        (Statement::new(slip, side, zero), "slips the other way")
+                    }
+                    None => {
+                        let speed = norm(&self.slip(friction, known));
+                        (Statement::new(speed, Relation::Above, zero), "slips on")
+                    }
                 };
-                let slip = self.rate(self.slip_rows(friction).start, known);
                 (
                     format!("{name} {}", state.verb()),
-                    Statement::new(slip, relation, Formula::ZERO),
-                    format!("{name} sticks, or slips the other way"),
-                )
-            }
-            State::Slips => {
-                let speed = norm(&self.slip(friction, known));
-                (
-                    format!("{name} slips"),
-                    Statement::new(speed, Relation::Above, Formula::ZERO),
-                    format!("{name} sticks, or slips on"),
+                    statement,
+                    format!("{name} sticks, or {otherwise}"),
                 )
             }
         };

@@ -20,7 +20,7 @@ impl Work<'_> {
     fn impact(&mut self, contact: usize) -> Impact {
         let system = &self.program.equations.system;
         let item = &system.contacts[contact];
-        let row = self.contact_row(contact);
+        let row = self.system().contact_row(contact);
         let bilateral: Vec<usize> = (0..system.constraints.len())
             .filter(|&i| {
                 system.constraints[i]
@@ -33,7 +33,7 @@ impl Work<'_> {
         let mut note = String::new();
         for (i, friction) in system.frictions.iter().enumerate() {
             if matches!(friction.normal, Normal::Contact(c) if c == contact) {
-                rows.extend(self.slip_rows(i));
+                rows.extend(self.system().slip_rows(i));
                 note = format!(
                     "The impulse of {} makes its slip zero if that takes no more than static friction allows, \
                      else it is kinetic friction against the slip.",
@@ -91,7 +91,7 @@ impl Work<'_> {
 
     /// Row i of Σ aᵀΛ.
     fn impulses(&mut self, i: usize, rows: &[usize]) -> Formula {
-        let multipliers = self.multipliers();
+        let multipliers = self.system().multipliers();
         let structure = &self.program.equations.structure;
         let mut terms = Vec::new();
         for &row in rows {

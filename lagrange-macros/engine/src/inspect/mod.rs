@@ -3,7 +3,6 @@
 //! A derivation is plain data; [`mod@print`] has the languages in which it can be said. It is read off the finished program:
 //! forms that are made for reading never reach the emitted code.
 
-mod choice;
 mod conserved;
 mod costs;
 mod declared;
@@ -14,11 +13,12 @@ mod guards;
 mod impacts;
 mod kinetic;
 mod letter;
-mod modes;
+mod mode;
 mod motion;
 mod names;
 pub mod print;
 mod readable;
+mod shown;
 mod solved;
 mod switches;
 #[cfg(test)]
@@ -30,9 +30,9 @@ use crate::ast::Declaration;
 use crate::check::{Outcome, Verdict};
 use crate::plan::Program;
 
-pub use choice::UnknownMode;
 pub use formula::{Formula, Relation, Statement};
 pub use letter::{Letter, Mark};
+pub use shown::UnknownMode;
 
 /// Everything that was derived from one declaration.
 #[derive(Clone, Debug)]

@@ -85,7 +85,7 @@ impl Work<'_> {
     pub fn load_terms(&mut self, i: usize, rows: &[usize], known: &Known) -> Vec<ExprId> {
         let structure = &self.program.equations.structure;
         let forcing = self.output(structure.forcing[i]);
-        let multipliers = self.multipliers();
+        let multipliers = self.system().multipliers();
         let mut terms = vec![self.pool().substitute(forcing, known)];
         for &row in rows {
             let entries = structure.rows[row].jacobian.iter();
@@ -159,7 +159,7 @@ impl Work<'_> {
 
     /// All rows.
     pub fn rows(&mut self) -> Vec<Row> {
-        let multipliers = self.multipliers();
+        let multipliers = self.system().multipliers();
         let mut rows = Vec::new();
         for (i, c) in self.system().constraints.iter().enumerate() {
             let when = match c.while_contact {
@@ -170,12 +170,15 @@ impl Work<'_> {
             rows.push((i, name, "constraint", c.residual, Relation::Equal, when));
         }
         for (i, c) in self.system().contacts.iter().enumerate() {
-            let (row, when) = (self.contact_row(i), format!("{} closed", c.name.text));
+            let (row, when) = (
+                self.system().contact_row(i),
+                format!("{} closed", c.name.text),
+            );
             let name = c.name.text.clone();
             rows.push((row, name, "contact", c.gap, Relation::AtLeast, when));
         }
         for (i, f) in self.system().frictions.iter().enumerate() {
-            for (row, &(slip, _)) in self.slip_rows(i).zip(&f.slip) {
+            for (row, &(slip, _)) in self.system().slip_rows(i).zip(&f.slip) {
                 let (name, when) = (f.name.text.clone(), format!("{} sticks", f.name.text));
                 rows.push((row, name, "friction", slip, Relation::Equal, when));
             }

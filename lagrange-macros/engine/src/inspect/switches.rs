@@ -1,28 +1,24 @@
 //! Which mode can follow which: one item changes at a time.
 
 use super::Switch;
-use super::choice::{Choice, State, acts};
-use super::work::Work;
 use crate::model::System;
+use crate::modes::{FrictionState, Mode};
 
-impl Work<'_> {
-    /// Switches between modes that are shown, in their order.
-    pub(super) fn switches(&self, shown: &[Choice]) -> Vec<Switch> {
-        let system = self.system();
-        let mut switches = Vec::new();
-        for (from, before) in shown.iter().enumerate() {
-            for (to, after) in shown.iter().enumerate() {
-                if let Some(label) = label(system, before, after) {
-                    switches.push(Switch { from, to, label });
-                }
+/// Switches between modes that are shown, in their order.
+pub(super) fn switches(system: &System, shown: &[Mode]) -> Vec<Switch> {
+    let mut switches = Vec::new();
+    for (from, before) in shown.iter().enumerate() {
+        for (to, after) in shown.iter().enumerate() {
+            if let Some(label) = label(system, before, after) {
+                switches.push(Switch { from, to, label });
             }
         }
-        switches
     }
+    switches
 }
 
 /// What leads from one mode to another, if one event can.
-fn label(system: &System, before: &Choice, after: &Choice) -> Option<String> {
+fn label(system: &System, before: &Mode, after: &Mode) -> Option<String> {
     let contacts = 0..system.contacts.len();
     let changed: Vec<usize> = contacts
         .filter(|&i| before.contacts[i] != after.contacts[i])
@@ -32,23 +28,22 @@ fn label(system: &System, before: &Choice, after: &Choice) -> Option<String> {
         .filter(|&i| before.frictions[i] != after.frictions[i])
         .collect();
     match (changed.as_slice(), other.as_slice()) {
-        ([contact], _) => {
+        (&[contact], _) => {
             // Frictions of other contacts go on as they were.
-            let own = other
-                .iter()
-                .all(|&f| acts(system, f, &before.contacts) != acts(system, f, &after.contacts));
-            let name = &system.contacts[*contact].name.text;
-            own.then(|| match after.contacts[*contact] {
+            let mut frictions = other.iter();
+            let own = frictions.all(|&f| system.contact_under(f) == Some(contact));
+            let name = &system.contacts[contact].name.text;
+            own.then(|| match after.contacts[contact] {
                 true => format!("impact at {name}"),
                 false => format!("{name} lost"),
             })
         }
-        ([], [friction]) => {
-            let name = &system.frictions[*friction].name.text;
-            let (was, is) = (before.frictions[*friction], after.frictions[*friction]);
+        (&[], &[friction]) => {
+            let name = &system.frictions[friction].name.text;
+            let (was, is) = (before.frictions[friction], after.frictions[friction]);
             Some(match (was, is) {
-                (_, State::Sticks) => format!("{name} sticks"),
-                (State::Sticks, _) => format!("{name} slips"),
+                (_, FrictionState::Stick) => format!("{name} sticks"),
+                (FrictionState::Stick, _) => format!("{name} slips"),
                 _ => format!("{name} reverses"),
             })
         }

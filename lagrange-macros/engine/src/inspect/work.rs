@@ -1,15 +1,16 @@
 //! What the parts of the derivation share while it is read off.
 
-use super::choice::{self, UnknownMode};
 use super::formula::Formula;
 use super::names::Names;
 use super::readable::Reader;
+use super::shown::{UnknownMode, shown};
+use super::switches::switches;
 use super::{Derivation, Meaning};
 use crate::ast::Declaration;
 use crate::derive::OutputId;
 use crate::model::System;
 use crate::plan::Program;
-use crate::symbolic::{ExprId, Pool, Symbol};
+use crate::symbolic::{ExprId, Pool};
 
 /// Of more modes none is solved in closed form, unless it is asked for alone.
 const MOST_SOLVED: usize = 8;
@@ -39,30 +40,13 @@ impl Work<'_> {
 
     /// An output as one expression.
     pub fn output(&mut self, output: OutputId) -> ExprId {
-        let terms: Vec<ExprId> = self.program.equations.outputs[output.0]
-            .terms
-            .iter()
-            .map(|&(_, term)| term)
-            .collect();
-        self.pool().sum(&terms)
+        self.program.equations.total(self.reader.pool(), output)
     }
 
     /// An output on paper.
     pub fn formula_of(&mut self, output: OutputId) -> Formula {
         let e = self.output(output);
         self.reader.formula(e)
-    }
-
-    /// Multipliers, row by row.
-    pub fn multipliers(&self) -> Vec<Symbol> {
-        let system = self.system();
-        let constraints = system.constraints.iter().map(|c| c.force);
-        let contacts = system.contacts.iter().map(|c| c.force);
-        let slips = system
-            .frictions
-            .iter()
-            .flat_map(|f| f.slip.iter().map(|&(_, force)| force));
-        constraints.chain(contacts).chain(slips).collect()
     }
 
     /// What is left out where so many equations of motion are shown, and what is piecewise.
@@ -85,22 +69,6 @@ impl Work<'_> {
         }
         notes
     }
-
-    /// Number of the row of a contact.
-    pub fn contact_row(&self, contact: usize) -> usize {
-        self.system().constraints.len() + contact
-    }
-
-    /// Rows of a friction.
-    pub fn slip_rows(&self, friction: usize) -> std::ops::Range<usize> {
-        let system = self.system();
-        let before: usize = system.frictions[..friction]
-            .iter()
-            .map(|f| f.slip.len())
-            .sum();
-        let first = self.contact_row(system.contacts.len()) + before;
-        first..first + system.frictions[friction].slip.len()
-    }
 }
 
 /// The whole derivation.
@@ -119,8 +87,8 @@ pub(super) fn derivation(
         reader: Reader::new(pool, &names, guards),
         solves: true,
     };
-    let chosen = choice::choose(&work, mode)?;
-    work.solves = chosen.shown.len() <= MOST_SOLVED;
+    let (shown, mode_count) = shown(system, mode)?;
+    work.solves = shown.len() <= MOST_SOLVED;
     let structure = &program.equations.structure;
     let kinetic = work.kinetic();
     let potential = work.formula_of(structure.energy.1);
@@ -129,14 +97,14 @@ pub(super) fn derivation(
     let impacts = work.impacts();
     let conserved = work.conserved();
     let costs = work.costs();
-    let modes: Vec<_> = chosen.shown.iter().map(|mode| work.mode(mode)).collect();
-    let switches = work.switches(&chosen.shown);
+    let modes: Vec<_> = shown.iter().map(|mode| work.mode(mode)).collect();
+    let switches = switches(system, &shown);
     let mut notes = Vec::new();
-    if mode.is_none() && (modes.len() as u128) < chosen.count {
+    if mode.is_none() && (modes.len() as u128) < mode_count {
         notes.push(format!(
             "{} of {} modes are shown: all contacts open, one of them closed, and all of them closed and sticking.",
             modes.len(),
-            chosen.count
+            mode_count
         ));
     }
     notes.extend(work.notes(motion.len()));
@@ -150,7 +118,7 @@ pub(super) fn derivation(
         motion,
         rows,
         modes,
-        mode_count: chosen.count,
+        mode_count,
         single_mode: mode.is_some(),
         switches,
         impacts,

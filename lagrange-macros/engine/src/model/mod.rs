@@ -23,6 +23,7 @@ mod names;
 mod outputs;
 mod piecewise;
 mod reach;
+mod rows;
 mod starts;
 mod structure;
 #[cfg(test)]

@@ -1,4 +1,7 @@
 //! Exact numbers p/q with checked 128-bit integers: an operation that does not fit gives `None`.
+//!
+//! `num_rational::Ratio<i128>` panics where the smallest integer becomes a denominator, rounds to `f64` only with big
+//! integers, and takes twice the time without optimisation, as which macros are built (a comparison five times).
 
 use std::cmp::Ordering;
 use std::fmt;

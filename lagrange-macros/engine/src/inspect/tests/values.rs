@@ -164,7 +164,7 @@ fn equations_of_motion_balance() {
             solves: true,
         };
         let motion = work.motion();
-        let multipliers = work.multipliers();
+        let multipliers = work.system().multipliers();
         let at = |symbol| scene.by_symbol[&symbol];
         let mut value = |output| {
             let e = work.output(output);

@@ -1,25 +1,17 @@
 //! A mode in full: its unknowns, equations, solution and guards.
 
 use super::Mode;
-use super::choice::{self, Choice, State};
 use super::formula::{Formula, Statement};
 use super::work::Work;
-use crate::model::Level;
+use crate::modes::{self, Pin};
 use crate::symbolic::{ExprId, Symbol};
 
 /// Systems with more coordinates are not solved.
 const MOST_SOLVED: usize = 6;
 
-/// A row that says coordinate = value.
-struct Pin {
-    row: usize,
-    coordinate: usize,
-    value: ExprId,
-}
-
 /// What the equations of a mode are made of.
 struct Parts<'a> {
-    choice: &'a Choice,
+    mode: &'a modes::Mode,
     /// Rows whose accelerations are zero.
     acting: Vec<usize>,
     /// Rows with a force: those that act, and slips.
@@ -43,42 +35,17 @@ impl Parts<'_> {
 }
 
 impl Work<'_> {
-    /// Rows whose accelerations are zero in a mode.
-    pub fn acting(&self, choice: &Choice) -> Vec<usize> {
-        let system = self.system();
-        let mut rows = Vec::new();
-        for (i, c) in system.constraints.iter().enumerate() {
-            if c.while_contact
-                .is_none_or(|contact| choice.contacts[contact])
-            {
-                rows.push(i);
-            }
-        }
-        let closed = choice
-            .contacts
-            .iter()
-            .enumerate()
-            .filter(|(_, closed)| **closed);
-        rows.extend(closed.map(|(i, _)| self.contact_row(i)));
-        for (i, state) in choice.frictions.iter().enumerate() {
-            if *state == State::Sticks {
-                rows.extend(self.slip_rows(i));
-            }
-        }
-        rows
-    }
-
     /// A mode in full.
-    pub fn mode(&mut self, choice: &Choice) -> Mode {
-        let parts = self.parts(choice);
+    pub fn mode(&mut self, mode: &modes::Mode) -> Mode {
+        let parts = self.parts(mode);
         let known = self.pinned(&parts);
         let unknowns = self.unknowns(&parts);
         let equations = self.equations(&parts);
         let solution = self.solution(&parts, &unknowns).unwrap_or_default();
-        let guards = self.guards(choice, &parts.known);
-        let [operations, with_guards] = self.operations(choice);
+        let guards = self.guards(mode, &parts.known);
+        let [operations, with_guards] = self.operations(mode);
         Mode {
-            name: choice::name(self.system(), choice),
+            name: mode.name(self.system()),
             known,
             unknowns: unknowns
                 .into_iter()
@@ -92,69 +59,17 @@ impl Work<'_> {
         }
     }
 
-    fn parts<'c>(&mut self, choice: &'c Choice) -> Parts<'c> {
-        let acting = self.acting(choice);
-        let mut loaded = acting.clone();
-        for (i, state) in choice.frictions.iter().enumerate() {
-            if !matches!(state, State::Inactive | State::Sticks) {
-                loaded.extend(self.slip_rows(i));
-            }
-        }
-        loaded.sort_unstable();
-        let pins = self.pins(&acting);
-        let zero = self.pool().integer(0);
-        let mut known = Vec::new();
-        for pin in &pins {
-            let item = &self.system().coordinates[pin.coordinate];
-            known.push((item.position, pin.value));
-            known.push((item.velocity, zero));
-            known.push((item.acceleration, zero));
-        }
+    fn parts<'m>(&mut self, mode: &'m modes::Mode) -> Parts<'m> {
+        let equations = &self.program.equations;
+        let acting = mode.acting_rows(&equations.system);
+        let pins = modes::pins(equations, self.reader.pool(), &acting);
         Parts {
-            choice,
+            mode,
+            loaded: mode.loaded_rows(&equations.system),
+            known: modes::pinned(&equations.system, self.reader.pool(), &pins),
             acting,
-            loaded,
             pins,
-            known,
         }
-    }
-
-    /// Acting rows that say coordinate = value; one for each coordinate.
-    fn pins(&mut self, acting: &[usize]) -> Vec<Pin> {
-        let system = &self.program.equations.system;
-        let structure = &self.program.equations.structure;
-        let parameters: Vec<Symbol> = system.parameters.iter().map(|p| p.symbol).collect();
-        let mut pins: Vec<Pin> = Vec::new();
-        for &row in acting {
-            let held = system
-                .constraints
-                .get(row)
-                .is_none_or(|c| c.level == Level::Position);
-            let (Some(position), &[(coordinate, entry)]) = (
-                structure.rows[row].position,
-                structure.rows[row].jacobian.as_slice(),
-            ) else {
-                continue;
-            };
-            let (gap, entry) = (self.output(position), self.output(entry));
-            let pool = self.pool();
-            let Some(sign) = pool.as_number(entry).filter(|n| held && n.is_unit()) else {
-                continue;
-            };
-            let leaf = pool.leaf(system.coordinates[coordinate].position);
-            // g = ±(q − value)
-            let scaled = pool.scale(gap, sign);
-            let value = pool.sub(leaf, scaled);
-            let fixed = pool.symbols(value).iter().all(|s| parameters.contains(s));
-            if fixed && !pins.iter().any(|pin| pin.coordinate == coordinate) {
-                pins.push(Pin {
-                    row,
-                    coordinate,
-                    value,
-                });
-            }
-        }
-        pins
     }
 
     /// Coordinates that are held fixed.
@@ -172,7 +87,7 @@ impl Work<'_> {
     fn unknowns(&self, parts: &Parts) -> Vec<Symbol> {
         let coordinates = self.system().coordinates.iter().enumerate();
         let free = coordinates.filter(|&(i, _)| parts.pin(i).is_none());
-        let multipliers = self.multipliers();
+        let multipliers = self.system().multipliers();
         free.map(|(_, coordinate)| coordinate.acceleration)
             .chain(parts.loaded.iter().map(|&row| multipliers[row]))
             .collect()
@@ -188,7 +103,7 @@ impl Work<'_> {
         for at in Work::shown(rows.len()) {
             equations.push(self.acceleration(rows[at], &parts.known));
         }
-        for (i, state) in parts.choice.frictions.iter().enumerate() {
+        for (i, state) in parts.mode.frictions.iter().enumerate() {
             equations.extend(self.sliding(i, *state));
         }
         equations
@@ -202,7 +117,7 @@ impl Work<'_> {
             return Statement::equal(self.side_by_side(&inertia), self.side_by_side(&load));
         };
         let rest = self.balance_residual(i, parts);
-        let multiplier = self.multipliers()[pin.row];
+        let multiplier = self.system().multipliers()[pin.row];
         let pool = self.pool();
         let factor = pool.differentiate(rest, multiplier);
         let Some(sign) = pool.as_number(factor).filter(|n| n.is_unit()) else {
@@ -238,8 +153,8 @@ impl Work<'_> {
         for row in parts.rows() {
             residuals.push(self.acceleration_residual(row, &parts.known));
         }
-        for (i, state) in parts.choice.frictions.iter().enumerate() {
-            if !matches!(state, State::Inactive | State::Sticks) {
+        for (i, state) in parts.mode.frictions.iter().enumerate() {
+            if state.slips() {
                 let law = self.sliding_residual(i, *state)?;
                 residuals.push(self.pool().substitute(law, &parts.known));
             }

@@ -1,0 +1,229 @@
+//! Small declarations → their modes.
+
+use super::{Mode, all, pinned, pins, structures};
+use crate::derive::Equations;
+
+/// Equations of a point in the plane or in space with these items.
+fn equations(items: &str) -> Equations {
+    let text = format!(
+        "#[lagrange(
+            coordinates(x, y, z),
+            kinetic = m/2 * (der(x)^2 + der(y)^2 + der(z)^2),
+            {items}
+        )]
+        struct Point {{ m: f64, mu: f64, a: f64, b: f64 }}"
+    );
+    let program = crate::program(text.parse().expect("tokens"));
+    program
+        .unwrap_or_else(|mistakes| panic!("{mistakes}"))
+        .equations
+}
+
+const FLOOR: &str = "contact(floor: y >= 0),";
+const WALL: &str = "contact(wall: x >= a),";
+const RUB: &str = "friction(rub on floor: slip = der(x), static = mu),";
+const RUB_IN_SPACE: &str = "friction(rub on floor: slip = (der(x), der(z)), static = mu),";
+const BRAKE: &str = "friction(brake: slip = der(z), limit = mu),";
+const GUIDE: &str = "constraint(guide while floor: der(z) == 0),";
+const SLEEVE: &str = "friction(sleeve on guide: slip = der(x), static = mu),";
+
+#[test]
+fn all_modes_of_small_systems() {
+    let table: [(&[&str], &[&str]); 7] = [
+        (&[], &["smooth"]),
+        (&[FLOOR], &["floor open", "floor closed"]),
+        (
+            &[FLOOR, RUB],
+            &[
+                "floor open",
+                "floor closed, rub sticks",
+                "floor closed, rub slips forward",
+                "floor closed, rub slips backward",
+            ],
+        ),
+        (
+            &[FLOOR, RUB_IN_SPACE],
+            &[
+                "floor open",
+                "floor closed, rub sticks",
+                "floor closed, rub slips",
+            ],
+        ),
+        (
+            &[BRAKE],
+            &[
+                "brake sticks",
+                "brake slips forward",
+                "brake slips backward",
+            ],
+        ),
+        // Friction on a constraint that holds while a contact is closed acts with that contact.
+        (
+            &[FLOOR, GUIDE, SLEEVE],
+            &[
+                "floor open",
+                "floor closed, sleeve sticks",
+                "floor closed, sleeve slips forward",
+                "floor closed, sleeve slips backward",
+            ],
+        ),
+        (
+            &[FLOOR, WALL, "contact(roof: y <= b),"],
+            &[
+                "floor open, wall open, roof open",
+                "floor closed, wall open, roof open",
+                "floor open, wall closed, roof open",
+                "floor open, wall open, roof closed",
+                "floor closed, wall closed, roof open",
+                "floor closed, wall open, roof closed",
+                "floor open, wall closed, roof closed",
+                "floor closed, wall closed, roof closed",
+            ],
+        ),
+    ];
+    for (items, expected) in table {
+        let system = equations(&items.concat()).system;
+        let modes: Vec<Mode> = all(&system).iter().collect();
+        let names: Vec<String> = modes.iter().map(|mode| mode.name(&system)).collect();
+        assert_eq!(names, expected);
+        assert_eq!(all(&system).count(), expected.len() as u128);
+        for (mode, name) in modes.iter().zip(expected) {
+            assert_eq!(Mode::named(&system, name).as_ref(), Some(mode));
+        }
+    }
+}
+
+/// The sign of a slip is an argument; a friction that is left out leaves its contact closed without friction.
+#[test]
+fn structures_of_small_systems() {
+    let table: [(&[&str], usize, &[&str], bool); 3] = [
+        (
+            &[FLOOR, RUB],
+            16,
+            &[
+                "floor open",
+                "floor closed, rub sticks",
+                "floor closed, rub slips",
+                "floor closed",
+            ],
+            true,
+        ),
+        (
+            &[FLOOR, RUB_IN_SPACE],
+            5,
+            &[
+                "floor open",
+                "floor closed, rub sticks",
+                "floor closed, rub slips",
+                "floor closed, rub begins to slip",
+                "floor closed",
+            ],
+            true,
+        ),
+        (
+            &[FLOOR, RUB, BRAKE],
+            4,
+            &[
+                "floor open, brake sticks",
+                "floor open, brake slips",
+                "floor open",
+                "floor closed, rub sticks, brake sticks",
+            ],
+            false,
+        ),
+    ];
+    for (items, most, expected, is_complete) in table {
+        let system = equations(&items.concat()).system;
+        let (modes, complete) = structures(&system, most);
+        let names: Vec<String> = modes.iter().map(|mode| mode.name(&system)).collect();
+        assert_eq!(names, expected);
+        assert_eq!(complete, is_complete);
+    }
+}
+
+/// Of 2^200 modes nobody lists more than are asked for.
+#[test]
+fn many_contacts() {
+    let system = equations("contact(stop[k in 0..200]: x >= k * a),").system;
+    let (modes, complete) = structures(&system, 202);
+    let closed = modes.iter().map(|mode| {
+        let contacts = 0..mode.contacts.len();
+        contacts.filter(|&i| mode.contacts[i]).collect::<Vec<_>>()
+    });
+    let closed: Vec<_> = closed.collect();
+    assert_eq!(closed[..2], [vec![], vec![0]]);
+    assert_eq!(closed[200..], [vec![199], vec![0, 1]]);
+    assert!(!complete && all(&system).count() == u128::MAX);
+}
+
+#[test]
+fn rows_that_act_and_rows_with_a_force() {
+    let system = equations(&[FLOOR, WALL, GUIDE, RUB_IN_SPACE, BRAKE].concat()).system;
+    // Rows: guide, floor, wall, rub along x and z, brake.
+    let table: [(&str, &[usize], &[usize]); 4] = [
+        ("brake sticks", &[5], &[5]),
+        ("wall closed, brake slips forward", &[2], &[2, 5]),
+        (
+            "floor closed, rub sticks, brake sticks",
+            &[0, 1, 3, 4, 5],
+            &[0, 1, 3, 4, 5],
+        ),
+        (
+            "floor closed, rub slips, brake sticks",
+            &[0, 1, 5],
+            &[0, 1, 3, 4, 5],
+        ),
+    ];
+    for (name, acting, loaded) in table {
+        let mode = Mode::named(&system, name).expect(name);
+        assert_eq!(mode.acting_rows(&system), acting, "{name}");
+        assert_eq!(mode.loaded_rows(&system), loaded, "{name}");
+    }
+}
+
+#[test]
+fn pinned_coordinates() {
+    let items = [
+        FLOOR,
+        WALL,
+        "contact(roof: y <= 2 * a + b),",
+        "contact(slope: y >= z),",
+        "contact(gate: z >= a * t),",
+        "contact(scaled: 2 * z >= a),",
+        "constraint(held: z == b),",
+    ];
+    let mut equations = equations(&items.concat());
+    let mut pool = std::mem::take(&mut equations.system.pool);
+    let mut said = |name: &str| {
+        let mode = Mode::named(&equations.system, name).expect(name);
+        let acting = mode.acting_rows(&equations.system);
+        let pins = pins(&equations, &mut pool, &acting);
+        let known = pinned(&equations.system, &mut pool, &pins);
+        let print = |(symbol, value)| format!("{} = {}", pool.name(symbol), pool.print(value));
+        let positions = known.into_iter().step_by(3);
+        positions.map(print).collect::<Vec<_>>().join(", ")
+    };
+    assert_eq!(said(""), "z = b");
+    assert_eq!(said("floor closed, wall closed"), "z = b, y = 0, x = a");
+    assert_eq!(said("roof closed"), "z = b, y = 2*a + b");
+    // The second row that fixes y is a row like others, and so are those of two coordinates, of time, and not of unit slope.
+    assert_eq!(said("floor closed, roof closed"), "z = b, y = 0");
+    assert_eq!(said("slope closed, gate closed, scaled closed"), "z = b");
+}
+
+/// Of one constraint that carries two frictions the sign is chosen once.
+#[test]
+fn signs_of_normal_forces() {
+    let items = "
+        constraint(wire: z == b),
+        friction(one on wire: slip = der(x), static = mu),
+        friction(two on wire: slip = der(y), static = mu),";
+    let system = equations(items).system;
+    let signed = |name: &str| {
+        let mode = Mode::named(&system, name).expect(name);
+        mode.with_normal_signs(&system).len()
+    };
+    assert_eq!(signed("one sticks, two sticks"), 1);
+    assert_eq!(signed("one slips forward, two sticks"), 2);
+    assert_eq!(signed("one slips forward, two slips backward"), 2);
+}
