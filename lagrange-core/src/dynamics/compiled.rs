@@ -145,7 +145,15 @@ impl<T: Scalar> Compiled<T> {
 
     /// What the functions of the mode are told, with the needs that are held.
     #[inline]
-    pub(super) fn emitted<'a>(
+    pub(super) fn emitted<'a>(&'a self, needs: &'a NeedSet) -> Option<(&'a Emitted<T>, Held<'a>)> {
+        let branches = &self.mode.branches;
+        let held = Held { needs, branches };
+        self.emitted.as_ref().map(|emitted| (emitted, held))
+    }
+
+    /// The same, to be expanded.
+    #[inline]
+    pub(super) fn emitted_mut<'a>(
         &'a mut self,
         needs: &'a NeedSet,
     ) -> Option<(&'a mut Emitted<T>, Held<'a>)> {

@@ -42,8 +42,8 @@ impl<T: Scalar> Dynamics<T> {
         self.work.series += 1;
         self.work.coefficients += order + 1;
         if self.choose(q, v) {
-            let expanded = self.modes[self.current].emitted(&self.series_held);
-            match expanded.map(|(emitted, held)| emitted.series(&held, order, t, q, v)) {
+            let expanded = self.modes[self.current].emitted_mut(&self.series_held);
+            match expanded.map(|(emitted, held)| emitted.series(&held, order, (t, q, v))) {
                 Some(Ok(())) => return Ok(false),
                 Some(Err(Refused::NoSeries(operation))) => {
                     return Err(EvaluationError::NoSeries { operation });

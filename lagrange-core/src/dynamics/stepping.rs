@@ -14,8 +14,7 @@ impl<T: Scalar> Acceleration<T> for Dynamics<T> {
         v: &[T],
         dv: &mut [T],
     ) -> Result<(), EvaluationError> {
-        dv.copy_from_slice(self.run_accelerations(t, q, v)?);
-        Ok(())
+        self.run_accelerations(t, q, v, dv)
     }
 
     fn jacobian(

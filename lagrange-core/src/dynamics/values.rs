@@ -26,13 +26,62 @@ impl<T: Scalar> Dynamics<T> {
     /// The system is singular there, or a number is not finite.
     pub fn value(&mut self, t: T, q: &[T], v: &[T]) -> Result<(), EvaluationError> {
         self.work.values += 1;
-        self.run(t, q, v, Extent::Everything, false)?;
-        self.check_accelerations()?;
+        let n = q.len();
         let mut inputs = core::mem::take(&mut self.inputs);
-        inputs.copy_from_slice(self.results());
+        let (accelerations, forces) = inputs[1 + 2 * n..].split_at_mut(n);
+        let outcome = self.evaluate(t, q, v, accelerations, Some(forces));
         self.inputs = inputs;
+        outcome?;
         self.tape(t, q, v);
         Ok(())
+    }
+
+    /// Accelerations, and forces of all rows if asked for, at (t, q, v): by the functions of the mode where they hold, else by the
+    /// recorded tape.
+    #[inline]
+    fn evaluate(
+        &mut self,
+        t: T,
+        q: &[T],
+        v: &[T],
+        accelerations: &mut [T],
+        mut forces: Option<&mut [T]>,
+    ) -> Result<(), EvaluationError> {
+        if self.choose(q, v) {
+            if let Some(forces) = forces.as_deref_mut() {
+                forces.fill(T::default());
+            }
+            let compiled = &self.modes[self.current];
+            let safe = compiled.emitted(&self.held).is_some_and(|(emitted, held)| {
+                emitted.value(&held, (t, q, v), accelerations, forces.as_deref_mut())
+            });
+            if safe && is_finite(accelerations) {
+                return Ok(());
+            }
+            self.by_functions = false;
+            if !safe {
+                self.leave_to_solver();
+            }
+        }
+        let extent = match forces {
+            Some(_) => Extent::Everything,
+            None => Extent::Accelerations,
+        };
+        self.run(t, q, v, extent, false)?;
+        let n = q.len();
+        let results = self.registers().get(2 + 2 * n..).unwrap_or_default();
+        let (found, rest) = results.split_at(n);
+        accelerations.copy_from_slice(found);
+        if let Some(forces) = forces {
+            forces.copy_from_slice(&rest[..forces.len()]);
+        }
+        if is_finite(accelerations) {
+            return Ok(());
+        }
+        let bad = accelerations.iter().position(|x| !x.value().is_finite());
+        Err(EvaluationError::NotFiniteAcceleration {
+            coordinate: bad.unwrap_or(0),
+        })
     }
 
     /// Motion and forces at (t, q, v), into the registers. `refined`: what rounding leaves in the forces step after step is
@@ -46,14 +95,6 @@ impl<T: Scalar> Dynamics<T> {
         extent: Extent,
         refined: bool,
     ) -> Result<(), EvaluationError> {
-        if self.choose(q, v) {
-            let forces = extent == Extent::Everything;
-            let evaluated = self.modes[self.current].emitted(&self.held);
-            if evaluated.is_some_and(|(emitted, held)| emitted.value(&held, forces, t, q, v)) {
-                return Ok(());
-            }
-            self.leave_to_solver();
-        }
         self.select(v);
         let (_, _, tape) = self.modes[self.current].parts();
         let n = q.len();
@@ -93,62 +134,23 @@ impl<T: Scalar> Dynamics<T> {
         Ok(())
     }
 
-    /// Accelerations alone at (t, q, v); they stay in the registers.
+    /// Accelerations alone at (t, q, v).
     #[inline]
     pub(super) fn run_accelerations(
         &mut self,
         t: T,
         q: &[T],
         v: &[T],
-    ) -> Result<&[T], EvaluationError> {
+        accelerations: &mut [T],
+    ) -> Result<(), EvaluationError> {
         self.work.values += 1;
-        self.run(t, q, v, Extent::Accelerations, false)?;
-        self.check_accelerations()?;
-        let n = q.len();
-        Ok(&self.results()[1 + 2 * n..1 + 3 * n])
-    }
-
-    /// t, q, v, v̇, λ of the last run.
-    #[inline]
-    fn results(&self) -> &[T] {
-        match self.in_use() {
-            Some(emitted) => &emitted.state,
-            None => {
-                let count = self.inputs_len();
-                self.compiled()
-                    .tape()
-                    .map_or(&[], |tape| &tape.registers[1..=count])
-            }
-        }
-    }
-
-    fn inputs_len(&self) -> usize {
-        let d = self.description();
-        1 + 3 * d.coordinates.len() + d.rows.len()
+        self.evaluate(t, q, v, accelerations, None)
     }
 
     /// Leaves the linear systems of the mode to the solver from now on.
     pub(super) fn leave_to_solver(&mut self) {
         self.modes[self.current].leave_to_solver();
         (self.selected, self.by_functions) = (false, false);
-    }
-
-    /// Whether all accelerations of the last run are finite.
-    #[inline]
-    pub(super) fn check_accelerations(&self) -> Result<(), EvaluationError> {
-        let n = self.description().coordinates.len();
-        let accelerations = &self.results()[1 + 2 * n..1 + 3 * n];
-        // The sum of zeros is zero unless one of the factors is not finite.
-        let poison = accelerations
-            .iter()
-            .fold(0.0, |sum, x| sum + 0.0 * x.value());
-        if poison == 0.0 {
-            return Ok(());
-        }
-        let bad = accelerations.iter().position(|x| !x.value().is_finite());
-        Err(EvaluationError::NotFiniteAcceleration {
-            coordinate: bad.unwrap_or(0),
-        })
     }
 
     /// Solves for the unknowns, from values in the registers.
@@ -255,6 +257,12 @@ impl<T: Scalar> Dynamics<T> {
         };
         self.system.evaluate(Which::Report, call);
     }
+}
+
+/// Whether all numbers are finite: the sum of zeros is zero unless one of the factors is not.
+#[inline]
+pub(super) fn is_finite<T: Scalar>(numbers: &[T]) -> bool {
+    numbers.iter().fold(0.0, |sum, x| sum + 0.0 * x.value()) == 0.0
 }
 
 /// Factors the linear system of a mode.

@@ -22,8 +22,6 @@ pub(crate) struct Emitted<T: Scalar> {
     signs: Vec<T>,
     /// Whether the parameters allow the pivots that were chosen at build time.
     admitted: bool,
-    /// t, q, v, v̇, λ of all rows.
-    pub(crate) state: Vec<T>,
     rows: Vec<Row<T>>,
     order: usize,
     /// By node: its row.
@@ -69,7 +67,6 @@ impl<T: Scalar> Emitted<T> {
         let mut matching = structures.filter(|(_, s)| s.contacts == mode.contacts);
         let (index, structure, signs) =
             matching.find_map(|(index, s)| Some((index, s, signs(s, mode)?)))?;
-        let (n, rows) = (d.coordinates.len(), d.rows.len());
         let zero = T::default();
         Some(Self {
             index,
@@ -78,7 +75,6 @@ impl<T: Scalar> Emitted<T> {
             constants: vec![zero; structure.constants],
             signs,
             admitted: false,
-            state: vec![zero; 1 + 3 * n + rows],
             rows: vec![[zero; STRIDE]; structure.rows],
             order: 0,
             motion_rows: rows_by_node(d.motion.outputs, structure.motion),
@@ -110,19 +106,16 @@ impl<T: Scalar> Emitted<T> {
             })
     }
 
-    fn set_state(&mut self, t: T, q: &[T], v: &[T]) {
-        let n = q.len();
-        self.state[0] = t;
-        self.state[1..=n].copy_from_slice(q);
-        self.state[1 + n..=2 * n].copy_from_slice(v);
-    }
-
-    /// Accelerations, and forces if asked for, into [`Self::state`]. False if a pivot is not safe.
+    /// Accelerations, and forces if asked for. False if a pivot is not safe.
     #[inline]
-    pub(crate) fn value(&mut self, held: &Held, forces: bool, t: T, q: &[T], v: &[T]) -> bool {
-        self.set_state(t, q, v);
-        let (x, y) = self.state.split_at_mut(1 + 2 * q.len());
-        (self.equations.value)(&self.constants, held, forces, x, y)
+    pub(crate) fn value(
+        &self,
+        held: &Held,
+        state: (T, &[T], &[T]),
+        accelerations: &mut [T],
+        forces: Option<&mut [T]>,
+    ) -> bool {
+        (self.equations.value)(&self.constants, held, state, accelerations, forces)
     }
 
     /// Coefficients 0…`order` of all rows.
@@ -131,21 +124,17 @@ impl<T: Scalar> Emitted<T> {
         &mut self,
         held: &Held,
         order: usize,
-        t: T,
-        q: &[T],
-        v: &[T],
+        state: (T, &[T], &[T]),
     ) -> Result<(), Refused> {
-        self.set_state(t, q, v);
         self.order = order;
-        let x = &self.state[..1 + 2 * q.len()];
-        (self.equations.series)(&self.constants, held, order, x, &mut self.rows)
+        (self.equations.series)(&self.constants, held, order, state, &mut self.rows)
     }
 
     fn row(&self, index: usize) -> &[T] {
         self.rows.get(index).map_or(&[], |row| &row[..=self.order])
     }
 
-    /// Coefficients of t, q, v, v̇ (none) or λ, by their index in [`Self::state`].
+    /// Coefficients of t, q, v, v̇ (none) or λ, by their index in the inputs of the report tape.
     pub(crate) fn input_series(&self, d: &Description, index: usize) -> &[T] {
         let n = d.coordinates.len();
         match index {

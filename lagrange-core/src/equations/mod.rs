@@ -72,12 +72,23 @@ pub struct ModeStructure {
 /// The functions of one mode.
 #[derive(Clone, Copy, Debug)]
 pub struct ModeEquations<N: 'static> {
-    /// Accelerations, and forces of all rows if they are asked for. `x` = (t, q…, v…); `y` = (v̇…, λ…), where what the mode keeps
-    /// at zero is left as it is. False if a pivot is not safe.
-    pub value: fn(c: &[N], held: &Held, forces: bool, x: &[N], y: &mut [N]) -> bool,
+    /// Accelerations, and the forces of the rows if they are asked for; those that the mode keeps at zero are left as they are.
+    /// False if a pivot is not safe.
+    pub value: fn(
+        c: &[N],
+        held: &Held,
+        state: (N, &[N], &[N]),
+        accelerations: &mut [N],
+        forces: Option<&mut [N]>,
+    ) -> bool,
     /// Coefficients 0…`order`, at most 28, of the rows of [`ModeStructure::rows`].
-    pub series:
-        fn(c: &[N], held: &Held, order: usize, x: &[N], rows: &mut [Row<N>]) -> Result<(), Refused>,
+    pub series: fn(
+        c: &[N],
+        held: &Held,
+        order: usize,
+        state: (N, &[N], &[N]),
+        rows: &mut [Row<N>],
+    ) -> Result<(), Refused>,
 }
 
 /// Why a series is not given.

@@ -9,8 +9,8 @@ mod writer;
 use super::names::{self, index, local, plain};
 use super::scalar;
 use crate::derive::Stage;
-use crate::model::System;
-use crate::plan::mode::{FrictionState, ModeProgram};
+use crate::modes::FrictionState;
+use crate::plan::mode::ModeProgram;
 use crate::plan::{Place, Program};
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
@@ -39,7 +39,7 @@ pub fn equations(program: &Program) -> TokenStream {
             plain(&format!("value_{at}")),
             plain(&format!("series_{at}")),
         );
-        let heading = format!(" {}.", describe(&program.equations.system, mode));
+        let heading = format!(" {}.", mode.mode.name(&program.equations.system));
         functions.push(value::function(&value, &heading, program, mode));
         functions.push(series::function(&series, &heading, program, mode, &plan));
         entries.push(quote! {
@@ -71,27 +71,6 @@ pub fn equations(program: &Program) -> TokenStream {
     }
 }
 
-/// The mode in words.
-fn describe(system: &System, mode: &ModeProgram) -> String {
-    let mut words = Vec::new();
-    for (contact, &closed) in system.contacts.iter().zip(&mode.mode.contacts) {
-        let state = if closed { "closed" } else { "open" };
-        words.push(format!("{} {state}", contact.name.text));
-    }
-    for (friction, state) in system.frictions.iter().zip(&mode.mode.frictions) {
-        let verb = match state {
-            FrictionState::Inactive => continue,
-            FrictionState::Stick => "sticks",
-            FrictionState::Slip => "slips",
-        };
-        words.push(format!("{} {verb}", friction.name.text));
-    }
-    if words.is_empty() {
-        words.push("The equations of motion".to_owned());
-    }
-    words.join(", ")
-}
-
 /// `ModeStructure { … }`
 fn structure(program: &Program, mode: &ModeProgram, plan: &products::Plan) -> TokenStream {
     let core = &program.equations.system.core;
@@ -99,7 +78,7 @@ fn structure(program: &Program, mode: &ModeProgram, plan: &products::Plan) -> To
     let frictions = mode.mode.frictions.iter().map(|state| match state {
         FrictionState::Inactive => quote!(Inactive),
         FrictionState::Stick => quote!(Stick),
-        FrictionState::Slip => quote!(Slip),
+        FrictionState::Slip(_) => quote!(Slip),
     });
     let system = &program.equations.system;
     let pins = mode.pins.iter().map(|&(j, place)| {

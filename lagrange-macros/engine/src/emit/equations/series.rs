@@ -89,13 +89,8 @@ pub fn function(
     let elimination = Elimination::new(&expansion.writer, &mode.system);
     let first = expansion.first(&elimination, core);
     let next = expansion.next(&elimination);
-    let (c, held, order, x, rows) = (
-        local("c"),
-        local("held"),
-        local("order"),
-        local("x"),
-        local("rows"),
-    );
+    let (c, held, order, rows) = (local("c"), local("held"), local("order"), local("rows"));
+    let (t, q, v) = (local("t"), local("q"), local("v"));
     let prologue = expansion.writer.prologue();
     let needs = names::needs(program.equations.needs.len());
     let count = index(plan.rows);
@@ -106,7 +101,7 @@ pub fn function(
             #c: &[#number],
             #held: &#core::system::Held,
             #order: usize,
-            #x: &[#number],
+            (#t, #q, #v): (#number, &[#number], &[#number]),
             #rows: &mut [#core::equations::Row<#number>],
         ) -> ::core::result::Result<(), #core::equations::Refused> {
             #prologue
@@ -157,10 +152,11 @@ impl Expansion<'_> {
         let mut code = writer.declarations();
         code.extend(self.auxiliary_declarations());
         let n = mode.inputs.coordinates;
-        let x = local("x");
-        for input in 0..2 * n {
-            let at = index(1 + input);
-            code.extend(self.store(input, zero.clone(), quote!(#x[#at])));
+        let (q, v) = (local("q"), local("v"));
+        for j in 0..n {
+            let at = index(j);
+            code.extend(self.store(j, zero.clone(), quote!(#q[#at])));
+            code.extend(self.store(n + j, zero.clone(), quote!(#v[#at])));
         }
         if let Some(row) = plan.row(Row::Value(Value(0))) {
             let time = names::value(Value(0));

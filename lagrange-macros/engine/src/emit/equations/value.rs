@@ -43,35 +43,36 @@ pub fn function(name: &Ident, heading: &str, program: &Program, mode: &ModeProgr
     let [assembly, accelerations, forces] =
         [Phase::Assembly, Phase::Accelerations, Phase::Forces].map(|phase| blocks(&writer, phase));
     let n = mode.inputs.coordinates;
-    let y = local("y");
+    let (rates, lambda) = (local("rates"), local("lambda"));
     let results = mode.accelerations.iter().enumerate().map(|(j, place)| {
         let (j, value) = (index(j), writer.place(*place));
-        quote!(#y[#j] = #value;)
+        quote!(#rates[#j] = #value;)
     });
     let of_rows = mode.forces.iter().enumerate().filter_map(|(r, place)| {
-        let (r, value) = (index(n + r), writer.place((*place)?));
-        Some(quote!(#y[#r] = #value;))
+        let (r, value) = (index(r), writer.place((*place)?));
+        Some(quote!(#lambda[#r] = #value;))
     });
-    let (c, held, asked, x) = (local("c"), local("held"), local("forces"), local("x"));
+    let (c, held, asked) = (local("c"), local("held"), local("forces"));
+    let (t, q, v) = (local("t"), local("q"), local("v"));
     let number = number();
     let prologue = writer.prologue();
     let declarations = writer.declarations();
     let needs = names::needs(program.equations.needs.len());
-    let count = index(n + mode.forces.len());
-    let argument = y.clone();
-    let y = names::array(&y, quote!(#y.first_chunk_mut::<#count>()));
+    let (count, rows) = (index(n), index(mode.forces.len()));
+    let bound = names::array(&rates, quote!(#rates.first_chunk_mut::<#count>()));
+    let bound_forces = names::array(&lambda, quote!(#asked.first_chunk_mut::<#rows>()));
     let safe = local("safe");
     quote! {
         #[doc = #heading]
         fn #name<#number: #core::equations::Number>(
             #c: &[#number],
             #held: &#core::system::Held,
-            #asked: bool,
-            #x: &[#number],
-            #argument: &mut [#number],
+            (#t, #q, #v): (#number, &[#number], &[#number]),
+            #rates: &mut [#number],
+            #asked: ::core::option::Option<&mut [#number]>,
         ) -> bool {
             #prologue
-            #y
+            #bound
             #needs
             #declarations
             #assembly
@@ -80,7 +81,8 @@ pub fn function(name: &Ident, heading: &str, program: &Program, mode: &ModeProgr
             #(#unknowns)*
             #accelerations
             #(#results)*
-            if #asked {
+            if let ::core::option::Option::Some(#asked) = #asked {
+                #bound_forces
                 #forces
                 #(#of_rows)*
             }

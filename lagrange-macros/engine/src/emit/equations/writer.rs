@@ -40,20 +40,27 @@ impl Writer<'_> {
     /// Binds arguments to names: inputs that are read, constants, needs.
     pub fn prologue(&self) -> TokenStream {
         let read = names::read(&self.mode.tape);
-        let (x, c) = (local("x"), local("c"));
-        let state = 1 + 2 * self.mode.inputs.coordinates;
-        let inputs = (0..state).map(|input| {
-            let name = names::value(Value(input));
-            if input == 0 || read.contains(&Value(input)) {
-                quote!(#name)
-            } else {
-                quote!(_)
-            }
-        });
+        let (t, c) = (local("t"), local("c"));
+        let n = self.mode.inputs.coordinates;
+        let time = names::value(Value(0));
+        let names = |first: usize| {
+            let inputs = (first..first + n).map(|input| {
+                let name = names::value(Value(input));
+                if read.contains(&Value(input)) {
+                    quote!(#name)
+                } else {
+                    quote!(_)
+                }
+            });
+            quote!(&[#(#inputs,)* ..])
+        };
+        let (q, v) = (local("q"), local("v"));
+        let (positions, velocities) = (names(1), names(1 + n));
         let count = index(self.mode.constants.outputs);
         let c = names::array(&c, quote!(#c.first_chunk::<#count>()));
         quote! {
-            let &[#(#inputs,)* ..] = #x else {
+            let #time = #t;
+            let (#positions, #velocities) = (#q, #v) else {
                 ::core::panic!("the length of a state is not that of the description")
             };
             #c

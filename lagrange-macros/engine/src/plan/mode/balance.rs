@@ -7,9 +7,9 @@
 //! Sliding friction acts through the force that presses: λ_slip = factor · λ_source, with factor = −μₖ ν d.
 
 use super::masked::{ALWAYS, Masked};
-use super::{FrictionState, Mode};
 use crate::derive::{Equations, OutputId};
 use crate::model::Normal;
+use crate::modes::{Direction, FrictionState, Mode};
 use crate::symbolic::{ExprId, Pool, Symbol};
 use std::collections::BTreeMap;
 
@@ -162,11 +162,10 @@ fn slides(
 ) -> Option<Vec<Slide>> {
     let mut slides = Vec::new();
     for (i, &[direction, pressing]) in signs.iter().enumerate() {
-        if mode.frictions[i] != FrictionState::Slip {
-            continue;
-        }
-        if equations.system.frictions[i].slip.len() > 1 {
-            return None;
+        match mode.frictions[i] {
+            FrictionState::Inactive | FrictionState::Stick => continue,
+            FrictionState::Slip(Direction::Fixed(_)) => {}
+            FrictionState::Slip(_) => return None,
         }
         let friction = &equations.structure.frictions[i];
         let (row, given) = (friction.row, friction.given_normal);

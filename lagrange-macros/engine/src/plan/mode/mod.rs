@@ -22,7 +22,8 @@ use super::outputs::Target;
 use super::tape::{Block, Tape, Value};
 use super::{Place, outputs, tape};
 use crate::derive::{Equations, Output, OutputId, Stage};
-use crate::model::{Level, System};
+use crate::model::System;
+use crate::modes::{self, Mode};
 use crate::symbolic::{ExprId, Symbol};
 use masked::Masked;
 use std::collections::{BTreeMap, BTreeSet};
@@ -35,26 +36,6 @@ const MOST_OPERATIONS: usize = 220;
 const MOST_UNKNOWNS: usize = 8;
 /// More modes than these are not listed.
 const MOST_MODES: usize = 16;
-
-/// How a friction acts; the sign of its slip is an argument.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub enum FrictionState {
-    /// No force.
-    Inactive,
-    /// The slip is zero.
-    Stick,
-    /// The force is μₖ N against the slip.
-    Slip,
-}
-
-/// Which contacts are closed and how frictions act.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Mode {
-    /// Per contact.
-    pub contacts: Vec<bool>,
-    /// Per friction.
-    pub frictions: Vec<FrictionState>,
-}
 
 /// The linear system K w = b.
 pub struct LinearSystem {
@@ -136,84 +117,6 @@ impl Inputs {
     }
 }
 
-/// The modes that a system is listed in, all open first; empty if there are more than [`MOST_MODES`].
-fn modes(system: &System) -> Vec<Mode> {
-    use crate::model::Normal;
-    let mut all = vec![Mode {
-        contacts: Vec::new(),
-        frictions: Vec::new(),
-    }];
-    for _ in &system.contacts {
-        let each = all.iter().flat_map(|mode| {
-            [false, true].map(|closed| {
-                let mut mode = mode.clone();
-                mode.contacts.push(closed);
-                mode
-            })
-        });
-        all = each.collect();
-        if all.len() > MOST_MODES {
-            return Vec::new();
-        }
-    }
-    for friction in &system.frictions {
-        let each = all.iter().flat_map(|mode| {
-            let pressed = match friction.normal {
-                Normal::Contact(contact) => mode.contacts[contact],
-                Normal::Constraint(i) => system.constraints[i]
-                    .while_contact
-                    .is_none_or(|contact| mode.contacts[contact]),
-                Normal::Given(_) => true,
-            };
-            let states: &[FrictionState] = match (pressed, friction.slip.len()) {
-                (false, _) => &[FrictionState::Inactive],
-                (true, 1) => &[
-                    FrictionState::Stick,
-                    FrictionState::Slip,
-                    FrictionState::Inactive,
-                ],
-                _ => &[FrictionState::Stick, FrictionState::Inactive],
-            };
-            states.iter().map(move |&state| {
-                let mut mode = mode.clone();
-                mode.frictions.push(state);
-                mode
-            })
-        });
-        all = each.collect();
-        if all.len() > MOST_MODES {
-            return Vec::new();
-        }
-    }
-    all.sort_by_key(|mode| mode.contacts.iter().filter(|closed| **closed).count());
-    all
-}
-
-/// Rows that hold as equations: constraints, contacts, slip components.
-fn acting(system: &System, mode: &Mode) -> Vec<usize> {
-    let mut rows = Vec::new();
-    for (i, constraint) in system.constraints.iter().enumerate() {
-        if constraint
-            .while_contact
-            .is_none_or(|contact| mode.contacts[contact])
-        {
-            rows.push(i);
-        }
-    }
-    let mut next = system.constraints.len();
-    for &closed in &mode.contacts {
-        rows.extend(closed.then_some(next));
-        next += 1;
-    }
-    for (friction, &state) in system.frictions.iter().zip(&mode.frictions) {
-        if state == FrictionState::Stick {
-            rows.extend(next..next + friction.slip.len());
-        }
-        next += friction.slip.len();
-    }
-    rows
-}
-
 /// The programs of the modes that can be listed.
 pub(super) fn programs(equations: &mut Equations) -> Vec<ModeProgram> {
     let parameters: Vec<Symbol> = equations
@@ -238,7 +141,7 @@ pub(super) fn programs(equations: &mut Equations) -> Vec<ModeProgram> {
         let next = fixed.len();
         fixed.insert(symbol, next);
     }
-    let modes = modes(&equations.system);
+    let (modes, _) = modes::structures(&equations.system, MOST_MODES);
     let unknowns: Vec<Symbol> = (0..MOST_UNKNOWNS)
         .map(|i| equations.system.pool.symbol(&format!("w{i}")))
         .collect();
@@ -246,49 +149,6 @@ pub(super) fn programs(equations: &mut Equations) -> Vec<ModeProgram> {
         .into_iter()
         .filter_map(|mode| specialise(equations, mode, &signs, &fixed, &unknowns))
         .collect()
-}
-
-/// Position-level rows that say coordinate = number or parameter.
-fn pins(equations: &mut Equations, acting: &[usize]) -> Vec<(usize, ExprId)> {
-    let parameters: Vec<Symbol> = equations
-        .system
-        .parameters
-        .iter()
-        .map(|p| p.symbol)
-        .collect();
-    let mut pins: Vec<(usize, ExprId)> = Vec::new();
-    for &row in acting {
-        let position_level = equations
-            .system
-            .constraints
-            .get(row)
-            .is_none_or(|c| c.level == Level::Position);
-        let structure = &equations.structure.rows[row];
-        let (Some(position), &[(j, _)]) = (structure.position, structure.jacobian.as_slice())
-        else {
-            continue;
-        };
-        let entry = structure.jacobian[0].1;
-        let gap = balance::whole(equations, position, &[]);
-        let entry = balance::whole(equations, entry, &[]);
-        let pool = &mut equations.system.pool;
-        let Some(sign) = pool
-            .as_number(entry)
-            .filter(|n| position_level && n.is_unit())
-        else {
-            continue;
-        };
-        // g = ±(q − value)
-        let leaf = pool.leaf(equations.system.coordinates[j].position);
-        let scaled = pool.scale(gap, sign);
-        let value = pool.sub(leaf, scaled);
-        let fixed = pool.branches(value).is_empty()
-            && pool.symbols(value).iter().all(|s| parameters.contains(s));
-        if fixed && !pins.iter().any(|&(pinned, _)| pinned == j) {
-            pins.push((j, value));
-        }
-    }
-    pins
 }
 
 /// The program of a mode; none where numbers must decide how to solve it, or where it is too long.
@@ -299,16 +159,11 @@ fn specialise(
     fixed: &BTreeMap<Symbol, usize>,
     unknowns: &[Symbol],
 ) -> Option<ModeProgram> {
-    let acting = acting(&equations.system, &mode);
-    let pins = pins(equations, &acting);
-    let zero = equations.system.pool.integer(0);
-    let mut known = Vec::new();
-    for &(j, value) in &pins {
-        let coordinate = &equations.system.coordinates[j];
-        known.push((coordinate.position, value));
-        known.push((coordinate.velocity, zero));
-        known.push((coordinate.acceleration, zero));
-    }
+    let acting = mode.acting_rows(&equations.system);
+    let mut pool = std::mem::take(&mut equations.system.pool);
+    let pins = modes::pins(equations, &mut pool, &acting);
+    let known = modes::pinned(&equations.system, &mut pool, &pins);
+    equations.system.pool = pool;
     let coordinates = &equations.system.coordinates;
     let positions = coordinates.iter().map(|c| c.position);
     let velocities = coordinates.iter().map(|c| c.velocity);
@@ -452,7 +307,12 @@ fn specialise(
     }
     let pinned: Vec<(usize, OutputId)> = pins
         .iter()
-        .map(|&(j, value)| (j, sheet.add("pin", &Masked::always(pool, value))))
+        .map(|pin| {
+            (
+                pin.coordinate,
+                sheet.add("pin", &Masked::always(pool, pin.value)),
+            )
+        })
         .collect();
     let mut extras = Vec::new();
     for output in extras_of(equations) {
