@@ -45,9 +45,8 @@ impl<T: Scalar> Dynamics<T> {
             let expanded = self.modes[self.current].emitted_mut(&self.series_held);
             match expanded.map(|(emitted, held)| emitted.series(&held, order, (t, q, v))) {
                 Some(Ok(())) => return Ok(false),
-                Some(Err(Refused::NoSeries(operation))) => {
-                    return Err(EvaluationError::NoSeries { operation });
-                }
+                // A slip of exactly zero has no direction there, but none is needed.
+                Some(Err(Refused::NoSeries)) => self.by_functions = false,
                 Some(Err(Refused::Pivot)) | None => self.leave_to_solver(),
             }
         }

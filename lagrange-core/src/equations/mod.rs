@@ -15,7 +15,6 @@ mod number;
 pub(crate) use emitted::Emitted;
 pub use number::Number;
 
-use crate::arithmetic::Operation;
 use crate::system::{Held, Place};
 
 /// Coefficients 0, 1, … of one series.
@@ -44,6 +43,8 @@ pub enum FrictionState {
     Stick,
     /// The force is μₖ N against the slip, which has one component.
     Slip,
+    /// The force is μₖ N against the slip, which has two components and turns.
+    SlipAlong,
 }
 
 /// Which mode a set of functions is for, and where its numbers are.
@@ -96,8 +97,8 @@ pub struct ModeEquations<N: 'static> {
 pub enum Refused {
     /// A pivot is not safe.
     Pivot,
-    /// This operation has no Taylor series there.
-    NoSeries(Operation),
+    /// An operation has no Taylor series there.
+    NoSeries,
 }
 
 /// Whether a number of parameters alone may be divided by: constant rows are eliminated by pivots chosen at build time.

@@ -9,7 +9,7 @@ mod writer;
 use super::names::{self, index, local, plain};
 use super::scalar;
 use crate::derive::Stage;
-use crate::modes::FrictionState;
+use crate::modes::{Direction, FrictionState};
 use crate::plan::mode::ModeProgram;
 use crate::plan::{Place, Program};
 use proc_macro2::{Ident, TokenStream};
@@ -78,6 +78,7 @@ fn structure(program: &Program, mode: &ModeProgram, plan: &products::Plan) -> To
     let frictions = mode.mode.frictions.iter().map(|state| match state {
         FrictionState::Inactive => quote!(Inactive),
         FrictionState::Stick => quote!(Stick),
+        FrictionState::Slip(Direction::AlongSlip) => quote!(SlipAlong),
         FrictionState::Slip(_) => quote!(Slip),
     });
     let system = &program.equations.system;
@@ -165,5 +166,15 @@ fn mode_constants(program: &Program, mode: &ModeProgram) -> TokenStream {
         let against = against.iter().map(place);
         quote!(#core::equations::is_safe_divisor(#pivot, &[#(#against),*]))
     });
-    quote!(#body true #(&& #tests)*)
+    let positive = mode.positive.iter().map(|place| {
+        let inertia = match place {
+            Place::Constant(at) => {
+                let at = index(*at);
+                quote!(#scalar::value(#c[#at]))
+            }
+            Place::Zero | Place::Node(_) => quote!(0.0),
+        };
+        quote!(#inertia > 0.0)
+    });
+    quote!(#body true #(&& #tests)* #(&& #positive)*)
 }

@@ -98,8 +98,14 @@ impl<'a> Elimination<'a> {
             }
             let pivot = read(&m[p][p]);
             let leading = p < system.accelerations;
+            if system.units[p] {
+                continue;
+            }
             let name = reciprocal(p);
-            if leading && system.symmetric {
+            if leading && system.symmetric && matches!(m[p][p], Element::Whole(Place::Constant(_)))
+            {
+                // The constants have been tested.
+            } else if leading && system.symmetric {
                 let original = &before[p];
                 code.extend(quote!(#safe &= #number::is_positive_share(#pivot, #original);));
             } else {
@@ -213,6 +219,7 @@ impl<'a> Elimination<'a> {
                     };
                     quote!(let #to = #sum / #pivot;)
                 }
+                Some(sum) if self.system.units[p] => quote!(let #to = #sum;),
                 Some(sum) => {
                     let inverse = reciprocal(p);
                     quote!(let #to = #sum * #inverse;)
@@ -227,8 +234,16 @@ impl<'a> Elimination<'a> {
     /// What rounding leaves of b − K w, row by row.
     pub fn residuals(&self, writer: &Writer, solution: &[Ident]) -> Vec<Option<TokenStream>> {
         let number = number();
-        let rows = self.system.matrix.iter().zip(&self.system.right);
-        rows.map(|(row, right)| {
+        let rows = self
+            .system
+            .matrix
+            .iter()
+            .zip(&self.system.right)
+            .enumerate();
+        rows.map(|(i, (row, right))| {
+            if self.system.units[i] {
+                return None;
+            }
             let mut sum = writer.place(*right);
             for (place, x) in row.iter().zip(solution) {
                 if *place != Place::Zero {

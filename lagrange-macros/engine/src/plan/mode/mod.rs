@@ -49,6 +49,8 @@ pub struct LinearSystem {
     pub right: Vec<Place>,
     /// 1/Kₚₚ where it depends on parameters only.
     pub reciprocals: Vec<Option<Place>>,
+    /// Unknowns that stand alone, already divided by their inertia.
+    pub units: Vec<bool>,
 }
 
 /// What a program gives besides accelerations and forces.
@@ -83,6 +85,8 @@ pub struct ModeProgram {
     pub pins: Vec<(usize, Place)>,
     /// Constants that are divided by, and those that they must not be small against.
     pub divisors: Vec<(Place, Vec<Place>)>,
+    /// Inertias of parameters alone, which must be positive.
+    pub positive: Vec<Place>,
 }
 
 /// Where the inputs of a mode's tape begin: t, q, v, w, v̇, λ.
@@ -182,61 +186,70 @@ fn specialise(
     let pool = &mut equations.system.pool;
 
     // K and b.
-    let mut matrix = vec![vec![OutputId(usize::MAX); size]; size];
+    let mut matrix = vec![vec![Masked::default(); size]; size];
     let mut right = Vec::with_capacity(size);
-    let nothing = sheet.add("0", &Masked::default());
     let index = |k: &usize| reduced.free.iter().position(|f| f == k);
     for (i, balance) in reduced.balances.iter().enumerate() {
-        let inertia = reduced.inertia(pool, &balance.mass);
-        for (k, entry) in &inertia {
-            let j = index(k)?;
-            if !(reduced.symmetric && j > i) {
-                matrix[i][j] = sheet.add(format!("K[{i}, {j}]"), entry);
-            }
+        for (k, entry) in reduced.inertia(pool, &balance.mass) {
+            matrix[i][index(&k)?] = entry;
         }
         for (m, (row, ..)) in reduced.kept.iter().enumerate() {
             if let Some(force) = balance.forces.get(row) {
-                let force = force.simplified(pool);
-                matrix[i][free + m] = sheet.add(format!("K[{i}, {}]", free + m), &force);
+                matrix[i][free + m] = force.simplified(pool);
             }
         }
-        let load = balance.load.simplified(pool);
-        right.push(sheet.add(format!("b[{i}]"), &load));
+        right.push(balance.load.simplified(pool));
     }
     for (m, (_, along, bias)) in reduced.kept.iter().enumerate() {
         for (k, &a) in along {
-            let j = index(k)?;
-            let a = Masked::always(pool, a);
-            matrix[free + m][j] = sheet.add(format!("K[{}, {j}]", free + m), &a);
+            matrix[free + m][index(k)?] = Masked::always(pool, a);
         }
         let minus = pool.neg(*bias);
-        let minus = Masked::always(pool, minus);
-        right.push(sheet.add(format!("b[{}]", free + m), &minus));
+        right.push(Masked::always(pool, minus));
     }
-    for i in 0..size {
-        for j in 0..size {
-            if matrix[i][j].0 == usize::MAX {
-                let mirrored = reduced.symmetric && i < j && j < free;
-                matrix[i][j] = if mirrored { matrix[j][i] } else { nothing };
-            }
-            if matrix[i][j].0 == usize::MAX {
-                matrix[i][j] = nothing;
+    if reduced.symmetric {
+        // Equal elements are written alike.
+        for i in 0..free {
+            for j in 0..i {
+                matrix[j][i] = matrix[i][j].clone();
             }
         }
     }
-    let mut reciprocals = Vec::with_capacity(free);
-    for (i, row) in matrix.iter().enumerate().take(free) {
-        let whole = match sheet.list[row[i].0].terms[..] {
-            [(need, e)] if need == masked::ALWAYS && !pool.depends_on_any(e, &state) => {
-                Some(e).filter(|&e| pool.branches(e).is_empty())
-            }
-            _ => None,
+    let one = pool.integer(1);
+    let mut positive = Vec::new();
+    let mut units = vec![false; size];
+    let mut reciprocals = vec![None; size];
+    for i in 0..free {
+        let diagonal = matrix[i][i].whole(pool).filter(|&e| {
+            !pool.is_zero(e) && !pool.depends_on_any(e, &state) && pool.branches(e).is_empty()
+        });
+        let Some(inverse) = diagonal.and_then(|e| pool.div(one, e)) else {
+            continue;
         };
-        let one = pool.integer(1);
-        let inverse = whole.and_then(|e| pool.div(one, e));
-        reciprocals
-            .push(inverse.map(|e| sheet.add(format!("1/K[{i}, {i}]"), &Masked::always(pool, e))));
+        positive.extend(diagonal);
+        let mut others = (0..size).filter(|&j| j != i);
+        if others.all(|j| matrix[i][j].is_zero() && matrix[j][i].is_zero()) {
+            let mut quotient = Masked::default();
+            quotient.add_scaled(pool, inverse, &right[i]);
+            right[i] = quotient.simplified(pool);
+            units[i] = true;
+        } else {
+            reciprocals[i] = Some(inverse);
+        }
     }
+    let matrix: Vec<Vec<OutputId>> = matrix
+        .iter()
+        .map(|row| row.iter().map(|entry| sheet.add("K", entry)).collect())
+        .collect();
+    let right: Vec<OutputId> = right.iter().map(|load| sheet.add("b", load)).collect();
+    let reciprocals: Vec<Option<OutputId>> = reciprocals
+        .into_iter()
+        .map(|inverse| Some(sheet.add("1/K", &Masked::always(pool, inverse?))))
+        .collect();
+    let positive: Vec<OutputId> = positive
+        .into_iter()
+        .map(|e| sheet.add("K", &Masked::always(pool, e)))
+        .collect();
     let solved = sheet.list.len();
 
     // v̇ of w
@@ -400,6 +413,7 @@ fn specialise(
                 .collect(),
             right: right.iter().map(place).collect(),
             reciprocals: reciprocals.iter().map(|r| r.as_ref().map(place)).collect(),
+            units,
         },
         accelerations: accelerations.iter().map(place).collect(),
         forces: forces.iter().map(|f| f.as_ref().map(place)).collect(),
@@ -415,6 +429,7 @@ fn specialise(
             .iter()
             .map(|(pivot, against)| (place(pivot), against.iter().map(place).collect()))
             .collect(),
+        positive: positive.iter().map(place).collect(),
         tape: whole,
     })
 }
