@@ -1,6 +1,7 @@
 //! The loop of a run: step, look for the first thing that happens, switch, go on.
 
 mod accumulation;
+mod cause;
 mod curves;
 mod ensemble;
 mod hits;
@@ -324,6 +325,10 @@ impl<T: Scalar> Run<T> {
 
     /// One step, cut short by the first thing that happens in it.
     pub(crate) fn advance(&mut self) -> Result<(), Error> {
+        self.make_step().map_err(|error| self.cause(error))
+    }
+
+    fn make_step(&mut self) -> Result<(), Error> {
         if self.trajectory.work.steps >= self.settings.max_steps {
             return Err(self.limit("steps", self.settings.max_steps));
         }

@@ -16,6 +16,7 @@ mod in_turn;
 mod incline;
 mod kepler;
 mod landings;
+mod multiples_of_pi;
 mod pendulum;
 mod piecewise;
 mod plate;
