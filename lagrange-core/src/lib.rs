@@ -32,4 +32,4 @@ pub use error::Error;
 pub use lagrange_macros::Lagrangian;
 pub use monitor::Monitor;
 pub use run::{Ensemble, Runner};
-pub use simulation::{Failure, Held, Simulation};
+pub use simulation::{Awaited, Failure, Held, Simulation};

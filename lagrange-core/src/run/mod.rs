@@ -32,7 +32,7 @@ use crate::modes::start;
 use crate::modes::survey::Survey;
 use crate::modes::table::Table;
 use crate::pool::Pool;
-use crate::simulation::{Held, Settings};
+use crate::simulation::{Awaited, Held, Settings};
 use crate::system::{Description, Watch};
 use crate::tapes::Erased;
 use crate::trajectory::{EventKind, Record, State, Subject, Work};
@@ -399,10 +399,7 @@ impl<T: Scalar> Run<T> {
 
     /// Whether everything has happened that the run is to end after.
     fn has_seen_all(&self) -> bool {
-        let happened = |(subject, kind): &(Subject, EventKind)| {
-            let mut events = self.trajectory.events.iter();
-            events.any(|e| e.subject == *subject && e.kind.word() == kind.word())
-        };
+        let happened = |awaited: &Awaited| self.trajectory.events.iter().any(|e| awaited.is(e));
         let last = &self.settings.last_events;
         !last.is_empty() && last.iter().all(happened)
     }
