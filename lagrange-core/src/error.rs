@@ -18,6 +18,21 @@ pub enum Error {
         /// What would do.
         expected: &'static str,
     },
+    /// A number of the declaration is outside the domain in which it means something.
+    Domain {
+        /// Time, s.
+        time: f64,
+        /// The coordinate, contact or friction.
+        item: &'static str,
+        /// What the number is: `inertia`, `restitution`, `static friction`, `kinetic friction`.
+        what: &'static str,
+        /// The number.
+        value: f64,
+        /// What would do.
+        expected: String,
+        /// Fields that it is made of, with their values; of an inertia those that are negative.
+        fields: Vec<(&'static str, f64)>,
+    },
     /// The state has another number of coordinates than the system.
     Dimension {
         /// Number of coordinates of the system.
@@ -65,7 +80,7 @@ pub enum Error {
         /// Which quantity.
         what: String,
     },
-    /// No mode continues the motion (Painlevé's paradox), or no impact law has a solution.
+    /// No mode continues the motion although all coefficients are legal (Painlevé's paradox), or no impact law has a solution.
     NoMode {
         /// Time, s.
         time: f64,
@@ -103,7 +118,7 @@ pub enum Error {
         /// The mode.
         mode: String,
     },
-    /// The stages of an implicit method with fixed steps did not converge.
+    /// Fixed steps are too long to follow the motion.
     StepTooLarge {
         /// Time, s.
         time: f64,
@@ -175,6 +190,21 @@ impl fmt::Display for Error {
                 expected,
             } => {
                 write!(f, "{what} = {value}: must be {expected}")
+            }
+            Error::Domain {
+                time,
+                item,
+                what,
+                value,
+                expected,
+                fields,
+            } => {
+                write!(f, "t = {time}: `{item}`: {what} = {value}")?;
+                for (k, (field, value)) in fields.iter().enumerate() {
+                    let before = if k == 0 { " with " } else { ", " };
+                    write!(f, "{before}`{field}` = {value}")?;
+                }
+                write!(f, "; it must be {expected}")
             }
             Error::Dimension { expected, found } => {
                 write!(
@@ -254,7 +284,7 @@ impl fmt::Display for Error {
             ),
             Error::StepTooLarge { time, step, mode } => write!(
                 f,
-                "t = {time} ({mode}): the stages of a step of {step:.1e} s do not converge; choose a smaller step"
+                "t = {time} ({mode}): a step of {step:.1e} s is too long to follow the motion; choose a smaller one"
             ),
             Error::NoProgress { time, modes, item } => write!(
                 f,

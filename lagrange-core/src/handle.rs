@@ -4,6 +4,8 @@
 //! that systems that are not derived can make them.
 
 use crate::effects::Item;
+use crate::system::Description;
+use crate::trajectory::Subject;
 
 macro_rules! handles {
     ($($(#[$documentation:meta])* $name:ident)*) => {$(
@@ -40,18 +42,40 @@ handles! {
     StartId
 }
 
-macro_rules! items {
-    ($($handle:ident $item:ident)*) => {$(
-        impl From<$handle> for Item {
-            fn from($handle(index): $handle) -> Item {
-                Item::$item(index)
+/// What has a multiplier: a constraint, a contact or a friction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reaction {
+    /// Constraint i.
+    Constraint(usize),
+    /// Contact i.
+    Contact(usize),
+    /// Friction i.
+    Friction(usize),
+}
+
+impl Reaction {
+    /// Its (first) row.
+    pub(crate) fn row(self, description: &Description) -> usize {
+        match self {
+            Reaction::Constraint(i) => description.constraints[i].row,
+            Reaction::Contact(i) => description.contacts[i].row,
+            Reaction::Friction(i) => description.frictions[i].row,
+        }
+    }
+}
+
+macro_rules! conversions {
+    ($target:ident: $($handle:ident $variant:ident)*) => {$(
+        impl From<$handle> for $target {
+            fn from($handle(index): $handle) -> $target {
+                $target::$variant(index)
             }
         }
     )*};
 }
 
 // What a scene can leave out, `Effects::all().without(MassOnWheel::RIM)`.
-items! {
+conversions! { Item:
     KineticId Kinetic
     PotentialId Potential
     ConstraintId Constraint
@@ -60,6 +84,21 @@ items! {
     ForceId Force
     DissipationId Dissipation
     ObserveId Observe
+    StopId Stop
+    MarkId Mark
+}
+
+// What results give the force of, `now.force(MassOnWheel::RIM)`.
+conversions! { Reaction:
+    ConstraintId Constraint
+    ContactId Contact
+    FrictionId Friction
+}
+
+// What has events, `simulation.end_after(MassOnWheel::FLOOR)`.
+conversions! { Subject:
+    ContactId Contact
+    FrictionId Friction
     StopId Stop
     MarkId Mark
 }

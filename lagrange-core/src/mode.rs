@@ -2,6 +2,7 @@
 //!
 //! Within one mode the equations of motion are smooth; the guards say where it ends.
 
+use crate::handle::{ContactId, FrictionId};
 use crate::system::Description;
 use core::fmt;
 
@@ -111,6 +112,21 @@ impl Mode {
         self.contacts.fill(false);
         self.frictions.fill(FrictionMode::Inactive);
         self.branches.fill(0);
+    }
+
+    /// Whether a contact is closed.
+    pub fn closed(&self, contact: ContactId) -> bool {
+        self.contacts[contact.0]
+    }
+
+    /// Whether a friction sticks.
+    pub fn sticks(&self, friction: FrictionId) -> bool {
+        self.frictions[friction.0] == FrictionMode::Stick
+    }
+
+    /// Whether a friction slips.
+    pub fn slips(&self, friction: FrictionId) -> bool {
+        matches!(self.frictions[friction.0], FrictionMode::Slip(_))
     }
 
     /// Whether branch `index` is on its `then` side.

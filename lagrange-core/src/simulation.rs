@@ -8,7 +8,7 @@ use crate::monitor::Monitor;
 use crate::run::{Ensemble, Runner};
 use crate::system::{Impacts, System};
 use crate::tapes::Tapes;
-use crate::trajectory::{EventKind, State, Subject, Trajectory};
+use crate::trajectory::{Event, EventKind, State, Subject, Trajectory};
 use core::fmt;
 use core::ops::Range;
 
@@ -28,12 +28,43 @@ pub(crate) struct Settings {
     pub project_start: bool,
     pub record: bool,
     /// The run ends once each of these has happened; empty: it does not.
-    pub last_events: Vec<(Subject, EventKind)>,
+    pub last_events: Vec<Awaited>,
     /// As declared if `None`.
     pub impacts: Option<Impacts>,
     pub max_events: usize,
     pub max_steps: usize,
     pub monitor: Option<Monitor>,
+}
+
+/// An event that a run can end after.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Awaited {
+    /// What it is about.
+    pub subject: Subject,
+    /// What happens to it (whatever an [`EventKind::Accumulates`] counts); `None`: anything.
+    pub kind: Option<EventKind>,
+}
+
+impl Awaited {
+    /// Whether it is this event.
+    pub(crate) fn is<T>(&self, event: &Event<T>) -> bool {
+        let same = |kind: EventKind| kind.word() == event.kind.word();
+        event.subject == self.subject && self.kind.is_none_or(same)
+    }
+}
+
+impl<I: Into<Subject>> From<I> for Awaited {
+    fn from(item: I) -> Awaited {
+        let (subject, kind) = (item.into(), None);
+        Awaited { subject, kind }
+    }
+}
+
+impl<I: Into<Subject>> From<(I, EventKind)> for Awaited {
+    fn from((item, kind): (I, EventKind)) -> Awaited {
+        let (subject, kind) = (item.into(), Some(kind));
+        Awaited { subject, kind }
+    }
 }
 
 /// A run that ended early, with everything up to there.
@@ -122,11 +153,11 @@ impl<'a, S: System> Simulation<'a, S> {
         self
     }
 
-    /// Ends the run once this has happened (whatever an [`EventKind::Accumulates`] counts); given several times, once all of
-    /// them have.
+    /// Ends the run once this has happened: any event of an item, `MassOnWheel::FLOOR`, or one of a kind, `(MassOnWheel::RIM,
+    /// EventKind::Lost)`. Given several times, once all of them have.
     #[must_use]
-    pub fn end_after(mut self, subject: Subject, kind: EventKind) -> Self {
-        self.settings.last_events.push((subject, kind));
+    pub fn end_after(mut self, event: impl Into<Awaited>) -> Self {
+        self.settings.last_events.push(event.into());
         self
     }
 

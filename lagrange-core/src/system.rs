@@ -145,6 +145,9 @@ pub struct Description {
     pub report: TapeShape,
     /// Lower triangle of the mass matrix, structural zeros left out: (row, column ≤ row, where). Motion.
     pub mass: &'static [(usize, usize, Place)],
+    /// Parameters that the mass matrix contains, if it is that of a kinetic energy, which must be positive; `None` for a
+    /// Lagrangian, whose part of second order in the velocities may have any sign.
+    pub inertia: Option<&'static [usize]>,
     /// f, one per coordinate. Motion.
     pub forcing: &'static [Place],
     /// All rows: constraints first, then contacts, then the slip components of frictions. Motion.
@@ -344,6 +347,8 @@ pub struct Contact {
     pub restitution: Restitution,
     /// Need of the restitution.
     pub restitution_need: usize,
+    /// Parameters that it contains.
+    pub restitution_parameters: &'static [usize],
     /// ≥ 0 where the contact exists. Motion, need `rows[row].needs.position`.
     pub region: Option<Place>,
 }
@@ -374,6 +379,10 @@ pub struct Friction {
     pub kinetic_coefficient: Place,
     /// Need of the coefficients (and of a given normal force).
     pub coefficients_need: usize,
+    /// Parameters that μs contains.
+    pub static_parameters: &'static [usize],
+    /// Parameters that μk contains.
+    pub kinetic_parameters: &'static [usize],
 }
 
 /// Source of a friction's normal force.

@@ -11,7 +11,11 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Derives the equations of a mechanical system from its Lagrangian, constraints, contacts and frictions.
 ///
-/// See the documentation of `lagrange-core` for the language of `#[lagrange(…)]`.
+/// # The language
+///
+#[doc = include_str!("language.md")]
+///
+/// # What is emitted
 ///
 /// With the environment variable `LAGRANGE_DUMP=Name` the expansion for the struct `Name` is written, formatted, to a
 /// file of the temporary folder, and the compiler's output says where. (Cargo expands only what it compiles: `touch` the file.)

@@ -72,7 +72,7 @@ fn scene<S: System<Scalar = f64> + Default>(
     let simulated = system.clone();
     let mut simulation = Simulation::new(&simulated).tolerance(1e-9).record(false);
     if let Some((subject, kind)) = last {
-        simulation = simulation.end_after(subject, kind);
+        simulation = simulation.end_after((subject, kind));
     }
     let (mut runner, mut ensemble) = (simulation.runner(), simulation.ensemble());
     let mut group = criterion.benchmark_group("sweep");

@@ -7,6 +7,7 @@ pub mod accuracy;
 pub mod catalogue;
 pub mod closed_form;
 pub mod cost;
+pub mod count;
 pub mod drawing;
 pub mod film;
 pub mod names;

@@ -10,6 +10,9 @@ use lagrange_core::prelude::*;
 use lagrange_core::system::Description;
 use std::collections::BTreeSet;
 
+/// Most intervals that a run is sampled at: their numbers are kept in memory.
+pub const MOST_SAMPLES: usize = 1_000_000;
+
 /// Tolerances that an integration can have.
 pub const TOLERANCES: RangeInclusive<f64> = 1e-17..=0.1;
 
@@ -88,6 +91,15 @@ pub enum Refusal {
     Start(Error),
     /// The run fails.
     Run(Error),
+    /// More points than a sweep may have.
+    TooMany {
+        /// How many.
+        points: f64,
+        /// What their results would take.
+        bytes: f64,
+        /// How many there may be.
+        most: usize,
+    },
     /// No reference to measure errors against.
     Reference {
         /// The run that failed, or disagreed.
@@ -132,6 +144,14 @@ impl fmt::Display for Refusal {
                 }
             }
             Refusal::Repeated { name } => write!(f, "`{name}` is given twice; give it once"),
+            Refusal::TooMany {
+                points,
+                bytes,
+                most,
+            } => write!(
+                f,
+                "{points:e} points are too many: their results would take {bytes:.1e} bytes; a sweep has at most {most} points"
+            ),
             Refusal::Run(error) => write!(f, "{error}"),
             Refusal::Start(error) => write!(f, "no such start: {error}"),
             Refusal::Reference { by, reason } => {
@@ -175,7 +195,7 @@ impl Request {
         };
         for name in &self.end_after {
             let (subject, kind) = event(name, S::DESCRIPTION)?;
-            simulation = simulation.end_after(subject, kind);
+            simulation = simulation.end_after((subject, kind));
         }
         Ok(match &self.progress {
             Some(progress) => simulation.monitor(progress.monitor()),

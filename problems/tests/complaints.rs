@@ -54,6 +54,34 @@ fn names_that_are_nearly_right_are_recognised() {
 }
 
 #[test]
+fn a_size_that_nothing_could_hold_is_refused_with_it() {
+    let sweep = |vary: &[&str], said: &str| {
+        let vary = vary.iter().flat_map(|axis| ["--vary", axis]);
+        let arguments: Vec<&str> = ["sweep", "mass-on-wheel", "--observe", "theta"]
+            .into_iter()
+            .chain(vary)
+            .collect();
+        refuses(&arguments, 2, said);
+    };
+    // A number observed and a reason of failure for each point: 16 bytes.
+    sweep(
+        &["mass=1..2:1e14"],
+        "1e14 points are too many: their results would take 1.6e15 bytes",
+    );
+    let grid = ["mass=1..2:1e11", "mu_static=1..2:100000000000"];
+    sweep(
+        &grid,
+        "1e22 points are too many: their results would take 1.6e23 bytes",
+    );
+    sweep(&["mass=1..2:1.5"], "`1.5` is not a number of values");
+    let samples =
+        |samples: &str, said: &str| refuses(&["run", "kepler", "--samples", samples], 2, said);
+    samples("1e9", "at most 1000000 intervals are sampled");
+    samples("ten", "`ten` is not a number of intervals");
+    samples("0", "`0` is not a number of intervals");
+}
+
+#[test]
 fn what_is_missing_or_too_much_is_said() {
     refuses(&["mass-on-wheel"], 2, "lagrange run mass-on-wheel");
     refuses(&["run", "kepler", "more"], 2, "what is `more` for?");

@@ -101,18 +101,18 @@ fn what_is_observed_is_what_a_single_run_tells() {
 #[test]
 fn failures_are_told_by_reason_and_place() {
     let said = says(&sweep(&[]));
-    // With mu_static below mu_kinetic there is a moment when it can neither stick nor slip.
-    let told = "9000 runs of rolling-slipping-sphere, of which 1200 failed.\n  no mode: 1200, the first at mu_static = 0.2, theta = 0.01\n";
+    // A coefficient at rest below that of sliding is not a law of friction.
+    let told = "9000 runs of rolling-slipping-sphere, of which 1200 failed.\n  domain: 1200, the first at mu_static = 0.2, theta = 0.01\n";
     assert!(said.ends_with(told), "{said}");
     let said = says(&sweep(&["--format", "json"]));
     let value: serde_json::Value = serde_json::from_str(&said).expect("JSON");
-    assert_eq!(value["failures"][0]["reason"], "no mode");
+    assert_eq!(value["failures"][0]["reason"], "domain");
     assert_eq!(value["failures"][0]["first_at"]["mu_static"], 0.2);
     assert_eq!(value["observed"][0]["runs"], 7800);
     let said = says(&sweep(&["--format", "csv"]));
     assert_eq!(
         said.lines()
-            .filter(|line| line.ends_with(",no mode"))
+            .filter(|line| line.ends_with(",domain"))
             .count(),
         1200
     );

@@ -1,9 +1,9 @@
 //! A derived number against a formula at many states, and the state where they differ most.
 
-use super::moment::Moment;
 use super::state::Checks;
 use crate::error::Error;
 use crate::system::System;
+use crate::trajectory::Instant;
 use core::fmt;
 
 /// The result of a comparison.
@@ -79,15 +79,15 @@ const TRIES: usize = 20;
 /// Compares at the states of `checks`.
 pub(super) fn compare<S: System<Scalar = f64>>(
     checks: &Checks<S>,
-    both: impl Fn(&S, &Moment) -> (f64, f64),
+    both: impl Fn(&S, &Instant<f64>) -> (f64, f64),
 ) -> Result<Comparison, Error> {
-    let mut worst: Option<(Worst, S, Moment)> = None;
+    let mut worst: Option<(Worst, S, Instant<f64>)> = None;
     let mut states = 0;
     for number in 0..TRIES * checks.states.max(1) {
         if states == checks.states.max(1) {
             break;
         }
-        let (scene, moment) = match checks.draw(number) {
+        let (scene, now) = match checks.draw(number) {
             Ok(drawn) => drawn,
             // Some states have no neighbour on the constraints.
             Err(error) if number + 1 == TRIES * checks.states.max(1) && states == 0 => {
@@ -96,16 +96,16 @@ pub(super) fn compare<S: System<Scalar = f64>>(
             Err(_) => continue,
         };
         states += 1;
-        let (derived, by_hand) = both(&scene, &moment);
+        let (derived, by_hand) = both(&scene, &now);
         let here = Worst::of(derived, by_hand);
         if worst
             .as_ref()
             .is_none_or(|(worst, ..)| here.difference > worst.difference)
         {
-            worst = Some((here, scene, moment));
+            worst = Some((here, scene, now));
         }
     }
-    let Some((worst, scene, moment)) = worst else {
+    let Some((worst, scene, now)) = worst else {
         return Err(Error::Projection {
             time: 0.0,
             residual: f64::INFINITY,
@@ -116,22 +116,22 @@ pub(super) fn compare<S: System<Scalar = f64>>(
         states,
         tolerance: checks.tolerance,
         worst,
-        state: numbers(&scene, &moment),
-        mode: moment.now.mode.display(S::DESCRIPTION).to_string(),
+        state: numbers(&scene, &now),
+        mode: now.mode.display(S::DESCRIPTION).to_string(),
     })
 }
 
 /// (name, value) of parameters, coordinates and velocities.
-fn numbers<S: System<Scalar = f64>>(scene: &S, moment: &Moment) -> Vec<(String, f64)> {
+fn numbers<S: System<Scalar = f64>>(scene: &S, now: &Instant<f64>) -> Vec<(String, f64)> {
     let d = S::DESCRIPTION;
     let mut state = Vec::new();
     for (i, parameter) in d.parameters.iter().enumerate() {
         state.push((parameter.name.to_owned(), scene.parameter(i)));
     }
-    for (coordinate, &q) in d.coordinates.iter().zip(&moment.now.q) {
+    for (coordinate, &q) in d.coordinates.iter().zip(&now.q) {
         state.push((coordinate.name.to_owned(), q));
     }
-    for (coordinate, &v) in d.coordinates.iter().zip(&moment.now.v) {
+    for (coordinate, &v) in d.coordinates.iter().zip(&now.v) {
         state.push((format!("der({})", coordinate.name), v));
     }
     state

@@ -28,13 +28,11 @@
 //! ```
 
 mod compare;
-mod moment;
 mod state;
 #[cfg(test)]
 mod tests;
 
 pub use compare::{Comparison, Worst};
-pub use moment::Moment;
 pub use state::Checks;
 
 /// A `check(…)` of a declaration, and how far it is known to hold; what is known to be false does not compile.

@@ -1,7 +1,6 @@
 //! Random states on the constraint surface of a mode, with accelerations and forces.
 
 use super::compare::{Comparison, compare};
-use super::moment::Moment;
 use crate::dynamics::{Dynamics, EvaluationError};
 use crate::effects::Effects;
 use crate::error::Error;
@@ -10,7 +9,7 @@ use crate::mode::{FrictionMode, Mode, Sliding};
 use crate::modes::guard;
 use crate::modes::sharing::Sharing;
 use crate::system::{Normal, System};
-use crate::trajectory::{State, instant, report_everything};
+use crate::trajectory::{Instant, State, instant, report_everything};
 
 /// Where formulas are compared: a mode, and how its states are drawn.
 ///
@@ -125,16 +124,19 @@ impl<'a, S: System<Scalar = f64>> Checks<'a, S> {
         self
     }
 
-    /// Compares a derived number with a formula: (derived, by hand) from the scene with its parameters and the moment.
+    /// Compares a derived number with a formula: (derived, by hand) from the scene with its parameters and the instant.
     ///
     /// # Errors
     /// [`Error::Projection`] and the like if the mode has no states near.
-    pub fn compare(&self, both: impl Fn(&S, &Moment) -> (f64, f64)) -> Result<Comparison, Error> {
+    pub fn compare(
+        &self,
+        both: impl Fn(&S, &Instant<f64>) -> (f64, f64),
+    ) -> Result<Comparison, Error> {
         compare(self, both)
     }
 
     /// The state of a number, if there is one.
-    pub(super) fn draw(&self, number: usize) -> Result<(S, Moment), Error> {
+    pub(super) fn draw(&self, number: usize) -> Result<(S, Instant<f64>), Error> {
         let d = S::DESCRIPTION;
         let mut random =
             Random(self.seed ^ (number as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
@@ -158,7 +160,7 @@ impl<'a, S: System<Scalar = f64>> Checks<'a, S> {
         let outcome = self.settle(&mut dynamics, &state, &mut mode);
         outcome.map_err(|e| Error::from_evaluation(e, 0.0, &mode, d))?;
         let now = instant(&mut dynamics, &mut Sharing::default(), 0.0, &state);
-        Ok((scene, Moment::new(&dynamics, now)))
+        Ok((scene, now))
     }
 
     /// Lets slips and branches go with the state; the force of a constraint only shows when it has been solved for.

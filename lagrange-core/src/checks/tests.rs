@@ -58,7 +58,7 @@ fn a_wrong_formula_is_told_with_its_worst_state() {
         .closed(Sphere::SHELL)
         .seed(7)
         .states(40);
-    let weight = |s: &Sphere, now: &super::Moment| s.mass * s.gravity * now.q(Sphere::THETA).cos();
+    let weight = |s: &Sphere, now: &Instant<f64>| s.mass * s.gravity * now.q(Sphere::THETA).cos();
     let comparison = checks.compare(|s, now| (now.force(Sphere::SHELL), weight(s, now)));
     let comparison = comparison.unwrap();
     assert!(!comparison.holds());

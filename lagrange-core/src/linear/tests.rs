@@ -130,6 +130,7 @@ fn random_system(seed: u64) -> (Description, Builder) {
         normal_factor: None,
         restitution: Restitution::Newton(Place::Zero),
         restitution_need: 0,
+        restitution_parameters: &[],
         region: None,
     };
     let mut contacts = vec![contact(1), contact(2)];
@@ -163,6 +164,8 @@ fn random_system(seed: u64) -> (Description, Builder) {
             static_coefficient: Place::Zero,
             kinetic_coefficient: b.place(0.2, constant),
             coefficients_need: 0,
+            static_parameters: &[],
+            kinetic_parameters: &[],
         });
     }
     let coupled = b.random.below(rows.len());
@@ -196,6 +199,7 @@ fn random_system(seed: u64) -> (Description, Builder) {
             outputs: 0,
         },
         mass: mass.leak(),
+        inertia: None,
         forcing: forcing.leak(),
         rows: rows.leak(),
         couplings: vec![coupling].leak(),

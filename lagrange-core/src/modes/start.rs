@@ -1,6 +1,6 @@
 //! The beginning of a run: states that satisfy the constraints.
 
-use super::survey::Survey;
+use super::{domain, survey::Survey};
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
 use crate::error::Error;
@@ -11,7 +11,7 @@ use crate::trajectory::State;
 /// rest, and says in `survey` what is known.
 ///
 /// # Errors
-/// [`Error::Start`] where a constraint is violated (unless `project`) or a contact is penetrated.
+/// [`Error::Domain`] for a number without meaning, [`Error::Start`] where a constraint is violated (unless `project`) or a contact is penetrated.
 pub fn begin<T: Scalar>(
     dynamics: &mut Dynamics<T>,
     t: T,
@@ -21,6 +21,7 @@ pub fn begin<T: Scalar>(
     survey: &mut Survey,
 ) -> Result<(), Error> {
     survey.look(dynamics, t, state, tolerance);
+    domain::check(dynamics, t.value(), &mut survey.form)?;
     if !project {
         survey.refuse_violations(dynamics.description(), tolerance)?;
     }

@@ -30,6 +30,8 @@ pub struct Survey {
     pub below: Vec<usize>,
     /// Needs of everything that is looked at.
     pub needs: NeedSet,
+    /// Memory for the quadratic form of the kinetic energy.
+    pub form: Vec<f64>,
 }
 
 impl Survey {
@@ -42,6 +44,7 @@ impl Survey {
             gaps: Vec::new(),
             below: Vec::new(),
             needs: guard::all_row_needs(description, &NeedSet::new(description)),
+            form: Vec::new(),
         }
     }
 

@@ -1,6 +1,7 @@
 //! The loop of a run: step, look for the first thing that happens, switch, go on.
 
 mod accumulation;
+mod cause;
 mod curves;
 mod ensemble;
 mod hits;
@@ -31,7 +32,7 @@ use crate::modes::start;
 use crate::modes::survey::Survey;
 use crate::modes::table::Table;
 use crate::pool::Pool;
-use crate::simulation::{Held, Settings};
+use crate::simulation::{Awaited, Held, Settings};
 use crate::system::{Description, Watch};
 use crate::tapes::Erased;
 use crate::trajectory::{EventKind, Record, State, Subject, Work};
@@ -324,6 +325,10 @@ impl<T: Scalar> Run<T> {
 
     /// One step, cut short by the first thing that happens in it.
     pub(crate) fn advance(&mut self) -> Result<(), Error> {
+        self.make_step().map_err(|error| self.cause(error))
+    }
+
+    fn make_step(&mut self) -> Result<(), Error> {
         if self.trajectory.work.steps >= self.settings.max_steps {
             return Err(self.limit("steps", self.settings.max_steps));
         }
@@ -394,10 +399,7 @@ impl<T: Scalar> Run<T> {
 
     /// Whether everything has happened that the run is to end after.
     fn has_seen_all(&self) -> bool {
-        let happened = |(subject, kind): &(Subject, EventKind)| {
-            let mut events = self.trajectory.events.iter();
-            events.any(|e| e.subject == *subject && e.kind.word() == kind.word())
-        };
+        let happened = |awaited: &Awaited| self.trajectory.events.iter().any(|e| awaited.is(e));
         let last = &self.settings.last_events;
         !last.is_empty() && last.iter().all(happened)
     }

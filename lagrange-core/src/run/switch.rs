@@ -6,6 +6,7 @@ use crate::effects::Item;
 use crate::error::Error;
 use crate::mode::FrictionMode;
 use crate::modes::decide::{Juncture, Known, Moment};
+use crate::modes::domain;
 use crate::modes::guard::Guard;
 use crate::modes::impact::Impact;
 use crate::system::Normal;
@@ -131,9 +132,13 @@ impl<T: Scalar> Run<T> {
         near.extend((0..d.contacts.len()).filter(|&c| known.touching[c] || known.parting[c]));
         let impacts = self.settings.impacts.unwrap_or(d.impacts);
         let time = self.t.value();
-        let solved = self
-            .collider
-            .solve(&self.dynamics, time, &self.state.v, &near, impacts);
+        let mut solved =
+            (near.iter()).try_for_each(|&c| domain::check_restitution(&self.dynamics, time, c));
+        if solved.is_ok() {
+            solved = self
+                .collider
+                .solve(&self.dynamics, time, &self.state.v, &near, impacts);
+        }
         self.near = near;
         solved?;
         let outcome = core::mem::take(&mut self.collider.outcome);

@@ -1,5 +1,6 @@
 //! What happened: the event log, one entry per item that changed.
 
+use super::by_handle::Owner;
 use crate::handle::StartId;
 use crate::mode::Mode;
 use crate::system::{Description, System};
@@ -128,6 +129,7 @@ impl EventKind {
 /// One entry of the event log.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Event<T> {
+    pub(super) owner: Owner,
     /// Time, s.
     pub time: T,
     /// What it is about.
@@ -177,12 +179,13 @@ pub(crate) struct Around<'a, T> {
 
 impl<T: crate::arithmetic::Scalar> Event<T> {
     /// An entry to be written over.
-    pub(crate) fn blank(description: &Description) -> Self {
+    pub(crate) fn blank(description: &'static Description) -> Self {
         let state = State {
             q: Vec::new(),
             v: Vec::new(),
         };
         Self {
+            owner: Owner(description),
             time: T::default(),
             subject: Subject::Stop(0),
             kind: EventKind::Stop,

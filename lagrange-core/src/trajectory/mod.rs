@@ -1,5 +1,6 @@
 //! The result of a run: the motion as polynomials in time, the modes, the events, the work done.
 
+mod by_handle;
 mod event;
 mod ledger;
 mod sampler;

@@ -1,5 +1,6 @@
 //! The trajectory at any time: state, accelerations, forces, energies, outputs.
 
+use super::by_handle::Owner;
 use super::{Record, Segment, State};
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, NeedSet, approach};
@@ -7,11 +8,12 @@ use crate::error::Error;
 use crate::mode::{Direction, Mode};
 use crate::modes::guard;
 use crate::modes::sharing::Sharing;
-use crate::system::Place;
+use crate::system::{Normal, Place};
 
 /// Everything known at one time.
 #[derive(Clone, Debug)]
 pub struct Instant<T> {
+    pub(super) owner: Owner,
     /// Time, s.
     pub time: T,
     /// The mode.
@@ -31,6 +33,8 @@ pub struct Instant<T> {
     pub gaps: Vec<T>,
     /// Slip of every friction component, in the order of the rows.
     pub slips: Vec<T>,
+    /// Largest force with which each friction can stick, μs N.
+    pub limits: Vec<T>,
     /// Kinetic energy as declared, J.
     pub kinetic: T,
     /// Potential energy as declared, J.
@@ -240,7 +244,10 @@ pub(crate) fn instant<T: Scalar>(
         .iter()
         .map(|c| d.rows[c.row].position.unwrap_or(Place::Zero));
     let frictions = d.frictions.iter().flat_map(|f| f.row..f.row + f.components);
+    let limits = (0..d.frictions.len()).map(|f| limit(dynamics, f, &forces));
+    let limits = limits.collect();
     Instant {
+        owner: Owner(d),
         time: t,
         mode: dynamics.mode().under_way(),
         q: state.q.clone(),
@@ -252,6 +259,7 @@ pub(crate) fn instant<T: Scalar>(
         slips: frictions
             .map(|row| dynamics.motion(d.rows[row].velocity))
             .collect(),
+        limits,
         kinetic: dynamics.report(d.energy.kinetic),
         potential: dynamics.report(d.energy.potential),
         jacobi: dynamics.report(d.energy.jacobi),
@@ -262,4 +270,23 @@ pub(crate) fn instant<T: Scalar>(
             .map(|o| dynamics.report(o.place))
             .collect(),
     }
+}
+
+/// μs N of friction `f`.
+fn limit<T: Scalar>(dynamics: &Dynamics<T>, f: usize, forces: &[T]) -> T {
+    let d = dynamics.description();
+    let friction = &d.frictions[f];
+    let normal = match friction.normal {
+        Normal::Contact(c) => {
+            let factor = d.contacts[c].normal_factor;
+            let force = forces[d.contacts[c].row];
+            factor.map_or(force, |place| dynamics.motion(place) * force)
+        }
+        Normal::Constraint(i) => {
+            let force = forces[d.constraints[i].row];
+            if force.value() < 0.0 { -force } else { force }
+        }
+        Normal::Given(place) => dynamics.motion(place),
+    };
+    dynamics.motion(friction.static_coefficient) * normal
 }

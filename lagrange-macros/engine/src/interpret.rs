@@ -89,7 +89,7 @@ impl Machine<'_> {
     fn coefficient(&self, constants: &[f64], coefficient: Coefficient) -> f64 {
         match coefficient {
             Coefficient::Number(number) => number.to_f64(),
-            Coefficient::Pi => std::f64::consts::PI,
+            Coefficient::Pi(multiple) => Coefficient::multiple_of_pi(multiple),
             Coefficient::Parameter(index) => self.parameters[index],
             Coefficient::Constant(index) => constants[index],
         }

@@ -4,6 +4,7 @@ use super::Trouble;
 use super::course::Course;
 use super::output::{ready, to_file};
 use super::terminal::{keep_what_is_done, patiently};
+use super::values::intervals;
 use clap::Args;
 use lagrange_problems::catalogue::RUN_STAGES;
 use lagrange_problems::outcome::Outcome;
@@ -52,8 +53,8 @@ struct Results {
     #[arg(long, value_name = "FILE.svg")]
     plot: Option<PathBuf>,
     /// Equal intervals of time to sample the motion at, beside the ends of its phases [default: 400].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
-    samples: Option<u32>,
+    #[arg(long, value_name = "N", value_parser = intervals)]
+    samples: Option<usize>,
     /// Give the work of every item over time (csv, jsonl, parquet: columns; json: a list).
     #[arg(long)]
     ledger: bool,
@@ -118,7 +119,7 @@ impl Results {
                 false => self.output.clone(),
             },
             plot: self.plot.clone().or(file.plot),
-            samples: self.samples.map(|n| n as usize).or(file.samples),
+            samples: self.samples.or(file.samples),
         }
     }
 }

@@ -77,7 +77,7 @@ impl Sweeps {
     /// The journal of a shard.
     fn journal(&self, sweep: &Sweep, shard: Shard) -> Result<Journal, Trouble> {
         match &self.results.output {
-            None => Ok(Journal::in_memory(sweep)),
+            None => Journal::in_memory(sweep).map_err(Trouble::failed),
             Some(path) => {
                 Journal::in_folder(sweep, &beside(path, ".part"), shard).map_err(Trouble::failed)
             }

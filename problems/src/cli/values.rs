@@ -1,6 +1,7 @@
 //! `name=value` and numbers, as they come from the command line.
 
-use lagrange_problems::request::TOLERANCES;
+use lagrange_problems::count::count;
+use lagrange_problems::request::{MOST_SAMPLES, TOLERANCES};
 
 /// `name=value` with a finite value.
 pub(super) fn named(text: &str) -> Result<(String, f64), String> {
@@ -28,6 +29,15 @@ pub(super) fn positive(text: &str) -> Result<f64, String> {
     match finite(text)? {
         value if value > 0.0 => Ok(value),
         _ => Err("the value must be above 0".to_owned()),
+    }
+}
+
+/// A number of intervals to sample a run at.
+pub(super) fn intervals(text: &str) -> Result<usize, String> {
+    match count(text) {
+        Some(count) if count <= MOST_SAMPLES => Ok(count),
+        Some(_) => Err(format!("at most {MOST_SAMPLES} intervals are sampled")),
+        None => Err(format!("`{}` is not a number of intervals", text.trim())),
     }
 }
 

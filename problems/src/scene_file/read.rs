@@ -6,7 +6,7 @@ use crate::catalogue;
 use crate::names::{self, nearest};
 use crate::report::RunFormat;
 use crate::request::{
-    Refusal, Request, TOLERANCES, find_effect, find_parameter, find_start, find_state,
+    MOST_SAMPLES, Refusal, Request, TOLERANCES, find_effect, find_parameter, find_start, find_state,
 };
 use crate::sweep::event;
 use clap::ValueEnum;
@@ -15,9 +15,6 @@ use lagrange_core::system::Description;
 use std::path::PathBuf;
 use toml::Spanned;
 use toml::de::{DeString, DeTable};
-
-/// Most intervals that a file may ask for.
-const MOST_SAMPLES: f64 = 1e8;
 
 /// Reads a scene file.
 ///
@@ -233,12 +230,12 @@ fn format(value: &Value) -> Result<RunFormat, Wrong> {
 /// A number of intervals.
 fn count(value: &Value) -> Result<usize, Wrong> {
     match number(value)? {
-        count if count.fract() == 0.0 && (1.0..=MOST_SAMPLES).contains(&count) => {
+        count if count.fract() == 0.0 && (1.0..=MOST_SAMPLES as f64).contains(&count) => {
             Ok(count as usize)
         }
         _ => {
-            let reason = "a whole number from 1 to 100000000 is expected here";
-            Err((value.span().start, reason.to_owned()))
+            let reason = format!("a whole number from 1 to {MOST_SAMPLES} is expected here");
+            Err((value.span().start, reason))
         }
     }
 }

@@ -1,5 +1,6 @@
 //! A number that is varied, over which range, in which steps.
 
+use crate::count::count;
 use core::fmt;
 use core::str::FromStr;
 
@@ -55,10 +56,9 @@ impl FromStr for Axis {
         let (from, to) = (number(from)?, number(rest.next().ok_or(form)?)?);
         let count = match rest.next() {
             None => 1,
-            Some(count) => match count.trim().parse::<usize>() {
-                Ok(count) if count > 0 => count,
-                _ => return Err(format!("`{}` is not a number of values", count.trim())),
-            },
+            Some(text) => {
+                count(text).ok_or_else(|| format!("`{}` is not a number of values", text.trim()))?
+            }
         };
         let logarithmic = match rest.next().map(str::trim) {
             None => false,

@@ -3,7 +3,7 @@
 use lagrange_core::prelude::Error;
 
 /// Words for reasons; the number of a reason is its place, from 1.
-const REASONS: [&str; 12] = [
+const REASONS: [&str; 13] = [
     "other",
     "start",
     "projection",
@@ -16,6 +16,7 @@ const REASONS: [&str; 12] = [
     "step too large",
     "no progress",
     "limit",
+    "domain",
 ];
 
 /// The number of a reason; 0 is kept where a run did not fail.
@@ -32,6 +33,7 @@ pub(super) fn code(error: &Error) -> f64 {
         Error::StepTooLarge { .. } => "step too large",
         Error::NoProgress { .. } => "no progress",
         Error::Limit { .. } => "limit",
+        Error::Domain { .. } => "domain",
         _ => "other",
     };
     let place = REASONS.iter().position(|reason| *reason == word);

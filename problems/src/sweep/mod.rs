@@ -41,6 +41,9 @@ use lagrange_core::system::Description;
 /// Points of a chunk: a second's work or less.
 pub const CHUNK: usize = 1024;
 
+/// Most points of a sweep: as many as a Sobol sequence of 32 bits has.
+const MOST_POINTS: usize = 1 << 32;
+
 /// A sweep as asked for.
 #[derive(Clone)]
 pub struct Sweep {
@@ -74,6 +77,14 @@ impl Sweep {
                 .map(|text| Observation::new(text, scene))
                 .collect::<Result<_, _>>()?,
         };
+        if sweep.points.len() > MOST_POINTS {
+            let points = sweep.points.size();
+            return Err(Refusal::TooMany {
+                points,
+                bytes: points * (8 * sweep.width()) as f64,
+                most: MOST_POINTS,
+            });
+        }
         drop(scene.worker(&sweep)?);
         Ok(sweep)
     }

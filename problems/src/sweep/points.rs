@@ -1,6 +1,7 @@
 //! The points of a sweep: a grid, or a sample of a box. Point number i is the same whoever asks for it.
 
 use super::{Axis, sample, sobol};
+use crate::count::count;
 use core::fmt;
 use core::str::FromStr;
 
@@ -62,17 +63,14 @@ impl FromStr for Sampling {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let (word, count) = text.split_once(':').unwrap_or((text, ""));
+        let (word, number) = text.split_once(':').unwrap_or((text, ""));
         let kind = Kind::ALL.iter().find(|(name, _)| *name == word);
-        let count = count.parse().ok();
-        match (kind, count) {
-            (Some(&(_, kind)), Some(count)) if (1..=1 << 32).contains(&count) => {
-                Ok(Sampling::Sample {
-                    kind,
-                    count,
-                    seed: 0,
-                })
-            }
+        match (kind, count(number)) {
+            (Some(&(_, kind)), Some(count)) => Ok(Sampling::Sample {
+                kind,
+                count,
+                seed: 0,
+            }),
             _ => Err("expected sobol:N, random:N or lhs:N with a number of points N".to_owned()),
         }
     }
@@ -102,6 +100,14 @@ pub struct Points {
 }
 
 impl Points {
+    /// Number of points, which may be more than can be counted.
+    pub(super) fn size(&self) -> f64 {
+        match self.sampling {
+            Sampling::Grid => self.axes.iter().map(|axis| axis.count as f64).product(),
+            Sampling::Sample { count, .. } => count as f64,
+        }
+    }
+
     /// Number of points.
     pub fn len(&self) -> usize {
         match self.sampling {

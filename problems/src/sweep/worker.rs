@@ -32,7 +32,7 @@ pub(crate) fn worker<S: System<Scalar = f64> + Default + Send + 'static>(
         .max_events(MOST_EVENTS);
     let ends: Option<Vec<_>> = sweep.observed.iter().map(|o| o.ends_with()).collect();
     for (subject, kind) in ends.unwrap_or_default() {
-        simulation = simulation.end_after(subject, kind);
+        simulation = simulation.end_after((subject, kind));
     }
     let mut ensemble = simulation.ensemble();
     let varies = targets

@@ -2,7 +2,8 @@
 
 use lagrange_core::error::Level;
 use lagrange_core::prelude::*;
-use lagrange_problems::scenes::{MassOnShell, RollingSphere};
+use lagrange_problems::scenes::hard::{BouncingBall, TumblingBody};
+use lagrange_problems::scenes::{MassOnShell, MassOnWheel, RollingSphere};
 use lagrange_tests::agree;
 
 fn shell() -> MassOnShell {
@@ -184,4 +185,183 @@ fn an_empty_span_is_the_start() {
             .contacts,
         [true]
     );
+}
+
+/// The error of a run from the first start, which must come before any step.
+#[track_caller]
+fn refused<S: System<Scalar = f64>>(scene: &S) -> Error {
+    let failure = Simulation::new(scene)
+        .run(lagrange_tests::first_start(scene), 0.0..1.0)
+        .map(|trajectory| lagrange_tests::words(&trajectory))
+        .expect_err("must be refused");
+    assert_eq!(failure.trajectory.work().steps, 0, "{failure}");
+    failure.error
+}
+
+#[test]
+fn numbers_outside_their_domain_are_refused_by_item_and_field() {
+    let wheel = MassOnWheel::default;
+    let wheels = [
+        (
+            MassOnWheel {
+                mu_kinetic: 0.61,
+                ..wheel()
+            },
+            "grip",
+            "kinetic friction",
+            0.61,
+            "mu_kinetic",
+        ),
+        (
+            MassOnWheel {
+                mu_kinetic: -0.5,
+                ..wheel()
+            },
+            "grip",
+            "kinetic friction",
+            -0.5,
+            "mu_kinetic",
+        ),
+        (
+            MassOnWheel {
+                mu_static: -0.5,
+                ..wheel()
+            },
+            "grip",
+            "static friction",
+            -0.5,
+            "mu_static",
+        ),
+        (
+            MassOnWheel {
+                mass: -1.0,
+                ..wheel()
+            },
+            "r",
+            "inertia",
+            -1.0,
+            "mass",
+        ),
+        (
+            MassOnWheel {
+                inertia: -5.0,
+                ..wheel()
+            },
+            "phi",
+            "inertia",
+            -5.0,
+            "inertia",
+        ),
+        // The wheel and the mass on it: −1 + 0.2.
+        (
+            MassOnWheel {
+                wheel: -1.0,
+                ..wheel()
+            },
+            "x",
+            "inertia",
+            -0.8,
+            "wheel",
+        ),
+    ];
+    let balls = [1.2, -0.1].map(|bounce| BouncingBall {
+        bounce,
+        ..BouncingBall::default()
+    });
+    let wheels =
+        wheels.map(|(scene, item, what, value, field)| (refused(&scene), item, what, value, field));
+    let balls = balls.map(|ball| {
+        (
+            refused(&ball),
+            "floor",
+            "restitution",
+            ball.bounce,
+            "bounce",
+        )
+    });
+    for (error, item, what, value, field) in wheels.into_iter().chain(balls) {
+        let Error::Domain {
+            item: found,
+            what: number,
+            value: is,
+            ref fields,
+            ..
+        } = error
+        else {
+            panic!("{item}: {error}")
+        };
+        assert_eq!((found, number), (item, what), "{error}");
+        agree(what, is, value, 1e-15);
+        assert!(fields.iter().any(|(name, _)| *name == field), "{error}");
+    }
+}
+
+#[test]
+fn inertia_is_judged_where_the_constraints_leave_motion() {
+    // The matrix of the quaternion is singular, and positive where its constraint lets it move.
+    let body = TumblingBody::default();
+    let start = lagrange_tests::first_start(&body);
+    assert!(Simulation::new(&body).run(start, 0.0..0.1).is_ok());
+    let mut turned = body;
+    turned.inertia[1] *= -1.0;
+    let error = refused(&turned);
+    assert!(
+        matches!(&error, Error::Domain { what: "inertia", fields, .. } if fields[..] == [("inertia[1]", -2.0)]),
+        "{error}"
+    );
+}
+
+/// A coefficient that is legal at the start and not where it acts later.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2)/2,
+    potential = 10*y,
+    contact(floor: y >= 0, restitution = bounce + x),
+    start(high: y = 1, der(x) = 1),
+)]
+struct Livelier {
+    bounce: f64,
+}
+
+#[test]
+fn a_coefficient_that_leaves_its_domain_is_named_where_it_does() {
+    let scene = Livelier { bounce: 0.8 };
+    let error = Simulation::new(&scene)
+        .run(scene.at(Livelier::HIGH), 0.0..3.0)
+        .expect_err("0.8 + √0.2 > 1")
+        .error;
+    let Error::Domain {
+        time,
+        item: "floor",
+        what: "restitution",
+        value,
+        ..
+    } = error
+    else {
+        panic!("{error}")
+    };
+    agree("time", time, 0.2_f64.sqrt(), 1e-9);
+    agree("restitution", value, 0.8 + 0.2_f64.sqrt(), 1e-9);
+}
+
+#[test]
+fn steps_that_lose_the_motion_are_named_as_such() {
+    let scene = MassOnWheel::default();
+    for (method, length) in [
+        ("rk4:10", 10.0),
+        ("gauss6:10", 10.0),
+        ("rk4:1", 1.0),
+        ("gauss6:1", 1.0),
+    ] {
+        let error = Simulation::new(&scene)
+            .method(method.parse().expect("a method"))
+            .run(scene.at(<MassOnWheel>::REST), 0.0..20.0)
+            .expect_err("far too long")
+            .error;
+        assert!(
+            matches!(error, Error::StepTooLarge { step, .. } if step == length),
+            "{method}: {error}"
+        );
+    }
 }

@@ -240,24 +240,3 @@ fn strong_static_friction_goes_from_stick_to_flight_in_one_event() {
     agree("θ", lost.state.q[3], angle, 1e-10);
     assert_eq!(lost.after.frictions, [FrictionMode::Inactive]);
 }
-
-#[test]
-fn too_much_kinetic_friction_is_a_paradox_and_keeps_the_trajectory() {
-    let scene = wheel(0.6, 7.0);
-    let failure = Simulation::new(&scene)
-        .tolerance(1e-12)
-        .run(scene.at(<MassOnWheel>::REST), 0.0..20.0)
-        .unwrap_err();
-    let Error::NoMode { time, item, .. } = failure.error else {
-        panic!("{failure}")
-    };
-    agree("time of the paradox", time, 2.4617591504319569, 1e-10);
-    assert_eq!(item, "grip");
-    agree(
-        "the trajectory goes up to there",
-        failure.trajectory.last_time(),
-        time,
-        1e-15,
-    );
-    assert!(failure.trajectory.work().steps > 3);
-}

@@ -56,6 +56,7 @@ pub static PENDULUM: Description = Description {
         outputs: 0,
     },
     mass: &[(0, 0, C(0)), (1, 1, C(1))],
+    inertia: Some(&[]),
     forcing: &[Place::Zero, C(2)],
     rows: &[
         Row {

@@ -115,6 +115,7 @@ pub static WHEEL: Description = Description {
         (3, 0, N(M_XTH)),
         (3, 3, N(M_THTH)),
     ],
+    inertia: Some(&[]),
     forcing: &[N(F_X), N(F_PHI), N(F_R), N(F_TH)],
     rows: &[
         Row {
@@ -153,6 +154,7 @@ pub static WHEEL: Description = Description {
         normal_factor: None,
         restitution: Restitution::Newton(Zero),
         restitution_need: 0,
+        restitution_parameters: &[],
         region: None,
     }],
     frictions: &[Friction {
@@ -163,6 +165,8 @@ pub static WHEEL: Description = Description {
         static_coefficient: C(MU_S),
         kinetic_coefficient: C(MU_K),
         coefficients_need: COEFFICIENTS,
+        static_parameters: &[],
+        kinetic_parameters: &[],
     }],
     forces: &[Load {
         name: "drive",

@@ -117,7 +117,7 @@ impl Writer {
     fn coefficient(&mut self, coefficient: Coefficient) -> usize {
         match coefficient {
             Coefficient::Number(number) => self.number(number.to_f64()),
-            Coefficient::Pi => self.number(std::f64::consts::PI),
+            Coefficient::Pi(multiple) => self.number(Coefficient::multiple_of_pi(multiple)),
             Coefficient::Parameter(place) => 4 * place + 1,
             Coefficient::Constant(place) => 4 * place,
         }

@@ -164,6 +164,7 @@ fn empty(core: &TokenStream) -> TokenStream {
             motion: #core::system::TapeShape { slots: 0, outputs: 0 },
             report: #core::system::TapeShape { slots: 0, outputs: 0 },
             mass: &[],
+            inertia: ::core::option::Option::None,
             forcing: &[],
             rows: &[],
             couplings: &[],

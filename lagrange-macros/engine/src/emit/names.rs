@@ -67,8 +67,9 @@ pub fn coefficient(system: &System, coefficient: Coefficient) -> TokenStream {
             let number = float(number);
             quote!(<Self::Scalar as #core::arithmetic::Scalar>::from_f64(#number))
         }
-        Coefficient::Pi => {
-            quote!(<Self::Scalar as #core::arithmetic::Scalar>::from_f64(::core::f64::consts::PI))
+        Coefficient::Pi(multiple) => {
+            let number = f64(Coefficient::multiple_of_pi(multiple));
+            quote!(<Self::Scalar as #core::arithmetic::Scalar>::from_f64(#number))
         }
         Coefficient::Parameter(parameter) => field(&system.parameters[parameter]),
         Coefficient::Constant(constant) => {

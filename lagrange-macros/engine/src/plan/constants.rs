@@ -19,7 +19,7 @@ pub(super) enum Source {
 pub(super) struct Constants {
     /// Index of each field's symbol.
     parameters: BTreeMap<Symbol, usize>,
-    /// Whether constants may be asked for at all (the constants program itself has only numbers).
+    /// Whether constants may be asked for at all (the constants program itself has only numbers and multiples of π).
     open: bool,
     index: BTreeMap<Source, usize>,
     symbols: BTreeMap<Symbol, usize>,
@@ -40,7 +40,7 @@ impl Constants {
         }
     }
 
-    /// For programs whose only coefficients are exact numbers.
+    /// For programs whose only coefficients are exact numbers and multiples of π.
     pub fn closed() -> Constants {
         Constants {
             open: false,
@@ -79,9 +79,11 @@ impl Constants {
 
     /// Where a tape finds a fixed expression.
     pub fn coefficient(&mut self, pool: &Pool, e: ExprId) -> Coefficient {
+        if let Some(multiple) = pool.as_multiple_of_pi(e) {
+            return Coefficient::Pi(multiple);
+        }
         match pool.node(e) {
             Node::Number(number) => return Coefficient::Number(*number),
-            Node::Pi => return Coefficient::Pi,
             Node::Symbol(symbol) => {
                 if let Some(index) = self.parameters.get(symbol) {
                     return Coefficient::Parameter(*index);

@@ -15,12 +15,19 @@ pub struct Value(pub usize);
 pub enum Coefficient {
     /// An exact number.
     Number(Rational),
-    /// π
-    Pi,
+    /// An exact multiple of π.
+    Pi(Rational),
     /// Parameter i of the struct.
     Parameter(usize),
     /// Element i of the constants.
     Constant(usize),
+}
+
+impl Coefficient {
+    /// The number nearest to c π.
+    pub fn multiple_of_pi(c: Rational) -> f64 {
+        std::f64::consts::PI * c.to_f64()
+    }
 }
 
 /// One operation. In the constants and starts a value is a scalar, in the tapes a node.

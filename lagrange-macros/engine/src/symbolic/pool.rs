@@ -122,6 +122,18 @@ impl Pool {
         }
     }
 
+    /// The number c, if the expression is c π with c ≠ 0.
+    pub fn as_multiple_of_pi(&self, e: ExprId) -> Option<Rational> {
+        match self.node(e) {
+            Node::Pi => Some(Rational::ONE),
+            Node::Sum { constant, terms } if constant.is_zero() => match terms[..] {
+                [(term, c)] if matches!(self.node(term), Node::Pi) => Some(c),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+
     /// Whether it is the number 0.
     pub fn is_zero(&self, e: ExprId) -> bool {
         matches!(self.node(e), Node::Number(n) if n.is_zero())

@@ -45,10 +45,17 @@ struct Writing {
 
 impl Journal {
     /// A journal that is lost with the process.
-    pub fn in_memory(sweep: &Sweep) -> Self {
-        Self {
-            keep: Keep::Memory(Mutex::new(vec![None; sweep.chunks()])),
+    ///
+    /// # Errors
+    /// The results do not fit into memory.
+    pub fn in_memory(sweep: &Sweep) -> Result<Self, Trouble> {
+        let numbers = sweep.points.len().saturating_mul(sweep.width());
+        if Vec::<f64>::new().try_reserve_exact(numbers).is_err() {
+            return Err(Trouble::Memory(numbers.saturating_mul(8)));
         }
+        Ok(Self {
+            keep: Keep::Memory(Mutex::new(vec![None; sweep.chunks()])),
+        })
     }
 
     /// The journal in a folder, which is made if it is not there, to work on a shard of the sweep.

@@ -22,6 +22,8 @@ pub enum Trouble {
     NoSweep(PathBuf, String),
     /// A chunk was there and can no longer be read.
     Damaged(PathBuf),
+    /// The results take more memory than there is: so many bytes.
+    Memory(usize),
     /// Chunks are missing.
     Incomplete(Missing),
 }
@@ -120,6 +122,10 @@ impl fmt::Display for Trouble {
                 f,
                 "{} was changed while it was read; the same command again does the {CHUNK} runs concerned once more",
                 path.display()
+            ),
+            Trouble::Memory(bytes) => write!(
+                f,
+                "the results take {bytes} bytes, more than there is memory; keep them in a file with --output"
             ),
             Trouble::Incomplete(missing) => missing.fmt(f),
         }

@@ -16,6 +16,7 @@ mod in_turn;
 mod incline;
 mod kepler;
 mod landings;
+mod multiples_of_pi;
 mod pendulum;
 mod piecewise;
 mod plate;
@@ -33,7 +34,7 @@ use lagrange_core::prelude::*;
 
 const PI: f64 = core::f64::consts::PI;
 
-fn state(q: &[f64], v: &[f64]) -> State<f64> {
+pub fn state(q: &[f64], v: &[f64]) -> State<f64> {
     State {
         q: q.to_vec(),
         v: v.to_vec(),

@@ -264,7 +264,7 @@ fn all_methods_follow_the_bead() {
     constraint(rod: sqrt((u - x)^2 + (height - y)^2) == length),
     constraint(guide: y == 0),
     friction(rub on guide: slip = der(x), static = mu),
-    force(push: u = thrust),
+    force(push: u = thrust * cos(rate*t)),
 )]
 struct Slides {
     lower: f64,
@@ -273,6 +273,7 @@ struct Slides {
     length: f64,
     mu: f64,
     thrust: f64,
+    rate: f64,
 }
 
 /// With k = μ tan α and r = m₁/m₂ the force T along the guides obeys P r = (1 + r) T − k |T|: one answer for k < 1 + r, beyond
@@ -286,6 +287,7 @@ fn two_slides_on_a_slanting_rod() {
         length: 0.5,
         mu: 0.6,
         thrust: 3.0,
+        rate: 0.0,
     };
     let (slope, r) = (4.0 / 3.0, 0.5);
     let start = || state(&[0.0, 0.0, 0.3], &[1.0, 0.0, 1.0]);
@@ -316,4 +318,29 @@ fn two_slides_on_a_slanting_rod() {
         "{:?}",
         words(&trajectory)
     );
+}
+
+/// Two answers while the rod is pulled, none once it is pushed: the run ends where the thrust turns.
+#[test]
+fn a_paradox_in_the_middle_of_a_run_keeps_the_trajectory() {
+    let scene = Slides {
+        lower: 1.0,
+        upper: 2.0,
+        height: 0.4,
+        length: 0.5,
+        mu: 1.5,
+        thrust: -3.0,
+        rate: 2.0,
+    };
+    let failure = Simulation::new(&scene)
+        .tolerance(1e-12)
+        .run(state(&[0.0, 0.0, 0.3], &[1.0, 0.0, 1.0]), 0.0..2.0)
+        .expect_err("no answer");
+    let Error::NoMode { time, item, .. } = failure.error else {
+        panic!("{failure}")
+    };
+    assert_eq!(item, "rub");
+    agree("time of the paradox", time, PI / 4.0, 1e-11);
+    assert_eq!(failure.trajectory.last_time(), time);
+    assert!(failure.trajectory.work().steps > 0);
 }

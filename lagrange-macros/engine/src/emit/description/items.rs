@@ -45,6 +45,7 @@ impl Writer<'_> {
                 self.place(numbers.restitution),
                 index(numbers.restitution_need.0),
             );
+            let parameters = self.parameters_of([numbers.restitution]);
             let restitution = match contact.restitution {
                 Restitution::Newton(_) => quote!(#core::system::Restitution::Newton(#restitution)),
                 Restitution::Poisson(_) => {
@@ -58,6 +59,7 @@ impl Writer<'_> {
                     normal_factor: #normal_factor,
                     restitution: #restitution,
                     restitution_need: #need,
+                    restitution_parameters: #parameters,
                     region: #region,
                 }
             }
@@ -94,6 +96,10 @@ impl Writer<'_> {
                 self.place(numbers.kinetic_coefficient),
             );
             let need = index(numbers.coefficients_need.0);
+            let (rests, slides) = (
+                self.parameters_of([numbers.static_coefficient]),
+                self.parameters_of([numbers.kinetic_coefficient]),
+            );
             quote! {
                 #core::system::Friction {
                     name: #name,
@@ -103,6 +109,8 @@ impl Writer<'_> {
                     static_coefficient: #stick,
                     kinetic_coefficient: #slide,
                     coefficients_need: #need,
+                    static_parameters: #rests,
+                    kinetic_parameters: #slides,
                 }
             }
         })

@@ -4,11 +4,13 @@ mod items;
 
 use super::names::{self, index};
 use crate::ast::Impacts;
-use crate::derive::{NeedId, OutputId};
+use crate::derive::{Equations, NeedId, OutputId};
 use crate::model::{EnergyTerm, System, Watch};
 use crate::plan::{Program, Tape};
+use crate::symbolic::Symbol;
 use proc_macro2::TokenStream;
 use quote::quote;
+use std::collections::BTreeSet;
 
 /// `Description { … }`
 pub fn description(program: &Program) -> TokenStream {
@@ -22,6 +24,7 @@ pub fn description(program: &Program) -> TokenStream {
     let (motion, report) = (writer.shape(&program.motion), writer.shape(&program.report));
     let (parameters, coordinates) = (writer.parameters(), writer.coordinates());
     let (mass, forcing) = (writer.mass(), writer.places(&structure.forcing));
+    let inertia = writer.inertia();
     let (rows, couplings) = (writer.rows(), writer.couplings());
     let effect = |term: &EnergyTerm, need: &NeedId| writer.effect(&term.name, *need);
     let kinetic = each(&system.kinetic, &structure.kinetic, effect);
@@ -60,6 +63,7 @@ pub fn description(program: &Program) -> TokenStream {
             motion: #motion,
             report: #report,
             mass: &[#(#mass),*],
+            inertia: #inertia,
             forcing: #forcing,
             rows: &[#(#rows),*],
             couplings: &[#(#couplings),*],
@@ -173,6 +177,33 @@ impl Writer<'_> {
             quote!((#row, #column, #entry))
         });
         entries.collect()
+    }
+
+    /// The parameters that the kinetic energy's inertia consists of.
+    fn inertia(&self) -> TokenStream {
+        let equations = &self.program.equations;
+        if equations.system.from_lagrangian {
+            return quote!(::core::option::Option::None);
+        }
+        let entries = equations.structure.mass.iter();
+        let parameters = self.parameters_of(entries.map(|(_, _, entry)| *entry));
+        quote!(::core::option::Option::Some(#parameters))
+    }
+
+    /// The parameters that outputs contain, by index.
+    fn parameters_of(&self, outputs: impl IntoIterator<Item = OutputId>) -> TokenStream {
+        let Equations {
+            system,
+            outputs: all,
+            ..
+        } = &self.program.equations;
+        let terms = outputs.into_iter().flat_map(|output| &all[output.0].terms);
+        let symbols: BTreeSet<Symbol> = terms.flat_map(|(_, e)| system.pool.symbols(*e)).collect();
+        let parameters = system.parameters.iter().enumerate();
+        let contained = parameters
+            .filter(|(_, parameter)| symbols.contains(&parameter.symbol))
+            .map(|(i, _)| index(i));
+        quote!(&[#(#contained),*])
     }
 
     fn rows(&self) -> Vec<TokenStream> {

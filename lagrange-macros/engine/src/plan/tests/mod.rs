@@ -2,6 +2,7 @@
 
 mod counts;
 mod peers;
+mod pi;
 mod random;
 
 use super::*;

@@ -122,7 +122,9 @@ fn random(
         return match dice.below(6) {
             0 => {
                 let (p, q) = (dice.below(9) as i128 - 4, dice.below(4) as i128 + 1);
-                pool.number(Rational::new(p, q).expect("q > 0"))
+                let number = pool.number(Rational::new(p, q).expect("q > 0"));
+                let pi = pool.pi();
+                [number, pool.mul(number, pi)][dice.below(2)]
             }
             1 if !known.is_empty() => known[dice.below(known.len())],
             _ => leaves[dice.below(leaves.len())],

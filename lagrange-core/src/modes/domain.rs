@@ -1,0 +1,201 @@
+//! Numbers outside the domain in which the equations mean something: friction, restitution, inertia.
+//!
+//! Outside it the laws of contact may have no solution although nothing is paradoxical, or one that is not physical: a kinetic
+//! coefficient above the static one leaves no mode at the onset of slip, a negative inertia makes a blow accelerate.
+
+use crate::arithmetic::Scalar;
+use crate::dynamics::Dynamics;
+use crate::effects::Item;
+use crate::error::Error;
+use crate::mode::FrictionMode;
+use crate::system::{Place, Restitution};
+
+/// Coefficients given by different formulas may differ by this share and still be meant as equal.
+const ROUNDING: f64 = 1e-9;
+
+/// Weight of the constraints beside the mass matrix, relative.
+const WEIGHT: f64 = 1e6;
+
+/// A pivot this small beside the terms that make it is zero.
+const NOISE: f64 = 1e-12;
+
+/// Looks for numbers outside their domain in the state that `dynamics` holds, with the Jacobians and coefficients of all rows;
+/// `form` is memory.
+///
+/// Coefficients that depend on the state count only where their friction acts.
+///
+/// # Errors
+/// [`Error::Domain`]: the first that is.
+pub fn check<T: Scalar>(dynamics: &Dynamics<T>, t: f64, form: &mut Vec<f64>) -> Result<(), Error> {
+    let d = dynamics.description();
+    for f in 0..d.frictions.len() {
+        check_friction(dynamics, t, f)?;
+    }
+    for c in 0..d.contacts.len() {
+        let (Restitution::Newton(place) | Restitution::Poisson(place)) = d.contacts[c].restitution;
+        if is_fixed(place) {
+            check_restitution(dynamics, t, c)?;
+        }
+    }
+    check_inertia(dynamics, t, form)
+}
+
+/// Looks at the restitution of contact `c` in the state that `dynamics` holds.
+///
+/// # Errors
+/// [`Error::Domain`] if it is not between 0 and 1.
+pub fn check_restitution<T: Scalar>(dynamics: &Dynamics<T>, t: f64, c: usize) -> Result<(), Error> {
+    let d = dynamics.description();
+    let contact = &d.contacts[c];
+    let (Restitution::Newton(place) | Restitution::Poisson(place)) = contact.restitution;
+    let value = dynamics.motion(place).value();
+    let outside = value < 0.0 || value > 1.0;
+    if !(outside && dynamics.effects().includes(d, Item::Contact(c))) {
+        return Ok(());
+    }
+    Err(Error::Domain {
+        time: t,
+        item: contact.name,
+        what: "restitution",
+        value,
+        expected: "between 0 and 1".to_owned(),
+        fields: values_of(dynamics, contact.restitution_parameters),
+    })
+}
+
+fn check_friction<T: Scalar>(dynamics: &Dynamics<T>, t: f64, f: usize) -> Result<(), Error> {
+    let d = dynamics.description();
+    if !dynamics.effects().includes(d, Item::Friction(f)) {
+        return Ok(());
+    }
+    let friction = &d.frictions[f];
+    let mode = dynamics.mode().frictions[f];
+    let number = |place| dynamics.motion(place).value();
+    let counts = |place| is_fixed(place) || mode != FrictionMode::Inactive;
+    let (at_rest, sliding) = (friction.static_coefficient, friction.kinetic_coefficient);
+    let (rests, slides) = (friction.static_parameters, friction.kinetic_parameters);
+    let refused = |what, value, expected, parameters| Error::Domain {
+        time: t,
+        item: friction.name,
+        what,
+        value,
+        expected,
+        fields: values_of(dynamics, parameters),
+    };
+    for (what, place, parameters) in [
+        ("static friction", at_rest, rests),
+        ("kinetic friction", sliding, slides),
+    ] {
+        if counts(place) && number(place) < 0.0 {
+            let expected = "at least 0".to_owned();
+            return Err(refused(what, number(place), expected, parameters));
+        }
+    }
+    // Where the coefficients depend on the slip it is those at rest that must agree.
+    let comparable = is_fixed(at_rest) && is_fixed(sliding) || mode == FrictionMode::Stick;
+    if comparable && number(sliding) > (1.0 + ROUNDING) * number(at_rest) {
+        let expected = format!("at most that of static friction, {}", number(at_rest));
+        return Err(refused(
+            "kinetic friction",
+            number(sliding),
+            expected,
+            slides,
+        ));
+    }
+    Ok(())
+}
+
+/// Whether the kinetic energy is positive in every direction that the constraints leave: M + w JᵀJ is positive definite for a
+/// large w (Finsler 1937), which elimination shows. Directions without inertia are for the solver to complain of.
+fn check_inertia<T: Scalar>(
+    dynamics: &Dynamics<T>,
+    t: f64,
+    form: &mut Vec<f64>,
+) -> Result<(), Error> {
+    let d = dynamics.description();
+    let Some(parameters) = d.inertia else {
+        return Ok(());
+    };
+    let n = d.coordinates.len();
+    let number = |place: Place| dynamics.motion(place).value();
+    form.clear();
+    form.resize(n * n, 0.0);
+    let mut size = 0.0_f64;
+    for &(i, j, place) in d.mass {
+        let m = number(place);
+        (form[i * n + j], form[j * n + i]) = (m, m);
+        size = size.max(m.abs());
+    }
+    let always = |(i, c): &(usize, &crate::system::Constraint)| {
+        c.while_contact.is_none() && dynamics.effects().includes(d, Item::Constraint(*i))
+    };
+    for (_, constraint) in d.constraints.iter().enumerate().filter(always) {
+        let row = d.rows[constraint.row].jacobian;
+        let square: f64 = row.iter().map(|&(_, a)| number(a).powi(2)).sum();
+        let weight = WEIGHT * size / square;
+        if weight.is_finite() {
+            for &(i, a) in row {
+                for &(j, b) in row {
+                    form[i * n + j] += weight * number(a) * number(b);
+                }
+            }
+        }
+    }
+    let Some((coordinate, value)) = negative_pivot(form, n) else {
+        return Ok(());
+    };
+    let own = |&&(i, j, place): &&(usize, usize, Place)| i == j && number(place) < 0.0;
+    let (coordinate, value) = match d.mass.iter().find(own) {
+        Some(&(i, _, place)) => (i, number(place)),
+        None => (coordinate, value),
+    };
+    let mut fields = values_of(dynamics, parameters);
+    fields.retain(|(_, value)| *value < 0.0);
+    Err(Error::Domain {
+        time: t,
+        item: d.coordinates[coordinate].name,
+        what: "inertia",
+        value,
+        expected: "positive".to_owned(),
+        fields,
+    })
+}
+
+/// The first pivot of a symmetric matrix of size `n` that is negative beyond rounding, and its place. The elimination works in
+/// the lower triangle of `a`; a pivot that is rounding becomes 0, and its column stays.
+fn negative_pivot(a: &mut [f64], n: usize) -> Option<(usize, f64)> {
+    for k in 0..n {
+        let pivot = a[k * n + k];
+        let earlier = (0..k).filter(|&i| a[i * n + i] > 0.0);
+        let subtracted: f64 = earlier.map(|i| a[k * n + i].powi(2) / a[i * n + i]).sum();
+        let noise = NOISE * (pivot.abs() + subtracted);
+        if pivot < -noise {
+            return Some((k, pivot));
+        }
+        if pivot <= noise {
+            a[k * n + k] = 0.0;
+            continue;
+        }
+        for i in k + 1..n {
+            let factor = a[i * n + k] / pivot;
+            for j in k + 1..=i {
+                a[i * n + j] -= factor * a[j * n + k];
+            }
+        }
+    }
+    None
+}
+
+/// Whether a number depends on parameters only.
+fn is_fixed(place: Place) -> bool {
+    !matches!(place, Place::Node(_))
+}
+
+/// Names and values of parameters.
+fn values_of<T: Scalar>(dynamics: &Dynamics<T>, parameters: &[usize]) -> Vec<(&'static str, f64)> {
+    let names = dynamics.description().parameters;
+    let values = parameters.iter();
+    values
+        .map(|&i| (names[i].name, dynamics.system().parameter(i).value()))
+        .collect()
+}

@@ -1,0 +1,64 @@
+//! What is behind an error of the motion: coefficients without meaning where it happened, or fixed steps that lost the motion.
+
+use super::Run;
+use crate::arithmetic::Scalar;
+use crate::error::Error;
+use crate::integrate::Method;
+use crate::modes::domain;
+
+/// A step whose accelerations miss the equations of motion by this share of themselves does not follow the motion.
+const LOST: f64 = 0.1;
+
+impl<T: Scalar> Run<T> {
+    /// The error that says why the motion came to this one.
+    #[cold]
+    pub(super) fn cause(&mut self, error: Error) -> Error {
+        match error {
+            Error::Interrupted { .. } | Error::Limit { .. } | Error::StepTooLarge { .. } => error,
+            _ => self
+                .domain_left()
+                .or_else(|| self.steps_too_long())
+                .unwrap_or(error),
+        }
+    }
+
+    /// A number that is outside its domain at the present state.
+    fn domain_left(&mut self) -> Option<Error> {
+        self.dynamics.set_mode(&self.mode);
+        self.evaluate_all_rows().ok()?;
+        domain::check(&self.dynamics, self.t.value(), &mut self.survey.form).err()
+    }
+
+    /// Whether the method's steps are fixed, and half-way through the last one the equations of motion ask for other
+    /// accelerations than it has.
+    fn steps_too_long(&mut self) -> Option<Error> {
+        let (Method::RungeKutta4 { step } | Method::Gauss6 { step }) = self.settings.method else {
+            return None;
+        };
+        if self.step.h.is_zero() {
+            return None;
+        }
+        let half = T::from_f64(0.5);
+        let (mut q, mut v) = (self.state.q.clone(), self.state.v.clone());
+        self.step.state_into(half, &mut q, &mut v);
+        let accepted = self.trajectory.segments.last();
+        let mode = match accepted {
+            Some(segment) if self.step.t != self.t => &self.trajectory.modes[segment.mode],
+            _ => &self.mode,
+        };
+        self.dynamics.set_mode(mode);
+        let valued = self.dynamics.value(self.step.time(half), &q, &v);
+        let (mut defect, mut size) = (0.0_f64, 0.0_f64);
+        for (i, asked) in self.dynamics.acceleration().iter().enumerate() {
+            let (asked, has) = (asked.value(), self.step.acceleration(i, half).value());
+            defect = defect.max((asked - has).abs());
+            size = size.max(asked.abs()).max(has.abs());
+        }
+        let follows = valued.is_ok() && defect <= LOST * size;
+        (!follows).then(|| Error::StepTooLarge {
+            time: self.step.t.value(),
+            step,
+            mode: mode.display(self.description()).to_string(),
+        })
+    }
+}

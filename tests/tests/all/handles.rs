@@ -1,0 +1,136 @@
+//! Results by the handles of items are those at the places of their rows, and runs end after what handles name.
+
+use super::systems::state;
+use lagrange_core::prelude::*;
+use lagrange_problems::scenes::MassOnWheel;
+use lagrange_tests::{agree, closure};
+
+type Wheel = MassOnWheel;
+
+#[test]
+fn a_run_tells_forces_and_states_by_handle() {
+    let scene = Wheel::default();
+    let simulation = Simulation::new(&scene).tolerance(1e-12);
+    let trajectory = simulation
+        .run(scene.at(Wheel::REST), 0.0..20.0)
+        .expect("a run");
+    let mut sampler = trajectory.sampler();
+    // While stuck the equations of the wheel and of its rim tie the forces together.
+    let now = sampler.at(2.0).expect("inside");
+    assert!(now.mode.closed(Wheel::RIM) && now.mode.sticks(Wheel::GRIP));
+    let (m, r, g) = (scene.mass, scene.radius, scene.gravity);
+    let (s, c) = now.q(Wheel::THETA).sin_cos();
+    let normal = m * (now.a(Wheel::X) * s + g * c - r * now.v(Wheel::THETA).powi(2));
+    agree("N", now.force(Wheel::RIM), normal, 1e-11);
+    let grip = m * (now.a(Wheel::X) * c + r * now.a(Wheel::THETA) - g * s);
+    agree("F", now.force(Wheel::GRIP), grip, 1e-11);
+    let rolling = (scene.wheel + m) * now.a(Wheel::X)
+        + m * r * (now.a(Wheel::THETA) * c - now.v(Wheel::THETA).powi(2) * s);
+    agree("λ", now.force(Wheel::ROLLING), rolling, 1e-11);
+    agree("slip", now.slip(Wheel::GRIP), 0.0, 1e-12);
+    agree("gap", now.gap(Wheel::RIM), 0.0, 1e-12);
+    let left = scene.mu_static * normal - grip.abs();
+    agree("margin", now.margin(Wheel::GRIP), left, 1e-11);
+    agree("px", now.observe(Wheel::PX), now.q(Wheel::X) + r * s, 1e-12);
+    let before = sampler.at(0.0).expect("the start").energy();
+    agree("energy", now.energy(), before, 1e-11);
+
+    let slips = &trajectory.events()[0];
+    let (n, f) = (slips.force(Wheel::RIM), slips.force(Wheel::GRIP));
+    agree("edge of the cone", f.abs(), scene.mu_static * n, 1e-10);
+    let (n, f) = (
+        slips.force_after(Wheel::RIM),
+        slips.force_after(Wheel::GRIP),
+    );
+    agree("sliding", f.abs(), scene.mu_kinetic * n, 1e-10);
+    assert_eq!(slips.friction_after(Wheel::GRIP), [f]);
+    agree("θ̇", slips.v(Wheel::THETA), slips.v_after(Wheel::THETA), 0.0);
+    assert_eq!(slips.impulse(Wheel::RIM), 0.0);
+    assert!(slips.before.sticks(Wheel::GRIP) && slips.after.slips(Wheel::GRIP));
+    let end = trajectory.final_state();
+    agree(
+        "floor",
+        end.q(Wheel::R) * end.q(Wheel::THETA).cos(),
+        -r,
+        1e-11,
+    );
+}
+
+#[test]
+fn runs_end_after_what_handles_name() {
+    let scene = Wheel::default();
+    let ends = |simulation: Simulation<'_, Wheel>| {
+        let trajectory = simulation.run(scene.at(Wheel::REST), 0.0..20.0);
+        let trajectory = trajectory.expect("a run");
+        let last = trajectory.events().last().expect("an event").clone();
+        (last.subject, last.kind)
+    };
+    let simulation = || Simulation::new(&scene);
+    let slips = (Subject::from(Wheel::GRIP), EventKind::Slips);
+    assert_eq!(ends(simulation().end_after(Wheel::GRIP)), slips);
+    let lost = (Subject::from(Wheel::RIM), EventKind::Lost);
+    assert_eq!(
+        ends(simulation().end_after((Wheel::RIM, EventKind::Lost))),
+        lost
+    );
+    let both = simulation().end_after(Wheel::RIM).end_after(Wheel::GRIP);
+    assert_eq!(ends(both), lost);
+    let floor = (Subject::from(Wheel::FLOOR), EventKind::Stop);
+    assert_eq!(ends(simulation().end_after(Wheel::FLOOR)), floor);
+}
+
+/// A puck that slides over a table while it is pushed down, and hits a wall.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, z),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2 + der(z)^2),
+    force(load: z = -push),
+    contact(wall: 1 >= x, restitution = bounce),
+    contact(table: z >= 0),
+    friction(rub on table: slip = (der(x), der(y)), static = mu),
+)]
+struct Puck {
+    mass: f64,
+    push: f64,
+    mu: f64,
+    bounce: f64,
+}
+
+#[test]
+fn friction_in_space_loads_and_impulses_have_handles() {
+    let scene = Puck {
+        mass: 0.5,
+        push: 2.0,
+        mu: 0.3,
+        bounce: 0.8,
+    };
+    let trajectory = Simulation::new(&scene)
+        .tolerance(1e-12)
+        .run(state(&[0.0; 3], &[3.0, 4.0, 0.0]), 0.0..0.5)
+        .expect("a run");
+    let now = trajectory.sampler().at(0.1).expect("inside");
+    agree("load", now.load(Puck::LOAD), -2.0, 1e-14);
+    agree("N", now.force(Puck::TABLE), 2.0, 1e-12);
+    let speed = now.v(Puck::X).hypot(now.v(Puck::Y));
+    let [along, across] = *now.friction(Puck::RUB) else {
+        panic!("two components")
+    };
+    agree("along", along, -0.6 * now.v(Puck::X) / speed, 1e-12);
+    agree("across", across, -0.6 * now.v(Puck::Y) / speed, 1e-12);
+    agree("margin", now.margin(Puck::RUB), 0.0, 1e-12);
+    agree("slip", now.slip(Puck::RUB), now.v(Puck::X), 1e-14);
+    let impact = &trajectory.events()[0];
+    agree(
+        "rebound",
+        impact.v_after(Puck::X),
+        -0.8 * impact.v(Puck::X),
+        1e-12,
+    );
+    agree(
+        "impulse",
+        impact.impulse(Puck::WALL),
+        0.5 * 1.8 * impact.v(Puck::X),
+        1e-12,
+    );
+    assert!(closure(&trajectory) < 1e-11);
+}
