@@ -77,4 +77,4 @@ pub use error::Error;
 pub use lagrange_macros::Lagrangian;
 pub use monitor::Monitor;
 pub use run::{Ensemble, Runner};
-pub use simulation::{Awaited, Failure, Held, Simulation};
+pub use simulation::{Awaited, Equations, Failure, Held, Simulation};

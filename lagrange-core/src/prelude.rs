@@ -10,7 +10,7 @@ pub use crate::handle::*;
 pub use crate::integrate::Method;
 pub use crate::mode::{FrictionMode, Mode};
 pub use crate::run::{Ensemble, Runner};
-pub use crate::simulation::{Awaited, Failure, Held, Simulation};
+pub use crate::simulation::{Awaited, Equations, Failure, Held, Simulation};
 pub use crate::system::{Description, Impacts, System};
 pub use crate::trajectory::{
     Energies, Entry, Event, EventKind, Instant, Ledger, Phase, Record, Sampler, Starts, State,

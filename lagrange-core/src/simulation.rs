@@ -26,6 +26,8 @@ pub(crate) struct Settings {
     pub tolerance: f64,
     pub method: Method,
     pub project_start: bool,
+    /// What evaluates the equations of motion.
+    pub equations: Equations,
     pub record: bool,
     /// The run ends once each of these has happened; empty: it does not.
     pub last_events: Vec<Awaited>,
@@ -88,6 +90,18 @@ impl<S: System + fmt::Debug> core::error::Error for Failure<S> {
     }
 }
 
+/// What evaluates the equations of motion.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Equations {
+    /// The functions that the derive has emitted for the mode; where there are none, the interpreter.
+    #[default]
+    Emitted,
+    /// The interpreter.
+    Interpreted,
+    /// The interpreter, and all linear systems by the solver that looks for the best pivots.
+    Solved,
+}
+
 /// Which values a consistent state must keep exactly.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Held {
@@ -107,6 +121,7 @@ impl<'a, S: System> Simulation<'a, S> {
                 tolerance: 1e-9,
                 method: Method::Taylor,
                 project_start: false,
+                equations: Equations::Emitted,
                 record: true,
                 last_events: Vec::new(),
                 impacts: None,
@@ -142,6 +157,14 @@ impl<'a, S: System> Simulation<'a, S> {
     #[must_use]
     pub fn project_start(mut self, yes: bool) -> Self {
         self.settings.project_start = yes;
+        self
+    }
+
+    /// What evaluates the equations of motion: the functions that the derive emitted, or an interpreter of the same equations,
+    /// slower and with the same numbers to rounding. To compare the two.
+    #[must_use]
+    pub fn equations(mut self, equations: Equations) -> Self {
+        self.settings.equations = equations;
         self
     }
 

@@ -39,6 +39,8 @@ pub struct Request {
     pub project: bool,
     /// How impacts at one instant are solved; as declared if `None`.
     pub impacts: Option<Impacts>,
+    /// What evaluates the equations of motion.
+    pub equations: Equations,
     /// Number of intervals to sample the trajectory at; 0 samples its ends only.
     pub samples: usize,
     /// Whether the energy ledger is drawn up at every sample.
@@ -60,6 +62,7 @@ impl Default for Request {
             method: Method::Taylor,
             project: false,
             impacts: None,
+            equations: Equations::Emitted,
             samples: 0,
             ledger: false,
             progress: None,
@@ -188,7 +191,8 @@ impl Request {
             .tolerance(self.tolerance)
             .method(self.method)
             .effects(self.effects(S::DESCRIPTION)?)
-            .project_start(self.project);
+            .project_start(self.project)
+            .equations(self.equations);
         let mut simulation = match self.impacts {
             Some(impacts) => simulation.impacts(impacts),
             None => simulation,

@@ -4,6 +4,7 @@
 
 use super::{Dynamics, EvaluationError};
 use crate::arithmetic::{Derivative, Dual, Scalar};
+use crate::simulation::Equations;
 use crate::system::Held;
 use crate::tapes::Call;
 
@@ -29,9 +30,13 @@ impl<T: Scalar> Dynamics<T> {
         v: &[T],
         columns: &mut [T],
     ) -> Result<(), EvaluationError> {
-        self.on_tape_only = true;
+        // The columns are solved for with the factors that the interpreter leaves.
+        let equations = self.equations;
+        if equations == Equations::Emitted {
+            self.equations = Equations::Interpreted;
+        }
         let outcome = self.value(t, q, v);
-        self.on_tape_only = false;
+        self.equations = equations;
         outcome?;
         let n = self.description().coordinates.len();
         let known = self.known_solution()?;

@@ -32,6 +32,7 @@ use crate::effects::Effects;
 use crate::equations::Emitted;
 use crate::linear::{SolveError, Solver};
 use crate::mode::Mode;
+use crate::simulation::Equations;
 use crate::system::System;
 use crate::system::{Description, Place};
 use crate::tapes::Erased;
@@ -93,8 +94,8 @@ pub struct Dynamics<T: Scalar> {
     selected: bool,
     /// Whether the last evaluation was by the functions of the mode.
     by_functions: bool,
-    /// Whether the functions of the mode are left aside, by who needs the factors of its linear system.
-    on_tape_only: bool,
+    /// What evaluates the equations.
+    equations: Equations,
     /// Runs tapes for values and derivatives.
     plain: Value<T>,
     lanes: jacobian::Seeded<T>,
@@ -146,7 +147,7 @@ impl<T: Scalar> Dynamics<T> {
             energies: needs::of_energies(d),
             selected: false,
             by_functions: false,
-            on_tape_only: false,
+            equations: Equations::Emitted,
             plain: Value::new(),
             lanes: jacobian::Seeded::new(),
             inputs: vec![zero; 1 + 3 * n + rows],
@@ -202,15 +203,13 @@ impl<T: Scalar> Dynamics<T> {
         self.work
     }
 
-    /// Operations of the last [`Self::value`]: what takes no part in the mode is not among them.
-    pub fn operations(&self) -> Operations {
-        if let Some(emitted) = self.in_use() {
-            let operations = emitted.operations();
-            return Operations {
-                accelerations: operations,
-                everything: operations,
-            };
-        }
+    /// Operations that the equations of the mode take at the last [`Self::value`], as the interpreter counts them: what takes no part
+    /// is not among them.
+    pub fn operations(&mut self) -> Operations {
+        let n = self.description().coordinates.len();
+        let inputs = core::mem::take(&mut self.inputs);
+        self.select(&inputs[1 + n..1 + 2 * n]);
+        self.inputs = inputs;
         let tape = self.compiled().tape();
         tape.map(|tape| tape.operations()).unwrap_or_default()
     }
@@ -227,14 +226,21 @@ impl<T: Scalar> Dynamics<T> {
         emitted.filter(|_| self.by_functions)
     }
 
+    /// Has the equations evaluated by this from now on.
+    pub fn set_equations(&mut self, equations: Equations) {
+        self.equations = equations;
+        if equations == Equations::Solved {
+            self.modes.iter_mut().for_each(Compiled::leave_to_solver);
+        }
+        (self.selected, self.by_functions) = (false, false);
+    }
+
     /// Decides by what the coming evaluation is.
     #[inline]
     fn choose(&mut self, q: &[T], v: &[T]) -> bool {
         let compiled = &self.modes[self.current];
-        let emitted = compiled
-            .emitted
-            .as_ref()
-            .filter(|_| compiled.on_tape && !self.on_tape_only);
+        let emitted = compiled.emitted.as_ref().filter(|_| compiled.on_tape);
+        let emitted = emitted.filter(|_| self.equations == Equations::Emitted);
         self.by_functions = emitted.is_some_and(|emitted| emitted.holds_at(q, v));
         self.by_functions
     }
@@ -278,7 +284,9 @@ impl<T: Scalar> Dynamics<T> {
 
     /// Forgets what could make a motion depend on those before it.
     pub(crate) fn restart(&mut self) {
-        self.modes.iter_mut().for_each(Compiled::restart);
+        if self.equations != Equations::Solved {
+            self.modes.iter_mut().for_each(Compiled::restart);
+        }
         self.headings.restart();
         self.selected = false;
     }
@@ -286,7 +294,10 @@ impl<T: Scalar> Dynamics<T> {
     /// Makes a mode ready; returns its place.
     #[cold]
     fn compile(&mut self, mode: &Mode) -> usize {
-        let compiled = Compiled::new(&*self.system, &self.effects, mode);
+        let mut compiled = Compiled::new(&*self.system, &self.effects, mode);
+        if self.equations == Equations::Solved {
+            compiled.leave_to_solver();
+        }
         if self.modes.len() < MOST_MODES {
             self.modes.push(compiled);
             return self.modes.len() - 1;

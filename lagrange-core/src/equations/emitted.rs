@@ -92,11 +92,6 @@ impl<T: Scalar> Emitted<T> {
         self.admitted = system.mode_constants(self.index, held, &self.signs, &mut self.constants);
     }
 
-    /// Arithmetic operations of the accelerations.
-    pub(crate) fn operations(&self) -> usize {
-        self.structure.operations
-    }
-
     /// Whether the functions hold at a state: what the mode pins is where it is pinned, and at rest.
     pub(crate) fn holds_at(&self, q: &[T], v: &[T]) -> bool {
         let mut pins = self.structure.pins.iter();

@@ -64,10 +64,6 @@ pub struct ModeStructure {
     pub motion: &'static [(usize, usize)],
     /// Outputs of the report tape whose series are given: (node, row).
     pub report: &'static [(usize, usize)],
-    /// Arithmetic operations of the accelerations.
-    pub operations: usize,
-    /// Sums over earlier coefficients for each new one.
-    pub convolutions: usize,
 }
 
 /// The functions of one mode.

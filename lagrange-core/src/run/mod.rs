@@ -205,6 +205,7 @@ impl<T: Scalar> Run<T> {
             state,
             mode,
         };
+        run.dynamics.set_equations(settings.equations);
         run.trajectory.begin(zero, &run.state, &run.mode);
         run.watch();
         run

@@ -94,7 +94,7 @@ pub(crate) fn measure<S: System<Scalar = f64>>(
         .map(|chosen| {
             let sides = places.iter();
             let sides = sides.map(|place| {
-                let side = RightSide::new(system, chosen, place)?;
+                let mut side = RightSide::new(system, chosen, place)?;
                 let cost = Cost {
                     operations: side.operations(),
                     nanoseconds: f64::INFINITY,

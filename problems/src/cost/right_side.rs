@@ -74,7 +74,7 @@ impl RightSide {
     }
 
     /// Arithmetic operations and function calls.
-    pub fn operations(&self) -> usize {
+    pub fn operations(&mut self) -> usize {
         self.dynamics.operations().accelerations
     }
 

@@ -6,6 +6,7 @@ mod diagnostics;
 mod effects;
 mod efficiency;
 mod errors;
+mod fallbacks;
 mod handles;
 mod hostile;
 mod interpretation;

@@ -10,7 +10,7 @@ use super::names::{self, index, local, plain};
 use super::scalar;
 use crate::derive::Stage;
 use crate::modes::{Direction, FrictionState};
-use crate::plan::mode::ModeProgram;
+use crate::plan::mode::{ModeProgram, Phase};
 use crate::plan::{Place, Program};
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
@@ -39,8 +39,11 @@ pub fn equations(program: &Program) -> TokenStream {
             plain(&format!("value_{at}")),
             plain(&format!("series_{at}")),
         );
-        let heading = format!(" {}.", mode.mode.name(&program.equations.system));
+        let words = mode.mode.name(&program.equations.system);
+        let heading = format!(" {words}: {} operations.", operations(mode));
         functions.push(value::function(&value, &heading, program, mode));
+        let sums = plan.convolutions();
+        let heading = format!(" {words}: {sums} sums over earlier coefficients for each new one.");
         functions.push(series::function(&series, &heading, program, mode, &plan));
         entries.push(quote! {
             #core::equations::ModeEquations { value: #value::<#number>, series: #series::<#number> }
@@ -69,6 +72,14 @@ pub fn equations(program: &Program) -> TokenStream {
             const { &[#(#entries),*] }
         }
     }
+}
+
+/// Arithmetic operations of the accelerations.
+fn operations(mode: &ModeProgram) -> usize {
+    let blocks = mode.tape.blocks.iter().zip(&mode.phases);
+    let needed = blocks.filter(|(_, phase)| **phase < Phase::Forces);
+    let steps = needed.flat_map(|(block, _)| &block.steps);
+    steps.filter(|step| step.operation.is_work()).count() + solve::operations(&mode.system)
 }
 
 /// `ModeStructure { … }`
@@ -110,18 +121,6 @@ fn structure(program: &Program, mode: &ModeProgram, plan: &products::Plan) -> To
     }
     let count = index(mode.constants.outputs);
     let rows = index(plan.rows);
-    let convolutions = index(plan.convolutions());
-    let operations = index(
-        mode.tape
-            .blocks
-            .iter()
-            .zip(&mode.phases)
-            .filter(|(_, phase)| **phase < crate::plan::mode::Phase::Forces)
-            .flat_map(|(block, _)| &block.steps)
-            .filter(|step| step.operation.is_work())
-            .count()
-            + solve::operations(&mode.system),
-    );
     quote! {
         #core::equations::ModeStructure {
             contacts: &[#(#contacts),*],
@@ -131,8 +130,6 @@ fn structure(program: &Program, mode: &ModeProgram, plan: &products::Plan) -> To
             rows: #rows,
             motion: &[#(#motion),*],
             report: &[#(#report),*],
-            operations: #operations,
-            convolutions: #convolutions,
         }
     }
 }

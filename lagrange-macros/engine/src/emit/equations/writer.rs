@@ -27,7 +27,10 @@ pub fn coefficient(coefficient: Coefficient) -> TokenStream {
             let value = names::float(value);
             quote!(#number::of(#value))
         }
-        Coefficient::Pi => quote!(#number::of(::core::f64::consts::PI)),
+        Coefficient::Pi(multiple) => {
+            let value = names::f64(Coefficient::multiple_of_pi(multiple));
+            quote!(#number::of(#value))
+        }
         Coefficient::Constant(at) => {
             let (c, at) = (local("c"), index(at));
             quote!(#c[#at])
