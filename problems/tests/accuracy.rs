@@ -129,7 +129,10 @@ fn a_method_that_fails_is_a_line_that_says_why() {
         &[&arguments[..], &["--until", "10"]].concat(),
     );
     let failure = rows(&report)[1]["failure"].as_str().expect("a reason");
-    assert!(failure.contains("do not converge"), "{failure}");
+    assert!(
+        failure.contains("too long to follow the motion"),
+        "{failure}"
+    );
     let printed = table(
         "cartesian-pendulum",
         &[&arguments[..], &["--until", "10"]].concat(),

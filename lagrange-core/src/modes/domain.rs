@@ -49,7 +49,7 @@ pub fn check_restitution<T: Scalar>(dynamics: &Dynamics<T>, t: f64, c: usize) ->
     let contact = &d.contacts[c];
     let (Restitution::Newton(place) | Restitution::Poisson(place)) = contact.restitution;
     let value = dynamics.motion(place).value();
-    let outside = value < 0.0 || value > 1.0;
+    let outside = !(0.0..=1.0).contains(&value);
     if !(outside && dynamics.effects().includes(d, Item::Contact(c))) {
         return Ok(());
     }
