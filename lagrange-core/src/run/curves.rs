@@ -3,6 +3,7 @@
 //! With Taylor series they come exactly, from the coefficients of the step. With a Runge–Kutta method the guards are
 //! evaluated at the Chebyshev–Lobatto points of the dense output and interpolated.
 
+use super::hits::value as at;
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError};
 use crate::effects::{Effects, Item};
@@ -157,7 +158,7 @@ impl Curves {
                 reported = true;
             }
             let value = sharing::value(g, joints, mode, &Reading::Values(dynamics));
-            let found = curve.iter().rev().fold(0.0, |sum, c| sum * s + c);
+            let found = at(curve, s);
             // Not all coefficients: where the series has stopped converging they are large and cancel.
             let size = value.abs() + curve.iter().take(2).map(|c| c.abs()).sum::<f64>();
             let allowed = share * size;

@@ -13,6 +13,7 @@ mod crowd;
 mod cue_ball;
 mod damped;
 mod groove;
+mod held;
 mod hoop;
 mod in_turn;
 mod incline;
