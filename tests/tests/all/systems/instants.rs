@@ -98,3 +98,24 @@ fn entries_of_one_instant_are_in_order_of_declaration_impacts_first() {
         agree("time", event.time, time, 1e-12);
     }
 }
+
+/// Two marks on one passage, one from either side.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2 / 2,
+    mark(up: x),
+    mark(down: -x),
+)]
+struct Passage {
+    _unit: f64,
+}
+
+#[test]
+fn a_mark_is_logged_where_it_passes_zero_and_not_where_it_begins() {
+    let motion = run(&Passage { _unit: 1.0 }, state(&[-1.0], &[2.0]), 1.0);
+    assert_eq!(words(&motion), ["up mark", "down mark"]);
+    for event in motion.events() {
+        agree("time", event.time, 0.5, 1e-15);
+    }
+}
