@@ -80,6 +80,17 @@ pub enum Error {
         /// Which quantity.
         what: String,
     },
+    /// A gap, or the guard of a piecewise function, jumps below zero.
+    Discontinuous {
+        /// Time, s.
+        time: f64,
+        /// The contact, or the text of the guard.
+        item: &'static str,
+        /// Its value before the jump, in the unit of the declaration.
+        before: f64,
+        /// Its value after the jump.
+        after: f64,
+    },
     /// No mode continues the motion although all coefficients are legal (Painlevé's paradox), or no impact law has a solution.
     NoMode {
         /// Time, s.
@@ -255,6 +266,16 @@ impl fmt::Display for Error {
                     "t = {time} ({mode}): {what} is not finite; the expression leaves its domain here"
                 )
             }
+            Error::Discontinuous {
+                time,
+                item,
+                before,
+                after,
+            } => write!(
+                f,
+                "t = {time}: `{item}` jumps from {before:.6} to {after:.6}; write it so that it is continuous, \
+                 for example an angle as a coordinate instead of by atan2"
+            ),
             Error::NoMode {
                 time,
                 mode,

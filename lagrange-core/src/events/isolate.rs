@@ -20,7 +20,7 @@ const MIN_WIDTH: f64 = 1.0 / (1u64 << 44) as f64;
 /// All roots of Σ cₖ sᵏ in (0, 1], ascending, into `out`. Multiple roots are reported once.
 ///
 /// A value at s = 1 that is zero within rounding counts as a root at s = 1; the one at s = 0 belongs to the step before.
-/// A polynomial that is zero within rounding everywhere has no roots. Costs a few nanoseconds for most
+/// A polynomial that is zero within rounding everywhere, or has a coefficient that is not finite, has no roots. Costs a few nanoseconds for most
 /// polynomials without roots.
 ///
 /// # Panics
@@ -75,7 +75,8 @@ where
                 None => Continue(()),
             };
         }
-        Glance::Unclear { size } => size,
+        Glance::Unclear { size } if size.is_finite() => size,
+        Glance::Unclear { .. } => return Continue(()),
     };
     // Coefficients that cannot be seen in any value only cost time.
     let negligible = f64::EPSILON * f64::EPSILON * size;

@@ -284,6 +284,19 @@ fn noise_has_no_roots() {
     assert!(found(&[f64::NAN, 1.0, -3.0]).is_empty());
 }
 
+/// A search for the roots of such a polynomial must end; whoever asked for it sees its values.
+#[test]
+fn what_is_not_finite_has_no_roots() {
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        for place in 0..5 {
+            let mut c = [-0.25, 1.0, 0.5, -2.0, 1.0];
+            c[place] = bad;
+            assert!(places(&c).is_empty());
+            assert_eq!(first_root(&c, 0.3), None);
+        }
+    }
+}
+
 #[test]
 fn the_largest_degree_is_served() {
     // Chebyshev polynomial of degree 12 in s² has degree 24; pad with a factor that has no roots.

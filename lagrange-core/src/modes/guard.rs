@@ -50,6 +50,24 @@ pub enum Guard {
     Joint(usize),
 }
 
+impl Guard {
+    /// The name of the item whose guard it is; a joint guard has several.
+    pub fn name(self, d: &'static Description) -> Option<&'static str> {
+        match self {
+            Guard::Gap(c) | Guard::Normal(c) | Guard::Region(c) => Some(d.contacts[c].name),
+            Guard::StickUpper(f)
+            | Guard::StickLower(f)
+            | Guard::StickCone(f)
+            | Guard::Slip(f)
+            | Guard::Bearing(f) => Some(d.frictions[f].name),
+            Guard::Branch(b) => Some(d.branches[b].text),
+            Guard::Stop(i, _) => Some(d.stops[i].name),
+            Guard::Mark(i, _) => Some(d.marks[i].name),
+            Guard::Joint(_) => None,
+        }
+    }
+}
+
 /// Adds `factor` times a series.
 fn add<T: Scalar>(out: &mut [f64], factor: f64, terms: Terms<T>) {
     for (c, x) in out.iter_mut().zip(terms.as_slice()) {

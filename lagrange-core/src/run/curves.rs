@@ -3,6 +3,7 @@
 //! With Taylor series they come exactly, from the coefficients of the step. With a Runge–Kutta method the guards are
 //! evaluated at the Chebyshev–Lobatto points of the dense output and interpolated.
 
+use super::hits::value as at;
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError};
 use crate::effects::{Effects, Item};
@@ -12,6 +13,9 @@ use crate::modes::guard::Guard;
 use crate::modes::reading::Reading;
 use crate::modes::sharing::{self, Joint};
 use crate::system::Description;
+
+/// A guard on the other side of zero than its polynomial is off by more than rounding explains: this much more is counted.
+const OTHER_SIDE: f64 = 1e3;
 
 /// Samples of a guard in a step of a Runge–Kutta method, at least.
 const FEWEST_SAMPLES: usize = 8;
@@ -109,7 +113,8 @@ impl Curves {
     /// the state there, `located` tells the guards whose root it is.
     ///
     /// The step is chosen for the coordinates, but a guard is a function of them whose series may converge no further than
-    /// a part of it: in free flight the coordinates are polynomials, the distance √(x² + y²) is not.
+    /// a part of it: in free flight the coordinates are polynomials, the distance √(x² + y²) is not. Where the flight passes
+    /// through 0 even a series that has ended, and looks exact, goes on along the wrong branch.
     pub(super) fn defect<T: Scalar>(
         &self,
         dynamics: &mut Dynamics<T>,
@@ -148,19 +153,19 @@ impl Curves {
                 _ => (10.0, 1e-13),
             };
             let share = (share * tolerance).max(floor);
-            if ends_below(curve, share) {
-                continue;
-            }
             if !reported && !self.watches.is_empty() {
                 dynamics.report_value();
                 reported = true;
             }
             let value = sharing::value(g, joints, mode, &Reading::Values(dynamics));
-            let found = curve.iter().rev().fold(0.0, |sum, c| sum * s + c);
+            let found = at(curve, s);
             // Not all coefficients: where the series has stopped converging they are large and cancel.
             let size = value.abs() + curve.iter().take(2).map(|c| c.abs()).sum::<f64>();
             let allowed = share * size;
-            let ratio = (found - value).abs() / (allowed + 64.0 * f64::EPSILON);
+            let mut ratio = (found - value).abs() / (allowed + 64.0 * f64::EPSILON);
+            if !located && (found < 0.0) != (value < 0.0) {
+                ratio *= OTHER_SIDE;
+            }
             worst = if ratio > worst || ratio.is_nan() {
                 ratio
             } else {
@@ -168,6 +173,30 @@ impl Curves {
             };
         }
         worst
+    }
+
+    /// Makes the guards stay what they are at the start of the step. The first that must not be what it is in the values that
+    /// `dynamics` holds: no number, or, of a gap or a branch, below zero; with what it was and is.
+    pub(super) fn hold<T: Scalar>(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        mode: &Mode,
+        (guards, joints): (&[Guard], &[Joint]),
+    ) -> Option<(Guard, f64, f64)> {
+        if !self.watches.is_empty() {
+            dynamics.report_value();
+        }
+        let all = guards.iter().chain(&self.watches);
+        let mut broken = None;
+        for (curve, &g) in self.coefficients.chunks_exact_mut(self.width).zip(all) {
+            let value = sharing::value(g, joints, mode, &Reading::Values(dynamics));
+            curve[1..].fill(0.0);
+            let one_sided = matches!(g, Guard::Gap(_) | Guard::Branch(_));
+            if value.is_nan() || one_sided && value < 0.0 && curve[0] >= 0.0 {
+                broken = broken.or(Some((g, curve[0], value)));
+            }
+        }
+        broken
     }
 
     /// Samples the guards along the dense output of a step and interpolates them.
@@ -241,19 +270,4 @@ impl Curves {
             }
         }
     }
-}
-
-/// Whether the coefficients decay so fast that those left out cannot matter: between groups of four, too many to vanish
-/// together by symmetry, by a factor that makes the next group, and all that follow, less than `share` of Σ|cₖ|.
-fn ends_below(curve: &[f64], share: f64) -> bool {
-    const SAFETY: f64 = 8.0;
-    const SLOWEST: f64 = 0.25;
-    let (rest, [.., before, last]) = curve.as_rchunks::<4>() else {
-        return false;
-    };
-    let size = |c: &[f64; 4]| (c[0].abs() + c[1].abs()) + (c[2].abs() + c[3].abs());
-    let (before, last) = (size(before), size(last));
-    let all = curve[rest.len()..].as_chunks::<4>().0;
-    let first = rest.first().map_or(0.0, |c| c.abs()) + size(&all[0]);
-    last <= SLOWEST * before && SAFETY * last * last <= share * before * first
 }

@@ -275,7 +275,8 @@ fn becomes_true<'c>(
             if root.direction == Direction::Rising && !root.grazing {
                 consider(root.s);
             }
-            from = root.s;
+            // A root that rounding puts at 0 must not be found again.
+            from = root.s.max(f64::MIN_POSITIVE);
             if from >= 1.0 {
                 break;
             }

@@ -309,8 +309,19 @@ impl<T: Scalar> Run<T> {
             self.below[c] = true;
         }
         self.settle()?;
+        self.begin_sides();
         self.finished |= self.has_seen_all();
         Ok(())
+    }
+
+    /// A mark that begins below zero has not passed it: remembers on which side the marks begin.
+    fn begin_sides(&mut self) {
+        let reading = Reading::Series(&self.dynamics);
+        for (i, below) in self.mark_below.iter_mut().enumerate() {
+            for (k, below) in below.iter_mut().enumerate() {
+                *below = guard::value(Guard::Mark(i, k), &self.mode, &reading) < 0.0;
+            }
+        }
     }
 
     /// Ends a run, whatever came of it.

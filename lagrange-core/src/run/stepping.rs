@@ -91,7 +91,7 @@ impl<T: Scalar> Run<T> {
             } else {
                 JUST_BEFORE * end
             };
-            let defect = if self.evaluate_end(looked).is_ok() {
+            let (motion, guards) = if self.evaluate_end(looked).is_ok() {
                 let accelerations = self.dynamics.acceleration();
                 let motion = taylor::defect(&self.step, looked, accelerations, self.tolerance);
                 let guards = (&self.guards[..], &self.joints[..]);
@@ -102,11 +102,12 @@ impl<T: Scalar> Run<T> {
                 let dynamics = &mut self.dynamics;
                 let guards =
                     curves.defect(dynamics, &self.mode, guards, looked, tolerance, located);
-                // Not the larger of a number and a NaN, which would be the number.
-                if guards <= motion { motion } else { guards }
+                (motion, guards)
             } else {
-                f64::INFINITY
+                (f64::INFINITY, f64::INFINITY)
             };
+            // Not the larger of a number and a NaN, which would be the number.
+            let defect = if guards <= motion { motion } else { guards };
             // A step must not end where the constraints lose rank.
             let distance = self.rank.distance(&self.dynamics);
             if self.ends_close(distance) && closer < MOST_RETREATS {
@@ -136,10 +137,47 @@ impl<T: Scalar> Run<T> {
                 }
                 Verdict::Redo { h: smaller } => {
                     self.trajectory.work.rejected += 1;
+                    if motion <= 1.0 && smaller <= self.resolution() {
+                        return self.pass_break();
+                    }
                     h = smaller;
                 }
             }
         }
+    }
+
+    /// Shorter steps do not advance time clearly.
+    fn resolution(&self) -> f64 {
+        2.0 * f64::EPSILON * self.t.value().abs().max(self.end.abs())
+    }
+
+    /// Passes an instant at which a guard breaks off (the cut of `atan2`, a kink) by the step at hand, the shortest that time
+    /// resolves: nothing is located in it, and the next step begins on the side on which the guards then are.
+    ///
+    /// # Errors
+    /// Beyond the break a guard is no number, or a gap or the guard of a branch has jumped below zero.
+    fn pass_break(&mut self) -> Result<Hit, Error> {
+        self.evaluate_end(1.0).map_err(|e| self.error(e))?;
+        let guards = (&self.guards[..], &self.joints[..]);
+        let (curves, dynamics) = (&mut self.curves, &mut self.dynamics);
+        if let Some((guard, before, after)) = curves.hold(dynamics, &self.mode, guards) {
+            let d = self.description();
+            let item = guard.name(d).unwrap_or(d.name);
+            return Err(if after.is_nan() {
+                self.not_finite(&format!("the guard of `{item}`"))
+            } else {
+                Error::Discontinuous {
+                    time: self.t.value(),
+                    item,
+                    before,
+                    after,
+                }
+            });
+        }
+        self.fallen.clear();
+        self.rests.clear();
+        self.distance = self.rank.distance(&self.dynamics);
+        Ok(Hit::Nothing)
     }
 
     /// The state at part `end` of the step, in `scratch`, and the equations of motion there.

@@ -183,3 +183,30 @@ fn a_long_row_of_equal_contacts_does_not_cycle() {
         assert!((z[0] + first * n as f64 / (n + 1) as f64).abs() < 1e-12);
     }
 }
+
+#[track_caller]
+fn check_solution(m: &[f64; 9], q: [f64; 3], expected: [f64; 3]) {
+    let (m, q) = (
+        DMatrix::from_row_slice(3, 3, m),
+        DVector::from_row_slice(&q),
+    );
+    let (outcome, z) = solve(&m, &q);
+    assert_eq!(outcome, Outcome::Solved);
+    assert!((z - DVector::from_row_slice(&expected)).amax() < 1e-14);
+}
+
+/// Kostreva, "Cycling in linear complementarity problems", Mathematical Programming 16 (1979): by the first of equal ratios the
+/// pivots come back to where they were, although the matrix has one solution for every q.
+#[test]
+fn a_problem_that_is_known_to_cycle_is_solved() {
+    let m = [1.0, 2.0, 0.0, 0.0, 1.0, 2.0, 2.0, 0.0, 1.0];
+    check_solution(&m, [-1.0; 3], [1.0 / 3.0; 3]);
+}
+
+/// The artificial unknown reaches zero together with another one. If that one leaves, the next pivot finds a ray, which proves
+/// nothing, since the matrix is not copositive plus.
+#[test]
+fn the_artificial_unknown_leaves_first() {
+    let m = [1.0, 1.0, 0.0, 0.0, 1.0, 1.0, 1.0, 2.0, 0.0];
+    check_solution(&m, [-1.0, 1.0, -1.0], [1.0, 0.0, 0.0]);
+}

@@ -249,16 +249,7 @@ fn differ<T: Scalar>(a: &[f64], b: &[T]) -> bool {
 }
 
 fn concerned(d: &'static Description, known: &Known, present: &Mode) -> &'static str {
-    let located = known.located.iter().find_map(|g| match *g {
-        Guard::Gap(c) | Guard::Normal(c) | Guard::Region(c) => Some(d.contacts[c].name),
-        Guard::StickUpper(f)
-        | Guard::StickLower(f)
-        | Guard::StickCone(f)
-        | Guard::Slip(f)
-        | Guard::Bearing(f) => Some(d.frictions[f].name),
-        Guard::Branch(b) => Some(d.branches[b].text),
-        Guard::Stop(..) | Guard::Mark(..) | Guard::Joint(_) => None,
-    });
+    let located = known.located.iter().find_map(|g| g.name(d));
     let resting = known
         .resting
         .iter()

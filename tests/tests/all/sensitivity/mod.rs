@@ -1,6 +1,7 @@
 //! Derivatives of states and of the instants of events by parameters and start, through switches and impacts.
 
 mod ball;
+mod platform;
 mod switches;
 
 use lagrange_core::arithmetic::Dual;

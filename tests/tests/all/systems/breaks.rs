@@ -1,0 +1,197 @@
+//! Guards that break off on the way: a distance beside or through its origin, the cut of an angle, the end of a domain. Their
+//! Taylor series do not show it, and go on along another branch.
+
+use super::state;
+use lagrange_core::prelude::*;
+use lagrange_tests::{agree, event, words};
+
+const G: f64 = 9.81;
+const TOLERANCES: [f64; 3] = [1e-6, 1e-9, 1e-12];
+
+/// A bob on a string, above or below its pivot.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    define(distance = sqrt(x^2 + y^2)),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    potential = gravity * y,
+    contact(string: length >= distance),
+    mark(close: distance <= 0.5),
+    stop(far: distance >= 1.5),
+)]
+struct Bob {
+    gravity: f64,
+    length: f64,
+}
+
+fn run_at<S: System<Scalar = f64>>(
+    scene: &S,
+    tolerance: f64,
+    start: State<f64>,
+    until: f64,
+) -> Trajectory<S> {
+    let simulation = Simulation::new(scene).tolerance(tolerance);
+    let run = simulation.run(start, 0.0..until);
+    run.unwrap_or_else(|failure| panic!("{tolerance:e}: {failure}"))
+}
+
+#[test]
+fn a_string_holds_a_bob_that_falls_past_its_pivot() {
+    let scene = Bob {
+        gravity: G,
+        length: 1.2,
+    };
+    for tolerance in TOLERANCES {
+        for beside in [0.0, 1e-10, -1e-7, 1e-4, 0.03] {
+            let height = 0.7;
+            let run = run_at(&scene, tolerance, state(&[beside, height], &[0.0; 2]), 1.0);
+            let depth = |r: f64| (r * r - beside * beside).sqrt();
+            let fall = |y: f64| (2.0 * (height - y) / G).sqrt();
+            let what = format!("{beside:e} at {tolerance:e}");
+            let small = 100.0 * tolerance;
+            agree(
+                &what,
+                event(&run, "close", "mark").time,
+                fall(depth(0.5)),
+                small,
+            );
+            agree(
+                &what,
+                event(&run, "string", "impact").time,
+                fall(-depth(1.2)),
+                small,
+            );
+            assert_eq!(
+                words(&run)[..3],
+                ["close mark", "string impact", "string closed"]
+            );
+        }
+    }
+}
+
+#[test]
+fn a_stop_on_a_distance_fires_beyond_the_origin() {
+    let scene = Bob {
+        gravity: G,
+        length: 9.0,
+    };
+    for tolerance in TOLERANCES {
+        for beside in [0.0, 1e-10, 1e-3] {
+            let run = run_at(&scene, tolerance, state(&[beside, 1.0], &[0.0; 2]), 3.0);
+            let depth = (2.25 - beside * beside).sqrt();
+            let time = (2.0 * (1.0 + depth) / G).sqrt();
+            agree("time", run.last_time(), time, 100.0 * tolerance);
+        }
+    }
+}
+
+/// A bead on a line between two stops that are one distance.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(y),
+    kinetic = der(y)^2 / 2,
+    contact(rope: 1 >= sqrt(y^2), restitution = 1),
+)]
+struct Bead {
+    _unit: f64,
+}
+
+#[test]
+fn a_rope_through_its_anchor() {
+    for tolerance in TOLERANCES {
+        let run = run_at(&Bead { _unit: 1.0 }, tolerance, state(&[0.5], &[-1.0]), 8.0);
+        let times = run.events().iter().map(|e| e.time);
+        for (time, exact) in times.zip([1.5, 3.5, 5.5, 7.5]) {
+            agree("impact", time, exact, 100.0 * tolerance);
+        }
+        assert_eq!(words(&run), ["rope impact"; 4]);
+    }
+}
+
+/// A bob on a rod that goes over the top, where the angle jumps from π to −π.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    define(angle = atan2(x, -y)),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    potential = gravity * y,
+    constraint(rod: x^2 + y^2 == 1),
+    contact(side: angle >= floor),
+    mark(right: angle >= 1),
+    stop(never: angle >= 3.2),
+    stop(left: -3 >= angle),
+)]
+struct Over {
+    gravity: f64,
+    floor: f64,
+}
+
+#[test]
+fn the_cut_of_an_angle_is_no_passage_to_beyond_pi() {
+    // Without weight it goes round at 2 rad/s.
+    let scene = Over {
+        gravity: 0.0,
+        floor: -9.0,
+    };
+    for tolerance in TOLERANCES {
+        let run = run_at(&scene, tolerance, state(&[0.0, -1.0], &[2.0, 0.0]), 9.0);
+        assert_eq!(words(&run), ["right mark", "left stop"]);
+        // The stop becomes true where the angle jumps.
+        let top = core::f64::consts::FRAC_PI_2;
+        agree("top", run.last_time(), top, 100.0 * tolerance);
+    }
+}
+
+#[test]
+fn a_gap_that_jumps_below_zero_is_an_error() {
+    let scene = Over {
+        gravity: 0.0,
+        floor: -2.0,
+    };
+    let start = state(&[0.0, -1.0], &[2.0, 0.0]);
+    let failure = Simulation::new(&scene).run(start, 0.0..9.0);
+    let Err(Failure {
+        error:
+            Error::Discontinuous {
+                time,
+                item,
+                before,
+                after,
+            },
+        ..
+    }) = failure
+    else {
+        panic!("{failure:?}");
+    };
+    let pi = core::f64::consts::PI;
+    assert_eq!(item, "side");
+    agree("time", time, 0.5 * pi, 1e-10);
+    agree("before", before, 2.0 + pi, 1e-10);
+    agree("after", after, 2.0 - pi, 1e-10);
+}
+
+/// A mass that leaves the domain of what is watched.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2 / 2,
+    stop(root: sqrt(1 + x) >= 5),
+)]
+struct Domain {
+    _unit: f64,
+}
+
+#[test]
+fn a_watch_that_is_no_number_any_more_is_named() {
+    let start = state(&[0.0], &[-1.0]);
+    let failure = Simulation::new(&Domain { _unit: 1.0 }).run(start, 0.0..3.0);
+    let Err(Failure {
+        error: Error::NotFinite { time, what, .. },
+        ..
+    }) = failure
+    else {
+        panic!("{failure:?}");
+    };
+    agree("time", time, 1.0, 1e-10);
+    assert_eq!(what, "the guard of `root`");
+}

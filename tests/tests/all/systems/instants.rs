@@ -1,0 +1,121 @@
+//! What shares one instant: stops and impacts, the log's order, the end of a run, and roots that only touch.
+
+use super::state;
+use lagrange_core::prelude::*;
+use lagrange_tests::{Random, agree, run, words};
+
+/// A ball between floor and ceiling.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(y),
+    kinetic = mass/2 * der(y)^2,
+    potential = mass * gravity * y,
+    contact(floor: y >= 0, restitution = 1/2),
+    contact(ceiling: top >= y, restitution = 1/2),
+    stop(down: (3 + y)^2 <= 9),
+    mark(apex: top - y),
+)]
+struct Ball {
+    mass: f64,
+    gravity: f64,
+    top: f64,
+}
+
+#[test]
+fn a_stop_at_an_impact_ends_the_run_before_it() {
+    let mut random = Random::new(16);
+    for _ in 0..50 {
+        let (gravity, height) = (random.between(1.0, 20.0), random.between(0.01, 3.0));
+        let scene = Ball {
+            mass: 1.0,
+            gravity,
+            top: 9.0,
+        };
+        let motion = run(&scene, state(&[height], &[0.0]), 9.0);
+        assert_eq!(words(&motion), ["down stop"]);
+        let speed = -(2.0 * gravity * height).sqrt();
+        agree("speed", motion.final_state().v[0], speed, 1e-12);
+        // The run ends with its last event.
+        let [stop] = motion.events() else {
+            panic!("one event");
+        };
+        assert_eq!(&stop.state_after, motion.final_state());
+        assert_eq!(stop.time, motion.last_time());
+    }
+}
+
+/// y = 2 t − t²: the ceiling at 1 is a double root, a little below it is hit and a little above it is not reached.
+#[test]
+fn a_ceiling_that_is_only_touched_is_not_hit() {
+    let thrown = |top: f64| {
+        let scene = Ball {
+            mass: 1.0,
+            gravity: 2.0,
+            top,
+        };
+        let motion = run(&scene, state(&[0.0], &[2.0]), 1.5);
+        (words(&motion), motion.final_state().clone())
+    };
+    let (events, end) = thrown(1.0);
+    assert_eq!(events, ["apex mark"]);
+    agree("y", end.q[0], 0.75, 1e-14);
+    agree("speed", end.v[0], -1.0, 1e-14);
+    assert_eq!(thrown(1.0 + 1e-9).0, [""; 0]);
+    let (events, end) = thrown(1.0 - 1e-8);
+    assert_eq!(events[..2], ["apex mark", "ceiling impact"]);
+    // At t = 1 − 1e-4 it arrives with 2e-4, which is halved and turned.
+    agree("speed", end.v[0], -1e-4 - 2.0 * (0.5 + 1e-4), 1e-11);
+}
+
+/// A block that slides against a wall which keeps it, and a load that lands with it.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, z),
+    kinetic = (der(x)^2 + der(z)^2) / 2,
+    contact(wall: 1 >= x),
+    contact(bed: z >= 0),
+    friction(grip: slip = der(x), limit = 1/2),
+)]
+struct Arrival {
+    _unit: f64,
+}
+
+#[test]
+fn entries_of_one_instant_are_in_order_of_declaration_impacts_first() {
+    // x = 3/2 t − t²/4 is 1 at t = 3 − √5, where the load is at 0.
+    let time = 3.0 - 5.0_f64.sqrt();
+    let start = state(&[0.0, time], &[1.5, -1.0]);
+    let motion = run(&Arrival { _unit: 1.0 }, start, 2.0);
+    let expected = [
+        "wall impact",
+        "bed impact",
+        "wall closed",
+        "bed closed",
+        "grip sticks",
+    ];
+    assert_eq!(words(&motion), expected);
+    for event in motion.events() {
+        agree("time", event.time, time, 1e-12);
+    }
+}
+
+/// Two marks on one passage, one from either side.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2 / 2,
+    mark(up: x),
+    mark(down: -x),
+)]
+struct Passage {
+    _unit: f64,
+}
+
+#[test]
+fn a_mark_is_logged_where_it_passes_zero_and_not_where_it_begins() {
+    let motion = run(&Passage { _unit: 1.0 }, state(&[-1.0], &[2.0]), 1.0);
+    assert_eq!(words(&motion), ["up mark", "down mark"]);
+    for event in motion.events() {
+        agree("time", event.time, 0.5, 1e-15);
+    }
+}

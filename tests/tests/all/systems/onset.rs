@@ -1,0 +1,56 @@
+//! The onset of slip in space: its direction is that of the motion which it lets begin.
+
+use super::state;
+use lagrange_core::prelude::*;
+use lagrange_tests::{agree, event, root, run};
+
+/// A sledge whose inertia differs along and across, pushed ever harder.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = light/2 * der(x)^2 + heavy/2 * der(y)^2,
+    force(shove: x = 3 * t),
+    force(push: y = 4 * t),
+    friction(grip: slip = (der(x), der(y)), limit = (holds, drags)),
+)]
+struct Sledge {
+    light: f64,
+    heavy: f64,
+    holds: f64,
+    drags: f64,
+}
+
+/// At t = Fs/5 the push is F = Fs (3, 4)/5. With a = α u it holds that (mᵢ α + Fk) uᵢ = Fᵢ, and |u| = 1 gives α.
+#[test]
+fn slip_begins_along_its_own_acceleration() {
+    let scene = Sledge {
+        light: 0.5,
+        heavy: 4.0,
+        holds: 2.0,
+        drags: 1.2,
+    };
+    let begin = scene.holds / 5.0;
+    let masses = [scene.light, scene.heavy];
+    let push = [3.0 * begin, 4.0 * begin];
+    let direction = |alpha: f64| [0, 1].map(|i| push[i] / (masses[i] * alpha + scene.drags));
+    let excess = |alpha: f64| direction(alpha).iter().map(|u| u * u).sum::<f64>() - 1.0;
+    let alpha = root(excess, 0.0, 10.0);
+    let u = direction(alpha);
+    let motion = run(&scene, state(&[0.0; 2], &[0.0; 2]), 0.5);
+    let onset = event(&motion, "grip", "slips");
+    agree("time", onset.time, begin, 1e-13);
+    let row = motion.description().frictions[0].row;
+    for i in 0..2 {
+        agree("held", onset.forces[row + i], -push[i], 1e-12);
+        agree(
+            "drag",
+            onset.forces_after[row + i],
+            -scene.drags * u[i],
+            1e-10,
+        );
+        // The straight beginning, up to what the push grows by.
+        let after = 1e-5;
+        let now = motion.sampler().at(begin + after).expect("within");
+        agree("speed", now.v[i] / after, alpha * u[i], 1e-4);
+    }
+}

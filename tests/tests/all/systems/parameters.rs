@@ -1,0 +1,94 @@
+//! One runner through many parameters: numbers that become 0 or ±1 and stop being so, and motions side by side in lanes.
+
+use super::state;
+use lagrange_core::prelude::*;
+use lagrange_tests::all_agree;
+
+/// Forces whose terms vanish, or lose a factor, with their parameters.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = m/2 * der(x)^2 + der(y)^2/2,
+    force(first: x = a*x + b*y^2 + c*der(y)*x + a*b),
+    force(second: y = a/(2 + b*x) - c*sin(y) + b^2*c),
+)]
+struct Numbers {
+    m: f64,
+    a: f64,
+    b: f64,
+    c: f64,
+}
+
+impl Numbers {
+    fn accelerations(&self, [x, y]: [f64; 2], vy: f64) -> [f64; 2] {
+        let Self { m, a, b, c } = *self;
+        [
+            (a * x + b * y * y + c * vy * x + a * b) / m,
+            a / (2.0 + b * x) - c * y.sin() + b * b * c,
+        ]
+    }
+}
+
+/// All numbers after all others, so that each becomes special and plain again.
+fn all_numbers() -> Vec<Numbers> {
+    let values = [0.7, 0.0, -1.0, 1.0, -0.4];
+    let digit = |i: usize, k: u32| values[i / 5_usize.pow(k) % 5];
+    let numbers = |i: usize| Numbers {
+        m: [1.0, 2.5][i % 2],
+        a: digit(i, 0),
+        b: digit(i, 1),
+        c: digit(i, 2),
+    };
+    (0..125).map(numbers).collect()
+}
+
+#[test]
+fn numbers_that_become_zero_or_one_are_taken_as_they_are() {
+    let (q, v) = ([0.3, -0.8], [0.2, 0.6]);
+    let all = all_numbers();
+    let simulation = Simulation::new(&all[0]).tolerance(1e-6);
+    let mut runner = simulation.runner();
+    for scene in &all {
+        runner.set_scene(scene);
+        let motion = runner.run(&state(&q, &v), 0.0..0.2).expect("a run");
+        let mut sampler = motion.sampler();
+        for t in [0.0, 0.1, 0.2] {
+            let now = sampler.at(t).expect("within");
+            let expected = scene.accelerations([now.q[0], now.q[1]], now.v[1]);
+            all_agree(&format!("{scene:?}"), &now.acceleration, &expected, 1e-14);
+        }
+        // The series as well, by what they make of the velocities.
+        let (one, other) = (sampler.at(0.1), sampler.at(0.1002));
+        let (one, other) = (one.expect("within"), other.expect("within"));
+        let slopes = [0, 1].map(|i| (other.v[i] - one.v[i]) / 2e-4);
+        let expected = scene.accelerations([one.q[0], one.q[1]], one.v[1]);
+        all_agree(&format!("{scene:?}"), &slopes, &expected, 1e-3);
+    }
+}
+
+#[test]
+fn motions_in_lanes_are_those_of_runs_alone_at_every_order() {
+    let all = all_numbers();
+    let start = || state(&[0.3, -0.8], &[0.2, 0.6]);
+    for tolerance in [0.1, 1e-3, 1e-7, 1e-12] {
+        let simulation = Simulation::new(&all[0]).tolerance(tolerance);
+        let mut ends = vec![State::default(); all.len()];
+        simulation.ensemble().run(
+            all.len(),
+            0.0..1.0,
+            |index, runner| {
+                runner.set_scene(&all[index]);
+                Some(start())
+            },
+            |index, outcome, motion| {
+                outcome.expect("a run");
+                ends[index].clone_from(motion.final_state());
+            },
+        );
+        for (scene, end) in all.iter().zip(&ends) {
+            let alone = Simulation::new(scene).tolerance(tolerance);
+            let alone = alone.run(start(), 0.0..1.0).expect("a run");
+            assert_eq!(end, alone.final_state(), "{scene:?} at {tolerance:e}");
+        }
+    }
+}
