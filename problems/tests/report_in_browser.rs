@@ -70,7 +70,8 @@ fn every_page_opens_without_complaints() {
             .as_u64()
             .is_some_and(|wide| wide <= u64::from(reader.width));
         assert!(fits, "{name} is {wide} wide");
-        let drawn = browser.evaluate("document.querySelectorAll('.stage > svg').length");
+        let drawn =
+            browser.evaluate("document.querySelectorAll('.stage > svg, .stage > .view').length");
         assert_eq!(drawn, 1, "{name} is drawn");
     }
 }
@@ -122,6 +123,41 @@ fn it_plays_and_is_searched_by_keyboard_and_mouse() {
             .is_some_and(|text| text.contains("force rim 1.")),
         "{told}"
     );
+    assert_eq!(browser.complaints, Vec::<String>::new());
+}
+
+/// Where the page draws the name of the push.
+fn named(browser: &mut Browser) -> [f64; 2] {
+    browser.evaluate(
+        "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))",
+    );
+    let place = "(() => { const e = document.querySelector('.view .name'); return [e.getAttribute('x'), e.getAttribute('y')].map(Number); })()";
+    let place = browser.evaluate(place);
+    [0, 1].map(|k| place[k].as_f64().expect("a place"))
+}
+
+#[test]
+fn a_scene_in_space_is_turned_moved_and_zoomed() {
+    let Some(mut browser) = Browser::start() else {
+        return;
+    };
+    let page = Written::report("space.html", &["table", "--until", "2"]);
+    browser.open(&page.0, AT_A_DESK);
+    browser.press("End");
+    let time = now(&mut browser);
+    let begin = named(&mut browser);
+    browser.evaluate("document.querySelector('.view').focus()");
+    for key in ["ArrowLeft", "ArrowUp", "+", "t"] {
+        let before = named(&mut browser);
+        browser.press(key);
+        assert_ne!(named(&mut browser), before, "{key}");
+    }
+    // The keys of the picture are not those of the clock.
+    assert_eq!(now(&mut browser), time);
+    browser.press("0");
+    assert_eq!(named(&mut browser), begin);
+    browser.evaluate("document.querySelectorAll('.views button')[1].click()");
+    assert_ne!(named(&mut browser), begin);
     assert_eq!(browser.complaints, Vec::<String>::new());
 }
 
@@ -185,11 +221,12 @@ fn pages_are_accessible() {
     let found = "axe.run(document, { resultTypes: ['violations'] }).then((result) => \
                  result.violations.map((v) => `${v.impact} ${v.id}: ${v.nodes[0].html}`).join('\\n'))";
     let both = ["mass-on-wheel", "--compare", "without:grip"];
-    let pages: [&[&str]; 4] = [
+    let pages: [&[&str]; 5] = [
         &both,
         &["rocking-block"],
         &["double-pendulum"],
         &["cue-ball"],
+        &["table"],
     ];
     for (i, arguments) in pages.into_iter().enumerate() {
         let page = Written::report(&format!("axe-{i}.html"), arguments);

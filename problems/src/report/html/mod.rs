@@ -30,10 +30,16 @@ pub struct Shown {
 
 const PAGE: &str = include_str!("page.html");
 const STYLE: &str = include_str!("style.css");
-const SCRIPTS: [&str; 5] = [
+const SCRIPTS: [&str; 11] = [
     include_str!("elements.js"),
     include_str!("picture.js"),
     include_str!("plots.js"),
+    include_str!("vectors.js"),
+    include_str!("meshes.js"),
+    include_str!("camera.js"),
+    include_str!("webgl.js"),
+    include_str!("painted.js"),
+    include_str!("space.js"),
     include_str!("comparison.js"),
     include_str!("player.js"),
 ];

@@ -27,8 +27,8 @@
     const part = (name) => sections[i].querySelector("." + name);
     const shows = [];
     if (!run.time.length) return shows;
-    if (run.picture) {
-      const show = picture(part("stage"), run);
+    if (run.picture || run.space) {
+      const show = (run.space ? space : picture)(part("stage"), run);
       shows.push((t) => show(place(run.time, t), arrows.checked));
     }
     shows.push(timeline(part("timeline"), part("mode"), run));

@@ -2,6 +2,7 @@
 
 use super::{Shown, short};
 use crate::outcome::{Force, forces};
+use crate::report::words::brief;
 use crate::report::{is_angle, symbol};
 use lagrange_core::prelude::*;
 use lagrange_engine::inspect::print::mathml::escaped;
@@ -69,7 +70,7 @@ fn events(run: &Shown) -> String {
                 event.subject.name(description),
                 event.kind
             )),
-            escaped(&event.after.display(description).to_string()),
+            escaped(&brief(&event.after, description)),
         ];
         row.extend(coordinates.iter().zip(&event.state.q).map(|(c, q)| {
             short(match is_angle(c) {

@@ -49,6 +49,17 @@ pub(crate) fn for_pictures() -> String {
     })
 }
 
+/// A colour by name, in light, so many times as bright.
+pub(crate) fn shaded(name: &str, bright: f64) -> String {
+    let found = COLOURS.iter().find(|(other, _)| *other == name);
+    let colour = found.map_or("#000000", |(_, [light, _])| light);
+    let part = |i: usize| {
+        let value = u8::from_str_radix(&colour[i..i + 2], 16).unwrap_or(0);
+        (f64::from(value) * bright).round().clamp(0.0, 255.0) as u8
+    };
+    format!("#{:02x}{:02x}{:02x}", part(1), part(3), part(5))
+}
+
 /// The colour number `index`, in light.
 pub(crate) fn colour(index: usize) -> &'static str {
     let name = format!("c{}", index % TURN);
@@ -94,5 +105,6 @@ mod tests {
             }
         }
         assert!(!for_pictures().contains("var("));
+        assert_eq!(shaded("page", 0.5), "#808080");
     }
 }
