@@ -34,7 +34,7 @@ fn paged(scene: &'static dyn Scene, request: &Request) -> String {
 
 fn written(runs: &[Shown]) -> String {
     let mut page = Vec::new();
-    html::write(runs, None, &mut page).expect("memory");
+    html::write(runs, None, None, &mut page).expect("memory");
     String::from_utf8(page).expect("UTF-8")
 }
 

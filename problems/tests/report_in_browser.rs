@@ -126,6 +126,63 @@ fn it_plays_and_is_searched_by_keyboard_and_mouse() {
     assert_eq!(browser.complaints, Vec::<String>::new());
 }
 
+#[test]
+fn plots_are_chosen_and_enlarged_and_events_jumped_to() {
+    let Some(mut browser) = Browser::start() else {
+        return;
+    };
+    let page = Written::report("plots.html", &["mass-on-wheel"]);
+    browser.open(&page.0, AT_A_DESK);
+    assert_eq!(
+        browser.evaluate("document.querySelectorAll('h1').length"),
+        1
+    );
+    let told = browser.evaluate("document.querySelector('.command code').textContent");
+    let told = told.as_str().expect("the command");
+    assert!(
+        told.starts_with("lagrange report mass-on-wheel --output "),
+        "{told}"
+    );
+
+    browser.click(".jump", 0.5);
+    assert!((now(&mut browser) - 2.461759).abs() < 1e-4);
+
+    // All plots over time show the same part of it.
+    let shown = "[...document.querySelectorAll('.all')].filter((button) => !button.hidden).length";
+    assert_eq!(browser.evaluate(shown), 0);
+    browser.evaluate("document.querySelector('.plots svg').focus()");
+    browser.press("+");
+    let enlarged = browser.evaluate(shown);
+    assert!(
+        enlarged.as_u64().is_some_and(|count| count > 3),
+        "{enlarged}"
+    );
+    browser.press("0");
+    assert_eq!(browser.evaluate(shown), 0);
+
+    let choose = "(() => { const s = document.querySelector('.plots select'); const names = [...s.options].map((o) => o.text); \
+                  s.value = names.indexOf('dθ/dt'); s.dispatchEvent(new Event('change')); \
+                  return document.querySelector('.plots .legend').textContent; })()";
+    let legend = browser.evaluate(choose);
+    assert!(
+        legend.as_str().is_some_and(|text| text.contains("dθ/dt")),
+        "{legend}"
+    );
+    assert_eq!(browser.complaints, Vec::<String>::new());
+}
+
+#[test]
+fn long_equations_stay_on_the_page() {
+    let Some(mut browser) = Browser::start() else {
+        return;
+    };
+    let page = Written::report("long.html", &["rattleback", "--until", "0.5"]);
+    browser.open(&page.0, AT_A_DESK);
+    let beyond = "[...document.querySelectorAll('math[display=block]')].filter((math) => !math.closest('td') && \
+                  math.getBoundingClientRect().right > math.closest('.scroll').getBoundingClientRect().right + 1).length";
+    assert_eq!(browser.evaluate(beyond), 0);
+}
+
 /// Where the page draws the name of the push.
 fn named(browser: &mut Browser) -> [f64; 2] {
     browser.evaluate(

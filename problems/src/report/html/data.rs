@@ -2,7 +2,7 @@
 
 use super::super::{one_mode, significant};
 use super::Shown;
-use super::curves::{Plot, Portrait, over, plots, portraits};
+use super::curves::{Output, Plot, Portrait, outputs, over, plots, portraits};
 use crate::film::Film;
 use crate::report::frames::{SPEEDS, span, usual_speed};
 use crate::report::picture::{Picture, Stage, pictures, stages};
@@ -36,6 +36,7 @@ struct Run {
     space: Option<Stage>,
     plots: Vec<Plot>,
     phase: Vec<Portrait>,
+    outputs: Vec<Output>,
 }
 
 /// A mode and when.
@@ -105,5 +106,6 @@ fn run(
         space,
         plots: plots(&shown.film),
         phase: portraits(outcome, first.map(|film| &film.outcome)),
+        outputs: outputs(outcome),
     }
 }

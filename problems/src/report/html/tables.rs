@@ -63,8 +63,12 @@ fn events(run: &Shown) -> String {
             .map(|force| named(&force.name, description.units.row(force.row))),
     );
     let row = |event: &Event<f64>| {
+        let time = event.time;
         let mut row = vec![
-            short(event.time),
+            format!(
+                "<button type=\"button\" class=\"jump\" data-time=\"{time}\">{}</button>",
+                short(time)
+            ),
             escaped(&format!(
                 "{} {}",
                 event.subject.name(description),

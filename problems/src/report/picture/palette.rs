@@ -35,7 +35,7 @@ pub(crate) fn for_pages() -> String {
             .collect()
     };
     format!(
-        ":root {{ {} }}\n@media (prefers-color-scheme: dark) {{ :root {{ {} }} }}\n{PICTURE}",
+        ":root {{ {} }}\n@media screen and (prefers-color-scheme: dark) {{ :root {{ {} }} }}\n{PICTURE}",
         variables(0),
         variables(1)
     )
