@@ -56,7 +56,7 @@ fn every_scene_has_a_page_that_is_whole_and_small() {
             "{name}"
         );
         assert!(!page.contains("{{") && !page.contains("NaN"), "{name}");
-        assert!(page.len() < 1_000_000, "{name}: {} bytes", page.len());
+        assert!(page.len() < 700_000, "{name}: {} bytes", page.len());
         let numbers = numbers(&page);
         let run = &numbers["runs"][0];
         let samples = run["time"].as_array().map_or(0, Vec::len);

@@ -61,7 +61,7 @@ fn every_page_opens_without_complaints() {
         let name = scene.name();
         let page = Written::report(&format!("{name}.html"), &[name]);
         let size = std::fs::metadata(&page.0).expect("the page").len();
-        assert!(size < 1_000_000, "{name}: {size} bytes");
+        assert!(size < 700_000, "{name}: {size} bytes");
         let reader = if i % 2 == 0 { AT_A_DESK } else { ON_A_PHONE };
         println!("{name} opens in {:.0} ms", browser.open(&page.0, reader));
         assert_eq!(browser.complaints, Vec::<String>::new(), "{name}");
