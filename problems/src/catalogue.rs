@@ -10,6 +10,7 @@ use crate::outcome::Outcome;
 use crate::request::{Refusal, Request};
 use crate::scenes::hard::*;
 use crate::scenes::*;
+use crate::space::Space;
 use crate::sweep::{self, Sweep, Worker};
 use core::f64::consts::PI;
 use core::marker::PhantomData;
@@ -50,7 +51,7 @@ pub static SCENES: &[&dyn Scene] = &[
     &Entry::<DoublePendulum>::new("double-pendulum", 5.0).drawn(DoublePendulum::drawing),
     &Entry::<FiveLinkChain>::new("five-link-chain", 2.0).drawn(FiveLinkChain::drawing),
     &Entry::<Chain20>::new("chain", 2.0).drawn(Chain20::drawing),
-    &Entry::<Net>::new("net", 2.0).drawn(Net::drawing),
+    &Entry::<Net>::new("net", 2.0).built(Net::drawing),
     &Entry::<CartesianPendulum>::new("cartesian-pendulum", 100.0)
         .known(CartesianPendulum::closed_form)
         .drawn(CartesianPendulum::drawing),
@@ -69,9 +70,9 @@ pub static HARD: &[&dyn Scene] = &[
     &Entry::<BackspinBall>::new("backspin-ball", 3.0).drawn(BackspinBall::drawing),
     &Entry::<BeltOscillator>::new("belt-oscillator", 20.0).drawn(BeltOscillator::drawing),
     &Entry::<CoulombOscillator>::new("coulomb-oscillator", 10.0).drawn(CoulombOscillator::drawing),
-    &Entry::<InclineBlock>::new("incline-block", 2.0).drawn(InclineBlock::drawing),
-    &Entry::<CueBall>::new("cue-ball", 2.0).drawn(CueBall::drawing),
-    &Entry::<TurningPush>::new("turning-push", 2.5).drawn(TurningPush::drawing),
+    &Entry::<InclineBlock>::new("incline-block", 2.0).built(InclineBlock::drawing),
+    &Entry::<CueBall>::new("cue-ball", 2.0).built(CueBall::drawing),
+    &Entry::<TurningPush>::new("turning-push", 2.5).built(TurningPush::drawing),
     &Entry::<HoopBead>::new("hoop-bead", 10.0).drawn(HoopBead::drawing),
     &Entry::<RodSleeve>::new("rod-sleeve", 2.0).drawn(RodSleeve::drawing),
     &Entry::<Cradle>::new("cradle", 1.0).drawn(Cradle::drawing),
@@ -79,20 +80,20 @@ pub static HARD: &[&dyn Scene] = &[
     &Entry::<RockingBlock>::new("rocking-block", 10.0).drawn(RockingBlock::drawing),
     &Entry::<PainleveRod>::new("painleve-rod", 1.0).drawn(PainleveRod::drawing),
     &Entry::<StringPendulum>::new("string-pendulum", 3.0).drawn(StringPendulum::drawing),
-    &Entry::<SphericalPendulum>::new("spherical-pendulum", 5.0).drawn(SphericalPendulum::drawing),
+    &Entry::<SphericalPendulum>::new("spherical-pendulum", 5.0).built(SphericalPendulum::drawing),
     &Entry::<PolarParticle>::new("polar-particle", 2.0).drawn(PolarParticle::drawing),
     &Entry::<RodOnSupports>::new("rod-on-supports", 10.0).drawn(RodOnSupports::drawing),
     &Entry::<BeamOnSupports>::new("beam-on-supports", 10.0).drawn(BeamOnSupports::drawing),
     &Entry::<Sled>::new("sled", 2.0).drawn(Sled::drawing),
-    &Entry::<Table>::new("table", 4.0).drawn(Table::drawing),
+    &Entry::<Table>::new("table", 4.0).built(Table::drawing),
     &Entry::<Parallelogram>::new("parallelogram", 2.0).drawn(Parallelogram::drawing),
     &Entry::<SliderCrank>::new("slider-crank", 2.0).drawn(SliderCrank::drawing),
-    &Entry::<RollingDisk>::new("rolling-disk", 5.0).drawn(RollingDisk::drawing),
-    &Entry::<Rattleback>::new("rattleback", 5.0).drawn(Rattleback::drawing),
-    &Entry::<Turntable>::new("turntable", 10.0).drawn(Turntable::drawing),
+    &Entry::<RollingDisk>::new("rolling-disk", 5.0).built(RollingDisk::drawing),
+    &Entry::<Rattleback>::new("rattleback", 5.0).built(Rattleback::drawing),
+    &Entry::<Turntable>::new("turntable", 10.0).built(Turntable::drawing),
     &Entry::<SpringPendulum>::new("spring-pendulum", 0.1).drawn(SpringPendulum::drawing),
     &Entry::<UnequalPendulum>::new("unequal-pendulum", 5.0).drawn(UnequalPendulum::drawing),
-    &Entry::<TumblingBody>::new("tumbling-body", 30.0).drawn(TumblingBody::drawing),
+    &Entry::<TumblingBody>::new("tumbling-body", 30.0).built(TumblingBody::drawing),
     &Entry::<LongPendulum>::new("long-pendulum", 10.0).drawn(LongPendulum::drawing),
 ];
 
@@ -173,7 +174,8 @@ pub struct Entry<S> {
     name: &'static str,
     until: f64,
     closed_form: Option<Solution<S>>,
-    drawing: Option<Picture<S>>,
+    drawing: Option<Picture<S, Drawing>>,
+    space: Option<Picture<S, Space>>,
     results: &'static [(&'static str, &'static str)],
     system: PhantomData<fn() -> S>,
 }
@@ -182,7 +184,7 @@ pub struct Entry<S> {
 pub type Solution<S> = fn(&S, &State<f64>, f64) -> Option<ClosedForm>;
 
 /// How a system is drawn at a time, s, and positions.
-pub type Picture<S> = fn(&S, f64, &[f64]) -> Drawing;
+pub type Picture<S, D> = fn(&S, f64, &[f64]) -> D;
 
 impl<S> Entry<S> {
     /// A scene called `name` that runs for `until` seconds unless asked otherwise.
@@ -192,6 +194,7 @@ impl<S> Entry<S> {
             until,
             closed_form: None,
             drawing: None,
+            space: None,
             results: &[],
             system: PhantomData,
         }
@@ -202,10 +205,18 @@ impl<S> Entry<S> {
         Self { results, ..self }
     }
 
-    /// The same with pictures, for [`Scene::film`].
-    pub const fn drawn(self, drawing: Picture<S>) -> Self {
+    /// The same with pictures in a plane, for [`Scene::film`].
+    pub const fn drawn(self, drawing: Picture<S, Drawing>) -> Self {
         Self {
             drawing: Some(drawing),
+            ..self
+        }
+    }
+
+    /// The same with pictures in space, for [`Scene::film`].
+    pub const fn built(self, space: Picture<S, Space>) -> Self {
+        Self {
+            space: Some(space),
             ..self
         }
     }
@@ -235,6 +246,17 @@ impl<S: System<Scalar = f64> + Default> Entry<S> {
             Err(stopped) => (*stopped.trajectory, Some(stopped.error)),
         })
     }
+}
+
+/// The pictures of all samples, if it is known how they are drawn.
+fn drawn<S, D>(picture: Option<Picture<S, D>>, system: &S, outcome: &Outcome) -> Vec<D> {
+    let drawn = picture.map(|picture| {
+        let samples = outcome.samples.iter();
+        samples
+            .map(|sample| picture(system, sample.time, &sample.state.q))
+            .collect()
+    });
+    drawn.unwrap_or_default()
 }
 
 impl<S: System<Scalar = f64> + Default + Send + 'static> Scene for Entry<S> {
@@ -273,16 +295,11 @@ impl<S: System<Scalar = f64> + Default + Send + 'static> Scene for Entry<S> {
         let times = film::instants(&trajectory, request.samples);
         let mut outcome = Outcome::sampled(self.name, &trajectory, failure, request, &times);
         film::without_rounding(&mut outcome);
-        let draw = |drawing: Picture<S>| {
-            let samples = outcome.samples.iter();
-            samples
-                .map(|sample| drawing(&system, sample.time, &sample.state.q))
-                .collect()
-        };
         let samples = outcome.samples.iter();
         let instants = samples.map(|sample| (sample.time, &sample.mode, &sample.state));
         Ok(Film {
-            drawings: self.drawing.map(draw).unwrap_or_default(),
+            drawings: drawn(self.drawing, &system, &outcome),
+            spaces: drawn(self.space, &system, &outcome),
             books: request.stage(trajectory.last_time(), || film::books(&trajectory)),
             drift: film::drift(&trajectory, instants),
             outcome,

@@ -36,6 +36,8 @@ pub enum Shape {
     Spring(Point, Point),
     /// A point mass.
     Mass(Point),
+    /// A fixed point about which something turns.
+    Pivot(Point),
     /// Where the body before it has been: its path is drawn through this point.
     Trace(Point),
 }
@@ -70,7 +72,8 @@ impl Drawing {
         let masses = joints[1..].iter().copied().map(Shape::Mass);
         let trace = Shape::Trace(joints[joints.len() - 1]);
         let links = Shape::Rod(joints.clone());
-        Self::of([trace, links].into_iter().chain(masses))
+        let hung = [trace, links, Shape::Pivot([0.0; 2])];
+        Self::of(hung.into_iter().chain(masses))
     }
 
     /// The same with an arrow for the force of an item.
@@ -100,6 +103,7 @@ impl Shape {
             Shape::Rod(_) => "rod",
             Shape::Spring(..) => "spring",
             Shape::Mass(_) => "mass",
+            Shape::Pivot(_) => "pivot",
             Shape::Trace(_) => "trace",
         }
     }
@@ -112,7 +116,7 @@ impl Shape {
             Shape::Disc([x, y], radius, angle) => vec![*x, *y, *radius, *angle],
             Shape::Fixed(points) | Shape::Block(points) | Shape::Rod(points) => points.concat(),
             Shape::Spring(from, to) => [*from, *to].concat(),
-            Shape::Mass(at) | Shape::Trace(at) => at.to_vec(),
+            Shape::Mass(at) | Shape::Pivot(at) | Shape::Trace(at) => at.to_vec(),
         }
     }
 
@@ -124,7 +128,7 @@ impl Shape {
             Shape::Shell(at, r) | Shape::Bowl(at, r) | Shape::Disc(at, r, _) => round(*at, *r),
             Shape::Fixed(points) | Shape::Block(points) | Shape::Rod(points) => around(points),
             Shape::Spring(from, to) => around(&[*from, *to]),
-            Shape::Mass(at) | Shape::Trace(at) => around(&[*at]),
+            Shape::Mass(at) | Shape::Pivot(at) | Shape::Trace(at) => around(&[*at]),
         }
     }
 }
@@ -168,39 +172,6 @@ pub fn from_bottom(centre: Point, distance: f64, angle: f64) -> Point {
     ]
 }
 
-/// A point in space, z upward, seen from the front, the right and above; lengths across the line of sight keep their scale.
-pub fn aslant([x, y, z]: [f64; 3]) -> Point {
-    let ((side, front), (above, level)) = (0.5_f64.sin_cos(), 0.45_f64.sin_cos());
-    [
-        x * front + y * side,
-        z * level + (y * front - x * side) * above,
-    ]
-}
-
-/// The axes of a body in space, from its quaternion, scalar part first; it need not be a unit one.
-pub fn axes(q: &[f64]) -> [[f64; 3]; 3] {
-    let [w, x, y, z] = [q[0], q[1], q[2], q[3]];
-    let n = (w * w + x * x + y * y + z * z).max(f64::MIN_POSITIVE);
-    [
-        [
-            w * w + x * x - y * y - z * z,
-            2.0 * (x * y + w * z),
-            2.0 * (x * z - w * y),
-        ],
-        [
-            2.0 * (x * y - w * z),
-            w * w - x * x + y * y - z * z,
-            2.0 * (y * z + w * x),
-        ],
-        [
-            2.0 * (x * z + w * y),
-            2.0 * (y * z - w * x),
-            w * w - x * x - y * y + z * z,
-        ],
-    ]
-    .map(|axis| axis.map(|c| c / n))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -218,9 +189,5 @@ mod tests {
         assert_eq!(ground, [-1.0, 0.0, -1.0, 4.0]);
         assert_eq!(from_top([1.0, 0.0], 2.0, 0.0), [1.0, 2.0]);
         assert_eq!(from_bottom([1.0, 0.0], 2.0, 0.0), [1.0, -2.0]);
-        let half_turn_about_z = axes(&[0.0, 0.0, 0.0, 2.0]);
-        let expected = [[-1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]];
-        assert_eq!(half_turn_about_z, expected);
-        assert!(aslant([0.0, 0.0, 1.0])[1] > 0.0);
     }
 }

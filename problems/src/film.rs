@@ -2,14 +2,17 @@
 
 use crate::drawing::Drawing;
 use crate::outcome::{Outcome, equal};
+use crate::space::Space;
 use lagrange_core::prelude::*;
 
 /// A run to be looked at.
 pub struct Film {
     /// What happened.
     pub outcome: Outcome,
-    /// One for every sample of the outcome; none if the scene does not say how it is drawn.
+    /// One for every sample of the outcome; none if the scene does not say how it is drawn in a plane.
     pub drawings: Vec<Drawing>,
+    /// The same for a scene in space.
+    pub spaces: Vec<Space>,
     /// Time, s, and the energy book from the beginning to it; empty if it could not be drawn up.
     pub books: Vec<(f64, Ledger)>,
     /// Largest relative residual of what has to hold (constraints, closed contacts, slips that stick) at any sample; `None` if

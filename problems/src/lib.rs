@@ -18,5 +18,6 @@ pub mod report;
 pub mod request;
 pub mod scene_file;
 pub mod scenes;
+pub mod space;
 pub mod stability;
 pub mod sweep;

@@ -134,3 +134,41 @@ fn a_file_is_written() {
     assert_eq!(said, "");
     assert!(written.starts_with("# MassOnWheel\n") && written.contains("```mermaid\n"));
 }
+
+/// The LaTeX of all scenes on pages of the usual width. Skipped where there is no TeX.
+#[test]
+fn latex_compiles_and_stays_on_the_page() {
+    let folder = std::env::temp_dir().join(format!("lagrange-latex-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let mut document =
+        "\\documentclass{article}\n\\usepackage{amsmath}\n\\begin{document}\n".to_owned();
+    for scene in scenes() {
+        let name = scene.name();
+        let file = folder.join(format!("{name}.tex"));
+        std::fs::write(file, says(&["inspect", name, "--format", "latex"])).expect("a file");
+        document += &format!("\\typeout{{Scene {name}}}\n\\input{{{name}}}\\clearpage\n");
+    }
+    document += "\\end{document}\n";
+    std::fs::write(folder.join("all.tex"), document).expect("a file");
+    let tex = std::process::Command::new("pdflatex")
+        .args(["-interaction=nonstopmode", "all.tex"])
+        .current_dir(&folder)
+        .output();
+    let Ok(tex) = tex else {
+        println!("skipped: there is no pdflatex on this machine");
+        return;
+    };
+    let said = String::from_utf8_lossy(&tex.stdout);
+    let wrong = |line: &&str| {
+        let signs = ["Scene ", "! ", "Overfull", "Missing character"];
+        signs.iter().any(|sign| line.starts_with(sign))
+    };
+    let lines: Vec<&str> = said.lines().filter(wrong).collect();
+    // Each with the scene before it.
+    let pairs = lines
+        .windows(2)
+        .filter(|pair| !pair[1].starts_with("Scene "));
+    assert_eq!(pairs.collect::<Vec<_>>(), Vec::<&[&str]>::new());
+    assert!(tex.status.success());
+    std::fs::remove_dir_all(&folder).expect("it is ours");
+}

@@ -8,6 +8,7 @@ use lagrange_problems::catalogue::{Scene, find, scenes};
 use lagrange_problems::outcome::forces;
 use lagrange_problems::report::html::{self, Shown};
 use lagrange_problems::request::Request;
+use lagrange_problems::space::{Solid, Space};
 use markup::unclosed;
 use program::{refuses, says};
 use serde_json::Value;
@@ -33,7 +34,7 @@ fn paged(scene: &'static dyn Scene, request: &Request) -> String {
 
 fn written(runs: &[Shown]) -> String {
     let mut page = Vec::new();
-    html::write(runs, None, &mut page).expect("memory");
+    html::write(runs, None, None, &mut page).expect("memory");
     String::from_utf8(page).expect("UTF-8")
 }
 
@@ -55,7 +56,7 @@ fn every_scene_has_a_page_that_is_whole_and_small() {
             "{name}"
         );
         assert!(!page.contains("{{") && !page.contains("NaN"), "{name}");
-        assert!(page.len() < 1_000_000, "{name}: {} bytes", page.len());
+        assert!(page.len() < 700_000, "{name}: {} bytes", page.len());
         let numbers = numbers(&page);
         let run = &numbers["runs"][0];
         let samples = run["time"].as_array().map_or(0, Vec::len);
@@ -80,15 +81,24 @@ fn drawings_are_of_their_scenes() {
             ..Request::default()
         };
         let film = scene.film(&request).expect("a film");
-        let Some(first) = film.drawings.first() else {
-            continue;
-        };
-        drawn += 1;
         let name = scene.name();
         let known: Vec<String> = forces(scene.description())
             .into_iter()
             .map(|f| f.name)
             .collect();
+        if let Some(first) = film.spaces.first() {
+            drawn += 1;
+            check_spaces(name, &known, first, &film.spaces);
+            assert_eq!(film.spaces.len(), film.outcome.samples.len());
+            assert!(
+                film.drawings.is_empty(),
+                "{name} is in a plane and in space"
+            );
+        }
+        let Some(first) = film.drawings.first() else {
+            continue;
+        };
+        drawn += 1;
         for arrow in &first.arrows {
             assert!(
                 known.iter().any(|f| f == arrow.force),
@@ -111,6 +121,72 @@ fn drawings_are_of_their_scenes() {
         }
     }
     assert!(drawn == scenes().count(), "only {drawn} scenes are drawn");
+}
+
+fn check_spaces(name: &str, known: &[String], first: &Space, spaces: &[Space]) {
+    for (part, _) in first.pushes.iter().flat_map(|push| &push.parts) {
+        assert!(
+            known.iter().any(|force| force == part),
+            "{name}: {part} in {known:?}"
+        );
+    }
+    for space in spaces {
+        assert_eq!(space.pushes.len(), first.pushes.len(), "{name}");
+        assert_eq!(space.solids.len(), first.solids.len(), "{name}");
+        for (solid, other) in space.solids.iter().zip(&first.solids) {
+            assert_eq!(solid.kind(), other.kind(), "{name}");
+            assert_eq!(solid.size(), other.size(), "{name}");
+            assert_eq!(solid.places().len(), other.places().len(), "{name}");
+            let mut numbers = solid
+                .places()
+                .into_iter()
+                .flat_map(|place| [place.x, place.y, place.z]);
+            assert!(numbers.all(f64::is_finite), "{name}: {solid:?}");
+            assert!(
+                solid.turn().is_none_or(|turn| turn.norm().is_finite()),
+                "{name}: {solid:?}"
+            );
+        }
+    }
+}
+
+/// Bodies that stand or roll on the ground touch it and do not go through it.
+#[test]
+fn solids_rest_on_the_ground() {
+    for name in [
+        "table",
+        "rattleback",
+        "cue-ball",
+        "rolling-disk",
+        "turning-push",
+    ] {
+        let request = Request {
+            samples: 50,
+            ..Request::default()
+        };
+        let film = find(name).expect("a scene").film(&request).expect("a film");
+        for space in &film.spaces {
+            let lowest = |solid: &Solid| {
+                let body = solid.places()[0].z - solid.reach().z;
+                // The half of an ellipsoid that is there is the lower one.
+                matches!(
+                    solid,
+                    Solid::Box(..)
+                        | Solid::Disc(..)
+                        | Solid::HalfEllipsoid(..)
+                        | Solid::RolledBall(..)
+                )
+                .then_some(body)
+            };
+            let low = space
+                .solids
+                .iter()
+                .filter_map(lowest)
+                .fold(f64::INFINITY, f64::min);
+            // The disk is drawn thicker than it is.
+            assert!(low.abs() < 3e-3, "{name}: {low}");
+        }
+    }
 }
 
 #[test]

@@ -107,7 +107,10 @@ impl Report {
     fn write(&self, runs: &[Shown]) -> Result<(), Trouble> {
         if self.frames.is_none() && self.form()? == Form::Html {
             let path = self.output.as_deref().unwrap_or(Path::new("report.html"));
-            return to_file(path, |out| html::write(runs, self.speed, out));
+            let command = command(std::env::args());
+            return to_file(path, |out| {
+                html::write(runs, self.speed, Some(&command), out)
+            });
         }
         let panels: Vec<Panel> = runs.iter().map(Shown::panel).collect();
         let clock = Clock::new(&panels, self.fps, self.speed).map_err(Trouble::usage)?;
@@ -161,6 +164,21 @@ impl Report {
     }
 }
 
+/// The command that was given, for a shell: what it would take apart stands between quotes.
+fn command(arguments: impl Iterator<Item = String>) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,+@%".contains(c);
+    let quoted = arguments.skip(1).map(|argument| {
+        match argument.is_empty() || !argument.chars().all(plain) {
+            true => format!("'{}'", argument.replace('\'', "'\\''")),
+            false => argument,
+        }
+    });
+    let words: Vec<String> = core::iter::once("lagrange".to_owned())
+        .chain(quoted)
+        .collect();
+    words.join(" ")
+}
+
 /// The scene, with the name of the file that describes the run, and what is different.
 fn title(name: &str, scene: &dyn Scene, comparison: Option<&Comparison>) -> String {
     let run = match name.strip_suffix(".toml") {
@@ -173,5 +191,24 @@ fn title(name: &str, scene: &dyn Scene, comparison: Option<&Comparison>) -> Stri
     match comparison {
         Some(comparison) => format!("{run}, {comparison}"),
         None => run,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::command;
+
+    #[test]
+    fn commands_can_be_given_to_a_shell_again() {
+        let given = [
+            "/usr/bin/lagrange",
+            "report",
+            "a b.toml",
+            "--set",
+            "name=it's",
+            "",
+        ];
+        let told = command(given.into_iter().map(str::to_owned));
+        assert_eq!(told, r"lagrange report 'a b.toml' --set 'name=it'\''s' ''");
     }
 }

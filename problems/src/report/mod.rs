@@ -16,6 +16,7 @@ mod rows;
 pub mod stability;
 pub mod sweep;
 pub mod table;
+mod words;
 
 use crate::outcome::Outcome;
 use clap::ValueEnum;

@@ -40,6 +40,7 @@ pub fn mass_on_spring(r: f64, theta: f64) -> Drawing {
     Drawing::of([
         Shape::Trace(mass),
         Shape::Spring([0.0; 2], mass),
+        Shape::Pivot([0.0; 2]),
         Shape::Mass(mass),
     ])
 }

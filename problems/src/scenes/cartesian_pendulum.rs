@@ -62,8 +62,12 @@ impl CartesianPendulum {
     /// The rod and the mass.
     pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
         let mass = [q[0], q[1]];
-        Drawing::of([Shape::Rod(vec![[0.0; 2], mass]), Shape::Mass(mass)])
-            // The gradient of x² + y².
-            .force("rod", mass, [2.0 * q[0], 2.0 * q[1]])
+        Drawing::of([
+            Shape::Rod(vec![[0.0; 2], mass]),
+            Shape::Pivot([0.0; 2]),
+            Shape::Mass(mass),
+        ])
+        // The gradient of x² + y².
+        .force("rod", mass, [2.0 * q[0], 2.0 * q[1]])
     }
 }

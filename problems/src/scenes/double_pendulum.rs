@@ -70,6 +70,7 @@ impl DoublePendulum {
         Drawing::of([
             Shape::Trace(lower),
             Shape::Rod(vec![[0.0; 2], upper, lower]),
+            Shape::Pivot([0.0; 2]),
             Shape::Mass(upper),
             Shape::Mass(lower),
         ])

@@ -1,6 +1,6 @@
 //! A net of point masses and springs in space.
 
-use crate::drawing::{Drawing, Shape, aslant};
+use crate::space::{Pose, Solid, Space, Vector};
 use lagrange_core::prelude::*;
 
 /// A net of eight by eight knots hangs by its corners from four hooks and drops under its own weight.
@@ -52,19 +52,24 @@ impl Default for Net {
 
 impl Net {
     /// The rows and columns, the corners with their hooks.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        let flat = |row: usize, column: usize| [column, row].map(|n| self.length * n as f64);
+    pub fn drawing(&self, _t: f64, q: &[f64]) -> Space {
+        let flat = |row: usize, column: usize, height: f64| {
+            let [x, y] = [column, row].map(|n| self.length * n as f64);
+            Vector::new(x, y, height)
+        };
         let knot = |row: usize, column: usize| {
-            let (k, [x, y]) = (8 * row + column, flat(row, column));
-            aslant([x + q[k], y + q[64 + k], q[128 + k]])
+            let k = 8 * row + column;
+            flat(row, column, 0.0) + Vector::new(q[k], q[64 + k], q[128 + k])
         };
         let rows = (0..8).map(|row| (0..8).map(|column| knot(row, column)).collect());
         let columns = (0..8).map(|column| (0..8).map(|row| knot(row, column)).collect());
-        let hooks = [[0, 0], [0, 7], [7, 0], [7, 7]].map(|[row, column]| {
-            let [x, y] = flat(row, column);
-            vec![aslant([x, y, self.length]), knot(row, column)]
-        });
-        let lines = rows.chain(columns).chain(hooks);
-        Drawing::of(lines.map(Shape::Rod))
+        let corners = [[0, 0], [0, 7], [7, 0], [7, 7]];
+        let hook = |[row, column]: [usize; 2]| flat(row, column, self.length);
+        let hung = corners.map(|corner| vec![hook(corner), knot(corner[0], corner[1])]);
+        let lines = rows.chain(columns).chain(hung).map(Solid::Rod);
+        let hooks = corners.map(|corner| Solid::Pivot(hook(corner)));
+        // Where it is out of the way of the deepest sag.
+        let ground = Solid::Ground(Pose::at(0.0, 0.0, -10.0 * self.length));
+        Space::of(lines.chain(hooks).chain([ground]))
     }
 }

@@ -267,6 +267,17 @@ fn mode_blocks(mode: &Mode, blocks: &mut Vec<Block>) {
             solution.map(|e| (Vec::new(), e.clone())).collect(),
         ));
     }
+    let unsolved = mode.unsolved();
+    if !unsolved.is_empty() {
+        let mut pieces = vec![words("too long to be written out: ")];
+        for (i, unknown) in unsolved.into_iter().enumerate() {
+            if i > 0 {
+                pieces.push(words(", "));
+            }
+            pieces.push(letter(unknown));
+        }
+        blocks.push(Block::Paragraph(pieces));
+    }
     if !mode.guards.is_empty() {
         let rows = mode.guards.iter().map(|guard| {
             vec![

@@ -168,6 +168,24 @@ pub struct Mode {
     pub with_guards: usize,
 }
 
+impl Mode {
+    /// Unknowns without a closed form where others have one: theirs would be too long.
+    pub fn unsolved(&self) -> Vec<&Letter> {
+        let solved = |unknown: &Letter| {
+            let mut lefts = self.solution.iter().map(|statement| &statement.left);
+            lefts.any(|left| matches!(left, Formula::Letter(letter) if letter == unknown))
+        };
+        match self.solution.is_empty() {
+            true => Vec::new(),
+            false => self
+                .unknowns
+                .iter()
+                .filter(|unknown| !solved(unknown))
+                .collect(),
+        }
+    }
+}
+
 /// What must hold in a mode.
 #[derive(Clone, Debug)]
 pub struct Guard {

@@ -159,7 +159,7 @@ fn forces(system: &System) -> Vec<(Symbol, Letter)> {
             let letter = Letter::of("F", &friction.name.text);
             let letter = match friction.slip.len() {
                 1 => letter,
-                _ => letter.element(&(k + 1).to_string()),
+                _ => letter.element(&k.to_string()),
             };
             forces.push((force, letter));
         }

@@ -3,7 +3,7 @@
 //! Who prefers reduced motion is shown some instants upon each other instead; so is who prints.
 
 use super::element::{self, Element};
-use super::layout::{CURSOR, LETTER, Layout, Place};
+use super::layout::{CURSOR, LETTER, Layout, Place, Seen};
 use super::still::{arrows, decimals, marks};
 use super::{Clock, Panel};
 use crate::report::picture::{self, Form, Mark, WIDTH, nice};
@@ -84,26 +84,31 @@ impl Reel {
     }
 
     fn scene(&self, panel: &Place, out: &mut String) {
-        let Some(picture) = &panel.picture else {
-            return;
-        };
         let places = self.instants.iter();
         let places: Vec<picture::Place> = places
             .map(|t| picture::Place::of(*t, &panel.times))
             .collect();
-        for mark in &picture.marks {
+        let height = panel.seen_height();
+        if let Some(painter) = &panel.painter {
+            painter.grid(out);
+            self.solids(&places, |place, out| painter.below(place, out), out);
+            for trace in &painter.traces {
+                self.trace(trace, &places, out);
+            }
+            self.solids(&places, |place, out| painter.above(place, out), out);
+        }
+        for mark in panel.picture.iter().flat_map(|picture| &picture.marks) {
             if mark.form == Form::Trace {
                 self.trace(mark, &places, out);
                 continue;
             }
             let elements = places.iter();
-            let elements = elements.filter_map(|place| element::mark(mark, *place, picture.height));
+            let elements = elements.filter_map(|place| element::mark(mark, *place, height));
             self.moving(&elements.collect::<Vec<_>>(), "", out);
         }
-        for (i, arrow) in picture.arrows.iter().enumerate() {
-            let all = places
-                .iter()
-                .map(|place| element::arrow(i, arrow, *place, picture.height));
+        let arrows: Vec<Vec<Seen>> = places.iter().map(|place| panel.arrows(*place)).collect();
+        for i in 0..arrows.first().map_or(0, Vec::len) {
+            let all = arrows.iter().map(|arrows| element::arrow(i, &arrows[i]));
             let (arrows, names): (Vec<Element>, Vec<Option<Element>>) = all.unzip();
             self.moving(&arrows, "", out);
             let seen = self.seen(&names.iter().map(Option::is_some).collect::<Vec<_>>());
@@ -116,6 +121,34 @@ impl Reel {
             }
             placed.reverse();
             self.moving(&placed, &seen, out);
+        }
+    }
+
+    /// Solids in space: a picture for every instant, as their order from the back to the front changes.
+    fn solids(
+        &self,
+        places: &[picture::Place],
+        paint: impl Fn(picture::Place, &mut String),
+        out: &mut String,
+    ) {
+        let mut pictures: Vec<(String, Vec<bool>)> = Vec::new();
+        for (k, place) in places.iter().enumerate() {
+            let mut picture = String::new();
+            paint(*place, &mut picture);
+            if pictures.last().is_none_or(|(last, _)| *last != picture) {
+                pictures.push((picture, vec![false; places.len()]));
+            }
+            if let Some((_, seen)) = pictures.last_mut() {
+                seen[k] = true;
+            }
+        }
+        for (picture, seen) in pictures {
+            let hidden = if seen[0] {
+                ""
+            } else {
+                " visibility=\"hidden\""
+            };
+            let _ = writeln!(out, "<g{hidden}>{}\n{picture}</g>", self.seen(&seen));
         }
     }
 

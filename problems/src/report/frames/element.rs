@@ -1,8 +1,8 @@
 //! Marks and arrows at an instant → elements of an SVG file: what in them moves, and what does not.
 
-use super::layout::LETTER;
+use super::layout::Seen;
 use crate::report::picture::palette::colour;
-use crate::report::picture::{Arrow, Form, Mark, Place, WIDTH, label, outline};
+use crate::report::picture::{Form, Mark, Place, WIDTH, outline};
 use lagrange_engine::inspect::print::mathml::escaped;
 use std::fmt::Write;
 
@@ -83,20 +83,14 @@ pub(super) fn mark(mark: &Mark, place: Place, height: f64) -> Option<Element> {
     })
 }
 
-/// The arrow number `index`: its outline, and its name if it is long enough for one.
-pub(super) fn arrow(
-    index: usize,
-    arrow: &Arrow,
-    place: Place,
-    height: f64,
-) -> (Element, Option<Element>) {
-    let ends = arrow.numbers.each_ref().map(|column| column.at(place));
+/// The arrow number `index`: its outline, and its name if there is room for one.
+pub(super) fn arrow(index: usize, seen: &Seen) -> (Element, Option<Element>) {
     let fill = format!(" fill=\"{}\"", colour(index));
-    let corners = outline(ends).unwrap_or([[ends[0], ends[1]]; 7]);
+    let [x, y, ..] = seen.ends;
+    let corners = outline(seen.ends).unwrap_or([[x, y]; 7]);
     let points = vec![("points", pairs(&corners.concat()))];
-    let name = label(ends, arrow.name.chars().count(), LETTER, height);
-    let name = name.map(|[x, y]| Element {
-        text: escaped(&arrow.name),
+    let name = seen.label.map(|[x, y]| Element {
+        text: escaped(&seen.name),
         ..Element::new(
             "text",
             format!(" class=\"name\"{fill}"),

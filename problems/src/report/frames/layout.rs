@@ -4,7 +4,8 @@ use super::{Panel, span};
 use crate::film::Film;
 use crate::report::one_mode;
 use crate::report::picture::palette::{self, colour};
-use crate::report::picture::{Picture, WIDTH, pictures};
+use crate::report::picture::{self, Painter, Picture, WIDTH, label, pictures, stages};
+use crate::report::words::brief;
 use lagrange_engine::inspect::print::mathml::escaped;
 use std::fmt::Write;
 
@@ -14,6 +15,11 @@ const GAP: f64 = 24.0;
 pub(super) const LETTER: f64 = 24.0;
 /// Height of the bar of modes.
 const BAR: f64 = 16.0;
+
+/// The light and the shade on a ball.
+const ROUND: &str = "<radialGradient id=\"round\" cx=\".36\" cy=\".3\" r=\".75\"><stop offset=\"0\" stop-color=\"#fff\" \
+     stop-opacity=\".45\"/><stop offset=\".4\" stop-color=\"#fff\" stop-opacity=\"0\"/><stop offset=\"1\" \
+     stop-opacity=\".45\"/></radialGradient>\n";
 
 /// Everything that does not depend on the instant.
 pub(super) struct Layout<'a> {
@@ -29,6 +35,8 @@ pub(super) struct Place<'a> {
     title: &'a str,
     pub film: &'a Film,
     pub picture: Option<Picture>,
+    /// Of a scene in space, in place of a picture.
+    pub painter: Option<Painter>,
     pub x: f64,
     pub y: f64,
     /// Of its picture.
@@ -37,29 +45,51 @@ pub(super) struct Place<'a> {
     pub times: Vec<f64>,
 }
 
+/// A force as it is seen.
+pub(super) struct Seen {
+    pub name: String,
+    /// From where to where it points: x, y, x, y.
+    pub ends: [f64; 4],
+    /// Where its name stands, if it is long enough for one that covers no other.
+    pub label: Option<[f64; 2]>,
+}
+
 impl<'a> Layout<'a> {
     pub fn new(panels: &[Panel<'a>]) -> Self {
         let films: Vec<&Film> = panels.iter().map(|panel| panel.film).collect();
         let pictures = pictures(&films);
+        let painter = |(film, stage): (&&Film, Option<_>)| {
+            stage.map(|stage| Painter::new(stage, film.outcome.samples.len()))
+        };
+        let painters: Vec<Option<Painter>> =
+            films.iter().zip(stages(&films)).map(painter).collect();
         let heights = pictures.iter().flatten().map(|picture| picture.height);
-        let height = heights.fold(0.0, f64::max);
+        let seen = painters.iter().flatten().map(|painter| painter.view.height);
+        let height = heights.chain(seen).fold(0.0, f64::max);
         let top = if panels.len() > 1 {
             GAP + 1.5 * LETTER
         } else {
             GAP
         };
         let (first, last) = span(films.iter().copied());
-        let place = |(i, (panel, picture)): (usize, (&Panel<'a>, Option<Picture>))| Place {
+        type Pair = (Option<Picture>, Option<Painter>);
+        let place = |(i, (panel, (picture, painter))): (usize, (&Panel<'a>, Pair))| Place {
             title: panel.title,
             film: panel.film,
             picture,
+            painter,
             x: GAP + i as f64 * (WIDTH + GAP),
             y: top,
             height,
             times: panel.film.outcome.samples.iter().map(|s| s.time).collect(),
         };
         Self {
-            panels: panels.iter().zip(pictures).enumerate().map(place).collect(),
+            panels: panels
+                .iter()
+                .zip(pictures.into_iter().zip(painters))
+                .enumerate()
+                .map(place)
+                .collect(),
             width: GAP + panels.len() as f64 * (WIDTH + GAP),
             height: top + height + GAP + BAR + 2.0 * LETTER,
             first,
@@ -78,6 +108,9 @@ impl<'a> Layout<'a> {
              svg:root {{ max-width: 100%; max-height: 100%; }}\n{look}{style}</style>\n\
              <rect class=\"paper\" width=\"{width}\" height=\"{height}\"/>\n"
         );
+        if self.panels.iter().any(|panel| panel.painter.is_some()) {
+            out.push_str(ROUND);
+        }
         for (i, panel) in self.panels.iter().enumerate() {
             let _ = writeln!(
                 out,
@@ -107,8 +140,8 @@ impl<'a> Layout<'a> {
         let one = one_mode(outcome.description);
         match phase {
             Some(_) if one => String::new(),
-            Some(phase) if over => format!("{} (ended)", phase.mode.display(outcome.description)),
-            Some(phase) => phase.mode.display(outcome.description).to_string(),
+            Some(phase) if over => format!("{} (ended)", brief(&phase.mode, outcome.description)),
+            Some(phase) => brief(&phase.mode, outcome.description),
             None => String::new(),
         }
     }
@@ -118,10 +151,7 @@ impl<'a> Layout<'a> {
         let mut seen: Vec<String> = Vec::new();
         for panel in &self.panels {
             for phase in &panel.film.outcome.phases {
-                let other = phase
-                    .mode
-                    .display(panel.film.outcome.description)
-                    .to_string();
+                let other = brief(&phase.mode, panel.film.outcome.description);
                 if other == words {
                     return seen.iter().position(|s| *s == other).unwrap_or(seen.len());
                 }
@@ -146,7 +176,7 @@ impl Place<'_> {
                 -0.5 * LETTER
             );
         }
-        if self.picture.is_none() {
+        if self.picture.is_none() && self.painter.is_none() {
             let y = 0.5 * self.height;
             let _ = writeln!(
                 out,
@@ -155,8 +185,48 @@ impl Place<'_> {
         }
     }
 
+    /// Height of what is seen, which may be less than that of its panel.
+    pub fn seen_height(&self) -> f64 {
+        let picture = self.picture.as_ref().map(|picture| picture.height);
+        let painter = self.painter.as_ref().map(|painter| painter.view.height);
+        picture.or(painter).unwrap_or(self.height)
+    }
+
+    /// The forces at a place among the samples.
+    pub fn arrows(&self, place: picture::Place) -> Vec<Seen> {
+        let height = self.seen_height();
+        let mut taken: Vec<[f64; 3]> = Vec::new();
+        let seen = |(name, ends): (String, [f64; 4])| {
+            let characters = name.chars().count();
+            let half = 0.3 * LETTER * characters as f64;
+            let label = label(ends, characters, LETTER, height).filter(|[x, y]| {
+                let apart =
+                    |[u, v, wide]: &[f64; 3]| (x - u).abs() > half + wide || (y - v).abs() > LETTER;
+                taken.iter().all(apart)
+            });
+            taken.extend(label.map(|[x, y]| [x, y, half]));
+            Seen { name, ends, label }
+        };
+        if let Some(painter) = &self.painter {
+            return painter.arrows(place).into_iter().map(seen).collect();
+        }
+        let arrows = self.picture.iter().flat_map(|picture| &picture.arrows);
+        let ends = |arrow: &picture::Arrow| {
+            let ends = arrow.numbers.each_ref().map(|column| column.at(place));
+            (arrow.name.clone(), ends)
+        };
+        arrows.map(ends).map(seen).collect()
+    }
+
     /// What lengths of the picture mean.
     pub fn rulers(&self, out: &mut String) {
+        if let Some(painter) = &self.painter {
+            let (y, ruler) = (self.height - 16.0, painter.ruler());
+            let _ = writeln!(
+                out,
+                "<text class=\"words\" x=\"16\" y=\"{y:.1}\">{ruler}</text>"
+            );
+        }
         let Some(picture) = &self.picture else { return };
         let y = picture.height - 16.0;
         let mut x = 16.0;
@@ -184,7 +254,7 @@ impl Place<'_> {
     pub fn bar(&self, layout: &Layout, out: &mut String) {
         let outcome = &self.film.outcome;
         for phase in &outcome.phases {
-            let words = phase.mode.display(outcome.description).to_string();
+            let words = brief(&phase.mode, outcome.description);
             let [from, to] = [phase.from, phase.to].map(|t| WIDTH * layout.part(t));
             let _ = writeln!(
                 out,

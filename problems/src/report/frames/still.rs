@@ -1,6 +1,6 @@
 //! One instant.
 
-use super::element;
+use super::element::{self, Element};
 use super::layout::{CURSOR, LETTER, Layout, Place};
 use super::{Clock, Panel};
 use crate::report::picture::{self, WIDTH};
@@ -46,27 +46,31 @@ pub(super) fn decimals(duration: f64) -> usize {
 
 /// The scene at an instant, without forces.
 pub(super) fn marks(panel: &Place, time: f64, out: &mut String) {
-    let Some(picture) = &panel.picture else {
-        return;
-    };
     let place = picture::Place::of(time, &panel.times);
-    for mark in &picture.marks {
-        if let Some(element) = element::mark(mark, place, picture.height) {
-            element.write("", out);
+    if let Some(painter) = &panel.painter {
+        painter.grid(out);
+        painter.below(place, out);
+        for trace in &painter.traces {
+            put(element::mark(trace, place, panel.height), out);
         }
+        painter.above(place, out);
+    }
+    for mark in panel.picture.iter().flat_map(|picture| &picture.marks) {
+        put(element::mark(mark, place, panel.seen_height()), out);
     }
 }
 
 /// Forces at an instant.
 pub(super) fn arrows(panel: &Place, time: f64, out: &mut String) {
-    let Some(picture) = &panel.picture else {
-        return;
-    };
     let place = picture::Place::of(time, &panel.times);
-    for (i, arrow) in picture.arrows.iter().enumerate() {
-        let (arrow, name) = element::arrow(i, arrow, place, picture.height);
-        for element in [Some(arrow), name].into_iter().flatten() {
-            element.write("", out);
-        }
+    for (i, arrow) in panel.arrows(place).iter().enumerate() {
+        let (arrow, name) = element::arrow(i, arrow);
+        put([Some(arrow), name].into_iter().flatten(), out);
+    }
+}
+
+fn put(elements: impl IntoIterator<Item = Element>, out: &mut String) {
+    for element in elements {
+        element.write("", out);
     }
 }

@@ -1,5 +1,5 @@
 // Runs of one scene in one plot: a coordinate or its rate, or how far the others are from the first run.
-function comparison(parent, runs, clock, seek) {
+function comparison(parent, runs, clock, seek, zoom) {
   const figure = html("figure", { class: "run" }, parent);
   html("figcaption", {}, figure, `Together: ${runs[0].scene}`);
   const row = html("p", { class: "choices" }, figure);
@@ -16,11 +16,11 @@ function comparison(parent, runs, clock, seek) {
     const [k, i] = what.value.split(" ");
     stage.replaceChildren();
     const legend = html("ul", { class: "legend" });
-    const all = runs.map((run, r) => ({ name: run.title, times: run.time, values: kinds[k](run.phase[i])[2], dash: dashes[r % dashes.length] }));
+    const all = runs.map((run, r) => ({ name: run.title, xs: run.time, times: run.time, ys: kinds[k](run.phase[i])[2], dash: dashes[r % dashes.length] }));
     // The first run has no difference from itself.
-    const lines = all.map((line) => ({ ...line, values: line.values || line.times.map(() => 0) }));
+    const lines = all.map((line) => ({ ...line, ys: line.ys || line.xs.map(() => 0) }));
     const [title, axis] = kinds[k](runs[0].phase[i]);
-    show = curves(stage, legend, { title, axis, lines, clock, seek });
+    show = chart(stage, legend, { title, xName: "time [s]", axis, whole: clock, lines, seek, zoom });
     stage.append(legend);
     show(last);
   };

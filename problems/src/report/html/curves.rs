@@ -41,6 +41,25 @@ pub(super) struct Portrait {
     apart: Vec<Option<f64>>,
 }
 
+/// An extra output over time.
+#[derive(Serialize)]
+pub(super) struct Output {
+    name: &'static str,
+    unit: &'static str,
+    values: Vec<f64>,
+}
+
+/// What the declaration observes.
+pub(super) fn outputs(outcome: &Outcome) -> Vec<Output> {
+    let list = outcome.description.observes.iter().enumerate();
+    let output = |(i, observe): (usize, &lagrange_core::system::Observe)| Output {
+        name: observe.name,
+        unit: observe.unit,
+        values: over(outcome, |sample| sample.observes[i]),
+    };
+    list.map(output).collect()
+}
+
 /// More coordinates than this do not have portraits.
 const PORTRAITS: usize = 12;
 /// More rows than this do not have plots.

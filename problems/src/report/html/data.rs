@@ -2,10 +2,11 @@
 
 use super::super::{one_mode, significant};
 use super::Shown;
-use super::curves::{Plot, Portrait, over, plots, portraits};
+use super::curves::{Output, Plot, Portrait, outputs, over, plots, portraits};
 use crate::film::Film;
 use crate::report::frames::{SPEEDS, span, usual_speed};
-use crate::report::picture::{Picture, pictures};
+use crate::report::picture::{Picture, Stage, pictures, stages};
+use crate::report::words::brief;
 use serde::Serialize;
 
 /// What the player of the page reads.
@@ -31,8 +32,11 @@ struct Run {
     events: Vec<Happening>,
     #[serde(skip_serializing_if = "Option::is_none")]
     picture: Option<Picture>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    space: Option<Stage>,
     plots: Vec<Plot>,
     phase: Vec<Portrait>,
+    outputs: Vec<Output>,
 }
 
 /// A mode and when.
@@ -63,8 +67,9 @@ pub(super) fn data(runs: &[Shown], speed: Option<f64>) -> Data {
         let first = films.iter().copied().find(of_scene);
         first.filter(|first| !std::ptr::eq(*first, film))
     };
-    let runs = runs.iter().zip(pictures(&films));
-    let runs = runs.map(|(shown, picture)| run(shown, picture, first(&shown.film)));
+    let seen = pictures(&films).into_iter().zip(stages(&films));
+    let runs = runs.iter().zip(seen);
+    let runs = runs.map(|(shown, seen)| run(shown, seen, first(&shown.film)));
     Data {
         schema: "lagrange.report.2",
         speeds,
@@ -74,13 +79,17 @@ pub(super) fn data(runs: &[Shown], speed: Option<f64>) -> Data {
 }
 
 /// One run, and how far it is from the first one of its scene.
-fn run(shown: &Shown, picture: Option<Picture>, first: Option<&Film>) -> Run {
+fn run(
+    shown: &Shown,
+    (picture, space): (Option<Picture>, Option<Stage>),
+    first: Option<&Film>,
+) -> Run {
     let outcome = &shown.film.outcome;
     let description = outcome.description;
     let phases = outcome.phases.iter().map(|phase| Span {
         from: significant(phase.from),
         to: significant(phase.to),
-        mode: phase.mode.display(description).to_string(),
+        mode: brief(&phase.mode, description),
     });
     let events = outcome.events.iter().map(|event| Happening {
         time: significant(event.time),
@@ -94,7 +103,9 @@ fn run(shown: &Shown, picture: Option<Picture>, first: Option<&Film>) -> Run {
         one_mode: one_mode(description),
         events: events.collect(),
         picture,
+        space,
         plots: plots(&shown.film),
         phase: portraits(outcome, first.map(|film| &film.outcome)),
+        outputs: outputs(outcome),
     }
 }

@@ -175,6 +175,14 @@ fn mode(mode: &inspect::Mode, out: &mut String) {
         out.push_str("<p>Hence</p>\n");
         out.extend(mode.solution.iter().map(titled));
     }
+    let unsolved: Vec<String> = mode.unsolved().into_iter().map(letter).collect();
+    if !unsolved.is_empty() {
+        let _ = writeln!(
+            out,
+            "<p>Too long to be written out: {}</p>",
+            unsolved.join(", ")
+        );
+    }
     if mode.guards.is_empty() {
         return;
     }

@@ -30,10 +30,17 @@ pub struct Shown {
 
 const PAGE: &str = include_str!("page.html");
 const STYLE: &str = include_str!("style.css");
-const SCRIPTS: [&str; 5] = [
+const SCRIPTS: [&str; 12] = [
     include_str!("elements.js"),
     include_str!("picture.js"),
     include_str!("plots.js"),
+    include_str!("equations.js"),
+    include_str!("vectors.js"),
+    include_str!("meshes.js"),
+    include_str!("camera.js"),
+    include_str!("webgl.js"),
+    include_str!("painted.js"),
+    include_str!("space.js"),
     include_str!("comparison.js"),
     include_str!("player.js"),
 ];
@@ -63,20 +70,40 @@ pub fn intervals(scene: &dyn Scene, request: &Request, runs: usize) -> usize {
     ((PER_SECOND * until) as usize).clamp(most.min(900), most)
 }
 
-/// Writes the page; it plays at this speed, or at one that suits.
+/// Writes the page; it plays at this speed, or at one that suits. `command` is what made it, told at its end.
 ///
 /// # Errors
 /// Of `out`.
-pub fn write(runs: &[Shown], speed: Option<f64>, mut out: impl Write) -> io::Result<()> {
+pub fn write(
+    runs: &[Shown],
+    speed: Option<f64>,
+    command: Option<&str>,
+    mut out: impl Write,
+) -> io::Result<()> {
     let numbers = data(runs, speed);
     // A script ends at the first `</`, whatever it is in.
     let numbers = serde_json::to_string(&numbers)
         .map_err(io::Error::from)?
         .replace('<', "\\u003c");
     let titles: Vec<&str> = runs.iter().map(|run| run.title.as_str()).collect();
-    let sections: String = runs.iter().enumerate().map(section).collect();
+    let sections = runs.iter().enumerate();
+    let sections: String = sections.map(|run| section(run, runs.len() > 1)).collect();
+    let title = escaped(&titles.join(" · "));
+    // Of a single run the name stands over its section.
+    let header = match runs.len() {
+        1 => String::new(),
+        _ => format!("<header>\n<h1>{title}</h1>\n</header>"),
+    };
+    let command = command.map(|command| {
+        format!(
+            "<p class=\"command\">Made by <code>{}</code> <button type=\"button\" class=\"copy\" hidden=\"hidden\">Copy</button></p>\n",
+            escaped(command)
+        )
+    });
     let parts = [
-        ("title", escaped(&titles.join(" · "))),
+        ("title", title),
+        ("header", header),
+        ("command", command.unwrap_or_default()),
         ("version", env!("CARGO_PKG_VERSION").to_owned()),
         ("style", palette::for_pages() + STYLE),
         ("runs", sections),
@@ -95,7 +122,7 @@ pub fn write(runs: &[Shown], speed: Option<f64>, mut out: impl Write) -> io::Res
 }
 
 /// All about one run; the script finds its places by their class.
-fn section((index, run): (usize, &Shown)) -> String {
+fn section((index, run): (usize, &Shown), several: bool) -> String {
     let id = format!("run{index}");
     let title = escaped(&run.title);
     let summary = run.film.outcome.description.documentation.trim();
@@ -107,11 +134,12 @@ fn section((index, run): (usize, &Shown)) -> String {
         ),
         None => String::new(),
     };
+    let level = if several { "h2" } else { "h1" };
     let equations = equations::equations(run);
     let tables = tables::tables(run);
     format!(
-        "<section class=\"run\" aria-labelledby=\"{id}\">\n<h2 id=\"{id}\">{title}</h2>\n<p>{summary}</p>\n{failure}\
-         <div class=\"stage\"></div>\n<p class=\"mode\"></p>\n<div class=\"timeline\"></div>\n<div class=\"plots\"></div>\n\
+        "<section class=\"run\" aria-labelledby=\"{id}\">\n<{level} id=\"{id}\">{title}</{level}>\n<p>{summary}</p>\n{failure}\
+         <div class=\"watch\">\n<div class=\"seen\">\n<div class=\"stage\"></div>\n<p class=\"mode\"></p>\n<div class=\"timeline\"></div>\n</div>\n<div class=\"plots\"></div>\n</div>\n\
          {tables}{equations}</section>\n"
     )
 }

@@ -22,28 +22,31 @@
     // What can be held may be far above what is: it leaves the plot then.
     return [Math.min(low, least), high > low ? Math.max(high, Math.min(most, low + 3 * (high - low))) : most];
   };
+  const zoom = zooming();
   const sections = document.querySelectorAll(".runs > .run");
   const views = runs.map((run, i) => {
     const part = (name) => sections[i].querySelector("." + name);
     const shows = [];
     if (!run.time.length) return shows;
-    if (run.picture) {
-      const show = picture(part("stage"), run);
+    if (run.picture || run.space) {
+      const show = (run.space ? space : picture)(part("stage"), run);
       shows.push((t) => show(place(run.time, t), arrows.checked));
     }
     shows.push(timeline(part("timeline"), part("mode"), run));
+    const common = { modes, clock: [first, end], seek, zoom };
+    // Runs of one scene have the same scales.
+    const spans = (name) => range(alike(run).flatMap((other) => quantities(other).find((quantity) => quantity.name === name)?.values || []));
+    if (run.phase.length) for (const chosen of [[1, 0], [2, 1]]) shows.push(free(part("plots"), run, chosen, { ...common, spans }));
     for (const spec of run.plots) {
       const span = spanOf(run, spec.title, spec.axis);
-      shows.push(plot(part("plots"), spec, run, { modes, span, clock: [first, end], seek }));
+      shows.push(plot(part("plots"), spec, run, { ...common, span }));
     }
-    const portraits = (k) => ["q", "v"].map((name) => range(alike(run).flatMap((other) => other.phase[k][name])));
-    shows.push(portrait(part("plots"), run.phase, run, portraits));
     return shows;
   });
   const scenes = new Set(runs.map((run) => run.scene));
   for (const scene of scenes) {
     const same = runs.filter((run) => run.scene === scene && run.time.length);
-    if (same.length > 1 && same[0].phase.length) views.push([comparison(element("together"), same, [first, end], seek)]);
+    if (same.length > 1 && same[0].phase.length) views.push([comparison(element("together"), same, [first, end], seek, zoom)]);
   }
 
   // A bar of modes, a colour for each, and the present one in words.
@@ -119,6 +122,18 @@
     option.selected = rate === usual;
   }
   [scrub.min, scrub.max] = [first, end];
+  for (const jump of document.querySelectorAll(".jump")) jump.addEventListener("click", () => { run(false); seek(Number(jump.dataset.time)); });
+  for (const copy of document.querySelectorAll(".copy")) {
+    copy.hidden = false;
+    copy.addEventListener("click", async () => {
+      const text = copy.previousElementSibling;
+      try { await navigator.clipboard.writeText(text.textContent); } catch (refused) { getSelection().selectAllChildren(text); }
+      copy.textContent = "Copied";
+    });
+  }
+  wrapped();
+  let wide = innerWidth;
+  addEventListener("resize", () => { if (innerWidth !== wide) { wide = innerWidth; wrapped(); } });
   play.addEventListener("click", () => run(!playing));
   element("before").addEventListener("click", () => event(false));
   element("after").addEventListener("click", () => event(true));

@@ -9,7 +9,7 @@ const dashes = ["none", "7 4", "2 3", "9 3 2 3"];
 // A piece of paper as wide as there is room, so that letters keep their size.
 function paper(figure) {
   const width = Math.min(Math.max(Math.round(figure.clientWidth) || 440, 280), 1600), height = width > 900 ? 200 : 240;
-  const root = svg("svg", { viewBox: `0 0 ${width} ${height}`, role: "img" }, figure);
+  const root = svg("svg", { viewBox: `0 0 ${width} ${height}`, role: "img", tabindex: 0 }, figure);
   return { root, left: 62, right: width - 12, top: 26, bottom: height - 40, width, height };
 }
 
@@ -73,78 +73,164 @@ function shades(box, { X }, run, modes) {
   if (run.phases.length > 60) return;
   for (const { from, to, mode } of run.phases) {
     const fill = colour(modes.indexOf(mode));
-    svg("rect", { class: "shade", x: X(from), width: Math.max(X(to) - X(from), 0), y: box.top, height: box.bottom - box.top, style: `fill: ${fill}` }, box.root);
+    const [x, end] = [from, to].map((t) => Math.min(Math.max(X(t), box.left), box.right));
+    svg("rect", { class: "shade", x, width: end - x, y: box.top, height: box.bottom - box.top, style: `fill: ${fill}` }, box.root);
   }
 }
 
-// Curves [{ name, times, values, dash }] over the time of the clock; a click goes there. Axes may be those of other plots too.
-function curves(figure, legend, { title, axis, span, lines, clock, seek, under }) {
-  const box = paper(figure);
-  const [low, high] = range(lines.flatMap((line) => line.values));
-  const says = `${title}: ${lines.map((line) => line.name).join(", ")} over time, ${axis} from ${digits(low)} to ${digits(high)}`;
-  set(box.root, { "aria-label": says });
-  const scale = axes(box, clock, span || [low, high], "time [s]", axis);
-  if (under) under(box, scale);
-  const [x, y, width, height] = [box.left, box.top, box.right - box.left, box.bottom - box.top];
-  const inside = svg("svg", { x, y, width, height, viewBox: `${x} ${y} ${width} ${height}` }, box.root);
-  const shown = lines.map(({ name, times, values, dash }, i) => {
-    svg("path", { class: "curve", style: `stroke: ${colour(i)}`, "stroke-dasharray": dash, d: path(times, values, scale) }, inside);
-    return [times, values, entry(legend, name, colour(i), dash)];
-  });
-  const cursor = svg("line", { class: "cursor", y1: box.top, y2: box.bottom }, box.root);
-  box.root.addEventListener("click", (event) => {
-    const on = box.root.getBoundingClientRect();
-    const at = ((event.clientX - on.left) / on.width) * box.width;
-    seek(scale.x0 + ((at - box.left) / (box.right - box.left)) * (scale.x1 - scale.x0));
-  });
-  return (t) => {
-    const now = scale.X(Math.min(Math.max(t, scale.x0), scale.x1));
-    set(cursor, { x1: now, x2: now });
-    for (const [times, values, output] of shown) {
-      output.textContent = digits(t > times[times.length - 1] + 1e-9 ? null : at(values, place(times, t)));
-    }
-  };
+// The part of an axis that several plots show; null for all of it.
+function zooming() {
+  const zoom = { part: null, redraws: [] };
+  zoom.set = (part) => { zoom.part = part; for (const redraw of zoom.redraws) redraw(); };
+  return zoom;
 }
 
-// A plot of a run.
-function plot(parent, spec, run, { modes, span, clock, seek }) {
+// Curves [{ name, xs, ys, times, dash }]; over time a click goes there. A part that is pulled over is enlarged, a double click or 0
+// shows all again; at the pointer the legend tells the values there.
+function chart(figure, legend, { title, xName, axis, whole, span, lines, seek, under, zoom }) {
+  const box = paper(figure), { root } = box;
+  const outputs = lines.map(({ name, dash }, i) => entry(legend, name, colour(i), dash));
+  const note = html("span", { class: "note", hidden: "" }, figure);
+  const all = html("button", { type: "button", class: "all" }, figure, "Show all");
+  all.addEventListener("click", () => zoom.set(null));
+  let scale, cursor, last = 0, pointed = null, dots = [];
+
+  function draw() {
+    const part = zoom.part;
+    const within = ({ xs, ys }) => ys.filter((_, i) => xs[i] >= part[0] && xs[i] <= part[1]);
+    const ys = part ? range(lines.flatMap(within)) : span || range(lines.flatMap((line) => line.ys));
+    root.replaceChildren();
+    set(root, { "aria-label": `${title}: ${lines.map((line) => line.name).join(", ")} over ${xName}, ${axis} from ${digits(ys[0])} to ${digits(ys[1])}` });
+    scale = axes(box, part || whole, ys, xName, axis);
+    if (under) under(box, scale);
+    const [x, y, width, height] = [box.left, box.top, box.right - box.left, box.bottom - box.top];
+    const inside = svg("svg", { x, y, width, height, viewBox: `${x} ${y} ${width} ${height}` }, root);
+    lines.forEach(({ xs, ys, dash }, i) => svg("path", { class: "curve", style: `stroke: ${colour(i)}`, "stroke-dasharray": dash, d: path(xs, ys, scale) }, inside));
+    cursor = seek ? svg("line", { class: "cursor", y1: box.top, y2: box.bottom }, root) : null;
+    dots = seek ? [] : lines.map((_, i) => svg("circle", { class: "point", r: 5, style: `fill: ${colour(i)}` }, inside));
+    all.hidden = !part;
+    show(last);
+  }
+
+  function show(t) {
+    last = t;
+    const time = seek && pointed !== null ? pointed : t;
+    if (cursor) {
+      const now = scale.X(Math.min(Math.max(time, scale.x0), scale.x1));
+      set(cursor, { x1: now, x2: now, "stroke-dasharray": pointed === null ? "none" : "3 3" });
+    }
+    lines.forEach(({ xs, ys, times }, i) => {
+      const where = place(times, time), over = time > times[times.length - 1] + 1e-9;
+      outputs[i].textContent = digits(over ? null : at(ys, where));
+      if (dots[i]) set(dots[i], { cx: scale.X(at(xs, where)), cy: scale.Y(at(ys, where) ?? 0) });
+    });
+  }
+
+  const value = (event) => {
+    const on = root.getBoundingClientRect(), at = ((event.clientX - on.left) / on.width) * box.width;
+    const x = scale.x0 + ((at - box.left) / (box.right - box.left)) * (scale.x1 - scale.x0);
+    return Math.min(Math.max(x, scale.x0), scale.x1);
+  };
+  let begun = null, band = null;
+  root.addEventListener("pointerdown", (event) => { begun = [event.clientX, value(event)]; });
+  root.addEventListener("pointermove", (event) => {
+    if (begun && event.buttons && Math.abs(event.clientX - begun[0]) > 6) {
+      band ??= svg("rect", { class: "shade", y: box.top, height: box.bottom - box.top, style: "fill: var(--ink)" }, root);
+      const [from, to] = [begun[1], value(event)].map(scale.X).sort((a, b) => a - b);
+      set(band, { x: from, width: to - from });
+    }
+    if (seek) {
+      pointed = value(event);
+      note.hidden = false;
+      note.textContent = `At ${digits(pointed)} s`;
+      show(last);
+    }
+  });
+  root.addEventListener("pointerup", (event) => {
+    if (!begun) return;
+    const [from, to] = [begun[1], value(event)].sort((a, b) => a - b);
+    if (band) { band.remove(); zoom.set([from, to]); } else if (seek) seek(value(event));
+    begun = band = null;
+  });
+  root.addEventListener("pointerleave", () => {
+    [begun, pointed, note.hidden] = [null, null, true];
+    if (band) band.remove();
+    band = null;
+    show(last);
+  });
+  root.addEventListener("dblclick", () => zoom.set(null));
+  root.addEventListener("keydown", (event) => {
+    const factor = { "+": 0.5, "=": 0.5, "-": 2 }[event.key];
+    if (event.key !== "0" && !factor) return;
+    event.preventDefault();
+    event.stopPropagation();
+    if (!factor) return zoom.set(null);
+    const [low, high] = zoom.part || whole, middle = seek && last >= low && last <= high ? last : (low + high) / 2;
+    const part = [Math.max(whole[0], middle + factor * (low - middle)), Math.min(whole[1], middle + factor * (high - middle))];
+    zoom.set(part[0] > whole[0] || part[1] < whole[1] ? part : null);
+  });
+  zoom.redraws.push(draw);
+  draw();
+  return show;
+}
+
+// A plot of a run over time.
+function plot(parent, spec, run, { modes, span, clock, seek, zoom }) {
   const times = spec.time || run.time;
   const figure = html("figure", {}, parent);
   html("figcaption", {}, figure, spec.title);
-  const lines = spec.curves.map(({ name, values, limit }) => ({ name, times, values, dash: limit ? "7 4" : "none" }));
+  const lines = spec.curves.map(({ name, values, limit }) => ({ name, xs: times, ys: values, times, dash: limit ? "7 4" : "none" }));
   const legend = html("ul", { class: "legend" });
   const under = (box, scale) => shades(box, scale, run, modes);
-  const show = curves(figure, legend, { ...spec, span, lines, clock, seek, under });
+  const show = chart(figure, legend, { title: spec.title, xName: "time [s]", axis: spec.axis, whole: clock, span, lines, seek, under, zoom });
   figure.append(legend);
   return show;
 }
 
-// Rate over position, for the coordinate that is chosen.
-function portrait(parent, coordinates, run, spans) {
-  if (!coordinates.length) return () => {};
+// All that a run has over time, to be drawn over time or over each other.
+function quantities(run) {
+  const all = [{ name: "time", unit: "s", values: run.time }];
+  for (const c of run.phase) all.push({ name: c.name, unit: c.unit, values: c.q }, { name: `d${c.name}/dt`, unit: c.rate_unit, values: c.v });
+  for (const o of run.outputs) all.push(o);
+  for (const { title, axis, time, curves } of run.plots) {
+    const unit = (axis.match(/\[(.*)\]/) || [, ""])[1];
+    if (!time) for (const { name, values } of curves) all.push({ name: `${title}: ${name}`, unit, values });
+  }
+  return all;
+}
+
+// Any quantity over any other; they are chosen by their places among all.
+function free(parent, run, [vertical, horizontal], { modes, clock, seek, zoom, spans }) {
+  const list = quantities(run);
+  if (list.length < 2) return () => {};
   const figure = html("figure", {}, parent);
-  html("figcaption", {}, figure, "Phase plot");
-  const label = html("label", {}, figure, "Coordinate ");
-  const select = html("select", { "aria-label": `Coordinate of the phase plot of ${run.title}` }, label);
-  coordinates.forEach((c, i) => html("option", { value: i }, select, c.name));
-  const box = paper(figure);
-  let last = 0, dot, scale, chosen;
-  const show = (t) => {
-    last = t;
-    const where = place(run.time, t);
-    set(dot, { cx: scale.X(at(chosen.q, where)), cy: scale.Y(at(chosen.v, where)) });
+  const row = html("figcaption", { class: "choices" }, figure);
+  const choice = (label, chosen) => {
+    const select = html("select", { "aria-label": `${label} axis of a plot of ${run.title}` }, row);
+    list.forEach((quantity, i) => html("option", { value: i }, select, quantity.name));
+    select.value = Math.min(chosen, list.length - 1);
+    return select;
   };
+  const y = choice("Vertical", vertical);
+  row.append(" over ");
+  const x = choice("Horizontal", horizontal);
+  const stage = html("div", {}, figure);
+  let last = clock[0], show = () => {};
   const draw = () => {
-    chosen = coordinates[select.value];
-    box.root.replaceChildren();
-    const rate = `d${chosen.name}/dt`;
-    set(box.root, { "aria-label": `Phase plot: ${rate} over ${chosen.name}` });
-    scale = axes(box, ...spans(select.value), named(chosen.name, chosen.unit), named(rate, chosen.rate_unit));
-    svg("path", { class: "curve", style: `stroke: ${colour(0)}`, d: path(chosen.q, chosen.v, scale) }, box.root);
-    dot = svg("circle", { class: "point", r: 5 }, box.root);
+    const [up, across] = [list[y.value], list[x.value]], overTime = across === list[0];
+    stage.replaceChildren();
+    const legend = html("ul", { class: "legend" });
+    const lines = [{ name: up.name, xs: across.values, ys: up.values, times: run.time, dash: "none" }];
+    const own = zooming();
+    show = chart(stage, legend, {
+      title: `${up.name} over ${across.name}`, xName: named(across.name, across.unit), axis: named(up.name, up.unit),
+      whole: overTime ? clock : spans(across.name) || range(across.values), span: spans(up.name), lines, seek: overTime ? seek : null,
+      under: overTime ? (box, scale) => shades(box, scale, run, modes) : null, zoom: overTime ? zoom : own,
+    });
+    stage.append(legend);
     show(last);
   };
-  select.addEventListener("change", draw);
+  for (const select of [x, y]) select.addEventListener("change", draw);
   draw();
-  return show;
+  return (t) => { last = t; show(t); };
 }

@@ -2,6 +2,7 @@
 
 use super::{Shown, short};
 use crate::outcome::{Force, forces};
+use crate::report::words::brief;
 use crate::report::{is_angle, symbol};
 use lagrange_core::prelude::*;
 use lagrange_engine::inspect::print::mathml::escaped;
@@ -62,14 +63,18 @@ fn events(run: &Shown) -> String {
             .map(|force| named(&force.name, description.units.row(force.row))),
     );
     let row = |event: &Event<f64>| {
+        let time = event.time;
         let mut row = vec![
-            short(event.time),
+            format!(
+                "<button type=\"button\" class=\"jump\" data-time=\"{time}\">{}</button>",
+                short(time)
+            ),
             escaped(&format!(
                 "{} {}",
                 event.subject.name(description),
                 event.kind
             )),
-            escaped(&event.after.display(description).to_string()),
+            escaped(&brief(&event.after, description)),
         ];
         row.extend(coordinates.iter().zip(&event.state.q).map(|(c, q)| {
             short(match is_angle(c) {

@@ -1,6 +1,6 @@
 //! Forces as arrows.
 
-use super::frame::{CUT, Frame};
+use super::frame::Frame;
 use super::{Column, hundredths};
 use crate::film::Film;
 use crate::outcome::forces;
@@ -20,17 +20,6 @@ pub(crate) struct Arrow {
 
 /// Shorter arrows are not drawn.
 pub(crate) const SHORTEST: f64 = 2.0;
-
-impl Arrow {
-    /// Whether it is ever too strong to be drawn to scale.
-    pub fn is_cut(&self, frame: &Frame) -> bool {
-        let most = CUT * frame.strongest;
-        match &self.size {
-            Column::Constant(size) => *size > most,
-            Column::Varying(sizes) => sizes.iter().any(|size| *size > most),
-        }
-    }
-}
 
 pub(super) fn arrows(film: &Film, frame: &Frame) -> Vec<Arrow> {
     let rows = forces(film.outcome.description);
@@ -57,8 +46,8 @@ pub(super) fn arrows(film: &Film, frame: &Frame) -> Vec<Arrow> {
             numbers: [
                 over(|frame, at, _| frame.x(at[0])),
                 over(|frame, at, _| frame.y(at[1])),
-                over(|frame, at, force| frame.x(at[0] + frame.arrow(force)[0])),
-                over(|frame, at, force| frame.y(at[1] + frame.arrow(force)[1])),
+                over(|frame, at, force| frame.x(at[0] + frame.newtons.arrow(force)[0])),
+                over(|frame, at, force| frame.y(at[1] + frame.newtons.arrow(force)[1])),
             ],
         })
     };

@@ -1,6 +1,6 @@
 //! Which part of the plane is seen, and how long arrows are.
 
-use super::WIDTH;
+use super::{Column, WIDTH};
 use crate::drawing::{Shape, union};
 use crate::film::Film;
 use crate::outcome::forces;
@@ -10,7 +10,7 @@ const LONGEST: f64 = 0.2;
 /// Part of the forces that is drawn to scale at least: few peaks must not make all others invisible.
 const TO_SCALE: f64 = 0.95;
 /// Arrows of stronger forces, in terms of the strongest one that is to scale, are cut.
-pub(super) const CUT: f64 = 1.2;
+const CUT: f64 = 1.2;
 
 /// A window on the plane.
 pub(crate) struct Frame {
@@ -22,8 +22,58 @@ pub(crate) struct Frame {
     pub size: f64,
     /// Units per metre.
     pub scale: f64,
+    /// How long arrows are.
+    pub newtons: Newtons,
+}
+
+/// How long the arrows of forces are.
+pub(crate) struct Newtons {
     /// The strongest force that is drawn to scale, N; 0 if there are none.
     pub strongest: f64,
+    /// Metres of an arrow for each newton.
+    pub reach: f64,
+}
+
+impl Newtons {
+    /// For forces of these sizes, N, in a picture of `size` metres.
+    pub fn new(sizes: impl Iterator<Item = f64>, size: f64) -> Self {
+        let mut sizes: Vec<f64> = sizes.filter(|f| f.is_finite() && *f > 0.0).collect();
+        sizes.sort_by(f64::total_cmp);
+        let at = (TO_SCALE * sizes.len() as f64) as usize;
+        let strongest = sizes.get(at).copied().unwrap_or(0.0);
+        Self {
+            strongest,
+            reach: if strongest > 0.0 {
+                LONGEST * size / strongest
+            } else {
+                0.0
+            },
+        }
+    }
+
+    /// The force from which on arrows are cut, N.
+    pub fn most(&self) -> f64 {
+        CUT * self.strongest
+    }
+
+    /// The arrow of a force, m.
+    pub fn arrow<const D: usize>(&self, force: [f64; D]) -> [f64; D] {
+        let size = force.iter().fold(0.0, |sum: f64, f| sum.hypot(*f));
+        let cut = if size > self.most() {
+            self.most() / size
+        } else {
+            1.0
+        };
+        force.map(|f| f * cut * self.reach)
+    }
+}
+
+/// The largest of numbers over time.
+pub(super) fn largest(column: &Column) -> f64 {
+    match column {
+        Column::Constant(value) => *value,
+        Column::Varying(values) => values.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+    }
 }
 
 impl Frame {
@@ -37,10 +87,6 @@ impl Frame {
             .filter(|x| x.is_finite())
             .fold(0.0, f64::max);
         let pushes: Vec<[f64; 4]> = films.flat_map(pushes).collect();
-        let mut sizes: Vec<f64> = pushes.iter().map(|[_, _, x, y]| x.hypot(*y)).collect();
-        sizes.retain(|f| f.is_finite() && *f > 0.0);
-        sizes.sort_by(f64::total_cmp);
-        let at = (TO_SCALE * sizes.len() as f64) as usize;
         let mut frame = Self {
             left,
             right,
@@ -48,10 +94,10 @@ impl Frame {
             high,
             size,
             scale: 1.0,
-            strongest: sizes.get(at).copied().unwrap_or(0.0),
+            newtons: Newtons::new(pushes.iter().map(|[_, _, x, y]| x.hypot(*y)), size),
         };
         for [x, y, fx, fy] in pushes {
-            let [dx, dy] = frame.arrow([fx, fy]);
+            let [dx, dy] = frame.newtons.arrow([fx, fy]);
             (frame.left, frame.right) = (frame.left.min(x + dx), frame.right.max(x + dx));
             (frame.low, frame.high) = (frame.low.min(y + dy), frame.high.max(y + dy));
         }
@@ -83,22 +129,6 @@ impl Frame {
     /// A length for a ruler, m.
     pub fn ruler(&self) -> f64 {
         super::nice((self.right - self.left) / 6.0)
-    }
-
-    /// Metres of an arrow for each newton.
-    pub fn reach(&self) -> f64 {
-        match self.strongest > 0.0 {
-            true => LONGEST * self.size / self.strongest,
-            false => 0.0,
-        }
-    }
-
-    /// The arrow of a force, m.
-    pub fn arrow(&self, [fx, fy]: [f64; 2]) -> [f64; 2] {
-        let force = fx.hypot(fy);
-        let most = CUT * self.strongest;
-        let cut = if force > most { most / force } else { 1.0 };
-        [fx, fy].map(|f| f * cut * self.reach())
     }
 }
 

@@ -42,7 +42,10 @@ pub(crate) enum Form {
 /// Zigzags of a spring.
 const TURNS: usize = 16;
 
-/// A mark for each shape, but two for a disc: its rim and its spoke.
+/// Half the width of what holds a pivot.
+const BRACKET: f64 = 12.0;
+
+/// A mark for each shape, but two for a disc, its rim and its spoke, and for a pivot, its bracket and its pin.
 pub(super) fn marks(drawings: &[Drawing], frame: &Frame) -> Vec<Mark> {
     let Some(first) = drawings.first() else {
         return Vec::new();
@@ -76,6 +79,14 @@ pub(super) fn marks(drawings: &[Drawing], frame: &Frame) -> Vec<Mark> {
                 vec![frame.x(*x), frame.y(*y), r * frame.scale]
             }
             Shape::Mass([x, y]) => vec![frame.x(*x), frame.y(*y), dot],
+            Shape::Pivot([x, y]) => vec![frame.x(*x), frame.y(*y), 0.4 * BRACKET],
+            _ => Vec::new(),
+        };
+        let bracket = |shape: &Shape| match shape {
+            Shape::Pivot([x, y]) => {
+                let (x, y, half, top) = (frame.x(*x), frame.y(*y), BRACKET, 1.7 * BRACKET);
+                vec![x, y, x - half, y - top, x + half, y - top]
+            }
             _ => Vec::new(),
         };
         match shape {
@@ -115,6 +126,10 @@ pub(super) fn marks(drawings: &[Drawing], frame: &Frame) -> Vec<Mark> {
                     }
                     _ => Vec::new(),
                 });
+            }
+            Shape::Pivot(_) => {
+                add("ground", Form::Polygon, &bracket);
+                add("pivot", Form::Circle, &circle);
             }
             Shape::Trace(_) => add("trace", Form::Trace, &|shape| match shape {
                 Shape::Trace([x, y]) => vec![frame.x(*x), frame.y(*y)],

@@ -6,14 +6,19 @@ mod arrow;
 mod column;
 mod frame;
 mod mark;
+mod painter;
 pub(crate) mod palette;
+mod stage;
+mod view;
 
 use crate::film::Film;
 pub(crate) use arrow::{Arrow, label, outline};
 pub(crate) use column::{Column, Place};
-use frame::Frame;
+use frame::{Frame, largest};
 pub(crate) use mark::{Form, Mark};
+pub(crate) use painter::Painter;
 use serde::Serialize;
+pub(crate) use stage::{Stage, stages};
 
 /// Units from left to right.
 pub(crate) const WIDTH: f64 = 1000.0;
@@ -52,14 +57,16 @@ pub(crate) fn pictures(films: &[&Film]) -> Vec<Option<Picture>> {
         let marks = mark::marks(&film.drawings, &frame);
         let arrows = arrow::arrows(film, &frame);
         let mut rulers = vec![Ruler::new(frame.ruler(), frame.scale, "m")];
-        if !first.arrows.is_empty() && frame.strongest > 0.0 {
-            let newton = frame.reach() * frame.scale;
-            rulers.push(Ruler::new(nice(0.6 * frame.strongest), newton, "N"));
+        if !first.arrows.is_empty() && frame.newtons.strongest > 0.0 {
+            let newton = frame.newtons.reach * frame.scale;
+            rulers.push(Ruler::new(nice(0.6 * frame.newtons.strongest), newton, "N"));
         }
         Some(Picture {
             height: hundredths(frame.height()),
             marks,
-            cut: arrows.iter().any(|arrow| arrow.is_cut(&frame)),
+            cut: arrows
+                .iter()
+                .any(|arrow| largest(&arrow.size) > frame.newtons.most()),
             arrows,
             rulers,
         })

@@ -35,7 +35,7 @@ pub(crate) fn for_pages() -> String {
             .collect()
     };
     format!(
-        ":root {{ {} }}\n@media (prefers-color-scheme: dark) {{ :root {{ {} }} }}\n{PICTURE}",
+        ":root {{ {} }}\n@media screen and (prefers-color-scheme: dark) {{ :root {{ {} }} }}\n{PICTURE}",
         variables(0),
         variables(1)
     )
@@ -47,6 +47,17 @@ pub(crate) fn for_pictures() -> String {
     list.fold(PICTURE.to_owned(), |css, (name, [light, _])| {
         css.replace(&format!("var(--{name})"), light)
     })
+}
+
+/// A colour by name, in light, so many times as bright.
+pub(crate) fn shaded(name: &str, bright: f64) -> String {
+    let found = COLOURS.iter().find(|(other, _)| *other == name);
+    let colour = found.map_or("#000000", |(_, [light, _])| light);
+    let part = |i: usize| {
+        let value = u8::from_str_radix(&colour[i..i + 2], 16).unwrap_or(0);
+        (f64::from(value) * bright).round().clamp(0.0, 255.0) as u8
+    };
+    format!("#{:02x}{:02x}{:02x}", part(1), part(3), part(5))
 }
 
 /// The colour number `index`, in light.
@@ -94,5 +105,6 @@ mod tests {
             }
         }
         assert!(!for_pictures().contains("var("));
+        assert_eq!(shaded("page", 0.5), "#808080");
     }
 }

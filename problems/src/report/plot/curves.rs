@@ -1,6 +1,7 @@
 //! Which curves a picture has: one panel of forces, one per unit of the coordinates, broken where modes change.
 
 use crate::outcome::{Outcome, Sample, Source, forces};
+use crate::report::words::brief;
 use crate::report::{is_angle, symbol};
 
 /// Curves that share an axis.
@@ -30,7 +31,7 @@ pub(super) fn bands(outcome: &Outcome) -> Bands {
         .phases
         .iter()
         .map(|phase| {
-            let name = phase.mode.display(outcome.description).to_string();
+            let name = brief(&phase.mode, outcome.description);
             let mode = names
                 .iter()
                 .position(|known| *known == name)

@@ -1,6 +1,6 @@
 //! A billiard ball with side spin: its path bends, then it rolls.
 
-use crate::drawing::{Drawing, Shape};
+use crate::space::{Pose, Solid, Space, Vector};
 use lagrange_core::prelude::*;
 
 /// A ball slides on a level table with any spin.
@@ -58,11 +58,20 @@ impl Default for CueBall {
 }
 
 impl CueBall {
-    /// The ball and its path, seen from above.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        let ball = [q[0], q[1]];
-        Drawing::of([Shape::Trace(ball), Shape::Mass(ball)])
-            .force("grip[0]", ball, [1.0, 0.0])
-            .force("grip[1]", ball, [0.0, 1.0])
+    /// The ball on the cloth and its path.
+    pub fn drawing(&self, _t: f64, q: &[f64]) -> Space {
+        let ball = Vector::new(q[0], q[1], q[2]);
+        let touching = ball - self.radius * Vector::z();
+        Space::of([
+            Solid::Ground(Pose::at(0.0, 0.0, 0.0)),
+            Solid::RolledBall(self.radius, ball, Vector::new(q[3], q[4], 0.0)),
+            Solid::Trace(touching),
+        ])
+        .force("cloth", touching, [("cloth", Vector::z())])
+        .force(
+            "grip",
+            touching,
+            [("grip[0]", Vector::x()), ("grip[1]", Vector::y())],
+        )
     }
 }

@@ -1,6 +1,6 @@
 //! A block slides sideways on an incline: its slip turns downhill and stops on the way, or never.
 
-use crate::drawing::{Drawing, Shape};
+use crate::space::{Pose, Solid, Space, Vector};
 use lagrange_core::prelude::*;
 
 /// A block is pushed across an incline; the friction turns with the slip.
@@ -54,11 +54,30 @@ impl Default for InclineBlock {
 }
 
 impl InclineBlock {
-    /// The block and its path, seen from above the plane; down the slope is down the page.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        let block = [q[0], -q[1]];
-        Drawing::of([Shape::Trace(block), Shape::Mass(block)])
-            .force("grip[0]", block, [1.0, 0.0])
-            .force("grip[1]", block, [0.0, -1.0])
+    /// The block on the incline and its path.
+    pub fn drawing(&self, _t: f64, q: &[f64]) -> Space {
+        let plane = Pose::at(0.0, 0.0, 0.0).turned(Vector::x(), -self.slope);
+        let (along, across, up) = (
+            plane.turn * Vector::x(),
+            plane.turn * Vector::y(),
+            plane.turn * Vector::z(),
+        );
+        // Large enough to be seen beside the way that it goes, which is of the order of v₀²/g.
+        let edge = 0.1 * self.speed * self.speed / self.gravity;
+        let touching = plane.moved(q[0], q[1], q[2]);
+        Space::of([
+            Solid::Ground(plane),
+            Solid::Box(
+                [edge, edge, 0.6 * edge],
+                touching.moved(0.0, 0.0, 0.3 * edge),
+            ),
+            Solid::Trace(touching.at),
+        ])
+        .force("plane", touching.at, [("plane", up)])
+        .force(
+            "grip",
+            touching.at,
+            [("grip[0]", along), ("grip[1]", across)],
+        )
     }
 }

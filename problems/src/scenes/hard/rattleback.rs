@@ -1,7 +1,6 @@
 //! A rattleback: spun the wrong way it begins to rattle, stops, and turns back.
 
-use crate::drawing::{Drawing, Shape, aslant, axes};
-use core::f64::consts::PI;
+use crate::space::{Pose, Solid, Space, Vector};
 use lagrange_core::prelude::*;
 
 /// The lower half of an ellipsoid rolls without slipping on a plane, its axes of inertia skewed to those of its shape.
@@ -83,25 +82,28 @@ impl Default for Rattleback {
 }
 
 impl Rattleback {
-    /// The flat face of the body and its keel.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        let [along, across, up] = axes(&q[3..]);
-        let at = |a: f64, b: f64, c: f64| {
-            let place = |k: usize| q[k] + a * along[k] + b * across[k] + c * up[k];
-            aslant([place(0), place(1), place(2)])
-        };
-        let face = |k: i32| {
-            let (sin, cos) = (PI * f64::from(k) / 6.0).sin_cos();
-            at(self.a * cos, self.b * sin, self.height)
-        };
-        let keel = |k: i32| {
-            let (sin, cos) = (PI * f64::from(k) / 6.0).sin_cos();
-            at(self.a * cos, 0.0, self.height - self.c * sin)
-        };
-        Drawing::of([
-            Shape::Rod((0..=6).map(keel).collect()),
-            Shape::Block((0..12).map(face).collect()),
-            Shape::Rod(vec![face(0), face(6)]),
+    /// The body on the floor, with the forces at the point of contact.
+    pub fn drawing(&self, _t: f64, q: &[f64]) -> Space {
+        let body = Pose::at(q[0], q[1], q[2]).attitude(&q[3..]);
+        let centre = body.moved(0.0, 0.0, self.height);
+        let axes = [self.a, self.b, self.c];
+        let up = body.turn.inverse() * Vector::z();
+        let support = Vector::from(axes).component_mul(&up).norm();
+        let arm = Vector::from(axes)
+            .map(|edge| edge * edge)
+            .component_mul(&up)
+            / -support;
+        let touching = centre.place(arm[0], arm[1], arm[2]);
+        Space::of([
+            Solid::Ground(Pose::at(0.0, 0.0, 0.0)),
+            Solid::HalfEllipsoid(axes, centre),
+            Solid::Trace(touching),
         ])
+        .force("floor", touching, [("floor", Vector::z())])
+        .force(
+            "rolling",
+            touching,
+            [("rolling_x", Vector::x()), ("rolling_y", Vector::y())],
+        )
     }
 }

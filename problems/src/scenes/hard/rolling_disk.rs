@@ -1,7 +1,6 @@
 //! A thin disk rolls on the floor, leans over almost flat, and comes up again.
 
-use crate::drawing::{Drawing, Shape, aslant};
-use core::f64::consts::PI;
+use crate::space::{Pose, Solid, Space, Vector};
 use lagrange_core::prelude::*;
 
 /// A uniform thin disk rolls without slipping on a horizontal plane.
@@ -71,31 +70,24 @@ impl Default for RollingDisk {
 }
 
 impl RollingDisk {
-    /// The disk with a spoke, and the path of its point of contact.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
+    /// The disk on the floor and the path of its point of contact.
+    pub fn drawing(&self, _t: f64, q: &[f64]) -> Space {
         let [x, y, phi, theta, psi] = [q[0], q[1], q[2], q[3], q[4]];
-        let heading = [phi.cos(), phi.sin(), 0.0];
-        let up = [
-            -theta.cos() * phi.sin(),
-            theta.cos() * phi.cos(),
-            theta.sin(),
-        ];
-        // Rolling with ψ growing is rolling backwards.
-        let rim = |angle: f64| {
-            let (back, top) = angle.sin_cos();
-            let place = |k: usize| self.radius * (up[k] * (1.0 + top) - heading[k] * back);
-            aslant([x + place(0), y + place(1), place(2)])
-        };
-        let centre = aslant([
-            x + self.radius * up[0],
-            y + self.radius * up[1],
-            self.radius * up[2],
-        ]);
-        let turns = (0..24).map(|k| PI * f64::from(k) / 12.0);
-        Drawing::of([
-            Shape::Trace(aslant([x, y, 0.0])),
-            Shape::Block(turns.map(rim).collect()),
-            Shape::Rod(vec![centre, rim(psi)]),
+        let touching = Pose::at(x, y, 0.0)
+            .turned(Vector::z(), phi)
+            .turned(Vector::x(), theta);
+        let disk = touching
+            .moved(0.0, self.radius, 0.0)
+            .turned(Vector::z(), psi);
+        Space::of([
+            Solid::Ground(Pose::at(0.0, 0.0, 0.0)),
+            Solid::Disc(self.radius, 0.05 * self.radius, disk),
+            Solid::Trace(touching.at),
         ])
+        .force(
+            "rolling",
+            touching.at,
+            [("rolling_x", Vector::x()), ("rolling_y", Vector::y())],
+        )
     }
 }

@@ -63,6 +63,7 @@ impl SliderCrank {
                 [x - size, size],
             ]),
             Shape::Rod(vec![[0.0; 2], pin, [x, 0.0]]),
+            Shape::Pivot([0.0; 2]),
             Shape::Mass(pin),
         ])
     }

@@ -1,6 +1,6 @@
 //! A spherical pendulum passes its pole, where its coordinates fail.
 
-use crate::drawing::{Drawing, Shape, aslant};
+use crate::space::{Pose, Solid, Space, Vector};
 use lagrange_core::prelude::*;
 
 /// A pendulum on a sphere, by θ from the bottom and the azimuth φ, swings past the bottom at a tiny distance.
@@ -52,14 +52,16 @@ impl Default for SphericalPendulum {
 }
 
 impl SphericalPendulum {
-    /// The rod, the mass and its path.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
+    /// The rod, the mass and its path, over the ground.
+    pub fn drawing(&self, _t: f64, q: &[f64]) -> Space {
         let ((sin, cos), (across, along)) = (q[0].sin_cos(), q[1].sin_cos());
-        let mass = aslant([sin * along, sin * across, -cos].map(|x| self.length * x));
-        Drawing::of([
-            Shape::Trace(mass),
-            Shape::Rod(vec![[0.0; 2], mass]),
-            Shape::Mass(mass),
+        let mass = self.length * Vector::new(sin * along, sin * across, -cos);
+        Space::of([
+            Solid::Ground(Pose::at(0.0, 0.0, -1.15 * self.length)),
+            Solid::Pivot(Vector::zeros()),
+            Solid::Rod(vec![Vector::zeros(), mass]),
+            Solid::Mass(mass),
+            Solid::Trace(mass),
         ])
     }
 }

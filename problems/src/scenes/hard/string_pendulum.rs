@@ -56,6 +56,7 @@ impl StringPendulum {
         Drawing::of([
             Shape::Trace(mass),
             Shape::Rod(vec![[0.0; 2], mass]),
+            Shape::Pivot([0.0; 2]),
             Shape::Mass(mass),
         ])
         .force("string", mass, [-q[0] / distance, -q[1] / distance])

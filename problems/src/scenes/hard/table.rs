@@ -1,6 +1,6 @@
 //! A table on four legs is pushed until it slides.
 
-use crate::drawing::{Drawing, Shape};
+use crate::space::{Pose, Solid, Space, Vector};
 use lagrange_core::prelude::*;
 
 /// A table stands on four legs on a rough floor; a force that grows with time pushes it.
@@ -75,21 +75,59 @@ impl Default for Table {
 }
 
 impl Table {
-    /// The table, seen from above.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        let (sin, cos) = q[2].sin_cos();
-        let corner = |along: f64, across: f64| {
-            let (a, b) = (along * self.length / 2.0, across * self.width / 2.0);
-            [q[0] + a * cos - b * sin, q[1] + a * sin + b * cos]
-        };
-        Drawing::of([
-            Shape::Trace([q[0], q[1]]),
-            Shape::Block(vec![
-                corner(1.0, 1.0),
-                corner(1.0, -1.0),
-                corner(-1.0, -1.0),
-                corner(-1.0, 1.0),
-            ]),
-        ])
+    /// A table top on four legs, with the forces at their feet.
+    pub fn drawing(&self, t: f64, q: &[f64]) -> Space {
+        let foot = Pose::at(q[0], q[1], q[3])
+            .turned(Vector::z(), q[2])
+            .turned(Vector::y(), -q[4])
+            .turned(Vector::x(), q[5]);
+        let (height, thick) = (0.6 * self.length, 0.04 * self.length);
+        let corners = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
+        let corner = corners.map(|[along, across]| {
+            foot.moved(along * self.length / 2.0, across * self.width / 2.0, 0.0)
+        });
+        let leg =
+            |pose: Pose| Solid::Box([thick, thick, height], pose.moved(0.0, 0.0, height / 2.0));
+        let top = [self.length + 2.0 * thick, self.width + 2.0 * thick, thick];
+        let push = self.rate * t * Vector::new(self.direction.cos(), self.direction.sin(), 0.0);
+        let legs = corner.map(leg);
+        let table = [
+            Solid::Ground(Pose::at(0.0, 0.0, 0.0)),
+            Solid::Trace(foot.at),
+            Solid::Box(top, foot.moved(0.0, 0.0, height + thick / 2.0)),
+        ];
+        let names = [
+            (
+                "fore_left",
+                "grip_fore_left",
+                ["grip_fore_left[0]", "grip_fore_left[1]"],
+            ),
+            (
+                "fore_right",
+                "grip_fore_right",
+                ["grip_fore_right[0]", "grip_fore_right[1]"],
+            ),
+            (
+                "rear_left",
+                "grip_rear_left",
+                ["grip_rear_left[0]", "grip_rear_left[1]"],
+            ),
+            (
+                "rear_right",
+                "grip_rear_right",
+                ["grip_rear_right[0]", "grip_rear_right[1]"],
+            ),
+        ];
+        let drawing = Space::of(table.into_iter().chain(legs)).applied("push", foot.at, push);
+        names
+            .into_iter()
+            .zip(corner)
+            .fold(drawing, |drawing, ((foot, grip, [x, y]), pose)| {
+                drawing.force(foot, pose.at, [(foot, Vector::z())]).force(
+                    grip,
+                    pose.at,
+                    [(x, Vector::x()), (y, Vector::y())],
+                )
+            })
     }
 }

@@ -1,6 +1,6 @@
-//! A free rigid body turns about its middle axis, and keeps flipping over.
+//! A free rigid body turns about the ends of its middle axis, and keeps flipping over.
 
-use crate::drawing::{Drawing, Shape, aslant, axes};
+use crate::space::{Pose, Solid, Space};
 use lagrange_core::prelude::*;
 
 /// A rigid body with three different moments of inertia, free in space, its attitude by a unit quaternion.
@@ -40,32 +40,27 @@ impl Default for TumblingBody {
 }
 
 impl TumblingBody {
-    /// The box of mass 1 that has these moments of inertia, and the path of a corner.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        let body = axes(q);
+    /// The box of mass 1 that has these moments of inertia, the ends of its middle axis, and the path of a corner.
+    pub fn drawing(&self, _t: f64, q: &[f64]) -> Space {
+        let body = Pose::at(0.0, 0.0, 0.0).attitude(q);
         let sum: f64 = self.inertia.iter().sum();
-        // Iₖ is a third of the squares of the other two half edges.
-        let half = self
+        // Iₖ is a twelfth of the squares of the other two edges.
+        let edges = self
             .inertia
-            .map(|i| (1.5 * (sum - 2.0 * i)).max(0.0).sqrt());
-        let corner = |signs: [f64; 3]| {
-            let place = |k: usize| (0..3).map(|i| signs[i] * half[i] * body[i][k]).sum();
-            aslant([place(0), place(1), place(2)])
+            .map(|i| (6.0 * (sum - 2.0 * i)).max(0.0).sqrt());
+        // A plate, whose largest moment is the sum of the others, would not be seen from its side.
+        let thin = 0.02 * edges.into_iter().fold(0.0, f64::max);
+        let edges = edges.map(|edge| edge.max(thin));
+        let [x, y, z] = edges.map(|edge| edge / 2.0);
+        let stub = |side: f64| {
+            let ends = [1.0, 1.2].map(|part| body.place(0.0, side * part * y, 0.0));
+            Solid::Rod(ends.into())
         };
-        let face = |side: f64| {
-            let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
-            corners.map(|[a, b]| corner([a, b, side]))
-        };
-        let (lower, upper) = (face(-1.0), face(1.0));
-        let edge = |k: usize| Shape::Rod(vec![lower[k], upper[k]]);
-        Drawing::of([
-            Shape::Trace(upper[2]),
-            Shape::Block(lower.to_vec()),
-            edge(0),
-            edge(1),
-            edge(2),
-            edge(3),
-            Shape::Block(upper.to_vec()),
+        Space::of([
+            Solid::Box(edges, body),
+            stub(-1.0),
+            stub(1.0),
+            Solid::Trace(body.place(x, y, z)),
         ])
     }
 }

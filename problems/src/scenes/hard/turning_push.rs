@@ -1,6 +1,6 @@
 //! A puck is pushed off by a force that turns: where its slip begins, and how.
 
-use crate::drawing::{Drawing, Shape};
+use crate::space::{Pose, Solid, Space, Vector};
 use lagrange_core::prelude::*;
 
 /// A puck rests on a table until a growing, turning force is stronger than friction; its slip begins in a direction that is part
@@ -70,11 +70,28 @@ impl Default for TurningPush {
 }
 
 impl TurningPush {
-    /// The body and its path, seen from above.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        let body = [q[0], q[1]];
-        Drawing::of([Shape::Trace(body), Shape::Mass(body)])
-            .force("grip[0]", body, [1.0, 0.0])
-            .force("grip[1]", body, [0.0, 1.0])
+    /// The puck on the table, its path, and what pushes it.
+    pub fn drawing(&self, t: f64, q: &[f64]) -> Space {
+        let puck = Pose::at(q[0], q[1], q[2]);
+        // Large enough to be seen beside the way that it goes in a second.
+        let radius = 0.05 * (self.jump + self.growth);
+        let height = 0.5 * radius;
+        let since = t - self.begin;
+        let rho = self.jump * since + self.growth * since * since / 2.0;
+        let forward = self.jump + self.growth * since + self.mu_kinetic * self.gravity;
+        let turned = puck.turned(Vector::z(), self.turn * since);
+        let push = turned.turn * Vector::new(forward, rho * self.turn, 0.0) * self.mass;
+        Space::of([
+            Solid::Ground(Pose::at(0.0, 0.0, 0.0)),
+            Solid::Disc(radius, height, puck.moved(0.0, 0.0, height / 2.0)),
+            Solid::Trace(puck.at),
+        ])
+        .applied("push", puck.at, push)
+        .force("table", puck.at, [("table", Vector::z())])
+        .force(
+            "grip",
+            puck.at,
+            [("grip[0]", Vector::x()), ("grip[1]", Vector::y())],
+        )
     }
 }

@@ -1,6 +1,6 @@
 //! A ball rolls on a turning table, on a circle that is not the table's.
 
-use crate::drawing::{Drawing, Shape};
+use crate::space::{Pose, Solid, Space, Vector};
 use lagrange_core::prelude::*;
 
 /// A solid ball rolls without slipping on a table that turns at a constant rate.
@@ -53,16 +53,25 @@ impl Default for Turntable {
 }
 
 impl Turntable {
-    /// The table with a mark that turns with it, and the path of the ball, seen from above.
-    pub fn drawing(&self, t: f64, q: &[f64]) -> Drawing {
+    /// The table, which turns, and on it the ball and its path.
+    pub fn drawing(&self, t: f64, q: &[f64]) -> Space {
         // The path is a circle of radius 7 v/(2 Ω).
         let path = 3.5 * self.start_speed / self.rate.abs().max(0.1);
         let table = self.start_x.abs() + 2.0 * path.abs();
-        let ball = [q[0], q[1]];
-        Drawing::of([
-            Shape::Disc([0.0; 2], table, -self.rate * t),
-            Shape::Trace(ball),
-            Shape::Mass(ball),
+        let thick = 0.5 * self.radius;
+        let turned = Pose::at(0.0, 0.0, -thick / 2.0).turned(Vector::z(), self.rate * t);
+        let ball = Pose::at(q[0], q[1], self.radius).attitude(&q[2..]);
+        let touching = Vector::new(q[0], q[1], 0.0);
+        Space::of([
+            Solid::Ground(Pose::at(0.0, 0.0, -2.0 * thick)),
+            Solid::Disc(table, thick, turned),
+            Solid::Ball(self.radius, ball),
+            Solid::Trace(touching),
         ])
+        .force(
+            "rolling",
+            touching,
+            [("rolling_x", Vector::x()), ("rolling_y", Vector::y())],
+        )
     }
 }

@@ -59,6 +59,7 @@ impl UnequalPendulum {
         Drawing::of([
             Shape::Trace(lower),
             Shape::Rod(vec![[0.0; 2], upper, lower]),
+            Shape::Pivot([0.0; 2]),
             Shape::Mass(upper),
             Shape::Mass(lower),
         ])

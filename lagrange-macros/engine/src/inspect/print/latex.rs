@@ -18,6 +18,34 @@ pub fn statement(s: &Statement) -> String {
     notation::statement(&Latex, s)
 }
 
+/// Longer than this, a fraction or a root is written in a line, and so is what stands between parentheses: TeX breaks lines between
+/// terms, but inside of none of them.
+const LONG: usize = 70;
+
+/// A name in mathematics: Greek letters by their commands.
+fn name(text: &str) -> String {
+    let character = |c: char| {
+        let single = c.to_string();
+        match Letter::of(&single, "").greek_tex() {
+            Some(tex) => format!("{tex} "),
+            None => escaped(&single),
+        }
+    };
+    text.chars()
+        .map(character)
+        .collect::<String>()
+        .trim_end()
+        .to_owned()
+}
+
+/// Parentheses as high as what stands between them, if no line has to be broken there.
+fn parentheses(inner: &str) -> String {
+    match inner.len() > LONG {
+        true => format!("({inner})"),
+        false => format!("\\left({inner}\\right)"),
+    }
+}
+
 /// Words with everything escaped that means something to LaTeX.
 pub fn escaped(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
@@ -42,7 +70,7 @@ impl Notation for Latex {
             _ if !letter.tex.is_empty() => format!("{{{}}}", letter.tex),
             Some(tex) => tex.to_owned(),
             None if letter.is_single() => letter.base.clone(),
-            None => format!("\\mathrm{{{}}}", escaped(&letter.base)),
+            None => format!("\\mathrm{{{}}}", name(&letter.base)),
         };
         let dotted = match letter.rate {
             0 => base,
@@ -53,8 +81,8 @@ impl Notation for Latex {
         let subscript = match letter.subscript.as_str() {
             "" => String::new(),
             _ if !letter.tex.is_empty() => String::new(),
-            text if letters.count() > 1 => format!("_{{\\mathrm{{{}}}}}", escaped(text)),
-            text => format!("_{{{text}}}"),
+            text if letters.count() > 1 => format!("_{{\\mathrm{{{}}}}}", name(text)),
+            text => format!("_{{{}}}", name(text)),
         };
         let raised = match letter.mark {
             Mark::Before => "^{-}",
@@ -99,7 +127,10 @@ impl Notation for Latex {
     }
 
     fn fraction(&self, above: &str, below: &str) -> String {
-        format!("\\frac{{{above}}}{{{below}}}")
+        match above.len().max(below.len()) > LONG {
+            true => format!("({above}) \\mathbin{{/}} ({below})"),
+            false => format!("\\frac{{{above}}}{{{below}}}"),
+        }
     }
 
     fn in_line(&self) -> bool {
@@ -115,7 +146,10 @@ impl Notation for Latex {
     }
 
     fn root(&self, inner: &str) -> String {
-        format!("\\sqrt{{{inner}}}")
+        match inner.len() > LONG {
+            true => format!("({inner})^{{1/2}}"),
+            false => format!("\\sqrt{{{inner}}}"),
+        }
     }
 
     fn absolute(&self, inner: &str) -> String {
@@ -123,7 +157,7 @@ impl Notation for Latex {
     }
 
     fn group(&self, inner: &str) -> String {
-        format!("\\left({inner}\\right)")
+        parentheses(inner)
     }
 
     fn call(&self, name: &str, exponent: Option<&str>, argument: &str, bare: bool) -> String {
@@ -141,14 +175,14 @@ impl Notation for Latex {
         };
         match bare {
             true => format!("{name} {argument}"),
-            false => format!("{name}\\left({argument}\\right)"),
+            false => format!("{name}{}", parentheses(argument)),
         }
     }
 
     fn rate(&self, inner: &str, order: u8) -> String {
         match order {
-            1 => format!("\\frac{{d}}{{dt}}\\left({inner}\\right)"),
-            _ => format!("\\frac{{d^2}}{{dt^2}}\\left({inner}\\right)"),
+            1 => format!("\\frac{{d}}{{dt}}{}", parentheses(inner)),
+            _ => format!("\\frac{{d^2}}{{dt^2}}{}", parentheses(inner)),
         }
     }
 
@@ -163,7 +197,7 @@ impl Notation for Latex {
     }
 
     fn list(&self, elements: &[String]) -> String {
-        format!("\\left({}\\right)", elements.join(", "))
+        parentheses(&elements.join(", \\penalty0 "))
     }
 
     fn element(&self, base: &str, index: &str) -> String {

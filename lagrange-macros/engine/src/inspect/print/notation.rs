@@ -137,8 +137,8 @@ pub fn formula(n: &dyn Notation, f: &Formula) -> String {
     }
 }
 
-/// Terms of a sum with their signs, for a printer that breaks lines between them.
-pub fn terms(n: &dyn Notation, f: &Formula) -> Vec<String> {
+/// Terms of a sum with their signs.
+fn terms(n: &dyn Notation, f: &Formula) -> Vec<String> {
     match f {
         Formula::Sum(list) => list
             .iter()

@@ -1,17 +1,23 @@
-//! A derivation as a part of a LaTeX document; needs amsmath, and pages wide enough for the longest equation.
+//! A derivation as a part of a LaTeX document; needs amsmath.
+//!
+//! Equations are formulas in paragraphs, because TeX breaks those at relations and signs where a line ends, and displayed ones
+//! never.
 
-use super::latex::{self, Latex};
-use super::notation::{self, Notation};
+use super::latex;
 use crate::inspect::Derivation;
 use crate::inspect::document::{Block, Piece};
-use crate::inspect::formula::{Formula, Statement};
+use crate::inspect::formula::Statement;
 
-/// Right sides with more to read are broken between their terms.
-const LONGEST: usize = 24;
+/// Letters that a row of a table has room for.
+const WIDEST: usize = 70;
+/// A table with more rows is written as several, as each stays on one page.
+const LONGEST: usize = 30;
 
 /// The whole derivation in LaTeX, to be `\input`.
 pub fn paper(derivation: &Derivation) -> String {
-    let mut out = String::from("% \\usepackage{amsmath}\n");
+    let mut out = String::from(
+        "% \\usepackage{amsmath}\n\\begingroup\\raggedright\\parindent=0pt \\relpenalty=0 \\binoppenalty=100\n",
+    );
     for block in derivation.blocks() {
         match block {
             Block::Heading(depth, title) => {
@@ -20,10 +26,10 @@ pub fn paper(derivation: &Derivation) -> String {
             }
             Block::Paragraph(pieces) => out.push_str(&format!("{}\n\n", line(&pieces))),
             Block::Table(rows) => table(&rows, &mut out),
-            Block::Equations(equations) => align(&equations, &mut out),
+            Block::Equations(list) => equations(&list, &mut out),
         }
     }
-    out
+    out + "\\par\\endgroup\n"
 }
 
 fn line(pieces: &[Piece]) -> String {
@@ -40,17 +46,26 @@ fn line(pieces: &[Piece]) -> String {
 /// Words; letters that text fonts lack become mathematics.
 fn words(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
+    let mut rest = text.chars().peekable();
+    while let Some(c) = rest.next() {
         let single = c.to_string();
         let greek = crate::inspect::letter::Letter::of(&single, "");
         match (greek.greek_tex(), c) {
             (Some(tex), _) => out.push_str(&format!("${tex}$")),
+            // The power of a unit.
+            (_, '^') => {
+                let mut power = String::new();
+                while let Some(digit) = rest.next_if(|c| c.is_ascii_digit() || *c == '-') {
+                    power.push(digit);
+                }
+                out.push_str(&format!("$^{{{power}}}$"));
+            }
             (_, '½') => out.push_str("$\\tfrac{1}{2}$"),
             (_, '⅖') => out.push_str("$\\tfrac{2}{5}$"),
             (_, '²') => out.push_str("$^2$"),
             (_, '³') => out.push_str("$^3$"),
-            (_, '₁') => out.push_str("$_1$"),
-            (_, '₂') => out.push_str("$_2$"),
+            (_, '₀'..='₉') => out.push_str(&format!("$_{}$", c as u32 - '₀' as u32)),
+            (_, '√') => out.push_str("$\\surd$"),
             (_, '≥') => out.push_str("$\\ge$"),
             (_, '≤') => out.push_str("$\\le$"),
             (_, '→') => out.push_str("$\\to$"),
@@ -78,49 +93,73 @@ fn words(text: &str) -> String {
 }
 
 fn table(rows: &[Vec<Vec<Piece>>], out: &mut String) {
-    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
-    out.push_str(&format!(
-        "\\par\\noindent\\begin{{tabular}}{{{}}}\n",
-        "l".repeat(columns)
-    ));
-    for row in rows {
-        let cells: Vec<String> = row.iter().map(|cell| line(cell)).collect();
-        out.push_str(&format!("  {} \\\\\n", cells.join(" & ")));
-    }
-    out.push_str("\\end{tabular}\n\n");
-}
-
-fn align(equations: &[(Vec<Piece>, Statement)], out: &mut String) {
-    if equations.is_empty() {
-        return;
-    }
-    out.push_str("\\begin{align*}\n");
-    let lines: Vec<String> = equations
-        .iter()
-        .map(|(label, statement)| {
-            let tag = match label.is_empty() {
-                true => String::new(),
-                false => format!(" \\tag{{{}}}", line(label)),
-            };
-            format!("  {}{tag}", sides(statement))
-        })
-        .collect();
-    out.push_str(&lines.join(" \\\\\n"));
-    out.push_str("\n\\end{align*}\n");
-}
-
-fn sides(statement: &Statement) -> String {
-    let left = latex::formula(&statement.left);
-    let relation = Latex.relation(statement.relation).trim();
-    let Formula::Sum(_) = statement.right else {
-        return format!("{left} &{relation} {}", latex::formula(&statement.right));
+    let letters = |piece: &Piece| match piece {
+        Piece::Words(text) => text.chars().count(),
+        _ => WIDEST,
     };
-    if statement.right.size() + statement.left.size() <= LONGEST {
-        return format!("{left} &{relation} {}", latex::formula(&statement.right));
+    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let width = |column: usize| {
+        let cells = rows.iter().filter_map(|row| row.get(column));
+        cells
+            .map(|cell| cell.iter().map(letters).sum())
+            .max()
+            .unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..columns).map(width).collect();
+    let wide = widths.iter().sum::<usize>() > WIDEST;
+    if wide && widths[1..].iter().sum::<usize>() > WIDEST / 2 || widths.first() == Some(&WIDEST) {
+        return paragraphs(rows, out);
     }
-    let lines = notation::terms(&Latex, &statement.right);
-    format!(
-        "{left} \\\\ &\\quad {relation} {}",
-        lines.join(" \\\\ &\\quad ")
-    )
+    for part in rows.chunks(LONGEST) {
+        out.push_str(&format!(
+            "\\par\\noindent\\begin{{tabular}}{{{}}}\n",
+            "l".repeat(columns)
+        ));
+        for row in part {
+            let mut cells: Vec<String> = row.iter().map(|cell| line(cell)).collect();
+            if wide && let Some(first) = cells.first_mut() {
+                *first = format!(
+                    "\\parbox[t]{{0.45\\linewidth}}{{\\raggedright\\hangindent=1em {first}\\strut}}"
+                );
+            }
+            out.push_str(&format!("  {} \\\\\n", cells.join(" & ")));
+        }
+        out.push_str("\\end{tabular}\n\n");
+    }
+}
+
+/// A paragraph for each row; if the first row has no name of its own, its cells say what the others' are.
+fn paragraphs(rows: &[Vec<Vec<Piece>>], out: &mut String) {
+    let header = rows
+        .first()
+        .filter(|row| row.first().is_some_and(|cell| line(cell).is_empty()));
+    for row in &rows[usize::from(header.is_some())..] {
+        let cell = |(i, cell): (usize, &Vec<Piece>)| {
+            let title = header.and_then(|row| row.get(i)).map(|title| line(title));
+            match title.filter(|title| !title.is_empty()) {
+                Some(title) => format!("{title} {}", line(cell)),
+                None => line(cell),
+            }
+        };
+        let cells = row.iter().enumerate().map(cell);
+        let cells: Vec<String> = cells.filter(|text| !text.is_empty()).collect();
+        paragraph(&cells.join("\\quad\n  "), out);
+    }
+    out.push('\n');
+}
+
+/// A paragraph whose first line stands out.
+fn paragraph(text: &str, out: &mut String) {
+    out.push_str(&format!("\\par\\hangindent=2em {text}\n"));
+}
+
+fn equations(equations: &[(Vec<Piece>, Statement)], out: &mut String) {
+    for (label, statement) in equations {
+        let said = format!("$\\displaystyle {}$", latex::statement(statement));
+        match label.is_empty() {
+            true => paragraph(&said, out),
+            false => paragraph(&format!("{said}\\quad({})", line(label)), out),
+        }
+    }
+    out.push('\n');
 }

@@ -228,9 +228,11 @@ fn directions(
         slip.push(whole(equations, velocity, known));
     }
     let pool = &mut equations.system.pool;
+    // Multiplied out, the squares of a slip that comes to rest would be differences of large numbers.
+    let slip: Vec<ExprId> = slip.into_iter().map(|s| pool.group(s)).collect();
     let squares: Vec<ExprId> = slip.iter().map(|&s| pool.mul(s, s)).collect();
     let sum = pool.sum(&squares);
-    let sum = pool.simplify(sum);
+    let sum = pool.group(sum);
     let speed = pool.sqrt(sum);
     slip.into_iter().map(|s| pool.div(s, speed)).collect()
 }

@@ -1,0 +1,75 @@
+// Solids of size one as triangles: places, normals, and which of two colours.
+
+// A surface over two parameters from 0 to 1; `at` gives a place and a normal, `tone` the colour of each cell.
+function surface(mesh, across, along, at, tone = () => 0) {
+  for (let i = 0; i < across; i++) {
+    for (let k = 0; k < along; k++) {
+      const corners = [[i, k], [i + 1, k], [i + 1, k + 1], [i, k + 1]].map(([u, v]) => at(u / across, v / along));
+      const colour = tone((i + 0.5) / across, (k + 0.5) / along);
+      for (const c of [0, 1, 2, 0, 2, 3]) mesh.push(...corners[c][0], ...corners[c][1], colour);
+    }
+  }
+  return mesh;
+}
+
+const round = (u) => [Math.cos(2 * Math.PI * u), Math.sin(2 * Math.PI * u)];
+
+// A part of the sphere, from one height to another.
+function cap(mesh, across, along, [low, high], tone) {
+  return surface(mesh, across, along, (u, v) => {
+    const [c, s] = round(u), tilt = low + v * (high - low);
+    const place = [c * Math.cos(tilt), s * Math.cos(tilt), Math.sin(tilt)];
+    return [place, place];
+  }, tone);
+}
+
+// A flat round face at a height.
+function plate(mesh, across, height, tone) {
+  const side = Math.sign(height) || 1;
+  return surface(mesh, across, 3, (u, v) => {
+    const [c, s] = round(side * u);
+    return [[v * c, v * s, height], [0, 0, side]];
+  }, tone);
+}
+
+function tube(mesh, across, along, [low, high], [from, to], tone) {
+  const slope = (from - to) / (high - low);
+  return surface(mesh, across, along, (u, v) => {
+    const [c, s] = round(u), wide = from + v * (to - from), long = Math.hypot(1, slope);
+    return [[wide * c, wide * s, low + v * (high - low)], [c / long, s / long, slope / long]];
+  }, tone);
+}
+
+function cube(mesh, cells) {
+  for (let axis = 0; axis < 3; axis++) {
+    for (const side of [-1, 1]) {
+      surface(mesh, cells, cells, (u, v) => {
+        const place = [0, 0, 0], normal = [0, 0, 0];
+        place[axis] = side / 2;
+        place[(axis + 1) % 3] = side * (u - 0.5);
+        place[(axis + 2) % 3] = v - 0.5;
+        normal[axis] = side;
+        return [place, normal];
+      });
+    }
+  }
+  return mesh;
+}
+
+const right = Math.PI / 2;
+// A belt and two poles: no turn of the ball goes unseen.
+const striped = (u, v) => (Math.abs(v - 0.5) < 0.125 || Math.abs(v - 0.5) > 0.43 || (u < 0.0625 && v > 0.5) ? 1 : 0);
+const sector = (u) => (u < 1 / 16 ? 1 : 0);
+const meshes = {
+  ball: cap([], 48, 28, [-right, right], striped),
+  bead: cap([], 10, 6, [-right, right]),
+  pivot: cap([], 20, 10, [-right, right]),
+  mass: cap([], 28, 16, [-right, right]),
+  "half ellipsoid": plate(cap([], 56, 14, [-right, 0], () => 1), 56, 0),
+  box: cube([], 6),
+  disc: plate(plate(tube([], 64, 1, [-0.5, 0.5], [1, 1]), 64, 0.5, sector), 64, -0.5, sector),
+  rod: tube([], 12, 1, [0, 1], [1, 1]),
+  shaft: plate(tube([], 16, 1, [0, 1], [1, 1]), 16, 0),
+  tip: plate(tube([], 20, 1, [0, 1], [1, 0]), 20, 0),
+};
+for (const name of Object.keys(meshes)) meshes[name] = new Float32Array(meshes[name]);

@@ -1,0 +1,286 @@
+//! Films in space → stages: every solid's size, and where it is and how it is turned over all samples, m.
+//!
+//! What the page draws with the light on it, and frames project.
+
+use super::Column;
+use super::frame::{Newtons, largest};
+use crate::film::Film;
+use crate::outcome::{Outcome, forces};
+use crate::report::significant;
+use crate::space::{Push, Solid, Space, UnitQuaternion, Vector};
+use serde::Serialize;
+
+/// A scene in space over time.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub(crate) struct Stage {
+    /// What is there.
+    pub bodies: Vec<Body>,
+    /// Forces.
+    pub arrows: Vec<Thrust>,
+    /// Corners of a box around all that is ever there.
+    pub low: [f64; 3],
+    /// See `low`.
+    pub high: [f64; 3],
+    /// Length of an arrow for each newton, m; 0 if there are no forces.
+    pub reach: f64,
+    /// Whether some arrows are shorter than the force is large.
+    pub cut: bool,
+}
+
+/// A solid over time.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub(crate) struct Body {
+    /// What it is.
+    pub kind: &'static str,
+    /// Its radius, its edges, m.
+    pub size: Vec<f64>,
+    /// x, y, z of its origin or of its joints, m.
+    pub places: Vec<Column>,
+    /// The quaternion of its attitude, scalar part first; nothing if it does not show.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub turn: Vec<Column>,
+}
+
+/// A force over time.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub(crate) struct Thrust {
+    /// Name of the item.
+    pub name: &'static str,
+    /// How large it is, N.
+    pub size: Column,
+    /// Where it acts, and the arrow from there, m: x, y, z, x, y, z.
+    pub numbers: Vec<Column>,
+}
+
+/// A stage for each film that is in space. Films of one scene have one scale.
+pub(crate) fn stages(films: &[&Film]) -> Vec<Option<Stage>> {
+    let stage = |film: &&Film| {
+        film.spaces.first()?;
+        let alike = films.iter().copied();
+        let alike = alike.filter(|other| other.outcome.scene == film.outcome.scene);
+        Some(stage(film, alike))
+    };
+    films.iter().map(stage).collect()
+}
+
+fn stage<'a>(film: &Film, alike: impl Iterator<Item = &'a Film> + Clone) -> Stage {
+    let spaces = alike.clone().flat_map(|film| &film.spaces);
+    let mut around = Box3::EMPTY;
+    for solid in spaces.flat_map(|space| &space.solids) {
+        if !matches!(solid, Solid::Ground(_)) {
+            for place in solid.places() {
+                around.hold(place, solid.reach());
+            }
+        }
+    }
+    let size = around.size();
+    let thrusts: Vec<(Vector, Vector)> = alike.flat_map(all_thrusts).collect();
+    let newtons = Newtons::new(thrusts.iter().map(|(_, force)| force.norm()), size);
+    for (at, force) in &thrusts {
+        let tip = at + Vector::from(newtons.arrow((*force).into()));
+        around.hold(tip, Vector::zeros());
+    }
+    let arrows = arrows(film, &newtons, size);
+    Stage {
+        bodies: bodies(&film.spaces, size),
+        cut: arrows
+            .iter()
+            .any(|arrow| largest(&arrow.size) > newtons.most()),
+        arrows,
+        low: around.low.map(significant),
+        high: around.high.map(significant),
+        reach: significant(newtons.reach),
+    }
+}
+
+/// A box around points.
+struct Box3 {
+    low: [f64; 3],
+    high: [f64; 3],
+}
+
+impl Box3 {
+    const EMPTY: Self = Self {
+        low: [f64::INFINITY; 3],
+        high: [f64::NEG_INFINITY; 3],
+    };
+
+    fn hold(&mut self, at: Vector, reach: Vector) {
+        for k in 0..3 {
+            self.low[k] = self.low[k].min(at[k] - reach[k]);
+            self.high[k] = self.high[k].max(at[k] + reach[k]);
+        }
+    }
+
+    /// Its longest edge.
+    fn size(&self) -> f64 {
+        let edges = self
+            .high
+            .iter()
+            .zip(&self.low)
+            .map(|(high, low)| high - low);
+        edges.filter(|edge| edge.is_finite()).fold(1e-9, f64::max)
+    }
+}
+
+/// To a hundred-thousandth of the size of all.
+fn near(x: f64, size: f64) -> f64 {
+    let digits = 10_f64.powf((5.0 - size.log10()).floor());
+    let rounded = (x * digits).round() / digits;
+    if rounded.is_finite() {
+        rounded + 0.0
+    } else {
+        0.0
+    }
+}
+
+fn bodies(spaces: &[Space], size: f64) -> Vec<Body> {
+    let Some(first) = spaces.first() else {
+        return Vec::new();
+    };
+    let body = |(i, solid): (usize, &Solid)| {
+        let over = || spaces.iter().map(move |space| &space.solids[i]);
+        let places = solid.places().len();
+        let coordinate = |k: usize, axis: usize| {
+            let numbers =
+                over().map(|solid| solid.places().get(k).map_or(0.0, |place| place[axis]));
+            Column::of(numbers.map(|x| near(x, size)))
+        };
+        Body {
+            kind: solid.kind(),
+            size: solid.size(),
+            places: (0..places)
+                .flat_map(|k| (0..3).map(move |axis| (k, axis)))
+                .map(|(k, axis)| coordinate(k, axis))
+                .collect(),
+            turn: columns(&turns(over())),
+        }
+    };
+    first.solids.iter().enumerate().map(body).collect()
+}
+
+/// Attitudes of one solid over time; what has turned, as the sum of small turns, of a ball whose rates alone are known.
+fn turns<'a>(solids: impl Iterator<Item = &'a Solid>) -> Vec<UnitQuaternion<f64>> {
+    let mut turn = UnitQuaternion::identity();
+    let mut before: Option<Vector> = None;
+    let attitude = |solid: &Solid| match solid {
+        Solid::RolledBall(_, _, angles) => {
+            let more = before.map_or(Vector::zeros(), |before| angles - before);
+            before = Some(*angles);
+            turn = UnitQuaternion::from_scaled_axis(more) * turn;
+            Some(turn)
+        }
+        other => other.turn(),
+    };
+    solids.filter_map(attitude).collect()
+}
+
+/// The four numbers over time, each next to the one before: q and −q are one attitude.
+fn columns(turns: &[UnitQuaternion<f64>]) -> Vec<Column> {
+    if turns.is_empty() {
+        return Vec::new();
+    }
+    let mut numbers: Vec<[f64; 4]> = Vec::new();
+    for turn in turns {
+        let q = [turn.w, turn.i, turn.j, turn.k];
+        let same: f64 = numbers
+            .last()
+            .map_or(1.0, |last| (0..4).map(|k| last[k] * q[k]).sum());
+        numbers.push(if same < 0.0 { q.map(|x| -x) } else { q });
+    }
+    let column = |k: usize| Column::of(numbers.iter().map(|q| near(q[k], 1.0)));
+    (0..4).map(column).collect()
+}
+
+/// The forces that act in a film, where and how strong at every sample.
+fn all_thrusts(film: &Film) -> Vec<(Vector, Vector)> {
+    let count = film.spaces.first().map_or(0, |space| space.pushes.len());
+    (0..count)
+        .filter_map(|i| thrusts(film, i))
+        .flatten()
+        .collect()
+}
+
+/// The push number `i` over time; nothing if it has been left out of the run.
+fn thrusts(film: &Film, i: usize) -> Option<Vec<(Vector, Vector)>> {
+    let outcome = &film.outcome;
+    let rows = rows(outcome, &film.spaces.first()?.pushes[i])?;
+    let samples = film.spaces.iter().zip(&outcome.samples);
+    let thrust = samples.map(|(space, sample)| {
+        let push = &space.pushes[i];
+        let parts = push.parts.iter().zip(&rows);
+        let force = parts.fold(push.applied, |sum, ((_, along), row)| {
+            sum + along * sample.forces[*row]
+        });
+        (push.at, force)
+    });
+    Some(thrust.collect())
+}
+
+/// Rows of the multipliers that a push is made of; nothing if it does not take part.
+fn rows(outcome: &Outcome, push: &Push) -> Option<Vec<usize>> {
+    if outcome.left_out().contains(&push.name) {
+        return None;
+    }
+    let known = forces(outcome.description);
+    let row = |(name, _): &(&str, Vector)| {
+        let force = known.iter().find(|force| force.name == *name)?;
+        outcome.includes(force.source).then_some(force.row)
+    };
+    push.parts.iter().map(row).collect()
+}
+
+fn arrows(film: &Film, newtons: &Newtons, size: f64) -> Vec<Thrust> {
+    let Some(first) = film.spaces.first() else {
+        return Vec::new();
+    };
+    let arrow = |(i, push): (usize, &Push)| {
+        let thrusts = thrusts(film, i)?;
+        let over = |number: &dyn Fn(&(Vector, Vector)) -> f64| {
+            Column::of(thrusts.iter().map(|thrust| near(number(thrust), size)))
+        };
+        let at = (0..3).map(|k| over(&|(at, _)| at[k]));
+        let along = (0..3).map(|k| over(&|(_, force)| newtons.arrow((*force).into())[k]));
+        Some(Thrust {
+            name: push.name,
+            size: Column::of(thrusts.iter().map(|(_, force)| significant(force.norm()))),
+            numbers: at.chain(along).collect(),
+        })
+    };
+    first.pushes.iter().enumerate().filter_map(arrow).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::space::Pose;
+
+    /// A ball that rolls along x, then along y, as much as a quarter turn each: what pointed up points along x, then stays there.
+    #[test]
+    fn turns_add_up_in_their_order() {
+        let quarter = core::f64::consts::FRAC_PI_2;
+        let rolled =
+            |a: f64, b: f64| Solid::RolledBall(1.0, Vector::zeros(), Vector::new(a, b, 0.0));
+        let course = [
+            rolled(0.0, 0.0),
+            rolled(0.0, quarter),
+            rolled(quarter, quarter),
+        ];
+        let turns = turns(course.iter());
+        let up = turns[2] * Vector::z();
+        assert!((up - Vector::x()).norm() < 1e-15, "{up}");
+        let fixed = [Solid::Mass(Vector::zeros())];
+        assert_eq!(columns(&super::turns(fixed.iter())), []);
+        let back = Solid::Ball(
+            1.0,
+            Pose::at(0.0, 0.0, 0.0).turned(Vector::z(), 4.0 * quarter),
+        );
+        let still = Solid::Ball(1.0, Pose::at(0.0, 0.0, 0.0));
+        // A whole turn is −1, the same attitude as 1.
+        assert!(
+            columns(&super::turns([still, back].iter()))
+                .iter()
+                .all(|c| matches!(c, Column::Constant(_)))
+        );
+    }
+}

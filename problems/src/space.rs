@@ -1,0 +1,264 @@
+//! How a scene in space is drawn, as plain data: solids in metres, and where each force acts.
+//!
+//! A scene says it beside its declaration, for one instant: `fn drawing(&self, t, q) -> Space`. It gives the same solids in
+//! the same order at every instant, only their numbers differ. Nothing here knows of pages or pixels.
+
+pub use nalgebra::{UnitQuaternion, Vector3};
+
+/// A place or a direction, z upward, m.
+pub type Vector = Vector3<f64>;
+
+/// A scene in space at one instant.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Space {
+    /// In any order.
+    pub solids: Vec<Solid>,
+    /// Forces of the declaration's items.
+    pub pushes: Vec<Push>,
+}
+
+/// Where a body is, and how it is turned.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    /// The body's origin.
+    pub at: Vector,
+    /// The rotation that takes the axes of space to those of the body.
+    pub turn: UnitQuaternion<f64>,
+}
+
+/// Something with a place.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Solid {
+    /// Ground that does not move: the plane through a place, across the third axis. At most one.
+    Ground(Pose),
+    /// A ball, striped so that its turning shows.
+    Ball(f64, Pose),
+    /// A ball of which only the integrals of its angular velocity about the axes of space are known, rad.
+    RolledBall(f64, Vector, Vector),
+    /// The half of an ellipsoid with these semi-axes that lies below its centre.
+    HalfEllipsoid([f64; 3], Pose),
+    /// A box with these edges around its centre.
+    Box([f64; 3], Pose),
+    /// A cylinder of a radius and a height around its centre, along the third axis; a spoke shows how far it has turned.
+    Disc(f64, f64, Pose),
+    /// A rod, a string or a chain, from joint to joint.
+    Rod(Vec<Vector>),
+    /// A point mass.
+    Mass(Vector),
+    /// A fixed point from which something hangs.
+    Pivot(Vector),
+    /// Where the body before it has been: its path is drawn through this point.
+    Trace(Vector),
+}
+
+/// The force of an item, drawn as an arrow.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Push {
+    /// What it is called.
+    pub name: &'static str,
+    /// Where it acts.
+    pub at: Vector,
+    /// Names of forces, `grip` or `grip[1]`, and what each gives, in newtons per unit of its multiplier.
+    pub parts: Vec<(&'static str, Vector)>,
+    /// What is applied beside them, N.
+    pub applied: Vector,
+}
+
+impl Space {
+    /// Of these solids.
+    pub fn of(solids: impl IntoIterator<Item = Solid>) -> Self {
+        Self {
+            solids: solids.into_iter().collect(),
+            pushes: Vec::new(),
+        }
+    }
+
+    /// The same with an arrow for the sum of some forces.
+    #[must_use]
+    pub fn force(
+        mut self,
+        name: &'static str,
+        at: Vector,
+        parts: impl IntoIterator<Item = (&'static str, Vector)>,
+    ) -> Self {
+        self.pushes.push(Push {
+            name,
+            at,
+            parts: parts.into_iter().collect(),
+            applied: Vector::zeros(),
+        });
+        self
+    }
+
+    /// The same with an arrow for a `force` of the declaration, N.
+    #[must_use]
+    pub fn applied(mut self, name: &'static str, at: Vector, applied: Vector) -> Self {
+        self.pushes.push(Push {
+            name,
+            at,
+            parts: Vec::new(),
+            applied,
+        });
+        self
+    }
+}
+
+impl Pose {
+    /// At a place, not turned.
+    pub fn at(x: f64, y: f64, z: f64) -> Self {
+        Self {
+            at: Vector::new(x, y, z),
+            turn: UnitQuaternion::identity(),
+        }
+    }
+
+    /// The same turned by an attitude's four numbers, scalar part first; they need not have length 1.
+    #[must_use]
+    pub fn attitude(self, q: &[f64]) -> Self {
+        let turn = nalgebra::Quaternion::new(q[0], q[1], q[2], q[3]);
+        Self {
+            turn: UnitQuaternion::from_quaternion(turn),
+            ..self
+        }
+    }
+
+    /// The same turned about one of its own axes.
+    #[must_use]
+    pub fn turned(self, axis: Vector, angle: f64) -> Self {
+        let about = nalgebra::Unit::new_normalize(axis);
+        Self {
+            turn: self.turn * UnitQuaternion::from_axis_angle(&about, angle),
+            ..self
+        }
+    }
+
+    /// The place of a point of the body.
+    pub fn place(&self, x: f64, y: f64, z: f64) -> Vector {
+        self.at + self.turn * Vector::new(x, y, z)
+    }
+
+    /// The same moved to a point of the body.
+    #[must_use]
+    pub fn moved(self, x: f64, y: f64, z: f64) -> Self {
+        Self {
+            at: self.place(x, y, z),
+            ..self
+        }
+    }
+}
+
+impl Solid {
+    /// One word.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Solid::Ground(_) => "ground",
+            Solid::Ball(..) => "ball",
+            Solid::RolledBall(..) => "rolled ball",
+            Solid::HalfEllipsoid(..) => "half ellipsoid",
+            Solid::Box(..) => "box",
+            Solid::Disc(..) => "disc",
+            Solid::Rod(_) => "rod",
+            Solid::Mass(_) => "mass",
+            Solid::Pivot(_) => "pivot",
+            Solid::Trace(_) => "trace",
+        }
+    }
+
+    /// What does not change of it, m: its radius, its edges.
+    pub fn size(&self) -> Vec<f64> {
+        match self {
+            Solid::Ball(radius, _) | Solid::RolledBall(radius, ..) => vec![*radius],
+            Solid::HalfEllipsoid(edges, _) | Solid::Box(edges, _) => edges.to_vec(),
+            Solid::Disc(radius, height, _) => vec![*radius, *height],
+            _ => Vec::new(),
+        }
+    }
+
+    /// Where it is: its origin, or its joints.
+    pub fn places(&self) -> Vec<Vector> {
+        match self {
+            Solid::Ground(pose)
+            | Solid::Ball(_, pose)
+            | Solid::HalfEllipsoid(_, pose)
+            | Solid::Box(_, pose)
+            | Solid::Disc(_, _, pose) => vec![pose.at],
+            Solid::RolledBall(_, at, _) | Solid::Mass(at) | Solid::Pivot(at) | Solid::Trace(at) => {
+                vec![*at]
+            }
+            Solid::Rod(joints) => joints.clone(),
+        }
+    }
+
+    /// How it is turned, if that shows.
+    pub fn turn(&self) -> Option<UnitQuaternion<f64>> {
+        match self {
+            Solid::Ground(pose)
+            | Solid::Ball(_, pose)
+            | Solid::HalfEllipsoid(_, pose)
+            | Solid::Box(_, pose)
+            | Solid::Disc(_, _, pose) => Some(pose.turn),
+            _ => None,
+        }
+    }
+
+    /// How far it reaches from its places along x, y and z, m.
+    pub fn reach(&self) -> Vector {
+        // Lengths of the rows of a matrix whose columns are the body's axes.
+        let rows = |pose: &Pose, axes: [f64; 3], length: fn([f64; 3]) -> f64| {
+            let turn = pose.turn.to_rotation_matrix();
+            Vector::from_fn(|row, _| length([0, 1, 2].map(|k| axes[k] * turn[(row, k)])))
+        };
+        match self {
+            Solid::Ball(radius, _) | Solid::RolledBall(radius, ..) => Vector::repeat(*radius),
+            Solid::HalfEllipsoid(axes, pose) => rows(pose, *axes, |[x, y, z]| x.hypot(y).hypot(z)),
+            Solid::Box(edges, pose) => rows(pose, edges.map(|edge| edge / 2.0), |[x, y, z]| {
+                x.abs() + y.abs() + z.abs()
+            }),
+            Solid::Disc(radius, height, pose) => {
+                rows(pose, [*radius, *radius, height / 2.0], |[x, y, z]| {
+                    x.hypot(y) + z.abs()
+                })
+            }
+            _ => Vector::zeros(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use core::f64::consts::FRAC_PI_2;
+
+    #[test]
+    fn bodies_turn_about_their_own_axes() {
+        let quarter = Pose::at(1.0, 0.0, 0.0).turned(Vector::z(), FRAC_PI_2);
+        assert!((quarter.place(1.0, 0.0, 0.0) - Vector::new(1.0, 1.0, 0.0)).norm() < 1e-15);
+        let half = (0.5 * FRAC_PI_2).sin_cos();
+        let same = Pose::at(1.0, 0.0, 0.0).attitude(&[2.0 * half.1, 0.0, 0.0, 2.0 * half.0]);
+        assert!(same.turn.angle_to(&quarter.turn) < 1e-15);
+        let tipped = quarter.turned(Vector::x(), FRAC_PI_2);
+        let up = tipped.turn * Vector::z();
+        assert!((up - Vector::x()).norm() < 1e-15, "{up}");
+    }
+
+    #[test]
+    fn boxes_hold_what_is_there() {
+        let eighth = Pose::at(5.0, 0.0, 0.0).turned(Vector::z(), FRAC_PI_2 / 2.0);
+        let reach = |solid: Solid, expected: [f64; 3]| {
+            let error = (solid.reach() - Vector::from(expected)).norm();
+            assert!(error < 1e-15, "{solid:?}: {error}");
+        };
+        let diagonal = 0.5_f64.sqrt();
+        reach(
+            Solid::Box([2.0, 2.0, 1.0], eighth),
+            [2.0 * diagonal, 2.0 * diagonal, 0.5],
+        );
+        reach(
+            Solid::HalfEllipsoid([1.0, 1.0, 3.0], eighth),
+            [1.0, 1.0, 3.0],
+        );
+        let upright = Pose::at(0.0, 0.0, 0.0).turned(Vector::x(), FRAC_PI_2);
+        reach(Solid::Disc(1.0, 0.5, upright), [1.0, 0.25, 1.0]);
+        reach(Solid::Mass(Vector::x()), [0.0; 3]);
+    }
+}
