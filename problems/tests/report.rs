@@ -257,9 +257,9 @@ fn modes_of_the_run_are_written_out() {
     let wheel = find("mass-on-wheel").expect("a scene");
     let page = page(wheel);
     for part in [
-        "<h5>rim closed, grip sticks</h5>\n<p>From 0 s to 2.46176 s.</p>",
-        "<h5>rim closed, grip slips forward</h5>",
-        "<h5>rim open</h5>",
+        "<h4>rim closed, grip sticks</h4>\n<p>From 0 s to 2.46176 s.</p>",
+        "<h4>rim closed, grip slips forward</h4>",
+        "<h4>rim open</h4>",
         "static friction of grip suffices</th>",
         "<th scope=\"row\">friction grip on rim</th>",
     ] {
@@ -273,7 +273,7 @@ fn modes_of_the_run_are_written_out() {
         };
         let page = paged(scene, &request);
         assert!(
-            page.contains("<h4>Equations of motion</h4>"),
+            page.contains("<h3>Equations of motion</h3>"),
             "{}",
             scene.name()
         );
@@ -291,9 +291,9 @@ fn what_is_left_out_is_not_in_the_equations() {
         ..Request::default()
     };
     let page = paged(wheel, &without);
-    let (_, equations) = page.split_once("<h3>Equations</h3>").expect("equations");
+    let (_, equations) = page.split_once("<h2>Equations</h2>").expect("equations");
     let (equations, _) = equations.split_once("</section>").expect("an end");
-    assert!(equations.contains("<h5>rim closed</h5>"));
+    assert!(equations.contains("<h4>rim closed</h4>"));
     assert!(equations.contains("<mi>rim</mi>") && !equations.contains("grip"));
 }
 

@@ -135,7 +135,16 @@ fn section((index, run): (usize, &Shown), several: bool) -> String {
         None => String::new(),
     };
     let level = if several { "h2" } else { "h1" };
-    let equations = equations::equations(run);
+    let mut equations = equations::equations(run);
+    if !several {
+        // One level up, as the name of the run is.
+        for level in 3..=5 {
+            for tag in ["<h", "</h"] {
+                let (from, to) = (format!("{tag}{level}>"), format!("{tag}{}>", level - 1));
+                equations = equations.replace(&from, &to);
+            }
+        }
+    }
     let tables = tables::tables(run);
     format!(
         "<section class=\"run\" aria-labelledby=\"{id}\">\n<{level} id=\"{id}\">{title}</{level}>\n<p>{summary}</p>\n{failure}\
