@@ -13,9 +13,9 @@ use core::ops::Range;
 /// no longer stay in the cache, which costs more.
 const BERTHS: usize = 4;
 
-/// Runs many motions of one system, with other parameters or from other states, several at a time: those that are in the same
-/// mode share the instructions of the processor (SIMD), each in a lane of its own. A motion comes out, bit for bit, as it would
-/// alone; which others run beside it does not matter.
+/// Runs many motions of one system, with other parameters or from other states, several at a time. Where a mode's equations are
+/// interpreted, those in the same mode share the instructions of the processor (SIMD), each in a lane of its own; emitted functions
+/// run one by one. A motion comes out, bit for bit, as it would alone; which others run beside it does not matter.
 ///
 /// Made by [`Simulation::ensemble`](crate::Simulation::ensemble).
 ///
