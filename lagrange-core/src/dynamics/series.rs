@@ -45,7 +45,7 @@ impl<T: Scalar> Dynamics<T> {
             let expanded = self.modes[self.current].emitted_mut(&self.series_held);
             match expanded.map(|(emitted, held)| emitted.series(&held, order, (t, q, v))) {
                 Some(Ok(())) => return Ok(false),
-                // A slip of exactly zero has no direction there, but none is needed.
+                // The interpreter says which operation has none, if any.
                 Some(Err(Refused::NoSeries)) => self.by_functions = false,
                 Some(Err(Refused::Pivot)) | None => self.leave_to_solver(),
             }

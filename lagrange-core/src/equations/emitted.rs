@@ -40,11 +40,6 @@ fn signs<T: Scalar>(structure: &ModeStructure, mode: &Mode) -> Option<Vec<T>> {
                 Direction::Fixed([sign, 0.0]) => [sign, sliding.normal_sign],
                 _ => return None,
             },
-            (FrictionState::SlipAlong, FrictionMode::Slip(sliding))
-                if sliding.direction == Direction::AlongSlip =>
-            {
-                [1.0, sliding.normal_sign]
-            }
             _ => return None,
         };
         signs.extend(pair.map(T::from_f64));

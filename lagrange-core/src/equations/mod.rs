@@ -43,8 +43,6 @@ pub enum FrictionState {
     Stick,
     /// The force is μₖ N against the slip, which has one component.
     Slip,
-    /// The force is μₖ N against the slip, which has two components and turns.
-    SlipAlong,
 }
 
 /// Which mode a set of functions is for, and where its numbers are.

@@ -9,7 +9,7 @@ mod writer;
 use super::names::{self, index, local, plain};
 use super::scalar;
 use crate::derive::Stage;
-use crate::modes::{Direction, FrictionState};
+use crate::modes::FrictionState;
 use crate::plan::mode::{ModeProgram, Phase};
 use crate::plan::{Place, Program};
 use proc_macro2::{Ident, TokenStream};
@@ -89,7 +89,6 @@ fn structure(program: &Program, mode: &ModeProgram, plan: &products::Plan) -> To
     let frictions = mode.mode.frictions.iter().map(|state| match state {
         FrictionState::Inactive => quote!(Inactive),
         FrictionState::Stick => quote!(Stick),
-        FrictionState::Slip(Direction::AlongSlip) => quote!(SlipAlong),
         FrictionState::Slip(_) => quote!(Slip),
     });
     let system = &program.equations.system;

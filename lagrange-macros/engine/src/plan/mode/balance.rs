@@ -74,7 +74,7 @@ pub(super) fn whole(
 }
 
 /// The balances of a mode in which `acting` rows hold; `known` is what it says of the state. `signs` are, per friction, the
-/// symbols of the sign of its slip and of the multiplier that presses. None where a slip of two components only begins.
+/// symbols of the sign of its slip and of the multiplier that presses. None where a slip has two components.
 pub(super) fn balances(
     equations: &mut Equations,
     mode: &Mode,
@@ -164,8 +164,9 @@ fn slides(
     for (i, &[direction, pressing]) in signs.iter().enumerate() {
         match mode.frictions[i] {
             FrictionState::Inactive | FrictionState::Stick => continue,
-            FrictionState::Slip(Direction::Fixed(_) | Direction::AlongSlip) => {}
-            FrictionState::Slip(Direction::Incipient) => return None,
+            FrictionState::Slip(Direction::Fixed(_)) => {}
+            // A slip in space turns, and vanishes in ways that the interpreter knows.
+            FrictionState::Slip(_) => return None,
         }
         let friction = &equations.structure.frictions[i];
         let (row, given) = (friction.row, friction.given_normal);
@@ -195,44 +196,15 @@ fn slides(
         if source.is_some_and(|row| !acting.contains(&row)) {
             continue;
         }
-        factor = equations.system.pool.neg(factor);
-        for (component, along) in directions(equations, i, direction, known)?
-            .into_iter()
-            .enumerate()
-        {
-            slides.push(Slide {
-                row: row + component,
-                factor: equations.system.pool.mul(factor, along),
-                source,
-            });
-        }
+        let pool = &mut equations.system.pool;
+        let direction = pool.leaf(direction);
+        let factor = pool.mul(factor, direction);
+        let factor = pool.neg(factor);
+        slides.push(Slide {
+            row,
+            factor,
+            source,
+        });
     }
     Some(slides)
-}
-
-/// The unit vector along which friction `i` slips: a sign, or s/|s|.
-fn directions(
-    equations: &mut Equations,
-    i: usize,
-    sign: Symbol,
-    known: &[(Symbol, ExprId)],
-) -> Option<Vec<ExprId>> {
-    let row = equations.structure.frictions[i].row;
-    let components = equations.system.frictions[i].slip.len();
-    if components == 1 {
-        return Some(vec![equations.system.pool.leaf(sign)]);
-    }
-    let mut slip = Vec::new();
-    for row in row..row + components {
-        let velocity = equations.structure.rows[row].velocity;
-        slip.push(whole(equations, velocity, known));
-    }
-    let pool = &mut equations.system.pool;
-    // Multiplied out, the squares of a slip that comes to rest would be differences of large numbers.
-    let slip: Vec<ExprId> = slip.into_iter().map(|s| pool.group(s)).collect();
-    let squares: Vec<ExprId> = slip.iter().map(|&s| pool.mul(s, s)).collect();
-    let sum = pool.sum(&squares);
-    let sum = pool.group(sum);
-    let speed = pool.sqrt(sum);
-    slip.into_iter().map(|s| pool.div(s, speed)).collect()
 }
