@@ -1,6 +1,6 @@
 //! One mode's functions with the memory that they work in.
 
-use super::{FrictionState, ModeEquations, ModeStructure, Refused, Row, STRIDE};
+use super::{Arguments, FrictionState, ModeEquations, ModeStructure, Refused, Row, STRIDE};
 use crate::arithmetic::Scalar;
 use crate::effects::{Effects, Item};
 use crate::linear::epsilon;
@@ -106,7 +106,7 @@ impl<T: Scalar> Emitted<T> {
     pub(crate) fn value(
         &self,
         held: &Held,
-        state: (T, &[T], &[T]),
+        state: Arguments<T>,
         accelerations: &mut [T],
         forces: Option<&mut [T]>,
     ) -> bool {
@@ -119,7 +119,7 @@ impl<T: Scalar> Emitted<T> {
         &mut self,
         held: &Held,
         order: usize,
-        state: (T, &[T], &[T]),
+        state: Arguments<T>,
     ) -> Result<(), Refused> {
         self.order = order;
         (self.equations.series)(&self.constants, held, order, state, &mut self.rows)

@@ -64,26 +64,25 @@ pub struct ModeStructure {
     pub report: &'static [(usize, usize)],
 }
 
+/// Time, positions and velocities.
+pub type Arguments<'a, N> = (N, &'a [N], &'a [N]);
+
+/// Accelerations, and the forces of the rows if they are asked for, from constants, needs that are held, and a state. Forces that the
+/// mode keeps at zero are left as they are. False if a pivot is not safe.
+pub type ValueFn<N> = fn(&[N], &Held, Arguments<'_, N>, &mut [N], Option<&mut [N]>) -> bool;
+
+/// Coefficients 0…order, at most 28, of the rows of [`ModeStructure::rows`], from constants, needs that are held, the order and a
+/// state.
+pub type SeriesFn<N> =
+    fn(&[N], &Held, usize, Arguments<'_, N>, &mut [Row<N>]) -> Result<(), Refused>;
+
 /// The functions of one mode.
 #[derive(Clone, Copy, Debug)]
 pub struct ModeEquations<N: 'static> {
-    /// Accelerations, and the forces of the rows if they are asked for; those that the mode keeps at zero are left as they are.
-    /// False if a pivot is not safe.
-    pub value: fn(
-        c: &[N],
-        held: &Held,
-        state: (N, &[N], &[N]),
-        accelerations: &mut [N],
-        forces: Option<&mut [N]>,
-    ) -> bool,
-    /// Coefficients 0…`order`, at most 28, of the rows of [`ModeStructure::rows`].
-    pub series: fn(
-        c: &[N],
-        held: &Held,
-        order: usize,
-        state: (N, &[N], &[N]),
-        rows: &mut [Row<N>],
-    ) -> Result<(), Refused>,
+    /// A right-hand side.
+    pub value: ValueFn<N>,
+    /// Taylor coefficients.
+    pub series: SeriesFn<N>,
 }
 
 /// Why a series is not given.

@@ -96,10 +96,10 @@ impl Writer<'_> {
             return names::sum(output);
         }
         let writes = self.mode.tape.blocks.iter().flat_map(|block| &block.writes);
-        let set = writes
+        let mut set = writes
             .filter(|write| write.output == output)
             .map(|write| write.value);
-        names::value(set.last().unwrap_or(Value(0)))
+        names::value(set.next().unwrap_or(Value(0)))
     }
 
     /// `name = value;`, with `let` unless it is declared.

@@ -1,6 +1,6 @@
 //! Equations × mode → [`ModeProgram`]: the equations of one mode as a straight line, its linear system in the middle.
 //!
-//! What the mode says is put in first: pinned coordinates are numbers, constant rows are eliminated ([`reduce`]), so most
+//! What the mode says is put in first: pinned coordinates are numbers, constant rows are eliminated (`reduce`), so most
 //! terms are gone before anything is shared. What is left is
 //!
 //! ```text
@@ -210,9 +210,9 @@ fn specialise(
     if reduced.symmetric {
         // Equal elements are written alike.
         for i in 0..free {
-            for j in 0..i {
-                matrix[j][i] = matrix[i][j].clone();
-            }
+            let (above, below) = matrix.split_at_mut(i);
+            let upper = above.iter_mut().zip(&below[0]);
+            upper.for_each(|(row, entry)| row[i] = entry.clone());
         }
     }
     let one = pool.integer(1);
