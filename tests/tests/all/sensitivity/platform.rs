@@ -1,6 +1,6 @@
 //! Derivatives of a mark on the way and of the limit of infinitely many impacts, on a platform that rises.
 
-use super::{USUAL, run, same_slopes, seeded};
+use super::{run, same_slopes, seeded};
 use lagrange_core::arithmetic::Dual;
 use lagrange_core::prelude::*;
 
@@ -25,7 +25,7 @@ struct Platform<T = f64> {
 /// Seen from the platform the ball starts at −w: it arrives with s = √(w² + 2 g h) after (s − w)/g, and Σ 2 s eⁱ/g later lies.
 #[test]
 fn a_mark_and_an_accumulation_on_a_rising_platform() {
-    let p: [Dual<f64, 5>; 5] = seeded([9.81, 0.45, 0.8, 0.3, 0.6]);
+    let p: [Dual<f64, 5>; 5] = seeded([9.81, 0.8, 0.8, 0.3, 0.6]);
     let [gravity, bounce, height, rise, level] = p;
     let scene = Platform {
         gravity,
@@ -34,7 +34,9 @@ fn a_mark_and_an_accumulation_on_a_rising_platform() {
         rise,
         level,
     };
-    let motion = run(&scene, scene.at(<Platform>::DROP), 1.5, USUAL);
+    // In flight all is exact at any tolerance; the larger it is, the more is left over for the sum of the last impacts.
+    let settings = (1e-4, Method::Taylor);
+    let motion = run(&scene, scene.at(<Platform>::DROP), 5.0, settings);
     let two: Dual<f64, 5> = Scalar::from_f64(2.0);
     let one: Dual<f64, 5> = Scalar::from_f64(1.0);
     let find = |word: &str| {
@@ -53,7 +55,7 @@ fn a_mark_and_an_accumulation_on_a_rising_platform() {
     same_slopes(
         "place",
         motion.final_state().q[0],
-        rise * Scalar::from_f64(1.5),
+        rise * Scalar::from_f64(5.0),
         1e-10,
     );
 }

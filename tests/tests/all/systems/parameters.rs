@@ -92,3 +92,31 @@ fn motions_in_lanes_are_those_of_runs_alone_at_every_order() {
         }
     }
 }
+
+/// A drag that is defined to the right of the origin only.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2 / 2,
+    force(drag: x = strength * sqrt(x) * der(x)),
+)]
+struct Half {
+    strength: f64,
+}
+
+/// The effect is not there where its factor vanishes, also if it was there in the run before.
+#[test]
+fn a_term_whose_factor_became_zero_does_not_spoil_the_run() {
+    let mut runner = Simulation::new(&Half { strength: -0.3 }).runner();
+    for strength in [-0.3, 0.0, 0.5, 0.0] {
+        runner.set_scene(&Half { strength });
+        let outcome = runner.run(&state(&[0.5], &[-1.0]), 0.0..2.0);
+        match outcome {
+            Ok(motion) => {
+                assert_eq!(strength, 0.0);
+                all_agree("x", &motion.final_state().q, &[-1.5], 1e-14);
+            }
+            Err(error) => assert_ne!(strength, 0.0, "{error}"),
+        }
+    }
+}
