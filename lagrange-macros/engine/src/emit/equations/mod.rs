@@ -96,27 +96,19 @@ fn structure(program: &Program, mode: &ModeProgram, plan: &products::Plan) -> To
         let (j, place) = (index(j), names::place(system, place));
         quote!((#j, #place))
     });
-    let numbers = mode.extras.iter().filter_map(|extra| {
-        let row = index(plan.extra_row(mode, extra)?);
-        let list = match program.equations.outputs[extra.output.0].stage {
-            Stage::Motion => quote!(motion),
-            Stage::Report => quote!(report),
-        };
-        match program.place(extra.output) {
-            Place::Node(node) => {
-                let node = index(node);
-                Some((list.to_string(), quote!((#node, #row))))
-            }
-            Place::Zero | Place::Constant(_) => None,
-        }
-    });
     let (mut motion, mut report) = (Vec::new(), Vec::new());
-    for (list, entry) in numbers {
-        if list == "motion" {
-            motion.push(entry)
-        } else {
-            report.push(entry)
-        }
+    for extra in &mode.extras {
+        let (Some(row), Place::Node(node)) =
+            (plan.extra_row(mode, extra), program.place(extra.output))
+        else {
+            continue;
+        };
+        let (node, row) = (index(node), index(row));
+        let list = match program.equations.outputs[extra.output.0].stage {
+            Stage::Motion => &mut motion,
+            Stage::Report => &mut report,
+        };
+        list.push(quote!((#node, #row)));
     }
     let count = index(mode.constants.outputs);
     let rows = index(plan.rows);

@@ -16,7 +16,7 @@ pub enum Row {
     Weighted(Value),
     /// The auxiliary series of a function: u of tan, asin, ….
     Auxiliary(Value),
-    /// k times coefficient k of that.
+    /// Of an output that several writes enter.
     Sum(usize),
     /// A number that does not change, of an extra output.
     Fixed(usize),

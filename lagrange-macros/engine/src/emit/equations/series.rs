@@ -495,7 +495,6 @@ impl Expansion<'_> {
                 body.extend(self.store(row, quote!(#p), quote!(#d)));
             }
         }
-        // Constant accelerations: the second coefficient of the velocity and all beyond are zero.
         quote! {
             for #k in 1..=#order {
                 let #p = #k & 31;

@@ -158,7 +158,6 @@ impl<'a> Elimination<'a> {
                 }
             }
         }
-        debug_assert_eq!(order.len(), size);
         Elimination {
             system,
             order,

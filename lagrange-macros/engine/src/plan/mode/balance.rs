@@ -62,15 +62,12 @@ pub(super) fn whole(
     output: OutputId,
     known: &[(Symbol, ExprId)],
 ) -> ExprId {
-    let pool = &mut equations.system.pool;
-    let terms: Vec<ExprId> = equations.outputs[output.0]
-        .terms
-        .iter()
-        .map(|&(_, e)| e)
-        .collect();
-    let sum = pool.sum(&terms);
+    let mut pool = std::mem::take(&mut equations.system.pool);
+    let sum = equations.total(&mut pool, output);
     let sum = pool.substitute(sum, known);
-    pool.simplify(sum)
+    let simple = pool.simplify(sum);
+    equations.system.pool = pool;
+    simple
 }
 
 /// The balances of a mode in which `acting` rows hold; `known` is what it says of the state. `signs` are, per friction, the

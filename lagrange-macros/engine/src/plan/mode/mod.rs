@@ -140,11 +140,7 @@ pub(super) fn programs(equations: &mut Equations) -> Vec<ModeProgram> {
         })
         .collect();
     pool.fix(&signs.concat());
-    let mut fixed: BTreeMap<Symbol, usize> = BTreeMap::new();
-    for symbol in parameters.into_iter().chain(signs.concat()) {
-        let next = fixed.len();
-        fixed.insert(symbol, next);
-    }
+    let fixed = super::numbered(parameters.into_iter().chain(signs.concat()));
     let (modes, _) = modes::structures(&equations.system, MOST_MODES);
     let unknowns: Vec<Symbol> = (0..MOST_UNKNOWNS)
         .map(|i| equations.system.pool.symbol(&format!("w{i}")))
