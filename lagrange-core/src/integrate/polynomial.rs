@@ -119,19 +119,32 @@ impl<T: Scalar> StepPolynomial<T> {
 }
 
 /// Σ cₖ, the first two last; the others in four chains, so that no addition waits for the one before.
+#[inline]
 pub(crate) fn sum<T: Scalar>(c: &[T]) -> T {
     let (first, rest) = c.split_at(c.len().min(2));
-    let chunks = rest.chunks_exact(4);
-    let end = chunks.remainder();
-    let sums = chunks.rev().fold([T::zero(); 4], |mut sums, four| {
-        for (sum, &c) in sums.iter_mut().zip(four) {
-            *sum += c;
-        }
-        sums
-    });
+    let (fours, end) = rest.as_chunks::<4>();
+    let mut sums = [T::zero(); 4];
+    for four in fours.iter().rev() {
+        sums = core::array::from_fn(|i| sums[i] + four[i]);
+    }
     let end = end.iter().rev().fold(T::zero(), |sum, &c| sum + c);
     let rest = (sums[0] + sums[2]) + (sums[1] + sums[3]) + end;
     first.iter().rev().fold(rest, |sum, &c| sum + c)
+}
+
+/// Coefficients onto a step: cₖ pᵏ, for as many powers as `out` has elements.
+#[inline]
+pub(crate) fn scale<T: Scalar>(out: &mut [T], c: &[T], powers: &[f64]) {
+    let (c, powers) = (&c[..out.len()], &powers[..out.len()]);
+    let (fours, end) = out.as_chunks_mut::<4>();
+    let (c, c_end) = c.as_chunks::<4>();
+    let (p, p_end) = powers.as_chunks::<4>();
+    for ((four, c), p) in fours.iter_mut().zip(c).zip(p) {
+        *four = core::array::from_fn(|i| c[i] * T::from_f64(p[i]));
+    }
+    for ((x, &c), &p) in end.iter_mut().zip(c_end).zip(p_end) {
+        *x = c * T::from_f64(p);
+    }
 }
 
 /// Σ cₖ sᵏ; the small terms are added first, so that at s = 1 the sum is accurate to rounding for series that decay.

@@ -48,22 +48,26 @@ pub fn step_size<T: Scalar>(
     let mut sizes = [0.0; MAX_ORDER + 1];
     let sizes = &mut sizes[..order + 1 - first];
     // The sum of zeros is zero unless one of the factors is not finite.
-    let mut poison = [0.0; MAX_ORDER + 1];
+    let mut poison = [0.0; 4];
     for i in 0..series.coordinates() {
         for row in [series.position(i), series.velocity(i)] {
             let limit = 1.0 / tolerance.scale(row[0].value().abs());
-            let sizes = sizes.iter_mut().zip(&mut poison);
-            for ((size, poison), c) in sizes.zip(&row[first..=order]) {
+            let (fours, end) = sizes.as_chunks_mut::<4>();
+            let (c, c_end) = row[first..=order].as_chunks::<4>();
+            for (four, c) in fours.iter_mut().zip(c) {
+                let ratios = c.map(|c| c.value().abs() * limit);
+                poison = core::array::from_fn(|i| poison[i] + 0.0 * ratios[i]);
+                *four = core::array::from_fn(|i| larger(ratios[i], four[i]));
+            }
+            for (size, c) in end.iter_mut().zip(c_end) {
                 let ratio = c.value().abs() * limit;
-                *poison += 0.0 * ratio;
-                *size = if ratio > *size { ratio } else { *size };
+                poison[0] += 0.0 * ratio;
+                *size = larger(ratio, *size);
             }
         }
     }
-    if poison[..sizes.len()].iter().any(|&x| x != 0.0) {
-        return None;
-    }
-    Some(step_from_sizes(sizes, first, tolerance.strictness()))
+    let finite = poison.iter().sum::<f64>() == 0.0;
+    finite.then(|| step_from_sizes(sizes, first, tolerance.strictness()))
 }
 
 /// Step from the sizes of the coefficients of the orders `first`, `first` + 1, … in units of the allowed error.
@@ -75,33 +79,35 @@ fn step_from_sizes(sizes: &[f64], first: usize, strictness: f64) -> f64 {
     /// log₂ e⁻², the last term.
     const LAST: f64 = -2.0 * core::f64::consts::LOG2_E;
 
-    let order = (first + sizes.len() - 1) as f64;
+    let count = sizes.len();
+    let order = (first + count - 1) as f64;
     let base = -rough_log2(strictness);
     let mut logs = [0.0; MAX_ORDER + 1];
-    let logs = &mut logs[..sizes.len()];
+    let logs = &mut logs[..count];
+    let (orders, reciprocals) = (&ORDERS[first..][..count], &RECIPROCALS[first..][..count]);
     // Root test: no coefficient lies above 2^(base + root·k).
     let mut root = f64::NEG_INFINITY;
-    for (k, (log, &size)) in (first..).zip(logs.iter_mut().zip(sizes)) {
+    for ((log, &size), reciprocal) in logs.iter_mut().zip(sizes).zip(reciprocals) {
         *log = rough_log2(size);
-        root = larger(root, (*log - base) * RECIPROCALS[k]);
+        root = larger(root, (*log - base) * reciprocal);
     }
     if root == f64::NEG_INFINITY {
         return f64::INFINITY;
     }
     // Decay between the highest points, seen from that line, of the lower and of the upper half.
-    let (lower, upper) = logs.split_at(logs.len() / 2);
-    let highest = |logs: &[f64], first: usize| {
+    let half = count / 2;
+    let highest = |logs: &[f64], orders: &[f64]| {
         let mut highest = (f64::NEG_INFINITY, 0.0);
-        for (k, log) in (first..).zip(logs) {
-            let above = log - root * k as f64;
+        for (log, &k) in logs.iter().zip(orders) {
+            let above = log - root * k;
             if above > highest.0 {
-                highest = (above, k as f64);
+                highest = (above, k);
             }
         }
         highest
     };
-    let (low, j) = highest(lower, first);
-    let (high, k) = highest(upper, first + lower.len());
+    let (low, j) = highest(&logs[..half], &orders[..half]);
+    let (high, k) = highest(&logs[half..], &orders[half..]);
     let slope = (high - low) / (k - j);
     // A half without any coefficient has no highest point.
     let decay = if slope.is_finite() {
@@ -111,16 +117,28 @@ fn step_from_sizes(sizes: &[f64], first: usize, strictness: f64) -> f64 {
     };
     // Each coefficient's prediction of the last one.
     let mut last = f64::NEG_INFINITY;
-    for (k, log) in (first..).zip(logs.iter()) {
-        last = larger(last, log + (order - k as f64) * (decay - BEND));
+    for (log, k) in logs.iter().zip(orders) {
+        last = larger(last, log + (order - k) * (decay - BEND));
     }
     ((LAST - last) / order).exp2()
 }
 
-/// The larger of two numbers that are not NaN, in one instruction.
+/// The larger of two numbers, the second if one is not a number, in one instruction.
+#[inline(always)]
 fn larger(x: f64, y: f64) -> f64 {
     if x > y { x } else { y }
 }
+
+/// k as a number.
+const ORDERS: [f64; MAX_ORDER + 1] = {
+    let mut table = [0.0; MAX_ORDER + 1];
+    let mut k = 1;
+    while k <= MAX_ORDER {
+        table[k] = k as f64;
+        k += 1;
+    }
+    table
+};
 
 /// 1/k
 const RECIPROCALS: [f64; MAX_ORDER + 1] = {
@@ -134,6 +152,7 @@ const RECIPROCALS: [f64; MAX_ORDER + 1] = {
 };
 
 /// log₂ x to within 0.1, monotone: the exponent and mantissa bits read as one number. −∞ for 0 and subnormals.
+#[inline(always)]
 fn rough_log2(x: f64) -> f64 {
     if x < f64::MIN_POSITIVE {
         return f64::NEG_INFINITY;
@@ -148,6 +167,7 @@ fn rough_log2(x: f64) -> f64 {
 /// The remainder of v behaves like s^(order+1), so its derivative, which is what the comparison shows, is
 /// (order + 1)/(h s) times larger. What rounding explains is subtracted. Above 1 (or not a number) the step must be
 /// repeated: [`DefectControl`] says how.
+#[inline(never)]
 pub fn defect<T: Scalar>(step: &StepPolynomial<T>, s: f64, dv: &[T], tolerance: Tolerance) -> f64 {
     const ROUNDING: f64 = 16.0 * f64::EPSILON;
     let h = step.h.value();
@@ -164,26 +184,23 @@ pub fn defect<T: Scalar>(step: &StepPolynomial<T>, s: f64, dv: &[T], tolerance: 
         if ratio.is_nan() {
             return ratio;
         }
-        worst = ratio.max(worst);
+        worst = larger(ratio, worst);
     }
     worst
 }
 
 /// Σ k f(cₖ) sᵏ⁻¹
+#[inline(always)]
 fn derivative_value<T: Scalar>(row: &[T], s: f64, f: impl Fn(f64) -> f64) -> f64 {
     if s == 1.0 {
         // In four chains, so that no addition waits for the one before.
-        let mut k = [1.0, 2.0, 3.0, 4.0];
         let mut sums = [0.0; 4];
-        let chunks = row[1..].chunks_exact(4);
-        let end = chunks.remainder();
-        for four in chunks {
-            for ((sum, k), c) in sums.iter_mut().zip(&mut k).zip(four) {
-                *sum += *k * f(c.value());
-                *k += 4.0;
-            }
+        let (fours, end) = row[1..].as_chunks::<4>();
+        let (orders, orders_end) = ORDERS[1..row.len()].as_chunks::<4>();
+        for (four, k) in fours.iter().zip(orders) {
+            sums = core::array::from_fn(|i| sums[i] + k[i] * f(four[i].value()));
         }
-        for ((sum, k), c) in sums.iter_mut().zip(k).zip(end) {
+        for ((sum, c), k) in sums.iter_mut().zip(end).zip(orders_end) {
             *sum += k * f(c.value());
         }
         return (sums[2] + sums[3]) + (sums[0] + sums[1]);

@@ -8,7 +8,7 @@ use crate::arithmetic::Scalar;
 use crate::dynamics::EvaluationError;
 use crate::error::Error;
 use crate::integrate::taylor::{self, DefectControl, Verdict};
-use crate::integrate::{Integrator, Method, StepError};
+use crate::integrate::{Integrator, Method, StepError, scale_coefficients};
 use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
 use crate::trajectory::State;
@@ -199,20 +199,17 @@ impl<T: Scalar> Run<T> {
         self.step.set_degree(degree);
         self.step.t = self.t;
         self.step.h = T::from_f64(h);
-        self.powers.clear();
-        let powers = core::iter::successors(Some(1.0), |power| Some(power * h));
-        self.powers.extend(powers.take(degree + 1));
-        for i in 0..self.description().coordinates.len() {
-            let (q, v) = self.step.rows_mut(i);
-            let series = [
-                (q, self.dynamics.position_series(i)),
-                (v, self.dynamics.velocity_series(i)),
-            ];
-            for (row, series) in series {
-                for ((scaled, &c), &power) in row.iter_mut().zip(series).zip(&self.powers) {
-                    *scaled = c * T::from_f64(power);
-                }
-            }
+        let mut power = 1.0;
+        self.powers.resize(degree + 1, 0.0);
+        for entry in &mut self.powers {
+            *entry = power;
+            power *= h;
+        }
+        let width = degree + 1;
+        let rows = self.step.q.chunks_exact_mut(width);
+        for (i, (q, v)) in rows.zip(self.step.v.chunks_exact_mut(width)).enumerate() {
+            scale_coefficients(q, self.dynamics.position_series(i), &self.powers);
+            scale_coefficients(v, self.dynamics.velocity_series(i), &self.powers);
         }
     }
 
