@@ -23,6 +23,27 @@ pub(super) enum Glance {
     },
 }
 
+/// Whether Σ cₖ sᵏ certainly keeps one sign on [0, 1] and begins with a value of more than `share` of Σ|cₖ|.
+#[inline]
+pub fn keeps_its_sign(c: &[f64], share: f64) -> bool {
+    let [c0, c1, c2, c3, tail @ ..] = c else {
+        return false;
+    };
+    let rest = sum_of_sizes(tail);
+    let size = c0.abs() + c1.abs() + c2.abs() + c3.abs() + rest;
+    let sign = c0.signum();
+    // The other coefficients in the Bernstein basis of the cubic that the first four make.
+    let second = sign * (c0 + c1 / 3.0);
+    let third = sign * (c0 + (2.0 * c1 + c2) / 3.0);
+    let last = sign * (c0 + c1 + c2 + c3);
+    let margin = rest + noise_factor(c.len()) * size;
+    c0.abs() > share * size
+        && c0.abs() > margin
+        && second > margin
+        && third > margin
+        && last > margin
+}
+
 /// Looks at Σ cₖ sᵏ.
 #[inline]
 pub(super) fn glance(c: &[f64]) -> Glance {

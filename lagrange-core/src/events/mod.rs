@@ -17,6 +17,7 @@ mod refine;
 mod tests;
 
 pub use bernstein::MAX_DEGREE;
+pub use glance::keeps_its_sign;
 pub use isolate::{deflate, first_root, roots, sign_after_start};
 pub use order::{Hit, simultaneous, sort};
 

@@ -9,7 +9,7 @@ use crate::dynamics::{Dynamics, EvaluationError};
 use crate::effects::{Effects, Item};
 use crate::integrate::StepPolynomial;
 use crate::mode::Mode;
-use crate::modes::guard::Guard;
+use crate::modes::guard::{Guard, Linear};
 use crate::modes::reading::Reading;
 use crate::modes::sharing::{self, Joint};
 use crate::system::Description;
@@ -20,14 +20,20 @@ const OTHER_SIDE: f64 = 1e3;
 /// Samples of a guard in a step of a Runge–Kutta method, at least.
 const FEWEST_SAMPLES: usize = 8;
 
-/// The polynomials of all guards of a step.
+/// The guards of a mode and what is watched beside, with their polynomials over a step.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Curves {
-    /// One after the other, each of `width` coefficients: guards of the mode, stops, marks.
+    /// Guards of the mode, stops, marks.
+    list: Vec<Guard>,
+    /// Number of guards of the mode.
+    count: usize,
+    /// What each is made of, where that does not change along the mode.
+    linear: Vec<Option<Linear>>,
+    /// Guards of undetermined forces that have been met in this mode.
+    pub(super) joints: Vec<Joint>,
+    /// One after the other, each of `width` coefficients.
     coefficients: Vec<f64>,
     width: usize,
-    /// Number of guards of the mode.
-    guards: usize,
     /// The stops and marks that take part.
     pub(super) stops: Vec<usize>,
     pub(super) marks: Vec<usize>,
@@ -63,6 +69,34 @@ impl Curves {
         curves
     }
 
+    /// Watches these guards of single forces in a mode, and the joint ones, from now on.
+    pub(super) fn arm<T: Scalar>(
+        &mut self,
+        guards: impl Iterator<Item = Guard>,
+        mode: &Mode,
+        dynamics: &Dynamics<T>,
+    ) {
+        self.list.clear();
+        self.list.extend(guards);
+        self.list.extend((0..self.joints.len()).map(Guard::Joint));
+        self.count = self.list.len();
+        self.list.extend_from_slice(&self.watches);
+        self.linear.clear();
+        let linear = self.list.iter().map(|&g| Linear::of(g, mode, dynamics));
+        self.linear.extend(linear);
+    }
+
+    /// The guards of the mode.
+    pub(super) fn guards(&self) -> &[Guard] {
+        &self.list[..self.count]
+    }
+
+    /// The guards of the mode with their polynomials.
+    pub(super) fn of_mode(&self) -> impl Iterator<Item = (Guard, &[f64])> {
+        let curves = self.coefficients.chunks_exact(self.width.max(1));
+        self.guards().iter().copied().zip(curves)
+    }
+
     fn curve(&self, index: usize) -> &[f64] {
         &self.coefficients[index * self.width..][..self.width]
     }
@@ -74,38 +108,46 @@ impl Curves {
 
     /// Term `k` of stop `i`.
     pub(super) fn stop_term(&self, i: usize, k: usize) -> &[f64] {
-        self.curve(self.guards + self.first_stop[i] + k)
+        self.curve(self.count + self.first_stop[i] + k)
     }
 
     /// Term `k` of mark `i`.
     pub(super) fn mark_term(&self, i: usize, k: usize) -> &[f64] {
-        self.curve(self.guards + self.first_mark[i] + k)
+        self.curve(self.count + self.first_mark[i] + k)
     }
 
     /// Makes room for curves of `width` coefficients.
-    fn shape(&mut self, guards: usize, width: usize) {
-        (self.guards, self.width) = (guards, width);
-        let size = (guards + self.watches.len()) * width;
-        self.coefficients.resize(size, 0.0);
+    fn shape(&mut self, width: usize) {
+        self.width = width;
+        self.coefficients.resize(self.list.len() * width, 0.0);
     }
 
     /// Takes the guards from the series that `dynamics` holds; `powers` are those of the length of the step.
+    #[inline(never)]
     pub(super) fn take_series<T: Scalar>(
         &mut self,
         dynamics: &Dynamics<T>,
         mode: &Mode,
-        (guards, joints): (&[Guard], &[Joint]),
         powers: &[f64],
     ) {
         let reading = Reading::Series(dynamics);
-        self.shape(guards.len(), powers.len());
-        let all = guards.iter().chain(&self.watches);
+        self.shape(powers.len());
         let curves = self.coefficients.chunks_exact_mut(self.width);
-        for (curve, &g) in curves.zip(all) {
-            sharing::series(g, joints, mode, &reading, curve);
-            for (c, power) in curve.iter_mut().zip(powers) {
-                *c *= power;
+        for ((curve, &guard), linear) in curves.zip(&self.list).zip(&self.linear) {
+            match linear {
+                Some(linear) => linear.series(&reading, powers, curve),
+                None => sharing::series(guard, &self.joints, mode, &reading, powers, curve),
             }
+        }
+    }
+
+    /// Guard number `index` at the last value of `dynamics`.
+    #[inline]
+    fn value<T: Scalar>(&self, index: usize, mode: &Mode, dynamics: &Dynamics<T>) -> f64 {
+        let reading = Reading::Values(dynamics);
+        match &self.linear[index] {
+            Some(linear) => linear.value(&reading),
+            None => sharing::value(self.list[index], &self.joints, mode, &reading),
         }
     }
 
@@ -115,54 +157,29 @@ impl Curves {
     /// The step is chosen for the coordinates, but a guard is a function of them whose series may converge no further than
     /// a part of it: in free flight the coordinates are polynomials, the distance √(x² + y²) is not. Where the flight passes
     /// through 0 even a series that has ended, and looks exact, goes on along the wrong branch.
+    #[inline(never)]
     pub(super) fn defect<T: Scalar>(
         &self,
         dynamics: &mut Dynamics<T>,
         mode: &Mode,
-        (guards, joints): (&[Guard], &[Joint]),
         s: f64,
         tolerance: f64,
         located: impl Fn(Guard) -> bool,
     ) -> f64 {
-        let all = guards.iter().chain(&self.watches);
-        let curves = self.coefficients.chunks_exact(self.width);
+        if !self.watches.is_empty() {
+            dynamics.report_value();
+        }
         let mut worst = 0.0;
-        let mut reported = false;
-        for (curve, &g) in curves.zip(all) {
-            let located = located(g);
-            // Forces are second derivatives, and the worse for it. Where a guard has been located it has to be exact, else it
-            // only must not be missed.
-            let (share, floor) = match g {
-                Guard::Normal(_)
-                | Guard::StickUpper(_)
-                | Guard::StickLower(_)
-                | Guard::StickCone(_)
-                | Guard::Bearing(_)
-                | Guard::Joint(_)
-                    if located =>
-                {
-                    (10.0, 1e-12)
-                }
-                Guard::Normal(_)
-                | Guard::StickUpper(_)
-                | Guard::StickLower(_)
-                | Guard::StickCone(_)
-                | Guard::Bearing(_)
-                | Guard::Joint(_) => (1e4, 1e-10),
-                _ if located => (0.1, 1e-14),
-                _ => (10.0, 1e-13),
-            };
-            let share = (share * tolerance).max(floor);
-            if !reported && !self.watches.is_empty() {
-                dynamics.report_value();
-                reported = true;
-            }
-            let value = sharing::value(g, joints, mode, &Reading::Values(dynamics));
+        let curves = self.coefficients.chunks_exact(self.width);
+        for (index, (curve, &guard)) in curves.zip(&self.list).enumerate() {
+            let located = located(guard);
+            let (share, floor) = allowance(guard, located);
+            let allowed = (share * tolerance).max(floor);
+            let value = self.value(index, mode, dynamics);
             let found = at(curve, s);
             // Not all coefficients: where the series has stopped converging they are large and cancel.
-            let size = value.abs() + curve.iter().take(2).map(|c| c.abs()).sum::<f64>();
-            let allowed = share * size;
-            let mut ratio = (found - value).abs() / (allowed + 64.0 * f64::EPSILON);
+            let size = value.abs() + (curve[0].abs() + curve[1].abs());
+            let mut ratio = (found - value).abs() / (allowed * size + 64.0 * f64::EPSILON);
             if !located && (found < 0.0) != (value < 0.0) {
                 ratio *= OTHER_SIDE;
             }
@@ -181,19 +198,18 @@ impl Curves {
         &mut self,
         dynamics: &mut Dynamics<T>,
         mode: &Mode,
-        (guards, joints): (&[Guard], &[Joint]),
     ) -> Option<(Guard, f64, f64)> {
         if !self.watches.is_empty() {
             dynamics.report_value();
         }
-        let all = guards.iter().chain(&self.watches);
         let mut broken = None;
-        for (curve, &g) in self.coefficients.chunks_exact_mut(self.width).zip(all) {
-            let value = sharing::value(g, joints, mode, &Reading::Values(dynamics));
+        for index in 0..self.list.len() {
+            let value = self.value(index, mode, dynamics);
+            let curve = &mut self.coefficients[index * self.width..][..self.width];
             curve[1..].fill(0.0);
-            let one_sided = matches!(g, Guard::Gap(_) | Guard::Branch(_));
+            let one_sided = matches!(self.list[index], Guard::Gap(_) | Guard::Branch(_));
             if value.is_nan() || one_sided && value < 0.0 && curve[0] >= 0.0 {
-                broken = broken.or(Some((g, curve[0], value)));
+                broken = broken.or(Some((self.list[index], curve[0], value)));
             }
         }
         broken
@@ -207,7 +223,6 @@ impl Curves {
         &mut self,
         dynamics: &mut Dynamics<T>,
         mode: &Mode,
-        (guards, joints): (&[Guard], &[Joint]),
         step: &StepPolynomial<T>,
         q: &mut [T],
         v: &mut [T],
@@ -215,7 +230,7 @@ impl Curves {
         // A guard bends more than the coordinates that it is made of.
         let m = (step.degree + 1).max(FEWEST_SAMPLES);
         self.prepare(m);
-        self.shape(guards.len(), m);
+        self.shape(m);
         self.coefficients.fill(0.0);
         if self.coefficients.is_empty() {
             return Ok(());
@@ -229,11 +244,9 @@ impl Curves {
             }
             // Stops and marks read the tape after the solve.
             dynamics.report_value();
-            let reading = Reading::Values(dynamics);
-            let all = guards.iter().chain(&self.watches);
-            let curves = self.coefficients.chunks_exact_mut(m);
-            for (curve, &g) in curves.zip(all) {
-                let sample = sharing::value(g, joints, mode, &reading);
+            for index in 0..self.list.len() {
+                let sample = self.value(index, mode, dynamics);
+                let curve = &mut self.coefficients[index * m..][..m];
                 for (c, row) in curve.iter_mut().zip(self.matrix.chunks_exact(m)) {
                     *c += row[j] * sample;
                 }
@@ -269,5 +282,28 @@ impl Curves {
                 self.matrix[k * m + j] = c;
             }
         }
+    }
+}
+
+/// Error that a guard may have at the end of a step: in units of the tolerance, and at least.
+///
+/// Forces are second derivatives, and the worse for it. Where a guard has been located it has to be exact, else it only must not
+/// be missed.
+#[inline]
+fn allowance(guard: Guard, located: bool) -> (f64, f64) {
+    let is_force = matches!(
+        guard,
+        Guard::Normal(_)
+            | Guard::StickUpper(_)
+            | Guard::StickLower(_)
+            | Guard::StickCone(_)
+            | Guard::Bearing(_)
+            | Guard::Joint(_)
+    );
+    match (is_force, located) {
+        (true, true) => (10.0, 1e-12),
+        (true, false) => (1e4, 1e-10),
+        (false, true) => (0.1, 1e-14),
+        (false, false) => (10.0, 1e-13),
     }
 }

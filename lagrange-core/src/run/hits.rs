@@ -2,7 +2,7 @@
 
 use super::Run;
 use crate::arithmetic::Scalar;
-use crate::events::{Direction, RootList, deflate, first_root, roots};
+use crate::events::{Direction, RootList, deflate, first_root, keeps_its_sign, roots};
 use crate::integrate::polynomial_sum as sum;
 use crate::mode::{FrictionMode, Mode};
 use crate::modes::guard::{Guard, LENGTH};
@@ -37,17 +37,41 @@ impl Hit {
 }
 
 impl<T: Scalar> Run<T> {
+    /// Whether nothing can happen within the step because all guards, stops and marks keep their sign by far: a bound that most
+    /// steps satisfy.
+    #[inline(never)]
+    pub(super) fn nothing_happens(&self) -> bool {
+        let stays = |(guard, curve): (Guard, &[f64])| {
+            let known = self.zeros.iter().find(|(g, _)| *g == guard);
+            let curve = deflate(curve, known.map_or(0, |(_, order)| *order));
+            curve.is_empty()
+                || curve[0] > 0.0 && keeps_its_sign(curve, CLEAR)
+                || self.is_edge_in_flight(guard)
+        };
+        let d = self.description();
+        let rests = |&i: &usize| {
+            let terms = 0..d.stops[i].terms.len();
+            !holds(&d.stops[i], &self.mode)
+                || terms.into_iter().all(|k| {
+                    let curve = self.curves.stop_term(i, k);
+                    keeps_its_sign(curve, CLEAR) && (curve[0] > 0.0) != self.stop_below[i][k]
+                })
+        };
+        self.curves.of_mode().all(stays) && self.curves.stops.iter().all(rests)
+    }
+
     /// Finds what happens first within the step.
     pub(super) fn first_hit(&mut self) -> Hit {
         self.falls.clear();
         let mut first = f64::INFINITY;
-        for k in 0..self.guards.len() {
-            let guard = self.guards[k];
-            if let Some((s, width)) = self.fall(guard, self.curves.mode_guard(k)) {
-                self.falls.push((guard, s, width));
+        let mut falls = core::mem::take(&mut self.falls);
+        for (guard, curve) in self.curves.of_mode() {
+            if let Some((s, width)) = self.fall(guard, curve) {
+                falls.push((guard, s, width));
                 first = first.min(s + width);
             }
         }
+        self.falls = falls;
         // Roots whose enclosures overlap with that of the earliest cannot be told apart from it, nor can those at a
         // distance that time does not resolve.
         let h = self.step.h.value();
@@ -130,12 +154,11 @@ impl<T: Scalar> Run<T> {
 
     /// Whether the step is so long that rounding hides how a guard begins that falls in it.
     pub(super) fn hides_a_start(&self) -> bool {
-        let mut guards = self.guards.iter().enumerate();
-        guards.any(|(k, &guard)| {
+        self.curves.of_mode().any(|(guard, curve)| {
             if self.is_edge_in_flight(guard) || !self.within_region(guard, 0.0) {
                 return false;
             }
-            let curve = self.judged(guard, self.curves.mode_guard(k));
+            let curve = self.judged(guard, curve);
             curve.is_some_and(|curve| hides_its_start(guard, curve))
         })
     }

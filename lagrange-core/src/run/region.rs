@@ -29,7 +29,7 @@ impl<T: Scalar> Run<T> {
             return true;
         };
         let edge = Guard::Region(c);
-        let Some(k) = self.guards.iter().position(|g| *g == edge) else {
+        let Some(k) = self.curves.guards().iter().position(|g| *g == edge) else {
             return true;
         };
         // Just after the edge has been located, the side that the motion goes to.
@@ -42,8 +42,8 @@ impl<T: Scalar> Run<T> {
         if end == 0.0 {
             return;
         }
-        for k in 0..self.guards.len() {
-            let guard = self.guards[k];
+        for k in 0..self.curves.guards().len() {
+            let guard = self.curves.guards()[k];
             let Guard::Gap(c) = guard else {
                 continue;
             };

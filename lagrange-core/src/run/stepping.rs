@@ -71,16 +71,20 @@ impl<T: Scalar> Run<T> {
                 return Err(self.step_too_small(h));
             }
             self.write_polynomial(h, self.order);
-            let guards = (&self.guards[..], &self.joints[..]);
             self.curves
-                .take_series(&self.dynamics, &self.mode, guards, &self.powers);
+                .take_series(&self.dynamics, &self.mode, &self.powers);
             let shorter = CLOSER_LOOK * h;
             let resolved = self.t.value() + shorter > self.t.value() && shorter > CLOSEST * longest;
-            if resolved && self.hides_a_start() {
+            let hit = if self.nothing_happens() {
+                self.fallen.clear();
+                self.rests.clear();
+                Hit::Nothing
+            } else if resolved && self.hides_a_start() {
                 h = shorter;
                 continue;
-            }
-            let hit = self.first_hit();
+            } else {
+                self.first_hit()
+            };
             let end = hit.end();
             if end == 0.0 {
                 return Ok(hit);
@@ -94,14 +98,12 @@ impl<T: Scalar> Run<T> {
             let (motion, guards) = if self.evaluate_end(looked).is_ok() {
                 let accelerations = self.dynamics.acceleration();
                 let motion = taylor::defect(&self.step, looked, accelerations, self.tolerance);
-                let guards = (&self.guards[..], &self.joints[..]);
                 let tolerance = self.tolerance.relative;
                 let (curves, fallen) = (&self.curves, &self.fallen);
                 let stops = matches!(hit, Hit::Stop(..));
                 let located = |g| fallen.contains(&g) || stops && matches!(g, Guard::Stop(..));
                 let dynamics = &mut self.dynamics;
-                let guards =
-                    curves.defect(dynamics, &self.mode, guards, looked, tolerance, located);
+                let guards = curves.defect(dynamics, &self.mode, looked, tolerance, located);
                 (motion, guards)
             } else {
                 (f64::INFINITY, f64::INFINITY)
@@ -158,9 +160,8 @@ impl<T: Scalar> Run<T> {
     /// Beyond the break a guard is no number, or a gap or the guard of a branch has jumped below zero.
     fn pass_break(&mut self) -> Result<Hit, Error> {
         self.evaluate_end(1.0).map_err(|e| self.error(e))?;
-        let guards = (&self.guards[..], &self.joints[..]);
         let (curves, dynamics) = (&mut self.curves, &mut self.dynamics);
-        if let Some((guard, before, after)) = curves.hold(dynamics, &self.mode, guards) {
+        if let Some((guard, before, after)) = curves.hold(dynamics, &self.mode) {
             let d = self.description();
             let item = guard.name(d).unwrap_or(d.name);
             return Err(if after.is_nan() {
@@ -269,7 +270,6 @@ impl<T: Scalar> Run<T> {
             let sampled = self.curves.sample(
                 &mut self.dynamics,
                 &self.mode,
-                (&self.guards, &self.joints),
                 &self.step,
                 &mut self.scratch.q,
                 &mut self.scratch.v,
@@ -296,7 +296,7 @@ impl<T: Scalar> Run<T> {
             return Ok(hit);
         };
         let (located, mut s) = (*located, *located);
-        let Some(k) = self.guards.iter().position(|g| *g == guard) else {
+        let Some(k) = self.curves.guards().iter().position(|g| *g == guard) else {
             return Ok(hit);
         };
         let slope = |s: f64, curve: &[f64]| {
