@@ -10,6 +10,7 @@
 //! read, and each predicts the last term by the decay that the others show. Independently of all coefficients,
 //! [`defect`] compares the series' acceleration at the end with a fresh evaluation.
 
+use super::polynomial::ORDERS;
 use super::{StepPolynomial, Tolerance};
 use crate::arithmetic::Scalar;
 
@@ -45,28 +46,27 @@ pub fn step_size<T: Scalar>(
     tolerance: Tolerance,
 ) -> Option<f64> {
     let first = (order / 2).max(3).min(order);
-    let mut sizes = [0.0; MAX_ORDER + 1];
-    let sizes = &mut sizes[..order + 1 - first];
-    // The sum of zeros is zero unless one of the factors is not finite.
-    let mut poison = [0.0; 4];
+    let mut sizes = [[0.0; 4]; (MAX_ORDER + 4) / 4];
+    let mut sum = [0.0; 4];
     for i in 0..series.coordinates() {
         for row in [series.position(i), series.velocity(i)] {
             let limit = 1.0 / tolerance.scale(row[0].value().abs());
-            let (fours, end) = sizes.as_chunks_mut::<4>();
-            let (c, c_end) = row[first..=order].as_chunks::<4>();
-            for (four, c) in fours.iter_mut().zip(c) {
+            let (fours, end) = row[first..=order].as_chunks::<4>();
+            let (size_fours, size_end) = sizes.split_at_mut(fours.len());
+            for (four, c) in size_fours.iter_mut().zip(fours) {
                 let ratios = c.map(|c| c.value().abs() * limit);
-                poison = core::array::from_fn(|i| poison[i] + 0.0 * ratios[i]);
+                sum = core::array::from_fn(|i| sum[i] + ratios[i]);
                 *four = core::array::from_fn(|i| larger(ratios[i], four[i]));
             }
-            for (size, c) in end.iter_mut().zip(c_end) {
+            for (size, c) in size_end.as_flattened_mut().iter_mut().zip(end) {
                 let ratio = c.value().abs() * limit;
-                poison[0] += 0.0 * ratio;
+                sum[0] += ratio;
                 *size = larger(ratio, *size);
             }
         }
     }
-    let finite = poison.iter().sum::<f64>() == 0.0;
+    let sizes = &sizes.as_flattened()[..order + 1 - first];
+    let finite = sum.iter().sum::<f64>().is_finite();
     finite.then(|| step_from_sizes(sizes, first, tolerance.strictness()))
 }
 
@@ -129,17 +129,6 @@ fn larger(x: f64, y: f64) -> f64 {
     if x > y { x } else { y }
 }
 
-/// k as a number.
-const ORDERS: [f64; MAX_ORDER + 1] = {
-    let mut table = [0.0; MAX_ORDER + 1];
-    let mut k = 1;
-    while k <= MAX_ORDER {
-        table[k] = k as f64;
-        k += 1;
-    }
-    table
-};
-
 /// 1/k
 const RECIPROCALS: [f64; MAX_ORDER + 1] = {
     let mut table = [0.0; MAX_ORDER + 1];
@@ -167,15 +156,36 @@ fn rough_log2(x: f64) -> f64 {
 /// The remainder of v behaves like s^(order+1), so its derivative, which is what the comparison shows, is
 /// (order + 1)/(h s) times larger. What rounding explains is subtracted. Above 1 (or not a number) the step must be
 /// repeated: [`DefectControl`] says how.
-#[inline(never)]
 pub fn defect<T: Scalar>(step: &StepPolynomial<T>, s: f64, dv: &[T], tolerance: Tolerance) -> f64 {
+    defect_by(step, s, dv, tolerance, |row, _| derivative_value(row, s, |c| c))
+}
+
+/// [`defect`] at the end of the step, given the changes per step Σ k vₖ of all velocities there.
+#[inline(never)]
+pub(crate) fn defect_at_end<T: Scalar>(
+    step: &StepPolynomial<T>,
+    slopes: &[f64],
+    dv: &[T],
+    tolerance: Tolerance,
+) -> f64 {
+    defect_by(step, 1.0, dv, tolerance, |_, i| slopes[i])
+}
+
+#[inline(always)]
+fn defect_by<T: Scalar>(
+    step: &StepPolynomial<T>,
+    s: f64,
+    dv: &[T],
+    tolerance: Tolerance,
+    slope: impl Fn(&[T], usize) -> f64,
+) -> f64 {
     const ROUNDING: f64 = 16.0 * f64::EPSILON;
-    let h = step.h.value();
-    let share = s / (step.degree + 1) as f64;
+    let (h, width) = (step.h.value(), step.degree + 1);
+    let share = s / width as f64;
     let mut worst = 0.0;
-    for (row, dv) in step.v.chunks_exact(step.degree + 1).zip(dv) {
-        let expected = derivative_value(row, s, |c| c);
-        let error = (h * dv.value() - expected).abs();
+    for (i, dv) in dv.iter().enumerate() {
+        let row = &step.v[i * width..][..width];
+        let error = (h * dv.value() - slope(row, i)).abs();
         let limit = tolerance.scale(row[0].value().abs() + s * row[1].value().abs());
         let mut ratio = share * error / limit;
         if ratio > 1.0 {
@@ -190,26 +200,9 @@ pub fn defect<T: Scalar>(step: &StepPolynomial<T>, s: f64, dv: &[T], tolerance: 
 }
 
 /// Σ k f(cₖ) sᵏ⁻¹
-#[inline(always)]
 fn derivative_value<T: Scalar>(row: &[T], s: f64, f: impl Fn(f64) -> f64) -> f64 {
-    if s == 1.0 {
-        // In four chains, so that no addition waits for the one before.
-        let mut sums = [0.0; 4];
-        let (fours, end) = row[1..].as_chunks::<4>();
-        let (orders, orders_end) = ORDERS[1..row.len()].as_chunks::<4>();
-        for (four, k) in fours.iter().zip(orders) {
-            sums = core::array::from_fn(|i| sums[i] + k[i] * f(four[i].value()));
-        }
-        for ((sum, c), k) in sums.iter_mut().zip(end).zip(orders_end) {
-            *sum += k * f(c.value());
-        }
-        return (sums[2] + sums[3]) + (sums[0] + sums[1]);
-    }
-    let mut k = row.len() as f64;
-    row[1..].iter().rev().fold(0.0, |sum, c| {
-        k -= 1.0;
-        sum * s + k * f(c.value())
-    })
+    let terms = row.iter().zip(&ORDERS).skip(1).rev();
+    terms.fold(0.0, |sum, (c, k)| sum * s + k * f(c.value()))
 }
 
 /// What to do after a [`defect`].

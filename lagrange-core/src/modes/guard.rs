@@ -14,6 +14,7 @@
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, NeedSet};
 use crate::effects::Item;
+use crate::integrate::polynomial_sum;
 use crate::mode::{Direction, FrictionMode, Mode, Sliding};
 use crate::modes::reading::{Reading, Terms};
 use crate::system::{Description, Friction, Normal, Place};
@@ -208,27 +209,20 @@ impl Linear {
 
     /// See [`series`].
     #[inline]
-    pub fn series<T: Scalar>(&self, reading: &Reading<T>, powers: &[f64], out: &mut [f64]) {
+    pub fn series<T: Scalar>(&self, reading: &Reading<T>, powers: &[f64], out: &mut [f64]) -> Sums {
         let (a, x) = self.first;
         let second = self.second.map(|(b, y)| (b, y.read(reading)));
         match (x.read(reading), second) {
-            (Terms::Many(x), None) => {
-                let x = &x[..out.len()];
-                for ((c, x), p) in out.iter_mut().zip(x).zip(powers) {
-                    *c = a * x.value() * p;
-                }
-            }
+            (Terms::Many(x), None) => combine::<T, false>(out, (a, x), (0.0, x), powers),
             (Terms::Many(x), Some((b, Terms::Many(y)))) => {
-                let (x, y) = (&x[..out.len()], &y[..out.len()]);
-                for (((c, x), y), p) in out.iter_mut().zip(x).zip(y).zip(powers) {
-                    *c = (a * x.value() + b * y.value()) * p;
-                }
+                combine::<T, true>(out, (a, x), (b, y), powers)
             }
             (x, second) => {
                 out.fill(0.0);
                 add(out, (a, x));
                 second.into_iter().for_each(|part| add(out, part));
                 scale(out, powers);
+                Sums::of(out)
             }
         }
     }
@@ -238,6 +232,65 @@ impl Linear {
     pub fn value<T: Scalar>(&self, reading: &Reading<T>) -> f64 {
         let number = |(a, x): (f64, Source)| a * x.read(reading).first().value();
         number(self.first) + self.second.map_or(0.0, number)
+    }
+}
+
+/// Sums of the coefficients of a guard.
+#[derive(Clone, Copy, Debug)]
+pub struct Sums {
+    /// Σ cₖ: the guard at the end of the step.
+    pub end: f64,
+    /// Σ |cₖ| without the first two.
+    pub rest: f64,
+}
+
+impl Sums {
+    /// Of these coefficients.
+    pub fn of(c: &[f64]) -> Self {
+        Self {
+            end: polynomial_sum(c),
+            rest: c.iter().skip(2).map(|c| c.abs()).sum(),
+        }
+    }
+}
+
+/// (a xₖ + b yₖ) pₖ, the second term only if there are `TWO`.
+#[inline]
+fn combine<T: Scalar, const TWO: bool>(
+    out: &mut [f64],
+    (a, x): (f64, &[T]),
+    (b, y): (f64, &[T]),
+    powers: &[f64],
+) -> Sums {
+    let count = out.len();
+    let term = |x: T, y: T, power: f64| match TWO {
+        true => (a * x.value() + b * y.value()) * power,
+        false => a * x.value() * power,
+    };
+    let (first, out) = out.split_at_mut(2);
+    first[0] = term(x[0], y[0], powers[0]);
+    first[1] = term(x[1], y[1], powers[1]);
+    let (out, out_end) = out.as_chunks_mut::<4>();
+    let (x, x_end) = x[2..count].as_chunks::<4>();
+    let (y, y_end) = y[2..count].as_chunks::<4>();
+    let (p, p_end) = powers[2..count].as_chunks::<4>();
+    let (mut sums, mut sizes) = ([0.0; 4], [0.0; 4]);
+    for i in (0..out.len()).rev() {
+        let c: [f64; 4] = core::array::from_fn(|j| term(x[i][j], y[i][j], p[i][j]));
+        out[i] = c;
+        sums = core::array::from_fn(|j| sums[j] + c[j]);
+        sizes = core::array::from_fn(|j| sizes[j] + c[j].abs());
+    }
+    let mut end = 0.0;
+    for i in (0..out_end.len()).rev() {
+        let c = term(x_end[i], y_end[i], p_end[i]);
+        out_end[i] = c;
+        end += c;
+        sizes[i] += c.abs();
+    }
+    Sums {
+        end: (sums[0] + sums[2]) + (sums[1] + sums[3]) + end + first[1] + first[0],
+        rest: (sizes[0] + sizes[2]) + (sizes[1] + sizes[3]),
     }
 }
 
@@ -251,7 +304,7 @@ pub fn series<T: Scalar>(
     out: &mut [f64],
 ) {
     match Linear::of(guard, mode, reading.dynamics()) {
-        Some(linear) => linear.series(reading, powers, out),
+        Some(linear) => _ = linear.series(reading, powers, out),
         None => {
             out.fill(0.0);
             of_products(guard, mode, reading, out);

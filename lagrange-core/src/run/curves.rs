@@ -3,13 +3,14 @@
 //! With Taylor series they come exactly, from the coefficients of the step. With a Runge–Kutta method the guards are
 //! evaluated at the Chebyshev–Lobatto points of the dense output and interpolated.
 
-use super::hits::value as at;
+use super::hits::{CLEAR, value as at};
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError};
 use crate::effects::{Effects, Item};
 use crate::integrate::StepPolynomial;
 use crate::mode::Mode;
-use crate::modes::guard::{Guard, Linear};
+use crate::events::{deflate, keeps_its_sign};
+use crate::modes::guard::{Guard, Linear, Sums};
 use crate::modes::reading::Reading;
 use crate::modes::sharing::{self, Joint};
 use crate::system::Description;
@@ -20,15 +21,23 @@ const OTHER_SIDE: f64 = 1e3;
 /// Samples of a guard in a step of a Runge–Kutta method, at least.
 const FEWEST_SAMPLES: usize = 8;
 
+/// A guard over a step.
+#[derive(Clone, Copy, Debug)]
+struct Curve {
+    guard: Guard,
+    /// What it is made of, where that does not change along the mode.
+    linear: Option<Linear>,
+    /// Of its coefficients, with Taylor series.
+    sums: Sums,
+}
+
 /// The guards of a mode and what is watched beside, with their polynomials over a step.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Curves {
     /// Guards of the mode, stops, marks.
-    list: Vec<Guard>,
+    list: Vec<Curve>,
     /// Number of guards of the mode.
     count: usize,
-    /// What each is made of, where that does not change along the mode.
-    linear: Vec<Option<Linear>>,
     /// Guards of undetermined forces that have been met in this mode.
     pub(super) joints: Vec<Joint>,
     /// One after the other, each of `width` coefficients.
@@ -76,34 +85,38 @@ impl Curves {
         mode: &Mode,
         dynamics: &Dynamics<T>,
     ) {
+        let joints = (0..self.joints.len()).map(Guard::Joint);
+        let guards = guards.chain(joints).map(|guard| (guard, true));
+        let watches = self.watches.iter().map(|&guard| (guard, false));
         self.list.clear();
-        self.list.extend(guards);
-        self.list.extend((0..self.joints.len()).map(Guard::Joint));
-        self.count = self.list.len();
-        self.list.extend_from_slice(&self.watches);
-        self.linear.clear();
-        let linear = self.list.iter().map(|&g| Linear::of(g, mode, dynamics));
-        self.linear.extend(linear);
-    }
-
-    /// The guards of the mode.
-    pub(super) fn guards(&self) -> &[Guard] {
-        &self.list[..self.count]
+        self.count = 0;
+        for (guard, of_mode) in guards.chain(watches) {
+            self.count += usize::from(of_mode);
+            self.list.push(Curve {
+                guard,
+                linear: Linear::of(guard, mode, dynamics),
+                sums: Sums {
+                    end: 0.0,
+                    rest: f64::INFINITY,
+                },
+            });
+        }
     }
 
     /// The guards of the mode with their polynomials.
     pub(super) fn of_mode(&self) -> impl Iterator<Item = (Guard, &[f64])> {
         let curves = self.coefficients.chunks_exact(self.width.max(1));
-        self.guards().iter().copied().zip(curves)
+        let guards = self.list[..self.count].iter().map(|curve| curve.guard);
+        guards.zip(curves)
+    }
+
+    /// The polynomial of a guard, if it is one of the mode.
+    pub(super) fn of(&self, guard: Guard) -> Option<&[f64]> {
+        self.of_mode().find(|(g, _)| *g == guard).map(|(_, c)| c)
     }
 
     fn curve(&self, index: usize) -> &[f64] {
         &self.coefficients[index * self.width..][..self.width]
-    }
-
-    /// Guard `k` of the mode.
-    pub(super) fn mode_guard(&self, k: usize) -> &[f64] {
-        self.curve(k)
     }
 
     /// Term `k` of stop `i`.
@@ -132,22 +145,56 @@ impl Curves {
     ) {
         let reading = Reading::Series(dynamics);
         self.shape(powers.len());
-        let curves = self.coefficients.chunks_exact_mut(self.width);
-        for ((curve, &guard), linear) in curves.zip(&self.list).zip(&self.linear) {
-            match linear {
-                Some(linear) => linear.series(&reading, powers, curve),
-                None => sharing::series(guard, &self.joints, mode, &reading, powers, curve),
-            }
+        let coefficients = self.coefficients.chunks_exact_mut(self.width);
+        for (c, curve) in coefficients.zip(&mut self.list) {
+            curve.sums = match &curve.linear {
+                Some(linear) => linear.series(&reading, powers, c),
+                None => {
+                    sharing::series(curve.guard, &self.joints, mode, &reading, powers, c);
+                    Sums::of(c)
+                }
+            };
         }
+    }
+
+    /// Whether guard number `index` stays positive for certain, also without the first `known` coefficients, which are residues.
+    fn stays_positive(&self, index: usize, known: usize) -> bool {
+        let c = deflate(self.curve(index), known);
+        let rest = match known {
+            0 => self.list[index].sums.rest,
+            _ => c.iter().skip(2).map(|c| c.abs()).sum(),
+        };
+        c.is_empty() || c[0] > 0.0 && keeps_its_sign(c, rest, CLEAR)
+    }
+
+    /// Whether all guards of the mode stay positive within the step for certain, but those of which that does not matter.
+    /// `zeros` tells how many first coefficients are residues.
+    pub(super) fn all_stay(
+        &self,
+        zeros: &[(Guard, usize)],
+        matters: impl Fn(Guard) -> bool,
+    ) -> bool {
+        (0..self.count).all(|index| {
+            let guard = self.list[index].guard;
+            let known = zeros.iter().find(|(g, _)| *g == guard);
+            self.stays_positive(index, known.map_or(0, |(_, order)| *order)) || !matters(guard)
+        })
+    }
+
+    /// Whether term `k` of stop `i` keeps its sign within the step for certain, and the one that it had before.
+    pub(super) fn stop_stays(&self, i: usize, k: usize, was_below: bool) -> bool {
+        let index = self.count + self.first_stop[i] + k;
+        let c = self.curve(index);
+        keeps_its_sign(c, self.list[index].sums.rest, CLEAR) && (c[0] < 0.0) == was_below
     }
 
     /// Guard number `index` at the last value of `dynamics`.
     #[inline]
     fn value<T: Scalar>(&self, index: usize, mode: &Mode, dynamics: &Dynamics<T>) -> f64 {
         let reading = Reading::Values(dynamics);
-        match &self.linear[index] {
+        match &self.list[index].linear {
             Some(linear) => linear.value(&reading),
-            None => sharing::value(self.list[index], &self.joints, mode, &reading),
+            None => sharing::value(self.list[index].guard, &self.joints, mode, &reading),
         }
     }
 
@@ -170,15 +217,15 @@ impl Curves {
             dynamics.report_value();
         }
         let mut worst = 0.0;
-        let curves = self.coefficients.chunks_exact(self.width);
-        for (index, (curve, &guard)) in curves.zip(&self.list).enumerate() {
-            let located = located(guard);
-            let (share, floor) = allowance(guard, located);
+        for (index, curve) in self.list.iter().enumerate() {
+            let c = self.curve(index);
+            let located = located(curve.guard);
+            let (share, floor) = allowance(curve.guard, located);
             let allowed = (share * tolerance).max(floor);
             let value = self.value(index, mode, dynamics);
-            let found = at(curve, s);
+            let found = if s == 1.0 { curve.sums.end } else { at(c, s) };
             // Not all coefficients: where the series has stopped converging they are large and cancel.
-            let size = value.abs() + (curve[0].abs() + curve[1].abs());
+            let size = value.abs() + (c[0].abs() + c[1].abs());
             let mut ratio = (found - value).abs() / (allowed * size + 64.0 * f64::EPSILON);
             if !located && (found < 0.0) != (value < 0.0) {
                 ratio *= OTHER_SIDE;
@@ -207,9 +254,10 @@ impl Curves {
             let value = self.value(index, mode, dynamics);
             let curve = &mut self.coefficients[index * self.width..][..self.width];
             curve[1..].fill(0.0);
-            let one_sided = matches!(self.list[index], Guard::Gap(_) | Guard::Branch(_));
+            let guard = self.list[index].guard;
+            let one_sided = matches!(guard, Guard::Gap(_) | Guard::Branch(_));
             if value.is_nan() || one_sided && value < 0.0 && curve[0] >= 0.0 {
-                broken = broken.or(Some((self.list[index], curve[0], value)));
+                broken = broken.or(Some((guard, curve[0], value)));
             }
         }
         broken

@@ -2,7 +2,7 @@
 
 use super::Run;
 use crate::arithmetic::Scalar;
-use crate::events::{Direction, RootList, deflate, first_root, keeps_its_sign, roots};
+use crate::events::{Direction, RootList, deflate, first_root, roots};
 use crate::integrate::polynomial_sum as sum;
 use crate::mode::{FrictionMode, Mode};
 use crate::modes::guard::{Guard, LENGTH};
@@ -11,7 +11,7 @@ use crate::system::{Condition, Watch};
 /// Coefficients this much smaller than all together cannot be told from 0: some degrees times rounding.
 const RESOLUTION: f64 = 1e-13;
 /// From here on they can.
-const CLEAR: f64 = 1e-10;
+pub(super) const CLEAR: f64 = 1e-10;
 
 /// What happens first within a step.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,23 +41,15 @@ impl<T: Scalar> Run<T> {
     /// steps satisfy.
     #[inline(never)]
     pub(super) fn nothing_happens(&self) -> bool {
-        let stays = |(guard, curve): (Guard, &[f64])| {
-            let known = self.zeros.iter().find(|(g, _)| *g == guard);
-            let curve = deflate(curve, known.map_or(0, |(_, order)| *order));
-            curve.is_empty()
-                || curve[0] > 0.0 && keeps_its_sign(curve, CLEAR)
-                || self.is_edge_in_flight(guard)
-        };
+        let matters = |guard| !self.is_edge_in_flight(guard);
         let d = self.description();
-        let rests = |&i: &usize| {
-            let terms = 0..d.stops[i].terms.len();
+        let stays = |&i: &usize| {
+            let below = &self.stop_below[i];
+            let mut terms = below.iter().enumerate();
             !holds(&d.stops[i], &self.mode)
-                || terms.into_iter().all(|k| {
-                    let curve = self.curves.stop_term(i, k);
-                    keeps_its_sign(curve, CLEAR) && (curve[0] > 0.0) != self.stop_below[i][k]
-                })
+                || terms.all(|(k, &below)| self.curves.stop_stays(i, k, below))
         };
-        self.curves.of_mode().all(stays) && self.curves.stops.iter().all(rests)
+        self.curves.all_stay(&self.zeros, matters) && self.curves.stops.iter().all(stays)
     }
 
     /// Finds what happens first within the step.

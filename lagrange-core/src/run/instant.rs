@@ -47,9 +47,9 @@ impl<T: Scalar> Run<T> {
                 if let Some(rest) = self.rests.first() {
                     (Guard::Slip(rest.friction), rest.slope * h)
                 } else if let Some(&guard) = self.fallen.first()
-                    && let Some(k) = self.curves.guards().iter().position(|g| *g == guard)
+                    && let Some(curve) = self.curves.of(guard)
                 {
-                    (guard, slope(self.curves.mode_guard(k), end))
+                    (guard, slope(curve, end))
                 } else {
                     return T::from_f64(end);
                 }

@@ -106,6 +106,8 @@ pub(crate) struct Run<T: Scalar> {
     powers: Vec<f64>,
     curves: Curves,
     scratch: State<T>,
+    /// Σ k vₖ of the polynomials of the velocities.
+    slopes: Vec<f64>,
     survey: Survey,
     collider: Collider<T>,
     /// Contacts whose gap vanishes at an impact.
@@ -154,6 +156,7 @@ impl<T: Scalar> Run<T> {
             t: zero,
             end: 0.0,
             scratch: state.clone(),
+            slopes: vec![0.0; n],
             before: Before {
                 mode: mode.clone(),
                 state: state.clone(),

@@ -29,11 +29,11 @@ impl<T: Scalar> Run<T> {
             return true;
         };
         let edge = Guard::Region(c);
-        let Some(k) = self.curves.guards().iter().position(|g| *g == edge) else {
+        let Some(curve) = self.curves.of(edge) else {
             return true;
         };
         // Just after the edge has been located, the side that the motion goes to.
-        self.judged(edge, self.curves.mode_guard(k))
+        self.judged(edge, curve)
             .is_none_or(|curve| value(curve, s) >= 0.0)
     }
 
@@ -42,21 +42,21 @@ impl<T: Scalar> Run<T> {
         if end == 0.0 {
             return;
         }
-        for k in 0..self.curves.guards().len() {
-            let guard = self.curves.guards()[k];
+        let mut below = core::mem::take(&mut self.below);
+        for (guard, curve) in self.curves.of_mode() {
             let Guard::Gap(c) = guard else {
                 continue;
             };
             if self.description().contacts[c].region.is_none() || self.fallen.contains(&guard) {
                 continue;
             }
-            let curve = self.curves.mode_guard(k);
             let gap = value(curve, end);
             let size: f64 = curve.iter().map(|c| c.abs()).sum();
             // Within the region it can only be a root that rounding has put into the next step.
             let passed = gap < -1e-9 * size || !self.within_region(guard, end);
-            self.below[c] = gap < 0.0 && (self.below[c] || passed);
+            below[c] = gap < 0.0 && (below[c] || passed);
         }
+        self.below = below;
     }
 
     /// At an edge the next surface may begin without a step: closes contacts whose gaps vanish where their regions begin.

@@ -8,7 +8,7 @@ use crate::arithmetic::Scalar;
 use crate::dynamics::EvaluationError;
 use crate::error::Error;
 use crate::integrate::taylor::{self, DefectControl, Verdict};
-use crate::integrate::{Integrator, Method, StepError, scale_coefficients};
+use crate::integrate::{Integrator, Method, StepError, onto_step};
 use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
 use crate::trajectory::State;
@@ -75,7 +75,8 @@ impl<T: Scalar> Run<T> {
                 .take_series(&self.dynamics, &self.mode, &self.powers);
             let shorter = CLOSER_LOOK * h;
             let resolved = self.t.value() + shorter > self.t.value() && shorter > CLOSEST * longest;
-            let hit = if self.nothing_happens() {
+            let whole = self.nothing_happens();
+            let hit = if whole {
                 self.fallen.clear();
                 self.rests.clear();
                 Hit::Nothing
@@ -95,18 +96,12 @@ impl<T: Scalar> Run<T> {
             } else {
                 JUST_BEFORE * end
             };
-            let (motion, guards) = if self.evaluate_end(looked).is_ok() {
-                let accelerations = self.dynamics.acceleration();
-                let motion = taylor::defect(&self.step, looked, accelerations, self.tolerance);
-                let tolerance = self.tolerance.relative;
-                let (curves, fallen) = (&self.curves, &self.fallen);
-                let stops = matches!(hit, Hit::Stop(..));
-                let located = |g| fallen.contains(&g) || stops && matches!(g, Guard::Stop(..));
-                let dynamics = &mut self.dynamics;
-                let guards = curves.defect(dynamics, &self.mode, looked, tolerance, located);
-                (motion, guards)
-            } else {
-                (f64::INFINITY, f64::INFINITY)
+            if !whole {
+                self.state_at_end(looked);
+            }
+            let (motion, guards) = match self.evaluate_scratch(looked) {
+                Ok(()) => (self.motion_defect(whole, looked), self.guard_defect(&hit, looked)),
+                Err(_) => (f64::INFINITY, f64::INFINITY),
             };
             // Not the larger of a number and a NaN, which would be the number.
             let defect = if guards <= motion { motion } else { guards };
@@ -181,9 +176,33 @@ impl<T: Scalar> Run<T> {
         Ok(Hit::Nothing)
     }
 
+    /// How far the motion is off at part `looked` of the step, the end of it if it is a `whole` one, in units of what is allowed.
+    fn motion_defect(&self, whole: bool, looked: f64) -> f64 {
+        let (step, accelerations) = (&self.step, self.dynamics.acceleration());
+        if whole {
+            taylor::defect_at_end(step, &self.slopes, accelerations, self.tolerance)
+        } else {
+            taylor::defect(step, looked, accelerations, self.tolerance)
+        }
+    }
+
+    /// The same of the guards.
+    fn guard_defect(&mut self, hit: &Hit, looked: f64) -> f64 {
+        let (curves, fallen) = (&self.curves, &self.fallen);
+        let stops = matches!(hit, Hit::Stop(..));
+        let located = |g| fallen.contains(&g) || stops && matches!(g, Guard::Stop(..));
+        let tolerance = self.tolerance.relative;
+        curves.defect(&mut self.dynamics, &self.mode, looked, tolerance, located)
+    }
+
     /// The state at part `end` of the step, in `scratch`, and the equations of motion there.
     pub(super) fn evaluate_end(&mut self, end: f64) -> Result<(), EvaluationError> {
         self.state_at_end(end);
+        self.evaluate_scratch(end)
+    }
+
+    /// The equations of motion for the state in `scratch`, that at part `end` of the step.
+    fn evaluate_scratch(&mut self, end: f64) -> Result<(), EvaluationError> {
         let State { q, v } = &self.scratch;
         let time = self.step.time(T::from_f64(end));
         self.dynamics.value_along(time, q, v)
@@ -195,7 +214,9 @@ impl<T: Scalar> Run<T> {
         self.step.state_into(T::from_f64(end), q, v);
     }
 
-    /// Scales the series, up to `degree`, onto a step of length `h`.
+    /// Scales the series, up to `degree`, onto a step of length `h`; the state at its end is left in `scratch`, the changes of
+    /// the velocities per step there in `slopes`.
+    #[inline(never)]
     pub(super) fn write_polynomial(&mut self, h: f64, degree: usize) {
         self.step.set_degree(degree);
         self.step.t = self.t;
@@ -209,8 +230,12 @@ impl<T: Scalar> Run<T> {
         let width = degree + 1;
         let rows = self.step.q.chunks_exact_mut(width);
         for (i, (q, v)) in rows.zip(self.step.v.chunks_exact_mut(width)).enumerate() {
-            scale_coefficients(q, self.dynamics.position_series(i), &self.powers);
-            scale_coefficients(v, self.dynamics.velocity_series(i), &self.powers);
+            let (position, velocity) = (
+                self.dynamics.position_series(i),
+                self.dynamics.velocity_series(i),
+            );
+            (self.scratch.q[i], _) = onto_step::<T, false>(q, position, &self.powers);
+            (self.scratch.v[i], self.slopes[i]) = onto_step::<T, true>(v, velocity, &self.powers);
         }
     }
 
@@ -296,9 +321,9 @@ impl<T: Scalar> Run<T> {
             return Ok(hit);
         };
         let (located, mut s) = (*located, *located);
-        let Some(k) = self.curves.guards().iter().position(|g| *g == guard) else {
+        if self.curves.of(guard).is_none() {
             return Ok(hit);
-        };
+        }
         let slope = |s: f64, curve: &[f64]| {
             let terms = curve.iter().enumerate().skip(1).rev();
             terms.fold(0.0, |sum, (k, c)| sum * s + k as f64 * c)
@@ -306,7 +331,7 @@ impl<T: Scalar> Run<T> {
         for _ in 0..MOST {
             self.evaluate_end(s).map_err(|e| self.error(e))?;
             let value = guard::value(guard, &self.mode, &Reading::Values(&self.dynamics));
-            let change = value / slope(s, self.curves.mode_guard(k));
+            let change = value / self.curves.of(guard).map_or(f64::NAN, |c| slope(s, c));
             let next = s - change;
             // Near a double root, or where it lies in the next step, the interpolation has to do.
             if !(next > 0.0 && next <= 1.0 && (next - located).abs() < 0.1) {
