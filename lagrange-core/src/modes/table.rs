@@ -28,23 +28,24 @@ pub struct Watched {
 #[derive(Clone, Debug, Default)]
 pub struct Table {
     known: Vec<Watched>,
+    /// Index of the one asked for last.
+    last: usize,
 }
 
 impl Table {
-    /// The present mode of `dynamics`.
+    /// The present mode of `dynamics`, looked for first where it was found last.
     pub fn of<T: Scalar>(&mut self, dynamics: &Dynamics<T>) -> &Watched {
-        let known = self
-            .known
-            .iter()
-            .position(|w| w.mode.has_equations_of(dynamics.mode()));
-        let index = known.unwrap_or_else(|| {
-            if self.known.len() == MOST_MODES {
-                self.known.remove(0);
-            }
-            self.known.push(watched(dynamics));
-            self.known.len() - 1
-        });
-        &self.known[index]
+        let serves = |w: &Watched| w.mode.has_equations_of(dynamics.mode());
+        if !self.known.get(self.last).is_some_and(serves) {
+            self.last = self.known.iter().position(serves).unwrap_or_else(|| {
+                if self.known.len() == MOST_MODES {
+                    self.known.remove(0);
+                }
+                self.known.push(watched(dynamics));
+                self.known.len() - 1
+            });
+        }
+        &self.known[self.last]
     }
 }
 

@@ -8,7 +8,6 @@ use crate::mode::{Direction, FrictionMode, Mode, Sliding};
 use crate::modes::guard::Guard;
 use crate::pool::Pool;
 use crate::system::{Description, Normal};
-use core::cmp::Reverse;
 
 /// More candidates than this are not enumerated: some five contacts with friction, or eight without, that may change at
 /// once. Beyond, [`pivot`](super::pivot) finds a mode without looking at all.
@@ -17,42 +16,81 @@ const MOST_CANDIDATES: usize = 256;
 /// Of one friction: stick, and two slips under each of two bearings.
 const MOST_STATES: usize = 5;
 
+/// Modes in order of preference.
+#[derive(Clone, Debug, Default)]
+pub struct Candidates {
+    modes: Pool<Mode>,
+    /// Rank and place of each.
+    order: Vec<(u128, usize)>,
+}
+
+impl Candidates {
+    /// The modes, the preferred ones first.
+    pub fn iter(&self) -> impl Iterator<Item = &Mode> {
+        self.order.iter().map(|&(_, index)| &self.modes[index])
+    }
+
+    /// Puts the modes in order.
+    fn sort(&mut self, here: Juncture<'_, impl Copy>) {
+        self.order.clear();
+        let ranks = self.modes.iter().map(|mode| rank(mode, here));
+        self.order.extend(ranks.zip(0..));
+        self.order.sort_unstable();
+    }
+}
+
+/// What is preferred has the lower rank: closed contacts, frictions that hold, the present mode, few changes.
+fn rank(mode: &Mode, here: Juncture<'_, impl Copy>) -> u128 {
+    /// Bits of each criterion.
+    const BITS: u32 = 24;
+    let Juncture { present, known, .. } = here;
+    let closed = mode.contacts.iter().filter(|c| **c).count();
+    // Frictions that could together hold no longer go together, if they can.
+    let joint = known.located.iter().any(|g| matches!(g, Guard::Joint(_)));
+    let holds = |guard: &&Guard| match **guard {
+        Guard::StickUpper(f) | Guard::StickLower(f) | Guard::StickCone(f) => {
+            mode.frictions[f] == FrictionMode::Stick
+        }
+        _ => false,
+    };
+    let left_behind = match joint {
+        true => known.located.iter().filter(holds).count(),
+        false => 0,
+    };
+    let changes = changes(mode, present);
+    let differs = changes > 0 || mode.branches != present.branches;
+    let most = (1 << BITS) - 1;
+    let criteria = [
+        most - closed,
+        left_behind,
+        most - sticks(mode),
+        usize::from(differs),
+        changes,
+    ];
+    let append = |rank, criterion| rank << BITS | criterion as u128;
+    criteria.into_iter().fold(0, append)
+}
+
 /// All modes that the known facts allow, in order of preference; false if they are too many.
 pub fn list_candidates<T: Scalar>(
     dynamics: &mut Dynamics<T>,
     here: Juncture<'_, T>,
     rows: &NeedSet,
     scratch: &mut Mode,
-    out: &mut Pool<Mode>,
+    out: &mut Candidates,
 ) -> bool {
     look_at_slips(dynamics, here, rows);
-    let Juncture { present, known, .. } = here;
-    out.clear();
+    out.modes.clear();
     let mut listing = Listing {
         choices: Choices { dynamics, here },
-        out,
+        out: &mut out.modes,
     };
-    scratch.clone_from(present);
+    scratch.clone_from(here.present);
     listing.contacts(scratch, 0);
-    if out.len() > MOST_CANDIDATES {
+    if out.modes.len() > MOST_CANDIDATES {
         return false;
     }
-    let closed = |m: &Mode| m.contacts.iter().filter(|c| **c).count();
-    // Frictions that could together hold no longer go together, if they can.
-    let joint = known.located.iter().any(|g| matches!(g, Guard::Joint(_)));
-    let left_behind = |m: &Mode| {
-        let holds = |guard: &&Guard| match **guard {
-            Guard::StickUpper(f) | Guard::StickLower(f) | Guard::StickCone(f) => {
-                joint && m.frictions[f] == FrictionMode::Stick
-            }
-            _ => false,
-        };
-        known.located.iter().filter(holds).count()
-    };
-    out.sort_by_key(|m| {
-        let held = (Reverse(closed(m)), left_behind(m), Reverse(sticks(m)));
-        (held, m != present, changes(m, present))
-    });
+    out.sort(here);
     true
 }
 

@@ -25,9 +25,8 @@ use crate::modes::reading::Reading;
 use crate::modes::scale::Sizes;
 use crate::modes::sharing::{Joint, Sharing};
 use crate::modes::table::Table;
-use crate::pool::Pool;
 use crate::system::Description;
-use candidates::list_candidates;
+use candidates::{Candidates, list_candidates};
 use incipient::Beginning;
 pub use known::{Juncture, Known, Moment};
 
@@ -50,7 +49,7 @@ pub struct Decision {
 pub struct Decider<T> {
     /// What was found last.
     pub decision: Decision,
-    candidates: Pool<Mode>,
+    candidates: Candidates,
     questions: Vec<(Guard, usize)>,
     zeros: Vec<(Guard, usize)>,
     /// What forbids the candidate examined last.
@@ -92,7 +91,7 @@ impl<T: Scalar> Decider<T> {
                 joints: Vec::new(),
                 expanded: false,
             },
-            candidates: Pool::default(),
+            candidates: Candidates::default(),
             questions: Vec::new(),
             zeros: Vec::new(),
             violated: Vec::new(),
@@ -180,7 +179,7 @@ impl<T: Scalar> Decider<T> {
         dynamics: &mut Dynamics<T>,
         table: &mut Table,
         here: Juncture<'_, T>,
-        candidates: &[Mode],
+        candidates: &Candidates,
     ) -> Result<bool, EvaluationError> {
         let (mut best, mut failure) = (None, None);
         // Without friction the accelerations are the only ones that Gauss's principle allows: no other mode has others.
@@ -188,13 +187,13 @@ impl<T: Scalar> Decider<T> {
         let unique = dynamics.description().couplings.is_empty()
             && !here.known.balanced.contains(&true)
             && candidates.iter().all(idle);
-        for (index, mode) in candidates.iter().enumerate() {
+        for mode in candidates.iter() {
             self.tried += 1;
             if here.ends(mode) {
                 continue;
             }
             // Stick is preferred to slip without being ambiguous (μs > μk allows both).
-            if best.is_some_and(|best: usize| unique || sticks(&candidates[best]) > sticks(mode)) {
+            if best.is_some_and(|held| unique || held > sticks(mode)) {
                 continue;
             }
             self.decision.expanded = false;
@@ -203,7 +202,7 @@ impl<T: Scalar> Decider<T> {
             self.decision.expanded &= best.is_none();
             match outcome {
                 Ok(true) if best.is_none() => {
-                    best = Some(index);
+                    best = Some(sticks(mode));
                     self.decision.ambiguous = self.forks;
                     self.keep(dynamics);
                 }
@@ -211,12 +210,12 @@ impl<T: Scalar> Decider<T> {
                     self.decision.ambiguous |= differ(&self.motion, dynamics.acceleration());
                 }
                 Ok(false) => {}
-                Err(error) => failure = Some((index, error)),
+                Err(error) => failure = Some((mode, error)),
             }
         }
         match (best, failure) {
-            (None, Some((index, error))) => {
-                dynamics.set_mode(&candidates[index]);
+            (None, Some((mode, error))) => {
+                dynamics.set_mode(mode);
                 Err(error)
             }
             _ => Ok(best.is_some()),
