@@ -29,6 +29,8 @@ struct Curve {
     linear: Option<Linear>,
     /// Of its coefficients, with Taylor series.
     sums: Sums,
+    /// Whether it stays positive for certain.
+    stays: bool,
 }
 
 /// The guards of a mode and what is watched beside, with their polynomials over a step.
@@ -99,6 +101,7 @@ impl Curves {
                     end: 0.0,
                     rest: f64::INFINITY,
                 },
+                stays: false,
             });
         }
     }
@@ -154,31 +157,40 @@ impl Curves {
                     Sums::of(c)
                 }
             };
+            curve.stays = false;
         }
     }
 
-    /// Whether guard number `index` stays positive for certain, also without the first `known` coefficients, which are residues.
-    fn stays_positive(&self, index: usize, known: usize) -> bool {
-        let c = deflate(self.curve(index), known);
-        let rest = match known {
-            0 => self.list[index].sums.rest,
-            _ => c.iter().skip(2).map(|c| c.abs()).sum(),
-        };
-        c.is_empty() || c[0] > 0.0 && keeps_its_sign(c, rest, CLEAR)
-    }
-
-    /// Whether all guards of the mode stay positive within the step for certain, but those of which that does not matter.
-    /// `zeros` tells how many first coefficients are residues.
-    pub(super) fn all_stay(
-        &self,
+    /// Finds out which guards of the mode stay positive within the step for certain; true if all do but those of which that does
+    /// not matter. `zeros` tells how many first coefficients are residues.
+    pub(super) fn look(
+        &mut self,
         zeros: &[(Guard, usize)],
         matters: impl Fn(Guard) -> bool,
     ) -> bool {
-        (0..self.count).all(|index| {
-            let guard = self.list[index].guard;
-            let known = zeros.iter().find(|(g, _)| *g == guard);
-            self.stays_positive(index, known.map_or(0, |(_, order)| *order)) || !matters(guard)
-        })
+        let mut all = true;
+        let coefficients = self.coefficients.chunks_exact(self.width);
+        for (curve, c) in self.list[..self.count].iter_mut().zip(coefficients) {
+            let known = zeros.iter().find(|(guard, _)| *guard == curve.guard);
+            let (c, rest) = match known {
+                None => (c, curve.sums.rest),
+                Some((_, known)) => {
+                    let c = deflate(c, *known);
+                    (c, Sums::of(c).rest)
+                }
+            };
+            curve.stays = c.is_empty() || c[0] > 0.0 && keeps_its_sign(c, rest, CLEAR);
+            all &= curve.stays || !matters(curve.guard);
+        }
+        all
+    }
+
+    /// The guards of the mode that may not stay positive, with their polynomials.
+    pub(super) fn in_question(&self) -> impl Iterator<Item = (Guard, &[f64])> {
+        let curves = self.list[..self.count].iter();
+        let stays = curves.map(|curve| curve.stays);
+        let open = self.of_mode().zip(stays).filter(|(_, stays)| !stays);
+        open.map(|(pair, _)| pair)
     }
 
     /// Whether term `k` of stop `i` keeps its sign within the step for certain, and the one that it had before.
@@ -279,6 +291,7 @@ impl Curves {
         let m = (step.degree + 1).max(FEWEST_SAMPLES);
         self.prepare(m);
         self.shape(m);
+        self.list.iter_mut().for_each(|curve| curve.stays = false);
         self.coefficients.fill(0.0);
         if self.coefficients.is_empty() {
             return Ok(());

@@ -1,6 +1,7 @@
 //! What ends a step early: the earliest root among the guards of the mode and the stops.
 
 use super::Run;
+use super::region::is_edge_in_flight;
 use crate::arithmetic::Scalar;
 use crate::events::{Direction, RootList, deflate, first_root, roots};
 use crate::integrate::polynomial_sum as sum;
@@ -40,8 +41,10 @@ impl<T: Scalar> Run<T> {
     /// Whether nothing can happen within the step because all guards, stops and marks keep their sign by far: a bound that most
     /// steps satisfy.
     #[inline(never)]
-    pub(super) fn nothing_happens(&self) -> bool {
-        let matters = |guard| !self.is_edge_in_flight(guard);
+    pub(super) fn nothing_happens(&mut self) -> bool {
+        let mode = &self.mode;
+        let matters = |guard| !is_edge_in_flight(guard, mode);
+        let guards_stay = self.curves.look(&self.zeros, matters);
         let d = self.description();
         let stays = |&i: &usize| {
             let below = &self.stop_below[i];
@@ -49,7 +52,7 @@ impl<T: Scalar> Run<T> {
             !holds(&d.stops[i], &self.mode)
                 || terms.all(|(k, &below)| self.curves.stop_stays(i, k, below))
         };
-        self.curves.all_stay(&self.zeros, matters) && self.curves.stops.iter().all(stays)
+        guards_stay && self.curves.stops.iter().all(stays)
     }
 
     /// Finds what happens first within the step.
@@ -57,7 +60,7 @@ impl<T: Scalar> Run<T> {
         self.falls.clear();
         let mut first = f64::INFINITY;
         let mut falls = core::mem::take(&mut self.falls);
-        for (guard, curve) in self.curves.of_mode() {
+        for (guard, curve) in self.curves.in_question() {
             if let Some((s, width)) = self.fall(guard, curve) {
                 falls.push((guard, s, width));
                 first = first.min(s + width);
@@ -96,7 +99,7 @@ impl<T: Scalar> Run<T> {
 
     /// Where a guard of the mode falls through zero: (part of the step, half width of the enclosure).
     fn fall(&self, guard: Guard, curve: &[f64]) -> Option<(f64, f64)> {
-        if self.is_edge_in_flight(guard) {
+        if is_edge_in_flight(guard, &self.mode) {
             return None;
         }
         let curve = self.judged(guard, curve)?;
@@ -146,8 +149,8 @@ impl<T: Scalar> Run<T> {
 
     /// Whether the step is so long that rounding hides how a guard begins that falls in it.
     pub(super) fn hides_a_start(&self) -> bool {
-        self.curves.of_mode().any(|(guard, curve)| {
-            if self.is_edge_in_flight(guard) || !self.within_region(guard, 0.0) {
+        self.curves.in_question().any(|(guard, curve)| {
+            if is_edge_in_flight(guard, &self.mode) || !self.within_region(guard, 0.0) {
                 return false;
             }
             let curve = self.judged(guard, curve);

@@ -9,15 +9,16 @@ use super::Run;
 use super::hits::value;
 use crate::arithmetic::Scalar;
 use crate::effects::Item;
+use crate::mode::Mode;
 use crate::modes::guard::Guard;
-use crate::system::Place;
+use crate::system::{Contact, Place};
+
+/// Whether a guard is the edge of a contact that is open in a mode.
+pub(super) fn is_edge_in_flight(guard: Guard, mode: &Mode) -> bool {
+    matches!(guard, Guard::Region(c) if !mode.contacts[c])
+}
 
 impl<T: Scalar> Run<T> {
-    /// Whether a guard is the edge of a contact that is open.
-    pub(super) fn is_edge_in_flight(&self, guard: Guard) -> bool {
-        matches!(guard, Guard::Region(c) if !self.mode.contacts[c])
-    }
-
     /// Whether a guard is the gap of a contact whose surface the motion is below.
     pub(super) fn is_below(&self, guard: Guard) -> bool {
         matches!(guard, Guard::Gap(c) if self.below[c])
@@ -39,7 +40,8 @@ impl<T: Scalar> Run<T> {
 
     /// Remembers which surfaces the motion is below at part `end` of the step.
     pub(super) fn remember_regions(&mut self, end: f64) {
-        if end == 0.0 {
+        let limited = |contact: &Contact| contact.region.is_some();
+        if end == 0.0 || !self.description().contacts.iter().any(limited) {
             return;
         }
         let mut below = core::mem::take(&mut self.below);

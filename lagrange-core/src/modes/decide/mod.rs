@@ -26,7 +26,7 @@ use crate::modes::scale::Sizes;
 use crate::modes::sharing::{Joint, Sharing};
 use crate::modes::table::Table;
 use crate::system::Description;
-use candidates::{Candidates, list_candidates};
+use candidates::{Candidates, Listings};
 use incipient::Beginning;
 pub use known::{Juncture, Known, Moment};
 
@@ -49,7 +49,7 @@ pub struct Decision {
 pub struct Decider<T> {
     /// What was found last.
     pub decision: Decision,
-    candidates: Candidates,
+    listings: Listings,
     questions: Vec<(Guard, usize)>,
     zeros: Vec<(Guard, usize)>,
     /// What forbids the candidate examined last.
@@ -91,7 +91,7 @@ impl<T: Scalar> Decider<T> {
                 joints: Vec::new(),
                 expanded: false,
             },
-            candidates: Candidates::default(),
+            listings: Listings::default(),
             questions: Vec::new(),
             zeros: Vec::new(),
             violated: Vec::new(),
@@ -125,16 +125,14 @@ impl<T: Scalar> Decider<T> {
         here: Juncture<'_, T>,
     ) -> Result<(), Error> {
         let d = dynamics.description();
-        let mut candidates = core::mem::take(&mut self.candidates);
+        let mut listings = core::mem::take(&mut self.listings);
         let scratch = &mut self.decision.mode;
-        let few = list_candidates(dynamics, here, &self.rows, scratch, &mut candidates);
         self.tried = 0;
-        let outcome = if few {
-            self.best(dynamics, table, here, &candidates)
-        } else {
-            self.pivot(dynamics, table, here)
+        let outcome = match listings.list(dynamics, here, &self.rows, scratch) {
+            Some(candidates) => self.best(dynamics, table, here, candidates),
+            None => self.pivot(dynamics, table, here),
         };
-        self.candidates = candidates;
+        self.listings = listings;
         let time = here.moment.t.value();
         match outcome {
             Ok(true) => {
