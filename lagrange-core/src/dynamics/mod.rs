@@ -193,11 +193,6 @@ impl<T: Scalar> Dynamics<T> {
         self.current
     }
 
-    /// Coordinates that cannot accelerate in the present mode, ascending.
-    pub(crate) fn pinned(&self) -> &[usize] {
-        &self.compiled().pinned
-    }
-
     /// What the equations of motion of this mode need.
     pub fn motion_needs(&self) -> &NeedSet {
         &self.compiled().motion_needs

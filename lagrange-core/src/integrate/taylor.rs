@@ -157,7 +157,9 @@ fn rough_log2(x: f64) -> f64 {
 /// (order + 1)/(h s) times larger. What rounding explains is subtracted. Above 1 (or not a number) the step must be
 /// repeated: [`DefectControl`] says how.
 pub fn defect<T: Scalar>(step: &StepPolynomial<T>, s: f64, dv: &[T], tolerance: Tolerance) -> f64 {
-    defect_by(step, s, dv, tolerance, |row, _| derivative_value(row, s, |c| c))
+    defect_by(step, s, dv, tolerance, |row, _| {
+        derivative_value(row, s, |c| c)
+    })
 }
 
 /// [`defect`] at the end of the step, given the changes per step Σ k vₖ of all velocities there.
@@ -201,8 +203,11 @@ fn defect_by<T: Scalar>(
 
 /// Σ k f(cₖ) sᵏ⁻¹
 fn derivative_value<T: Scalar>(row: &[T], s: f64, f: impl Fn(f64) -> f64) -> f64 {
-    let terms = row.iter().zip(&ORDERS).skip(1).rev();
-    terms.fold(0.0, |sum, (c, k)| sum * s + k * f(c.value()))
+    let mut k = row.len() as f64;
+    row[1..].iter().rev().fold(0.0, |sum, c| {
+        k -= 1.0;
+        sum * s + k * f(c.value())
+    })
 }
 
 /// What to do after a [`defect`].

@@ -52,6 +52,19 @@ pub enum Guard {
 }
 
 impl Guard {
+    /// Whether it is made of forces.
+    pub fn is_force(self) -> bool {
+        matches!(
+            self,
+            Guard::Normal(_)
+                | Guard::StickUpper(_)
+                | Guard::StickLower(_)
+                | Guard::StickCone(_)
+                | Guard::Bearing(_)
+                | Guard::Joint(_)
+        )
+    }
+
     /// The name of the item whose guard it is; a joint guard has several.
     pub fn name(self, d: &'static Description) -> Option<&'static str> {
         match self {

@@ -7,9 +7,9 @@ use super::hits::{CLEAR, value as at};
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError};
 use crate::effects::{Effects, Item};
+use crate::events::{deflate, keeps_its_sign};
 use crate::integrate::StepPolynomial;
 use crate::mode::Mode;
-use crate::events::{deflate, keeps_its_sign};
 use crate::modes::guard::{Guard, Linear, Sums};
 use crate::modes::reading::Reading;
 use crate::modes::sharing::{self, Joint};
@@ -229,8 +229,10 @@ impl Curves {
             dynamics.report_value();
         }
         let mut worst = 0.0;
-        for (index, curve) in self.list.iter().enumerate() {
-            let c = self.curve(index);
+        for (index, (curve, c)) in (self.list.iter())
+            .zip(self.coefficients.chunks_exact(self.width))
+            .enumerate()
+        {
             let located = located(curve.guard);
             let (share, floor) = allowance(curve.guard, located);
             let allowed = (share * tolerance).max(floor);
@@ -352,16 +354,7 @@ impl Curves {
 /// be missed.
 #[inline]
 fn allowance(guard: Guard, located: bool) -> (f64, f64) {
-    let is_force = matches!(
-        guard,
-        Guard::Normal(_)
-            | Guard::StickUpper(_)
-            | Guard::StickLower(_)
-            | Guard::StickCone(_)
-            | Guard::Bearing(_)
-            | Guard::Joint(_)
-    );
-    match (is_force, located) {
+    match (guard.is_force(), located) {
         (true, true) => (10.0, 1e-12),
         (true, false) => (1e4, 1e-10),
         (false, true) => (0.1, 1e-14),

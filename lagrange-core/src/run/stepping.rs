@@ -100,7 +100,10 @@ impl<T: Scalar> Run<T> {
                 self.state_at_end(looked);
             }
             let (motion, guards) = match self.evaluate_scratch(looked) {
-                Ok(()) => (self.motion_defect(whole, looked), self.guard_defect(&hit, looked)),
+                Ok(()) => (
+                    self.motion_defect(whole, looked),
+                    self.guard_defect(&hit, looked),
+                ),
                 Err(_) => (f64::INFINITY, f64::INFINITY),
             };
             // Not the larger of a number and a NaN, which would be the number.

@@ -78,7 +78,11 @@ impl<T: Scalar> Decider<T> {
         );
         // Most candidates are refused, and many accepted, by their values already.
         dynamics.value(t, q, v)?;
-        self.sizes.take(dynamics);
+        // The inertia and what drives are the same in all modes, but for branches.
+        if !self.sized || known.balanced.contains(&true) {
+            self.sizes.take(dynamics);
+            self.sized = true;
+        }
         self.share(dynamics);
         self.ask_values(dynamics, here);
         if !self.violated.is_empty() || self.questions.is_empty() {

@@ -58,6 +58,8 @@ pub struct Decider<T> {
     joints: Vec<Joint>,
     motion: Vec<f64>,
     sizes: Sizes,
+    /// Whether they are those of the state at hand.
+    sized: bool,
     /// Whether a friction that would slip and yet stay at rest must stick.
     sticks_first: bool,
     /// Modes tried so far.
@@ -99,6 +101,7 @@ impl<T: Scalar> Decider<T> {
             joints: Vec::new(),
             motion: Vec::new(),
             sizes: Sizes::default(),
+            sized: false,
             sticks_first: false,
             tried: 0,
             rows,
@@ -127,7 +130,7 @@ impl<T: Scalar> Decider<T> {
         let d = dynamics.description();
         let mut listings = core::mem::take(&mut self.listings);
         let scratch = &mut self.decision.mode;
-        self.tried = 0;
+        (self.tried, self.sized) = (0, false);
         let outcome = match listings.list(dynamics, here, &self.rows, scratch) {
             Some(candidates) => self.best(dynamics, table, here, candidates),
             None => self.pivot(dynamics, table, here),
@@ -152,20 +155,17 @@ impl<T: Scalar> Decider<T> {
 
     /// See [`Known::residue`]; `dynamics` holds the values of the moment in the mode that ends.
     pub fn residue(&mut self, dynamics: &Dynamics<T>, mode: &Mode, located: &[Guard]) -> f64 {
-        self.sizes.take(dynamics);
+        let is_force = |guard: &&Guard| guard.is_force() && !matches!(guard, Guard::Joint(_));
+        let mut forces = located.iter().filter(is_force).peekable();
+        if forces.peek().is_some() {
+            self.sizes.take(dynamics);
+        }
         let reading = Reading::Values(dynamics);
-        let relative = |&guard: &Guard| match guard {
-            Guard::Normal(_)
-            | Guard::StickUpper(_)
-            | Guard::StickLower(_)
-            | Guard::StickCone(_)
-            | Guard::Bearing(_) => {
-                let size = self.sizes.of(guard, dynamics);
-                guard::value(guard, mode, &reading).abs() / size.max(f64::MIN_POSITIVE)
-            }
-            _ => 0.0,
+        let relative = |&guard: &Guard| {
+            let size = self.sizes.of(guard, dynamics);
+            guard::value(guard, mode, &reading).abs() / size.max(f64::MIN_POSITIVE)
         };
-        located.iter().map(relative).fold(0.0, f64::max)
+        forces.map(relative).fold(0.0, f64::max)
     }
 
     /// Looks for the feasible candidate to be preferred, into `self.best`. False: there is none.
