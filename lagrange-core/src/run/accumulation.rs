@@ -59,6 +59,13 @@ impl<T: Scalar> Default for Impacts<T> {
 }
 
 impl<T: Scalar> Impacts<T> {
+    /// Forgets earlier runs; of the ring only what the count covers is ever read.
+    pub(super) fn restart(&mut self) {
+        (self.count, self.unresolved) = (0, 0);
+        (self.last, self.interval, self.ratio) = (0.0, 0.0, 0.0);
+        self.times = [T::zero(); 3];
+    }
+
     /// Books an impact; returns how long all further ones will last, if they shrink geometrically.
     fn book(&mut self, time: T) -> Option<T> {
         let [last, earlier, _] = self.times;
@@ -137,6 +144,11 @@ impl Default for Train {
 }
 
 impl Train {
+    /// Forgets earlier runs; the ring is only read once it is full.
+    pub(super) fn restart(&mut self) {
+        self.count = 0;
+    }
+
     fn book(&mut self, time: f64, contact: usize) {
         self.hits[self.count % WINDOW] = (time, contact);
         self.count += 1;
@@ -225,7 +237,7 @@ impl<T: Scalar> Run<T> {
         }
         self.t += T::from_f64(remaining);
         let count = self.train.count;
-        self.train = Train::default();
+        self.train.restart();
         Some(count)
     }
 

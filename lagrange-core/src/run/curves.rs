@@ -36,10 +36,8 @@ struct Curve {
 /// The guards of a mode and what is watched beside, with their polynomials over a step.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Curves {
-    /// Guards of the mode, stops, marks.
+    /// Stops, marks, guards of the mode.
     list: Vec<Curve>,
-    /// Number of guards of the mode.
-    count: usize,
     /// Guards of undetermined forces that have been met in this mode.
     pub(super) joints: Vec<Joint>,
     /// One after the other, each of `width` coefficients.
@@ -88,29 +86,26 @@ impl Curves {
         dynamics: &Dynamics<T>,
     ) {
         let joints = (0..self.joints.len()).map(Guard::Joint);
-        let guards = guards.chain(joints).map(|guard| (guard, true));
-        let watches = self.watches.iter().map(|&guard| (guard, false));
+        let watches = self.watches.iter().copied();
+        let curves = watches.chain(guards).chain(joints).map(|guard| Curve {
+            guard,
+            linear: Linear::of(guard, mode, dynamics),
+            sums: Sums {
+                end: 0.0,
+                rest: f64::INFINITY,
+            },
+            stays: false,
+        });
         self.list.clear();
-        self.count = 0;
-        for (guard, of_mode) in guards.chain(watches) {
-            self.count += usize::from(of_mode);
-            self.list.push(Curve {
-                guard,
-                linear: Linear::of(guard, mode, dynamics),
-                sums: Sums {
-                    end: 0.0,
-                    rest: f64::INFINITY,
-                },
-                stays: false,
-            });
-        }
+        self.list.extend(curves);
     }
 
     /// The guards of the mode with their polynomials.
     pub(super) fn of_mode(&self) -> impl Iterator<Item = (Guard, &[f64])> {
+        let first = self.watches.len();
         let curves = self.coefficients.chunks_exact(self.width.max(1));
-        let guards = self.list[..self.count].iter().map(|curve| curve.guard);
-        guards.zip(curves)
+        let guards = self.list.iter().map(|curve| curve.guard);
+        guards.zip(curves).skip(first)
     }
 
     /// The polynomial of a guard, if it is one of the mode.
@@ -124,12 +119,12 @@ impl Curves {
 
     /// Term `k` of stop `i`.
     pub(super) fn stop_term(&self, i: usize, k: usize) -> &[f64] {
-        self.curve(self.count + self.first_stop[i] + k)
+        self.curve(self.first_stop[i] + k)
     }
 
     /// Term `k` of mark `i`.
     pub(super) fn mark_term(&self, i: usize, k: usize) -> &[f64] {
-        self.curve(self.count + self.first_mark[i] + k)
+        self.curve(self.first_mark[i] + k)
     }
 
     /// Makes room for curves of `width` coefficients.
@@ -170,7 +165,8 @@ impl Curves {
     ) -> bool {
         let mut all = true;
         let coefficients = self.coefficients.chunks_exact(self.width);
-        for (curve, c) in self.list[..self.count].iter_mut().zip(coefficients) {
+        let curves = self.list.iter_mut().zip(coefficients);
+        for (curve, c) in curves.skip(self.watches.len()) {
             let known = zeros.iter().find(|(guard, _)| *guard == curve.guard);
             let (c, rest) = match known {
                 None => (c, curve.sums.rest),
@@ -187,7 +183,7 @@ impl Curves {
 
     /// The guards of the mode that may not stay positive, with their polynomials.
     pub(super) fn in_question(&self) -> impl Iterator<Item = (Guard, &[f64])> {
-        let curves = self.list[..self.count].iter();
+        let curves = self.list.iter().skip(self.watches.len());
         let stays = curves.map(|curve| curve.stays);
         let open = self.of_mode().zip(stays).filter(|(_, stays)| !stays);
         open.map(|(pair, _)| pair)
@@ -195,7 +191,7 @@ impl Curves {
 
     /// Whether term `k` of stop `i` keeps its sign within the step for certain, and the one that it had before.
     pub(super) fn stop_stays(&self, i: usize, k: usize, was_below: bool) -> bool {
-        let index = self.count + self.first_stop[i] + k;
+        let index = self.first_stop[i] + k;
         let c = self.curve(index);
         keeps_its_sign(c, self.list[index].sums.rest, CLEAR) && (c[0] < 0.0) == was_below
     }

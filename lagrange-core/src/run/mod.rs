@@ -274,8 +274,8 @@ impl<T: Scalar> Run<T> {
         self.mark_below
             .iter_mut()
             .for_each(|terms| terms.fill(false));
-        self.impacts.fill(Impacts::default());
-        self.train = Train::default();
+        self.impacts.iter_mut().for_each(Impacts::restart);
+        self.train.restart();
         self.rank.restart();
         self.distance = 1.0;
         self.stuck.clear();

@@ -1,4 +1,5 @@
-//! Processor instructions of what is left out: a declaration with an item left out beside the one that never had it.
+//! Processor instructions of a run, part by part, and of what is left out: a declaration with an item left out beside the one that
+//! never had it.
 //!
 //! ```console
 //! $ cargo bench -p lagrange-tests --bench instructions
@@ -7,6 +8,8 @@
 //! valgrind counts, so the figures repeat exactly: a right-hand side in every mode, and a whole run with all decisions and
 //! events. Each is counted for a number of calls and for twice that number; what is left of the difference is free of
 //! everything that happens once. Without valgrind the bench says so and ends.
+
+mod parts;
 
 use lagrange_core::prelude::*;
 use lagrange_problems::cost::{Place, RightSide};
@@ -30,19 +33,24 @@ fn main() {
         visit(&mut work);
         return;
     }
+    if let Some(at) = arguments.iter().position(|a| a == "--parts") {
+        return parts::work(&arguments[at + 1..]);
+    }
     if Command::new("valgrind").arg("--version").output().is_err() {
         println!("skipped: there is no valgrind on this machine");
         return;
     }
-    println!("instructions with the item left out, and as if it were not declared");
+    if arguments.iter().any(|a| a == "--test" || a == "--list") {
+        return;
+    }
+    println!("instructions of a run, part by part");
+    parts::print();
+    println!("\ninstructions with the item left out, and as if it were not declared");
     println!(
         "{:<44}{:>34}{:>36}",
         "", "a right-hand side", "a run of two seconds"
     );
-    let mut table = Table(0);
-    if !arguments.iter().any(|a| a == "--test" || a == "--list") {
-        visit(&mut table);
-    }
+    visit(&mut Table(0));
 }
 
 /// What a process under valgrind does.

@@ -1,0 +1,249 @@
+//! Instructions of a run, part by part, beside what they were and what they may be.
+//!
+//! callgrind tells what each function costs by itself and by each of the functions that it calls. A part is what is spent in some
+//! functions and in whatever they call that is not another part; what a function costs on behalf of two callers is shared out in
+//! the ratio of the calls' costs.
+
+use lagrange_core::prelude::*;
+use lagrange_problems::scenes::{DoublePendulum, MassOnWheel, RollingSlippingSphere};
+use std::collections::{BTreeMap, BTreeSet};
+use std::process::Command;
+
+/// Runs in the shorter of two counts.
+const RUNS: u64 = 50;
+
+/// A part: its name, and the functions that it begins with (ends of their paths).
+type Part = (&'static str, &'static [&'static str]);
+
+/// Parts of the fixed cost of a step, in its order.
+const STEP: [Part; 7] = [
+    ("step size", &["::step_size"]),
+    ("scaling", &["::write_polynomial"]),
+    ("guard polynomials", &["::take_series"]),
+    ("exclusion of roots", &["::nothing_happens"]),
+    ("check of the end", &["Curves::defect", "::defect_at_end"]),
+    ("recording", &["Record<T>::push"]),
+    ("rest of the step", &["Run<T>::advance"]),
+];
+/// What stands beside it.
+const OTHERS: [Part; 7] = [
+    ("series", &["::begin_series", "::end_series"]),
+    ("right-hand sides", &["Dynamics<T>>::value"]),
+    (
+        "refinement of roots",
+        &["::first_hit", "::hides_a_start", "taylor::defect"],
+    ),
+    ("decision", &["::decide"]),
+    ("rest of a switch", &["switch::switch", "Run<T>>::switch"]),
+    ("start", &["Run<T>::launch"]),
+    ("change of parameters", &["::set_scene", "Compiled<T>::renew"]),
+];
+
+/// A scene: its name, the figures of the day when the budget was made (a step, a switch, the whole run), and its runs.
+struct Scene {
+    name: &'static str,
+    before: [f64; 3],
+    run: fn(u64) -> [usize; 2],
+}
+
+const SCENES: [Scene; 3] = [
+    Scene {
+        name: "rolling-slipping sphere, 2.2 s",
+        before: [0.0, 0.0, 0.0],
+        run: |times| run(&RollingSlippingSphere::default(), 2.2, times),
+    },
+    Scene {
+        name: "mass on wheel, 2.9 s",
+        before: [0.0, 0.0, 0.0],
+        run: |times| run(&MassOnWheel::default(), 2.9, times),
+    },
+    Scene {
+        name: "double pendulum, 1 s",
+        before: [0.0, 0.0, 0.0],
+        run: |times| run(&DoublePendulum::default(), 1.0, times),
+    },
+];
+
+/// Instructions that a step without a switch may take beside series and right-hand side, a switch of one contact with one friction,
+/// and a change of parameters.
+const BUDGET: [f64; 3] = [1500.0, 3000.0, 1000.0];
+
+/// Runs a scene many times, with its parameters set anew each time; the steps and switches of one run.
+fn run<S: System<Scalar = f64> + Starts>(scene: &S, until: f64, times: u64) -> [usize; 2] {
+    let start = scene.at(StartId(0));
+    let mut runner = Simulation::new(scene).runner();
+    for _ in 0..times {
+        runner.set_scene(scene);
+        runner.run(&start, 0.0..until).expect("runs");
+    }
+    let trajectory = runner.trajectory();
+    [trajectory.work().steps, trajectory.events().len()]
+}
+
+/// Does what a process under valgrind is asked for.
+pub fn work(words: &[String]) {
+    let number = |i: usize| words[i].parse::<u64>().expect("a number");
+    (SCENES[number(0) as usize].run)(number(1));
+}
+
+/// Prints the table of every scene.
+pub fn print() {
+    for (index, scene) in SCENES.iter().enumerate() {
+        let [steps, switches] = (scene.run)(1);
+        let (long, short) = (Profile::count(index, 2 * RUNS), Profile::count(index, RUNS));
+        let cost = |part: &str| (long.of(part) - short.of(part)) / RUNS as f64;
+        println!("\n{}: {steps} steps, {switches} switches", scene.name);
+        let line = |name: &str, per: f64, times: usize| {
+            let total = format!("{:>10.0}", per);
+            if times > 0 {
+                println!("{name:<44}{total}{:>10.0}", per / times as f64);
+            }
+        };
+        println!("{:<44}{:>10}{:>10}{:>10}{:>10}", "", "a run", "each", "before", "budget");
+        for (part, _) in STEP {
+            line(part, cost(part), steps);
+        }
+        let sum: f64 = STEP.iter().map(|(part, _)| cost(part)).sum();
+        let goal = |name: &str, total: f64, each: f64, before: f64, budget: f64| {
+            println!("{name:<44}{total:>10.0}{each:>10.0}{before:>10.0}{budget:>10.0}");
+        };
+        let [step, switch, whole] = scene.before;
+        goal("= a step without series and values", sum, sum / steps as f64, step, BUDGET[0]);
+        line("series", cost("series"), steps);
+        line("right-hand sides", cost("right-hand sides"), steps);
+        for part in ["refinement of roots", "decision", "rest of a switch"] {
+            line(part, cost(part), switches);
+        }
+        if switches > 0 {
+            let sum = cost("decision") + cost("rest of a switch");
+            goal("= a switch without series and values", sum, sum / switches as f64, switch, BUDGET[1]);
+        }
+        line("start", cost("start"), 1);
+        let renewal = cost("change of parameters");
+        goal("change of parameters", renewal, renewal, f64::NAN, BUDGET[2]);
+        let all = (long.total() - short.total()) / RUNS as f64;
+        println!("{:<44}{all:>10.0}{:>10}{whole:>10.0}", "= a run", "");
+    }
+}
+
+/// What the functions of a process cost.
+#[derive(Default)]
+struct Profile {
+    own: BTreeMap<String, f64>,
+    /// By caller: what it spends in each function that it calls.
+    calls: BTreeMap<String, BTreeMap<String, f64>>,
+    parts: BTreeMap<&'static str, f64>,
+}
+
+impl Profile {
+    fn count(scene: usize, times: u64) -> Self {
+        let file = std::env::temp_dir().join(format!("lagrange-parts-{}", std::process::id()));
+        let status = Command::new("valgrind")
+            .args(["--quiet", "--tool=callgrind", "--dump-line=no"])
+            .arg(format!("--callgrind-out-file={}", file.display()))
+            .arg(std::env::current_exe().expect("this program"))
+            .args(["--parts", &scene.to_string(), &times.to_string()])
+            .status()
+            .expect("valgrind");
+        assert!(status.success(), "{status}");
+        let text = std::fs::read_to_string(&file).expect("a profile");
+        let _ = std::fs::remove_file(&file);
+        let mut profile = Self::read(&text);
+        profile.share_out();
+        profile
+    }
+
+    /// Reads a profile: `fn=(1) name` begins a function, `cfn=(2) name` and `calls=…` a call whose cost is in the next line.
+    fn read(text: &str) -> Self {
+        let mut profile = Self::default();
+        let mut names: BTreeMap<&str, String> = BTreeMap::new();
+        let (mut function, mut called) = (String::new(), None);
+        let mut calls = false;
+        for line in text.lines() {
+            let mut name = |written| {
+                let (id, name) = str::split_once(written, ' ').unwrap_or((written, ""));
+                let known = names.entry(id).or_default();
+                if !name.is_empty() {
+                    name.clone_into(known);
+                }
+                known.clone()
+            };
+            if let Some(written) = line.strip_prefix("fn=") {
+                function = name(written);
+            } else if let Some(written) = line.strip_prefix("cfn=") {
+                called = Some(name(written));
+            } else if line.starts_with("calls=") {
+                calls = true;
+            } else if line.starts_with(|c: char| c.is_ascii_digit() || "+-*".contains(c))
+                && let Some(cost) = line.split(' ').nth(1).and_then(|c| c.parse::<f64>().ok())
+            {
+                let to = match called.take().filter(|_| calls) {
+                    Some(called) => profile.calls.entry(function.clone()).or_default().entry(called),
+                    None => profile.own.entry(function.clone()),
+                };
+                *to.or_default() += cost;
+                calls = false;
+            }
+        }
+        profile
+    }
+
+    /// Sums up the parts, from the functions that nobody calls downwards.
+    fn share_out(&mut self) {
+        let called: BTreeSet<&String> = self.calls.values().flat_map(BTreeMap::keys).collect();
+        let callers = self.own.keys().chain(self.calls.keys());
+        let roots: BTreeSet<&String> = callers.filter(|f| !called.contains(f)).collect();
+        let mut parts = BTreeMap::new();
+        for root in roots {
+            self.descend(root, self.inclusive(root), "else", &mut Vec::new(), &mut parts);
+        }
+        self.parts = parts;
+    }
+
+    fn inclusive(&self, function: &str) -> f64 {
+        let own = self.own.get(function).copied().unwrap_or_default();
+        own + self.calls.get(function).map_or(0.0, |to| to.values().sum())
+    }
+
+    /// Books `cost` instructions that `function` takes within `part`.
+    fn descend<'a>(
+        &'a self,
+        function: &'a str,
+        cost: f64,
+        part: &'static str,
+        above: &mut Vec<&'a str>,
+        parts: &mut BTreeMap<&'static str, f64>,
+    ) {
+        /// Less than this is not followed any further.
+        const LITTLE: f64 = 0.5;
+        let part = part_of(function).unwrap_or(part);
+        let inclusive = self.inclusive(function);
+        let share = if inclusive > 0.0 { cost / inclusive } else { 0.0 };
+        let own = self.own.get(function).copied().unwrap_or_default();
+        *parts.entry(part).or_default() += own * share;
+        above.push(function);
+        for (called, spent) in self.calls.get(function).into_iter().flatten() {
+            if spent * share < LITTLE || above.contains(&called.as_str()) {
+                *parts.entry(part).or_default() += spent * share;
+            } else {
+                self.descend(called, spent * share, part, above, parts);
+            }
+        }
+        above.pop();
+    }
+
+    fn of(&self, part: &str) -> f64 {
+        self.parts.get(part).copied().unwrap_or_default()
+    }
+
+    fn total(&self) -> f64 {
+        self.parts.values().sum()
+    }
+}
+
+/// The part that begins with a function.
+fn part_of(function: &str) -> Option<&'static str> {
+    let begins = |(_, ends): &&Part| ends.iter().any(|end| function.ends_with(end));
+    let mut parts = STEP.iter().chain(&OTHERS);
+    parts.find(begins).map(|(name, _)| *name)
+}
