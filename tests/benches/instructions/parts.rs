@@ -6,7 +6,7 @@
 
 use lagrange_core::prelude::*;
 use lagrange_problems::scenes::{DoublePendulum, MassOnWheel, RollingSlippingSphere};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::process::Command;
 
 /// Runs in the shorter of two counts.
@@ -36,7 +36,10 @@ const OTHERS: [Part; 7] = [
     ("decision", &["::decide"]),
     ("rest of a switch", &["switch::switch", "Run<T>>::switch"]),
     ("start", &["Run<T>::launch"]),
-    ("change of parameters", &["::set_scene", "Compiled<T>::renew"]),
+    (
+        "change of parameters",
+        &["::set_scene", "Compiled<T>::renew"],
+    ),
 ];
 
 /// A scene: its name, the figures of the day when the budget was made (a step, a switch, the whole run), and its runs.
@@ -99,7 +102,10 @@ pub fn print() {
                 println!("{name:<44}{total}{:>10.0}", per / times as f64);
             }
         };
-        println!("{:<44}{:>10}{:>10}{:>10}{:>10}", "", "a run", "each", "before", "budget");
+        println!(
+            "{:<44}{:>10}{:>10}{:>10}{:>10}",
+            "", "a run", "each", "before", "budget"
+        );
         for (part, _) in STEP {
             line(part, cost(part), steps);
         }
@@ -108,7 +114,13 @@ pub fn print() {
             println!("{name:<44}{total:>10.0}{each:>10.0}{before:>10.0}{budget:>10.0}");
         };
         let [step, switch, whole] = scene.before;
-        goal("= a step without series and values", sum, sum / steps as f64, step, BUDGET[0]);
+        goal(
+            "= a step without series and values",
+            sum,
+            sum / steps as f64,
+            step,
+            BUDGET[0],
+        );
         line("series", cost("series"), steps);
         line("right-hand sides", cost("right-hand sides"), steps);
         for part in ["refinement of roots", "decision", "rest of a switch"] {
@@ -116,11 +128,23 @@ pub fn print() {
         }
         if switches > 0 {
             let sum = cost("decision") + cost("rest of a switch");
-            goal("= a switch without series and values", sum, sum / switches as f64, switch, BUDGET[1]);
+            goal(
+                "= a switch without series and values",
+                sum,
+                sum / switches as f64,
+                switch,
+                BUDGET[1],
+            );
         }
         line("start", cost("start"), 1);
         let renewal = cost("change of parameters");
-        goal("change of parameters", renewal, renewal, f64::NAN, BUDGET[2]);
+        goal(
+            "change of parameters",
+            renewal,
+            renewal,
+            f64::NAN,
+            BUDGET[2],
+        );
         let all = (long.total() - short.total()) / RUNS as f64;
         println!("{:<44}{all:>10.0}{:>10}{whole:>10.0}", "= a run", "");
     }
@@ -178,7 +202,11 @@ impl Profile {
                 && let Some(cost) = line.split(' ').nth(1).and_then(|c| c.parse::<f64>().ok())
             {
                 let to = match called.take().filter(|_| calls) {
-                    Some(called) => profile.calls.entry(function.clone()).or_default().entry(called),
+                    Some(called) => profile
+                        .calls
+                        .entry(function.clone())
+                        .or_default()
+                        .entry(called),
                     None => profile.own.entry(function.clone()),
                 };
                 *to.or_default() += cost;
@@ -188,15 +216,18 @@ impl Profile {
         profile
     }
 
-    /// Sums up the parts, from the functions that nobody calls downwards.
+    /// Sums up the parts, from the program's main function downwards.
     fn share_out(&mut self) {
-        let called: BTreeSet<&String> = self.calls.values().flat_map(BTreeMap::keys).collect();
-        let callers = self.own.keys().chain(self.calls.keys());
-        let roots: BTreeSet<&String> = callers.filter(|f| !called.contains(f)).collect();
+        let main = self.calls.keys().find(|f| f.ends_with("::main"));
+        let main = main.expect("a main function");
         let mut parts = BTreeMap::new();
-        for root in roots {
-            self.descend(root, self.inclusive(root), "else", &mut Vec::new(), &mut parts);
-        }
+        self.descend(
+            main,
+            self.inclusive(main),
+            "else",
+            &mut Vec::new(),
+            &mut parts,
+        );
         self.parts = parts;
     }
 
@@ -218,7 +249,11 @@ impl Profile {
         const LITTLE: f64 = 0.5;
         let part = part_of(function).unwrap_or(part);
         let inclusive = self.inclusive(function);
-        let share = if inclusive > 0.0 { cost / inclusive } else { 0.0 };
+        let share = if inclusive > 0.0 {
+            cost / inclusive
+        } else {
+            0.0
+        };
         let own = self.own.get(function).copied().unwrap_or_default();
         *parts.entry(part).or_default() += own * share;
         above.push(function);
