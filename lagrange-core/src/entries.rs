@@ -6,11 +6,11 @@
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, Packets};
 use crate::effects::Effects;
+use crate::erased::Erased;
 use crate::error::Error;
 use crate::run::Run;
 use crate::run::round::{Member, go_on};
 use crate::simulation::{Held, Settings};
-use crate::tapes::Erased;
 use crate::trajectory::{Instant, Ledger, Record, Sampler, State};
 use core::fmt;
 use core::ops::Range;

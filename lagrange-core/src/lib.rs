@@ -49,12 +49,12 @@ extern crate self as lagrange_core;
 
 pub mod arithmetic;
 pub mod checks;
-pub mod code;
 mod derivation;
 pub mod dynamics;
 pub mod effects;
 mod entries;
 pub mod equations;
+mod erased;
 pub mod error;
 pub mod events;
 pub mod handle;
@@ -65,10 +65,10 @@ mod modes;
 mod monitor;
 mod pool;
 pub mod prelude;
+pub mod program;
 mod run;
 pub mod simulation;
 pub mod system;
-mod tapes;
 pub mod trajectory;
 
 pub use derivation::Derivation;

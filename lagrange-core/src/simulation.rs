@@ -2,12 +2,12 @@
 
 use crate::arithmetic::Scalar;
 use crate::effects::Effects;
+use crate::erased::ErasedSystem;
 use crate::error::Error;
 use crate::integrate::Method;
 use crate::monitor::Monitor;
 use crate::run::{Ensemble, Runner};
 use crate::system::{Impacts, System};
-use crate::tapes::Tapes;
 use crate::trajectory::{Event, EventKind, State, Subject, Trajectory};
 use core::fmt;
 use core::ops::Range;
@@ -96,10 +96,8 @@ pub enum Equations {
     /// The functions that the derive has emitted for the mode; where there are none, the interpreter.
     #[default]
     Emitted,
-    /// The interpreter.
+    /// The interpreter, with the solver that looks for the best pivots.
     Interpreted,
-    /// The interpreter, and all linear systems by the solver that looks for the best pivots.
-    Solved,
 }
 
 /// Which values a consistent state must keep exactly.
@@ -263,7 +261,7 @@ impl Settings {
     /// Checks what the caller set.
     pub(crate) fn check<T: Scalar>(
         &self,
-        system: &dyn Tapes<T>,
+        system: &dyn ErasedSystem<T>,
         start: &State<T>,
         span: &Range<f64>,
     ) -> Result<(), Error> {

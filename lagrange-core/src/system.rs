@@ -8,9 +8,10 @@
 //!
 //! Every number is an *output* of a tape or a parameter-only *constant*; a [`Place`] says which.
 
-use crate::arithmetic::{Arithmetic, Scalar};
+use crate::arithmetic::Scalar;
 use crate::derivation::Derivation;
 use crate::equations::{ModeEquations, ModeStructure, Number};
+use crate::program::Encoded;
 use core::fmt;
 use core::str::FromStr;
 
@@ -47,7 +48,7 @@ impl Held<'_> {
 
 /// A mechanical system: what `#[derive(Lagrangian)]` implements.
 ///
-/// Tapes are straight-line programs over an [`Arithmetic`]; see [`crate::arithmetic`] for the three readings.
+/// What its equations are made of stands in its description, as [programs](crate::program).
 pub trait System: Clone + Send + Sync + 'static {
     /// The number type of parameters and state.
     type Scalar: Scalar;
@@ -68,30 +69,6 @@ pub trait System: Clone + Send + Sync + 'static {
 
     /// Positions `q` and velocities `v` of start `index`, at time `t`.
     fn start(&self, index: usize, t: Self::Scalar, q: &mut [Self::Scalar], v: &mut [Self::Scalar]);
-
-    /// Everything that depends on parameters only; `c` has `DESCRIPTION.constants` elements.
-    fn constants(&self, held: &Held, c: &mut [Self::Scalar]);
-
-    /// The tape before the solve. `x` = (t, q…, v…); outputs go to `y` (`DESCRIPTION.motion.outputs` elements).
-    /// Outputs whose need is not held are left as they are.
-    fn motion<A: Arithmetic<Scalar = Self::Scalar>>(
-        &self,
-        a: &mut A,
-        held: &Held,
-        c: &[Self::Scalar],
-        x: &[A::Node],
-        y: &mut [A::Node],
-    );
-
-    /// The tape after the solve. `x` = (t, q…, v…, v̇…, λ… one per row, 0 for rows that do not act).
-    fn report<A: Arithmetic<Scalar = Self::Scalar>>(
-        &self,
-        a: &mut A,
-        held: &Held,
-        c: &[Self::Scalar],
-        x: &[A::Node],
-        y: &mut [A::Node],
-    );
 
     /// The modes whose equations are [emitted](Self::mode_equations).
     const MODES: &'static [ModeStructure] = &[];
@@ -115,16 +92,7 @@ pub trait System: Clone + Send + Sync + 'static {
     }
 }
 
-/// The size of a tape.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct TapeShape {
-    /// Number of slots that its operations write (the `to` arguments are below this).
-    pub slots: usize,
-    /// Number of outputs.
-    pub outputs: usize,
-}
-
-/// Everything the core knows of a system, beside its tapes. Indices run in order of declaration.
+/// Everything the core knows of a system. Indices run in order of declaration.
 #[derive(Debug)]
 pub struct Description {
     /// Name of the struct.
@@ -137,12 +105,12 @@ pub struct Description {
     pub coordinates: &'static [Coordinate],
     /// Number of needs; sets have ⌈needs / 64⌉ words. Need 0 is always held.
     pub needs: usize,
-    /// Number of parameter-only constants.
-    pub constants: usize,
-    /// Size of the tape before the solve.
-    pub motion: TapeShape,
-    /// Size of the tape after the solve.
-    pub report: TapeShape,
+    /// Everything that depends on parameters only, from the parameters.
+    pub constants: Encoded,
+    /// What the equations of motion are made of, from (t, q…, v…).
+    pub motion: Encoded,
+    /// What is read after they are solved, from (t, q…, v…, v̇…, λ… one per row, 0 for rows that do not act).
+    pub report: Encoded,
     /// Lower triangle of the mass matrix, structural zeros left out: (row, column ≤ row, where). Motion.
     pub mass: &'static [(usize, usize, Place)],
     /// Parameters that the mass matrix contains, if it is that of a kinetic energy, which must be positive; `None` for a

@@ -287,16 +287,6 @@ impl<T: Scalar> Dynamics<T> {
         accept::<T>(residual)
     }
 
-    /// The motion tape for inertia, Jacobians and residuals of the rows that act.
-    fn run_rows(&mut self, t: T, q: &[T], v: &[T]) {
-        self.work.projections += 1;
-        let rows = &mut self.modes[self.current].row_needs;
-        core::mem::swap(&mut self.held, rows);
-        self.tape(t, q, v);
-        let rows = &mut self.modes[self.current].row_needs;
-        core::mem::swap(&mut self.held, rows);
-    }
-
     fn residual_place(row: &Row, level: Level) -> Option<Place> {
         match level {
             Level::Position => row.position,

@@ -3,10 +3,10 @@
 use super::{Arguments, FrictionState, ModeEquations, ModeStructure, Refused, Row, STRIDE};
 use crate::arithmetic::Scalar;
 use crate::effects::{Effects, Item};
+use crate::erased::ErasedSystem;
 use crate::linear::epsilon;
 use crate::mode::{Direction, FrictionMode, Mode};
 use crate::system::{Description, Held, Place};
-use crate::tapes::Tapes;
 
 /// A series that is always zero.
 const NO_ROW: u32 = u32::MAX;
@@ -57,7 +57,7 @@ fn rows_by_node(nodes: usize, rows: &[(usize, usize)]) -> Vec<u32> {
 
 impl<T: Scalar> Emitted<T> {
     /// The equations of a mode, if they have been emitted. Without a constraint or a kinetic energy others hold.
-    pub(crate) fn of(system: &dyn Tapes<T>, effects: &Effects, mode: &Mode) -> Option<Self> {
+    pub(crate) fn of(system: &dyn ErasedSystem<T>, effects: &Effects, mode: &Mode) -> Option<Self> {
         let d = system.description();
         let other = |item| matches!(item, Item::Constraint(_) | Item::Kinetic(_));
         if effects.left_out().any(other) {
@@ -83,7 +83,7 @@ impl<T: Scalar> Emitted<T> {
     }
 
     /// Takes the numbers of a system's parameters.
-    pub(crate) fn renew(&mut self, system: &dyn Tapes<T>, held: &Held) {
+    pub(crate) fn renew(&mut self, system: &dyn ErasedSystem<T>, held: &Held) {
         self.admitted = system.mode_constants(self.index, held, &self.signs, &mut self.constants);
     }
 

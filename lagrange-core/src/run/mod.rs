@@ -20,6 +20,7 @@ mod tests;
 
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError, NeedSet};
+use crate::erased::Erased;
 use crate::error::Error;
 use crate::integrate::{StepPolynomial, Tolerance};
 use crate::mode::Mode;
@@ -34,7 +35,6 @@ use crate::modes::table::Table;
 use crate::pool::Pool;
 use crate::simulation::{Awaited, Held, Settings};
 use crate::system::{Description, Watch};
-use crate::tapes::Erased;
 use crate::trajectory::{EventKind, Record, State, Subject, Work};
 use accumulation::{Impacts, Train};
 use core::ops::Range;

@@ -3,10 +3,10 @@
 use super::Run;
 use super::round::Member;
 use crate::arithmetic::Scalar;
+use crate::erased::Erased;
 use crate::error::Error;
 use crate::simulation::{Held, Settings};
 use crate::system::System;
-use crate::tapes::Erased;
 use crate::trajectory::{State, Trajectory};
 use core::ops::Range;
 use std::sync::Arc;

@@ -14,13 +14,13 @@ pub(crate) use sampler::{instant, report_everything};
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
 use crate::effects::Effects;
+use crate::erased::Erased;
 use crate::error::Error;
 use crate::integrate::StepPolynomial;
 use crate::mode::Mode;
 use crate::monitor::Monitor;
 use crate::pool::Pool;
 use crate::system::{Description, System};
-use crate::tapes::Erased;
 use core::ops::Deref;
 
 /// What a run cost.

@@ -1,21 +1,20 @@
-//! [`Program`] → tokens: the tapes, the table that says what their numbers mean, and the handles.
+//! [`Program`] → tokens: the functions of the modes, the programs as data with the table that says what their numbers mean, and the
+//! handles.
 //! The only place that uses `quote`.
 
 mod checks;
-mod code;
 mod derivation;
 mod description;
+mod encoded;
 mod equations;
 mod fallback;
 mod handles;
 mod names;
 mod scalar;
-mod tape;
 #[cfg(test)]
 mod tests;
 
 use crate::check::Verdict;
-use crate::derive::Stage;
 use crate::plan::Program;
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -23,9 +22,13 @@ use quote::quote;
 pub use derivation::{derivation, on_request as derivation_on_request};
 pub use fallback::fallback;
 
-/// Whether the equations of motion are emitted as data.
+/// Systems with more operations are not written out at every build.
+const LARGEST: usize = 500;
+
+/// Whether the equations would fill books.
 pub fn is_large(program: &Program) -> bool {
-    code::is_large(&program.motion)
+    let blocks = program.motion.blocks.iter();
+    blocks.map(|block| block.steps.len()).sum::<usize>() > LARGEST
 }
 
 /// `impl System` and the handles of a program; [`derivation()`] belongs to it.
@@ -49,9 +52,6 @@ pub fn emit(program: &Program, verdicts: &[Verdict]) -> TokenStream {
     let description = description::description(program);
     let access = scalar::access(system);
     let start = scalar::starts(program);
-    let constants = scalar::constants(program);
-    let motion = tape::tape(program, Stage::Motion);
-    let report = tape::tape(program, Stage::Report);
     let equations = equations::equations(program);
     quote! {
         #handles
@@ -67,9 +67,6 @@ pub fn emit(program: &Program, verdicts: &[Verdict]) -> TokenStream {
             }
             #access
             #start
-            #constants
-            #motion
-            #report
             #equations
         }
     }

@@ -1,11 +1,11 @@
-//! Equations → [`Program`]: which operations compute the outputs, shared, masked by need, in static slots.
+//! Equations → [`Program`]: which operations compute the outputs, shared, masked by need.
 //!
 //! ```text
 //! expression → form (fixed scale · varying node) → n-ary graph with shared pairs → operations → blocks
 //! ```
 //!
 //! What depends on parameters only is computed once per run by the constants program; everything else is an
-//! operation of `lagrange_core::arithmetic::Arithmetic` in one of two tapes, before the solve and after it.
+//! operation of `lagrange_core::program` in one of two tapes, before the solve and after it.
 
 mod constants;
 mod distribute;

@@ -1,89 +1,65 @@
-//! A large tape as data: one literal that `lagrange_core::code` runs, where code would take rustc minutes.
+//! A tape as data: one literal that `lagrange_core::program` loads. Its format is described there.
 
-use super::names::{self, local};
+use super::names;
 use crate::model::System;
 use crate::plan::{Coefficient, Mode, NeedSet, Operation, Tape, Value};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use std::collections::HashMap;
 
-/// Tapes with more operations are data.
-const LARGEST: usize = 500;
-
-/// Whether a tape is emitted as data.
-pub fn is_large(tape: &Tape) -> bool {
-    tape.blocks
-        .iter()
-        .map(|block| block.steps.len())
-        .sum::<usize>()
-        > LARGEST
-}
-
-/// The tape as data in a constant, and what runs it with these inputs and outputs.
-pub fn run(
-    system: &System,
-    tape: &Tape,
-    arithmetic: TokenStream,
-    inputs: TokenStream,
-    outputs: TokenStream,
-    constants: TokenStream,
-) -> TokenStream {
+/// `Encoded { … }`
+pub fn encoded(system: &System, tape: &Tape) -> TokenStream {
     let core = &system.core;
-    let (held, index) = (local("held"), local("index"));
-    let mut writer = Writer::default();
-    for block in &tape.blocks {
-        writer.needs(&block.needs);
-        let first = block.steps.first();
-        let to = first.map(|step| step.to).or_else(|| {
-            let sums = block.writes.iter().filter_map(|write| match write.mode {
-                Mode::Set => None,
-                Mode::Add(to) | Mode::Sub(to) => Some(to),
-            });
-            sums.min()
-        });
-        writer.word(block.steps.len() + block.writes.len());
-        writer.word(first.map_or(0, |step| step.value.0));
-        writer.word(to.unwrap_or(0));
-        for step in &block.steps {
-            writer.operation(step.operation);
-        }
-        for write in &block.writes {
-            let operation = match write.mode {
-                Mode::Set => SET,
-                Mode::Add(_) => ADD_TO,
-                Mode::Sub(_) => SUBTRACT_FROM,
-            };
-            writer.words([operation, write.output, write.value.0]);
-        }
-    }
+    let writer = Writer::written(tape);
     let words = Literal::byte_string(&writer.bytes);
     let numbers = writer.numbers.iter().map(|number| names::f64(*number));
-    let values = names::index(tape.values);
-    let code = local("CODE");
+    let (values, outputs) = (names::index(tape.values), names::index(tape.outputs));
     quote! {
-        const #code: #core::code::Code = #core::code::Code {
+        #core::program::Encoded {
             words: #words,
             numbers: &[#(#numbers),*],
             values: #values,
-        };
-        #code.run(#arithmetic, #held, #constants, |#index| self.parameter(#index), #inputs, #outputs)
+            outputs: #outputs,
+        }
     }
 }
 
-// Numbers of the operations that only writing needs; all as in `lagrange_core::code`.
+// Numbers of the operations that only writing needs; all as in `lagrange_core::program`.
 const SET: usize = 23;
 const ADD_TO: usize = 24;
 const SUBTRACT_FROM: usize = 25;
 
 #[derive(Default)]
-struct Writer {
-    bytes: Vec<u8>,
+pub(super) struct Writer {
+    pub(super) bytes: Vec<u8>,
     numbers: Vec<f64>,
     /// Places of the numbers, by their bits.
     known: HashMap<u64, usize>,
 }
 
 impl Writer {
+    /// The words and numbers of a tape.
+    pub(super) fn written(tape: &Tape) -> Writer {
+        let mut writer = Writer::default();
+        for block in &tape.blocks {
+            writer.needs(&block.needs);
+            writer.word(block.steps.len() + block.writes.len());
+            writer.word(block.steps.first().map_or(0, |step| step.value.0));
+            for step in &block.steps {
+                writer.operation(step.operation);
+            }
+            for write in &block.writes {
+                let operation = match write.mode {
+                    Mode::Set => SET,
+                    Mode::Add => ADD_TO,
+                    Mode::Sub => SUBTRACT_FROM,
+                };
+                writer.words([operation, write.output, write.value.0]);
+            }
+        }
+        writer
+    }
+
     fn word(&mut self, word: usize) {
         // A tape has fewer than 2³⁰ values: the node budget sees to that.
         self.bytes.extend_from_slice(&(word as u32).to_le_bytes());

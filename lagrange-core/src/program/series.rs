@@ -1,4 +1,4 @@
-//! Taylor coefficients of a recorded tape.
+//! Taylor coefficients of a program.
 //!
 //! With x(τ) = Σ xₖ τᵏ, coefficient k of every operation is *linear* in the coefficients k of its operands, with factors
 //! that are values at τ = 0, once the products of earlier coefficients are known:
@@ -10,17 +10,14 @@
 //! ```
 //!
 //! So a series takes two alternating passes. One forms the sums A of all products, four of them at a time: they lie side by
-//! side, so that a processor adds four terms at once, and in each only as many terms as the order. The other runs the tape
+//! side, so that a processor adds four terms at once, and in each only as many terms as the order. The other runs the program
 //! on numbers, like a value.
 //!
 //! References: Jorba & Zou 2005, A software package for the numerical integration of ODEs by means of high-order Taylor
 //! methods, section 2; Griewank & Walther 2008, Evaluating Derivatives, chapter 13.
 
-use super::Scalar;
-use super::instruction::{Instruction, Op};
-use super::pack::{Coefficient, Pack};
-use super::program::{Program, with_registers};
-use super::record::{Recorded, Slot};
+use super::instruction::{Instruction, Op, Program, Register, with_registers};
+use crate::arithmetic::{Coefficient, Pack, Scalar};
 
 /// Coefficients of a row, a power of two.
 const STRIDE: usize = 32;
@@ -66,8 +63,8 @@ const LANES: usize = 4;
 #[derive(Clone, Debug)]
 struct Products<T> {
     /// Which numbers they multiply.
-    x_slots: [Slot; LANES],
-    y_slots: [Slot; LANES],
+    x_registers: [Register; LANES],
+    y_registers: [Register; LANES],
     /// One where xᵢ counts i times, else zero.
     weighted: [T; LANES],
     /// Coefficients 1, 2, ….
@@ -79,8 +76,8 @@ impl<T: Coefficient> Products<T> {
     /// Products of zeros.
     fn new() -> Self {
         Self {
-            x_slots: [Recorded::ZERO.slot; LANES],
-            y_slots: [Recorded::ZERO.slot; LANES],
+            x_registers: [Register::ZERO; LANES],
+            y_registers: [Register::ZERO; LANES],
             weighted: [T::of(0.0); LANES],
             x: [[T::of(0.0); LANES]; STRIDE],
             y: [[T::of(0.0); LANES]; STRIDE],
@@ -107,30 +104,27 @@ impl<T: Coefficient> Products<T> {
         let (x, y) = (&mut self.x[(k - 1) % STRIDE], &mut self.y[(k - 1) % STRIDE]);
         for lane in 0..LANES {
             let weight = T::of(1.0) + self.weighted[lane] * extra;
-            x[lane] = weight * now[self.x_slots[lane].index() & (N - 1)];
-            y[lane] = now[self.y_slots[lane].index() & (N - 1)];
+            x[lane] = weight * now[self.x_registers[lane].index() & (N - 1)];
+            y[lane] = now[self.y_registers[lane].index() & (N - 1)];
         }
     }
 }
 
 /// The Taylor coefficients of a program, order by order.
 #[derive(Clone, Debug)]
-pub struct Expansion<T> {
+pub(crate) struct Series<T> {
     /// What runs before the caller's own equations are solved, and after that.
     before: Vec<Step>,
     after: Vec<Step>,
-    /// Whether the caller solves equations.
-    solves: bool,
     /// Operations that need a series to exist: where their arguments are.
-    critical: Vec<(Operation, Slot, Slot)>,
+    critical: Vec<(Operation, Register, Register)>,
     /// Number of products.
     count: usize,
     products: Vec<Products<T>>,
     /// Of coefficient k, what earlier ones give to it, one by one.
     sums: Vec<T>,
-    /// The registers whose coefficients are kept: varying ones, then constant ones.
-    kept: Vec<Slot>,
-    varying: usize,
+    /// The registers whose coefficients are kept.
+    kept: Vec<Register>,
     /// By register: its row among those kept.
     rows: Vec<u32>,
     history: Vec<Row<T>>,
@@ -138,109 +132,91 @@ pub struct Expansion<T> {
     now: Vec<T>,
 }
 
-impl<T: Coefficient> Expansion<T> {
-    /// Prepares the expansion of `program` with so many `registers`; the coefficients of `wanted` are kept. If the caller
-    /// solves equations, which happens after part 0, their `elements` (matrix element and unknown) are products 0, 1, ….
-    pub fn new(
+impl<T: Coefficient> Series<T> {
+    /// Prepares the series of `program` with so many `registers`; the coefficients of `wanted` are kept. The caller solves
+    /// equations after the first `before` parts; their `elements` (matrix element and unknown) are products 0, 1, ….
+    pub(crate) fn new(
         program: &Program,
         registers: usize,
-        wanted: &[Recorded],
-        elements: Option<&[(Slot, Slot)]>,
+        wanted: &[Register],
+        elements: impl Iterator<Item = (Register, Register)>,
+        before: usize,
     ) -> Self {
-        let mut expansion = Self {
+        let mut series = Self {
             before: Vec::new(),
             after: Vec::new(),
-            solves: elements.is_some(),
             critical: Vec::new(),
             count: 0,
             products: Vec::new(),
             sums: Vec::new(),
             kept: Vec::new(),
-            varying: 0,
             rows: vec![NO_ROW; registers],
             history: Vec::new(),
             now: vec![T::of(0.0); registers],
         };
-        for &(x, y) in elements.unwrap_or_default() {
-            expansion.product(x, y);
-        }
+        elements.for_each(|(x, y)| series.product(x, y));
         for (index, part) in program.parts.iter().enumerate() {
-            part.fixed.iter().for_each(|i| expansion.watch(i));
-            for &instruction in &part.varying {
-                expansion.watch(&instruction);
-                let product = expansion.count as u32;
-                expansion.products_of(&instruction);
+            for &instruction in part {
+                series.watch(&instruction);
+                let product = series.count as u32;
+                series.products_of(&instruction);
                 let step = Step {
                     instruction,
                     product,
                 };
-                if index == 0 || elements.is_none() {
-                    expansion.before.push(step);
+                if index < before {
+                    series.before.push(step);
                 } else {
-                    expansion.after.push(step);
+                    series.after.push(step);
                 }
             }
         }
-        for recorded in wanted.iter().filter(|r| r.varies()) {
-            expansion.keep(recorded.slot);
-        }
-        expansion.varying = expansion.kept.len();
-        expansion.keep(Recorded::ZERO.slot);
-        for recorded in wanted.iter().filter(|r| !r.varies()) {
-            expansion.keep(recorded.slot);
-        }
-        expansion.history = vec![[T::of(0.0); STRIDE]; expansion.kept.len()];
-        expansion.sums = vec![T::of(0.0); expansion.products.len() * LANES];
-        expansion
+        series.keep(Register::ZERO);
+        wanted.iter().for_each(|&register| series.keep(register));
+        series.history = vec![[T::of(0.0); STRIDE]; series.kept.len()];
+        series.sums = vec![T::of(0.0); series.products.len() * LANES];
+        series
     }
 
     /// Keeps the coefficients of a register.
-    fn keep(&mut self, slot: Slot) {
-        let row = &mut self.rows[slot.index()];
+    fn keep(&mut self, register: Register) {
+        let row = &mut self.rows[register.index()];
         if *row == NO_ROW {
             *row = self.kept.len() as u32;
-            self.kept.push(slot);
+            self.kept.push(register);
         }
     }
 
     /// Σ xᵢ yⱼ
-    fn product(&mut self, x: Slot, y: Slot) {
+    fn product(&mut self, x: Register, y: Register) {
         self.push_product(x, y, T::of(0.0));
     }
 
     /// Σ i xᵢ yⱼ
-    fn weighted(&mut self, x: Slot, y: Slot) {
+    fn weighted(&mut self, x: Register, y: Register) {
         self.push_product(x, y, T::of(1.0));
     }
 
-    fn push_product(&mut self, x: Slot, y: Slot, weighted: T) {
+    fn push_product(&mut self, x: Register, y: Register, weighted: T) {
         let lane = self.count % LANES;
         if lane == 0 {
             self.products.push(Products::new());
         }
         self.count += 1;
         if let Some(last) = self.products.last_mut() {
-            (last.x_slots[lane], last.y_slots[lane]) = (x, y);
+            (last.x_registers[lane], last.y_registers[lane]) = (x, y);
             last.weighted[lane] = weighted;
         }
     }
 
     /// The products of an instruction.
     fn products_of(&mut self, i: &Instruction) {
-        let (x, y, z, u) = (i.x, i.y, i.to, Slot(i.to.0 + 1));
+        let (x, y, z, u) = (i.x, i.y, i.to, i.to.next());
         match i.op {
-            Op::Copy
-            | Op::Add
-            | Op::Sub
-            | Op::Neg
-            | Op::Offset
-            | Op::Scale
-            | Op::DivConstant
-            | Op::Sum
-            | Op::Sum2 => {}
+            Op::Copy | Op::Add | Op::Sub | Op::Neg | Op::Scale | Op::Sum => {}
             Op::Mul => self.product(x, y),
             Op::Square => self.product(x, x),
-            Op::Div | Op::Ratio => self.product(y, z),
+            Op::Div => self.product(y, z),
             Op::Sqrt => self.product(z, z),
             Op::Exp => self.weighted(x, z),
             Op::Ln => self.weighted(z, x),
@@ -279,7 +255,7 @@ impl<T: Coefficient> Expansion<T> {
     /// Notes an operation whose series can fail to exist.
     fn watch(&mut self, i: &Instruction) {
         let operation = match i.op {
-            Op::Div | Op::DivConstant | Op::Ratio => {
+            Op::Div => {
                 return self.critical.push((Operation::Division, i.y, i.y));
             }
             Op::Sqrt => Operation::SquareRoot,
@@ -294,9 +270,9 @@ impl<T: Coefficient> Expansion<T> {
 
     /// Coefficients 0, from values in the registers `first`.
     #[inline(always)]
-    pub fn begin(&mut self, first: &[T]) {
-        for (row, slot) in self.history.iter_mut().zip(&self.kept) {
-            row[0] = first[slot.index()];
+    pub(crate) fn begin(&mut self, first: &[T]) {
+        for (row, register) in self.history.iter_mut().zip(&self.kept) {
+            row[0] = first[register.index()];
         }
     }
 
@@ -304,12 +280,12 @@ impl<T: Coefficient> Expansion<T> {
     /// their rates; register 1 is time. `solve` puts coefficient k of the caller's unknowns into the registers that it is given; it gets
     /// the values of all registers, and of each product what earlier coefficients give to coefficient k.
     #[inline(always)]
-    pub fn run(
+    pub(crate) fn run(
         &mut self,
         program: &Program,
         first: &mut [T],
         order: usize,
-        integrals: &[(Slot, Slot)],
+        integrals: &[(Register, Register)],
         mut solve: impl FnMut(usize, &mut [T], &[T], &[T]),
     ) {
         let order = order.min(MAX_ORDER);
@@ -323,7 +299,7 @@ impl<T: Coefficient> Expansion<T> {
         program: &Program,
         first: &[T; N],
         order: usize,
-        integrals: &[(Slot, Slot)],
+        integrals: &[(Register, Register)],
         solve: &mut impl FnMut(usize, &mut [T], &[T], &[T]),
     ) {
         let mut now = core::mem::take(&mut self.now);
@@ -334,25 +310,23 @@ impl<T: Coefficient> Expansion<T> {
             let weight = T::of(k as f64);
             // dt/dτ = 1
             registers[1] = if k == 1 { T::of(1.0) } else { T::of(0.0) };
-            for &(slot, rate) in integrals {
+            for &(register, rate) in integrals {
                 let rate = rate.index() & (N - 1);
                 let rate = if k == 1 { first[rate] } else { registers[rate] };
-                registers[slot.index() & (N - 1)] = rate / weight;
+                registers[register.index() & (N - 1)] = rate / weight;
             }
             let (sums, _) = self.sums.as_chunks_mut::<LANES>();
             for (sums, products) in sums.iter_mut().zip(&self.products) {
                 *sums = products.earlier(k);
             }
             advance(&self.before, program, &self.sums, k, first, registers);
-            if self.solves {
-                solve(k, registers, first, &self.sums);
-                advance(&self.after, program, &self.sums, k, first, registers);
-            }
+            solve(k, registers, first, &self.sums);
+            advance(&self.after, program, &self.sums, k, first, registers);
             for products in &mut self.products {
                 products.take(k, registers);
             }
-            for (row, slot) in self.history[..self.varying].iter_mut().zip(&self.kept) {
-                row[k % STRIDE] = registers[slot.index() & (N - 1)];
+            for (row, register) in self.history.iter_mut().zip(&self.kept) {
+                row[k % STRIDE] = registers[register.index() & (N - 1)];
             }
         }
         self.now = now;
@@ -360,10 +334,11 @@ impl<T: Coefficient> Expansion<T> {
 
     /// Coefficients 0…`order` of a number that was wanted; of any other number, zeros.
     #[inline]
-    pub fn series(&self, number: Recorded, order: usize) -> &[T] {
-        let row = |slot: Slot| self.rows.get(slot.index()).copied().unwrap_or(NO_ROW);
-        let found = match row(number.slot) {
-            NO_ROW => row(Recorded::ZERO.slot),
+    pub(crate) fn series(&self, number: Register, order: usize) -> &[T] {
+        let row = |register: Register| self.rows.get(register.index()).copied();
+        let row = |register: Register| row(register).unwrap_or(NO_ROW);
+        let found = match row(number) {
+            NO_ROW => row(Register::ZERO),
             found => found,
         };
         let row = self.history.get(found as usize);
@@ -371,17 +346,17 @@ impl<T: Coefficient> Expansion<T> {
     }
 }
 
-impl<T: Scalar> Expansion<T> {
+impl<T: Scalar> Series<T> {
     /// Takes coefficients 1…`order` that one motion of a pack has. Both expansions must have been made for the same program and the
     /// same numbers.
-    pub fn take_lane<const L: usize>(
+    pub(crate) fn take_lane<const L: usize>(
         &mut self,
-        pack: &Expansion<Pack<T, L>>,
+        pack: &Series<Pack<T, L>>,
         lane: usize,
         order: usize,
     ) {
         let order = order.min(MAX_ORDER);
-        let rows = self.history[..self.varying].iter_mut().zip(&pack.history);
+        let rows = self.history.iter_mut().zip(&pack.history);
         for (row, packed) in rows {
             for (c, packed) in row[1..=order].iter_mut().zip(&packed[1..=order]) {
                 *c = packed.0[lane];
@@ -391,9 +366,9 @@ impl<T: Scalar> Expansion<T> {
 
     /// The first operation that has no Taylor series where the registers hold the values `first`.
     #[inline]
-    pub fn singular(&self, first: &[T]) -> Option<Operation> {
-        let at = |slot: Slot| first[slot.index()].value();
-        let fails = |&&(operation, x, y): &&(Operation, Slot, Slot)| match operation {
+    pub(crate) fn singular(&self, first: &[T]) -> Option<Operation> {
+        let at = |register: Register| first[register.index()].value();
+        let fails = |&&(operation, x, y): &&(Operation, Register, Register)| match operation {
             Operation::Division => at(x) == 0.0,
             Operation::InverseSine => !(at(x).abs() < 1.0),
             Operation::Angle => at(x) == 0.0 && at(y) == 0.0,
@@ -422,15 +397,14 @@ fn advance<T: Coefficient, const N: usize>(
     } in steps
     {
         let Instruction { op, to, x, y } = instruction;
-        let at = |slot: Slot| now[slot.index() & (N - 1)];
-        let start = |slot: Slot| first[slot.index() & (N - 1)];
+        let at = |register: Register| now[register.index() & (N - 1)];
+        let start = |register: Register| first[register.index() & (N - 1)];
         let sum = |number: usize| sums[product as usize + number];
         let value = match op {
             Op::Copy => at(x),
             Op::Add => at(x) + at(y),
             Op::Sub => at(x) - at(y),
             Op::Neg => -at(x),
-            Op::Offset => at(y),
             Op::Scale => start(x) * at(y),
             Op::Mul => start(x).mul_add(at(y), at(x).mul_add(start(y), sum(0))),
             Op::Square => {
@@ -438,8 +412,6 @@ fn advance<T: Coefficient, const N: usize>(
                 sum(0) + (half + half)
             }
             Op::Div => (at(x) - start(to).mul_add(at(y), sum(0))) / start(y),
-            Op::DivConstant => at(x) / start(y),
-            Op::Ratio => -start(to).mul_add(at(y), sum(0)) / start(y),
             Op::Sqrt => (at(x) - sum(0)) / (start(to) + start(to)),
             Op::Powf => {
                 let earlier = start(y) * sum(1) - sum(0);
@@ -449,30 +421,27 @@ fn advance<T: Coefficient, const N: usize>(
             Op::Ln => (at(x) - sum(0) / order) / start(x),
             Op::Sum => {
                 let terms = &terms[x.index()..y.index()];
-                let add = |sum, &(factor, x): &(Slot, Slot)| start(factor).mul_add(at(x), sum);
+                let add =
+                    |sum, &(factor, x): &(Register, Register)| start(factor).mul_add(at(x), sum);
                 terms.iter().fold(T::of(0.0), add)
-            }
-            Op::Sum2 => {
-                let [(f, x), (g, y)] = [terms[x.index()], terms[x.index() + 1]];
-                start(f).mul_add(at(x), start(g) * at(y))
             }
             Op::Atan2 => {
                 let earlier = (sum(0) - sum(3) + sum(4)) / order;
                 let turn = at(x) * start(y) - at(y) * start(x);
                 let half = start(x) * at(x) + start(y) * at(y);
-                let second = Slot(to.0 + 1);
+                let second = to.next();
                 now[second.index() & (N - 1)] = half + half + sum(1) + sum(2);
                 (turn - earlier) / start(second)
             }
             Op::Asin | Op::Acos => {
-                let second = Slot(to.0 + 1);
+                let second = to.next();
                 let (half, u0) = (start(x) * at(x), start(second));
                 let x = if op == Op::Asin { at(x) } else { -at(x) };
                 now[second.index() & (N - 1)] = -(half + half + sum(1) + sum(2)) / (u0 + u0);
                 (x - sum(0) / order) / u0
             }
             _ => {
-                let second = Slot(to.0 + 1);
+                let second = to.next();
                 let values = [start(x), start(to), start(second)];
                 let (z, u) = pair(op, at(x), values, [sum(0), sum(1)], order);
                 now[second.index() & (N - 1)] = u;
