@@ -12,7 +12,8 @@ use crate::linear::{Plan, Solver};
 use crate::mode::Mode;
 use crate::system::{Description, Held};
 
-/// Interpreted equations kept per mode: what is asked for beside the motion changes between stepping and switching.
+/// Interpreted equations kept per mode: what is asked for beside the motion changes between stepping and switching, and numbers vanish
+/// for some parameters and not for others.
 const MOST_INTERPRETED: usize = 12;
 
 /// The equations of one mode.
@@ -192,9 +193,9 @@ impl<T: Scalar> Compiled<T> {
             extra: &self.row_needs,
             report: None,
         };
-        let rows = self.rows.take();
-        let mut rows = rows.unwrap_or_else(|| Interpreted::load(system, self, &asked, numbers));
-        rows.renew(system, self, numbers);
+        let mut rows = self.rows.take();
+        let renewed = rows.take_if(|rows| rows.renew(system, self, numbers));
+        let rows = renewed.unwrap_or_else(|| Interpreted::load(system, self, &asked, numbers));
         self.rows.insert(rows)
     }
 
@@ -211,7 +212,10 @@ impl<T: Scalar> Compiled<T> {
         numbers: &mut Vec<T>,
     ) {
         let mut list = core::mem::take(&mut self.interpreted);
-        match list.iter().position(|one| one.is_for(asked)) {
+        let found = list
+            .iter_mut()
+            .position(|one| one.is_for(asked) && one.renew(system, self, numbers));
+        match found {
             // The one used last comes first.
             Some(index) => list[..=index].rotate_right(1),
             None => {
@@ -219,7 +223,6 @@ impl<T: Scalar> Compiled<T> {
                 list.insert(0, Interpreted::load(system, self, asked, numbers));
             }
         }
-        list[0].renew(system, self, numbers);
         self.interpreted = list;
     }
 }

@@ -185,18 +185,26 @@ impl<T: Scalar> Interpreted<T> {
         self.outdated = true;
     }
 
-    /// Takes the numbers of the present parameters, if they have changed; `numbers` is memory.
+    /// Takes the numbers of the present parameters, if they have changed; `numbers` is memory. False if others of them are zero
+    /// now: then it is the program of other parameters.
     pub(super) fn renew(
         &mut self,
         system: &dyn ErasedSystem<T>,
         compiled: &Compiled<T>,
         numbers: &mut Vec<T>,
-    ) {
-        if core::mem::take(&mut self.outdated) {
+    ) -> bool {
+        if self.outdated {
             collect(system, compiled, numbers);
             let first = self.shape.numbers;
-            self.registers[first..first + numbers.len()].copy_from_slice(numbers);
+            let registers = &mut self.registers[first..first + numbers.len()];
+            let mut pairs = registers.iter().zip(&*numbers);
+            if pairs.any(|(x, y)| x.is_zero() != y.is_zero()) {
+                return false;
+            }
+            registers.copy_from_slice(numbers);
+            self.outdated = false;
         }
+        true
     }
 
     /// Loads the equations of a mode; `numbers` is memory.
@@ -207,7 +215,7 @@ impl<T: Scalar> Interpreted<T> {
         numbers: &mut Vec<T>,
     ) -> Self {
         collect(system, compiled, numbers);
-        let shape = shape(system.description(), compiled, asked, numbers.len());
+        let shape = shape(system.description(), compiled, asked, numbers);
         let mut registers = vec![T::zero(); shape.registers];
         registers[shape.numbers..shape.numbers + numbers.len()].copy_from_slice(numbers);
         Self {
@@ -263,8 +271,8 @@ fn collect<T: Scalar>(system: &dyn ErasedSystem<T>, compiled: &Compiled<T>, numb
     compiled.plan.collect(numbers);
 }
 
-/// Loads the programs and writes the solution around them; `count` numbers are collected.
-fn shape<T: Scalar>(d: &Description, compiled: &Compiled<T>, asked: &Asked, count: usize) -> Shape {
+/// Loads the programs and writes the solution around them, for these numbers.
+fn shape<T: Scalar>(d: &Description, compiled: &Compiled<T>, asked: &Asked, values: &[T]) -> Shape {
     let Compiled {
         mode,
         constants,
@@ -288,7 +296,9 @@ fn shape<T: Scalar>(d: &Description, compiled: &Compiled<T>, asked: &Asked, coun
         needs,
         branches: &mode.branches,
     };
-    let mut builder = Builder::new(first + count);
+    let mut vanishing = vec![false; first];
+    vanishing.extend(values.iter().map(T::is_zero));
+    let mut builder = Builder::new(vanishing.len()).vanishing(vanishing);
     let motion = held(asked.held);
     let mut nodes = builder.load(&d.motion, &motion, of_motion, &inputs[..1 + 2 * n]);
     builder.cut();

@@ -32,6 +32,8 @@ impl Numbers {
 pub(crate) struct Builder {
     program: Program,
     registers: usize,
+    /// Of the first registers, those whose number is zero for the parameters at hand.
+    vanishing: Vec<bool>,
 }
 
 impl Builder {
@@ -41,7 +43,25 @@ impl Builder {
             parts: vec![Vec::new()],
             terms: Vec::new(),
         };
-        Self { program, registers }
+        Self {
+            program,
+            registers,
+            vanishing: Vec::new(),
+        }
+    }
+
+    /// The same where the first registers with `true` hold zero: an effect whose factor vanishes is not there.
+    pub(crate) fn vanishing(mut self, vanishing: Vec<bool>) -> Self {
+        self.vanishing = vanishing;
+        self
+    }
+
+    /// The register, or that of zero if it holds zero.
+    fn known(&self, x: Register) -> Register {
+        match self.vanishing.get(x.index()) {
+            Some(true) => Register::ZERO,
+            _ => x,
+        }
     }
 
     /// The program, and the number of registers that it uses.
@@ -68,6 +88,7 @@ impl Builder {
 
     /// The result of an operation.
     pub(crate) fn push(&mut self, op: Op, x: Register, y: Register) -> Register {
+        let (x, y) = (self.known(x), self.known(y));
         let known = match (op, x.is_zero(), y.is_zero()) {
             (Op::Add, true, _) => Some(y),
             (Op::Add | Op::Sub, _, true) => Some(x),
@@ -96,8 +117,12 @@ impl Builder {
     /// Σ factor · number
     pub(crate) fn sum(&mut self, terms: impl Iterator<Item = (Register, Register)>) -> Register {
         let first = self.program.terms.len();
-        let terms = terms.filter(|(factor, x)| !factor.is_zero() && !x.is_zero());
-        self.program.terms.extend(terms);
+        for (factor, x) in terms {
+            let (factor, x) = (self.known(factor), self.known(x));
+            if !factor.is_zero() && !x.is_zero() {
+                self.program.terms.push((factor, x));
+            }
+        }
         match self.program.terms[first..] {
             [] => Register::ZERO,
             [(factor, x)] => {
