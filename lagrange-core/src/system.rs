@@ -8,9 +8,9 @@
 //!
 //! Every number is an *output* of a tape or a parameter-only *constant*; a [`Place`] says which.
 
-use crate::arithmetic::Scalar;
+use crate::arithmetic::{Number, Scalar};
 use crate::derivation::Derivation;
-use crate::equations::{ModeEquations, ModeStructure, Number};
+use crate::equations::{ModeEquations, ModeStructure};
 use crate::program::Encoded;
 use core::fmt;
 use core::str::FromStr;

@@ -23,9 +23,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 pub fn lagrangian(input: TokenStream) -> TokenStream {
     let input = input.into();
     let expand = || {
-        let expansion = lagrange_engine::expand(proc_macro2::TokenStream::clone(&input));
-        dump::dump(&input, &expansion);
-        expansion.into()
+        dump::dump(&input);
+        lagrange_engine::expand(proc_macro2::TokenStream::clone(&input)).into()
     };
     catch_unwind(AssertUnwindSafe(expand)).unwrap_or_else(|panic| bug(&*panic))
 }

@@ -3,13 +3,16 @@
 mod dual;
 #[cfg(feature = "num-dual")]
 mod num_dual;
+mod number;
 mod pack;
 mod scalar;
 #[cfg(test)]
 mod tests;
 
 pub use dual::Dual;
-pub use pack::{Coefficient, Pack};
+pub use number::Number;
+pub(crate) use number::{epsilon, positive_definite};
+pub use pack::Pack;
 
 use crate::entries::Entries;
 use core::fmt::Debug;

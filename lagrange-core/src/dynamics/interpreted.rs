@@ -12,7 +12,7 @@
 use super::Operations;
 use super::compiled::{Asked, Compiled};
 use super::needs::NeedSet;
-use crate::arithmetic::{Coefficient, Scalar};
+use crate::arithmetic::{Number, Scalar};
 use crate::erased::ErasedSystem;
 use crate::linear::Plan;
 use crate::program::{Builder, Numbers, Op, Program, Register, Series, room};
@@ -75,7 +75,7 @@ impl Shape {
     }
 
     /// Memory for Taylor coefficients.
-    pub(super) fn series<C: Coefficient>(&self) -> Series<C> {
+    pub(super) fn series<C: Number>(&self) -> Series<C> {
         let elements = self.elements.iter();
         Series::new(
             &self.series,
@@ -89,7 +89,7 @@ impl Shape {
     /// Right-hand sides of one order, from the coefficients `now`, the values `first`, and what `earlier` coefficients of the elements
     /// and unknowns give.
     #[inline(always)]
-    pub(super) fn right_hand_sides<C: Coefficient>(
+    pub(super) fn right_hand_sides<C: Number>(
         &self,
         now: &[C],
         first: &[C],

@@ -9,8 +9,8 @@
 //! for a coordinate projection method applied to mechanical systems with algebraic constraints, SIAM J. Numer. Anal. 30.
 
 use super::{Compiled, Dynamics, EvaluationError};
-use crate::arithmetic::Scalar;
-use crate::linear::{Inertia, epsilon};
+use crate::arithmetic::{Scalar, epsilon};
+use crate::linear::Inertia;
 use crate::system::{Place, Row};
 
 /// Residuals are rounding below this share of the terms that they cancel from.

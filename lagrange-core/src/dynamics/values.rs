@@ -3,8 +3,8 @@
 use super::compiled::Compiled;
 use super::interpreted::{Extent, FORCES, MOTION, REPORT, SYSTEM};
 use super::{Dynamics, EvaluationError};
-use crate::arithmetic::Scalar;
-use crate::linear::{Inertia, SolveError, epsilon};
+use crate::arithmetic::{Scalar, epsilon};
+use crate::linear::{Inertia, SolveError};
 use crate::system::Place;
 
 impl<T: Scalar> Dynamics<T> {

@@ -1,10 +1,9 @@
 //! One mode's functions with the memory that they work in.
 
 use super::{Arguments, FrictionState, ModeEquations, ModeStructure, Refused, Row, STRIDE};
-use crate::arithmetic::Scalar;
+use crate::arithmetic::{Scalar, epsilon};
 use crate::effects::{Effects, Item};
 use crate::erased::ErasedSystem;
-use crate::linear::epsilon;
 use crate::mode::{Direction, FrictionMode, Mode};
 use crate::system::{Description, Held, Place};
 

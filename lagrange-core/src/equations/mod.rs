@@ -10,10 +10,8 @@
 //! hand is refused; the core then looks for better ones.
 
 mod emitted;
-mod number;
 
 pub(crate) use emitted::Emitted;
-pub use number::Number;
 
 use crate::system::{Held, Place};
 

@@ -17,7 +17,7 @@
 //! methods, section 2; Griewank & Walther 2008, Evaluating Derivatives, chapter 13.
 
 use super::instruction::{Instruction, Op, Program, Register, with_registers};
-use crate::arithmetic::{Coefficient, Pack, Scalar};
+use crate::arithmetic::{Number, Pack, Scalar};
 
 /// Coefficients of a row, a power of two.
 const STRIDE: usize = 32;
@@ -72,7 +72,7 @@ struct Products<T> {
     y: [[T; LANES]; STRIDE],
 }
 
-impl<T: Coefficient> Products<T> {
+impl<T: Number> Products<T> {
     /// Products of zeros.
     fn new() -> Self {
         Self {
@@ -132,7 +132,7 @@ pub(crate) struct Series<T> {
     now: Vec<T>,
 }
 
-impl<T: Coefficient> Series<T> {
+impl<T: Number> Series<T> {
     /// Prepares the series of `program` with so many `registers`; the coefficients of `wanted` are kept. The caller solves
     /// equations after the first `before` parts; their `elements` (matrix element and unknown) are products 0, 1, ….
     pub(crate) fn new(
@@ -381,7 +381,7 @@ impl<T: Scalar> Series<T> {
 
 /// Coefficient k of a list of numbers.
 #[inline(always)]
-fn advance<T: Coefficient, const N: usize>(
+fn advance<T: Number, const N: usize>(
     steps: &[Step],
     program: &Program,
     sums: &[T],
@@ -454,7 +454,7 @@ fn advance<T: Coefficient, const N: usize>(
 
 /// Coefficient k of the other operations with two results, from that of x, the values of x, z, u, and the sums.
 #[inline(always)]
-fn pair<T: Coefficient>(op: Op, x: T, [x0, z0, u0]: [T; 3], sums: [T; 2], order: T) -> (T, T) {
+fn pair<T: Number>(op: Op, x: T, [x0, z0, u0]: [T; 3], sums: [T; 2], order: T) -> (T, T) {
     let earlier = sums[0] / order;
     let twice = |c: T| c + c;
     match op {

@@ -48,12 +48,17 @@ pub fn expand(input: TokenStream) -> TokenStream {
     }
 }
 
-/// The expansion as formatted Rust.
-pub fn formatted(expansion: &TokenStream) -> String {
-    match syn::parse2::<syn::File>(expansion.clone()) {
+/// What the derive macro expands to as formatted Rust; what of it is data follows in words.
+pub fn readable(input: TokenStream) -> String {
+    let expansion = expand(input.clone());
+    let mut text = match syn::parse2::<syn::File>(expansion.clone()) {
         Ok(file) => prettyplease::unparse(&file),
         Err(_) => expansion.to_string(),
+    };
+    if let Ok(program) = program(input) {
+        text.push_str(&emit::listing(&program));
     }
+    text
 }
 
 /// The program of a struct with its `#[lagrange(…)]` attributes.

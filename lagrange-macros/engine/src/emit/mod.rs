@@ -9,6 +9,7 @@ mod encoded;
 mod equations;
 mod fallback;
 mod handles;
+mod listing;
 mod names;
 mod scalar;
 #[cfg(test)]
@@ -21,6 +22,7 @@ use quote::quote;
 
 pub use derivation::{derivation, on_request as derivation_on_request};
 pub use fallback::fallback;
+pub use listing::listing;
 
 /// Systems with more operations are not written out at every build.
 const LARGEST: usize = 500;

@@ -84,6 +84,11 @@ impl Program {
         self.places[output.0]
     }
 
+    /// Inputs of a stage.
+    pub fn inputs(&self, stage: Stage) -> Vec<Symbol> {
+        inputs(&self.equations.system, stage)
+    }
+
     /// Arithmetic operations of a stage that run while `held` (words of a need mask) is held.
     pub fn operations(&self, stage: Stage, held: &[u64]) -> usize {
         match stage {

@@ -97,7 +97,7 @@ pub fn function(
     let bound = names::array(&rows, quote!(#rows.first_chunk_mut::<#count>()));
     quote! {
         #[doc = #heading]
-        fn #name<#number: #core::equations::Number>(
+        fn #name<#number: #core::arithmetic::Number>(
             #c: &[#number],
             #held: &#core::system::Held,
             #order: usize,

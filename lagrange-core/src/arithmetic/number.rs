@@ -1,7 +1,6 @@
-//! What emitted functions work with: a number, or the numbers of several motions side by side.
+//! What the equations of a mode work with: a number, or the numbers of several motions side by side.
 
-use crate::arithmetic::{Pack, Scalar};
-use crate::linear::positive_definite;
+use super::{Pack, Scalar};
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A number of a motion, or one of each of several motions: every operation gives each what it would give it alone.
@@ -52,6 +51,24 @@ pub trait Number:
     fn is_positive_share(pivot: Self, diagonal: Self) -> bool;
     /// Whether a pivot is not small beside what it was before, nor beside the elements below.
     fn is_safe_pivot(pivot: Self, before: Self, below: &[Self]) -> bool;
+}
+
+/// The distance from 1 to the next number of a type.
+#[inline(always)]
+pub(crate) fn epsilon<T: Scalar>() -> f64 {
+    let double = T::from_f64(1.0 + f64::EPSILON).value() > 1.0;
+    if double {
+        f64::EPSILON
+    } else {
+        f64::from(f32::EPSILON)
+    }
+}
+
+/// A pivot of M below this share of its diagonal element has lost 10 of 16 digits: M is not safely positive definite. What
+/// earlier pivots have lost is missing from this one too: together they must not lose more.
+#[inline(always)]
+pub(crate) fn positive_definite<T: Scalar>() -> f64 {
+    524_288.0 * epsilon::<T>()
 }
 
 /// Factors of an elimination without exchange of rows up to the inverse of this lose two digits.
