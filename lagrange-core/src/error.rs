@@ -172,15 +172,6 @@ pub enum Error {
     },
     /// Something was asked of the motion between the events of a run that did not record it.
     NotRecorded,
-    /// The scene has something that this version of the core, or the chosen method, cannot do.
-    Unsupported {
-        /// What.
-        what: &'static str,
-        /// Which item.
-        item: &'static str,
-        /// What does it instead.
-        instead: &'static str,
-    },
 }
 
 /// Level of a residual.
@@ -324,13 +315,6 @@ impl fmt::Display for Error {
             }
             Error::NotRecorded => {
                 write!(f, "the run kept its events only; leave `record(false)` out")
-            }
-            Error::Unsupported {
-                what,
-                item,
-                instead,
-            } => {
-                write!(f, "`{item}`: {what} is not supported here; {instead}")
             }
         }
     }

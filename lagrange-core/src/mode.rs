@@ -154,8 +154,9 @@ impl Mode {
             }
             _ => x == y,
         };
-        self.contacts == other.contacts
-            && self.branches == other.branches
+        // A few elements are compared sooner than a call of `memcmp` is made.
+        self.contacts.iter().eq(&other.contacts)
+            && self.branches.iter().eq(&other.branches)
             && self.frictions.len() == other.frictions.len()
             && self.frictions.iter().zip(&other.frictions).all(same)
     }

@@ -180,6 +180,11 @@ impl<T: Scalar> Dynamics<T> {
         &self.compiled().mode
     }
 
+    /// Index of the present mode among those that are kept ready.
+    pub(crate) fn mode_index(&self) -> usize {
+        self.current
+    }
+
     /// What the equations of motion of this mode need.
     pub fn motion_needs(&self) -> &NeedSet {
         &self.compiled().motion_needs

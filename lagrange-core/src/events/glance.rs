@@ -23,6 +23,30 @@ pub(super) enum Glance {
     },
 }
 
+/// Whether Σ cₖ sᵏ certainly keeps one sign on [0, 1] and begins with a value of more than `share` of Σ|cₖ|, given Σ|cₖ| without
+/// the first two.
+#[inline]
+pub fn keeps_its_sign(c: &[f64], rest: f64, share: f64) -> bool {
+    let [c0, c1, c2, c3, ..] = *c else {
+        return false;
+    };
+    let size = c0.abs() + c1.abs() + rest;
+    // The other coefficients in the Bernstein basis of the cubic that the first four make.
+    let sign = c0.signum();
+    let second = sign * (c0 + c1 / 3.0);
+    let third = sign * (c0 + (2.0 * c1 + c2) / 3.0);
+    let last = sign * (c0 + c1 + c2 + c3);
+    let margin = rest - (c2.abs() + c3.abs()) + 2.0 * noise_factor(c.len()) * size;
+    let lowest = smaller(smaller(c0.abs(), second), smaller(third, last));
+    lowest > margin && c0.abs() > share * size
+}
+
+/// The smaller of two numbers, the first if either is not a number.
+#[inline]
+fn smaller(x: f64, y: f64) -> f64 {
+    if x > y { y } else { x }
+}
+
 /// Looks at Σ cₖ sᵏ.
 #[inline]
 pub(super) fn glance(c: &[f64]) -> Glance {

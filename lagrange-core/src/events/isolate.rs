@@ -54,14 +54,6 @@ pub fn deflate(c: &[f64], m: usize) -> &[f64] {
     &c[m.min(c.len())..]
 }
 
-/// Order of the zero at s = 0 and whether the polynomial is positive just after it: the first coefficient that
-/// rounding cannot explain. `None` for a polynomial that is zero.
-pub fn sign_after_start(c: &[f64]) -> Option<(usize, bool)> {
-    let noise = noise_factor(c.len()) * c.iter().map(|c| c.abs()).sum::<f64>();
-    let order = c.iter().position(|c| c.abs() > noise)?;
-    Some((order, c[order] > 0.0))
-}
-
 /// Calls `visit` for each root in ascending order until it breaks; roots up to `from` may be left out.
 fn visit_roots<F>(c: &[f64], from: f64, visit: &mut F) -> ControlFlow<()>
 where

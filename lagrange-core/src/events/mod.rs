@@ -1,24 +1,22 @@
 //! Guards as polynomials over a step, and the instants at which they vanish.
 //!
 //! A stepper gives every armed guard as a polynomial in s ∈ [0, 1], t = t₀ + h s, with coefficients already
-//! multiplied by hᵏ. [`roots`] isolates all its zeros in (0, 1], [`first_root`] the earliest; [`sort`] and
-//! [`simultaneous`] put the zeros of several guards in order.
+//! multiplied by hᵏ. Most keep their sign: [`keeps_its_sign`] knows it from a bound. [`roots`] isolates all zeros in (0, 1],
+//! [`first_root`] the earliest.
 //!
 //! What is not decided here: a guard that *starts* at zero or below it. A root at s = 0 belongs to the step
-//! before, so the caller arms guards by [`sign_after_start`], [`deflate`]s those known to be zero, and treats an armed
-//! guard that starts negative as an event at s = 0.
+//! before, so the caller [`deflate`]s guards known to be zero there, and treats one that starts negative as an event at s = 0.
 
 mod bernstein;
 mod glance;
 mod isolate;
-mod order;
 mod refine;
 #[cfg(test)]
 mod tests;
 
 pub use bernstein::MAX_DEGREE;
-pub use isolate::{deflate, first_root, roots, sign_after_start};
-pub use order::{Hit, simultaneous, sort};
+pub use glance::keeps_its_sign;
+pub use isolate::{deflate, first_root, roots};
 
 /// Which way a guard passes zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

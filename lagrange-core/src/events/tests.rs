@@ -323,34 +323,27 @@ fn sine_series_over_a_period() {
 }
 
 #[test]
-fn the_sign_after_the_start_skips_residues() {
-    assert_eq!(sign_after_start(&[1e-18, -2.0, 1.0]), Some((1, false)));
-    assert_eq!(sign_after_start(&[0.0, 0.0, 3.0]), Some((2, true)));
-    assert_eq!(sign_after_start(&[0.0; 5]), None);
-    assert_eq!(deflate(&[1e-18, -2.0, 1.0], 1), &[-2.0, 1.0]);
-}
-
-#[test]
-fn overlapping_enclosures_are_simultaneous() {
-    let hit = |guard, s, width| Hit {
-        guard,
-        root: Root {
-            s,
-            direction: Direction::Falling,
-            grazing: false,
-            width,
-        },
-    };
-    let mut hits = [
-        hit(0, 0.7, 1e-15),
-        hit(2, 0.3, 1e-10),
-        hit(1, 0.3 + 0.9e-10, 1e-10),
-        hit(3, 0.3 + 3e-10, 1e-10),
-    ];
-    sort(&mut hits);
-    let guards: Vec<_> = hits.iter().map(|hit| hit.guard).collect();
-    assert_eq!(guards, [2, 1, 3, 0]);
-    assert_eq!(simultaneous(&hits), 2);
-    assert_eq!(simultaneous(&hits[2..]), 1);
-    assert_eq!(simultaneous(&[]), 0);
+fn a_bound_keeps_the_sign_only_of_polynomials_without_roots() {
+    let mut random = Random(7);
+    let mut kept = 0;
+    for _ in 0..20_000 {
+        let mut decay = 1.0;
+        let c: [f64; 14] = core::array::from_fn(|_| {
+            decay *= 0.6;
+            decay * (2.0 * random.unit() - 1.0)
+        });
+        let rest = c[2..].iter().map(|c| c.abs()).sum();
+        if keeps_its_sign(&c, rest, 1e-10) {
+            kept += 1;
+            let mut found = RootList::new();
+            roots(&c, &mut found);
+            assert!(found.is_empty(), "{c:?}: {:?}", &found[..]);
+            let end: f64 = c.iter().sum();
+            assert_eq!(end > 0.0, c[0] > 0.0, "{c:?}");
+        }
+    }
+    assert!(kept > 5_000, "{kept}");
+    // A start that cannot be told from zero, and a touch.
+    assert!(!keeps_its_sign(&[1e-12, 1.0, 0.0, 0.0], 0.0, 1e-10));
+    assert!(!keeps_its_sign(&[0.25, -1.0, 1.0, 0.0], 1.0, 1e-10));
 }

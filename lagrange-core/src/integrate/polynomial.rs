@@ -119,20 +119,75 @@ impl<T: Scalar> StepPolynomial<T> {
 }
 
 /// Σ cₖ, the first two last; the others in four chains, so that no addition waits for the one before.
+#[inline]
 pub(crate) fn sum<T: Scalar>(c: &[T]) -> T {
-    let (first, rest) = c.split_at(c.len().min(2));
-    let chunks = rest.chunks_exact(4);
-    let end = chunks.remainder();
-    let sums = chunks.rev().fold([T::zero(); 4], |mut sums, four| {
-        for (sum, &c) in sums.iter_mut().zip(four) {
-            *sum += c;
-        }
-        sums
-    });
-    let end = end.iter().rev().fold(T::zero(), |sum, &c| sum + c);
-    let rest = (sums[0] + sums[2]) + (sums[1] + sums[3]) + end;
-    first.iter().rev().fold(rest, |sum, &c| sum + c)
+    let [c0, c1, rest @ ..] = c else {
+        return c.iter().fold(T::zero(), |sum, &c| sum + c);
+    };
+    let (fours, end) = rest.as_chunks::<4>();
+    let mut sums = [T::zero(); 4];
+    for four in fours.iter().rev() {
+        sums = core::array::from_fn(|i| sums[i] + four[i]);
+    }
+    let sums = (sums[0] + sums[2]) + (sums[1] + sums[3]);
+    let rest = match *end {
+        [] => sums,
+        [a] => sums + a,
+        [a, b] => sums + (b + a),
+        [a, b, c, ..] => sums + (c + b + a),
+    };
+    rest + *c1 + *c0
 }
+
+/// Coefficients onto a step, cₖ pₖ for as many as `out` has; returns their [`sum`] and, if asked for, Σ k cₖ pₖ.
+#[inline]
+pub(crate) fn onto_step<T: Scalar, const SLOPE: bool>(
+    out: &mut [T],
+    c: &[T],
+    powers: &[f64],
+) -> (T, f64) {
+    let count = out.len();
+    let scaled = |c: T, power: f64| c * T::from_f64(power);
+    let (first, out) = out.split_at_mut(2);
+    first[0] = scaled(c[0], powers[0]);
+    first[1] = scaled(c[1], powers[1]);
+    let (out, out_end) = out.as_chunks_mut::<4>();
+    let (c, c_end) = c[2..count].as_chunks::<4>();
+    let (p, p_end) = powers[2..count].as_chunks::<4>();
+    let (k, k_end) = ORDERS[2..count].as_chunks::<4>();
+    let (mut sums, mut slopes) = ([T::zero(); 4], [0.0; 4]);
+    for i in (0..out.len()).rev() {
+        let x: [T; 4] = core::array::from_fn(|j| scaled(c[i][j], p[i][j]));
+        out[i] = x;
+        sums = core::array::from_fn(|j| sums[j] + x[j]);
+        if SLOPE {
+            slopes = core::array::from_fn(|j| slopes[j] + k[i][j] * x[j].value());
+        }
+    }
+    let mut end = T::zero();
+    for i in (0..out_end.len()).rev() {
+        let x = scaled(c_end[i], p_end[i]);
+        out_end[i] = x;
+        end += x;
+        if SLOPE {
+            slopes[i] += k_end[i] * x.value();
+        }
+    }
+    let sum = (sums[0] + sums[2]) + (sums[1] + sums[3]) + end + first[1] + first[0];
+    let slope = (slopes[0] + slopes[2]) + (slopes[1] + slopes[3]) + first[1].value();
+    (sum, slope)
+}
+
+/// k as a number.
+pub(crate) const ORDERS: [f64; 64] = {
+    let mut table = [0.0; 64];
+    let mut k = 1;
+    while k < 64 {
+        table[k] = k as f64;
+        k += 1;
+    }
+    table
+};
 
 /// Σ cₖ sᵏ; the small terms are added first, so that at s = 1 the sum is accurate to rounding for series that decay.
 pub(crate) fn horner<T: Scalar>(c: &[T], s: T) -> T {

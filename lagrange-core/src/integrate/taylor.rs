@@ -10,6 +10,7 @@
 //! read, and each predicts the last term by the decay that the others show. Independently of all coefficients,
 //! [`defect`] compares the series' acceleration at the end with a fresh evaluation.
 
+use super::polynomial::ORDERS;
 use super::{StepPolynomial, Tolerance};
 use crate::arithmetic::Scalar;
 
@@ -45,25 +46,28 @@ pub fn step_size<T: Scalar>(
     tolerance: Tolerance,
 ) -> Option<f64> {
     let first = (order / 2).max(3).min(order);
-    let mut sizes = [0.0; MAX_ORDER + 1];
-    let sizes = &mut sizes[..order + 1 - first];
-    // The sum of zeros is zero unless one of the factors is not finite.
-    let mut poison = [0.0; MAX_ORDER + 1];
+    let mut sizes = [[0.0; 4]; (MAX_ORDER + 4) / 4];
+    let mut sum = [0.0; 4];
     for i in 0..series.coordinates() {
         for row in [series.position(i), series.velocity(i)] {
             let limit = 1.0 / tolerance.scale(row[0].value().abs());
-            let sizes = sizes.iter_mut().zip(&mut poison);
-            for ((size, poison), c) in sizes.zip(&row[first..=order]) {
+            let (fours, end) = row[first..=order].as_chunks::<4>();
+            let (size_fours, size_end) = sizes.split_at_mut(fours.len());
+            for (four, c) in size_fours.iter_mut().zip(fours) {
+                let ratios = c.map(|c| c.value().abs() * limit);
+                sum = core::array::from_fn(|i| sum[i] + ratios[i]);
+                *four = core::array::from_fn(|i| larger(ratios[i], four[i]));
+            }
+            for (size, c) in size_end.as_flattened_mut().iter_mut().zip(end) {
                 let ratio = c.value().abs() * limit;
-                *poison += 0.0 * ratio;
-                *size = if ratio > *size { ratio } else { *size };
+                sum[0] += ratio;
+                *size = larger(ratio, *size);
             }
         }
     }
-    if poison[..sizes.len()].iter().any(|&x| x != 0.0) {
-        return None;
-    }
-    Some(step_from_sizes(sizes, first, tolerance.strictness()))
+    let sizes = &sizes.as_flattened()[..order + 1 - first];
+    let finite = sum.iter().sum::<f64>().is_finite();
+    finite.then(|| step_from_sizes(sizes, first, tolerance.strictness()))
 }
 
 /// Step from the sizes of the coefficients of the orders `first`, `first` + 1, … in units of the allowed error.
@@ -75,33 +79,35 @@ fn step_from_sizes(sizes: &[f64], first: usize, strictness: f64) -> f64 {
     /// log₂ e⁻², the last term.
     const LAST: f64 = -2.0 * core::f64::consts::LOG2_E;
 
-    let order = (first + sizes.len() - 1) as f64;
+    let count = sizes.len();
+    let order = (first + count - 1) as f64;
     let base = -rough_log2(strictness);
     let mut logs = [0.0; MAX_ORDER + 1];
-    let logs = &mut logs[..sizes.len()];
+    let logs = &mut logs[..count];
+    let (orders, reciprocals) = (&ORDERS[first..][..count], &RECIPROCALS[first..][..count]);
     // Root test: no coefficient lies above 2^(base + root·k).
     let mut root = f64::NEG_INFINITY;
-    for (k, (log, &size)) in (first..).zip(logs.iter_mut().zip(sizes)) {
+    for ((log, &size), reciprocal) in logs.iter_mut().zip(sizes).zip(reciprocals) {
         *log = rough_log2(size);
-        root = larger(root, (*log - base) * RECIPROCALS[k]);
+        root = larger(root, (*log - base) * reciprocal);
     }
     if root == f64::NEG_INFINITY {
         return f64::INFINITY;
     }
     // Decay between the highest points, seen from that line, of the lower and of the upper half.
-    let (lower, upper) = logs.split_at(logs.len() / 2);
-    let highest = |logs: &[f64], first: usize| {
+    let half = count / 2;
+    let highest = |logs: &[f64], orders: &[f64]| {
         let mut highest = (f64::NEG_INFINITY, 0.0);
-        for (k, log) in (first..).zip(logs) {
-            let above = log - root * k as f64;
+        for (log, &k) in logs.iter().zip(orders) {
+            let above = log - root * k;
             if above > highest.0 {
-                highest = (above, k as f64);
+                highest = (above, k);
             }
         }
         highest
     };
-    let (low, j) = highest(lower, first);
-    let (high, k) = highest(upper, first + lower.len());
+    let (low, j) = highest(&logs[..half], &orders[..half]);
+    let (high, k) = highest(&logs[half..], &orders[half..]);
     let slope = (high - low) / (k - j);
     // A half without any coefficient has no highest point.
     let decay = if slope.is_finite() {
@@ -111,13 +117,14 @@ fn step_from_sizes(sizes: &[f64], first: usize, strictness: f64) -> f64 {
     };
     // Each coefficient's prediction of the last one.
     let mut last = f64::NEG_INFINITY;
-    for (k, log) in (first..).zip(logs.iter()) {
-        last = larger(last, log + (order - k as f64) * (decay - BEND));
+    for (log, k) in logs.iter().zip(orders) {
+        last = larger(last, log + (order - k) * (decay - BEND));
     }
     ((LAST - last) / order).exp2()
 }
 
-/// The larger of two numbers that are not NaN, in one instruction.
+/// The larger of two numbers, the second if one is not a number, in one instruction.
+#[inline(always)]
 fn larger(x: f64, y: f64) -> f64 {
     if x > y { x } else { y }
 }
@@ -134,6 +141,7 @@ const RECIPROCALS: [f64; MAX_ORDER + 1] = {
 };
 
 /// log₂ x to within 0.1, monotone: the exponent and mantissa bits read as one number. −∞ for 0 and subnormals.
+#[inline(always)]
 fn rough_log2(x: f64) -> f64 {
     if x < f64::MIN_POSITIVE {
         return f64::NEG_INFINITY;
@@ -149,13 +157,37 @@ fn rough_log2(x: f64) -> f64 {
 /// (order + 1)/(h s) times larger. What rounding explains is subtracted. Above 1 (or not a number) the step must be
 /// repeated: [`DefectControl`] says how.
 pub fn defect<T: Scalar>(step: &StepPolynomial<T>, s: f64, dv: &[T], tolerance: Tolerance) -> f64 {
+    defect_by(step, s, dv, tolerance, |row, _| {
+        derivative_value(row, s, |c| c)
+    })
+}
+
+/// [`defect`] at the end of the step, given the changes per step Σ k vₖ of all velocities there.
+#[inline(never)]
+pub(crate) fn defect_at_end<T: Scalar>(
+    step: &StepPolynomial<T>,
+    slopes: &[f64],
+    dv: &[T],
+    tolerance: Tolerance,
+) -> f64 {
+    defect_by(step, 1.0, dv, tolerance, |_, i| slopes[i])
+}
+
+#[inline(always)]
+fn defect_by<T: Scalar>(
+    step: &StepPolynomial<T>,
+    s: f64,
+    dv: &[T],
+    tolerance: Tolerance,
+    slope: impl Fn(&[T], usize) -> f64,
+) -> f64 {
     const ROUNDING: f64 = 16.0 * f64::EPSILON;
-    let h = step.h.value();
-    let share = s / (step.degree + 1) as f64;
+    let (h, width) = (step.h.value(), step.degree + 1);
+    let share = s / width as f64;
     let mut worst = 0.0;
-    for (row, dv) in step.v.chunks_exact(step.degree + 1).zip(dv) {
-        let expected = derivative_value(row, s, |c| c);
-        let error = (h * dv.value() - expected).abs();
+    for (i, dv) in dv.iter().enumerate() {
+        let row = &step.v[i * width..][..width];
+        let error = (h * dv.value() - slope(row, i)).abs();
         let limit = tolerance.scale(row[0].value().abs() + s * row[1].value().abs());
         let mut ratio = share * error / limit;
         if ratio > 1.0 {
@@ -164,30 +196,13 @@ pub fn defect<T: Scalar>(step: &StepPolynomial<T>, s: f64, dv: &[T], tolerance: 
         if ratio.is_nan() {
             return ratio;
         }
-        worst = ratio.max(worst);
+        worst = larger(ratio, worst);
     }
     worst
 }
 
 /// Σ k f(cₖ) sᵏ⁻¹
 fn derivative_value<T: Scalar>(row: &[T], s: f64, f: impl Fn(f64) -> f64) -> f64 {
-    if s == 1.0 {
-        // In four chains, so that no addition waits for the one before.
-        let mut k = [1.0, 2.0, 3.0, 4.0];
-        let mut sums = [0.0; 4];
-        let chunks = row[1..].chunks_exact(4);
-        let end = chunks.remainder();
-        for four in chunks {
-            for ((sum, k), c) in sums.iter_mut().zip(&mut k).zip(four) {
-                *sum += *k * f(c.value());
-                *k += 4.0;
-            }
-        }
-        for ((sum, k), c) in sums.iter_mut().zip(k).zip(end) {
-            *sum += k * f(c.value());
-        }
-        return (sums[2] + sums[3]) + (sums[0] + sums[1]);
-    }
     let mut k = row.len() as f64;
     row[1..].iter().rev().fold(0.0, |sum, c| {
         k -= 1.0;

@@ -14,6 +14,7 @@
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, NeedSet};
 use crate::effects::Item;
+use crate::integrate::polynomial_sum;
 use crate::mode::{Direction, FrictionMode, Mode, Sliding};
 use crate::modes::reading::{Reading, Terms};
 use crate::system::{Description, Friction, Normal, Place};
@@ -51,6 +52,19 @@ pub enum Guard {
 }
 
 impl Guard {
+    /// Whether it is made of forces.
+    pub fn is_force(self) -> bool {
+        matches!(
+            self,
+            Guard::Normal(_)
+                | Guard::StickUpper(_)
+                | Guard::StickLower(_)
+                | Guard::StickCone(_)
+                | Guard::Bearing(_)
+                | Guard::Joint(_)
+        )
+    }
+
     /// The name of the item whose guard it is; a joint guard has several.
     pub fn name(self, d: &'static Description) -> Option<&'static str> {
         match self {
@@ -68,8 +82,8 @@ impl Guard {
     }
 }
 
-/// Adds `factor` times a series.
-fn add<T: Scalar>(out: &mut [f64], factor: f64, terms: Terms<T>) {
+/// Adds a number times a series.
+fn add<T: Scalar>(out: &mut [f64], (factor, terms): (f64, Terms<T>)) {
     for (c, x) in out.iter_mut().zip(terms.as_slice()) {
         *c += factor * x.value();
     }
@@ -86,7 +100,7 @@ fn add_product(out: &mut [f64], factor: f64, x: &[f64], y: &[f64]) {
 /// A series as numbers.
 fn numbers<T: Scalar>(terms: Terms<T>) -> [f64; LENGTH] {
     let mut out = [0.0; LENGTH];
-    add(&mut out, 1.0, terms);
+    add(&mut out, (1.0, terms));
     out
 }
 
@@ -139,79 +153,252 @@ pub fn stick_guards(f: usize, friction: &Friction) -> impl Iterator<Item = Guard
         .chain(pair.into_iter().filter(move |_| !cone))
 }
 
-/// Coefficients of a guard in powers of the time since the start of the reading, at most [`LENGTH`]; what a reading does not
-/// have is 0.
-pub fn series<T: Scalar>(guard: Guard, mode: &Mode, reading: &Reading<'_, T>, out: &mut [f64]) {
-    let d = reading.description();
-    out.fill(0.0);
-    match guard {
-        Guard::Gap(c) => {
-            let row = &d.rows[d.contacts[c].row];
-            add(
-                out,
-                1.0,
-                reading.motion(row.position.unwrap_or(Place::Zero)),
-            );
+/// What a guard is made of.
+#[derive(Clone, Copy, Debug)]
+enum Source {
+    /// A number of the motion tape.
+    Motion(Place),
+    /// A number of the report tape.
+    Report(Place),
+    /// The force of a row.
+    Force(usize),
+}
+
+impl Source {
+    #[inline]
+    fn read<'a, T: Scalar>(self, reading: &Reading<'a, T>) -> Terms<'a, T> {
+        match self {
+            Source::Motion(place) => reading.motion(place),
+            Source::Report(place) => reading.report(place),
+            Source::Force(row) => reading.force(row),
         }
-        Guard::Normal(c) => add(out, 1.0, reading.force(d.contacts[c].row)),
-        Guard::Region(c) => {
-            let region = d.contacts[c].region;
-            add(out, 1.0, reading.motion(region.unwrap_or(Place::Zero)));
-        }
-        Guard::StickUpper(f) => stick(f, -1.0, mode, reading, out),
-        Guard::StickLower(f) => stick(f, 1.0, mode, reading, out),
-        Guard::StickCone(f) => stick_cone(f, mode, reading, out),
-        Guard::Slip(f) => {
-            let friction = &d.frictions[f];
-            let FrictionMode::Slip(Sliding { direction, .. }) = mode.frictions[f] else {
-                return;
-            };
-            let along = match direction {
-                Direction::Fixed(along) => along,
-                Direction::AlongSlip | Direction::Incipient(_) => {
-                    reading.heading(f).map(|x| x.value())
-                }
-            };
-            for (k, &part) in along.iter().enumerate().take(friction.components) {
-                add(out, part, reading.motion(d.rows[friction.row + k].velocity));
+    }
+}
+
+/// A guard that is one reading times a number, or the sum of two, as long as mode and parameters are what they are.
+#[derive(Clone, Copy, Debug)]
+pub struct Linear {
+    first: (f64, Source),
+    second: Option<(f64, Source)>,
+}
+
+impl Linear {
+    /// `None` for guards with products of readings in them, or with a direction that turns.
+    pub fn of<T: Scalar>(guard: Guard, mode: &Mode, dynamics: &Dynamics<T>) -> Option<Self> {
+        let d = dynamics.description();
+        let motion = |place: Option<Place>| (1.0, Source::Motion(place.unwrap_or(Place::Zero)));
+        let first = match guard {
+            Guard::Gap(c) => motion(d.rows[d.contacts[c].row].position),
+            Guard::Normal(c) => (1.0, Source::Force(d.contacts[c].row)),
+            Guard::Region(c) => motion(d.contacts[c].region),
+            Guard::StickUpper(f) | Guard::StickLower(f) => linear_limit(f, dynamics)?,
+            Guard::Slip(f) => match mode.frictions[f] {
+                FrictionMode::Slip(Sliding {
+                    direction: Direction::Fixed([sign, 0.0]),
+                    ..
+                }) => (sign, Source::Motion(d.rows[d.frictions[f].row].velocity)),
+                _ => return None,
+            },
+            Guard::Branch(b) => {
+                let branch = &d.branches[b];
+                let sign = if mode.branch(b) { 1.0 } else { -1.0 };
+                let source = match branch.after_solve {
+                    true => Source::Report(branch.guard),
+                    false => Source::Motion(branch.guard),
+                };
+                (sign, source)
+            }
+            Guard::Stop(i, k) => (1.0, Source::Report(d.stops[i].terms[k])),
+            Guard::Mark(i, k) => (1.0, Source::Report(d.marks[i].terms[k])),
+            Guard::StickCone(_) | Guard::Bearing(_) | Guard::Joint(_) => return None,
+        };
+        let second = match guard {
+            Guard::StickUpper(f) => Some((-1.0, Source::Force(d.frictions[f].row))),
+            Guard::StickLower(f) => Some((1.0, Source::Force(d.frictions[f].row))),
+            _ => None,
+        };
+        Some(Self { first, second })
+    }
+
+    /// See [`series`].
+    #[inline]
+    pub fn series<T: Scalar>(&self, reading: &Reading<T>, powers: &[f64], out: &mut [f64]) -> Sums {
+        let (a, x) = self.first;
+        let second = self.second.map(|(b, y)| (b, y.read(reading)));
+        match (x.read(reading), second) {
+            (Terms::Many(x), None) => combine::<T, false>(out, (a, x), (0.0, x), powers),
+            (Terms::Many(x), Some((b, Terms::Many(y)))) => {
+                combine::<T, true>(out, (a, x), (b, y), powers)
+            }
+            (x, second) => {
+                out.fill(0.0);
+                add(out, (a, x));
+                second.into_iter().for_each(|part| add(out, part));
+                scale(out, powers);
+                Sums::of(out)
             }
         }
-        Guard::Bearing(f) => normal_force(f, mode, reading, out),
-        Guard::Branch(b) => {
-            let branch = &d.branches[b];
-            let sign = if mode.branch(b) { 1.0 } else { -1.0 };
-            let series = if branch.after_solve {
-                reading.report(branch.guard)
-            } else {
-                reading.motion(branch.guard)
-            };
-            add(out, sign, series);
+    }
+
+    /// See [`value`].
+    #[inline]
+    pub fn value<T: Scalar>(&self, reading: &Reading<T>) -> f64 {
+        let number = |(a, x): (f64, Source)| a * x.read(reading).first().value();
+        number(self.first) + self.second.map_or(0.0, number)
+    }
+}
+
+/// Sums of the coefficients of a guard.
+#[derive(Clone, Copy, Debug)]
+pub struct Sums {
+    /// Σ cₖ: the guard at the end of the step.
+    pub end: f64,
+    /// Σ |cₖ| without the first two.
+    pub rest: f64,
+}
+
+impl Sums {
+    /// Of these coefficients.
+    pub fn of(c: &[f64]) -> Self {
+        Self {
+            end: polynomial_sum(c),
+            rest: c.iter().skip(2).map(|c| c.abs()).sum(),
         }
-        Guard::Stop(i, k) => add(out, 1.0, reading.report(d.stops[i].terms[k])),
-        Guard::Mark(i, k) => add(out, 1.0, reading.report(d.marks[i].terms[k])),
-        // Its parts are known to `sharing` only.
-        Guard::Joint(_) => {}
+    }
+}
+
+/// (a xₖ + b yₖ) pₖ, the second term only if there are `TWO`.
+#[inline]
+fn combine<T: Scalar, const TWO: bool>(
+    out: &mut [f64],
+    (a, x): (f64, &[T]),
+    (b, y): (f64, &[T]),
+    powers: &[f64],
+) -> Sums {
+    let count = out.len();
+    let term = |x: T, y: T, power: f64| match TWO {
+        true => (a * x.value() + b * y.value()) * power,
+        false => a * x.value() * power,
+    };
+    let (first, out) = out.split_at_mut(2);
+    first[0] = term(x[0], y[0], powers[0]);
+    first[1] = term(x[1], y[1], powers[1]);
+    let (out, out_end) = out.as_chunks_mut::<4>();
+    let (x, x_end) = x[2..count].as_chunks::<4>();
+    let (y, y_end) = y[2..count].as_chunks::<4>();
+    let (p, p_end) = powers[2..count].as_chunks::<4>();
+    let (mut sums, mut sizes) = ([0.0; 4], [0.0; 4]);
+    for i in (0..out.len()).rev() {
+        let c: [f64; 4] = core::array::from_fn(|j| term(x[i][j], y[i][j], p[i][j]));
+        out[i] = c;
+        sums = core::array::from_fn(|j| sums[j] + c[j]);
+        sizes = core::array::from_fn(|j| sizes[j] + c[j].abs());
+    }
+    let mut end = 0.0;
+    for i in (0..out_end.len()).rev() {
+        let c = term(x_end[i], y_end[i], p_end[i]);
+        out_end[i] = c;
+        end += c;
+        sizes[i] += c.abs();
+    }
+    Sums {
+        end: (sums[0] + sums[2]) + (sums[1] + sums[3]) + end + first[1] + first[0],
+        rest: (sizes[0] + sizes[2]) + (sizes[1] + sizes[3]),
+    }
+}
+
+/// Coefficients of a guard in powers of the time since the start of the reading, at most [`LENGTH`], each times its factor in
+/// `powers`; what a reading does not have is 0.
+pub fn series<T: Scalar>(
+    guard: Guard,
+    mode: &Mode,
+    reading: &Reading<'_, T>,
+    powers: &[f64],
+    out: &mut [f64],
+) {
+    match Linear::of(guard, mode, reading.dynamics()) {
+        Some(linear) => _ = linear.series(reading, powers, out),
+        None => {
+            out.fill(0.0);
+            of_products(guard, mode, reading, out);
+            scale(out, powers);
+        }
     }
 }
 
 /// The guard itself, at the start of the reading.
 pub fn value<T: Scalar>(guard: Guard, mode: &Mode, reading: &Reading<'_, T>) -> f64 {
-    let mut value = [0.0];
-    series(guard, mode, reading, &mut value);
-    value[0]
+    match Linear::of(guard, mode, reading.dynamics()) {
+        Some(linear) => linear.value(reading),
+        None => {
+            let mut value = [0.0];
+            of_products(guard, mode, reading, &mut value);
+            value[0]
+        }
+    }
+}
+
+/// Multiplies each coefficient by its factor.
+pub fn scale(series: &mut [f64], powers: &[f64]) {
+    for (c, power) in series.iter_mut().zip(powers) {
+        *c *= power;
+    }
+}
+
+/// Adds a guard that is not [`Linear`].
+fn of_products<T: Scalar>(guard: Guard, mode: &Mode, reading: &Reading<'_, T>, out: &mut [f64]) {
+    let d = reading.description();
+    match guard {
+        Guard::StickUpper(f) => {
+            limit(f, mode, reading, out);
+            add(out, (-1.0, reading.force(d.frictions[f].row)));
+        }
+        Guard::StickLower(f) => {
+            limit(f, mode, reading, out);
+            add(out, (1.0, reading.force(d.frictions[f].row)));
+        }
+        Guard::StickCone(f) => stick_cone(f, mode, reading, out),
+        Guard::Bearing(f) => normal_force(f, mode, reading, out),
+        Guard::Slip(f) => {
+            let friction = &d.frictions[f];
+            let rows = &d.rows[friction.row..friction.row + friction.components];
+            let along = match mode.frictions[f] {
+                FrictionMode::Slip(Sliding {
+                    direction: Direction::Fixed(along),
+                    ..
+                }) => along,
+                FrictionMode::Slip(_) => reading.heading(f).map(|x| x.value()),
+                _ => return,
+            };
+            for (row, along) in rows.iter().zip(along) {
+                add(out, (along, reading.motion(row.velocity)));
+            }
+        }
+        // The others are linear; the parts of a joint guard are known to `sharing` only.
+        _ => {}
+    }
+}
+
+/// μs N, if it is one reading times a number.
+fn linear_limit<T: Scalar>(f: usize, dynamics: &Dynamics<T>) -> Option<(f64, Source)> {
+    let d = dynamics.description();
+    let friction = &d.frictions[f];
+    match (friction.normal, friction.static_coefficient) {
+        (_, Place::Node(_)) => None,
+        (Normal::Contact(c), coefficient) if d.contacts[c].normal_factor.is_none() => {
+            let coefficient = dynamics.motion(coefficient).value();
+            Some((coefficient, Source::Force(d.contacts[c].row)))
+        }
+        _ => None,
+    }
 }
 
 /// Adds μs N.
 fn limit<T: Scalar>(f: usize, mode: &Mode, reading: &Reading<'_, T>, out: &mut [f64]) {
-    let d = reading.description();
-    let friction = &d.frictions[f];
-    if let Terms::One(coefficient) = reading.motion(friction.static_coefficient)
-        && let Normal::Contact(c) = friction.normal
-        && d.contacts[c].normal_factor.is_none()
-    {
-        let multiplier = reading.force(d.contacts[c].row);
-        return add(out, coefficient.value(), multiplier);
+    if let Some((coefficient, normal)) = linear_limit(f, reading.dynamics()) {
+        return add(out, (coefficient, normal.read(reading)));
     }
+    let friction = &reading.description().frictions[f];
     let mut normal = [0.0; LENGTH];
     let normal = &mut normal[..out.len()];
     normal_force(f, mode, reading, normal);
@@ -223,16 +410,6 @@ fn limit<T: Scalar>(f: usize, mode: &Mode, reading: &Reading<'_, T>, out: &mut [
         }
         coefficient => add_product(out, 1.0, &numbers(coefficient), normal),
     }
-}
-
-/// μs N ± F.
-fn stick<T: Scalar>(f: usize, sign: f64, mode: &Mode, reading: &Reading<'_, T>, out: &mut [f64]) {
-    limit(f, mode, reading, out);
-    add(
-        out,
-        sign,
-        reading.force(reading.description().frictions[f].row),
-    );
 }
 
 /// (μs N)² − Σ F².
@@ -259,7 +436,7 @@ pub fn cone_side<T: Scalar>(
     out.fill(0.0);
     limit(f, mode, reading, out);
     for (k, &part) in along.iter().enumerate().take(friction.components) {
-        add(out, -part, reading.force(friction.row + k));
+        add(out, (-part, reading.force(friction.row + k)));
     }
 }
 
@@ -271,8 +448,8 @@ pub fn normal_force<T: Scalar>(f: usize, mode: &Mode, reading: &Reading<'_, T>, 
             let contact = &d.contacts[c];
             let multiplier = reading.force(contact.row);
             match contact.normal_factor.map(|factor| reading.motion(factor)) {
-                None => add(out, 1.0, multiplier),
-                Some(Terms::One(factor)) => add(out, factor.value(), multiplier),
+                None => add(out, (1.0, multiplier)),
+                Some(Terms::One(factor)) => add(out, (factor.value(), multiplier)),
                 Some(factor) => add_product(out, 1.0, &numbers(factor), &numbers(multiplier)),
             }
         }
@@ -281,9 +458,9 @@ pub fn normal_force<T: Scalar>(f: usize, mode: &Mode, reading: &Reading<'_, T>, 
                 FrictionMode::Slip(sliding) => sliding.normal_sign,
                 _ => 1.0,
             };
-            add(out, sign, reading.force(d.constraints[i].row));
+            add(out, (sign, reading.force(d.constraints[i].row)));
         }
-        Normal::Given(place) => add(out, 1.0, reading.motion(place)),
+        Normal::Given(place) => add(out, (1.0, reading.motion(place))),
     }
 }
 

@@ -22,7 +22,13 @@ pub enum Terms<'a, T> {
     Many(&'a [T]),
 }
 
-impl<T> Terms<'_, T> {
+impl<T: Scalar> Terms<'_, T> {
+    /// The number, or the first coefficient.
+    #[inline]
+    pub fn first(&self) -> T {
+        self.as_slice().first().copied().unwrap_or_default()
+    }
+
     /// The coefficients, lowest order first.
     pub fn as_slice(&self) -> &[T] {
         match self {
@@ -32,15 +38,23 @@ impl<T> Terms<'_, T> {
     }
 }
 
-impl<T: Scalar> Reading<'_, T> {
-    /// The table of names and places of the system.
-    pub fn description(&self) -> &'static Description {
+impl<'a, T: Scalar> Reading<'a, T> {
+    /// What is read.
+    #[inline]
+    pub fn dynamics(&self) -> &'a Dynamics<T> {
         let (Reading::Values(dynamics) | Reading::Series(dynamics)) = self;
-        dynamics.description()
+        dynamics
+    }
+
+    /// The table of names and places of the system.
+    #[inline]
+    pub fn description(&self) -> &'static Description {
+        self.dynamics().description()
     }
 
     /// A number of the motion tape.
-    pub fn motion(&self, place: Place) -> Terms<'_, T> {
+    #[inline]
+    pub fn motion(&self, place: Place) -> Terms<'a, T> {
         match (self, place) {
             (Reading::Series(dynamics), Place::Node(_)) => {
                 Terms::Many(dynamics.motion_series(place))
@@ -52,7 +66,8 @@ impl<T: Scalar> Reading<'_, T> {
     }
 
     /// A number of the report tape.
-    pub fn report(&self, place: Place) -> Terms<'_, T> {
+    #[inline]
+    pub fn report(&self, place: Place) -> Terms<'a, T> {
         match (self, place) {
             (Reading::Series(dynamics), Place::Node(_)) => {
                 Terms::Many(dynamics.report_series(place))
@@ -70,7 +85,8 @@ impl<T: Scalar> Reading<'_, T> {
     }
 
     /// The force of a row.
-    pub fn force(&self, row: usize) -> Terms<'_, T> {
+    #[inline]
+    pub fn force(&self, row: usize) -> Terms<'a, T> {
         match self {
             Reading::Values(dynamics) => Terms::One(dynamics.force(row)),
             Reading::Series(dynamics) => Terms::Many(dynamics.force_series(row)),

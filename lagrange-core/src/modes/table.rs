@@ -7,9 +7,6 @@ use crate::mode::Mode;
 use crate::modes::guard::{self, Guard};
 use crate::system::{Place, Row};
 
-/// More modes than this are not kept.
-const MOST_MODES: usize = 64;
-
 /// One mode as a run sees it.
 #[derive(Clone, Debug)]
 pub struct Watched {
@@ -24,27 +21,24 @@ pub struct Watched {
     pub drifts: bool,
 }
 
-/// The modes met so far.
+/// The modes met so far, by their index in the dynamics.
 #[derive(Clone, Debug, Default)]
 pub struct Table {
-    known: Vec<Watched>,
+    known: Vec<Option<Watched>>,
 }
 
 impl Table {
     /// The present mode of `dynamics`.
     pub fn of<T: Scalar>(&mut self, dynamics: &Dynamics<T>) -> &Watched {
-        let known = self
-            .known
-            .iter()
-            .position(|w| w.mode.has_equations_of(dynamics.mode()));
-        let index = known.unwrap_or_else(|| {
-            if self.known.len() == MOST_MODES {
-                self.known.remove(0);
-            }
-            self.known.push(watched(dynamics));
-            self.known.len() - 1
-        });
-        &self.known[index]
+        let index = dynamics.mode_index();
+        if index >= self.known.len() {
+            self.known.resize(index + 1, None);
+        }
+        let mode = dynamics.mode();
+        let entry = &mut self.known[index];
+        // The dynamics give the place of a mode that they no longer keep to another.
+        entry.take_if(|known| !known.mode.has_equations_of(mode));
+        entry.get_or_insert_with(|| watched(dynamics))
     }
 }
 

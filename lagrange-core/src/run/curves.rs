@@ -3,13 +3,14 @@
 //! With Taylor series they come exactly, from the coefficients of the step. With a Runge–Kutta method the guards are
 //! evaluated at the Chebyshev–Lobatto points of the dense output and interpolated.
 
-use super::hits::value as at;
+use super::hits::{CLEAR, value as at};
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError};
 use crate::effects::{Effects, Item};
+use crate::events::{deflate, keeps_its_sign};
 use crate::integrate::StepPolynomial;
 use crate::mode::Mode;
-use crate::modes::guard::Guard;
+use crate::modes::guard::{Guard, Linear, Sums};
 use crate::modes::reading::Reading;
 use crate::modes::sharing::{self, Joint};
 use crate::system::Description;
@@ -20,14 +21,30 @@ const OTHER_SIDE: f64 = 1e3;
 /// Samples of a guard in a step of a Runge–Kutta method, at least.
 const FEWEST_SAMPLES: usize = 8;
 
-/// The polynomials of all guards of a step.
+/// A guard over a step.
+#[derive(Clone, Copy, Debug)]
+struct Curve {
+    guard: Guard,
+    /// What it is made of, where that does not change along the mode.
+    linear: Option<Linear>,
+    /// Of its coefficients, with Taylor series.
+    sums: Sums,
+    /// Whether it stays positive for certain.
+    stays: bool,
+}
+
+/// The guards of a mode and what is watched beside, with their polynomials over a step.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Curves {
-    /// One after the other, each of `width` coefficients: guards of the mode, stops, marks.
+    /// Guards of the mode, stops, marks.
+    list: Vec<Curve>,
+    /// Number of guards of the mode.
+    count: usize,
+    /// Guards of undetermined forces that have been met in this mode.
+    pub(super) joints: Vec<Joint>,
+    /// One after the other, each of `width` coefficients.
     coefficients: Vec<f64>,
     width: usize,
-    /// Number of guards of the mode.
-    guards: usize,
     /// The stops and marks that take part.
     pub(super) stops: Vec<usize>,
     pub(super) marks: Vec<usize>,
@@ -63,49 +80,133 @@ impl Curves {
         curves
     }
 
+    /// Watches these guards of single forces in a mode, and the joint ones, from now on.
+    pub(super) fn arm<T: Scalar>(
+        &mut self,
+        guards: impl Iterator<Item = Guard>,
+        mode: &Mode,
+        dynamics: &Dynamics<T>,
+    ) {
+        let joints = (0..self.joints.len()).map(Guard::Joint);
+        let guards = guards.chain(joints).map(|guard| (guard, true));
+        let watches = self.watches.iter().map(|&guard| (guard, false));
+        self.list.clear();
+        self.count = 0;
+        for (guard, of_mode) in guards.chain(watches) {
+            self.count += usize::from(of_mode);
+            self.list.push(Curve {
+                guard,
+                linear: Linear::of(guard, mode, dynamics),
+                sums: Sums {
+                    end: 0.0,
+                    rest: f64::INFINITY,
+                },
+                stays: false,
+            });
+        }
+    }
+
+    /// The guards of the mode with their polynomials.
+    pub(super) fn of_mode(&self) -> impl Iterator<Item = (Guard, &[f64])> {
+        let curves = self.coefficients.chunks_exact(self.width.max(1));
+        let guards = self.list[..self.count].iter().map(|curve| curve.guard);
+        guards.zip(curves)
+    }
+
+    /// The polynomial of a guard, if it is one of the mode.
+    pub(super) fn of(&self, guard: Guard) -> Option<&[f64]> {
+        self.of_mode().find(|(g, _)| *g == guard).map(|(_, c)| c)
+    }
+
     fn curve(&self, index: usize) -> &[f64] {
         &self.coefficients[index * self.width..][..self.width]
     }
 
-    /// Guard `k` of the mode.
-    pub(super) fn mode_guard(&self, k: usize) -> &[f64] {
-        self.curve(k)
-    }
-
     /// Term `k` of stop `i`.
     pub(super) fn stop_term(&self, i: usize, k: usize) -> &[f64] {
-        self.curve(self.guards + self.first_stop[i] + k)
+        self.curve(self.count + self.first_stop[i] + k)
     }
 
     /// Term `k` of mark `i`.
     pub(super) fn mark_term(&self, i: usize, k: usize) -> &[f64] {
-        self.curve(self.guards + self.first_mark[i] + k)
+        self.curve(self.count + self.first_mark[i] + k)
     }
 
     /// Makes room for curves of `width` coefficients.
-    fn shape(&mut self, guards: usize, width: usize) {
-        (self.guards, self.width) = (guards, width);
-        let size = (guards + self.watches.len()) * width;
-        self.coefficients.resize(size, 0.0);
+    fn shape(&mut self, width: usize) {
+        self.width = width;
+        self.coefficients.resize(self.list.len() * width, 0.0);
     }
 
     /// Takes the guards from the series that `dynamics` holds; `powers` are those of the length of the step.
+    #[inline(never)]
     pub(super) fn take_series<T: Scalar>(
         &mut self,
         dynamics: &Dynamics<T>,
         mode: &Mode,
-        (guards, joints): (&[Guard], &[Joint]),
         powers: &[f64],
     ) {
         let reading = Reading::Series(dynamics);
-        self.shape(guards.len(), powers.len());
-        let all = guards.iter().chain(&self.watches);
-        let curves = self.coefficients.chunks_exact_mut(self.width);
-        for (curve, &g) in curves.zip(all) {
-            sharing::series(g, joints, mode, &reading, curve);
-            for (c, power) in curve.iter_mut().zip(powers) {
-                *c *= power;
-            }
+        self.shape(powers.len());
+        let coefficients = self.coefficients.chunks_exact_mut(self.width);
+        for (c, curve) in coefficients.zip(&mut self.list) {
+            curve.sums = match &curve.linear {
+                Some(linear) => linear.series(&reading, powers, c),
+                None => {
+                    sharing::series(curve.guard, &self.joints, mode, &reading, powers, c);
+                    Sums::of(c)
+                }
+            };
+            curve.stays = false;
+        }
+    }
+
+    /// Finds out which guards of the mode stay positive within the step for certain; true if all do but those of which that does
+    /// not matter. `zeros` tells how many first coefficients are residues.
+    pub(super) fn look(
+        &mut self,
+        zeros: &[(Guard, usize)],
+        matters: impl Fn(Guard) -> bool,
+    ) -> bool {
+        let mut all = true;
+        let coefficients = self.coefficients.chunks_exact(self.width);
+        for (curve, c) in self.list[..self.count].iter_mut().zip(coefficients) {
+            let known = zeros.iter().find(|(guard, _)| *guard == curve.guard);
+            let (c, rest) = match known {
+                None => (c, curve.sums.rest),
+                Some((_, known)) => {
+                    let c = deflate(c, *known);
+                    (c, Sums::of(c).rest)
+                }
+            };
+            curve.stays = c.is_empty() || c[0] > 0.0 && keeps_its_sign(c, rest, CLEAR);
+            all &= curve.stays || !matters(curve.guard);
+        }
+        all
+    }
+
+    /// The guards of the mode that may not stay positive, with their polynomials.
+    pub(super) fn in_question(&self) -> impl Iterator<Item = (Guard, &[f64])> {
+        let curves = self.list[..self.count].iter();
+        let stays = curves.map(|curve| curve.stays);
+        let open = self.of_mode().zip(stays).filter(|(_, stays)| !stays);
+        open.map(|(pair, _)| pair)
+    }
+
+    /// Whether term `k` of stop `i` keeps its sign within the step for certain, and the one that it had before.
+    pub(super) fn stop_stays(&self, i: usize, k: usize, was_below: bool) -> bool {
+        let index = self.count + self.first_stop[i] + k;
+        let c = self.curve(index);
+        keeps_its_sign(c, self.list[index].sums.rest, CLEAR) && (c[0] < 0.0) == was_below
+    }
+
+    /// Guard number `index` at the last value of `dynamics`.
+    #[inline]
+    fn value<T: Scalar>(&self, index: usize, mode: &Mode, dynamics: &Dynamics<T>) -> f64 {
+        let reading = Reading::Values(dynamics);
+        match &self.list[index].linear {
+            Some(linear) => linear.value(&reading),
+            None => sharing::value(self.list[index].guard, &self.joints, mode, &reading),
         }
     }
 
@@ -115,54 +216,31 @@ impl Curves {
     /// The step is chosen for the coordinates, but a guard is a function of them whose series may converge no further than
     /// a part of it: in free flight the coordinates are polynomials, the distance √(x² + y²) is not. Where the flight passes
     /// through 0 even a series that has ended, and looks exact, goes on along the wrong branch.
+    #[inline(never)]
     pub(super) fn defect<T: Scalar>(
         &self,
         dynamics: &mut Dynamics<T>,
         mode: &Mode,
-        (guards, joints): (&[Guard], &[Joint]),
         s: f64,
         tolerance: f64,
         located: impl Fn(Guard) -> bool,
     ) -> f64 {
-        let all = guards.iter().chain(&self.watches);
-        let curves = self.coefficients.chunks_exact(self.width);
+        if !self.watches.is_empty() {
+            dynamics.report_value();
+        }
         let mut worst = 0.0;
-        let mut reported = false;
-        for (curve, &g) in curves.zip(all) {
-            let located = located(g);
-            // Forces are second derivatives, and the worse for it. Where a guard has been located it has to be exact, else it
-            // only must not be missed.
-            let (share, floor) = match g {
-                Guard::Normal(_)
-                | Guard::StickUpper(_)
-                | Guard::StickLower(_)
-                | Guard::StickCone(_)
-                | Guard::Bearing(_)
-                | Guard::Joint(_)
-                    if located =>
-                {
-                    (10.0, 1e-12)
-                }
-                Guard::Normal(_)
-                | Guard::StickUpper(_)
-                | Guard::StickLower(_)
-                | Guard::StickCone(_)
-                | Guard::Bearing(_)
-                | Guard::Joint(_) => (1e4, 1e-10),
-                _ if located => (0.1, 1e-14),
-                _ => (10.0, 1e-13),
-            };
-            let share = (share * tolerance).max(floor);
-            if !reported && !self.watches.is_empty() {
-                dynamics.report_value();
-                reported = true;
-            }
-            let value = sharing::value(g, joints, mode, &Reading::Values(dynamics));
-            let found = at(curve, s);
+        for (index, (curve, c)) in (self.list.iter())
+            .zip(self.coefficients.chunks_exact(self.width))
+            .enumerate()
+        {
+            let located = located(curve.guard);
+            let (share, floor) = allowance(curve.guard, located);
+            let allowed = (share * tolerance).max(floor);
+            let value = self.value(index, mode, dynamics);
+            let found = if s == 1.0 { curve.sums.end } else { at(c, s) };
             // Not all coefficients: where the series has stopped converging they are large and cancel.
-            let size = value.abs() + curve.iter().take(2).map(|c| c.abs()).sum::<f64>();
-            let allowed = share * size;
-            let mut ratio = (found - value).abs() / (allowed + 64.0 * f64::EPSILON);
+            let size = value.abs() + (c[0].abs() + c[1].abs());
+            let mut ratio = (found - value).abs() / (allowed * size + 64.0 * f64::EPSILON);
             if !located && (found < 0.0) != (value < 0.0) {
                 ratio *= OTHER_SIDE;
             }
@@ -181,19 +259,19 @@ impl Curves {
         &mut self,
         dynamics: &mut Dynamics<T>,
         mode: &Mode,
-        (guards, joints): (&[Guard], &[Joint]),
     ) -> Option<(Guard, f64, f64)> {
         if !self.watches.is_empty() {
             dynamics.report_value();
         }
-        let all = guards.iter().chain(&self.watches);
         let mut broken = None;
-        for (curve, &g) in self.coefficients.chunks_exact_mut(self.width).zip(all) {
-            let value = sharing::value(g, joints, mode, &Reading::Values(dynamics));
+        for index in 0..self.list.len() {
+            let value = self.value(index, mode, dynamics);
+            let curve = &mut self.coefficients[index * self.width..][..self.width];
             curve[1..].fill(0.0);
-            let one_sided = matches!(g, Guard::Gap(_) | Guard::Branch(_));
+            let guard = self.list[index].guard;
+            let one_sided = matches!(guard, Guard::Gap(_) | Guard::Branch(_));
             if value.is_nan() || one_sided && value < 0.0 && curve[0] >= 0.0 {
-                broken = broken.or(Some((g, curve[0], value)));
+                broken = broken.or(Some((guard, curve[0], value)));
             }
         }
         broken
@@ -207,7 +285,6 @@ impl Curves {
         &mut self,
         dynamics: &mut Dynamics<T>,
         mode: &Mode,
-        (guards, joints): (&[Guard], &[Joint]),
         step: &StepPolynomial<T>,
         q: &mut [T],
         v: &mut [T],
@@ -215,7 +292,8 @@ impl Curves {
         // A guard bends more than the coordinates that it is made of.
         let m = (step.degree + 1).max(FEWEST_SAMPLES);
         self.prepare(m);
-        self.shape(guards.len(), m);
+        self.shape(m);
+        self.list.iter_mut().for_each(|curve| curve.stays = false);
         self.coefficients.fill(0.0);
         if self.coefficients.is_empty() {
             return Ok(());
@@ -229,11 +307,9 @@ impl Curves {
             }
             // Stops and marks read the tape after the solve.
             dynamics.report_value();
-            let reading = Reading::Values(dynamics);
-            let all = guards.iter().chain(&self.watches);
-            let curves = self.coefficients.chunks_exact_mut(m);
-            for (curve, &g) in curves.zip(all) {
-                let sample = sharing::value(g, joints, mode, &reading);
+            for index in 0..self.list.len() {
+                let sample = self.value(index, mode, dynamics);
+                let curve = &mut self.coefficients[index * m..][..m];
                 for (c, row) in curve.iter_mut().zip(self.matrix.chunks_exact(m)) {
                     *c += row[j] * sample;
                 }
@@ -269,5 +345,19 @@ impl Curves {
                 self.matrix[k * m + j] = c;
             }
         }
+    }
+}
+
+/// Error that a guard may have at the end of a step: in units of the tolerance, and at least.
+///
+/// Forces are second derivatives, and the worse for it. Where a guard has been located it has to be exact, else it only must not
+/// be missed.
+#[inline]
+fn allowance(guard: Guard, located: bool) -> (f64, f64) {
+    match (guard.is_force(), located) {
+        (true, true) => (10.0, 1e-12),
+        (true, false) => (1e4, 1e-10),
+        (false, true) => (0.1, 1e-14),
+        (false, false) => (10.0, 1e-13),
     }
 }

@@ -1,6 +1,7 @@
 //! What ends a step early: the earliest root among the guards of the mode and the stops.
 
 use super::Run;
+use super::region::is_edge_in_flight;
 use crate::arithmetic::Scalar;
 use crate::events::{Direction, RootList, deflate, first_root, roots};
 use crate::integrate::polynomial_sum as sum;
@@ -11,7 +12,7 @@ use crate::system::{Condition, Watch};
 /// Coefficients this much smaller than all together cannot be told from 0: some degrees times rounding.
 const RESOLUTION: f64 = 1e-13;
 /// From here on they can.
-const CLEAR: f64 = 1e-10;
+pub(super) const CLEAR: f64 = 1e-10;
 
 /// What happens first within a step.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,17 +38,35 @@ impl Hit {
 }
 
 impl<T: Scalar> Run<T> {
+    /// Whether nothing can happen within the step because all guards, stops and marks keep their sign by far: a bound that most
+    /// steps satisfy.
+    #[inline(never)]
+    pub(super) fn nothing_happens(&mut self) -> bool {
+        let mode = &self.mode;
+        let matters = |guard| !is_edge_in_flight(guard, mode);
+        let guards_stay = self.curves.look(&self.zeros, matters);
+        let d = self.description();
+        let stays = |&i: &usize| {
+            let below = &self.stop_below[i];
+            let mut terms = below.iter().enumerate();
+            !holds(&d.stops[i], &self.mode)
+                || terms.all(|(k, &below)| self.curves.stop_stays(i, k, below))
+        };
+        guards_stay && self.curves.stops.iter().all(stays)
+    }
+
     /// Finds what happens first within the step.
     pub(super) fn first_hit(&mut self) -> Hit {
         self.falls.clear();
         let mut first = f64::INFINITY;
-        for k in 0..self.guards.len() {
-            let guard = self.guards[k];
-            if let Some((s, width)) = self.fall(guard, self.curves.mode_guard(k)) {
-                self.falls.push((guard, s, width));
+        let mut falls = core::mem::take(&mut self.falls);
+        for (guard, curve) in self.curves.in_question() {
+            if let Some((s, width)) = self.fall(guard, curve) {
+                falls.push((guard, s, width));
                 first = first.min(s + width);
             }
         }
+        self.falls = falls;
         // Roots whose enclosures overlap with that of the earliest cannot be told apart from it, nor can those at a
         // distance that time does not resolve.
         let h = self.step.h.value();
@@ -80,7 +99,7 @@ impl<T: Scalar> Run<T> {
 
     /// Where a guard of the mode falls through zero: (part of the step, half width of the enclosure).
     fn fall(&self, guard: Guard, curve: &[f64]) -> Option<(f64, f64)> {
-        if self.is_edge_in_flight(guard) {
+        if is_edge_in_flight(guard, &self.mode) {
             return None;
         }
         let curve = self.judged(guard, curve)?;
@@ -130,12 +149,11 @@ impl<T: Scalar> Run<T> {
 
     /// Whether the step is so long that rounding hides how a guard begins that falls in it.
     pub(super) fn hides_a_start(&self) -> bool {
-        let mut guards = self.guards.iter().enumerate();
-        guards.any(|(k, &guard)| {
-            if self.is_edge_in_flight(guard) || !self.within_region(guard, 0.0) {
+        self.curves.in_question().any(|(guard, curve)| {
+            if is_edge_in_flight(guard, &self.mode) || !self.within_region(guard, 0.0) {
                 return false;
             }
-            let curve = self.judged(guard, self.curves.mode_guard(k));
+            let curve = self.judged(guard, curve);
             curve.is_some_and(|curve| hides_its_start(guard, curve))
         })
     }

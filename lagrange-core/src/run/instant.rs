@@ -47,9 +47,9 @@ impl<T: Scalar> Run<T> {
                 if let Some(rest) = self.rests.first() {
                     (Guard::Slip(rest.friction), rest.slope * h)
                 } else if let Some(&guard) = self.fallen.first()
-                    && let Some(k) = self.guards.iter().position(|g| *g == guard)
+                    && let Some(curve) = self.curves.of(guard)
                 {
-                    (guard, slope(self.curves.mode_guard(k), end))
+                    (guard, slope(curve, end))
                 } else {
                     return T::from_f64(end);
                 }
@@ -108,7 +108,12 @@ impl<T: Scalar> Run<T> {
         if matches!(guard, Guard::Stop(..) | Guard::Mark(..) | Guard::Branch(_)) {
             self.dynamics.report_value();
         }
-        Some(exact(guard, &self.joints, &self.mode, &self.dynamics))
+        Some(exact(
+            guard,
+            &self.curves.joints,
+            &self.mode,
+            &self.dynamics,
+        ))
     }
 
     /// The state at part `s` of the step, in `scratch`, evaluated; at `located` if that cannot be.

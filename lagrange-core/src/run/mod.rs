@@ -28,7 +28,7 @@ use crate::modes::decide::Decider;
 use crate::modes::guard::{self, Guard};
 use crate::modes::impact::Collider;
 use crate::modes::reading::Reading;
-use crate::modes::sharing::{Joint, Sharing};
+use crate::modes::sharing::Sharing;
 use crate::modes::start;
 use crate::modes::survey::Survey;
 use crate::modes::table::Table;
@@ -79,8 +79,6 @@ pub(crate) struct Run<T: Scalar> {
     state: State<T>,
     mode: Mode,
     table: Table,
-    /// Guards of the mode.
-    guards: Vec<Guard>,
     /// Whether a step can leave the rows of the mode.
     drifts: bool,
     /// Per contact: the motion is beyond its surface, where it passed outside its region.
@@ -108,6 +106,8 @@ pub(crate) struct Run<T: Scalar> {
     powers: Vec<f64>,
     curves: Curves,
     scratch: State<T>,
+    /// Σ k vₖ of the polynomials of the velocities.
+    slopes: Vec<f64>,
     survey: Survey,
     collider: Collider<T>,
     /// Contacts whose gap vanishes at an impact.
@@ -115,8 +115,6 @@ pub(crate) struct Run<T: Scalar> {
     decider: Decider<T>,
     /// Of undetermined forces at the present state.
     sharing: Sharing<T>,
-    /// Guards of such forces that have been met in this mode.
-    joints: Vec<Joint>,
     before: Before<T>,
     forces_after: Vec<T>,
     undetermined_after: Vec<bool>,
@@ -158,6 +156,7 @@ impl<T: Scalar> Run<T> {
             t: zero,
             end: 0.0,
             scratch: state.clone(),
+            slopes: vec![0.0; n],
             before: Before {
                 mode: mode.clone(),
                 state: state.clone(),
@@ -167,7 +166,6 @@ impl<T: Scalar> Run<T> {
             forces_after: vec![zero; rows],
             undetermined_after: Vec::with_capacity(rows),
             table: Table::default(),
-            guards: Vec::new(),
             drifts: true,
             below: vec![false; d.contacts.len()],
             zeros: Vec::new(),
@@ -189,7 +187,6 @@ impl<T: Scalar> Run<T> {
             collider: Collider::default(),
             near: Vec::with_capacity(d.contacts.len()),
             sharing: Sharing::default(),
-            joints: Vec::new(),
             impacts: vec![Impacts::default(); d.contacts.len()],
             train: Train::default(),
             scratch_mode: mode.clone(),
@@ -282,7 +279,7 @@ impl<T: Scalar> Run<T> {
         self.rank.restart();
         self.distance = 1.0;
         self.stuck.clear();
-        self.joints.clear();
+        self.curves.joints.clear();
         self.sharing.clear();
         self.finished = false;
         self.settle_start()
@@ -503,7 +500,7 @@ impl<T: Scalar> Run<T> {
     fn set_mode_decided(&mut self) {
         self.mode.clone_from(&self.decider.decision.mode);
         self.trajectory.enter(&self.mode);
-        self.joints.clone_from(&self.decider.decision.joints);
+        self.curves.joints.clone_from(&self.decider.decision.joints);
         (self.series, self.valued) = (Progress::None, false);
         self.hold_guards();
     }
@@ -511,10 +508,10 @@ impl<T: Scalar> Run<T> {
     /// Holds what the guards of the mode, which `dynamics` is in, need.
     fn hold_guards(&mut self) {
         let watched = self.table.of(&self.dynamics);
-        self.guards.clone_from(&watched.guards);
-        self.guards.extend((0..self.joints.len()).map(Guard::Joint));
         self.drifts = watched.drifts;
         self.dynamics.set_extra_needs(&watched.needs);
+        let guards = watched.guards.iter().copied();
+        self.curves.arm(guards, &self.mode, &self.dynamics);
     }
 
     /// Asks for the stops and marks that take part.

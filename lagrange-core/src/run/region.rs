@@ -9,15 +9,16 @@ use super::Run;
 use super::hits::value;
 use crate::arithmetic::Scalar;
 use crate::effects::Item;
+use crate::mode::Mode;
 use crate::modes::guard::Guard;
-use crate::system::Place;
+use crate::system::{Contact, Place};
+
+/// Whether a guard is the edge of a contact that is open in a mode.
+pub(super) fn is_edge_in_flight(guard: Guard, mode: &Mode) -> bool {
+    matches!(guard, Guard::Region(c) if !mode.contacts[c])
+}
 
 impl<T: Scalar> Run<T> {
-    /// Whether a guard is the edge of a contact that is open.
-    pub(super) fn is_edge_in_flight(&self, guard: Guard) -> bool {
-        matches!(guard, Guard::Region(c) if !self.mode.contacts[c])
-    }
-
     /// Whether a guard is the gap of a contact whose surface the motion is below.
     pub(super) fn is_below(&self, guard: Guard) -> bool {
         matches!(guard, Guard::Gap(c) if self.below[c])
@@ -29,34 +30,35 @@ impl<T: Scalar> Run<T> {
             return true;
         };
         let edge = Guard::Region(c);
-        let Some(k) = self.guards.iter().position(|g| *g == edge) else {
+        let Some(curve) = self.curves.of(edge) else {
             return true;
         };
         // Just after the edge has been located, the side that the motion goes to.
-        self.judged(edge, self.curves.mode_guard(k))
+        self.judged(edge, curve)
             .is_none_or(|curve| value(curve, s) >= 0.0)
     }
 
     /// Remembers which surfaces the motion is below at part `end` of the step.
     pub(super) fn remember_regions(&mut self, end: f64) {
-        if end == 0.0 {
+        let limited = |contact: &Contact| contact.region.is_some();
+        if end == 0.0 || !self.description().contacts.iter().any(limited) {
             return;
         }
-        for k in 0..self.guards.len() {
-            let guard = self.guards[k];
+        let mut below = core::mem::take(&mut self.below);
+        for (guard, curve) in self.curves.of_mode() {
             let Guard::Gap(c) = guard else {
                 continue;
             };
             if self.description().contacts[c].region.is_none() || self.fallen.contains(&guard) {
                 continue;
             }
-            let curve = self.curves.mode_guard(k);
             let gap = value(curve, end);
             let size: f64 = curve.iter().map(|c| c.abs()).sum();
             // Within the region it can only be a root that rounding has put into the next step.
             let passed = gap < -1e-9 * size || !self.within_region(guard, end);
-            self.below[c] = gap < 0.0 && (self.below[c] || passed);
+            below[c] = gap < 0.0 && (below[c] || passed);
         }
+        self.below = below;
     }
 
     /// At an edge the next surface may begin without a step: closes contacts whose gaps vanish where their regions begin.

@@ -43,15 +43,15 @@ impl<T: Scalar> Run<T> {
     fn list_guards(&mut self) {
         let watched = self.table.of(&self.dynamics);
         let Self {
-            guards,
+            curves,
             sharing,
-            joints,
+            mode,
+            dynamics,
             ..
         } = self;
-        guards.clear();
         let single = watched.guards.iter().copied();
-        guards.extend(single.filter(|&guard| !sharing.is_open(guard)));
-        guards.extend((0..joints.len()).map(Guard::Joint));
+        let single = single.filter(|&guard| !sharing.is_open(guard));
+        curves.arm(single, mode, dynamics);
     }
 
     /// At the end of a step that the dynamics have evaluated, after `corrections` others: whether joint guards must be
@@ -75,10 +75,10 @@ impl<T: Scalar> Run<T> {
             _ => None,
         });
         match (fallen, critical, value) {
-            (None, Some(joint), Some(value)) if value < -ROOT => self.joints.push(joint),
+            (None, Some(joint), Some(value)) if value < -ROOT => self.curves.joints.push(joint),
             (Some(_), Some(_), Some(value)) if value.abs() <= ROOT => return false,
-            (Some(k), Some(joint), Some(_)) => self.joints[k] = joint,
-            (Some(k), ..) => _ = self.joints.remove(k),
+            (Some(k), Some(joint), Some(_)) => self.curves.joints[k] = joint,
+            (Some(k), ..) => _ = self.curves.joints.remove(k),
             _ => return false,
         }
         *corrections += 1;

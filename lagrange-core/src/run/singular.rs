@@ -203,12 +203,8 @@ impl<T: Scalar> Run<T> {
     /// if it cannot be evaluated there or something happens on the way.
     fn beyond(&mut self, h: f64, degree: usize) -> Option<(f64, f64)> {
         self.write_polynomial(h, degree);
-        self.curves.take_series(
-            &self.dynamics,
-            &self.mode,
-            (&self.guards, &self.joints),
-            &self.powers,
-        );
+        self.curves
+            .take_series(&self.dynamics, &self.mode, &self.powers);
         if self.first_hit() != Hit::Nothing || self.evaluate_end(1.0).is_err() {
             return None;
         }

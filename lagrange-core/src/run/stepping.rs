@@ -8,7 +8,7 @@ use crate::arithmetic::Scalar;
 use crate::dynamics::EvaluationError;
 use crate::error::Error;
 use crate::integrate::taylor::{self, DefectControl, Verdict};
-use crate::integrate::{Integrator, Method, StepError};
+use crate::integrate::{Integrator, Method, StepError, onto_step};
 use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
 use crate::trajectory::State;
@@ -71,16 +71,21 @@ impl<T: Scalar> Run<T> {
                 return Err(self.step_too_small(h));
             }
             self.write_polynomial(h, self.order);
-            let guards = (&self.guards[..], &self.joints[..]);
             self.curves
-                .take_series(&self.dynamics, &self.mode, guards, &self.powers);
+                .take_series(&self.dynamics, &self.mode, &self.powers);
             let shorter = CLOSER_LOOK * h;
             let resolved = self.t.value() + shorter > self.t.value() && shorter > CLOSEST * longest;
-            if resolved && self.hides_a_start() {
+            let whole = self.nothing_happens();
+            let hit = if whole {
+                self.fallen.clear();
+                self.rests.clear();
+                Hit::Nothing
+            } else if resolved && self.hides_a_start() {
                 h = shorter;
                 continue;
-            }
-            let hit = self.first_hit();
+            } else {
+                self.first_hit()
+            };
             let end = hit.end();
             if end == 0.0 {
                 return Ok(hit);
@@ -91,20 +96,15 @@ impl<T: Scalar> Run<T> {
             } else {
                 JUST_BEFORE * end
             };
-            let (motion, guards) = if self.evaluate_end(looked).is_ok() {
-                let accelerations = self.dynamics.acceleration();
-                let motion = taylor::defect(&self.step, looked, accelerations, self.tolerance);
-                let guards = (&self.guards[..], &self.joints[..]);
-                let tolerance = self.tolerance.relative;
-                let (curves, fallen) = (&self.curves, &self.fallen);
-                let stops = matches!(hit, Hit::Stop(..));
-                let located = |g| fallen.contains(&g) || stops && matches!(g, Guard::Stop(..));
-                let dynamics = &mut self.dynamics;
-                let guards =
-                    curves.defect(dynamics, &self.mode, guards, looked, tolerance, located);
-                (motion, guards)
-            } else {
-                (f64::INFINITY, f64::INFINITY)
+            if !whole {
+                self.state_at_end(looked);
+            }
+            let (motion, guards) = match self.evaluate_scratch(looked) {
+                Ok(()) => (
+                    self.motion_defect(whole, looked),
+                    self.guard_defect(&hit, looked),
+                ),
+                Err(_) => (f64::INFINITY, f64::INFINITY),
             };
             // Not the larger of a number and a NaN, which would be the number.
             let defect = if guards <= motion { motion } else { guards };
@@ -158,9 +158,8 @@ impl<T: Scalar> Run<T> {
     /// Beyond the break a guard is no number, or a gap or the guard of a branch has jumped below zero.
     fn pass_break(&mut self) -> Result<Hit, Error> {
         self.evaluate_end(1.0).map_err(|e| self.error(e))?;
-        let guards = (&self.guards[..], &self.joints[..]);
         let (curves, dynamics) = (&mut self.curves, &mut self.dynamics);
-        if let Some((guard, before, after)) = curves.hold(dynamics, &self.mode, guards) {
+        if let Some((guard, before, after)) = curves.hold(dynamics, &self.mode) {
             let d = self.description();
             let item = guard.name(d).unwrap_or(d.name);
             return Err(if after.is_nan() {
@@ -180,9 +179,33 @@ impl<T: Scalar> Run<T> {
         Ok(Hit::Nothing)
     }
 
+    /// How far the motion is off at part `looked` of the step, the end of it if it is a `whole` one, in units of what is allowed.
+    fn motion_defect(&self, whole: bool, looked: f64) -> f64 {
+        let (step, accelerations) = (&self.step, self.dynamics.acceleration());
+        if whole {
+            taylor::defect_at_end(step, &self.slopes, accelerations, self.tolerance)
+        } else {
+            taylor::defect(step, looked, accelerations, self.tolerance)
+        }
+    }
+
+    /// The same of the guards.
+    fn guard_defect(&mut self, hit: &Hit, looked: f64) -> f64 {
+        let (curves, fallen) = (&self.curves, &self.fallen);
+        let stops = matches!(hit, Hit::Stop(..));
+        let located = |g| fallen.contains(&g) || stops && matches!(g, Guard::Stop(..));
+        let tolerance = self.tolerance.relative;
+        curves.defect(&mut self.dynamics, &self.mode, looked, tolerance, located)
+    }
+
     /// The state at part `end` of the step, in `scratch`, and the equations of motion there.
     pub(super) fn evaluate_end(&mut self, end: f64) -> Result<(), EvaluationError> {
         self.state_at_end(end);
+        self.evaluate_scratch(end)
+    }
+
+    /// The equations of motion for the state in `scratch`, that at part `end` of the step.
+    fn evaluate_scratch(&mut self, end: f64) -> Result<(), EvaluationError> {
         let State { q, v } = &self.scratch;
         let time = self.step.time(T::from_f64(end));
         self.dynamics.value_along(time, q, v)
@@ -194,25 +217,28 @@ impl<T: Scalar> Run<T> {
         self.step.state_into(T::from_f64(end), q, v);
     }
 
-    /// Scales the series, up to `degree`, onto a step of length `h`.
+    /// Scales the series, up to `degree`, onto a step of length `h`; the state at its end is left in `scratch`, the changes of
+    /// the velocities per step there in `slopes`.
+    #[inline(never)]
     pub(super) fn write_polynomial(&mut self, h: f64, degree: usize) {
         self.step.set_degree(degree);
         self.step.t = self.t;
         self.step.h = T::from_f64(h);
-        self.powers.clear();
-        let powers = core::iter::successors(Some(1.0), |power| Some(power * h));
-        self.powers.extend(powers.take(degree + 1));
-        for i in 0..self.description().coordinates.len() {
-            let (q, v) = self.step.rows_mut(i);
-            let series = [
-                (q, self.dynamics.position_series(i)),
-                (v, self.dynamics.velocity_series(i)),
-            ];
-            for (row, series) in series {
-                for ((scaled, &c), &power) in row.iter_mut().zip(series).zip(&self.powers) {
-                    *scaled = c * T::from_f64(power);
-                }
-            }
+        let mut power = 1.0;
+        self.powers.resize(degree + 1, 0.0);
+        for entry in &mut self.powers {
+            *entry = power;
+            power *= h;
+        }
+        let width = degree + 1;
+        let rows = self.step.q.chunks_exact_mut(width);
+        for (i, (q, v)) in rows.zip(self.step.v.chunks_exact_mut(width)).enumerate() {
+            let (position, velocity) = (
+                self.dynamics.position_series(i),
+                self.dynamics.velocity_series(i),
+            );
+            (self.scratch.q[i], _) = onto_step::<T, false>(q, position, &self.powers);
+            (self.scratch.v[i], self.slopes[i]) = onto_step::<T, true>(v, velocity, &self.powers);
         }
     }
 
@@ -272,7 +298,6 @@ impl<T: Scalar> Run<T> {
             let sampled = self.curves.sample(
                 &mut self.dynamics,
                 &self.mode,
-                (&self.guards, &self.joints),
                 &self.step,
                 &mut self.scratch.q,
                 &mut self.scratch.v,
@@ -299,9 +324,9 @@ impl<T: Scalar> Run<T> {
             return Ok(hit);
         };
         let (located, mut s) = (*located, *located);
-        let Some(k) = self.guards.iter().position(|g| *g == guard) else {
+        if self.curves.of(guard).is_none() {
             return Ok(hit);
-        };
+        }
         let slope = |s: f64, curve: &[f64]| {
             let terms = curve.iter().enumerate().skip(1).rev();
             terms.fold(0.0, |sum, (k, c)| sum * s + k as f64 * c)
@@ -309,7 +334,7 @@ impl<T: Scalar> Run<T> {
         for _ in 0..MOST {
             self.evaluate_end(s).map_err(|e| self.error(e))?;
             let value = guard::value(guard, &self.mode, &Reading::Values(&self.dynamics));
-            let change = value / slope(s, self.curves.mode_guard(k));
+            let change = value / self.curves.of(guard).map_or(f64::NAN, |c| slope(s, c));
             let next = s - change;
             // Near a double root, or where it lies in the next step, the interpolation has to do.
             if !(next > 0.0 && next <= 1.0 && (next - located).abs() < 0.1) {

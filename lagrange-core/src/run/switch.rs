@@ -44,9 +44,9 @@ impl<T: Scalar> Run<T> {
         known.located.extend_from_slice(&self.fallen);
         for guard in &self.fallen {
             if let Guard::Joint(k) = *guard {
-                let parts = self.joints[k].parts.iter().map(|part| part.guard);
+                let parts = self.curves.joints[k].parts.iter().map(|part| part.guard);
                 self.survey.known.located.extend(parts);
-                let residue = self.joint_residue(&self.joints[k]);
+                let residue = self.joint_residue(&self.curves.joints[k]);
                 let known = &mut self.survey.known;
                 known.residue = known.residue.max(residue);
             }

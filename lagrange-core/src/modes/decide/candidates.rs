@@ -8,7 +8,6 @@ use crate::mode::{Direction, FrictionMode, Mode, Sliding};
 use crate::modes::guard::Guard;
 use crate::pool::Pool;
 use crate::system::{Description, Normal};
-use core::cmp::Reverse;
 
 /// More candidates than this are not enumerated: some five contacts with friction, or eight without, that may change at
 /// once. Beyond, [`pivot`](super::pivot) finds a mode without looking at all.
@@ -17,47 +16,149 @@ const MOST_CANDIDATES: usize = 256;
 /// Of one friction: stick, and two slips under each of two bearings.
 const MOST_STATES: usize = 5;
 
-/// All modes that the known facts allow, in order of preference; false if they are too many.
-pub fn list_candidates<T: Scalar>(
+/// Lists of candidates that are kept, for what a motion meets again and again.
+const MOST_LISTS: usize = 8;
+
+/// The candidates for situations met before.
+#[derive(Clone, Debug, Default)]
+pub struct Listings {
+    known: Vec<Candidates>,
+    /// Index of the list to be written over next.
+    oldest: usize,
+}
+
+/// Modes in order of preference.
+#[derive(Clone, Debug, Default)]
+pub struct Candidates {
+    /// What they follow from; nothing if from more than can be compared.
+    facts: Option<Facts>,
+    modes: Pool<Mode>,
+    /// Rank and place of each.
+    order: Vec<(u128, usize)>,
+}
+
+impl Candidates {
+    /// The modes, the preferred ones first.
+    pub fn iter(&self) -> impl Iterator<Item = &Mode> {
+        self.order.iter().map(|&(_, index)| &self.modes[index])
+    }
+
+    /// Puts the modes in order.
+    fn sort(&mut self, here: Juncture<'_, impl Copy>) {
+        self.order.clear();
+        let ranks = self.modes.iter().map(|mode| rank(mode, here));
+        self.order.extend(ranks.zip(0..));
+        self.order.sort_unstable();
+    }
+}
+
+/// What decides on the candidates: the mode up to the instant, and what vanishes there.
+#[derive(Clone, Debug)]
+struct Facts {
+    present: Mode,
+    /// As in [`Known`](super::Known).
+    touching: Vec<bool>,
+    resting: Vec<bool>,
+    balanced: Vec<bool>,
+}
+
+impl Facts {
+    fn of(here: Juncture<'_, impl Copy>) -> Self {
+        let Juncture { present, known, .. } = here;
+        Self {
+            present: present.clone(),
+            touching: known.touching.clone(),
+            resting: known.resting.clone(),
+            balanced: known.balanced.clone(),
+        }
+    }
+
+    fn are(&self, here: Juncture<'_, impl Copy>) -> bool {
+        let Juncture { present, known, .. } = here;
+        self.touching == known.touching
+            && self.resting == known.resting
+            && self.balanced == known.balanced
+            && self.present == *present
+    }
+}
+
+/// What is preferred has the lower rank: closed contacts, frictions that hold, the present mode, few changes.
+fn rank(mode: &Mode, here: Juncture<'_, impl Copy>) -> u128 {
+    /// Bits of each criterion.
+    const BITS: u32 = 24;
+    let Juncture { present, known, .. } = here;
+    let closed = mode.contacts.iter().filter(|c| **c).count();
+    // Frictions that could together hold no longer go together, if they can.
+    let joint = known.located.iter().any(|g| matches!(g, Guard::Joint(_)));
+    let holds = |guard: &&Guard| match **guard {
+        Guard::StickUpper(f) | Guard::StickLower(f) | Guard::StickCone(f) => {
+            mode.frictions[f] == FrictionMode::Stick
+        }
+        _ => false,
+    };
+    let left_behind = match joint {
+        true => known.located.iter().filter(holds).count(),
+        false => 0,
+    };
+    let changes = changes(mode, present);
+    let differs = changes > 0 || mode.branches != present.branches;
+    let most = (1 << BITS) - 1;
+    let criteria = [
+        most - closed,
+        left_behind,
+        most - sticks(mode),
+        usize::from(differs),
+        changes,
+    ];
+    let append = |rank, criterion| rank << BITS | criterion as u128;
+    criteria.into_iter().fold(0, append)
+}
+
+impl Listings {
+    /// All modes that the known facts allow, in order of preference; `None` if they are too many.
+    pub fn list<T: Scalar>(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        here: Juncture<'_, T>,
+        rows: &NeedSet,
+        scratch: &mut Mode,
+    ) -> Option<&Candidates> {
+        let looked = look_at_slips(dynamics, here, rows);
+        let joint = |guard: &Guard| matches!(guard, Guard::Joint(_));
+        let follows = !looked && !here.known.located.iter().any(joint);
+        let same = |list: &Candidates| list.facts.as_ref().is_some_and(|facts| facts.are(here));
+        let found = self.known.iter().position(same).filter(|_| follows);
+        let index = found.unwrap_or_else(|| {
+            if self.known.len() < MOST_LISTS {
+                self.known.push(Candidates::default());
+            }
+            self.oldest = (self.oldest + 1) % self.known.len();
+            let list = &mut self.known[self.oldest];
+            list.facts = None;
+            list.modes.clear();
+            let mut listing = Listing {
+                choices: Choices { dynamics, here },
+                out: &mut list.modes,
+            };
+            scratch.clone_from(here.present);
+            listing.contacts(scratch, 0);
+            if list.modes.len() <= MOST_CANDIDATES {
+                list.sort(here);
+                list.facts = follows.then(|| Facts::of(here));
+            }
+            self.oldest
+        });
+        let list = &self.known[index];
+        (list.modes.len() <= MOST_CANDIDATES).then_some(list)
+    }
+}
+
+/// Evaluates the slips whose direction is not known, if there are any.
+pub fn look_at_slips<T: Scalar>(
     dynamics: &mut Dynamics<T>,
     here: Juncture<'_, T>,
     rows: &NeedSet,
-    scratch: &mut Mode,
-    out: &mut Pool<Mode>,
 ) -> bool {
-    look_at_slips(dynamics, here, rows);
-    let Juncture { present, known, .. } = here;
-    out.clear();
-    let mut listing = Listing {
-        choices: Choices { dynamics, here },
-        out,
-    };
-    scratch.clone_from(present);
-    listing.contacts(scratch, 0);
-    if out.len() > MOST_CANDIDATES {
-        return false;
-    }
-    let closed = |m: &Mode| m.contacts.iter().filter(|c| **c).count();
-    // Frictions that could together hold no longer go together, if they can.
-    let joint = known.located.iter().any(|g| matches!(g, Guard::Joint(_)));
-    let left_behind = |m: &Mode| {
-        let holds = |guard: &&Guard| match **guard {
-            Guard::StickUpper(f) | Guard::StickLower(f) | Guard::StickCone(f) => {
-                joint && m.frictions[f] == FrictionMode::Stick
-            }
-            _ => false,
-        };
-        known.located.iter().filter(holds).count()
-    };
-    out.sort_by_key(|m| {
-        let held = (Reverse(closed(m)), left_behind(m), Reverse(sticks(m)));
-        (held, m != present, changes(m, present))
-    });
-    true
-}
-
-/// Evaluates the slips whose direction is not known.
-pub fn look_at_slips<T: Scalar>(dynamics: &mut Dynamics<T>, here: Juncture<'_, T>, rows: &NeedSet) {
     let d = dynamics.description();
     let Juncture { moment, known, .. } = here;
     let slides_unknown = |f: usize| {
@@ -71,10 +172,12 @@ pub fn look_at_slips<T: Scalar>(dynamics: &mut Dynamics<T>, here: Juncture<'_, T
             && dynamics.effects().includes(d, Item::Friction(f))
             && slip_sign(f, here).is_none()
     };
-    if (0..d.frictions.len()).any(slides_unknown) {
+    let look = (0..d.frictions.len()).any(slides_unknown);
+    if look {
         dynamics.set_extra_needs(rows);
         dynamics.tape(moment.t, moment.q, moment.v);
     }
+    look
 }
 
 /// The way friction `f` has been sliding, if nothing has changed that.

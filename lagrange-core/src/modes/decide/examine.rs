@@ -78,7 +78,11 @@ impl<T: Scalar> Decider<T> {
         );
         // Most candidates are refused, and many accepted, by their values already.
         dynamics.value(t, q, v)?;
-        self.sizes.take(dynamics);
+        // The inertia and what drives are the same in all modes, but for branches.
+        if !self.sized || known.balanced.contains(&true) {
+            self.sizes.take(dynamics);
+            self.sized = true;
+        }
         self.share(dynamics);
         self.ask_values(dynamics, here);
         if !self.violated.is_empty() || self.questions.is_empty() {
@@ -255,14 +259,15 @@ impl<T: Scalar> Decider<T> {
         } = ahead;
         let tolerance = here.moment.tolerance;
         let reading = Reading::Series(dynamics);
-        sharing::series(guard, &self.joints, &self.posed, &reading, series);
+        let mut powers = [0.0; guard::LENGTH];
         let mut power = 1.0;
-        let mut size = 0.0_f64;
-        for (k, c) in series.iter_mut().enumerate() {
-            *c = if k < order_known { 0.0 } else { *c * power };
+        for entry in &mut powers[..series.len()] {
+            *entry = power;
             power *= h;
-            size = size.max(c.abs());
         }
+        sharing::series(guard, &self.joints, &self.posed, &reading, &powers, series);
+        series[..order_known].fill(0.0);
+        let size = series.iter().fold(0.0_f64, |size, c| size.max(c.abs()));
         // The residue of a located root, and what follows from it, has the size of the integration error.
         let (relative, absolute) = if concerns(guard, &self.joints, here.known) {
             ((100.0 * tolerance).clamp(1e-11, 1e-3), here.blur())

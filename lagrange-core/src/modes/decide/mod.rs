@@ -25,9 +25,8 @@ use crate::modes::reading::Reading;
 use crate::modes::scale::Sizes;
 use crate::modes::sharing::{Joint, Sharing};
 use crate::modes::table::Table;
-use crate::pool::Pool;
 use crate::system::Description;
-use candidates::list_candidates;
+use candidates::{Candidates, Listings};
 use incipient::Beginning;
 pub use known::{Juncture, Known, Moment};
 
@@ -50,7 +49,7 @@ pub struct Decision {
 pub struct Decider<T> {
     /// What was found last.
     pub decision: Decision,
-    candidates: Pool<Mode>,
+    listings: Listings,
     questions: Vec<(Guard, usize)>,
     zeros: Vec<(Guard, usize)>,
     /// What forbids the candidate examined last.
@@ -59,6 +58,8 @@ pub struct Decider<T> {
     joints: Vec<Joint>,
     motion: Vec<f64>,
     sizes: Sizes,
+    /// Whether they are those of the state at hand.
+    sized: bool,
     /// Whether a friction that would slip and yet stay at rest must stick.
     sticks_first: bool,
     /// Modes tried so far.
@@ -92,7 +93,7 @@ impl<T: Scalar> Decider<T> {
                 joints: Vec::new(),
                 expanded: false,
             },
-            candidates: Pool::default(),
+            listings: Listings::default(),
             questions: Vec::new(),
             zeros: Vec::new(),
             violated: Vec::new(),
@@ -100,6 +101,7 @@ impl<T: Scalar> Decider<T> {
             joints: Vec::new(),
             motion: Vec::new(),
             sizes: Sizes::default(),
+            sized: false,
             sticks_first: false,
             tried: 0,
             rows,
@@ -126,16 +128,14 @@ impl<T: Scalar> Decider<T> {
         here: Juncture<'_, T>,
     ) -> Result<(), Error> {
         let d = dynamics.description();
-        let mut candidates = core::mem::take(&mut self.candidates);
+        let mut listings = core::mem::take(&mut self.listings);
         let scratch = &mut self.decision.mode;
-        let few = list_candidates(dynamics, here, &self.rows, scratch, &mut candidates);
-        self.tried = 0;
-        let outcome = if few {
-            self.best(dynamics, table, here, &candidates)
-        } else {
-            self.pivot(dynamics, table, here)
+        (self.tried, self.sized) = (0, false);
+        let outcome = match listings.list(dynamics, here, &self.rows, scratch) {
+            Some(candidates) => self.best(dynamics, table, here, candidates),
+            None => self.pivot(dynamics, table, here),
         };
-        self.candidates = candidates;
+        self.listings = listings;
         let time = here.moment.t.value();
         match outcome {
             Ok(true) => {
@@ -155,20 +155,17 @@ impl<T: Scalar> Decider<T> {
 
     /// See [`Known::residue`]; `dynamics` holds the values of the moment in the mode that ends.
     pub fn residue(&mut self, dynamics: &Dynamics<T>, mode: &Mode, located: &[Guard]) -> f64 {
-        self.sizes.take(dynamics);
+        let is_force = |guard: &&Guard| guard.is_force() && !matches!(guard, Guard::Joint(_));
+        let mut forces = located.iter().filter(is_force).peekable();
+        if forces.peek().is_some() {
+            self.sizes.take(dynamics);
+        }
         let reading = Reading::Values(dynamics);
-        let relative = |&guard: &Guard| match guard {
-            Guard::Normal(_)
-            | Guard::StickUpper(_)
-            | Guard::StickLower(_)
-            | Guard::StickCone(_)
-            | Guard::Bearing(_) => {
-                let size = self.sizes.of(guard, dynamics);
-                guard::value(guard, mode, &reading).abs() / size.max(f64::MIN_POSITIVE)
-            }
-            _ => 0.0,
+        let relative = |&guard: &Guard| {
+            let size = self.sizes.of(guard, dynamics);
+            guard::value(guard, mode, &reading).abs() / size.max(f64::MIN_POSITIVE)
         };
-        located.iter().map(relative).fold(0.0, f64::max)
+        forces.map(relative).fold(0.0, f64::max)
     }
 
     /// Looks for the feasible candidate to be preferred, into `self.best`. False: there is none.
@@ -180,7 +177,7 @@ impl<T: Scalar> Decider<T> {
         dynamics: &mut Dynamics<T>,
         table: &mut Table,
         here: Juncture<'_, T>,
-        candidates: &[Mode],
+        candidates: &Candidates,
     ) -> Result<bool, EvaluationError> {
         let (mut best, mut failure) = (None, None);
         // Without friction the accelerations are the only ones that Gauss's principle allows: no other mode has others.
@@ -188,13 +185,13 @@ impl<T: Scalar> Decider<T> {
         let unique = dynamics.description().couplings.is_empty()
             && !here.known.balanced.contains(&true)
             && candidates.iter().all(idle);
-        for (index, mode) in candidates.iter().enumerate() {
+        for mode in candidates.iter() {
             self.tried += 1;
             if here.ends(mode) {
                 continue;
             }
             // Stick is preferred to slip without being ambiguous (μs > μk allows both).
-            if best.is_some_and(|best: usize| unique || sticks(&candidates[best]) > sticks(mode)) {
+            if best.is_some_and(|held| unique || held > sticks(mode)) {
                 continue;
             }
             self.decision.expanded = false;
@@ -203,7 +200,7 @@ impl<T: Scalar> Decider<T> {
             self.decision.expanded &= best.is_none();
             match outcome {
                 Ok(true) if best.is_none() => {
-                    best = Some(index);
+                    best = Some(sticks(mode));
                     self.decision.ambiguous = self.forks;
                     self.keep(dynamics);
                 }
@@ -211,12 +208,12 @@ impl<T: Scalar> Decider<T> {
                     self.decision.ambiguous |= differ(&self.motion, dynamics.acceleration());
                 }
                 Ok(false) => {}
-                Err(error) => failure = Some((index, error)),
+                Err(error) => failure = Some((mode, error)),
             }
         }
         match (best, failure) {
-            (None, Some((index, error))) => {
-                dynamics.set_mode(&candidates[index]);
+            (None, Some((mode, error))) => {
+                dynamics.set_mode(mode);
                 Err(error)
             }
             _ => Ok(best.is_some()),

@@ -5,6 +5,9 @@ use crate::mode::Mode;
 use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
 
+/// Factors that change nothing.
+const ONES: [f64; guard::LENGTH] = [1.0; guard::LENGTH];
+
 /// A guard as a part of a joint one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Part {
@@ -24,20 +27,28 @@ pub struct Joint {
 }
 
 /// [`guard::series`], also of joint guards.
+#[inline]
 pub fn series<T: Scalar>(
     guard: Guard,
     joints: &[Joint],
     mode: &Mode,
     reading: &Reading<'_, T>,
+    powers: &[f64],
     out: &mut [f64],
 ) {
     let Guard::Joint(index) = guard else {
-        return guard::series(guard, mode, reading, out);
+        return guard::series(guard, mode, reading, powers, out);
     };
+    sum(&joints[index], mode, reading, out);
+    guard::scale(out, powers);
+}
+
+/// Coefficients of a joint guard.
+fn sum<T: Scalar>(joint: &Joint, mode: &Mode, reading: &Reading<'_, T>, out: &mut [f64]) {
     let mut part = [0.0; guard::LENGTH];
     let part = &mut part[..out.len()];
     out.fill(0.0);
-    for each in &joints[index].parts {
+    for each in &joint.parts {
         side(each.guard, each.along, mode, reading, part);
         for (sum, x) in out.iter_mut().zip(&*part) {
             *sum += each.weight * x;
@@ -46,18 +57,22 @@ pub fn series<T: Scalar>(
 }
 
 /// [`guard::value`], also of joint guards.
+#[inline]
 pub fn value<T: Scalar>(
     guard: Guard,
     joints: &[Joint],
     mode: &Mode,
     reading: &Reading<'_, T>,
 ) -> f64 {
+    let Guard::Joint(index) = guard else {
+        return guard::value(guard, mode, reading);
+    };
     let mut value = [0.0];
-    series(guard, joints, mode, reading, &mut value);
+    sum(&joints[index], mode, reading, &mut value);
     value[0]
 }
 
-/// [`guard::series`], but of a cone only the plane that touches it in direction `along`.
+/// A guard by [`guard::series`] without factors, but of a cone only the plane that touches it in direction `along`.
 pub fn side<T: Scalar>(
     guard: Guard,
     along: [f64; 2],
@@ -67,6 +82,6 @@ pub fn side<T: Scalar>(
 ) {
     match guard {
         Guard::StickCone(f) => guard::cone_side(f, along, mode, reading, out),
-        _ => guard::series(guard, mode, reading, out),
+        _ => guard::series(guard, mode, reading, &ONES, out),
     }
 }
