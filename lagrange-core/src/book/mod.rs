@@ -27,30 +27,50 @@
 //! | **Inside** | |
 //! | [`inside`] | How it works, room by room, and how to add to it. |
 
+/// A chapter is a file. Where its links to others lead in the documentation is said before it: in the file itself they lead to
+/// files, for who reads it there, and of two definitions Markdown takes the first.
 macro_rules! chapters {
-    ($($name:ident $file:literal)*) => {$(
-        #[doc = include_str!($file)]
+    ($links:literal $($name:ident)*) => {$(
+        #[doc = $links]
+        #[doc = include_str!(concat!(stringify!($name), ".md"))]
         pub mod $name {}
     )*};
 }
 
 chapters! {
-    language "language.md"
-    units "units.md"
-    errors "errors.md"
-    large_systems "large_systems.md"
-    contacts "contacts.md"
-    impacts "impacts.md"
-    results "results.md"
-    accuracy "accuracy.md"
-    effects "effects.md"
-    sensitivities "sensitivities.md"
-    derivation "derivation.md"
-    program "program.md"
-    reports "reports.md"
-    sweeps "sweeps.md"
-    clusters "clusters.md"
-    inside "inside.md"
+"[accuracy]: mod@accuracy
+[clusters]: mod@clusters
+[contacts]: mod@contacts
+[derivation]: mod@derivation
+[effects]: mod@effects
+[errors]: mod@errors
+[impacts]: mod@impacts
+[inside]: mod@inside
+[language]: mod@language
+[large_systems]: mod@large_systems
+[program]: mod@program
+[reports]: mod@reports
+[results]: mod@results
+[sensitivities]: mod@sensitivities
+[sweeps]: mod@sweeps
+[units]: mod@units
+"
+    language
+    units
+    errors
+    large_systems
+    contacts
+    impacts
+    results
+    accuracy
+    effects
+    sensitivities
+    derivation
+    program
+    reports
+    sweeps
+    clusters
+    inside
 }
 
 /// The examples of the README are run with those of the book.
