@@ -15,6 +15,9 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 ///
 #[doc = include_str!("language.md")]
 ///
+/// How systems are written with it, example by example, is the chapter [language](../lagrange_core/book/language/index.html) of the
+/// book.
+///
 /// # What is emitted
 ///
 /// With the environment variable `LAGRANGE_DUMP=Name` the expansion for the struct `Name` is written, formatted, to a

@@ -148,7 +148,7 @@ pub struct Event<T> {
     pub forces: Vec<T>,
     /// λ of every row just after.
     pub forces_after: Vec<T>,
-    /// Per row: whether the motion leaves its force just before open, so that the one given is the share of least norm among
+    /// Per row: whether the motion does not determine its force just before. The force given is then the one of least norm among
     /// those that contacts and friction allow. Empty where all forces are determined.
     pub undetermined: Vec<bool>,
     /// The same for the forces just after.

@@ -58,7 +58,7 @@ pub struct Sample {
     pub state: State<f64>,
     /// λ of every row; for a friction its force along +slip.
     pub forces: Vec<f64>,
-    /// Per row: whether the motion leaves its force open, so that a share of least norm is given; empty where none is.
+    /// Per row: whether the motion does not determine its force, so that the one of least norm is given; empty where all are determined.
     pub undetermined: Vec<bool>,
     /// What each friction can hold: μₛN while it sticks, μₖN while it slips, `None` while it is inactive.
     pub limits: Vec<Option<f64>>,
