@@ -50,6 +50,7 @@ extern crate self as lagrange_core;
 pub mod arithmetic;
 pub mod checks;
 pub mod code;
+pub mod declaration;
 mod derivation;
 pub mod dynamics;
 pub mod effects;

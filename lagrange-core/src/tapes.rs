@@ -4,6 +4,7 @@
 //! program with many systems stays small and quick to compile. Steppers do not notice: they run what has been recorded.
 
 use crate::arithmetic::{Arithmetic, Given, Recorder, Scalar, Value};
+use crate::declaration::Declaration;
 use crate::dynamics::Seeded;
 use crate::equations::{ModeEquations, ModeStructure};
 use crate::system::{Description, Held, System};
@@ -32,6 +33,9 @@ pub(crate) enum Which {
 pub(crate) trait Tapes<T: Scalar>: Send + Sync {
     /// The table of names, places and needs.
     fn description(&self) -> &'static Description;
+
+    /// What was declared.
+    fn declaration(&self) -> &'static Declaration;
 
     /// Parameter `index` of the description.
     fn parameter(&self, index: usize) -> T;
@@ -73,6 +77,10 @@ pub(crate) type Erased<T> = Arc<dyn Tapes<T>>;
 impl<S: System> Tapes<S::Scalar> for S {
     fn description(&self) -> &'static Description {
         S::DESCRIPTION
+    }
+
+    fn declaration(&self) -> &'static Declaration {
+        S::DECLARATION
     }
 
     fn parameter(&self, index: usize) -> S::Scalar {

@@ -5,6 +5,12 @@ use crate::derive::Stage;
 use proc_macro2::TokenStream;
 use quote::quote;
 
+fn declared(input: TokenStream) -> crate::model::Declared {
+    let mut sink = crate::diagnostics::Diagnostics::new();
+    let declaration = crate::parse::declaration(input, &mut sink);
+    crate::model::declared(&declaration.unwrap_or_else(|| panic!("{sink}")))
+}
+
 fn program(declaration: TokenStream) -> crate::plan::Program {
     crate::program(declaration).unwrap_or_else(|mistakes| panic!("{mistakes}"))
 }
@@ -67,7 +73,7 @@ fn a_tape_has_one_call_per_operation_and_one_if_per_block() {
 
 #[test]
 fn constants_starts_and_handles() {
-    let emitted = emit(&program(spring()), &[]);
+    let emitted = emit(&program(spring()), &declared(spring()), &[]);
     check(
         &emitted,
         quote! { pub const FLOOR: ::lagrange_core::handle::ContactId = ::lagrange_core::handle::ContactId(0); },
