@@ -48,6 +48,7 @@
 extern crate self as lagrange_core;
 
 pub mod arithmetic;
+pub mod certificate;
 pub mod checks;
 pub mod code;
 pub mod declaration;

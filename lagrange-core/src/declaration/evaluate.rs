@@ -120,9 +120,14 @@ impl Evaluator {
         }
     }
 
-    /// A value at the state, and its rate.
+    /// A value at the state.
     pub fn value(&self, value: usize) -> f64 {
         self.values[value].0[0]
+    }
+
+    /// Coefficient of a value's series at the state.
+    pub fn coefficient(&self, value: usize, power: usize) -> f64 {
+        self.values[value].0[power]
     }
 
     /// d/dt of a value.
@@ -137,9 +142,9 @@ impl Evaluator {
         self.back(seeds, power, sizes, f64::abs);
     }
 
-    /// Σ weight · ∂value/∂qₖ without sizes.
-    pub fn gradient(&mut self, seeds: &[Seed], power: usize, sums: &mut [f64]) {
-        self.back(seeds, power, sums, |x| x);
+    /// The sizes of [`Self::sweep`] alone.
+    pub fn gradient_size(&mut self, seeds: &[Seed], power: usize, sizes: &mut [f64]) {
+        self.back(seeds, power, sizes, f64::abs);
     }
 
     fn back(&mut self, seeds: &[Seed], power: usize, out: &mut [f64], of: impl Fn(f64) -> f64) {
