@@ -4,6 +4,7 @@
 //! machine numbers are made in this crate: programs that run on them call what is compiled already.
 
 use crate::arithmetic::Scalar;
+use crate::certificate::{self, Certificate};
 use crate::dynamics::{Dynamics, Packets};
 use crate::effects::Effects;
 use crate::erased::Erased;
@@ -27,6 +28,7 @@ pub struct Entries<T: Scalar> {
     pub(crate) sampler: fn(&Record<T>) -> Sampler<'_, T>,
     pub(crate) at: fn(&mut Sampler<'_, T>, f64) -> Result<Instant<T>, Error>,
     pub(crate) ledgers: Book<T>,
+    pub(crate) verify: fn(&Record<T>, u64) -> Result<Certificate, Error>,
     pub(crate) dynamics: fn(Erased<T>, &Effects) -> Dynamics<T>,
 }
 
@@ -47,6 +49,7 @@ impl<T: Scalar> Entries<T> {
         sampler: |record| Sampler::new(record),
         at: |sampler, t| sampler.evaluate_at(t),
         ledgers: Record::book,
+        verify: certificate::verify,
         dynamics: Dynamics::of,
     };
 }

@@ -4,6 +4,7 @@
 //! program with many systems stays small and quick to compile.
 
 use crate::arithmetic::Scalar;
+use crate::declaration::Declaration;
 use crate::equations::{ModeEquations, ModeStructure};
 use crate::system::{Description, Held, System};
 use core::fmt;
@@ -13,6 +14,9 @@ use std::sync::Arc;
 pub(crate) trait ErasedSystem<T: Scalar>: Send + Sync {
     /// The table of names, places and needs, and the programs.
     fn description(&self) -> &'static Description;
+
+    /// What was declared.
+    fn declaration(&self) -> &'static Declaration;
 
     /// Parameter `index` of the description.
     fn parameter(&self, index: usize) -> T;
@@ -39,6 +43,10 @@ pub(crate) type Erased<T> = Arc<dyn ErasedSystem<T>>;
 impl<S: System> ErasedSystem<S::Scalar> for S {
     fn description(&self) -> &'static Description {
         S::DESCRIPTION
+    }
+
+    fn declaration(&self) -> &'static Declaration {
+        S::DECLARATION
     }
 
     fn parameter(&self, index: usize) -> S::Scalar {

@@ -45,7 +45,9 @@ pub mod arithmetic;
 // The chapters are not part of what is compiled, so that to edit them rebuilds nothing.
 #[cfg(any(doc, doctest))]
 pub mod book;
+pub mod certificate;
 pub mod checks;
+pub mod declaration;
 mod derivation;
 pub mod dynamics;
 pub mod effects;

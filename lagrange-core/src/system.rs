@@ -9,6 +9,7 @@
 //! Every number is an *output* of a tape or a parameter-only *constant*; a [`Place`] says which.
 
 use crate::arithmetic::{Number, Scalar};
+use crate::declaration::Declaration;
 use crate::derivation::Derivation;
 use crate::equations::{ModeEquations, ModeStructure};
 use crate::program::Encoded;
@@ -55,6 +56,9 @@ pub trait System: Clone + Send + Sync + 'static {
 
     /// The table of names, places and needs.
     const DESCRIPTION: &'static Description;
+
+    /// What was declared, as numbers to be evaluated; [`Declaration::NONE`] of a system written by hand.
+    const DECLARATION: &'static Declaration = &Declaration::NONE;
 
     /// What was derived, to be read; [`Derivation::NONE`] of a system written by hand.
     fn derivation() -> &'static Derivation {

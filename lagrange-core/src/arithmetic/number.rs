@@ -47,6 +47,8 @@ pub trait Number:
     fn all_positive(self) -> bool;
     /// Whether all are between −1 and 1.
     fn all_inside_unit(self) -> bool;
+    /// The smaller of both.
+    fn lesser(a: Self, b: Self) -> Self;
     /// Whether a pivot of a positive definite matrix has kept a safe share of its diagonal element.
     fn is_positive_share(pivot: Self, diagonal: Self) -> bool;
     /// Whether a pivot is not small beside what it was before, nor beside the elements below.
@@ -146,6 +148,10 @@ impl<T: Scalar> Number for T {
         self.value().abs() < 1.0
     }
     #[inline(always)]
+    fn lesser(a: Self, b: Self) -> Self {
+        if b.value() < a.value() { b } else { a }
+    }
+    #[inline(always)]
     fn is_positive_share(pivot: Self, diagonal: Self) -> bool {
         let (pivot, diagonal) = (pivot.value(), diagonal.value());
         pivot > positive_definite::<T>() * diagonal && diagonal > 0.0
@@ -219,6 +225,10 @@ impl<T: Scalar, const L: usize> Number for Pack<T, L> {
     #[inline(always)]
     fn all_inside_unit(self) -> bool {
         self.0.into_iter().all(Number::all_inside_unit)
+    }
+    #[inline(always)]
+    fn lesser(a: Self, b: Self) -> Self {
+        Pack(core::array::from_fn(|lane| T::lesser(a.0[lane], b.0[lane])))
     }
     #[inline(always)]
     fn is_positive_share(pivot: Self, diagonal: Self) -> bool {

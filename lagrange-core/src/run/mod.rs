@@ -197,7 +197,7 @@ impl<T: Scalar> Run<T> {
             work_before: crate::dynamics::Work::default(),
             trajectory: Record {
                 monitor: settings.monitor.clone(),
-                ..Record::new(&system, &settings.effects, settings.record)
+                ..Record::new(&system, settings)
             },
             state,
             mode,

@@ -7,6 +7,7 @@ mod sampler;
 
 pub(crate) use event::Around;
 pub use event::{Event, EventKind, Starts, State, Subject};
+pub(crate) use ledger::GAUSS;
 pub use ledger::{Energies, Entry, Ledger};
 pub use sampler::{Instant, Sampler};
 pub(crate) use sampler::{instant, report_everything};
@@ -16,11 +17,12 @@ use crate::dynamics::Dynamics;
 use crate::effects::Effects;
 use crate::erased::Erased;
 use crate::error::Error;
-use crate::integrate::StepPolynomial;
+use crate::integrate::{Method, StepPolynomial};
 use crate::mode::Mode;
 use crate::monitor::Monitor;
 use crate::pool::Pool;
-use crate::system::{Description, System};
+use crate::simulation::Settings;
+use crate::system::{Description, Impacts, System};
 use core::ops::Deref;
 
 /// What a run cost.
@@ -38,6 +40,17 @@ pub struct Work {
     pub factorizations: usize,
     /// Projections onto the constraints that changed the state.
     pub projections: usize,
+}
+
+/// What was asked of a run.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Asked {
+    /// Relative and absolute.
+    pub tolerance: f64,
+    /// The method.
+    pub method: Method,
+    /// How contacts are solved that are hit together.
+    pub impacts: Impacts,
 }
 
 /// A time interval in one mode.
@@ -112,6 +125,8 @@ impl<S: System> Deref for Trajectory<S> {
 pub struct Record<T: Scalar> {
     pub(crate) system: Erased<T>,
     pub(crate) effects: Effects,
+    /// What was asked of the run.
+    pub(crate) asked: Asked,
     /// Whether the polynomials of the steps are kept; if not, a segment is a whole phase.
     pub(crate) recorded: bool,
     pub(crate) first_time: T,
@@ -128,12 +143,17 @@ pub struct Record<T: Scalar> {
 }
 
 impl<T: Scalar> Record<T> {
-    pub(crate) fn new(system: &Erased<T>, effects: &Effects, recorded: bool) -> Self {
+    pub(crate) fn new(system: &Erased<T>, settings: &Settings) -> Self {
         let (time, state) = (T::default(), State::default());
         Self {
             system: system.clone(),
-            effects: effects.clone(),
-            recorded,
+            effects: settings.effects.clone(),
+            asked: Asked {
+                tolerance: settings.tolerance,
+                method: settings.method,
+                impacts: settings.impacts.unwrap_or(system.description().impacts),
+            },
+            recorded: settings.record,
             first_time: time,
             last_time: time,
             last: state.clone(),

@@ -28,7 +28,8 @@ pub fn expand(input: TokenStream) -> TokenStream {
         .and_then(|declaration| planned(declaration, &mut sink));
     match (&declaration, program) {
         (Some(declaration), Some((mut program, verdicts))) if sink.is_empty() => {
-            let mut tokens = emit::emit(&program, &verdicts);
+            let declared = model::declared(declaration);
+            let mut tokens = emit::emit(&program, &declared, &verdicts);
             if emit::is_large(&program) {
                 let system = &program.equations.system;
                 tokens.extend(emit::derivation_on_request(system, &input.to_string()));

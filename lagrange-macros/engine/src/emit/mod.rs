@@ -3,6 +3,7 @@
 //! The only place that uses `quote`.
 
 mod checks;
+mod declared;
 mod derivation;
 mod description;
 mod encoded;
@@ -16,6 +17,7 @@ mod scalar;
 mod tests;
 
 use crate::check::Verdict;
+use crate::model::Declared;
 use crate::plan::Program;
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -34,7 +36,7 @@ pub fn is_large(program: &Program) -> bool {
 }
 
 /// `impl System` and the handles of a program; [`derivation()`] belongs to it.
-pub fn emit(program: &Program, verdicts: &[Verdict]) -> TokenStream {
+pub fn emit(program: &Program, declared: &Declared, verdicts: &[Verdict]) -> TokenStream {
     let system = &program.equations.system;
     let (name, core) = (&system.name, &system.core);
     let (generics, arguments, scalar) = match &system.scalar {
@@ -52,6 +54,7 @@ pub fn emit(program: &Program, verdicts: &[Verdict]) -> TokenStream {
     let handles = handles::handles(program);
     let checks = checks::checks(program, verdicts);
     let description = description::description(program);
+    let declaration = declared::declaration(declared, system);
     let access = scalar::access(system);
     let start = scalar::starts(program);
     let equations = equations::equations(program);
@@ -64,6 +67,7 @@ pub fn emit(program: &Program, verdicts: &[Verdict]) -> TokenStream {
         impl #generics #core::system::System for #name #arguments {
             type Scalar = #scalar;
             const DESCRIPTION: &'static #core::system::Description = &#description;
+            const DECLARATION: &'static #core::declaration::Declaration = &#declaration;
             fn derivation() -> &'static #core::Derivation {
                 #inherent::derivation()
             }

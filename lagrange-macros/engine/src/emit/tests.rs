@@ -5,6 +5,12 @@ use super::encoded::Writer;
 use proc_macro2::TokenStream;
 use quote::quote;
 
+fn declared(input: TokenStream) -> crate::model::Declared {
+    let mut sink = crate::diagnostics::Diagnostics::new();
+    let declaration = crate::parse::declaration(input, &mut sink);
+    crate::model::declared(&declaration.unwrap_or_else(|| panic!("{sink}")))
+}
+
 fn program(declaration: TokenStream) -> crate::plan::Program {
     crate::program(declaration).unwrap_or_else(|mistakes| panic!("{mistakes}"))
 }
@@ -64,7 +70,7 @@ fn a_tape_is_a_list_of_words_in_blocks() {
 
 #[test]
 fn constants_starts_and_handles() {
-    let emitted = emit(&program(spring()), &[]);
+    let emitted = emit(&program(spring()), &declared(spring()), &[]);
     check(
         &emitted,
         quote! { pub const FLOOR: ::lagrange_core::handle::ContactId = ::lagrange_core::handle::ContactId(0); },
