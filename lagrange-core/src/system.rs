@@ -13,39 +13,9 @@ use crate::declaration::Declaration;
 use crate::derivation::Derivation;
 use crate::equations::{ModeEquations, ModeStructure};
 use crate::program::Encoded;
+pub use crate::program::{Held, Needs, Place};
 use core::fmt;
 use core::str::FromStr;
-
-/// Where a number of the description is found after a tape has run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
-    /// Structurally zero: never computed, never multiplied.
-    Zero,
-    /// Depends on parameters only: index into the constants.
-    Constant(usize),
-    /// Index into the outputs of the tape.
-    Node(usize),
-}
-
-/// A set of needs: which parts of a tape must run. Bit `i` is need `i` of the description.
-pub type Needs = [u64];
-
-/// What a tape is told beside its inputs.
-#[derive(Clone, Copy, Debug)]
-pub struct Held<'a> {
-    /// The needs to be met; a block of the tape runs only if one of its needs is here.
-    pub needs: &'a Needs,
-    /// Bit `i`: piecewise branch `i` is on its `then` side (its guard is ≥ 0).
-    pub branches: &'a [u64],
-}
-
-impl Held<'_> {
-    /// Whether branch `index` is on its `then` side.
-    #[inline(always)]
-    pub fn branch(&self, index: usize) -> bool {
-        self.branches[index / 64] >> (index % 64) & 1 == 1
-    }
-}
 
 /// A mechanical system: what `#[derive(Lagrangian)]` implements.
 ///

@@ -14,7 +14,6 @@ pub use number::Number;
 pub(crate) use number::{epsilon, positive_definite};
 pub use pack::Pack;
 
-use crate::entries::Entries;
 use core::fmt::Debug;
 
 /// A number that parameters, states and coefficients are made of.
@@ -68,10 +67,5 @@ pub trait Scalar:
     fn mul_add(self, y: Self, z: Self) -> Self {
         self * y + z
     }
-
-    /// What a program calls of the core for this type. Machine numbers have it compiled in this crate.
-    #[doc(hidden)]
-    fn entries() -> &'static Entries<Self> {
-        &const { Entries::OWN }
     }
 }

@@ -245,13 +245,3 @@ impl Findings {
         }
     }
 }
-
-impl<T: Scalar> Record<T> {
-    /// Checks the whole run against the declaration, at instants chosen by `seed`.
-    ///
-    /// # Errors
-    /// [`Error::NotRecorded`]; or the motion could not be evaluated somewhere.
-    pub fn verify(&self, seed: u64) -> Result<Certificate, Error> {
-        (T::entries().verify)(self, seed)
-    }
-}

@@ -2,11 +2,11 @@
 //! and the interpreted equations for what has been asked for.
 
 use super::constants::Constants;
+use super::emitted::Emitted;
 use super::interpreted::Interpreted;
 use super::needs::{self, NeedSet};
 use crate::arithmetic::Scalar;
 use crate::effects::Effects;
-use crate::equations::Emitted;
 use crate::erased::ErasedSystem;
 use crate::linear::{Plan, Solver};
 use crate::mode::Mode;

@@ -3,9 +3,8 @@
 //! From K w = b, with w = (u̇, −λ) already known: K ∂w = ∂b − ∂K w, so the factors of the value serve every column.
 
 use super::interpreted::{Extent, MOTION, SYSTEM};
-use super::{Dynamics, EvaluationError};
+use super::{Dynamics, Equations, EvaluationError};
 use crate::arithmetic::{Dual, Scalar};
-use crate::simulation::Equations;
 
 /// Columns per run of the program: two registers of derivatives beside the value.
 const LANES: usize = 4;

@@ -6,6 +6,7 @@
 
 mod compiled;
 mod constants;
+mod emitted;
 mod error;
 mod heading;
 mod interpreted;
@@ -28,15 +29,24 @@ pub use projection::Residual;
 
 use crate::arithmetic::Scalar;
 use crate::effects::Effects;
-use crate::equations::Emitted;
 use crate::erased::Erased;
 use crate::linear::{SolveError, Solver};
 use crate::mode::Mode;
-use crate::simulation::Equations;
 use crate::system::System;
 use crate::system::{Description, Place};
 use compiled::{Asked, Compiled};
+use emitted::Emitted;
 use std::sync::Arc;
+
+/// What evaluates the equations of motion.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Equations {
+    /// The functions that the derive has emitted for the mode; where there are none, the interpreter.
+    #[default]
+    Emitted,
+    /// The interpreter, with the solver that looks for the best pivots.
+    Interpreted,
+}
 
 /// Modes kept ready; beyond that the oldest goes.
 const MOST_MODES: usize = 64;
@@ -113,11 +123,6 @@ pub struct Dynamics<T: Scalar> {
 }
 
 impl<T: Scalar> Dynamics<T> {
-    /// The equations of a scene with all contacts open.
-    pub fn new<S: System<Scalar = T>>(scene: &S, effects: &Effects) -> Self {
-        (T::entries().dynamics)(Arc::new(scene.clone()), effects)
-    }
-
     /// The equations of a system whose type is forgotten.
     pub(crate) fn of(system: Erased<T>, effects: &Effects) -> Self {
         let d = system.description();

@@ -28,7 +28,7 @@ pub use gauss::Gauss;
 pub use integrator::Integrator;
 pub use method::{Method, ParseMethodError};
 pub use polynomial::StepPolynomial;
-pub(crate) use polynomial::{
+pub(crate) use polynomial::{horner, 
     derivative as polynomial_derivative, onto_step, sum as polynomial_sum,
 };
 pub use radau::Radau;

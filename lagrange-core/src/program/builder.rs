@@ -4,7 +4,7 @@
 
 use super::encoded::{Coefficient, Encoded, Word};
 use super::instruction::{Instruction, Op, Program, Register};
-use crate::system::Held;
+use super::selection::Held;
 
 /// Where the numbers are that a program reads: each list in registers that follow one another.
 #[derive(Clone, Copy, Debug)]

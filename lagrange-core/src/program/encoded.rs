@@ -11,9 +11,8 @@
 //! they are computed, the inputs first. A coefficient is a number by place · 4 + kind: a constant (0), a parameter (1), an exact
 //! number of the table (2).
 
-use super::{Builder, Numbers, Register, room};
+use super::{Builder, Held, Numbers, Register, room};
 use crate::arithmetic::Scalar;
-use crate::system::Held;
 
 /// A program as data.
 #[derive(Clone, Copy, Debug)]

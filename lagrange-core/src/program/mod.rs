@@ -8,6 +8,7 @@
 mod builder;
 mod encoded;
 mod instruction;
+mod selection;
 mod series;
 #[cfg(test)]
 mod tests;
@@ -15,5 +16,6 @@ mod tests;
 pub(crate) use builder::{Builder, Numbers};
 pub use encoded::Encoded;
 pub(crate) use instruction::{Op, Program, Register, room};
+pub use selection::{Held, Needs, Place};
 pub(crate) use series::Series;
 pub use series::{MAX_ORDER, Operation};

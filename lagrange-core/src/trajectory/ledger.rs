@@ -60,15 +60,6 @@ pub(crate) const GAUSS: [(f64, f64); 8] = [
 ];
 
 impl<T: Scalar> Record<T> {
-    /// Books the energy of the whole trajectory.
-    ///
-    /// # Errors
-    /// [`Error::NotRecorded`]; or the equations of motion could not be evaluated somewhere on the way.
-    pub fn ledger(&self) -> Result<Ledger, Error> {
-        let ledgers = (T::entries().ledgers)(self, None)?;
-        ledgers.into_iter().next().ok_or(Error::NotRecorded)
-    }
-
     /// The ledgers at these times, or that of the end.
     pub(crate) fn book(&self, times: Option<&[f64]>) -> Result<Vec<Ledger>, Error> {
         match times {
@@ -82,16 +73,6 @@ impl<T: Scalar> Record<T> {
         books.turn_to(self.segments.len(), None)?;
         let end = self.state_of_energy(&mut books.sampler, self.last_time, &self.last)?;
         Ok(books.balance(end))
-    }
-
-    /// Books the energy from the beginning to each of `times`, s, in the order given; with impacts up to and at that time.
-    /// Every ledger has the same entries.
-    ///
-    /// # Errors
-    /// [`Error::OutsideTrajectory`], [`Error::NotRecorded`]; or the equations of motion could not be evaluated somewhere on
-    /// the way.
-    pub fn ledgers(&self, times: &[f64]) -> Result<Vec<Ledger>, Error> {
-        (T::entries().ledgers)(self, Some(times))
     }
 
     fn book_at(&self, times: &[f64]) -> Result<Vec<Ledger>, Error> {

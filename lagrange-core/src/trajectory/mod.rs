@@ -6,7 +6,9 @@ mod ledger;
 mod sampler;
 
 pub(crate) use event::Around;
-pub use event::{Event, EventKind, Starts, State, Subject};
+pub use crate::handle::Subject;
+pub use crate::state::{Starts, State};
+pub use event::{Event, EventKind};
 pub(crate) use ledger::GAUSS;
 pub use ledger::{Energies, Entry, Ledger};
 pub use sampler::{Instant, Sampler};
@@ -17,11 +19,10 @@ use crate::dynamics::Dynamics;
 use crate::effects::Effects;
 use crate::erased::Erased;
 use crate::error::Error;
-use crate::integrate::{Method, StepPolynomial};
+use crate::integrate::{Method, StepPolynomial, horner};
 use crate::mode::Mode;
 use crate::monitor::Monitor;
 use crate::pool::Pool;
-use crate::simulation::Settings;
 use crate::system::{Description, Impacts, System};
 use core::ops::Deref;
 
@@ -143,17 +144,13 @@ pub struct Record<T: Scalar> {
 }
 
 impl<T: Scalar> Record<T> {
-    pub(crate) fn new(system: &Erased<T>, settings: &Settings) -> Self {
+    pub(crate) fn new(system: &Erased<T>, effects: &Effects, recorded: bool, asked: Asked) -> Self {
         let (time, state) = (T::default(), State::default());
         Self {
             system: system.clone(),
-            effects: settings.effects.clone(),
-            asked: Asked {
-                tolerance: settings.tolerance,
-                method: settings.method,
-                impacts: settings.impacts.unwrap_or(system.description().impacts),
-            },
-            recorded: settings.record,
+            effects: effects.clone(),
+            asked,
+            recorded,
             first_time: time,
             last_time: time,
             last: state.clone(),
@@ -313,11 +310,6 @@ impl<T: Scalar> Record<T> {
         self.segments.iter().map(|segment| segment.t.value())
     }
 
-    /// Evaluates the trajectory at any time.
-    pub fn sampler(&self) -> Sampler<'_, T> {
-        (T::entries().sampler)(self)
-    }
-
     /// Coefficients of a position (`which` = 0) or velocity (1) in a segment.
     pub(crate) fn polynomial(&self, segment: &Segment<T>, which: usize, coordinate: usize) -> &[T] {
         let n = self.description().coordinates.len();
@@ -334,9 +326,4 @@ impl<T: Scalar> Record<T> {
             }
         }
     }
-}
-
-/// Σ cₖ sᵏ.
-pub(crate) fn horner<T: Scalar>(c: &[T], s: T) -> T {
-    c.iter().rev().fold(T::default(), |sum, &x| sum * s + x)
 }

@@ -73,14 +73,6 @@ impl<'a, T: Scalar> Sampler<'a, T> {
         }
     }
 
-    /// The motion at time `t`, s. At the instant of a switch: just after it.
-    ///
-    /// # Errors
-    /// [`Error::OutsideTrajectory`], [`Error::NotRecorded`]; or the equations of motion could not be evaluated there.
-    pub fn at(&mut self, t: f64) -> Result<Instant<T>, Error> {
-        (T::entries().at)(self, t)
-    }
-
     pub(crate) fn evaluate_at(&mut self, t: f64) -> Result<Instant<T>, Error> {
         let trajectory = self.trajectory;
         trajectory.check_recorded()?;

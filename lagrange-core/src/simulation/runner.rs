@@ -1,11 +1,12 @@
 //! Many runs of one system in the same memory.
 
-use super::Run;
-use super::round::Member;
-use crate::arithmetic::Scalar;
 use crate::erased::Erased;
 use crate::error::Error;
-use crate::simulation::{Held, Settings};
+use crate::precompiled::Runnable;
+use crate::run::Run;
+use crate::run::round::Member;
+use crate::settings::Settings;
+use crate::state::Held;
 use crate::system::System;
 use crate::trajectory::{State, Trajectory};
 use core::ops::Range;
@@ -22,9 +23,9 @@ pub struct Runner<S: System> {
     trajectory: Trajectory<S>,
 }
 
-impl<S: System> Runner<S> {
+impl<S: System<Scalar: Runnable>> Runner<S> {
     pub(crate) fn new(scene: &S, settings: &Settings) -> Self {
-        let run = (S::Scalar::entries().run)(erased(scene), settings);
+        let run = (S::Scalar::functions().run)(erased(scene), settings);
         Self {
             trajectory: Trajectory::new(scene, run.record().clone()),
             run,
@@ -41,7 +42,7 @@ impl<S: System> Runner<S> {
         start: &State<S::Scalar>,
         span: Range<f64>,
     ) -> Result<&Trajectory<S>, Error> {
-        let execute = S::Scalar::entries().execute;
+        let execute = S::Scalar::functions().execute;
         execute(&mut self.run, start, span, self.trajectory.record())?;
         Ok(&self.trajectory)
     }
@@ -52,7 +53,7 @@ impl<S: System> Runner<S> {
         start: &State<S::Scalar>,
         span: Range<f64>,
     ) -> Result<(), Error> {
-        (S::Scalar::entries().launch)(&mut self.run, start, span, self.trajectory.record())
+        (S::Scalar::functions().launch)(&mut self.run, start, span, self.trajectory.record())
     }
 
     /// Whether the run that has begun has more to do.
@@ -70,7 +71,7 @@ impl<S: System> Runner<S> {
 
     /// Ends the run that has begun; its trajectory.
     pub(super) fn land(&mut self) -> &Trajectory<S> {
-        (S::Scalar::entries().land)(&mut self.run, self.trajectory.record());
+        (S::Scalar::functions().land)(&mut self.run, self.trajectory.record());
         &self.trajectory
     }
 
@@ -85,7 +86,7 @@ impl<S: System> Runner<S> {
         wanted: &State<S::Scalar>,
         held: &Held,
     ) -> Result<State<S::Scalar>, Error> {
-        (S::Scalar::entries().consistent)(&mut self.run, time, reference, wanted, held)
+        (S::Scalar::functions().consistent)(&mut self.run, time, reference, wanted, held)
     }
 
     /// The trajectory of the last run.
@@ -108,7 +109,7 @@ impl<S: System> Runner<S> {
         let system = erased(scene);
         self.trajectory.set_scene(scene);
         self.trajectory.record().system = system.clone();
-        (S::Scalar::entries().set_system)(&mut self.run, system);
+        (S::Scalar::functions().set_system)(&mut self.run, system);
     }
 }
 

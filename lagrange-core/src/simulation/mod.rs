@@ -1,14 +1,24 @@
 //! A run: the system, what takes part in it, how exact it is to be.
 
+mod ensemble;
+mod runner;
+
+pub use crate::dynamics::Equations;
+pub use crate::settings::Awaited;
+pub use crate::state::Held;
+pub use ensemble::Ensemble;
+pub use runner::Runner;
+
 use crate::arithmetic::Scalar;
 use crate::effects::Effects;
 use crate::erased::ErasedSystem;
 use crate::error::Error;
 use crate::integrate::Method;
 use crate::monitor::Monitor;
-use crate::run::{Ensemble, Runner};
+use crate::precompiled::Runnable;
+use crate::settings::Settings;
 use crate::system::{Impacts, System};
-use crate::trajectory::{Event, EventKind, State, Subject, Trajectory};
+use crate::trajectory::{State, Trajectory};
 use core::fmt;
 use core::ops::Range;
 
@@ -17,56 +27,6 @@ use core::ops::Range;
 pub struct Simulation<'a, S: System> {
     scene: &'a S,
     settings: Settings,
-}
-
-/// Everything about a run but the system.
-#[derive(Clone, Debug)]
-pub(crate) struct Settings {
-    pub effects: Effects,
-    pub tolerance: f64,
-    pub method: Method,
-    pub project_start: bool,
-    /// What evaluates the equations of motion.
-    pub equations: Equations,
-    pub record: bool,
-    /// The run ends once each of these has happened; empty: it does not.
-    pub last_events: Vec<Awaited>,
-    /// As declared if `None`.
-    pub impacts: Option<Impacts>,
-    pub max_events: usize,
-    pub max_steps: usize,
-    pub monitor: Option<Monitor>,
-}
-
-/// An event that a run can end after.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Awaited {
-    /// What it is about.
-    pub subject: Subject,
-    /// What happens to it (whatever an [`EventKind::Accumulates`] counts); `None`: anything.
-    pub kind: Option<EventKind>,
-}
-
-impl Awaited {
-    /// Whether it is this event.
-    pub(crate) fn is<T>(&self, event: &Event<T>) -> bool {
-        let same = |kind: EventKind| kind.word() == event.kind.word();
-        event.subject == self.subject && self.kind.is_none_or(same)
-    }
-}
-
-impl<I: Into<Subject>> From<I> for Awaited {
-    fn from(item: I) -> Awaited {
-        let (subject, kind) = (item.into(), None);
-        Awaited { subject, kind }
-    }
-}
-
-impl<I: Into<Subject>> From<(I, EventKind)> for Awaited {
-    fn from((item, kind): (I, EventKind)) -> Awaited {
-        let (subject, kind) = (item.into(), Some(kind));
-        Awaited { subject, kind }
-    }
 }
 
 /// A run that ended early, with everything up to there.
@@ -90,26 +50,7 @@ impl<S: System + fmt::Debug> core::error::Error for Failure<S> {
     }
 }
 
-/// What evaluates the equations of motion.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Equations {
-    /// The functions that the derive has emitted for the mode; where there are none, the interpreter.
-    #[default]
-    Emitted,
-    /// The interpreter, with the solver that looks for the best pivots.
-    Interpreted,
-}
-
-/// Which values a consistent state must keep exactly.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Held {
-    /// Per coordinate: keep its position.
-    pub positions: Vec<bool>,
-    /// Per coordinate: keep its velocity.
-    pub velocities: Vec<bool>,
-}
-
-impl<'a, S: System> Simulation<'a, S> {
+impl<'a, S: System<Scalar: Runnable>> Simulation<'a, S> {
     /// All effects, the Taylor method, tolerance 1e-9.
     pub fn new(scene: &'a S) -> Self {
         Self {

@@ -9,11 +9,7 @@
 //! The linear system of the mode is solved on the way, by pivots chosen at build time. A pivot that is not safe for the numbers at
 //! hand is refused; the core then looks for better ones.
 
-mod emitted;
-
-pub(crate) use emitted::Emitted;
-
-use crate::system::{Held, Place};
+use crate::program::{Held, Place};
 
 /// Coefficients 0, 1, … of one series.
 pub type Row<N> = [N; STRIDE];

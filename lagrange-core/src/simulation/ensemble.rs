@@ -1,10 +1,10 @@
 //! Many runs of one system, several at a time.
 
 use super::Runner;
-use crate::arithmetic::Scalar;
 use crate::dynamics::Packets;
 use crate::error::Error;
-use crate::simulation::Settings;
+use crate::precompiled::Runnable;
+use crate::settings::Settings;
 use crate::system::System;
 use crate::trajectory::{State, Trajectory};
 use core::ops::Range;
@@ -61,7 +61,7 @@ pub struct Ensemble<S: System> {
     packets: Packets<S::Scalar>,
 }
 
-impl<S: System> Ensemble<S> {
+impl<S: System<Scalar: Runnable>> Ensemble<S> {
     pub(crate) fn new(scene: &S, settings: &Settings) -> Self {
         Self {
             scene: scene.clone(),
@@ -106,7 +106,7 @@ impl<S: System> Ensemble<S> {
             if members.is_empty() {
                 return;
             }
-            (S::Scalar::entries().go_on)(&mut self.packets, &mut members);
+            (S::Scalar::functions().go_on)(&mut self.packets, &mut members);
             let outcomes: Vec<_> = members.into_iter().map(|m| m.outcome).collect();
             let mut outcomes = outcomes.into_iter();
             for (runner, under_way) in self.runners.iter_mut().zip(&mut under_way) {

@@ -1,8 +1,8 @@
 //! One mode's functions with the memory that they work in.
 
-use super::{Arguments, FrictionState, ModeEquations, ModeStructure, Refused, Row, STRIDE};
 use crate::arithmetic::{Scalar, epsilon};
 use crate::effects::{Effects, Item};
+use crate::equations::{Arguments, FrictionState, ModeEquations, ModeStructure, Refused, Row, STRIDE};
 use crate::erased::ErasedSystem;
 use crate::mode::{Direction, FrictionMode, Mode};
 use crate::system::{Description, Held, Place};
@@ -12,7 +12,7 @@ const NO_ROW: u32 = u32::MAX;
 
 /// The emitted equations of a mode.
 #[derive(Clone, Debug)]
-pub(crate) struct Emitted<T: Scalar> {
+pub(super) struct Emitted<T: Scalar> {
     index: usize,
     structure: &'static ModeStructure,
     equations: ModeEquations<T>,
@@ -56,7 +56,7 @@ fn rows_by_node(nodes: usize, rows: &[(usize, usize)]) -> Vec<u32> {
 
 impl<T: Scalar> Emitted<T> {
     /// The equations of a mode, if they have been emitted. Without a constraint or a kinetic energy others hold.
-    pub(crate) fn of(system: &dyn ErasedSystem<T>, effects: &Effects, mode: &Mode) -> Option<Self> {
+    pub(super) fn of(system: &dyn ErasedSystem<T>, effects: &Effects, mode: &Mode) -> Option<Self> {
         let d = system.description();
         let other = |item| matches!(item, Item::Constraint(_) | Item::Kinetic(_));
         if effects.left_out().any(other) {
@@ -82,12 +82,12 @@ impl<T: Scalar> Emitted<T> {
     }
 
     /// Takes the numbers of a system's parameters.
-    pub(crate) fn renew(&mut self, system: &dyn ErasedSystem<T>, held: &Held) {
+    pub(super) fn renew(&mut self, system: &dyn ErasedSystem<T>, held: &Held) {
         self.admitted = system.mode_constants(self.index, held, &self.signs, &mut self.constants);
     }
 
     /// Whether the functions hold at a state: what the mode pins is where it is pinned, and at rest.
-    pub(crate) fn holds_at(&self, q: &[T], v: &[T]) -> bool {
+    pub(super) fn holds_at(&self, q: &[T], v: &[T]) -> bool {
         let mut pins = self.structure.pins.iter();
         self.admitted
             && pins.all(|&(j, place)| {
@@ -102,7 +102,7 @@ impl<T: Scalar> Emitted<T> {
 
     /// Accelerations, and forces if asked for. False if a pivot is not safe.
     #[inline]
-    pub(crate) fn value(
+    pub(super) fn value(
         &self,
         held: &Held,
         state: Arguments<T>,
@@ -114,7 +114,7 @@ impl<T: Scalar> Emitted<T> {
 
     /// Coefficients 0…`order` of all rows.
     #[inline]
-    pub(crate) fn series(
+    pub(super) fn series(
         &mut self,
         held: &Held,
         order: usize,
@@ -129,7 +129,7 @@ impl<T: Scalar> Emitted<T> {
     }
 
     /// Coefficients of t, q, v, v̇ (none) or λ, by their index in the inputs of the report tape.
-    pub(crate) fn input_series(&self, d: &Description, index: usize) -> &[T] {
+    pub(super) fn input_series(&self, d: &Description, index: usize) -> &[T] {
         let n = d.coordinates.len();
         match index {
             i if (1..=2 * n).contains(&i) => self.row(i - 1),
@@ -139,12 +139,12 @@ impl<T: Scalar> Emitted<T> {
     }
 
     /// Coefficients of an output of the motion tape; zeros if they are not given.
-    pub(crate) fn motion_series(&self, d: &Description, node: usize) -> &[T] {
+    pub(super) fn motion_series(&self, d: &Description, node: usize) -> &[T] {
         self.series_of(d, self.motion_rows[node])
     }
 
     /// Coefficients of an output of the report tape; zeros if they are not given.
-    pub(crate) fn report_series(&self, d: &Description, node: usize) -> &[T] {
+    pub(super) fn report_series(&self, d: &Description, node: usize) -> &[T] {
         self.series_of(d, self.report_rows[node])
     }
 
@@ -156,7 +156,7 @@ impl<T: Scalar> Emitted<T> {
     }
 
     /// Coefficients of zero.
-    pub(crate) fn zero_series(&self, d: &Description) -> &[T] {
+    pub(super) fn zero_series(&self, d: &Description) -> &[T] {
         self.row(2 * d.coordinates.len() + d.rows.len())
     }
 }
