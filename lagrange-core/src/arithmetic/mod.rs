@@ -67,5 +67,4 @@ pub trait Scalar:
     fn mul_add(self, y: Self, z: Self) -> Self {
         self * y + z
     }
-    }
 }

@@ -185,12 +185,15 @@ impl Equations {
                 self.seeds[1].push((slip, 0, -lambda[place.row + k]));
             }
         }
-        self.seeds.iter_mut().for_each(|seeds| seeds.retain(|seed| seed.2 != 0.0));
+        self.seeds
+            .iter_mut()
+            .for_each(|seeds| seeds.retain(|seed| seed.2 != 0.0));
     }
 
     fn sweep(&mut self) {
         for (power, seeds) in self.seeds.iter().enumerate() {
-            self.values.sweep(seeds, power, &mut self.residual, &mut self.size);
+            self.values
+                .sweep(seeds, power, &mut self.residual, &mut self.size);
         }
     }
 
@@ -200,8 +203,13 @@ impl Equations {
         for (k, state) in [at.q, at.v].into_iter().enumerate() {
             let gradient = &mut self.gradient[k];
             gradient.fill(0.0);
-            self.values.gradient_size(&[(value, power, 1.0)], k, gradient);
-            sum += gradient.iter().zip(state).map(|(g, x)| g * (1.0 + x.abs())).sum::<f64>();
+            self.values
+                .gradient_size(&[(value, power, 1.0)], k, gradient);
+            sum += gradient
+                .iter()
+                .zip(state)
+                .map(|(g, x)| g * (1.0 + x.abs()))
+                .sum::<f64>();
         }
         sum
     }
@@ -211,7 +219,8 @@ impl Equations {
         let gradient = &mut self.gradient[0];
         gradient.fill(0.0);
         let power = usize::from(level == Level::Velocity);
-        self.values.gradient_size(&[(value, 0, 1.0)], power, gradient);
+        self.values
+            .gradient_size(&[(value, 0, 1.0)], power, gradient);
         let (mut along, mut square) = (0.0, 0.0);
         for (g, size) in gradient.iter().zip(&self.size) {
             along += g * size;
@@ -227,14 +236,26 @@ impl Equations {
             Level::Velocity => (1, 1.0),
         };
         let mut size = 0.0;
-        for (k, state) in [at.q, at.v, at.acceleration].into_iter().enumerate().skip(1) {
+        for (k, state) in [at.q, at.v, at.acceleration]
+            .into_iter()
+            .enumerate()
+            .skip(1)
+        {
             let gradient = &mut self.gradient[k];
             gradient.fill(0.0);
-            self.values.gradient_size(&[(value, power, 1.0)], k, gradient);
+            self.values
+                .gradient_size(&[(value, power, 1.0)], k, gradient);
             let half = if k == 2 { 0.5 } else { 1.0 };
-            size += gradient.iter().zip(state).map(|(g, x)| half * g * x.abs()).sum::<f64>();
+            size += gradient
+                .iter()
+                .zip(state)
+                .map(|(g, x)| half * g * x.abs())
+                .sum::<f64>();
         }
-        (factor * self.values.coefficient(value, power), factor * size)
+        (
+            factor * self.values.coefficient(value, power),
+            factor * size,
+        )
     }
 
     /// The normal force of friction `f`, as it is in the state taken with these forces, and the size of forces along its source.

@@ -13,7 +13,7 @@ use crate::arithmetic::Scalar;
 use crate::checks::state::Random;
 use crate::error::Error;
 use crate::integrate::Method;
-use crate::trajectory::{EventKind, GAUSS, Instant, Record, State};
+use crate::trajectory::{EventKind, GAUSS, Instant, Record, Sampler, State};
 
 /// Everything about a run that is being checked.
 pub(super) struct Examination<'a, T: Scalar> {
@@ -85,7 +85,7 @@ pub(super) fn numbers<T: Scalar>(state: &State<T>) -> State<f64> {
 impl<T: Scalar> Examination<'_, T> {
     fn steps(&mut self, mut random: Random) -> Result<(), Error> {
         let record = self.record;
-        let mut sampler = record.sampler();
+        let mut sampler = Sampler::new(record);
         for (k, segment) in record.segments.iter().enumerate() {
             let (t, h, end) = (segment.t.value(), segment.h.value(), segment.end.value());
             self.events_until(t, k == 0);
@@ -140,7 +140,8 @@ impl<T: Scalar> Examination<'_, T> {
             v: vec![T::zero(); n],
         };
         let segment = &self.record.segments[k];
-        self.record.state_at(segment, T::from_f64(s), &mut state.q, &mut state.v);
+        self.record
+            .state_at(segment, T::from_f64(s), &mut state.q, &mut state.v);
         numbers(&state)
     }
 
@@ -160,7 +161,8 @@ impl<T: Scalar> Examination<'_, T> {
         let (equations, findings) = (&mut self.equations, &mut self.findings);
         equations.take(at);
         let seen = (at, &now.mode);
-        self.watches.see(equations, findings, seen, &self.passed, again);
+        self.watches
+            .see(equations, findings, seen, &self.passed, again);
         if chosen {
             let reported = Reported {
                 kinetic: now.kinetic.value(),
@@ -215,7 +217,8 @@ impl<T: Scalar> Examination<'_, T> {
         for (a, b) in [(&a.q, &b.q), (&a.v, &b.v)] {
             for ((a, b), coordinate) in a.iter().zip(b).zip(names) {
                 let (error, size) = ((a - b).abs(), 1.0 + a.abs().max(b.abs()));
-                self.findings.book(subject, error, size, time, coordinate.name);
+                self.findings
+                    .book(subject, error, size, time, coordinate.name);
             }
         }
     }

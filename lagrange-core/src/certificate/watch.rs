@@ -103,7 +103,11 @@ impl Watches {
                         let near = before - blur..=at.time + blur;
                         let logged = self.marks[i].iter().any(|t| near.contains(t));
                         let missed = crossed && !logged;
-                        let error = if missed { earlier.abs().min(value.abs()) } else { 0.0 };
+                        let error = if missed {
+                            earlier.abs().min(value.abs())
+                        } else {
+                            0.0
+                        };
                         findings.book(Subject::Marks, error, reach, at.time, d.marks[i].name);
                     }
                 }
@@ -134,7 +138,12 @@ impl Guard {
 
 impl Kind {
     /// Value and reach of a guard; of a gap while its contact is open. Stops and marks are true where it is ≥ 0.
-    fn value(self, equations: &mut Equations, at: Situation<'_>, mode: &Mode) -> Option<(f64, f64)> {
+    fn value(
+        self,
+        equations: &mut Equations,
+        at: Situation<'_>,
+        mode: &Mode,
+    ) -> Option<(f64, f64)> {
         let (declaration, d) = (equations.declaration, equations.d);
         let terms = match self {
             Kind::Gap(c) if mode.contacts[c] => return None,

@@ -2,7 +2,9 @@
 
 use crate::arithmetic::{Scalar, epsilon};
 use crate::effects::{Effects, Item};
-use crate::equations::{Arguments, FrictionState, ModeEquations, ModeStructure, Refused, Row, STRIDE};
+use crate::equations::{
+    Arguments, FrictionState, ModeEquations, ModeStructure, Refused, Row, STRIDE,
+};
 use crate::erased::ErasedSystem;
 use crate::mode::{Direction, FrictionMode, Mode};
 use crate::system::{Description, Held, Place};

@@ -32,11 +32,9 @@ use crate::effects::Effects;
 use crate::erased::Erased;
 use crate::linear::{SolveError, Solver};
 use crate::mode::Mode;
-use crate::system::System;
 use crate::system::{Description, Place};
 use compiled::{Asked, Compiled};
 use emitted::Emitted;
-use std::sync::Arc;
 
 /// What evaluates the equations of motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -28,8 +28,8 @@ pub use gauss::Gauss;
 pub use integrator::Integrator;
 pub use method::{Method, ParseMethodError};
 pub use polynomial::StepPolynomial;
-pub(crate) use polynomial::{horner, 
-    derivative as polynomial_derivative, onto_step, sum as polynomial_sum,
+pub(crate) use polynomial::{
+    derivative as polynomial_derivative, horner, onto_step, sum as polynomial_sum,
 };
 pub use radau::Radau;
 pub use runge_kutta::RungeKutta;

@@ -81,7 +81,7 @@ impl<T: Scalar> Record<T> {
         let mut books = Books::open(self)?;
         let mut ledgers = vec![None; times.len()];
         for i in order {
-            let now = books.sampler.at(times[i])?;
+            let now = books.sampler.evaluate_at(times[i])?;
             let after = self.segments.partition_point(|s| s.t.value() <= times[i]);
             books.turn_to(after.saturating_sub(1), Some(times[i]))?;
             ledgers[i] = Some(books.balance(energies(&now)));
@@ -124,7 +124,7 @@ impl<'a, T: Scalar> Books<'a, T> {
     fn open(trajectory: &'a Record<T>) -> Result<Self, Error> {
         trajectory.check_recorded()?;
         tell(trajectory, trajectory.first_time);
-        let mut sampler = trajectory.sampler();
+        let mut sampler = Sampler::new(trajectory);
         let (mut booked, entries) = items(trajectory.description());
         let jumps = jumps(trajectory, &mut sampler, &mut booked)?;
         let mode = trajectory.segments.first().map_or(0, |s| s.mode);

@@ -5,9 +5,9 @@ mod event;
 mod ledger;
 mod sampler;
 
-pub(crate) use event::Around;
 pub use crate::handle::Subject;
 pub use crate::state::{Starts, State};
+pub(crate) use event::Around;
 pub use event::{Event, EventKind};
 pub(crate) use ledger::GAUSS;
 pub use ledger::{Energies, Entry, Ledger};
