@@ -5,7 +5,6 @@
 
 use crate::effects::Item;
 use crate::system::Description;
-use crate::trajectory::Subject;
 
 macro_rules! handles {
     ($($(#[$documentation:meta])* $name:ident)*) => {$(
@@ -40,6 +39,34 @@ handles! {
     MarkId
     /// A named start, [`crate::system::Description::starts`].
     StartId
+}
+
+/// What an event is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Subject {
+    /// Contact i.
+    Contact(usize),
+    /// Friction i.
+    Friction(usize),
+    /// Piecewise branch i.
+    Branch(usize),
+    /// Stop i.
+    Stop(usize),
+    /// Mark i.
+    Mark(usize),
+}
+
+impl Subject {
+    /// Its name in the declaration.
+    pub fn name(self, description: &'static Description) -> &'static str {
+        match self {
+            Subject::Contact(i) => description.contacts[i].name,
+            Subject::Friction(i) => description.frictions[i].name,
+            Subject::Branch(i) => description.branches[i].text,
+            Subject::Stop(i) => description.stops[i].name,
+            Subject::Mark(i) => description.marks[i].name,
+        }
+    }
 }
 
 /// What has a multiplier: a constraint, a contact or a friction.

@@ -1,60 +1,58 @@
 //! Mechanical systems with constraints, contacts and friction: written down once, on a struct, as in a textbook.
 //!
 //! [`#[derive(Lagrangian)]`](macro@Lagrangian) derives the equations of motion when the struct is compiled, for every mode that contacts
-//! and frictions can be in; a [`Simulation`] integrates them, finds every switch, and knows every force.
+//! and frictions can be in. A [`Simulation`] integrates them, finds every switch, and knows every force.
 //!
 //! ```
 //! use lagrange_core::prelude::*;
 //!
-//! /// A pendulum in Cartesian coordinates: the rod is a constraint.
+//! /// A small mass slides down a smooth ball.
 //! #[derive(Lagrangian, Clone, Debug)]
 //! #[lagrange(
-//!     coordinates(x, y),
-//!     kinetic   = mass/2 * (der(x)^2 + der(y)^2),
-//!     potential = mass * gravity * y,
-//!     constraint(rod: x^2 + y^2 == l^2),
-//!     start(held: x = l),
+//!     coordinates(r: "m", theta: "rad"),
+//!     kinetic   = mass/2 * (der(r)^2 + r^2 * der(theta)^2),
+//!     potential = mass * gravity * r * cos(theta),
+//!     contact(ball: r >= radius),
+//!     start(nudged: r = radius, theta = 0.1),
 //! )]
-//! struct Pendulum {
-//!     mass: f64,
-//!     gravity: f64,
-//!     l: f64,
-//! }
+//! struct MassOnBall { mass: f64, gravity: f64, radius: f64 }
 //!
-//! fn main() -> Result<(), Box<dyn std::error::Error>> {
-//!     let pendulum = Pendulum { mass: 1.0, gravity: 9.81, l: 1.0 };
-//!     let start = pendulum.at(Pendulum::HELD);
-//!     let trajectory = Simulation::new(&pendulum).tolerance(1e-12).run(start, 0.0..5.0)?;
-//!     let mut sampler = trajectory.sampler();
-//!     let now = sampler.at(1.0)?;
-//!     println!("x = {}, y = {}, λ = {}", now.q(Pendulum::X), now.q(Pendulum::Y), now.force(Pendulum::ROD));
-//!
-//!     // The tension −2 l λ of a pendulum that fell from the horizontal is 3 m g cos φ.
-//!     let tension = -2.0 * pendulum.l * now.force(Pendulum::ROD);
-//!     assert!((tension + 3.0 * 9.81 * now.q(Pendulum::Y)).abs() < 1e-10);
-//!     Ok(())
-//! }
+//! let scene = MassOnBall { mass: 1.0, gravity: 9.81, radius: 1.0 };
+//! let run = Simulation::new(&scene).run(scene.at(MassOnBall::NUDGED), 0.0..1.0)?;
+//! let lost = &run.events()[0];
+//! println!("{}", lost.sentence(run.description()));
+//! println!("at {:.4}°", lost.q(MassOnBall::THETA).to_degrees());
+//! println!("N = {:.4} at 0.5 s", run.sampler().at(0.5)?.force(MassOnBall::BALL));
+//! # assert!((lost.q(MassOnBall::THETA).cos() - 2.0 / 3.0 * 0.1_f64.cos()).abs() < 1e-9);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! * [The language](macro@Lagrangian#the-language): all items of `#[lagrange(…)]` and what expressions may contain.
+//! **[The book](book)** has a chapter for each subject; begin with [the language](book::language) and [results](book::results). The reference
+//! is here:
+//!
+//! * [`Lagrangian`](macro@Lagrangian#the-language): all items of `#[lagrange(…)]` and what expressions may contain.
 //! * [`Simulation`]: tolerance, method, effects, when to end. [`Runner`] and [`Ensemble`] make many runs of one system.
-//! * [`trajectory`]: states, forces, events and the energy ledger of a run; `now.force(Pendulum::ROD)` asks by [`handle`].
+//! * [`trajectory`]: states, forces, events and the energy ledger of a run. [`handle`]: the names of coordinates and items.
 //! * [`error::Error`]: what can go wrong, with the numbers that say where.
 //! * [`checks`]: formulas derived by hand, held against the derived equations.
 //! * [`arithmetic::Dual`]: derivatives of whole runs by parameters and start.
-//! * [`system`]: what the macro implements, for who looks inside.
+//! * [`system`]: what the macro implements.
 
 // The derive macro names this crate by its path, also inside it.
 extern crate self as lagrange_core;
 
 pub mod arithmetic;
+// The chapters are not part of what is compiled, so that to edit them rebuilds nothing.
+#[cfg(any(doc, doctest))]
+pub mod book;
+pub mod certificate;
 pub mod checks;
-pub mod code;
+pub mod declaration;
 mod derivation;
 pub mod dynamics;
 pub mod effects;
-mod entries;
 pub mod equations;
+mod erased;
 pub mod error;
 pub mod events;
 pub mod handle;
@@ -64,11 +62,14 @@ pub mod mode;
 mod modes;
 mod monitor;
 mod pool;
+mod precompiled;
 pub mod prelude;
+pub mod program;
 mod run;
+mod settings;
 pub mod simulation;
+mod state;
 pub mod system;
-mod tapes;
 pub mod trajectory;
 
 pub use derivation::Derivation;
@@ -76,5 +77,5 @@ pub use error::Error;
 #[cfg(feature = "derive")]
 pub use lagrange_macros::Lagrangian;
 pub use monitor::Monitor;
-pub use run::{Ensemble, Runner};
-pub use simulation::{Awaited, Equations, Failure, Held, Simulation};
+pub use precompiled::Runnable;
+pub use simulation::{Awaited, Ensemble, Equations, Failure, Held, Runner, Simulation};

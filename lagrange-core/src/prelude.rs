@@ -9,8 +9,7 @@ pub use crate::error::Error;
 pub use crate::handle::*;
 pub use crate::integrate::Method;
 pub use crate::mode::{FrictionMode, Mode};
-pub use crate::run::{Ensemble, Runner};
-pub use crate::simulation::{Awaited, Equations, Failure, Held, Simulation};
+pub use crate::simulation::{Awaited, Ensemble, Equations, Failure, Held, Runner, Simulation};
 pub use crate::system::{Description, Impacts, System};
 pub use crate::trajectory::{
     Energies, Entry, Event, EventKind, Instant, Ledger, Phase, Record, Sampler, Starts, State,

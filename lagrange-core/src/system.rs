@@ -8,52 +8,27 @@
 //!
 //! Every number is an *output* of a tape or a parameter-only *constant*; a [`Place`] says which.
 
-use crate::arithmetic::{Arithmetic, Scalar};
+use crate::arithmetic::{Number, Scalar};
+use crate::declaration::Declaration;
 use crate::derivation::Derivation;
-use crate::equations::{ModeEquations, ModeStructure, Number};
+use crate::equations::{ModeEquations, ModeStructure};
+use crate::program::Encoded;
+pub use crate::program::{Held, Needs, Place};
 use core::fmt;
 use core::str::FromStr;
 
-/// Where a number of the description is found after a tape has run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
-    /// Structurally zero: never computed, never multiplied.
-    Zero,
-    /// Depends on parameters only: index into the constants.
-    Constant(usize),
-    /// Index into the outputs of the tape.
-    Node(usize),
-}
-
-/// A set of needs: which parts of a tape must run. Bit `i` is need `i` of the description.
-pub type Needs = [u64];
-
-/// What a tape is told beside its inputs.
-#[derive(Clone, Copy, Debug)]
-pub struct Held<'a> {
-    /// The needs to be met; a block of the tape runs only if one of its needs is here.
-    pub needs: &'a Needs,
-    /// Bit `i`: piecewise branch `i` is on its `then` side (its guard is ≥ 0).
-    pub branches: &'a [u64],
-}
-
-impl Held<'_> {
-    /// Whether branch `index` is on its `then` side.
-    #[inline(always)]
-    pub fn branch(&self, index: usize) -> bool {
-        self.branches[index / 64] >> (index % 64) & 1 == 1
-    }
-}
-
 /// A mechanical system: what `#[derive(Lagrangian)]` implements.
 ///
-/// Tapes are straight-line programs over an [`Arithmetic`]; see [`crate::arithmetic`] for the three readings.
+/// What its equations are made of stands in its description, as [programs](crate::program).
 pub trait System: Clone + Send + Sync + 'static {
     /// The number type of parameters and state.
     type Scalar: Scalar;
 
     /// The table of names, places and needs.
     const DESCRIPTION: &'static Description;
+
+    /// What was declared, as numbers to be evaluated; [`Declaration::NONE`] of a system written by hand.
+    const DECLARATION: &'static Declaration = &Declaration::NONE;
 
     /// What was derived, to be read; [`Derivation::NONE`] of a system written by hand.
     fn derivation() -> &'static Derivation {
@@ -68,30 +43,6 @@ pub trait System: Clone + Send + Sync + 'static {
 
     /// Positions `q` and velocities `v` of start `index`, at time `t`.
     fn start(&self, index: usize, t: Self::Scalar, q: &mut [Self::Scalar], v: &mut [Self::Scalar]);
-
-    /// Everything that depends on parameters only; `c` has `DESCRIPTION.constants` elements.
-    fn constants(&self, held: &Held, c: &mut [Self::Scalar]);
-
-    /// The tape before the solve. `x` = (t, q…, v…); outputs go to `y` (`DESCRIPTION.motion.outputs` elements).
-    /// Outputs whose need is not held are left as they are.
-    fn motion<A: Arithmetic<Scalar = Self::Scalar>>(
-        &self,
-        a: &mut A,
-        held: &Held,
-        c: &[Self::Scalar],
-        x: &[A::Node],
-        y: &mut [A::Node],
-    );
-
-    /// The tape after the solve. `x` = (t, q…, v…, v̇…, λ… one per row, 0 for rows that do not act).
-    fn report<A: Arithmetic<Scalar = Self::Scalar>>(
-        &self,
-        a: &mut A,
-        held: &Held,
-        c: &[Self::Scalar],
-        x: &[A::Node],
-        y: &mut [A::Node],
-    );
 
     /// The modes whose equations are [emitted](Self::mode_equations).
     const MODES: &'static [ModeStructure] = &[];
@@ -115,16 +66,7 @@ pub trait System: Clone + Send + Sync + 'static {
     }
 }
 
-/// The size of a tape.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct TapeShape {
-    /// Number of slots that its operations write (the `to` arguments are below this).
-    pub slots: usize,
-    /// Number of outputs.
-    pub outputs: usize,
-}
-
-/// Everything the core knows of a system, beside its tapes. Indices run in order of declaration.
+/// Everything the core knows of a system. Indices run in order of declaration.
 #[derive(Debug)]
 pub struct Description {
     /// Name of the struct.
@@ -137,12 +79,12 @@ pub struct Description {
     pub coordinates: &'static [Coordinate],
     /// Number of needs; sets have ⌈needs / 64⌉ words. Need 0 is always held.
     pub needs: usize,
-    /// Number of parameter-only constants.
-    pub constants: usize,
-    /// Size of the tape before the solve.
-    pub motion: TapeShape,
-    /// Size of the tape after the solve.
-    pub report: TapeShape,
+    /// Everything that depends on parameters only, from the parameters.
+    pub constants: Encoded,
+    /// What the equations of motion are made of, from (t, q…, v…).
+    pub motion: Encoded,
+    /// What is read after they are solved, from (t, q…, v…, v̇…, λ… one per row, 0 for rows that do not act).
+    pub report: Encoded,
     /// Lower triangle of the mass matrix, structural zeros left out: (row, column ≤ row, where). Motion.
     pub mass: &'static [(usize, usize, Place)],
     /// Parameters that the mass matrix contains, if it is that of a kinetic energy, which must be positive; `None` for a

@@ -4,7 +4,7 @@ use proc_macro2::{TokenStream, TokenTree};
 use std::path::PathBuf;
 
 /// Writes the expansion to a file if its struct is asked for, and says where.
-pub fn dump(input: &TokenStream, expansion: &TokenStream) {
+pub fn dump(input: &TokenStream) {
     let Ok(wanted) = std::env::var("LAGRANGE_DUMP") else {
         return;
     };
@@ -12,7 +12,7 @@ pub fn dump(input: &TokenStream, expansion: &TokenStream) {
         return;
     }
     let path: PathBuf = std::env::temp_dir().join(format!("lagrange-{}.rs", wanted.trim()));
-    match std::fs::write(&path, lagrange_engine::formatted(expansion)) {
+    match std::fs::write(&path, lagrange_engine::readable(input.clone())) {
         Ok(()) => eprintln!(
             "lagrange: the expansion of {wanted} is in {}",
             path.display()

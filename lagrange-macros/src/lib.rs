@@ -15,6 +15,9 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 ///
 #[doc = include_str!("language.md")]
 ///
+/// How systems are written with it, example by example, is the chapter [language](../lagrange_core/book/language/index.html) of the
+/// book.
+///
 /// # What is emitted
 ///
 /// With the environment variable `LAGRANGE_DUMP=Name` the expansion for the struct `Name` is written, formatted, to a
@@ -23,9 +26,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 pub fn lagrangian(input: TokenStream) -> TokenStream {
     let input = input.into();
     let expand = || {
-        let expansion = lagrange_engine::expand(proc_macro2::TokenStream::clone(&input));
-        dump::dump(&input, &expansion);
-        expansion.into()
+        dump::dump(&input);
+        lagrange_engine::expand(proc_macro2::TokenStream::clone(&input)).into()
     };
     catch_unwind(AssertUnwindSafe(expand)).unwrap_or_else(|panic| bug(&*panic))
 }

@@ -45,6 +45,8 @@ pub struct Request {
     pub samples: usize,
     /// Whether the energy ledger is drawn up at every sample.
     pub ledger: bool,
+    /// Seed of the instants at which the run is checked against its declaration.
+    pub seed: u64,
     /// Who watches the run, and may end it; nobody if `None`.
     pub progress: Option<Progress>,
 }
@@ -65,6 +67,7 @@ impl Default for Request {
             equations: Equations::Emitted,
             samples: 0,
             ledger: false,
+            seed: 0,
             progress: None,
         }
     }

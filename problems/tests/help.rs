@@ -2,7 +2,7 @@
 
 mod program;
 
-use program::{folder, lagrange_in, says, text};
+use program::{folder, says, shell, text};
 use std::fs;
 
 /// Commands that every `lagrange` has; `help` is clap's.
@@ -28,18 +28,6 @@ fn examples(help: &str) -> Vec<String> {
     commands.map(str::to_owned).collect()
 }
 
-/// Words as a shell has them; a quote keeps blanks together.
-fn words(line: &str) -> Vec<String> {
-    let pieces = line.split('"').enumerate();
-    let marked = pieces.map(|(index, piece)| match index % 2 {
-        0 => piece.replace(' ', "\n"),
-        _ => piece.to_owned(),
-    });
-    let marked: String = marked.collect();
-    let words = marked.split('\n').filter(|word| !word.is_empty());
-    words.map(str::to_owned).collect()
-}
-
 /// Whether a test has the time, and the shell, for an example.
 fn is_quick(example: &str) -> bool {
     !["--long", "mpirun", ">"]
@@ -61,9 +49,7 @@ fn every_example_works() {
         let examples = examples(&help);
         assert!(examples.len() >= 2, "too few examples in\n{help}");
         for example in examples.iter().filter(|example| is_quick(example)) {
-            let words = words(example);
-            let arguments: Vec<&str> = words.iter().skip(1).map(String::as_str).collect();
-            let output = lagrange_in(&folder, &arguments);
+            let output = shell(&folder, example);
             let said = text(&output.stderr);
             assert_eq!(output.status.code(), Some(0), "{example}: {said}");
         }

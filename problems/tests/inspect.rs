@@ -70,7 +70,9 @@ fn modes_have_the_names_of_a_run() {
 fn the_emitted_rust_parses() {
     let rust = says(&["inspect", "mass-on-wheel", "--format", "rust"]);
     syn::parse_file(&rust).expect("Rust");
-    assert!(rust.contains("fn motion"));
+    for part in ["fn value_0", "fn series_0", "// Program of `motion`:"] {
+        assert!(rust.contains(part), "{part}");
+    }
 }
 
 #[test]

@@ -1,16 +1,10 @@
 //! The machine numbers as [`Scalar`].
 
 use super::Scalar;
-use crate::entries::Entries;
 
 macro_rules! machine_number {
     ($type:ident) => {
         impl Scalar for $type {
-            // Not inlined: what it names is compiled here, once.
-            #[inline(never)]
-            fn entries() -> &'static Entries<Self> {
-                &const { Entries::OWN }
-            }
             #[inline(always)]
             fn from_f64(x: f64) -> Self {
                 x as $type

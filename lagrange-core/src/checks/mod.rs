@@ -28,7 +28,7 @@
 //! ```
 
 mod compare;
-mod state;
+pub(crate) mod state;
 #[cfg(test)]
 mod tests;
 

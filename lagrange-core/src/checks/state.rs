@@ -213,11 +213,16 @@ fn sliding(dynamics: &Dynamics<f64>, f: usize) -> Sliding {
 }
 
 /// Seeded random numbers.
-struct Random(u64);
+pub(crate) struct Random(u64);
 
 impl Random {
+    /// A sequence of its own for every seed.
+    pub(crate) fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
     /// Between −1 and 1.
-    fn signed(&mut self) -> f64 {
+    pub(crate) fn signed(&mut self) -> f64 {
         // splitmix64 (Steele, Lea & Flood, OOPSLA 2014)
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut x = self.0;

@@ -1,19 +1,20 @@
 //! The equations of one mode, made ready once and kept: numbers that depend on parameters, the plan of the linear system,
-//! and the tapes recorded for what has been asked for.
+//! and the interpreted equations for what has been asked for.
 
+use super::constants::Constants;
+use super::emitted::Emitted;
+use super::interpreted::Interpreted;
 use super::needs::{self, NeedSet};
-use super::tape::Tape;
-use crate::arithmetic::{Given, Scalar};
+use crate::arithmetic::Scalar;
 use crate::effects::Effects;
-use crate::equations::Emitted;
+use crate::erased::ErasedSystem;
 use crate::linear::{Plan, Solver};
 use crate::mode::Mode;
 use crate::system::{Description, Held};
-use crate::tapes::Tapes;
 
-/// Tapes kept per mode: what is asked for beside the motion changes between stepping and switching, and numbers coincide for some
-/// parameters that differ for others.
-const MOST_TAPES: usize = 12;
+/// Interpreted equations kept per mode: what is asked for beside the motion changes between stepping and switching, and numbers vanish
+/// for some parameters and not for others.
+const MOST_INTERPRETED: usize = 12;
 
 /// The equations of one mode.
 #[derive(Clone, Debug)]
@@ -25,6 +26,8 @@ pub(super) struct Compiled<T: Scalar> {
     pub row_needs: NeedSet,
     /// Of the constants.
     constant_needs: NeedSet,
+    /// What computes the system's constants.
+    own: Constants<T>,
     /// The system's own, then the plan's.
     pub constants: Vec<T>,
     pub plan: Plan<T>,
@@ -37,29 +40,29 @@ pub(super) struct Compiled<T: Scalar> {
     outdated: bool,
     /// The functions of this mode, if they have been emitted.
     pub emitted: Option<Emitted<T>>,
-    /// Whether a tape may solve small systems itself.
-    pub on_tape: bool,
+    /// Whether a pivot of the functions was not safe.
+    pub refused: bool,
     /// Coordinates that cannot accelerate.
     pub pinned: Vec<usize>,
     /// The one in use comes first.
-    tapes: Vec<Tape<T>>,
+    interpreted: Vec<Interpreted<T>>,
+    /// For projections.
+    rows: Option<Interpreted<T>>,
 }
 
-/// What a tape is recorded for.
+/// What equations are loaded for.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Asked<'a> {
-    /// Everything that the motion tape is told.
+    /// Everything that is held of the motion.
     pub held: &'a NeedSet,
     /// Of this, what is asked for beside the motion.
     pub extra: &'a NeedSet,
-    /// What the report tape is told; none if nothing is asked of it.
+    /// What is held of the report; none if nothing is asked of it.
     pub report: Option<&'a NeedSet>,
-    /// Whether the coordinates that cannot accelerate are at rest.
-    pub at_rest: bool,
 }
 
 impl<T: Scalar> Compiled<T> {
-    pub(super) fn new(system: &dyn Tapes<T>, effects: &Effects, mode: &Mode) -> Self {
+    pub(super) fn new(system: &dyn ErasedSystem<T>, effects: &Effects, mode: &Mode) -> Self {
         let d = system.description();
         let mut motion_needs = NeedSet::new(d);
         let mut row_needs = NeedSet::new(d);
@@ -71,6 +74,13 @@ impl<T: Scalar> Compiled<T> {
             mode: mode.clone(),
             motion_needs,
             row_needs,
+            own: Constants::load(
+                system,
+                &Held {
+                    needs: &held,
+                    branches: &mode.branches,
+                },
+            ),
             constant_needs: held,
             pinned: Vec::new(),
             constants: Vec::new(),
@@ -80,8 +90,9 @@ impl<T: Scalar> Compiled<T> {
             factored: false,
             outdated: false,
             emitted: Emitted::of(system, effects, mode),
-            on_tape: true,
-            tapes: Vec::new(),
+            refused: false,
+            interpreted: Vec::new(),
+            rows: None,
         };
         compiled.set_numbers(system, effects);
         compiled.reserve(d);
@@ -89,15 +100,13 @@ impl<T: Scalar> Compiled<T> {
     }
 
     /// Constants and plan of a system.
-    fn set_numbers(&mut self, system: &dyn Tapes<T>, effects: &Effects) {
+    fn set_numbers(&mut self, system: &dyn ErasedSystem<T>, effects: &Effects) {
         let d = system.description();
         let held = Held {
             needs: &self.constant_needs,
             branches: &self.mode.branches,
         };
-        self.constants.clear();
-        self.constants.resize(d.constants, T::default());
-        system.constants(&held, &mut self.constants);
+        self.own.evaluate(system, &mut self.constants);
         if let Some(emitted) = &mut self.emitted {
             emitted.renew(system, &held);
         }
@@ -118,8 +127,8 @@ impl<T: Scalar> Compiled<T> {
         self.outdated = true;
     }
 
-    /// Takes the present parameters, if they have changed. The tapes take them when they are selected.
-    pub(super) fn renew(&mut self, system: &dyn Tapes<T>, effects: &Effects) {
+    /// Takes the present parameters, if they have changed. Interpreted equations take them when they are selected.
+    pub(super) fn renew(&mut self, system: &dyn ErasedSystem<T>, effects: &Effects) {
         if !core::mem::take(&mut self.outdated) {
             return;
         }
@@ -128,19 +137,18 @@ impl<T: Scalar> Compiled<T> {
         self.set_numbers(system, effects);
         self.factored = false;
         if self.plan.is_like(&self.spare) {
-            self.tapes.iter_mut().for_each(Tape::outdate);
+            let interpreted = self.interpreted.iter_mut().chain(&mut self.rows);
+            interpreted.for_each(Interpreted::outdate);
         } else {
-            self.tapes.clear();
+            self.interpreted.clear();
+            self.rows = None;
             self.reserve(system.description());
         }
     }
 
-    /// Undoes [`Self::leave_to_solver`]: one motion must not depend on those before it.
+    /// Undoes [`Self::refuse_functions`]: one motion must not depend on those before it.
     pub(super) fn restart(&mut self) {
-        if !self.on_tape {
-            self.on_tape = true;
-            self.tapes.clear();
-        }
+        self.refused = false;
     }
 
     /// What the functions of the mode are told, with the needs that are held.
@@ -162,39 +170,59 @@ impl<T: Scalar> Compiled<T> {
         self.emitted.as_mut().map(|emitted| (emitted, held))
     }
 
-    /// The tape in use, if one has been recorded.
+    /// The interpreted equations in use, if they have been loaded.
     #[inline]
-    pub(super) fn tape(&self) -> Option<&Tape<T>> {
-        self.tapes.first()
+    pub(super) fn interpreted(&self) -> Option<&Interpreted<T>> {
+        self.interpreted.first()
     }
 
-    /// The parts that an evaluation works with.
+    /// The parts that an evaluation by the interpreter works with.
     #[inline]
-    pub(super) fn parts(&mut self) -> (&Plan<T>, &mut Solver<T>, &mut Tape<T>) {
-        (&self.plan, &mut self.solver, &mut self.tapes[0])
+    pub(super) fn parts(&mut self) -> (&Plan<T>, &mut Solver<T>, &mut Interpreted<T>) {
+        (&self.plan, &mut self.solver, &mut self.interpreted[0])
     }
 
-    /// Leaves all systems to the solver from now on.
-    pub(super) fn leave_to_solver(&mut self) {
-        self.on_tape = false;
-        self.tapes.clear();
+    /// What projections evaluate: inertia, Jacobians and residuals of the rows that act. `numbers` is memory.
+    pub(super) fn rows(
+        &mut self,
+        system: &dyn ErasedSystem<T>,
+        numbers: &mut Vec<T>,
+    ) -> &mut Interpreted<T> {
+        let asked = Asked {
+            held: &self.row_needs,
+            extra: &self.row_needs,
+            report: None,
+        };
+        let mut rows = self.rows.take();
+        let renewed = rows.take_if(|rows| rows.renew(system, self, numbers));
+        let rows = renewed.unwrap_or_else(|| Interpreted::load(system, self, &asked, numbers));
+        self.rows.insert(rows)
     }
 
-    /// Makes the tape for what is asked current, with the numbers of the present parameters, recording it if there is none: for what
-    /// is asked there may be several, for parameters with different coincidences. `given` is memory.
-    pub(super) fn select(&mut self, system: &dyn Tapes<T>, asked: &Asked, given: &mut Given<T>) {
-        let mut tapes = core::mem::take(&mut self.tapes);
-        let found = tapes
+    /// Leaves the equations to the interpreter and the linear systems to the solver from now on.
+    pub(super) fn refuse_functions(&mut self) {
+        self.refused = true;
+    }
+
+    /// Makes the interpreted equations for what is asked current, with the numbers of the present parameters. `numbers` is memory.
+    pub(super) fn select(
+        &mut self,
+        system: &dyn ErasedSystem<T>,
+        asked: &Asked,
+        numbers: &mut Vec<T>,
+    ) {
+        let mut list = core::mem::take(&mut self.interpreted);
+        let found = list
             .iter_mut()
-            .position(|tape| tape.is_for(asked) && tape.renew(system, self, given));
+            .position(|one| one.is_for(asked) && one.renew(system, self, numbers));
         match found {
             // The one used last comes first.
-            Some(index) => tapes[..=index].rotate_right(1),
+            Some(index) => list[..=index].rotate_right(1),
             None => {
-                tapes.truncate(MOST_TAPES - 1);
-                tapes.insert(0, Tape::record(system, self, asked, given));
+                list.truncate(MOST_INTERPRETED - 1);
+                list.insert(0, Interpreted::load(system, self, asked, numbers));
             }
         }
-        self.tapes = tapes;
+        self.interpreted = list;
     }
 }

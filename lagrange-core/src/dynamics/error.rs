@@ -1,6 +1,6 @@
 //! Why the equations of motion could not be evaluated.
 
-use crate::arithmetic::Operation;
+use crate::program::Operation;
 use crate::system::Description;
 use core::fmt;
 

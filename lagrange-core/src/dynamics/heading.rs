@@ -12,8 +12,9 @@
 //! (the equation is of the kind of τ² y′ = τ − y) and good for a first step.
 
 use super::{Dynamics, EvaluationError};
-use crate::arithmetic::{MAX_ORDER, Operation, Scalar};
+use crate::arithmetic::Scalar;
 use crate::mode::{Direction, FrictionMode, Sliding};
+use crate::program::{MAX_ORDER, Operation};
 
 /// A slip smaller than this, in units of what it is made of, has no direction.
 const VANISHING: f64 = 1e-13;
@@ -139,7 +140,6 @@ impl<T: Scalar> Dynamics<T> {
         if count == 0 {
             return self.value(t, q, v);
         }
-        self.select(v);
         self.tape(t, q, v);
         for i in 0..count {
             let f = self.beginning(i);

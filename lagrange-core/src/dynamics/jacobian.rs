@@ -1,21 +1,16 @@
-//! The derivative reading: how the accelerations change with the state, for implicit methods.
+//! How the accelerations change with the state, for implicit methods.
 //!
 //! From K w = b, with w = (u̇, −λ) already known: K ∂w = ∂b − ∂K w, so the factors of the value serve every column.
 
-use super::{Dynamics, EvaluationError};
-use crate::arithmetic::{Derivative, Dual, Scalar};
-use crate::simulation::Equations;
-use crate::system::Held;
-use crate::tapes::Call;
+use super::interpreted::{Extent, MOTION, SYSTEM};
+use super::{Dynamics, Equations, EvaluationError};
+use crate::arithmetic::{Dual, Scalar};
 
-/// Columns per run of the tape: two registers of derivatives beside the value.
+/// Columns per run of the program: two registers of derivatives beside the value.
 const LANES: usize = 4;
 
-/// Nodes of the derivative reading.
+/// What the program runs on.
 pub(crate) type Lanes<T> = Dual<T, LANES>;
-
-/// The arithmetic of them.
-pub(crate) type Seeded<T> = Derivative<T, LANES>;
 
 impl<T: Scalar> Dynamics<T> {
     /// ∂v̇/∂(q, v) at (t, q, v) in the present mode, written to `columns`: n columns for q, then n for v, of n elements
@@ -39,7 +34,7 @@ impl<T: Scalar> Dynamics<T> {
         self.equations = equations;
         outcome?;
         let n = self.description().coordinates.len();
-        let known = self.known_solution()?;
+        let known = core::mem::take(&mut self.solution);
         let mut outcome = Ok(());
         for first in (0..2 * n).step_by(LANES) {
             self.run_derivative(first);
@@ -60,64 +55,20 @@ impl<T: Scalar> Dynamics<T> {
         outcome
     }
 
-    /// What the differences of the matrix multiply: the solution of the value. Its factors are made if the tape solved alone.
-    fn known_solution(&mut self) -> Result<Vec<T>, EvaluationError> {
-        let n = self.description().coordinates.len();
-        let compiled = &self.modes[self.current];
-        let divides = compiled
-            .tape()
-            .is_some_and(|tape| tape.shape.unsolved.is_none());
-        let mut known = core::mem::take(&mut self.solution);
-        if divides {
-            let free = compiled.plan.elimination.free.iter();
-            known.clear();
-            known.extend(free.map(|&j| self.inputs[1 + 2 * n + j]));
-            self.factor()?;
-        }
-        Ok(known)
-    }
-
-    /// The motion tape and the plan's program with seeds on inputs `first`, `first` + 1, … of (q, v).
+    /// The motion program and the right-hand sides with seeds on inputs `first`, `first` + 1, … of (q, v).
     fn run_derivative(&mut self, first: usize) {
-        let d = self.description();
-        let inputs = &self.inputs[..1 + 2 * d.coordinates.len()];
-        self.lane_inputs.clear();
-        self.lane_inputs
-            .extend(
-                inputs
-                    .iter()
-                    .enumerate()
-                    .map(|(i, &x)| match i.checked_sub(1 + first) {
-                        Some(lane) if lane < LANES => Dual::variable(x, lane),
-                        _ => Dual::constant(x),
-                    }),
-            );
-        self.lane_nodes.clear();
-        let compiled = &self.modes[self.current];
-        let nodes = d.motion.outputs + compiled.plan.program.len();
-        self.lane_nodes.resize(nodes, Dual::default());
-        let held = Held {
-            needs: &self.held,
-            branches: &compiled.mode.branches,
-        };
-        for heading in &compiled.plan.headings {
-            let along = self.headings.of(heading.friction);
-            for (node, x) in heading.nodes.into_iter().zip(along) {
-                self.lane_nodes[node] = Dual::constant(x);
-            }
+        let (_, _, interpreted) = self.modes[self.current].parts();
+        let registers = interpreted.registers.iter();
+        self.lanes.clear();
+        self.lanes.extend(registers.map(|&x| Dual::constant(x)));
+        let last = (first + LANES).min(2 * self.description.coordinates.len());
+        for (lane, input) in (first..last).enumerate() {
+            let register = &mut self.lanes[2 + input];
+            *register = Dual::variable(register.value, lane);
         }
-        let outputs = &mut self.lane_nodes[..d.motion.outputs];
-        self.system.differentiate(Call {
-            arithmetic: &mut self.lanes,
-            held: &held,
-            constants: &compiled.constants,
-            inputs: &self.lane_inputs,
-            outputs,
-        });
-        compiled
-            .plan
-            .program
-            .run(&mut self.lanes, &compiled.constants, &mut self.lane_nodes);
+        let program = interpreted.shape.program(Extent::Accelerations);
+        program.evaluate(MOTION, &mut self.lanes);
+        program.evaluate(SYSTEM, &mut self.lanes);
     }
 
     /// ∂b − ∂K w
@@ -126,18 +77,17 @@ impl<T: Scalar> Dynamics<T> {
             modes,
             current,
             right,
-            lane_nodes,
+            lanes,
             ..
         } = self;
-        let plan = &modes[*current].plan;
+        let (plan, _, interpreted) = modes[*current].parts();
+        let shape = &interpreted.shape;
+        let sides = shape.right.iter();
         right.clear();
-        right.resize(plan.size(), T::default());
-        // Loads and elements beyond are those of eliminated forces.
-        for load in plan.loads.iter().filter(|load| load.row < plan.size()) {
-            right[load.row] += load.factor * lane_nodes[load.node].derivative[lane];
-        }
+        right.extend(sides.map(|register| lanes[register.index()].derivative[lane]));
         for entry in &plan.entries {
-            right[entry.row] -= lane_nodes[entry.node].derivative[lane] * known[entry.column];
+            let element = lanes[shape.nodes[entry.node].index()];
+            right[entry.row] -= element.derivative[lane] * known[entry.column];
         }
     }
 }

@@ -1,7 +1,8 @@
 //! The equations of a mode as matrices, to look at and to compare with a derivation by hand.
 
-use super::{Compiled, Dynamics};
-use crate::arithmetic::{Scalar, Value};
+use super::Dynamics;
+use super::interpreted::{Extent, SYSTEM};
+use crate::arithmetic::Scalar;
 use crate::linear::{Freedom, least_norm};
 use crate::system::Place;
 use nalgebra::{DMatrix, DVector};
@@ -121,24 +122,23 @@ impl<T: Scalar> Dynamics<T> {
         !least_norm(&matrix, n, &mut forces).is_determined(count)
     }
 
-    /// The motion tape's nodes with those of the plan.
+    /// Outputs of the motion program, then those of the plan.
     fn program_nodes(&self) -> Vec<T> {
-        let Compiled {
-            plan, constants, ..
-        } = self.compiled();
-        let mut nodes = self.nodes.clone();
-        nodes.resize(nodes.len() + plan.program.len(), T::default());
-        for heading in &plan.headings {
-            for (node, along) in heading
-                .nodes
-                .into_iter()
-                .zip(self.heading(heading.friction))
-            {
-                nodes[node] = along;
+        let Some(interpreted) = self.compiled().interpreted() else {
+            return self.nodes.clone();
+        };
+        let shape = &interpreted.shape;
+        let mut registers = interpreted.registers.clone();
+        for &(friction, components, _) in &shape.headings {
+            for (register, along) in components.into_iter().zip(self.heading(friction)) {
+                registers[register.index()] = along;
             }
         }
-        plan.program.run(&mut Value::new(), constants, &mut nodes);
-        nodes
+        shape
+            .program(Extent::Everything)
+            .evaluate(SYSTEM, &mut registers);
+        let nodes = shape.nodes.iter();
+        nodes.map(|register| registers[register.index()]).collect()
     }
 
     fn number(&self, nodes: &[T], place: Place) -> T {

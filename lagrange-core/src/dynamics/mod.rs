@@ -1,43 +1,50 @@
 //! The equations of motion of a scene in one mode at a time: evaluated, expanded in Taylor series, projected.
 //!
 //! A [`Dynamics`] owns all memory that this takes. It is told a [`Mode`] and from then on runs only what that mode needs:
-//! the tapes are recorded for it once, together with the elimination of constant rows and, where it is small, the
-//! solution.
+//! the functions that the derive has emitted for it, or, where there are none, the system's programs as data, loaded for the mode once
+//! and followed by a solver.
 
 mod compiled;
+mod constants;
+mod emitted;
 mod error;
 mod heading;
+mod interpreted;
 mod jacobian;
 mod matrices;
 mod needs;
 mod packets;
 mod projection;
 mod series;
-mod solution;
 mod stepping;
-mod tape;
 #[cfg(test)]
 pub(crate) mod tests;
 mod values;
 
 pub use error::{EvaluationError, row_name};
 pub(crate) use heading::{approach, solve_small};
-pub(crate) use jacobian::Seeded;
 pub use needs::{NeedSet, add_branch_guards, add_guards};
 pub(crate) use packets::Packets;
 pub use projection::Residual;
 
-use crate::arithmetic::{Given, Scalar, Value};
+use crate::arithmetic::Scalar;
 use crate::effects::Effects;
-use crate::equations::Emitted;
+use crate::erased::Erased;
 use crate::linear::{SolveError, Solver};
 use crate::mode::Mode;
-use crate::simulation::Equations;
-use crate::system::System;
 use crate::system::{Description, Place};
-use crate::tapes::Erased;
 use compiled::{Asked, Compiled};
-use std::sync::Arc;
+use emitted::Emitted;
+
+/// What evaluates the equations of motion.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Equations {
+    /// The functions that the derive has emitted for the mode; where there are none, the interpreter.
+    #[default]
+    Emitted,
+    /// The interpreter, with the solver that looks for the best pivots.
+    Interpreted,
+}
 
 /// Modes kept ready; beyond that the oldest goes.
 const MOST_MODES: usize = 64;
@@ -53,7 +60,7 @@ pub struct Work {
     pub coefficients: usize,
     /// Factorizations of the linear system.
     pub factorizations: usize,
-    /// Runs of the tape by projections.
+    /// Runs of the motion program by projections.
     pub projections: usize,
 }
 
@@ -76,32 +83,31 @@ pub struct Dynamics<T: Scalar> {
     modes: Vec<Compiled<T>>,
     current: usize,
     /// Memory of renewals.
-    given: Given<T>,
-    /// The next of them to go.
+    numbers: Vec<T>,
+    /// Index of the mode to forget next.
     oldest: usize,
     /// The equations of motion of this mode and what was asked for beside.
     held: NeedSet,
     extra: NeedSet,
     report_needs: NeedSet,
-    /// What the report tape is told: the effects' own needs and what was asked for.
+    /// What is held of the report: the effects' own needs and what was asked for.
     report_held: NeedSet,
     reports: bool,
-    /// What the functions of a mode are told for a series.
+    /// What is held of the functions of a mode for a series.
     series_held: NeedSet,
     /// Of the named energies.
     energies: NeedSet,
-    /// Whether the tape in use is that of the present mode and needs.
+    /// Whether the interpreted equations in use are those of the present mode and needs.
     selected: bool,
     /// Whether the last evaluation was by the functions of the mode.
     by_functions: bool,
+    /// Whether the last series was; a value between a series and what is read of it may not be.
+    series_by_functions: bool,
     /// What evaluates the equations.
     equations: Equations,
-    /// Runs tapes for values and derivatives.
-    plain: Value<T>,
-    lanes: jacobian::Seeded<T>,
     /// t, q, v, v̇, λ of all rows at the last value.
     inputs: Vec<T>,
-    /// Outputs of the motion tape at the last value.
+    /// Outputs of the motion program at the last value, then those of the plan.
     nodes: Vec<T>,
     report_nodes: Vec<T>,
     right: Vec<T>,
@@ -112,17 +118,11 @@ pub struct Dynamics<T: Scalar> {
     projection: projection::Scratch<T>,
     /// Columns of a Jacobian, for a stepper that wants rows.
     columns: Vec<T>,
-    lane_inputs: Vec<jacobian::Lanes<T>>,
-    lane_nodes: Vec<jacobian::Lanes<T>>,
+    lanes: Vec<jacobian::Lanes<T>>,
     work: Work,
 }
 
 impl<T: Scalar> Dynamics<T> {
-    /// The equations of a scene with all contacts open.
-    pub fn new<S: System<Scalar = T>>(scene: &S, effects: &Effects) -> Self {
-        (T::entries().dynamics)(Arc::new(scene.clone()), effects)
-    }
-
     /// The equations of a system whose type is forgotten.
     pub(crate) fn of(system: Erased<T>, effects: &Effects) -> Self {
         let d = system.description();
@@ -136,7 +136,7 @@ impl<T: Scalar> Dynamics<T> {
             system,
             description: d,
             current: 0,
-            given: Given::default(),
+            numbers: Vec::new(),
             oldest: 0,
             held: NeedSet::new(d),
             extra: NeedSet::new(d),
@@ -147,9 +147,8 @@ impl<T: Scalar> Dynamics<T> {
             energies: needs::of_energies(d),
             selected: false,
             by_functions: false,
+            series_by_functions: false,
             equations: Equations::Emitted,
-            plain: Value::new(),
-            lanes: jacobian::Seeded::new(),
             inputs: vec![zero; 1 + 3 * n + rows],
             nodes: vec![zero; d.motion.outputs],
             report_nodes: vec![zero; d.report.outputs],
@@ -159,8 +158,7 @@ impl<T: Scalar> Dynamics<T> {
             projector,
             projection: projection::Scratch::new(n, rows),
             columns: Vec::new(),
-            lane_inputs: Vec::new(),
-            lane_nodes: Vec::new(),
+            lanes: Vec::new(),
             work: Work::default(),
         };
         dynamics.hold();
@@ -198,7 +196,7 @@ impl<T: Scalar> Dynamics<T> {
         &self.compiled().motion_needs
     }
 
-    /// What was asked of the report tape.
+    /// What was asked of the report.
     pub fn report_needs(&self) -> &NeedSet {
         &self.report_needs
     }
@@ -211,12 +209,11 @@ impl<T: Scalar> Dynamics<T> {
     /// Operations that the equations of the mode take at the last [`Self::value`], as the interpreter counts them: what takes no part
     /// is not among them.
     pub fn operations(&mut self) -> Operations {
-        let n = self.description().coordinates.len();
-        let inputs = core::mem::take(&mut self.inputs);
-        self.select(&inputs[1 + n..1 + 2 * n]);
-        self.inputs = inputs;
-        let tape = self.compiled().tape();
-        tape.map(|tape| tape.operations()).unwrap_or_default()
+        self.select();
+        let interpreted = self.compiled().interpreted();
+        interpreted
+            .map(|interpreted| interpreted.operations())
+            .unwrap_or_default()
     }
 
     /// The rows that act as equations in this mode, ascending.
@@ -224,27 +221,23 @@ impl<T: Scalar> Dynamics<T> {
         &self.compiled().plan.acting
     }
 
-    /// The functions of the mode, if the last evaluation was by them.
+    /// The functions of the mode, if the last series was by them.
     #[inline]
     fn in_use(&self) -> Option<&Emitted<T>> {
         let emitted = self.compiled().emitted.as_ref();
-        emitted.filter(|_| self.by_functions)
+        emitted.filter(|_| self.series_by_functions)
     }
 
     /// Has the equations evaluated by this from now on.
     pub fn set_equations(&mut self, equations: Equations) {
-        self.equations = equations;
-        if equations == Equations::Solved {
-            self.modes.iter_mut().for_each(Compiled::leave_to_solver);
-        }
-        (self.selected, self.by_functions) = (false, false);
+        (self.equations, self.by_functions) = (equations, false);
     }
 
     /// Decides by what the coming evaluation is.
     #[inline]
     fn choose(&mut self, q: &[T], v: &[T]) -> bool {
         let compiled = &self.modes[self.current];
-        let emitted = compiled.emitted.as_ref().filter(|_| compiled.on_tape);
+        let emitted = compiled.emitted.as_ref().filter(|_| !compiled.refused);
         let emitted = emitted.filter(|_| self.equations == Equations::Emitted);
         self.by_functions = emitted.is_some_and(|emitted| emitted.holds_at(q, v));
         self.by_functions
@@ -274,7 +267,7 @@ impl<T: Scalar> Dynamics<T> {
         self.hold();
     }
 
-    /// Takes another system of the same kind. What has been recorded stays, with other numbers in it.
+    /// Takes another system of the same kind. What has been loaded stays, with other numbers in it.
     pub(crate) fn set_system(&mut self, system: Erased<T>) {
         self.system = system;
         self.modes.iter_mut().for_each(Compiled::outdate);
@@ -289,20 +282,14 @@ impl<T: Scalar> Dynamics<T> {
 
     /// Forgets what could make a motion depend on those before it.
     pub(crate) fn restart(&mut self) {
-        if self.equations != Equations::Solved {
-            self.modes.iter_mut().for_each(Compiled::restart);
-        }
+        self.modes.iter_mut().for_each(Compiled::restart);
         self.headings.restart();
-        self.selected = false;
     }
 
     /// Makes a mode ready; returns its place.
     #[cold]
     fn compile(&mut self, mode: &Mode) -> usize {
-        let mut compiled = Compiled::new(&*self.system, &self.effects, mode);
-        if self.equations == Equations::Solved {
-            compiled.leave_to_solver();
-        }
+        let compiled = Compiled::new(&*self.system, &self.effects, mode);
         if self.modes.len() < MOST_MODES {
             self.modes.push(compiled);
             return self.modes.len() - 1;
@@ -312,25 +299,22 @@ impl<T: Scalar> Dynamics<T> {
         self.oldest
     }
 
-    /// Makes the tape for the present mode and needs current, at a state with velocities `v`.
+    /// Makes the interpreted equations for the present mode and needs current.
     #[inline]
-    fn select(&mut self, v: &[T]) {
-        let compiled = &mut self.modes[self.current];
-        let at_rest = compiled.pinned.iter().all(|&j| v[j].is_zero());
-        if self.selected && compiled.tape().is_some_and(|t| t.is_at_rest() == at_rest) {
+    fn select(&mut self) {
+        if self.selected {
             return;
         }
         let asked = Asked {
             held: &self.held,
             extra: &self.extra,
             report: self.reports.then_some(&self.report_held),
-            at_rest,
         };
-        compiled.select(&*self.system, &asked, &mut self.given);
+        self.modes[self.current].select(&*self.system, &asked, &mut self.numbers);
         self.selected = true;
     }
 
-    /// Asks the motion tape for more than the equations of motion: gaps, slips, coefficients, branch guards.
+    /// Asks the motion program for more than the equations of motion: gaps, slips, coefficients, branch guards.
     /// Replaces what was asked for before.
     pub fn set_extra_needs(&mut self, needs: &[u64]) {
         if self.extra[..] != *needs {
@@ -340,7 +324,7 @@ impl<T: Scalar> Dynamics<T> {
         }
     }
 
-    /// Asks for outputs of the report tape, of [`Self::report_value`] and of every [`Self::series`]. Replaces what was
+    /// Asks for outputs of the report, of [`Self::report_value`] and of every [`Self::series`]. Replaces what was
     /// asked for before; need 0 alone asks for nothing.
     pub fn set_report_needs(&mut self, needs: &[u64]) {
         if self.report_needs[..] != *needs {
@@ -350,7 +334,7 @@ impl<T: Scalar> Dynamics<T> {
         }
     }
 
-    /// What the tapes are told. A series recorded for other needs is out of date.
+    /// Output masks of the programs. What is selected for others is out of date.
     fn hold(&mut self) {
         let d = self.description();
         let motion = self.modes[self.current].motion_needs.iter();
@@ -419,7 +403,7 @@ impl<T: Scalar> Dynamics<T> {
         }
     }
 
-    /// A number of the motion tape at the last [`Self::value`]. Its need must have been held.
+    /// A number of the motion program at the last [`Self::value`]. Its need must have been held.
     #[inline]
     pub fn motion(&self, place: Place) -> T {
         match place {
@@ -429,7 +413,7 @@ impl<T: Scalar> Dynamics<T> {
         }
     }
 
-    /// A number of the report tape at the last [`Self::report_value`]. Its need must have been held.
+    /// A number of the report at the last [`Self::report_value`]. Its need must have been held.
     #[inline]
     pub fn report(&self, place: Place) -> T {
         match place {

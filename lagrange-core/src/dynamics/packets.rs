@@ -4,8 +4,9 @@
 //! side, with one instruction of the processor for all, so that each gets, bit for bit, what it would get alone.
 
 use super::Dynamics;
-use super::tape::Shape;
-use crate::arithmetic::{Expansion, Pack, Scalar};
+use super::interpreted::{Extent, Shape};
+use crate::arithmetic::{Pack, Scalar};
+use crate::program::Series;
 use std::sync::Arc;
 
 /// Motions in a packet.
@@ -18,7 +19,7 @@ type Lanes<T> = Pack<T, LANES>;
 struct Packet<T> {
     shape: Arc<Shape>,
     registers: Vec<Lanes<T>>,
-    expansion: Expansion<Lanes<T>>,
+    series: Series<Lanes<T>>,
     /// Right-hand sides of the equations, and those of one motion.
     right: Vec<Lanes<T>>,
     side: Vec<T>,
@@ -74,7 +75,7 @@ impl<T: Scalar> Packets<T> {
         }
         self.known.push(Packet {
             registers: vec![Pack([T::zero(); LANES]); shape.registers],
-            expansion: shape.expansion(),
+            series: shape.series(),
             right: Vec::new(),
             side: Vec::new(),
             shape: shape.clone(),
@@ -89,7 +90,7 @@ impl<T: Scalar> Packets<T> {
         let Packet {
             shape,
             registers,
-            expansion,
+            series,
             right,
             side,
         } = &mut self.known[group[0].0];
@@ -98,35 +99,32 @@ impl<T: Scalar> Packets<T> {
             *pack = Pack(lanes.map(|lane| lane[index]));
         }
         let solve = |_: usize, now: &mut [Lanes<T>], first: &[Lanes<T>], earlier: &[Lanes<T>]| {
-            let Some(unsolved) = &shape.unsolved else {
-                return;
-            };
-            unsolved.right_hand_sides(now, first, earlier, right);
+            shape.right_hand_sides(now, first, earlier, right);
             for (lane, &motion) in motions.iter().enumerate() {
                 side.clear();
                 side.extend(right.iter().map(|pack| pack.0[lane]));
                 waiting[motion].solve(side);
-                for (slot, &x) in unsolved.unknowns.iter().zip(&*side) {
-                    now[slot.index()].0[lane] = x;
+                for (register, &x) in shape.unknowns.iter().zip(&*side) {
+                    now[register.index()].0[lane] = x;
                 }
             }
         };
         self.processor.dispatch(Expand {
-            expansion,
+            series,
             shape,
             registers,
             order,
             solve,
         });
         for (lane, &(_, motion)) in group.iter().enumerate() {
-            waiting[motion].take_series(expansion, lane, order);
+            waiting[motion].take_series(series, lane, order);
         }
     }
 }
 
-/// An expansion, to be compiled for every kind of processor.
+/// A series, to be compiled for every kind of processor.
 struct Expand<'a, T, F> {
-    expansion: &'a mut Expansion<Lanes<T>>,
+    series: &'a mut Series<Lanes<T>>,
     shape: &'a Shape,
     registers: &'a mut [Lanes<T>],
     order: usize,
@@ -142,16 +140,11 @@ where
 
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, _: S) {
-        let Shape {
-            everything,
-            integrals,
-            ..
-        } = self.shape;
-        self.expansion.run(
-            everything,
+        self.series.run(
+            self.shape.program(Extent::Series),
             self.registers,
             self.order,
-            integrals,
+            &self.shape.integrals,
             self.solve,
         );
     }

@@ -9,8 +9,8 @@
 //! for a coordinate projection method applied to mechanical systems with algebraic constraints, SIAM J. Numer. Anal. 30.
 
 use super::{Compiled, Dynamics, EvaluationError};
-use crate::arithmetic::Scalar;
-use crate::linear::{Inertia, epsilon};
+use crate::arithmetic::{Scalar, epsilon};
+use crate::linear::Inertia;
 use crate::system::{Place, Row};
 
 /// Residuals are rounding below this share of the terms that they cancel from.
@@ -285,16 +285,6 @@ impl<T: Scalar> Dynamics<T> {
             least = rounding::<T>();
         }
         accept::<T>(residual)
-    }
-
-    /// The motion tape for inertia, Jacobians and residuals of the rows that act.
-    fn run_rows(&mut self, t: T, q: &[T], v: &[T]) {
-        self.work.projections += 1;
-        let rows = &mut self.modes[self.current].row_needs;
-        core::mem::swap(&mut self.held, rows);
-        self.tape(t, q, v);
-        let rows = &mut self.modes[self.current].row_needs;
-        core::mem::swap(&mut self.held, rows);
     }
 
     fn residual_place(row: &Row, level: Level) -> Option<Place> {

@@ -9,11 +9,11 @@
 //! one factorization whatever the order; the sum runs over those matrix elements that change with the state.
 //! Reference: Griewank & Walther 2008, Evaluating Derivatives, section 13.2 (implicit relations).
 
-use super::tape::{REPORT, Shape, Tape};
-use super::values::Extent;
+use super::interpreted::{Extent, REPORT, Shape};
 use super::{Dynamics, EvaluationError};
-use crate::arithmetic::{Expansion, MAX_ORDER, Pack, Scalar};
+use crate::arithmetic::{Pack, Scalar};
 use crate::equations::Refused;
+use crate::program::{MAX_ORDER, Series};
 use crate::system::Place;
 use std::sync::Arc;
 
@@ -41,16 +41,20 @@ impl<T: Scalar> Dynamics<T> {
         let order = order.min(MAX_ORDER);
         self.work.series += 1;
         self.work.coefficients += order + 1;
+        self.series_by_functions = false;
         if self.choose(q, v) {
             let expanded = self.modes[self.current].emitted_mut(&self.series_held);
             match expanded.map(|(emitted, held)| emitted.series(&held, order, (t, q, v))) {
-                Some(Ok(())) => return Ok(false),
+                Some(Ok(())) => {
+                    self.series_by_functions = true;
+                    return Ok(false);
+                }
                 // The interpreter says which operation has none, if any.
                 Some(Err(Refused::NoSeries)) => self.by_functions = false,
-                Some(Err(Refused::Pivot)) | None => self.leave_to_solver(),
+                Some(Err(Refused::Pivot)) | None => self.refuse_functions(),
             }
         }
-        self.run(t, q, v, Extent::Everything, true)?;
+        self.run(t, q, v, Extent::Series, true)?;
         if self.compiled().plan.headings.is_empty() {
             self.start_series(order)?;
             Ok(true)
@@ -66,10 +70,10 @@ impl<T: Scalar> Dynamics<T> {
         self.take_headings_of_series();
     }
 
-    /// What the tape does.
+    /// What the interpreter does.
     pub(super) fn shape_mut(&mut self) -> &mut Arc<Shape> {
-        let (_, _, tape) = self.modes[self.current].parts();
-        &mut tape.shape
+        let (_, _, interpreted) = self.modes[self.current].parts();
+        &mut interpreted.shape
     }
 
     /// Solves the equations that the last value has left factored.
@@ -78,20 +82,23 @@ impl<T: Scalar> Dynamics<T> {
         solver.solve(right);
     }
 
-    /// The numbers that the tape works with.
+    /// The numbers that the interpreter works with.
     pub(super) fn registers(&self) -> &[T] {
-        self.compiled().tape().map_or(&[], |tape| &tape.registers)
+        let interpreted = self.compiled().interpreted();
+        interpreted.map_or(&[], |interpreted| &interpreted.registers)
     }
 
     /// The second half of [`Self::series`], done for several motions at once.
     pub(super) fn take_series<const L: usize>(
         &mut self,
-        pack: &Expansion<Pack<T, L>>,
+        pack: &Series<Pack<T, L>>,
         lane: usize,
         order: usize,
     ) {
-        let (_, _, tape) = self.modes[self.current].parts();
-        tape.expansion.take_lane(pack, lane, order);
+        let (_, _, interpreted) = self.modes[self.current].parts();
+        if let (_, _, Some(series)) = interpreted.parts() {
+            series.take_lane(pack, lane, order);
+        }
         self.take_headings_of_series();
     }
 
@@ -104,35 +111,28 @@ impl<T: Scalar> Dynamics<T> {
             headings,
             ..
         } = self;
-        let (_, solver, tape) = modes[*current].parts();
-        let Tape {
-            shape,
-            registers,
-            expansion,
-            headings: slots,
-            ..
-        } = tape;
-        for &(friction, _, rates) in &*slots {
+        let (_, solver, interpreted) = modes[*current].parts();
+        let (shape, registers, Some(series)) = interpreted.parts() else {
+            return;
+        };
+        for &(friction, _, rates) in &shape.headings {
             for (rate, u) in rates.into_iter().zip(headings.coefficient(friction, 1)) {
                 registers[rate.index()] = u;
             }
         }
-        expansion.run(
-            &shape.everything,
+        series.run(
+            shape.program(Extent::Series),
             registers,
             order,
             &shape.integrals,
             |k, now, first, earlier| {
-                let Some(unsolved) = &shape.unsolved else {
-                    return;
-                };
-                unsolved.right_hand_sides(now, first, earlier, right);
+                shape.right_hand_sides(now, first, earlier, right);
                 solver.solve(right);
-                for (slot, &x) in unsolved.unknowns.iter().zip(&*right) {
-                    now[slot.index()] = x;
+                for (register, &x) in shape.unknowns.iter().zip(&*right) {
+                    now[register.index()] = x;
                 }
                 let next = T::from_f64((k + 1) as f64);
-                for &(friction, _, rates) in &*slots {
+                for &(friction, _, rates) in &shape.headings {
                     let turn = headings.coefficient(friction, k + 1);
                     for (rate, u) in rates.into_iter().zip(turn) {
                         now[rate.index()] = next * u;
@@ -144,13 +144,13 @@ impl<T: Scalar> Dynamics<T> {
 
     /// Coefficients 0 of everything.
     pub(super) fn start_series(&mut self, order: usize) -> Result<(), EvaluationError> {
-        let (_, _, tape) = self.modes[self.current].parts();
-        tape.order = order;
-        tape.shape.everything.evaluate(REPORT, &mut tape.registers);
-        match tape.expansion.singular(&tape.registers) {
+        let (_, _, interpreted) = self.modes[self.current].parts();
+        interpreted.evaluate(Extent::Series, REPORT);
+        let (series, registers) = interpreted.begin_series(order);
+        match series.singular(registers) {
             Some(operation) => Err(EvaluationError::NoSeries { operation }),
             None => {
-                tape.expansion.begin(&tape.registers);
+                series.begin(registers);
                 Ok(())
             }
         }
@@ -181,12 +181,11 @@ impl<T: Scalar> Dynamics<T> {
         if let Some(emitted) = self.in_use() {
             return emitted.input_series(self.description, index);
         }
-        self.compiled()
-            .tape()
-            .map_or(&[], |t| t.input_series(index))
+        let interpreted = self.compiled().interpreted();
+        interpreted.map_or(&[], |interpreted| interpreted.input_series(index))
     }
 
-    /// Coefficients of a number of the motion tape that depends on the state. Its need must have been asked for by
+    /// Coefficients of a number of the motion program that depends on the state. Its need must have been asked for by
     /// [`Self::set_extra_needs`]; of other numbers, zeros.
     pub fn motion_series(&self, place: Place) -> &[T] {
         if let Some(emitted) = self.in_use() {
@@ -195,15 +194,15 @@ impl<T: Scalar> Dynamics<T> {
                 Place::Zero | Place::Constant(_) => emitted.zero_series(self.description),
             };
         }
-        let tape = self.compiled().tape();
-        tape.map_or(&[], |tape| match place {
-            Place::Node(node) => tape.node_series(node),
-            Place::Zero | Place::Constant(_) => tape.zero_series(),
+        let interpreted = self.compiled().interpreted();
+        interpreted.map_or(&[], |interpreted| match place {
+            Place::Node(node) => interpreted.node_series(node),
+            Place::Zero | Place::Constant(_) => interpreted.zero_series(),
         })
     }
 
-    /// Coefficients of a number of the report tape that depends on the state. Its need must have been asked for by
-    /// [`Self::set_report_needs`]; of other numbers, zeros.
+    /// Coefficients of a term of a stop or a mark that depends on the state. Its need must have been asked for by
+    /// [`Self::set_report_needs`]; of other numbers, zeros: emitted functions give series of what guards read.
     pub fn report_series(&self, place: Place) -> &[T] {
         if let Some(emitted) = self.in_use() {
             return match place {
@@ -211,10 +210,10 @@ impl<T: Scalar> Dynamics<T> {
                 Place::Zero | Place::Constant(_) => emitted.zero_series(self.description),
             };
         }
-        let tape = self.compiled().tape();
-        tape.map_or(&[], |tape| match place {
-            Place::Node(node) => tape.report_series(node),
-            Place::Zero | Place::Constant(_) => tape.zero_series(),
+        let interpreted = self.compiled().interpreted();
+        interpreted.map_or(&[], |interpreted| match place {
+            Place::Node(node) => interpreted.report_series(node),
+            Place::Zero | Place::Constant(_) => interpreted.zero_series(),
         })
     }
 }

@@ -1,21 +1,11 @@
 //! The value reading: accelerations and forces at one state.
 
 use super::compiled::Compiled;
-use super::tape::{FORCES, MOTION};
+use super::interpreted::{Extent, FORCES, MOTION, REPORT, SYSTEM};
 use super::{Dynamics, EvaluationError};
-use crate::arithmetic::Scalar;
-use crate::linear::{Inertia, SolveError, epsilon};
-use crate::system::{Held, Place};
-use crate::tapes::{Call, Which};
-
-/// How much of a tape runs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Extent {
-    /// Everything that was asked for.
-    Everything,
-    /// What the accelerations need.
-    Accelerations,
-}
+use crate::arithmetic::{Scalar, epsilon};
+use crate::linear::{Inertia, SolveError};
+use crate::system::Place;
 
 impl<T: Scalar> Dynamics<T> {
     /// Accelerations and forces at (t, q, v): then read [`Self::acceleration`], [`Self::force`], [`Self::motion`].
@@ -32,12 +22,16 @@ impl<T: Scalar> Dynamics<T> {
         let outcome = self.evaluate(t, q, v, accelerations, Some(forces));
         self.inputs = inputs;
         outcome?;
-        self.tape(t, q, v);
+        if self.by_functions {
+            self.tape(t, q, v);
+        } else {
+            self.take_nodes(t, q, v);
+        }
         Ok(())
     }
 
     /// Accelerations, and forces of all rows if asked for, at (t, q, v): by the functions of the mode where they hold, else by the
-    /// recorded tape.
+    /// interpreter.
     #[inline]
     fn evaluate(
         &mut self,
@@ -60,7 +54,7 @@ impl<T: Scalar> Dynamics<T> {
             }
             self.by_functions = false;
             if !safe {
-                self.leave_to_solver();
+                self.refuse_functions();
             }
         }
         let extent = match forces {
@@ -95,42 +89,19 @@ impl<T: Scalar> Dynamics<T> {
         extent: Extent,
         refined: bool,
     ) -> Result<(), EvaluationError> {
-        self.select(v);
-        let (_, _, tape) = self.modes[self.current].parts();
-        let n = q.len();
-        // A step ends with a value and the next begins with a series; where there is nothing to refine that is the same.
-        let known = &tape.registers[1..2 + 2 * n];
-        if tape.evaluated
-            && tape.shape.unsolved.is_none()
-            && known[0] == t
-            && known[1..=n] == *q
-            && known[1 + n..] == *v
-        {
-            return Ok(());
-        }
-        tape.evaluated = false;
-        tape.registers[1] = t;
-        tape.registers[2..2 + n].copy_from_slice(q);
-        tape.registers[2 + n..2 + 2 * n].copy_from_slice(v);
-        for &(friction, slots, _) in &tape.headings {
-            for (slot, along) in slots.into_iter().zip(self.headings.of(friction)) {
-                tape.registers[slot.index()] = along;
+        self.select();
+        let (_, _, interpreted) = self.modes[self.current].parts();
+        interpreted.place(t, q, v);
+        for &(friction, components, _) in &interpreted.shape.headings {
+            for (register, along) in components.into_iter().zip(self.headings.of(friction)) {
+                interpreted.registers[register.index()] = along;
             }
         }
-        tape.evaluate(extent, MOTION);
-        if tape.shape.unsolved.is_some() {
-            self.solve_start(refined)?;
-        } else if !tape
-            .pivots
-            .iter()
-            .all(|pivot| pivot.is_safe(&tape.registers))
-        {
-            self.leave_to_solver();
-            return self.run(t, q, v, extent, refined);
-        }
-        let (_, _, tape) = self.modes[self.current].parts();
-        tape.evaluate(extent, FORCES);
-        tape.evaluated = extent == Extent::Everything;
+        interpreted.evaluate(extent, MOTION);
+        interpreted.evaluate(extent, SYSTEM);
+        self.solve_start(refined)?;
+        let (_, _, interpreted) = self.modes[self.current].parts();
+        interpreted.evaluate(extent, FORCES);
         Ok(())
     }
 
@@ -147,10 +118,10 @@ impl<T: Scalar> Dynamics<T> {
         self.evaluate(t, q, v, accelerations, None)
     }
 
-    /// Leaves the linear systems of the mode to the solver from now on.
-    pub(super) fn leave_to_solver(&mut self) {
-        self.modes[self.current].leave_to_solver();
-        (self.selected, self.by_functions) = (false, false);
+    /// Leaves the equations of the mode to the interpreter from now on.
+    pub(super) fn refuse_functions(&mut self) {
+        self.modes[self.current].refuse_functions();
+        self.by_functions = false;
     }
 
     /// Solves for the unknowns, from values in the registers.
@@ -164,7 +135,7 @@ impl<T: Scalar> Dynamics<T> {
             solution,
             ..
         } = self;
-        let (plan, solver, tape) = modes[*current].parts();
+        let (plan, solver, interpreted) = modes[*current].parts();
         solution.clear();
         solution.extend_from_slice(&right[..plan.size()]);
         solver.solve(solution);
@@ -172,10 +143,8 @@ impl<T: Scalar> Dynamics<T> {
         if outcome.is_ok() && refined && plan.size() > plan.free() {
             solver.refine(solution, &mut right[..plan.size()]);
         }
-        if let Some(unsolved) = &tape.shape.unsolved {
-            for (slot, &x) in unsolved.unknowns.iter().zip(&*solution) {
-                tape.registers[slot.index()] = x;
-            }
+        for (register, &x) in interpreted.shape.unknowns.iter().zip(&*solution) {
+            interpreted.registers[register.index()] = x;
         }
         if let Some(unknown) = solution.iter().position(|x| !x.value().is_finite()) {
             return Err(self.not_finite(unknown));
@@ -185,15 +154,11 @@ impl<T: Scalar> Dynamics<T> {
 
     /// Right-hand sides from the registers.
     fn fill_right(&mut self) {
-        let (_, _, tape) = self.modes[self.current].parts();
+        let (_, _, interpreted) = self.modes[self.current].parts();
+        let right = interpreted.shape.right.iter();
         self.right.clear();
-        if let Some(unsolved) = &tape.shape.unsolved {
-            let values = unsolved
-                .right
-                .iter()
-                .map(|r| tape.registers[r.slot.index()]);
-            self.right.extend(values);
-        }
+        self.right
+            .extend(right.map(|register| interpreted.registers[register.index()]));
     }
 
     /// Factors the system whose changing numbers are in the registers.
@@ -213,25 +178,34 @@ impl<T: Scalar> Dynamics<T> {
         }
     }
 
-    /// Runs only the motion tape at (t, q, v), for the needs held: then read [`Self::motion`].
+    /// Runs only the motion program at (t, q, v), for the needs held: then read [`Self::motion`].
     pub fn tape(&mut self, t: T, q: &[T], v: &[T]) {
-        let n = self.description().coordinates.len();
+        self.select();
+        let (_, _, interpreted) = self.modes[self.current].parts();
+        interpreted.place(t, q, v);
+        interpreted.evaluate(Extent::Everything, MOTION);
+        self.take_nodes(t, q, v);
+    }
+
+    /// Takes state and outputs of the motion program from the registers.
+    #[inline]
+    fn take_nodes(&mut self, t: T, q: &[T], v: &[T]) {
+        let n = q.len();
         self.inputs[0] = t;
         self.inputs[1..1 + n].copy_from_slice(q);
         self.inputs[1 + n..1 + 2 * n].copy_from_slice(v);
-        let compiled = &self.modes[self.current];
-        let held = Held {
-            needs: &self.held,
-            branches: &compiled.mode.branches,
-        };
-        let call = Call {
-            arithmetic: &mut self.plain,
-            held: &held,
-            constants: &compiled.constants,
-            inputs: &self.inputs[..1 + 2 * n],
-            outputs: &mut self.nodes,
-        };
-        self.system.evaluate(Which::Motion, call);
+        let (_, _, interpreted) = self.modes[self.current].parts();
+        interpreted.take_nodes(&mut self.nodes);
+    }
+
+    /// Runs the motion program at (t, q, v) for inertia, Jacobians and residuals of the rows that act.
+    pub(super) fn run_rows(&mut self, t: T, q: &[T], v: &[T]) {
+        self.work.projections += 1;
+        let compiled = &mut self.modes[self.current];
+        let rows = compiled.rows(&*self.system, &mut self.numbers);
+        rows.place(t, q, v);
+        rows.evaluate(Extent::Everything, MOTION);
+        rows.take_nodes(&mut self.nodes);
     }
 
     /// Replaces the forces of all rows that [`Self::force`] and the report tape see until the next [`Self::value`].
@@ -240,22 +214,17 @@ impl<T: Scalar> Dynamics<T> {
         self.inputs[first..].copy_from_slice(forces);
     }
 
-    /// Runs the report tape at the state of the last [`Self::value`], for the needs given to
+    /// Runs the report at the state of the last [`Self::value`], for the needs given to
     /// [`Self::set_report_needs`]: then read [`Self::report`].
     pub fn report_value(&mut self) {
-        let compiled = &self.modes[self.current];
-        let held = Held {
-            needs: &self.report_held,
-            branches: &compiled.mode.branches,
-        };
-        let call = Call {
-            arithmetic: &mut self.plain,
-            held: &held,
-            constants: &compiled.constants,
-            inputs: &self.inputs,
-            outputs: &mut self.report_nodes,
-        };
-        self.system.evaluate(Which::Report, call);
+        self.select();
+        let (_, _, interpreted) = self.modes[self.current].parts();
+        interpreted.registers[1..1 + self.inputs.len()].copy_from_slice(&self.inputs);
+        interpreted.evaluate(Extent::Everything, REPORT);
+        let nodes = self.report_nodes.iter_mut();
+        for (node, register) in nodes.zip(&interpreted.shape.report_nodes) {
+            *node = interpreted.registers[register.index()];
+        }
     }
 }
 
@@ -268,8 +237,8 @@ pub(super) fn is_finite<T: Scalar>(numbers: &[T]) -> bool {
 /// Factors the linear system of a mode.
 fn factor<T: Scalar>(compiled: &mut Compiled<T>) -> Result<(), SolveError> {
     let constants = core::mem::take(&mut compiled.constants);
-    let (plan, solver, tape) = compiled.parts();
-    let number = |node: usize| tape.registers[tape.nodes[node].slot.index()];
+    let (plan, solver, interpreted) = compiled.parts();
+    let number = |node: usize| interpreted.registers[interpreted.shape.nodes[node].index()];
     let (free, size) = (plan.free(), plan.size());
     let matrix = solver.begin(free, size, &plan.constant[..size * size]);
     for entry in &plan.entries {

@@ -212,9 +212,8 @@ impl Collected {
                     }
                     Direction::AlongSlip => program.mul(constants, strength, slip(component)),
                     Direction::Incipient(_) => {
-                        let (node, operation) = program.given();
+                        let node = program.given();
                         heading.nodes[component] = node;
-                        heading.operations[component] = operation;
                         program.mul(constants, strength, Place::Node(node))
                     }
                 };

@@ -5,16 +5,8 @@
 //! sliding friction it is not symmetric. Where M is not symmetric the whole is factored in that way.
 //! Reference: Golub & Van Loan 2013, Matrix Computations, sections 4.1.2 and 3.4.
 
-use super::epsilon;
 use super::lu::negligible;
-use crate::arithmetic::Scalar;
-
-/// A pivot of M below this share of its diagonal element has lost 10 of 16 digits: M is not safely positive definite. What
-/// earlier pivots have lost is missing from this one too: together they must not lose more.
-#[inline(always)]
-pub(crate) fn positive_definite<T: Scalar>() -> f64 {
-    524_288.0 * epsilon::<T>()
-}
+use crate::arithmetic::{Scalar, positive_definite};
 
 /// Factors of a system; the memory is reused.
 #[derive(Clone, Debug, Default)]

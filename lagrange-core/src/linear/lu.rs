@@ -4,8 +4,7 @@
 //! comparable with 1 and a pivot below [`NEGLIGIBLE`] means dependence.
 
 use super::direct::dot;
-use super::epsilon;
-use crate::arithmetic::Scalar;
+use crate::arithmetic::{Scalar, epsilon};
 
 /// Pivots of an equilibrated matrix below this (1e-12 in double precision) are dependence and not magnitude: rounding leaves
 /// some N ε, and a genuinely smaller pivot would cost more than 12 of the 16 digits.

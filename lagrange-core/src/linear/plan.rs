@@ -39,9 +39,8 @@ pub(crate) struct Slide {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Heading {
     pub friction: usize,
-    /// Where the components of the direction are, among the nodes and among the operations of the program.
+    /// Where the components of the direction are.
     pub nodes: [usize; 2],
-    pub operations: [usize; 2],
 }
 
 /// One contribution to an element before like ones are summed.
@@ -121,7 +120,8 @@ impl<T: Scalar> Plan<T> {
         self.elimination.right.row(j).is_empty()
     }
 
-    /// Appends all numbers that a tape recorded by this plan is given, beside the constants.
+    /// Appends all numbers that a program made by this plan reads, beside the constants: factors of the sums, the matrix, the right-hand
+    /// sides, the factors of loads, and those of the elimination.
     pub(crate) fn collect(&self, numbers: &mut Vec<T>) {
         numbers.extend(self.program.numbers());
         numbers.extend_from_slice(&self.constant);
@@ -130,9 +130,10 @@ impl<T: Scalar> Plan<T> {
         numbers.extend(self.elimination.right.values());
     }
 
-    /// Whether a tape recorded by another plan does what this one says, up to numbers.
+    /// Whether a program made by another plan does what this one says, up to numbers.
     pub(crate) fn is_like(&self, other: &Self) -> bool {
         let mut loads = self.loads.iter().zip(&other.loads);
+        let same_zeros = |x: &[T], y: &[T]| x.iter().map(T::is_zero).eq(y.iter().map(T::is_zero));
         self.acting == other.acting
             && self.kept == other.kept
             && self.eliminated == other.eliminated
@@ -141,6 +142,8 @@ impl<T: Scalar> Plan<T> {
             && self.entries == other.entries
             && self.first_force == other.first_force
             && self.force_entries == other.force_entries
+            && same_zeros(&self.constant, &other.constant)
+            && same_zeros(&self.constant_load, &other.constant_load)
             && self.reduced == other.reduced
             && self.cancelling().eq(other.cancelling())
             && self.loads.len() == other.loads.len()

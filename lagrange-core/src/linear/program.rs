@@ -1,50 +1,12 @@
-//! A short tape made at run time: the products of mode-dependent factors (μk a, …) that fill the linear system.
+//! The products of mode-dependent factors (μk a, …) that fill the linear system.
 //!
-//! What depends on parameters only is folded into constants when the mode is set; the rest runs after the motion tape,
-//! in the same arithmetic.
+//! What depends on parameters only is folded into constants when the mode is set; the rest runs after the motion program.
 
-use crate::arithmetic::{Arithmetic, Derivative, Dual, Recorded, Recorder, Scalar, Value};
+use crate::arithmetic::Scalar;
+use crate::program::{Builder, Op as Run, Register};
 use crate::system::Place;
 
-/// Arithmetics that sum many terms at once.
-pub(crate) trait Sum: Arithmetic {
-    /// Σ factor · nodes[node]
-    fn sum(
-        &mut self,
-        to: usize,
-        terms: &[(Self::Scalar, usize)],
-        nodes: &[Self::Node],
-    ) -> Self::Node;
-}
-
-impl<T: Scalar> Sum for Value<T> {
-    #[inline(always)]
-    fn sum(&mut self, _: usize, terms: &[(T, usize)], nodes: &[T]) -> T {
-        terms
-            .iter()
-            .fold(T::zero(), |sum, &(factor, node)| sum + factor * nodes[node])
-    }
-}
-
-impl<T: Scalar, const N: usize> Sum for Derivative<T, N> {
-    fn sum(&mut self, _: usize, terms: &[(T, usize)], nodes: &[Dual<T, N>]) -> Dual<T, N> {
-        let scaled = terms
-            .iter()
-            .map(|&(factor, node)| Dual::constant(factor) * nodes[node]);
-        scaled.fold(Dual::default(), |sum, term| sum + term)
-    }
-}
-
-impl<T: Scalar> Sum for Recorder<'_, T> {
-    fn sum(&mut self, to: usize, terms: &[(T, usize)], nodes: &[Recorded]) -> Recorded {
-        self.push_sum(
-            to,
-            terms.iter().map(|&(factor, node)| (factor, nodes[node])),
-        )
-    }
-}
-
-/// An operation; nodes are indices into the tape's outputs followed by the results of this program.
+/// An operation; nodes are indices into the outputs of the motion program followed by the results of this one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Op {
     Scale {
@@ -110,11 +72,6 @@ impl<T: Scalar> Program<T> {
             && terms.all(|(x, y)| x.1 == y.1)
     }
 
-    /// Number of results.
-    pub(crate) fn len(&self) -> usize {
-        self.ops.len()
-    }
-
     fn push(&mut self, op: Op) -> Place {
         self.ops.push(op);
         Place::Node(self.first + self.ops.len() - 1)
@@ -150,10 +107,10 @@ impl<T: Scalar> Program<T> {
         }
     }
 
-    /// A number that is put into its node before the program runs: the node, and the operation that stands for it.
-    pub(crate) fn given(&mut self) -> (usize, usize) {
+    /// A number that is put into its node before the program runs: the node.
+    pub(crate) fn given(&mut self) -> usize {
         self.ops.push(Op::Given);
-        (self.first + self.ops.len() - 1, self.ops.len() - 1)
+        self.first + self.ops.len() - 1
     }
 
     /// c x
@@ -219,26 +176,33 @@ impl<T: Scalar> Program<T> {
         }
     }
 
-    /// Runs it; `nodes` begins with the tape's outputs. Result `i` writes slot `i` of the arithmetic's origin.
-    #[inline]
-    pub(crate) fn run<A: Sum<Scalar = T>>(
+    /// Appends it to a program. `nodes` begins with the outputs of the motion program and takes the results; constants and
+    /// factors are in registers from these numbers on.
+    pub(crate) fn load(
         &self,
-        a: &mut A,
-        constants: &[T],
-        nodes: &mut [A::Node],
+        builder: &mut Builder,
+        constants: usize,
+        factors: usize,
+        nodes: &mut Vec<Register>,
     ) {
-        for (to, op) in self.ops.iter().enumerate() {
-            nodes[self.first + to] = match *op {
-                Op::Scale { constant, x } => a.scale(to, constants[constant], nodes[x]),
-                Op::Offset { constant, x } => a.offset(to, constants[constant], nodes[x]),
-                Op::Add { x, y } => a.add(to, nodes[x], nodes[y]),
-                Op::Mul { x, y } if x == y => a.square(to, nodes[x]),
-                Op::Mul { x, y } => a.mul(to, nodes[x], nodes[y]),
-                Op::Sqrt { x } => a.sqrt(to, nodes[x]),
-                Op::Sum { first, end } => a.sum(to, &self.terms[first..end], nodes),
-                Op::Ratio { constant, x } => a.ratio(to, constants[constant], nodes[x]),
-                Op::Given => continue,
+        let constant = |index: usize| Register::new(constants + index);
+        for op in &self.ops {
+            let result = match *op {
+                Op::Scale { constant: c, x } => builder.push(Run::Scale, constant(c), nodes[x]),
+                Op::Offset { constant: c, x } => builder.push(Run::Add, constant(c), nodes[x]),
+                Op::Add { x, y } => builder.push(Run::Add, nodes[x], nodes[y]),
+                Op::Mul { x, y } if x == y => builder.push(Run::Square, nodes[x], Register::ZERO),
+                Op::Mul { x, y } => builder.push(Run::Mul, nodes[x], nodes[y]),
+                Op::Sqrt { x } => builder.push(Run::Sqrt, nodes[x], Register::ZERO),
+                Op::Ratio { constant: c, x } => builder.push(Run::Div, constant(c), nodes[x]),
+                Op::Sum { first, end } => {
+                    let terms = self.terms[first..end].iter().zip(factors + first..);
+                    builder
+                        .sum(terms.map(|(&(_, node), factor)| (Register::new(factor), nodes[node])))
+                }
+                Op::Given => builder.fresh(),
             };
+            nodes.push(result);
         }
     }
 }

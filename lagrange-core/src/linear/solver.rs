@@ -5,9 +5,8 @@
 //! each row of A to about 1. Pivots are then comparable with 1 whatever the units.
 
 use super::direct::{Direct, dot};
-use super::epsilon;
 use super::lu::Lu;
-use crate::arithmetic::Scalar;
+use crate::arithmetic::{Scalar, epsilon};
 
 /// A dependent row may miss its acceleration bias by this fraction of the largest term (1e-7 in double precision); rounding
 /// and tolerated drift from the constraints stay below.

@@ -1,9 +1,9 @@
 //! Random systems: the planned solution against the whole system written out and solved by nalgebra.
 
 use super::{Inertia, Plan, Solver};
-use crate::arithmetic::Value;
 use crate::effects::Effects;
 use crate::mode::{Direction, FrictionMode, Mode, Sliding};
+use crate::program::{Builder as Loader, Encoded, Register, room};
 use crate::system::*;
 use nalgebra::{DMatrix, DVector};
 
@@ -189,15 +189,12 @@ fn random_system(seed: u64) -> (Description, Builder) {
             .collect::<Vec<_>>()
             .leak(),
         needs: 1,
-        constants: b.constants.len(),
-        motion: TapeShape {
-            slots: 0,
+        constants: Encoded::NONE,
+        motion: Encoded {
             outputs: b.nodes.len(),
+            ..Encoded::NONE
         },
-        report: TapeShape {
-            slots: 0,
-            outputs: 0,
-        },
+        report: Encoded::NONE,
         mass: mass.leak(),
         inertia: None,
         forcing: forcing.leak(),
@@ -348,21 +345,38 @@ fn by_definition(
     Some((k.lu().solve(&right)?, condition))
 }
 
+/// The nodes of a description, then those of the plan.
+fn plan_nodes(plan: &Plan<f64>, mode: &Mode, constants: &[f64], nodes: &[f64]) -> Vec<f64> {
+    let factors: Vec<f64> = plan.program.numbers().collect();
+    let numbers = [&[0.0], nodes, constants, &factors].concat();
+    let mut loader = Loader::new(numbers.len());
+    let mut registers: Vec<Register> = (1..=nodes.len()).map(Register::new).collect();
+    let first = 1 + nodes.len();
+    plan.program
+        .load(&mut loader, first, first + constants.len(), &mut registers);
+    let (program, used) = loader.finish();
+    let mut values = numbers;
+    values.resize(room(used), f64::NAN);
+    for (heading, (f, along)) in plan.headings.iter().zip(mode.incipient()) {
+        assert_eq!(heading.friction, f);
+        for (node, x) in heading.nodes.into_iter().zip(along) {
+            values[registers[node].index()] = x;
+        }
+    }
+    program.evaluate(0, &mut values);
+    registers
+        .iter()
+        .map(|register| values[register.index()])
+        .collect()
+}
+
 /// The same by the plan.
 fn by_plan(d: &Description, mode: &Mode, b: &Builder) -> Option<Vec<f64>> {
     let (n, rows) = (d.coordinates.len(), d.rows.len());
     let mut constants = b.constants.clone();
     let mut plan = Plan::default();
     plan.set(d, &Effects::all(), mode, &mut constants);
-    let mut nodes = b.nodes.clone();
-    nodes.resize(b.nodes.len() + plan.program.len(), f64::NAN);
-    for (heading, (f, along)) in plan.headings.iter().zip(mode.incipient()) {
-        assert_eq!(heading.friction, f);
-        for (node, x) in heading.nodes.into_iter().zip(along) {
-            nodes[node] = x;
-        }
-    }
-    plan.program.run(&mut Value::new(), &constants, &mut nodes);
+    let nodes = plan_nodes(&plan, mode, &constants, &b.nodes);
     let (free, size) = (plan.free(), plan.size());
     let mut solver = Solver::default();
     let matrix = solver.begin(free, size, &plan.constant[..size * size]);

@@ -4,8 +4,7 @@ use super::{domain, survey::Survey};
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
 use crate::error::Error;
-use crate::simulation::Held;
-use crate::trajectory::State;
+use crate::state::{Held, State};
 
 /// Looks at a start: leaves `dynamics` in the mode with every touching contact closed and every vanishing slip at
 /// rest, and says in `survey` what is known.

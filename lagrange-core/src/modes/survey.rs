@@ -7,8 +7,8 @@ use crate::error::{Error, Level};
 use crate::mode::{FrictionMode, Mode, Sliding};
 use crate::modes::decide::Known;
 use crate::modes::guard;
+use crate::state::State;
 use crate::system::{Description, Normal, Place};
-use crate::trajectory::State;
 
 /// What is accepted as zero in a start, relative to the size of the state: a start is typed or computed by a user.
 pub(super) fn slack(tolerance: f64) -> f64 {

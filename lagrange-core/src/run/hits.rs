@@ -317,6 +317,6 @@ pub(super) fn value(curve: &[f64], s: f64) -> f64 {
     if s == 1.0 {
         sum(curve)
     } else {
-        crate::trajectory::horner(curve, s)
+        crate::integrate::horner(curve, s)
     }
 }

@@ -3,14 +3,12 @@
 mod accumulation;
 mod cause;
 mod curves;
-mod ensemble;
 mod hits;
 mod instant;
 mod log;
 mod region;
 mod rest;
 pub(crate) mod round;
-mod runner;
 mod shares;
 mod singular;
 mod stepping;
@@ -20,6 +18,7 @@ mod tests;
 
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError, NeedSet};
+use crate::erased::Erased;
 use crate::error::Error;
 use crate::integrate::{StepPolynomial, Tolerance};
 use crate::mode::Mode;
@@ -32,18 +31,16 @@ use crate::modes::start;
 use crate::modes::survey::Survey;
 use crate::modes::table::Table;
 use crate::pool::Pool;
-use crate::simulation::{Awaited, Held, Settings};
+use crate::settings::{Awaited, Settings};
+use crate::state::Held;
 use crate::system::{Description, Watch};
-use crate::tapes::Erased;
-use crate::trajectory::{EventKind, Record, State, Subject, Work};
+use crate::trajectory::{Asked, EventKind, Record, State, Subject, Work};
 use accumulation::{Impacts, Train};
 use core::ops::Range;
 use curves::Curves;
-pub use ensemble::Ensemble;
 use hits::Hit;
 use log::Before;
 use rest::Rest;
-pub use runner::Runner;
 use singular::Rank;
 use stepping::Stepper;
 
@@ -197,7 +194,16 @@ impl<T: Scalar> Run<T> {
             work_before: crate::dynamics::Work::default(),
             trajectory: Record {
                 monitor: settings.monitor.clone(),
-                ..Record::new(&system, &settings.effects, settings.record)
+                ..Record::new(
+                    &system,
+                    &settings.effects,
+                    settings.record,
+                    Asked {
+                        tolerance: settings.tolerance,
+                        method: settings.method,
+                        impacts: settings.impacts.unwrap_or(d.impacts),
+                    },
+                )
             },
             state,
             mode,

@@ -1,79 +1,11 @@
 //! What happened: the event log, one entry per item that changed.
 
 use super::by_handle::Owner;
-use crate::handle::StartId;
+use crate::handle::Subject;
 use crate::mode::Mode;
-use crate::system::{Description, System};
+use crate::state::State;
+use crate::system::Description;
 use core::fmt;
-
-/// Positions and velocities.
-#[derive(Debug, PartialEq, Default)]
-pub struct State<T> {
-    /// q, one per coordinate.
-    pub q: Vec<T>,
-    /// v = dq/dt.
-    pub v: Vec<T>,
-}
-
-impl<T: Clone> Clone for State<T> {
-    fn clone(&self) -> Self {
-        Self {
-            q: self.q.clone(),
-            v: self.v.clone(),
-        }
-    }
-
-    // Into memory that is there already.
-    fn clone_from(&mut self, source: &Self) {
-        self.q.clone_from(&source.q);
-        self.v.clone_from(&source.v);
-    }
-}
-
-/// Named starts as states.
-pub trait Starts: System {
-    /// The state of a named start at time 0.
-    fn at(&self, start: StartId) -> State<Self::Scalar> {
-        let n = Self::DESCRIPTION.coordinates.len();
-        let zero = Self::Scalar::default();
-        let mut state = State {
-            q: vec![zero; n],
-            v: vec![zero; n],
-        };
-        System::start(self, start.0, zero, &mut state.q, &mut state.v);
-        state
-    }
-}
-
-impl<S: System> Starts for S {}
-
-/// What an event is about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Subject {
-    /// Contact i.
-    Contact(usize),
-    /// Friction i.
-    Friction(usize),
-    /// Piecewise branch i.
-    Branch(usize),
-    /// Stop i.
-    Stop(usize),
-    /// Mark i.
-    Mark(usize),
-}
-
-impl Subject {
-    /// Its name in the declaration.
-    pub fn name(self, description: &'static Description) -> &'static str {
-        match self {
-            Subject::Contact(i) => description.contacts[i].name,
-            Subject::Friction(i) => description.frictions[i].name,
-            Subject::Branch(i) => description.branches[i].text,
-            Subject::Stop(i) => description.stops[i].name,
-            Subject::Mark(i) => description.marks[i].name,
-        }
-    }
-}
 
 /// What happened to it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -148,7 +80,7 @@ pub struct Event<T> {
     pub forces: Vec<T>,
     /// λ of every row just after.
     pub forces_after: Vec<T>,
-    /// Per row: whether the motion leaves its force just before open, so that the one given is the share of least norm among
+    /// Per row: whether the motion does not determine its force just before. The force given is then the one of least norm among
     /// those that contacts and friction allow. Empty where all forces are determined.
     pub undetermined: Vec<bool>,
     /// The same for the forces just after.

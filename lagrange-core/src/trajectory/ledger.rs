@@ -48,7 +48,7 @@ pub struct Ledger {
 }
 
 /// Positive nodes and weights of Gauss–Legendre quadrature with 16 points on [−1, 1] (Abramowitz & Stegun, 25.4.30).
-const GAUSS: [(f64, f64); 8] = [
+pub(crate) const GAUSS: [(f64, f64); 8] = [
     (0.095_012_509_837_637_44, 0.189_450_610_455_068_5),
     (0.281_603_550_779_258_9, 0.182_603_415_044_923_6),
     (0.458_016_777_657_227_4, 0.169_156_519_395_002_54),
@@ -60,15 +60,6 @@ const GAUSS: [(f64, f64); 8] = [
 ];
 
 impl<T: Scalar> Record<T> {
-    /// Books the energy of the whole trajectory.
-    ///
-    /// # Errors
-    /// [`Error::NotRecorded`]; or the equations of motion could not be evaluated somewhere on the way.
-    pub fn ledger(&self) -> Result<Ledger, Error> {
-        let ledgers = (T::entries().ledgers)(self, None)?;
-        ledgers.into_iter().next().ok_or(Error::NotRecorded)
-    }
-
     /// The ledgers at these times, or that of the end.
     pub(crate) fn book(&self, times: Option<&[f64]>) -> Result<Vec<Ledger>, Error> {
         match times {
@@ -84,23 +75,13 @@ impl<T: Scalar> Record<T> {
         Ok(books.balance(end))
     }
 
-    /// Books the energy from the beginning to each of `times`, s, in the order given; with impacts up to and at that time.
-    /// Every ledger has the same entries.
-    ///
-    /// # Errors
-    /// [`Error::OutsideTrajectory`], [`Error::NotRecorded`]; or the equations of motion could not be evaluated somewhere on
-    /// the way.
-    pub fn ledgers(&self, times: &[f64]) -> Result<Vec<Ledger>, Error> {
-        (T::entries().ledgers)(self, Some(times))
-    }
-
     fn book_at(&self, times: &[f64]) -> Result<Vec<Ledger>, Error> {
         let mut order: Vec<usize> = (0..times.len()).collect();
         order.sort_by(|&i, &j| times[i].total_cmp(&times[j]));
         let mut books = Books::open(self)?;
         let mut ledgers = vec![None; times.len()];
         for i in order {
-            let now = books.sampler.at(times[i])?;
+            let now = books.sampler.evaluate_at(times[i])?;
             let after = self.segments.partition_point(|s| s.t.value() <= times[i]);
             books.turn_to(after.saturating_sub(1), Some(times[i]))?;
             ledgers[i] = Some(books.balance(energies(&now)));
@@ -143,7 +124,7 @@ impl<'a, T: Scalar> Books<'a, T> {
     fn open(trajectory: &'a Record<T>) -> Result<Self, Error> {
         trajectory.check_recorded()?;
         tell(trajectory, trajectory.first_time);
-        let mut sampler = trajectory.sampler();
+        let mut sampler = Sampler::new(trajectory);
         let (mut booked, entries) = items(trajectory.description());
         let jumps = jumps(trajectory, &mut sampler, &mut booked)?;
         let mode = trajectory.segments.first().map_or(0, |s| s.mode);

@@ -5,8 +5,11 @@ mod event;
 mod ledger;
 mod sampler;
 
+pub use crate::handle::Subject;
+pub use crate::state::{Starts, State};
 pub(crate) use event::Around;
-pub use event::{Event, EventKind, Starts, State, Subject};
+pub use event::{Event, EventKind};
+pub(crate) use ledger::GAUSS;
 pub use ledger::{Energies, Entry, Ledger};
 pub use sampler::{Instant, Sampler};
 pub(crate) use sampler::{instant, report_everything};
@@ -14,13 +17,13 @@ pub(crate) use sampler::{instant, report_everything};
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
 use crate::effects::Effects;
+use crate::erased::Erased;
 use crate::error::Error;
-use crate::integrate::StepPolynomial;
+use crate::integrate::{Method, StepPolynomial, horner};
 use crate::mode::Mode;
 use crate::monitor::Monitor;
 use crate::pool::Pool;
-use crate::system::{Description, System};
-use crate::tapes::Erased;
+use crate::system::{Description, Impacts, System};
 use core::ops::Deref;
 
 /// What a run cost.
@@ -38,6 +41,17 @@ pub struct Work {
     pub factorizations: usize,
     /// Projections onto the constraints that changed the state.
     pub projections: usize,
+}
+
+/// What was asked of a run.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Asked {
+    /// Relative and absolute.
+    pub tolerance: f64,
+    /// The method.
+    pub method: Method,
+    /// How contacts are solved that are hit together.
+    pub impacts: Impacts,
 }
 
 /// A time interval in one mode.
@@ -112,6 +126,8 @@ impl<S: System> Deref for Trajectory<S> {
 pub struct Record<T: Scalar> {
     pub(crate) system: Erased<T>,
     pub(crate) effects: Effects,
+    /// What was asked of the run.
+    pub(crate) asked: Asked,
     /// Whether the polynomials of the steps are kept; if not, a segment is a whole phase.
     pub(crate) recorded: bool,
     pub(crate) first_time: T,
@@ -128,11 +144,12 @@ pub struct Record<T: Scalar> {
 }
 
 impl<T: Scalar> Record<T> {
-    pub(crate) fn new(system: &Erased<T>, effects: &Effects, recorded: bool) -> Self {
+    pub(crate) fn new(system: &Erased<T>, effects: &Effects, recorded: bool, asked: Asked) -> Self {
         let (time, state) = (T::default(), State::default());
         Self {
             system: system.clone(),
             effects: effects.clone(),
+            asked,
             recorded,
             first_time: time,
             last_time: time,
@@ -293,11 +310,6 @@ impl<T: Scalar> Record<T> {
         self.segments.iter().map(|segment| segment.t.value())
     }
 
-    /// Evaluates the trajectory at any time.
-    pub fn sampler(&self) -> Sampler<'_, T> {
-        (T::entries().sampler)(self)
-    }
-
     /// Coefficients of a position (`which` = 0) or velocity (1) in a segment.
     pub(crate) fn polynomial(&self, segment: &Segment<T>, which: usize, coordinate: usize) -> &[T] {
         let n = self.description().coordinates.len();
@@ -314,9 +326,4 @@ impl<T: Scalar> Record<T> {
             }
         }
     }
-}
-
-/// Σ cₖ sᵏ.
-pub(crate) fn horner<T: Scalar>(c: &[T], s: T) -> T {
-    c.iter().rev().fold(T::default(), |sum, &x| sum * s + x)
 }

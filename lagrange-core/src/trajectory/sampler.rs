@@ -73,14 +73,6 @@ impl<'a, T: Scalar> Sampler<'a, T> {
         }
     }
 
-    /// The motion at time `t`, s. At the instant of a switch: just after it.
-    ///
-    /// # Errors
-    /// [`Error::OutsideTrajectory`], [`Error::NotRecorded`]; or the equations of motion could not be evaluated there.
-    pub fn at(&mut self, t: f64) -> Result<Instant<T>, Error> {
-        (T::entries().at)(self, t)
-    }
-
     pub(crate) fn evaluate_at(&mut self, t: f64) -> Result<Instant<T>, Error> {
         let trajectory = self.trajectory;
         trajectory.check_recorded()?;
@@ -119,6 +111,17 @@ impl<'a, T: Scalar> Sampler<'a, T> {
                 instant
             }
         }
+    }
+
+    /// The motion at part `s` of a segment.
+    pub(crate) fn inside(&mut self, segment: usize, s: T) -> Result<Instant<T>, Error> {
+        let segment = &self.trajectory.segments[segment];
+        let mut state = core::mem::take(&mut self.state);
+        self.trajectory
+            .state_at(segment, s, &mut state.q, &mut state.v);
+        let instant = self.evaluate(segment.t + segment.h * s, segment.mode, &state);
+        self.state = state;
+        instant
     }
 
     fn enter(&mut self, mode: usize) {
@@ -187,13 +190,7 @@ impl<'a, T: Scalar> Sampler<'a, T> {
     /// [`super::ledger`].
     pub(super) fn powers(&mut self, segment: usize, s: T, out: &mut [T]) -> Result<(), Error> {
         let d = self.trajectory.description();
-        let segment = &self.trajectory.segments[segment];
-        let mut state = core::mem::take(&mut self.state);
-        self.trajectory
-            .state_at(segment, s, &mut state.q, &mut state.v);
-        let instant = self.evaluate(segment.t + segment.h * s, segment.mode, &state);
-        self.state = state;
-        let instant = instant?;
+        let instant = self.inside(segment, s)?;
         let dynamics = &self.dynamics;
         let loads = d
             .forces

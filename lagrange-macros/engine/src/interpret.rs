@@ -117,8 +117,8 @@ impl Machine<'_> {
                 let value = values[write.value.0];
                 match write.mode {
                     Mode::Set => outputs[write.output] = value,
-                    Mode::Add(_) => outputs[write.output] += value,
-                    Mode::Sub(_) => outputs[write.output] -= value,
+                    Mode::Add => outputs[write.output] += value,
+                    Mode::Sub => outputs[write.output] -= value,
                 }
             }
         }

@@ -28,7 +28,8 @@ pub fn expand(input: TokenStream) -> TokenStream {
         .and_then(|declaration| planned(declaration, &mut sink));
     match (&declaration, program) {
         (Some(declaration), Some((mut program, verdicts))) if sink.is_empty() => {
-            let mut tokens = emit::emit(&program, &verdicts);
+            let declared = model::declared(declaration);
+            let mut tokens = emit::emit(&program, &declared, &verdicts);
             if emit::is_large(&program) {
                 let system = &program.equations.system;
                 tokens.extend(emit::derivation_on_request(system, &input.to_string()));
@@ -48,12 +49,17 @@ pub fn expand(input: TokenStream) -> TokenStream {
     }
 }
 
-/// The expansion as formatted Rust.
-pub fn formatted(expansion: &TokenStream) -> String {
-    match syn::parse2::<syn::File>(expansion.clone()) {
+/// What the derive macro expands to as formatted Rust; what of it is data follows in words.
+pub fn readable(input: TokenStream) -> String {
+    let expansion = expand(input.clone());
+    let mut text = match syn::parse2::<syn::File>(expansion.clone()) {
         Ok(file) => prettyplease::unparse(&file),
         Err(_) => expansion.to_string(),
+    };
+    if let Ok(program) = program(input) {
+        text.push_str(&emit::listing(&program));
     }
+    text
 }
 
 /// The program of a struct with its `#[lagrange(…)]` attributes.

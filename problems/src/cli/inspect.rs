@@ -58,7 +58,7 @@ impl Inspect {
         let declaration = scene.derivation().declaration;
         let tokens: proc_macro2::TokenStream = declaration.parse().map_err(Trouble::failed)?;
         let text = match (self.format, &self.mode) {
-            (Format::Rust, None) => lagrange_engine::formatted(&lagrange_engine::expand(tokens)),
+            (Format::Rust, None) => lagrange_engine::readable(tokens),
             (Format::Rust, Some(_)) => {
                 return Err(Trouble::usage(
                     "the emitted Rust serves all modes; leave out `--mode`",

@@ -20,6 +20,7 @@ mod stability;
 mod sweep;
 mod terminal;
 mod values;
+mod verify;
 
 use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 use lagrange_core::Error;
@@ -62,6 +63,7 @@ enum Command {
     List(list::List),
     Inspect(inspect::Inspect),
     Run(run::Run),
+    Verify(verify::Verify),
     Report(report::Report),
     Accuracy(accuracy::Measure),
     Effects(effects::Effects),
@@ -139,6 +141,7 @@ pub(crate) fn main() -> ExitCode {
         Command::List(list) => list.execute(),
         Command::Inspect(inspect) => inspect.execute(),
         Command::Run(run) => run.execute(),
+        Command::Verify(verify) => verify.execute(),
         Command::Report(report) => report.execute(),
         Command::Accuracy(accuracy) => accuracy.execute(),
         Command::Effects(effects) => effects.execute(),

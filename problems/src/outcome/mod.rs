@@ -3,6 +3,7 @@
 mod sampling;
 
 use crate::request::Request;
+use lagrange_core::certificate::Certificate;
 use lagrange_core::mode::{FrictionMode, Mode};
 use lagrange_core::prelude::*;
 use lagrange_core::system::Description;
@@ -32,6 +33,8 @@ pub struct Outcome {
     /// What is known beside the log just before and just after each event, if the run was sampled between its ends; nothing
     /// between events at one instant.
     pub around: Vec<[Option<Sample>; 2]>,
+    /// The run checked against its declaration; `None` if the motion could not be evaluated everywhere.
+    pub certificate: Option<Certificate>,
     /// Energy book; `None` if it could not be drawn up.
     pub ledger: Option<Ledger>,
     /// The same from the beginning to each sample, if that was asked for and can be drawn up; at the instant of an impact with
@@ -58,7 +61,7 @@ pub struct Sample {
     pub state: State<f64>,
     /// λ of every row; for a friction its force along +slip.
     pub forces: Vec<f64>,
-    /// Per row: whether the motion leaves its force open, so that a share of least norm is given; empty where none is.
+    /// Per row: whether the motion does not determine its force, so that the one of least norm is given; empty where all are determined.
     pub undetermined: Vec<bool>,
     /// What each friction can hold: μₛN while it sticks, μₖN while it slips, `None` while it is inactive.
     pub limits: Vec<Option<f64>>,
@@ -184,6 +187,7 @@ impl Outcome {
                 0 => Vec::new(),
                 _ => sampling::around(trajectory),
             },
+            certificate: trajectory.verify(request.seed).ok(),
             ledger: request.stage(trajectory.last_time(), || trajectory.ledger().ok()),
             ledgers: ledgers(samples.iter().map(|sample| sample.time).collect()),
             event_ledgers: ledgers(events.iter().map(|event| event.time).collect()),

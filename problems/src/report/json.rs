@@ -1,5 +1,6 @@
 //! Outcome → JSON: everything, every number in full precision, names in the order of the declaration.
 
+use super::certificate::{Verdict, verdict};
 use super::rows::Table;
 use super::{named_state, rate_unit, work_name};
 use crate::outcome::{Outcome, forces};
@@ -49,6 +50,8 @@ pub(super) struct Header {
 pub(super) struct Ending {
     #[serde(skip_serializing_if = "Option::is_none")]
     energy: Option<Energy>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    certificate: Option<Verdict>,
     work: Counts,
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<String>,
@@ -202,6 +205,7 @@ pub(super) fn header(outcome: &Outcome) -> Header {
 pub(super) fn ending(outcome: &Outcome) -> Ending {
     Ending {
         energy: outcome.ledger.as_ref().map(energy),
+        certificate: outcome.certificate.as_ref().map(verdict),
         work: counts(outcome),
         error: outcome.failure.as_ref().map(Error::to_string),
     }

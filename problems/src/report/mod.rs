@@ -2,6 +2,7 @@
 //! in [`accuracy`] the same of an [`Accuracy`](crate::accuracy::Accuracy).
 
 pub mod accuracy;
+pub mod certificate;
 pub mod cost;
 pub mod csv;
 pub mod frames;

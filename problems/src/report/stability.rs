@@ -6,7 +6,7 @@ use comfy_table::{CellAlignment, ContentArrangement};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
-fn verdict(holds: bool) -> &'static str {
+pub(super) fn verdict(holds: bool) -> &'static str {
     match holds {
         true => "holds",
         false => "FAILS",

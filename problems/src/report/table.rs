@@ -43,6 +43,9 @@ pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
             if unit.is_empty() { "" } else { " " }
         )?;
     }
+    if let Some(certificate) = &outcome.certificate {
+        writeln!(out, "{certificate}")?;
+    }
     writeln!(out, "\n{}", work(outcome))
 }
 

@@ -18,6 +18,17 @@ pub fn lagrange_in(folder: &Path, arguments: &[&str]) -> Output {
         .expect("the program starts")
 }
 
+/// Runs a line of a shell in a folder, with the program on its path.
+pub fn shell(folder: &Path, line: &str) -> Output {
+    let program = Path::new(env!("CARGO_BIN_EXE_lagrange"));
+    let mut path = program.parent().expect("a folder").as_os_str().to_owned();
+    path.push(":");
+    path.push(std::env::var_os("PATH").unwrap_or_default());
+    let mut shell = Command::new("sh");
+    shell.current_dir(folder).env("PATH", path);
+    shell.args(["-c", line]).output().expect("the shell starts")
+}
+
 /// An empty folder of this name.
 pub fn folder(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);

@@ -1,5 +1,5 @@
-//! What the emitted functions leave to the core gives the same motion: every scene with its functions, by the interpreter of the
-//! same equations, and with every linear system left to the solver that looks for the best pivots.
+//! What the emitted functions leave to the core gives the same motion: every scene with its functions, and by the interpreter of the
+//! same equations with the solver that looks for the best pivots.
 
 use lagrange_core::prelude::*;
 use lagrange_problems::catalogue::scenes;
@@ -31,7 +31,9 @@ fn story(outcome: &Outcome) -> (Vec<(String, f64)>, Vec<f64>) {
     (events.collect(), state.collect())
 }
 
-fn check(equations: Equations) {
+#[test]
+fn interpreted_equations_give_the_same_events_and_the_same_end() {
+    let equations = Equations::Interpreted;
     for scene in scenes() {
         let (events, end) = story(&run(scene, Equations::Emitted));
         let (others, other_end) = story(&run(scene, equations));
@@ -60,14 +62,4 @@ fn check(equations: Equations) {
             );
         }
     }
-}
-
-#[test]
-fn interpreted_equations_give_the_same_events_and_the_same_end() {
-    check(Equations::Interpreted);
-}
-
-#[test]
-fn systems_left_to_the_solver_give_the_same_events_and_the_same_end() {
-    check(Equations::Solved);
 }

@@ -1,7 +1,7 @@
-//! The emitted tapes of the five scenes against the interpretation of the same declarations: each scene's own source is
-//! read again through the pipeline, in process, and both are run on the same numbers, with any set of needs.
+//! The programs of the five scenes as the core runs them against the engine's own interpretation of the same declarations: each
+//! scene's source is read again through the pipeline, in process, and both are run on the same numbers, with any set of needs.
 
-use lagrange_core::arithmetic::{Derivative, Dual, Value};
+use lagrange_core::arithmetic::Dual;
 use lagrange_core::system::{Held, System};
 use lagrange_engine::interpret::{self, Machine};
 use lagrange_engine::plan::Program;
@@ -30,30 +30,27 @@ fn program(source: &str, name: &str) -> Program {
     lagrange_engine::program(item.into_token_stream()).unwrap_or_else(|m| panic!("{m}"))
 }
 
-/// Sizes of the tapes of a system.
-struct Sizes {
-    motion: usize,
-    report: usize,
-    constants: usize,
+/// Constants, motion and report of the core's interpreter; NaN where nothing that is held asks for a number.
+fn interpreted_by_core<S: System<Scalar = f64>>(
+    scene: &S,
+    held: &Held,
+    x: &[f64],
+) -> [Vec<f64>; 3] {
+    let d = S::DESCRIPTION;
+    let parameters = parameters(scene);
+    let numbers = |list: Vec<Option<f64>>| -> Vec<f64> {
+        list.into_iter().map(|x| x.unwrap_or(f64::NAN)).collect()
+    };
+    let constants = numbers(d.constants.evaluate(held, &[], &[], &parameters));
+    let state = &x[..1 + 2 * d.coordinates.len()];
+    let motion = numbers(d.motion.evaluate(held, &constants, &parameters, state));
+    let report = numbers(d.report.evaluate(held, &constants, &parameters, x));
+    [constants, motion, report]
 }
 
-/// Constants, motion and report of the emitted code; NaN where nothing that is held asks for a number.
-fn emitted<S: System<Scalar = f64>>(scene: &S, held: &Held, x: &[f64]) -> [Vec<f64>; 3] {
-    let d = S::DESCRIPTION;
-    let sizes = Sizes {
-        motion: d.motion.outputs,
-        report: d.report.outputs,
-        constants: d.constants,
-    };
-    let mut constants = vec![f64::NAN; sizes.constants];
-    scene.constants(held, &mut constants);
-    let mut motion = vec![f64::NAN; sizes.motion];
-    let n = d.coordinates.len();
-    let mut value = Value::new();
-    scene.motion(&mut value, held, &constants, &x[..1 + 2 * n], &mut motion);
-    let mut report = vec![f64::NAN; sizes.report];
-    scene.report(&mut value, held, &constants, x, &mut report);
-    [constants, motion, report]
+fn parameters<S: System<Scalar = f64>>(scene: &S) -> Vec<f64> {
+    let count = S::DESCRIPTION.parameters.len();
+    (0..count).map(|i| scene.parameter(i)).collect()
 }
 
 fn random_inputs<S: System>(random: &mut Random) -> Vec<f64> {
@@ -104,14 +101,14 @@ pub fn check<S: System<Scalar = f64> + Default>(source: &str) {
         ];
         for (what, (found, expected)) in ["constants", "motion", "report"]
             .iter()
-            .zip(emitted(&scene, &held, &x).iter().zip(&oracle))
+            .zip(interpreted_by_core(&scene, &held, &x).iter().zip(&oracle))
         {
             assert_eq!(found.len(), expected.len(), "{what}");
             for (i, (found, expected)) in found.iter().zip(expected).enumerate() {
                 // To the last bit, and both NaN where neither ran.
                 assert!(
                     found.to_bits() == expected.to_bits() || found.is_nan() && expected.is_nan(),
-                    "{} {what}[{i}]: emitted {found:e}, interpreted {expected:e}, needs {needs:x?}",
+                    "{} {what}[{i}]: by the core {found:e}, by the engine {expected:e}, needs {needs:x?}",
                     d.name
                 );
             }
@@ -144,15 +141,13 @@ fn check_starts<S: System<Scalar = f64> + Default>(source: &str) {
     }
 }
 
-/// The derivative reading of the motion tape against central differences of the interpretation.
+/// The motion program over dual numbers against central differences of the engine's interpretation.
 pub fn check_derivatives<S: System<Scalar = f64> + Default>(source: &str) {
     let d = S::DESCRIPTION;
     let program = program(source, d.name);
     let mut random = Random::new(11);
     let scene = S::default();
-    let parameters: Vec<f64> = (0..d.parameters.len())
-        .map(|i| scene.parameter(i))
-        .collect();
+    let parameters = parameters(&scene);
     let machine = Machine::new(&program, &parameters);
     let needs = vec![u64::MAX; d.needs.div_ceil(64)];
     let branches = vec![u64::MAX; d.branches.len().div_ceil(64)];
@@ -164,8 +159,13 @@ pub fn check_derivatives<S: System<Scalar = f64> + Default>(source: &str) {
         needs: &needs,
         branches: &branches,
     };
-    let mut constants = vec![0.0; d.constants];
-    scene.constants(&held, &mut constants);
+    let constant = |&x: &f64| Dual::constant(x);
+    let constants: Vec<Dual<f64, 1>> = machine
+        .constants(&interpreted)
+        .iter()
+        .map(constant)
+        .collect();
+    let parameters: Vec<Dual<f64, 1>> = parameters.iter().map(constant).collect();
     for _ in 0..10 {
         let x = random_inputs::<S>(&mut random);
         let x = &x[..1 + 2 * d.coordinates.len()];
@@ -175,14 +175,7 @@ pub fn check_derivatives<S: System<Scalar = f64> + Default>(source: &str) {
                 .enumerate()
                 .map(|(i, x)| Dual::variable(*x, usize::from(i != input)))
                 .collect();
-            let mut duals = vec![Dual::constant(0.0); d.motion.outputs];
-            scene.motion(
-                &mut Derivative::<f64, 1>::new(),
-                &held,
-                &constants,
-                &seeded,
-                &mut duals,
-            );
+            let duals = d.motion.evaluate(&held, &constants, &parameters, &seeded);
             let moved = |h: f64| {
                 let mut x = x.to_vec();
                 x[input] += h;
@@ -190,7 +183,7 @@ pub fn check_derivatives<S: System<Scalar = f64> + Default>(source: &str) {
             };
             let h = 1e-5;
             let (up, down) = (moved(h), moved(-h));
-            for (i, dual) in duals.iter().enumerate() {
+            for (i, dual) in duals.into_iter().flatten().enumerate() {
                 let slope = (up[i] - down[i]) / (2.0 * h);
                 agree(
                     &format!("{} ∂y[{i}]/∂x[{input}]", d.name),

@@ -1,5 +1,6 @@
 //! All tests of the workspace's public behaviour, in one binary.
 
+mod architecture;
 mod bowl;
 mod derived;
 mod diagnostics;

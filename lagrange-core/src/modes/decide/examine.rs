@@ -228,7 +228,7 @@ impl<T: Scalar> Decider<T> {
         for _ in 0..MOST_JOINTS {
             let found = self.sharing.critical_at(|guard, along| {
                 sharing::side(guard, along, &self.posed, &reading, series);
-                crate::trajectory::horner(series, later)
+                crate::integrate::horner(series, later)
             });
             let Some(joint) = found else {
                 return;

@@ -3,7 +3,6 @@
 
 use super::derivation;
 use super::handles::{self, Indices};
-use super::names::plain;
 use crate::ast::{Declaration, Head, ItemKind, Name, Observe};
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -110,24 +109,9 @@ fn implementation(input: &DeriveInput, core: &TokenStream) -> TokenStream {
             .push(syn::parse_quote!(#core::arithmetic::Scalar));
     }
     let scalar = scalar.map_or(quote!(f64), |scalar| quote!(#scalar));
-    let (name, arithmetic) = (&input.ident, plain("LagrangeArithmetic"));
+    let name = &input.ident;
     let (parameters, arguments, conditions) = generics.split_for_impl();
-    let tape = |method: &str| {
-        let method = plain(method);
-        quote! {
-            fn #method<#arithmetic: #core::arithmetic::Arithmetic<Scalar = Self::Scalar>>(
-                &self,
-                _: &mut #arithmetic,
-                _: &#core::system::Held,
-                _: &[Self::Scalar],
-                _: &[#arithmetic::Node],
-                _: &mut [#arithmetic::Node],
-            ) {
-                ::core::unreachable!()
-            }
-        }
-    };
-    let (motion, report, description) = (tape("motion"), tape("report"), empty(core));
+    let description = empty(core);
     quote! {
         #[automatically_derived]
         impl #parameters #core::system::System for #name #arguments #conditions {
@@ -142,11 +126,6 @@ fn implementation(input: &DeriveInput, core: &TokenStream) -> TokenStream {
             fn start(&self, _: usize, _: Self::Scalar, _: &mut [Self::Scalar], _: &mut [Self::Scalar]) {
                 ::core::unreachable!()
             }
-            fn constants(&self, _: &#core::system::Held, _: &mut [Self::Scalar]) {
-                ::core::unreachable!()
-            }
-            #motion
-            #report
         }
     }
 }
@@ -160,9 +139,9 @@ fn empty(core: &TokenStream) -> TokenStream {
             parameters: &[],
             coordinates: &[],
             needs: 0,
-            constants: 0,
-            motion: #core::system::TapeShape { slots: 0, outputs: 0 },
-            report: #core::system::TapeShape { slots: 0, outputs: 0 },
+            constants: #core::program::Encoded::NONE,
+            motion: #core::program::Encoded::NONE,
+            report: #core::program::Encoded::NONE,
             mass: &[],
             inertia: ::core::option::Option::None,
             forcing: &[],

@@ -1,35 +1,42 @@
-//! [`Program`] → tokens: the tapes, the table that says what their numbers mean, and the handles.
+//! [`Program`] → tokens: the functions of the modes, the programs as data with the table that says what their numbers mean, and the
+//! handles.
 //! The only place that uses `quote`.
 
 mod checks;
-mod code;
+mod declared;
 mod derivation;
 mod description;
+mod encoded;
 mod equations;
 mod fallback;
 mod handles;
+mod listing;
 mod names;
 mod scalar;
-mod tape;
 #[cfg(test)]
 mod tests;
 
 use crate::check::Verdict;
-use crate::derive::Stage;
+use crate::model::Declared;
 use crate::plan::Program;
 use proc_macro2::TokenStream;
 use quote::quote;
 
 pub use derivation::{derivation, on_request as derivation_on_request};
 pub use fallback::fallback;
+pub use listing::listing;
 
-/// Whether the equations of motion are emitted as data.
+/// Systems with more operations are not written out at every build.
+const LARGEST: usize = 500;
+
+/// Whether the equations would fill books.
 pub fn is_large(program: &Program) -> bool {
-    code::is_large(&program.motion)
+    let blocks = program.motion.blocks.iter();
+    blocks.map(|block| block.steps.len()).sum::<usize>() > LARGEST
 }
 
 /// `impl System` and the handles of a program; [`derivation()`] belongs to it.
-pub fn emit(program: &Program, verdicts: &[Verdict]) -> TokenStream {
+pub fn emit(program: &Program, declared: &Declared, verdicts: &[Verdict]) -> TokenStream {
     let system = &program.equations.system;
     let (name, core) = (&system.name, &system.core);
     let (generics, arguments, scalar) = match &system.scalar {
@@ -47,11 +54,9 @@ pub fn emit(program: &Program, verdicts: &[Verdict]) -> TokenStream {
     let handles = handles::handles(program);
     let checks = checks::checks(program, verdicts);
     let description = description::description(program);
+    let declaration = declared::declaration(declared, system);
     let access = scalar::access(system);
     let start = scalar::starts(program);
-    let constants = scalar::constants(program);
-    let motion = tape::tape(program, Stage::Motion);
-    let report = tape::tape(program, Stage::Report);
     let equations = equations::equations(program);
     quote! {
         #handles
@@ -62,14 +67,12 @@ pub fn emit(program: &Program, verdicts: &[Verdict]) -> TokenStream {
         impl #generics #core::system::System for #name #arguments {
             type Scalar = #scalar;
             const DESCRIPTION: &'static #core::system::Description = &#description;
+            const DECLARATION: &'static #core::declaration::Declaration = &#declaration;
             fn derivation() -> &'static #core::Derivation {
                 #inherent::derivation()
             }
             #access
             #start
-            #constants
-            #motion
-            #report
             #equations
         }
     }

@@ -1,6 +1,5 @@
-//! Programs on plain scalars: the constants, the starts, and access to the parameters.
+//! Programs on plain scalars: the constants of modes, the starts, and access to the parameters.
 
-use super::code;
 use super::names::{self, local};
 use crate::model::System;
 use crate::plan::{Mode, Operation, Program, StartTarget, Tape, Value};
@@ -25,39 +24,6 @@ pub fn access(system: &System) -> TokenStream {
                 #(#indices => #fields = #value,)*
                 _ => ::core::panic!("there is no parameter {}", #at),
             }
-        }
-    }
-}
-
-/// `fn constants`.
-pub fn constants(program: &Program) -> TokenStream {
-    let system = &program.equations.system;
-    let core = &system.core;
-    let (held, c) = (local("held"), local("c"));
-    let tape = &program.constants;
-    if code::is_large(tape) {
-        let (x, index) = (local("x"), local("index"));
-        let count = names::index(system.parameters.len());
-        let run = code::run(
-            system,
-            tape,
-            quote!(&mut #core::arithmetic::Value::new()),
-            quote!(&#x),
-            quote!(#c),
-            quote!(&[]),
-        );
-        return quote! {
-            fn constants(&self, #held: &#core::system::Held, #c: &mut [Self::Scalar]) {
-                let #x: [Self::Scalar; #count] = ::core::array::from_fn(|#index| self.parameter(#index));
-                #run
-            }
-        };
-    }
-    let fields: Vec<_> = system.parameters.iter().map(names::field).collect();
-    let body = masked(program, tape, |at| fields[at].clone());
-    quote! {
-        fn constants(&self, #held: &#core::system::Held, #c: &mut [Self::Scalar]) {
-            #body
         }
     }
 }
@@ -87,8 +53,8 @@ pub fn masked(program: &Program, tape: &Tape, input: impl Fn(usize) -> TokenStre
             let (output, value) = (names::index(write.output), names::value(write.value));
             match write.mode {
                 Mode::Set => quote!(#c[#output] = #value;),
-                Mode::Add(_) => quote!(#c[#output] += #value;),
-                Mode::Sub(_) => quote!(#c[#output] -= #value;),
+                Mode::Add => quote!(#c[#output] += #value;),
+                Mode::Sub => quote!(#c[#output] -= #value;),
             }
         });
         let body = quote!(#steps #(#writes)*);

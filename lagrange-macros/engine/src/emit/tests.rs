@@ -1,9 +1,15 @@
 //! Emitted code reads as planned.
 
-use super::{emit, tape};
-use crate::derive::Stage;
+use super::emit;
+use super::encoded::Writer;
 use proc_macro2::TokenStream;
 use quote::quote;
+
+fn declared(input: TokenStream) -> crate::model::Declared {
+    let mut sink = crate::diagnostics::Diagnostics::new();
+    let declaration = crate::parse::declaration(input, &mut sink);
+    crate::model::declared(&declaration.unwrap_or_else(|| panic!("{sink}")))
+}
 
 fn program(declaration: TokenStream) -> crate::plan::Program {
     crate::program(declaration).unwrap_or_else(|mistakes| panic!("{mistakes}"))
@@ -40,34 +46,31 @@ fn check(emitted: &TokenStream, expected: TokenStream) {
 }
 
 #[test]
-fn a_tape_has_one_call_per_operation_and_one_if_per_block() {
-    let motion = tape::tape(&program(spring()), Stage::Motion);
-    check(
-        &motion,
-        quote! {
-            let n3 = a.constant(0, c[2]);
-            let mut sum2 = n3;
-            if needs[0] & 2 != 0 {
-                let (n4, n5) = a.sin_cos(1, n0);
-                let n6 = a.scale(3, self.rest, n5);
-                let n7 = a.sub(4, n1, n6);
-                let n8 = a.scale(5, self.stiffness, n7);
-                sum2 = a.sub(6, sum2, n8);
-            }
-            if needs[0] & 16 != 0 {
-                y[0] = n1;
-            }
-            if needs[0] & 32 != 0 {
-                y[1] = n2;
-            }
-            y[2] = sum2;
-        },
-    );
+fn a_tape_is_a_list_of_words_in_blocks() {
+    let program = program(spring());
+    let writer = Writer::written(&program.motion);
+    let (words, _) = writer.bytes.as_chunks::<4>();
+    let words: Vec<u32> = words.iter().map(|word| u32::from_le_bytes(*word)).collect();
+    // Inputs: t, x, ẋ are values 0, 1, 2. Parameters: mass, gravity, stiffness, rest.
+    let always = [
+        0, 2, 3, /* n₃ = c₂ */ 0, 8, 0, /* y₂ = n₃ */ 23, 2, 3,
+    ];
+    let spring = [
+        1, 2, 0, 5, 4, // n₄, n₅ = sin t, cos t
+        14, 0, 0, // n₆ = rest n₅
+        5, 13, 5, // n₇ = x − n₆
+        2, 1, 6, // n₈ = stiffness n₇
+        5, 9, 7, // y₂ −= n₈
+        25, 2, 8,
+    ];
+    let position = [1, 16, 0, 1, 0, /* y₀ = x */ 23, 0, 1];
+    let velocity = [1, 32, 0, 1, 0, /* y₁ = ẋ */ 23, 1, 2];
+    assert_eq!(words, [&always[..], &spring, &position, &velocity].concat());
 }
 
 #[test]
 fn constants_starts_and_handles() {
-    let emitted = emit(&program(spring()), &[]);
+    let emitted = emit(&program(spring()), &declared(spring()), &[]);
     check(
         &emitted,
         quote! { pub const FLOOR: ::lagrange_core::handle::ContactId = ::lagrange_core::handle::ContactId(0); },

@@ -172,9 +172,7 @@ impl Elaboration<'_> {
             self.sink.report(Code::HigherDerivative, der, &[]);
             return None;
         }
-        let directions = std::mem::take(&mut self.directions);
-        let derivative = value.map(&mut |e| self.system.pool.derivative_along(e, &directions));
-        self.directions = directions;
+        let derivative = value.map(&mut |e| self.time_rate(e));
         if inner == Depth::Velocity {
             let depth = self.depth(&derivative.scalars());
             self.admit(depth, context, &expr, der.into())?;
@@ -252,6 +250,8 @@ impl Elaboration<'_> {
                     ),
                 })
             }
+            // Where rates are symbols nothing can be differentiated by a velocity.
+            _ if self.rates.is_some() => None,
             _ => {
                 let coordinate = self.coordinate(&reference)?;
                 let velocity = self.system.coordinates[coordinate].velocity;

@@ -128,10 +128,7 @@ impl Elaboration<'_> {
                 .report(Code::HigherDerivative, quantity.extent, &[]);
             return None;
         }
-        let directions = std::mem::take(&mut self.directions);
-        let rate = self.system.pool.derivative_along(value, &directions);
-        self.directions = directions;
-        Some(rate)
+        Some(self.time_rate(value))
     }
 
     fn premise(

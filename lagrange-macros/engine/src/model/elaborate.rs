@@ -25,6 +25,8 @@ pub(super) struct Elaboration<'a> {
     pub depths: Vec<Depth>,
     /// q → v, v → v̇, t → 1.
     pub directions: Vec<(Symbol, ExprId)>,
+    /// Expressions under `der`, and the symbols that stand for their rates; `None` where rates are worked out.
+    pub rates: Option<BTreeMap<ExprId, Symbol>>,
     /// What `define` and `observe` name.
     pub definitions: Vec<Pending>,
     /// First coordinate of each name, and the length of an array.
@@ -64,22 +66,7 @@ pub fn system(declaration: &Declaration, sink: &mut Diagnostics) -> Option<Syste
 pub fn scoped(declaration: &Declaration, sink: &mut Diagnostics) -> Option<(System, Scope)> {
     let before = sink.count();
     let mut elaboration = Elaboration::new(declaration, sink);
-    let accepted = elaboration.declare(declaration);
-    elaboration.check_energies(declaration);
-    let items = || {
-        declaration
-            .items
-            .iter()
-            .zip(&accepted)
-            .filter(|(_, accepted)| **accepted)
-            .map(|(item, _)| item)
-    };
-    elaboration.definitions_all();
-    for pass in Pass::ALL {
-        for item in items() {
-            elaboration.read(item, pass);
-        }
-    }
+    elaboration.read_all(declaration);
     elaboration.check_quadratic(declaration);
     elaboration.check_dropped(declaration);
     if elaboration.sink.count() == before {
@@ -117,7 +104,7 @@ impl Pass {
 }
 
 impl<'a> Elaboration<'a> {
-    fn new(declaration: &Declaration, sink: &'a mut Diagnostics) -> Elaboration<'a> {
+    pub fn new(declaration: &Declaration, sink: &'a mut Diagnostics) -> Elaboration<'a> {
         let mut pool = Pool::new();
         let time = pool.symbol("t");
         let one = pool.integer(1);
@@ -136,11 +123,32 @@ impl<'a> Elaboration<'a> {
             indices: Vec::new(),
             depths: vec![Depth::Parameter; time.index() + 1],
             directions: vec![(time, one)],
+            rates: None,
             definitions: Vec::new(),
             coordinate_names: BTreeMap::new(),
             bodies: BTreeMap::new(),
             dropped: false,
             overflowed: false,
+        }
+    }
+
+    /// Enters all names and reads all items.
+    pub fn read_all(&mut self, declaration: &Declaration) {
+        let accepted = self.declare(declaration);
+        self.check_energies(declaration);
+        let items = || {
+            declaration
+                .items
+                .iter()
+                .zip(&accepted)
+                .filter(|(_, accepted)| **accepted)
+                .map(|(item, _)| item)
+        };
+        self.definitions_all();
+        for pass in Pass::ALL {
+            for item in items() {
+                self.read(item, pass);
+            }
         }
     }
 
@@ -155,6 +163,7 @@ impl<'a> Elaboration<'a> {
             indices: Vec::new(),
             depths: scope.depths,
             directions: scope.directions,
+            rates: None,
             definitions: scope.definitions,
             coordinate_names: scope.coordinate_names,
             bodies: scope.bodies,

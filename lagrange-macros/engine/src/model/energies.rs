@@ -87,7 +87,11 @@ impl Elaboration<'_> {
             .into_iter()
             .map(|velocity| (velocity, self.system.pool.integer(0)))
             .collect();
-        let at_rest = self.system.pool.substitute(lagrangian, &rest);
+        let at_rest = match self.rates {
+            None => self.system.pool.substitute(lagrangian, &rest),
+            // Where rates are symbols L stays whole.
+            Some(_) => self.system.pool.integer(0),
+        };
         let kinetic = self.system.pool.sub(lagrangian, at_rest);
         let potential = self.system.pool.neg(at_rest);
         self.system.from_lagrangian = true;
@@ -140,6 +144,9 @@ impl Elaboration<'_> {
         if !self.system.from_lagrangian {
             let (kinetic, potential) = self.energies();
             return Some(self.system.pool.add(kinetic, potential));
+        }
+        if self.rates.is_some() {
+            return None;
         }
         let lagrangian = self.lagrangian();
         let mut terms = vec![self.system.pool.neg(lagrangian)];

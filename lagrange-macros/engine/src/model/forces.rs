@@ -4,7 +4,7 @@ use super::elaborate::Elaboration;
 use super::names::Kind;
 use super::reach::{Context, Depth, Reach};
 use super::value::{Value, norm};
-use super::{Dissipation, Force};
+use super::{Dissipation, Force, System, Worked};
 use crate::ast::{self, Action, Expr, Name};
 use crate::diagnostics::{Code, Extent};
 use crate::symbolic::{ExprId, Symbol};
@@ -17,19 +17,21 @@ const DISSIPATION: Context = Context::new(Reach::Motion, "a dissipation");
 impl Elaboration<'_> {
     pub fn force(&mut self, declared: &ast::Force) {
         self.each(&declared.head, |this, name| {
-            let (value, generalized, at) = match &declared.action {
+            let (components, at) = match &declared.action {
                 Action::Generalized(coordinate, value) => {
                     let (index, force) = (this.coordinate(coordinate), this.scalar(value, FORCE));
                     let (index, force) = (index?, force?);
-                    (force, vec![(index, force)], value.extent)
+                    (vec![(force, Worked::Coordinate(index))], value.extent)
                 }
-                Action::At(force, point) => {
-                    let (value, generalized) = this.at_point(force, point)?;
-                    (value, generalized, force.extent)
-                }
-                Action::Along(force, speed) => {
-                    let (value, generalized) = this.along(force, speed)?;
-                    (value, generalized, force.extent)
+                Action::At(force, point) => (this.at_point(force, point)?, force.extent),
+                Action::Along(force, speed) => (vec![this.along(force, speed)?], force.extent),
+            };
+            let generalized = this.project(&components);
+            let value = match components.as_slice() {
+                &[(only, _)] => only,
+                components => {
+                    let f: Vec<ExprId> = components.iter().map(|&(f, _)| f).collect();
+                    norm(&mut this.system.pool, &f)
                 }
             };
             this.linear_in_forces(&generalized, at)?;
@@ -38,14 +40,15 @@ impl Elaboration<'_> {
                 name,
                 value,
                 generalized,
+                components,
                 force,
             });
             Some(this.system.forces.len() - 1)
         });
     }
 
-    /// Qⱼ = Σ fᵢ ∂pᵢ/∂qⱼ
-    fn at_point(&mut self, force: &Expr, point: &Expr) -> Option<(ExprId, Vec<(usize, ExprId)>)> {
+    /// Each component with that of its point.
+    fn at_point(&mut self, force: &Expr, point: &Expr) -> Option<Vec<(ExprId, Worked)>> {
         let (f, p) = (self.value(force, FORCE), self.value(point, POINT));
         let (f, p) = (f?, p?);
         if f.length() != p.length() {
@@ -65,17 +68,12 @@ impl Elaboration<'_> {
             );
             return None;
         }
-        let positions: Vec<Symbol> = self.system.coordinates.iter().map(|q| q.position).collect();
-        let generalized = self.project(&f, &p, &positions);
-        let value = match f.as_slice() {
-            [only] => *only,
-            f => norm(&mut self.system.pool, f),
-        };
-        Some((value, generalized))
+        let components = f.iter().zip(&p);
+        Some(components.map(|(&f, &p)| (f, Worked::Point(p))).collect())
     }
 
-    /// Qⱼ = f ∂s/∂vⱼ
-    fn along(&mut self, force: &Expr, speed: &Expr) -> Option<(ExprId, Vec<(usize, ExprId)>)> {
+    /// The force and the velocity along which it acts.
+    fn along(&mut self, force: &Expr, speed: &Expr) -> Option<(ExprId, Worked)> {
         let (f, s) = (self.scalar(force, FORCE), self.scalar(speed, SPEED));
         let (f, s) = (f?, s?);
         if self.depth(&[s]) < Depth::Velocity {
@@ -87,20 +85,27 @@ impl Elaboration<'_> {
             );
             return None;
         }
-        let velocities = self.velocities();
-        Some((f, self.project(&[f], &[s], &velocities)))
+        Some((f, Worked::Speed(s)))
     }
 
-    /// Σ fᵢ ∂pᵢ/∂xⱼ for every symbol xⱼ, zeros left out.
-    fn project(&mut self, f: &[ExprId], p: &[ExprId], symbols: &[Symbol]) -> Vec<(usize, ExprId)> {
-        let pool = &mut self.system.pool;
+    /// Qⱼ = Σ fᵢ ∂pᵢ/∂qⱼ, or f ∂s/∂vⱼ along a velocity; zeros left out.
+    fn project(&mut self, components: &[(ExprId, Worked)]) -> Vec<(usize, ExprId)> {
+        if let &[(force, Worked::Coordinate(index))] = components {
+            return vec![(index, force)];
+        }
+        let System {
+            pool, coordinates, ..
+        } = &mut self.system;
         let mut generalized = Vec::new();
-        for (j, &symbol) in symbols.iter().enumerate() {
-            let terms: Vec<ExprId> = f
+        for (j, coordinate) in coordinates.iter().enumerate() {
+            let terms: Vec<ExprId> = components
                 .iter()
-                .zip(p)
-                .map(|(&f, &p)| {
-                    let slope = pool.differentiate(p, symbol);
+                .map(|&(f, worked)| {
+                    let slope = match worked {
+                        Worked::Point(p) => pool.differentiate(p, coordinate.position),
+                        Worked::Speed(s) => pool.differentiate(s, coordinate.velocity),
+                        Worked::Coordinate(index) => pool.integer(i64::from(index == j)),
+                    };
                     pool.mul(f, slope)
                 })
                 .collect();

@@ -11,6 +11,7 @@ mod checks;
 mod constraints;
 mod contacts;
 mod declare;
+mod declared;
 mod degree;
 mod elaborate;
 mod energies;
@@ -37,6 +38,7 @@ use crate::symbolic::{ExprId, Pool, Symbol};
 use proc_macro2::{Ident, Span, TokenStream};
 
 pub use checks::{Check, Premise, checks};
+pub use declared::{Declared, declared};
 pub use elaborate::{Scope, scoped, system};
 pub(crate) use names::shouting;
 
@@ -289,8 +291,21 @@ pub struct Force {
     pub value: ExprId,
     /// Q per coordinate (index, Qᵢ).
     pub generalized: Vec<(usize, ExprId)>,
+    /// As declared: each component with what it does work on.
+    pub components: Vec<(ExprId, Worked)>,
     /// Symbol that stands for its value in outputs.
     pub force: Symbol,
+}
+
+/// What a component of a force does work on.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Worked {
+    /// This coordinate.
+    Coordinate(usize),
+    /// A component of the point at which it acts: Q = f ∂p/∂q.
+    Point(ExprId),
+    /// The velocity along which it acts: Q = f ∂s/∂v.
+    Speed(ExprId),
 }
 
 /// Rayleigh dissipation: Q = −∂R/∂v.

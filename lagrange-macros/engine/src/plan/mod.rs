@@ -1,11 +1,11 @@
-//! Equations → [`Program`]: which operations compute the outputs, shared, masked by need, in static slots.
+//! Equations → [`Program`]: which operations compute the outputs, shared, masked by need.
 //!
 //! ```text
 //! expression → form (fixed scale · varying node) → n-ary graph with shared pairs → operations → blocks
 //! ```
 //!
 //! What depends on parameters only is computed once per run by the constants program; everything else is an
-//! operation of `lagrange_core::arithmetic::Arithmetic` in one of two tapes, before the solve and after it.
+//! operation of `lagrange_core::program` in one of two tapes, before the solve and after it.
 
 mod constants;
 mod distribute;
@@ -82,6 +82,11 @@ impl Program {
     /// Where an output is found.
     pub fn place(&self, output: OutputId) -> Place {
         self.places[output.0]
+    }
+
+    /// Inputs of a stage.
+    pub fn inputs(&self, stage: Stage) -> Vec<Symbol> {
+        inputs(&self.equations.system, stage)
     }
 
     /// Arithmetic operations of a stage that run while `held` (words of a need mask) is held.

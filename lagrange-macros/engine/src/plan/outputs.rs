@@ -80,13 +80,12 @@ impl Target {
         }
         for (needs, e) in &self.terms {
             let form = former.form(*e);
-            // The slots of the sums are given when the order is known.
             let (node, mode) = match (entries.is_empty(), self.start) {
                 (true, Some(start)) => (former.offset(start, form), Mode::Set),
                 (true, None) => (former.node(form), Mode::Set),
                 _ => {
                     let (negative, node) = former.signed_node(form);
-                    (node, if negative { Mode::Sub(0) } else { Mode::Add(0) })
+                    (node, if negative { Mode::Sub } else { Mode::Add })
                 }
             };
             entries.push(Entry {

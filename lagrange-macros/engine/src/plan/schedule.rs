@@ -2,10 +2,10 @@
 
 use super::lower::Lowered;
 use super::needs::NeedSet;
-use super::tape::{Block, Mode, Step, Tape, Value, Write};
+use super::tape::{Block, Step, Tape, Value, Write};
 use std::collections::BTreeMap;
 
-/// What enters an output, when asked for; slots are not given yet.
+/// What enters an output, when asked for.
 pub(super) struct Demand {
     /// Who asks.
     pub needs: NeedSet,
@@ -51,7 +51,6 @@ pub(super) fn schedule(
             let step = Step {
                 value: *value,
                 operation: *operation,
-                to: 0,
             };
             block(&needs_of[index], &mut |block| block.steps.push(step));
         }
@@ -78,12 +77,12 @@ fn rank(needs: &NeedSet) -> Rank {
     )
 }
 
-/// Numbers values and slots in the order in which they are computed.
+/// Numbers values in the order in which they are computed.
 fn numbered(mut blocks: Vec<Block>, inputs: usize, outputs: usize, values: usize) -> Tape {
     let mut names: Vec<Option<usize>> = (0..values)
         .map(|value| (value < inputs).then_some(value))
         .collect();
-    let (mut values, mut slots) = (inputs, 0);
+    let mut values = inputs;
     for block in &mut blocks {
         for step in &mut block.steps {
             let count = step.operation.values();
@@ -94,26 +93,16 @@ fn numbered(mut blocks: Vec<Block>, inputs: usize, outputs: usize, values: usize
             *step = Step {
                 value: name(step.value),
                 operation: step.operation.renamed(name),
-                to: slots,
             };
             values += count;
-            slots += step.operation.slots();
         }
         for write in &mut block.writes {
             write.value = Value(names[write.value.0].expect("outputs come last"));
-            match &mut write.mode {
-                Mode::Set => {}
-                Mode::Add(to) | Mode::Sub(to) => {
-                    *to = slots;
-                    slots += 1;
-                }
-            }
         }
     }
     Tape {
         inputs,
         values,
-        slots,
         outputs,
         blocks,
     }

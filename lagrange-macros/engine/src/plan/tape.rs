@@ -1,6 +1,6 @@
 //! What a program is made of: straight-line operations in masked blocks.
 //!
-//! The operations are those of `lagrange_core::arithmetic::Arithmetic`, so emission is a transcription. A tape is
+//! The operations are those of `lagrange_core::program`, so emission is a transcription. A tape is
 //! in single assignment: value `i < inputs` is input `i`, every step defines the next value (or two).
 
 use super::needs::NeedSet;
@@ -92,17 +92,6 @@ impl Operation {
         }
     }
 
-    /// Number of slots that it owns.
-    pub fn slots(self) -> usize {
-        use Operation::*;
-        match self {
-            SinCos(_) | SinhCosh(_) | Tan(_) | Tanh(_) | Asin(_) | Acos(_) | Atan(_)
-            | Atan2(..) => 2,
-            Select(..) | Choose(..) => 0,
-            _ => 1,
-        }
-    }
-
     /// Whether it is arithmetic: setting a constant or choosing between two nodes is not.
     pub fn is_work(self) -> bool {
         !matches!(
@@ -189,8 +178,6 @@ pub struct Step {
     pub value: Value,
     /// What it does.
     pub operation: Operation,
-    /// First slot that it owns.
-    pub to: usize,
 }
 
 /// How a value enters an output.
@@ -198,10 +185,10 @@ pub struct Step {
 pub enum Mode {
     /// The output becomes the value.
     Set,
-    /// The value is added; the sum is in this slot.
-    Add(usize),
-    /// The value is subtracted; the difference is in this slot.
-    Sub(usize),
+    /// The value is added.
+    Add,
+    /// The value is subtracted.
+    Sub,
 }
 
 /// A value enters an output.
@@ -234,8 +221,6 @@ pub struct Tape {
     pub inputs: usize,
     /// Number of values, with the inputs.
     pub values: usize,
-    /// Number of slots.
-    pub slots: usize,
     /// Number of outputs.
     pub outputs: usize,
     /// The program.

@@ -181,6 +181,10 @@ fn accuracy(run: &Shown) -> String {
             format!("{relative:.1e} of its scale"),
         ));
     }
+    if let Some(certificate) = &outcome.certificate {
+        let text = escaped(&certificate.to_string());
+        rows.push(line("checked against the declaration", text));
+    }
     rows.extend([
         line(
             "steps",

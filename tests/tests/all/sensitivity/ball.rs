@@ -1,6 +1,7 @@
 //! Derivatives of a bouncing ball: impacts, their limit, and second derivatives.
 
 use super::{USUAL, run, same_slopes, seeded};
+use lagrange_core::Runnable;
 use lagrange_core::arithmetic::Dual;
 use lagrange_core::prelude::*;
 use lagrange_tests::agree;
@@ -23,7 +24,7 @@ pub struct Ball<T = f64> {
     speed: T,
 }
 
-pub fn ball<T: Scalar>(
+pub fn ball<T: Runnable>(
     [gravity, bounce, height, speed]: [T; 4],
     until: f64,
     settings: (f64, Method),

@@ -4,11 +4,12 @@ mod ball;
 mod platform;
 mod switches;
 
+use lagrange_core::Runnable;
 use lagrange_core::arithmetic::Dual;
 use lagrange_core::prelude::*;
 use lagrange_tests::agree;
 
-fn run<S: System>(
+fn run<S: System<Scalar: Runnable>>(
     scene: &S,
     start: State<S::Scalar>,
     until: f64,

@@ -2,6 +2,7 @@
 
 use super::ball::ball;
 use super::{TIGHT, USUAL, all, compare, run, same_slopes, seeded};
+use lagrange_core::Runnable;
 use lagrange_core::arithmetic::Dual;
 use lagrange_core::prelude::*;
 use lagrange_tests::agree;
@@ -24,7 +25,7 @@ struct Shell<T = f64> {
     angle: T,
 }
 
-fn shell<T: Scalar>(
+fn shell<T: Runnable>(
     [mass, gravity, radius, angle]: [T; 4],
     settings: (f64, Method),
 ) -> Trajectory<Shell<T>> {
@@ -102,7 +103,7 @@ struct Wheel<T = f64> {
     angle: T,
 }
 
-fn wheel<T: Scalar>(
+fn wheel<T: Runnable>(
     [inertia, mass, radius, mu_static, mu_kinetic, angle]: [T; 6],
     settings: (f64, Method),
 ) -> Trajectory<Wheel<T>> {

@@ -159,6 +159,7 @@ impl Build {
             name: item(text),
             value,
             generalized,
+            components: Vec::new(),
             force,
         });
         self

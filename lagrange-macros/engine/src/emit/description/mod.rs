@@ -2,11 +2,12 @@
 
 mod items;
 
+use super::encoded::encoded;
 use super::names::{self, index};
 use crate::ast::Impacts;
 use crate::derive::{Equations, NeedId, OutputId};
 use crate::model::{EnergyTerm, System, Watch};
-use crate::plan::{Program, Tape};
+use crate::plan::Program;
 use crate::symbolic::Symbol;
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -20,8 +21,8 @@ pub fn description(program: &Program) -> TokenStream {
     let writer = Writer { program };
     let (name, documentation) = (system.name.to_string(), &system.documentation);
     let needs = index(equations.needs.len());
-    let constants = index(program.constants.outputs);
-    let (motion, report) = (writer.shape(&program.motion), writer.shape(&program.report));
+    let [constants, motion, report] = [&program.constants, &program.motion, &program.report]
+        .map(|tape| encoded(&program.equations.system, tape));
     let (parameters, coordinates) = (writer.parameters(), writer.coordinates());
     let (mass, forcing) = (writer.mass(), writer.places(&structure.forcing));
     let inertia = writer.inertia();
@@ -142,11 +143,6 @@ impl Writer<'_> {
             }
             None => quote!(::core::option::Option::None),
         }
-    }
-
-    fn shape(&self, tape: &Tape) -> TokenStream {
-        let (core, slots, outputs) = (self.core(), index(tape.slots), index(tape.outputs));
-        quote!(#core::system::TapeShape { slots: #slots, outputs: #outputs })
     }
 
     fn parameters(&self) -> Vec<TokenStream> {

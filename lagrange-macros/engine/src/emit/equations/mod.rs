@@ -66,7 +66,7 @@ pub fn equations(program: &Program) -> TokenStream {
             }
         }
 
-        fn mode_equations<#number: #core::equations::Number>(
+        fn mode_equations<#number: #core::arithmetic::Number>(
         ) -> &'static [#core::equations::ModeEquations<#number>] {
             #(#functions)*
             const { &[#(#entries),*] }

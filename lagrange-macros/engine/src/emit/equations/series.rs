@@ -97,7 +97,7 @@ pub fn function(
     let bound = names::array(&rows, quote!(#rows.first_chunk_mut::<#count>()));
     quote! {
         #[doc = #heading]
-        fn #name<#number: #core::equations::Number>(
+        fn #name<#number: #core::arithmetic::Number>(
             #c: &[#number],
             #held: &#core::system::Held,
             #order: usize,
@@ -574,8 +574,8 @@ impl Expansion<'_> {
                 (Mode::Set, None) => quote!(let mut #sum = #number::of(0.0);),
                 (Mode::Set, Some(d)) => quote!(let mut #sum = #d;),
                 (_, None) => TokenStream::new(),
-                (Mode::Add(_), Some(d)) => quote!(#sum = #sum + #d;),
-                (Mode::Sub(_), Some(d)) => quote!(#sum = #sum - #d;),
+                (Mode::Add, Some(d)) => quote!(#sum = #sum + #d;),
+                (Mode::Sub, Some(d)) => quote!(#sum = #sum - #d;),
             }
         });
         quote!(#(#lines)*)

@@ -87,6 +87,8 @@ impl<'a> Elimination<'a> {
         let safe = local("safe");
         let mut code = quote!(let mut #safe = true;);
         let mut factors = Vec::new();
+        // Least share that a pivot before has kept of its diagonal element: later ones miss it too.
+        let mut least: Option<Ident> = None;
         // Diagonal elements that pivots are compared with: of rows that stay, once the accelerations are eliminated.
         let mut before: Vec<TokenStream> = (0..size).map(|i| read(&m[i][i])).collect();
         for (step, &p) in order.iter().enumerate() {
@@ -107,7 +109,20 @@ impl<'a> Elimination<'a> {
                 // The constants have been tested.
             } else if leading && system.symmetric {
                 let original = &before[p];
-                code.extend(quote!(#safe &= #number::is_positive_share(#pivot, #original);));
+                let tested = match &least {
+                    None => quote!(#pivot),
+                    Some(least) => quote!((#least * #pivot)),
+                };
+                code.extend(quote!(#safe &= #number::is_positive_share(#tested, #original);));
+                if matches!(m[p][p], Element::Reduced(_)) {
+                    let share = quote!(#pivot / #original);
+                    let name = local(&format!("least{step}"));
+                    code.extend(match &least {
+                        None => quote!(let #name = #share;),
+                        Some(least) => quote!(let #name = #number::lesser(#least, #share);),
+                    });
+                    least = Some(name);
+                }
             } else {
                 let below = rest.iter().map(|&i| &m[i][p]);
                 let below = below.filter(|e| !matches!(e, Element::Zero)).map(read);

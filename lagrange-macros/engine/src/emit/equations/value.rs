@@ -64,7 +64,7 @@ pub fn function(name: &Ident, heading: &str, program: &Program, mode: &ModeProgr
     let safe = local("safe");
     quote! {
         #[doc = #heading]
-        fn #name<#number: #core::equations::Number>(
+        fn #name<#number: #core::arithmetic::Number>(
             #c: &[#number],
             #held: &#core::system::Held,
             (#t, #q, #v): (#number, &[#number], &[#number]),

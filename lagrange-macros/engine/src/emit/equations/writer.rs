@@ -139,8 +139,8 @@ impl Writer<'_> {
             let (sum, value) = (names::sum(write.output), names::value(write.value));
             match write.mode {
                 Mode::Set => quote!(let mut #sum = #value;),
-                Mode::Add(_) => quote!(#sum = #sum + #value;),
-                Mode::Sub(_) => quote!(#sum = #sum - #value;),
+                Mode::Add => quote!(#sum = #sum + #value;),
+                Mode::Sub => quote!(#sum = #sum - #value;),
             }
         });
         quote!(#(#lines)*)

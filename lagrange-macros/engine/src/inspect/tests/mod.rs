@@ -54,10 +54,11 @@ fn derivation(tokens: TokenStream) -> crate::inspect::Derivation {
 fn what_is_read_does_not_reach_what_is_emitted() {
     for (name, tokens) in scenes() {
         let (declaration, mut program) = planned(tokens);
-        let before = crate::emit::emit(&program, &[]).to_string();
+        let declared = crate::model::declared(&declaration);
+        let before = crate::emit::emit(&program, &declared, &[]).to_string();
         crate::inspect::derivation(&declaration, &mut program, &[], None).expect("all modes");
         assert!(
-            before == crate::emit::emit(&program, &[]).to_string(),
+            before == crate::emit::emit(&program, &declared, &[]).to_string(),
             "{name}"
         );
     }

@@ -95,12 +95,7 @@ impl Elaboration<'_> {
             }
         };
         let position = self.system.pool.sub(a, b);
-        let rate = {
-            let directions = std::mem::take(&mut self.directions);
-            let rate = self.system.pool.derivative_along(position, &directions);
-            self.directions = directions;
-            rate
-        };
+        let rate = self.time_rate(position);
         let difference = self
             .system
             .pool

@@ -1,0 +1,246 @@
+//! What the equations of a mode work with: a number, or the numbers of several motions side by side.
+
+use super::{Pack, Scalar};
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+/// A number of a motion, or one of each of several motions: every operation gives each what it would give it alone.
+pub trait Number:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + 'static
+{
+    /// The same number in every place.
+    fn of(x: f64) -> Self;
+    /// x y + z, rounded as [`Scalar::mul_add`] rounds.
+    fn mul_add(self, y: Self, z: Self) -> Self;
+    /// √x
+    fn sqrt(self) -> Self;
+    /// eˣ
+    fn exp(self) -> Self;
+    /// ln x
+    fn ln(self) -> Self;
+    /// (sin x, cos x)
+    fn sin_cos(self) -> (Self, Self);
+    /// tan x
+    fn tan(self) -> Self;
+    /// asin x
+    fn asin(self) -> Self;
+    /// acos x
+    fn acos(self) -> Self;
+    /// atan x
+    fn atan(self) -> Self;
+    /// Angle of the point (x, y), y = self.
+    fn atan2(self, x: Self) -> Self;
+    /// (sinh x, cosh x)
+    fn sinh_cosh(self) -> (Self, Self);
+    /// tanh x
+    fn tanh(self) -> Self;
+    /// xᶜ for a real exponent.
+    fn powf(self, c: f64) -> Self;
+    /// Whether one of them is zero.
+    fn any_zero(self) -> bool;
+    /// Whether all are positive.
+    fn all_positive(self) -> bool;
+    /// Whether all are between −1 and 1.
+    fn all_inside_unit(self) -> bool;
+    /// The smaller of both.
+    fn lesser(a: Self, b: Self) -> Self;
+    /// Whether a pivot of a positive definite matrix has kept a safe share of its diagonal element.
+    fn is_positive_share(pivot: Self, diagonal: Self) -> bool;
+    /// Whether a pivot is not small beside what it was before, nor beside the elements below.
+    fn is_safe_pivot(pivot: Self, before: Self, below: &[Self]) -> bool;
+}
+
+/// The distance from 1 to the next number of a type.
+#[inline(always)]
+pub(crate) fn epsilon<T: Scalar>() -> f64 {
+    let double = T::from_f64(1.0 + f64::EPSILON).value() > 1.0;
+    if double {
+        f64::EPSILON
+    } else {
+        f64::from(f32::EPSILON)
+    }
+}
+
+/// A pivot of M below this share of its diagonal element has lost 10 of 16 digits: M is not safely positive definite. What
+/// earlier pivots have lost is missing from this one too: together they must not lose more.
+#[inline(always)]
+pub(crate) fn positive_definite<T: Scalar>() -> f64 {
+    524_288.0 * epsilon::<T>()
+}
+
+/// Factors of an elimination without exchange of rows up to the inverse of this lose two digits.
+const SMALLEST: f64 = 0.01;
+/// A pivot that has lost this share to the rows before may be that of a row that follows from them.
+const DEPENDENT: f64 = 1e-6;
+
+impl<T: Scalar> Number for T {
+    #[inline(always)]
+    fn of(x: f64) -> Self {
+        T::from_f64(x)
+    }
+    #[inline(always)]
+    fn mul_add(self, y: Self, z: Self) -> Self {
+        Scalar::mul_add(self, y, z)
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Scalar::sqrt(self)
+    }
+    #[inline(always)]
+    fn exp(self) -> Self {
+        Scalar::exp(self)
+    }
+    #[inline(always)]
+    fn ln(self) -> Self {
+        Scalar::ln(self)
+    }
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        Scalar::sin_cos(self)
+    }
+    #[inline(always)]
+    fn tan(self) -> Self {
+        Scalar::tan(self)
+    }
+    #[inline(always)]
+    fn asin(self) -> Self {
+        Scalar::asin(self)
+    }
+    #[inline(always)]
+    fn acos(self) -> Self {
+        Scalar::acos(self)
+    }
+    #[inline(always)]
+    fn atan(self) -> Self {
+        Scalar::atan(self)
+    }
+    #[inline(always)]
+    fn atan2(self, x: Self) -> Self {
+        Scalar::atan2(self, x)
+    }
+    #[inline(always)]
+    fn sinh_cosh(self) -> (Self, Self) {
+        Scalar::sinh_cosh(self)
+    }
+    #[inline(always)]
+    fn tanh(self) -> Self {
+        Scalar::tanh(self)
+    }
+    #[inline(always)]
+    fn powf(self, c: f64) -> Self {
+        Scalar::powf(self, c)
+    }
+    #[inline(always)]
+    fn any_zero(self) -> bool {
+        self.value() == 0.0
+    }
+    #[inline(always)]
+    fn all_positive(self) -> bool {
+        self.value() > 0.0
+    }
+    #[inline(always)]
+    fn all_inside_unit(self) -> bool {
+        self.value().abs() < 1.0
+    }
+    #[inline(always)]
+    fn lesser(a: Self, b: Self) -> Self {
+        if b.value() < a.value() { b } else { a }
+    }
+    #[inline(always)]
+    fn is_positive_share(pivot: Self, diagonal: Self) -> bool {
+        let (pivot, diagonal) = (pivot.value(), diagonal.value());
+        pivot > positive_definite::<T>() * diagonal && diagonal > 0.0
+    }
+    #[inline(always)]
+    fn is_safe_pivot(pivot: Self, before: Self, below: &[Self]) -> bool {
+        let size = pivot.value().abs();
+        let below = below.iter().fold(0.0, |largest: f64, x| {
+            let x = x.value().abs();
+            if x > largest { x } else { largest }
+        });
+        size > DEPENDENT * before.value().abs() && size >= SMALLEST * below && size > 0.0
+    }
+}
+
+/// The same for every motion.
+macro_rules! each {
+    ($($name:ident $(, $argument:ident)*;)*) => {$(
+        #[inline(always)]
+        fn $name(self $(, $argument: Self)*) -> Self {
+            Pack(core::array::from_fn(|lane| Scalar::$name(self.0[lane] $(, $argument.0[lane])*)))
+        }
+    )*};
+}
+
+impl<T: Scalar, const L: usize> Number for Pack<T, L> {
+    #[inline(always)]
+    fn of(x: f64) -> Self {
+        Pack([T::from_f64(x); L])
+    }
+    each! {
+        mul_add, y, z;
+        sqrt;
+        exp;
+        ln;
+        tan;
+        asin;
+        acos;
+        atan;
+        atan2, x;
+        tanh;
+    }
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        let pairs = self.0.map(Scalar::sin_cos);
+        (
+            Pack(pairs.map(|pair| pair.0)),
+            Pack(pairs.map(|pair| pair.1)),
+        )
+    }
+    #[inline(always)]
+    fn sinh_cosh(self) -> (Self, Self) {
+        let pairs = self.0.map(Scalar::sinh_cosh);
+        (
+            Pack(pairs.map(|pair| pair.0)),
+            Pack(pairs.map(|pair| pair.1)),
+        )
+    }
+    #[inline(always)]
+    fn powf(self, c: f64) -> Self {
+        Pack(self.0.map(|x| Scalar::powf(x, c)))
+    }
+    #[inline(always)]
+    fn any_zero(self) -> bool {
+        self.0.into_iter().any(Number::any_zero)
+    }
+    #[inline(always)]
+    fn all_positive(self) -> bool {
+        self.0.into_iter().all(Number::all_positive)
+    }
+    #[inline(always)]
+    fn all_inside_unit(self) -> bool {
+        self.0.into_iter().all(Number::all_inside_unit)
+    }
+    #[inline(always)]
+    fn lesser(a: Self, b: Self) -> Self {
+        Pack(core::array::from_fn(|lane| T::lesser(a.0[lane], b.0[lane])))
+    }
+    #[inline(always)]
+    fn is_positive_share(pivot: Self, diagonal: Self) -> bool {
+        (0..L).all(|lane| T::is_positive_share(pivot.0[lane], diagonal.0[lane]))
+    }
+    #[inline(always)]
+    fn is_safe_pivot(pivot: Self, before: Self, below: &[Self]) -> bool {
+        (0..L).all(|lane| {
+            below
+                .iter()
+                .all(|x| T::is_safe_pivot(pivot.0[lane], before.0[lane], &[x.0[lane]]))
+                && T::is_safe_pivot(pivot.0[lane], before.0[lane], &[])
+        })
+    }
+}

@@ -1,0 +1,293 @@
+//! The declared equations at a state: what balances in every coordinate, and how large its terms are.
+
+use crate::declaration::{Declaration, Evaluator, Inputs, Seed, Worked};
+use crate::effects::{Effects, Item};
+use crate::mode::{FrictionMode, Mode};
+use crate::system::Description;
+
+/// Evaluates the declared quantities with the effects of a run.
+#[derive(Debug)]
+pub(super) struct Equations {
+    pub d: &'static Description,
+    pub declaration: &'static Declaration,
+    pub effects: Effects,
+    pub parameters: Vec<f64>,
+    pub values: Evaluator,
+    /// Per coordinate: what should vanish.
+    pub residual: Vec<f64>,
+    /// Per coordinate: the sum of the absolute values of its terms.
+    pub size: Vec<f64>,
+    seeds: [Vec<Seed>; 2],
+    gradient: [Vec<f64>; 3],
+    zeros: Vec<f64>,
+    loads: Vec<f64>,
+}
+
+/// A state and what acts in it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Situation<'a> {
+    pub time: f64,
+    pub q: &'a [f64],
+    pub v: &'a [f64],
+    /// Empty: zero.
+    pub acceleration: &'a [f64],
+    /// Of every row; empty: zero.
+    pub forces: &'a [f64],
+    /// Values of applied forces, for outputs; empty: zero.
+    pub loads: &'a [f64],
+}
+
+/// A quantity that should vanish or stay positive, by its value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Level {
+    /// A function of positions; its rate vanishes with it.
+    Position,
+    /// Linear in the velocities.
+    Velocity,
+}
+
+impl Equations {
+    pub fn new(
+        d: &'static Description,
+        declaration: &'static Declaration,
+        effects: &Effects,
+        parameters: Vec<f64>,
+    ) -> Self {
+        let n = d.coordinates.len();
+        let zero = || vec![0.0; n];
+        Self {
+            d,
+            declaration,
+            effects: effects.clone(),
+            parameters,
+            values: Evaluator::new(declaration),
+            residual: zero(),
+            size: zero(),
+            seeds: [Vec::new(), Vec::new()],
+            gradient: [zero(), zero(), zero()],
+            zeros: vec![0.0; n.max(d.rows.len())],
+            loads: vec![0.0; d.forces.len()],
+        }
+    }
+
+    pub fn includes(&self, item: Item) -> bool {
+        self.effects.includes(self.d, item)
+    }
+
+    /// Level of constraint `i`.
+    pub fn level(&self, i: usize) -> Level {
+        match self.d.rows[self.d.constraints[i].row].position {
+            Some(_) => Level::Position,
+            None => Level::Velocity,
+        }
+    }
+
+    /// Takes a state.
+    pub fn take(&mut self, at: Situation<'_>) {
+        let (n, m) = (self.d.coordinates.len(), self.d.rows.len());
+        let zeros = &self.zeros;
+        fn or<'a>(given: &'a [f64], zeros: &'a [f64]) -> &'a [f64] {
+            if given.is_empty() { zeros } else { given }
+        }
+        self.values.evaluate(Inputs {
+            parameters: &self.parameters,
+            time: at.time,
+            q: at.q,
+            v: at.v,
+            acceleration: or(at.acceleration, &zeros[..n]),
+            forces: or(at.forces, &zeros[..m]),
+            loads: or(at.loads, &self.loads),
+        });
+    }
+
+    /// d/dt ∂L/∂v − ∂L/∂q − Q − Σ λ∇g at the state taken, with the forces `lambda` of all rows.
+    pub fn balance(&mut self, lambda: &[f64]) {
+        self.begin();
+        // Each energy once as it changes with v, and twice as it changes with q: see `crate::declaration`.
+        self.seed_energies(1, 1.0);
+        self.seed_energies(0, -2.0);
+        self.seed_rows(lambda);
+        let (d, values) = (self.declaration, &self.values);
+        let [still, moving] = &mut self.seeds;
+        for (i, force) in d.forces.iter().enumerate() {
+            if !self.effects.includes(self.d, Item::Force(i)) {
+                continue;
+            }
+            for &(f, worked) in force.components {
+                let f = values.value(f);
+                match worked {
+                    Worked::Coordinate(j) => {
+                        self.residual[j] -= f;
+                        self.size[j] += f.abs();
+                    }
+                    Worked::Point(p) => still.push((p, 0, -f)),
+                    Worked::Speed(s) => moving.push((s, 0, -f)),
+                }
+            }
+        }
+        for (i, &r) in d.dissipations.iter().enumerate() {
+            if self.effects.includes(self.d, Item::Dissipation(i)) {
+                moving.push((r, 0, 1.0));
+            }
+        }
+        self.sweep();
+    }
+
+    /// ±∂L/∂v at the state taken, added to what balances; `begin` and `finish` with [`Self::begin`] and [`Self::sweep`].
+    pub fn add_momenta(&mut self, factor: f64) {
+        self.seeds.iter_mut().for_each(Vec::clear);
+        self.seed_energies_at(1, 0, factor);
+        self.sweep();
+    }
+
+    /// − Σ λ∇g at the state taken, added to what balances.
+    pub fn add_impulses(&mut self, impulses: &[f64]) {
+        self.seeds.iter_mut().for_each(Vec::clear);
+        self.seed_rows(impulses);
+        self.sweep();
+    }
+
+    pub fn begin(&mut self) {
+        self.residual.fill(0.0);
+        self.size.fill(0.0);
+        self.seeds.iter_mut().for_each(Vec::clear);
+    }
+
+    fn seed_energies(&mut self, power: usize, factor: f64) {
+        self.seed_energies_at(power, power, factor);
+    }
+
+    fn seed_energies_at(&mut self, sweep: usize, power: usize, factor: f64) {
+        let (kinetic, potential) = (self.declaration.kinetic, self.declaration.potential);
+        for (i, &value) in kinetic.iter().enumerate() {
+            if self.effects.includes(self.d, Item::Kinetic(i)) {
+                self.seeds[sweep].push((value, power, factor));
+            }
+        }
+        for (i, &value) in potential.iter().enumerate() {
+            if self.effects.includes(self.d, Item::Potential(i)) {
+                self.seeds[sweep].push((value, power, -factor));
+            }
+        }
+    }
+
+    fn seed_rows(&mut self, lambda: &[f64]) {
+        for (i, &value) in self.declaration.constraints.iter().enumerate() {
+            let force = lambda[self.d.constraints[i].row];
+            let sweep = usize::from(self.level(i) == Level::Velocity);
+            self.seeds[sweep].push((value, 0, -force));
+        }
+        for (contact, place) in self.declaration.contacts.iter().zip(self.d.contacts) {
+            self.seeds[0].push((contact.gap, 0, -lambda[place.row]));
+        }
+        for (friction, place) in self.declaration.frictions.iter().zip(self.d.frictions) {
+            for (k, &slip) in friction.slip.iter().enumerate() {
+                self.seeds[1].push((slip, 0, -lambda[place.row + k]));
+            }
+        }
+        self.seeds
+            .iter_mut()
+            .for_each(|seeds| seeds.retain(|seed| seed.2 != 0.0));
+    }
+
+    fn sweep(&mut self) {
+        for (power, seeds) in self.seeds.iter().enumerate() {
+            self.values
+                .sweep(seeds, power, &mut self.residual, &mut self.size);
+        }
+    }
+
+    /// How much a value changes when each position and velocity x changes by 1 + |x|.
+    pub fn reach(&mut self, value: usize, power: usize, at: Situation<'_>) -> f64 {
+        let mut sum = 0.0;
+        for (k, state) in [at.q, at.v].into_iter().enumerate() {
+            let gradient = &mut self.gradient[k];
+            gradient.fill(0.0);
+            self.values
+                .gradient_size(&[(value, power, 1.0)], k, gradient);
+            sum += gradient
+                .iter()
+                .zip(state)
+                .map(|(g, x)| g * (1.0 + x.abs()))
+                .sum::<f64>();
+        }
+        sum
+    }
+
+    /// The size of the forces that balance, as a force along the gradient of a value: by velocities for one of velocity level.
+    pub fn force_along(&mut self, value: usize, level: Level) -> f64 {
+        let gradient = &mut self.gradient[0];
+        gradient.fill(0.0);
+        let power = usize::from(level == Level::Velocity);
+        self.values
+            .gradient_size(&[(value, 0, 1.0)], power, gradient);
+        let (mut along, mut square) = (0.0, 0.0);
+        for (g, size) in gradient.iter().zip(&self.size) {
+            along += g * size;
+            square += g * g;
+        }
+        if square > 0.0 { along / square } else { 0.0 }
+    }
+
+    /// The second rate of a value of position level or the first of one of velocity level, and the size of its terms.
+    pub fn acceleration(&mut self, value: usize, level: Level, at: Situation<'_>) -> (f64, f64) {
+        let (power, factor) = match level {
+            Level::Position => (2, 2.0),
+            Level::Velocity => (1, 1.0),
+        };
+        let mut size = 0.0;
+        for (k, state) in [at.q, at.v, at.acceleration]
+            .into_iter()
+            .enumerate()
+            .skip(1)
+        {
+            let gradient = &mut self.gradient[k];
+            gradient.fill(0.0);
+            self.values
+                .gradient_size(&[(value, power, 1.0)], k, gradient);
+            let half = if k == 2 { 0.5 } else { 1.0 };
+            size += gradient
+                .iter()
+                .zip(state)
+                .map(|(g, x)| half * g * x.abs())
+                .sum::<f64>();
+        }
+        (
+            factor * self.values.coefficient(value, power),
+            factor * size,
+        )
+    }
+
+    /// The normal force of friction `f`, as it is in the state taken with these forces, and the size of forces along its source.
+    pub fn normal(&mut self, f: usize, lambda: &[f64]) -> (f64, f64) {
+        use crate::system::Normal;
+        match self.d.frictions[f].normal {
+            Normal::Contact(c) => {
+                let declared = self.declaration.contacts[c];
+                let factor = declared.normal_factor.map_or(1.0, |e| self.values.value(e));
+                let size = self.force_along(declared.gap, Level::Position);
+                (factor * lambda[self.d.contacts[c].row], factor * size)
+            }
+            Normal::Constraint(i) => {
+                let size = self.force_along(self.declaration.constraints[i], self.level(i));
+                (lambda[self.d.constraints[i].row].abs(), size)
+            }
+            Normal::Given(_) => {
+                let given = self.declaration.frictions[f].normal;
+                let normal = given.map_or(0.0, |e| self.values.value(e));
+                (normal, normal.abs())
+            }
+        }
+    }
+
+    /// Whether a constraint acts in a mode.
+    pub fn constraint_acts(&self, i: usize, mode: &Mode) -> bool {
+        let contact = self.d.constraints[i].while_contact;
+        self.includes(Item::Constraint(i)) && contact.is_none_or(|c| mode.contacts[c])
+    }
+
+    /// Whether a friction acts in a mode.
+    pub fn friction_acts(&self, f: usize, mode: &Mode) -> bool {
+        self.includes(Item::Friction(f)) && mode.frictions[f] != FrictionMode::Inactive
+    }
+}

@@ -1,0 +1,179 @@
+//! Gaps, stops and marks along the motion, also between the instants that are looked at.
+//!
+//! Where a guard has an extremum between three neighbouring instants it is looked at once more where the parabola through them has
+//! it, if the parabola crosses zero there.
+
+use super::equations::{Equations, Situation};
+use super::{Findings, Subject};
+use crate::arithmetic::Scalar;
+use crate::effects::Item;
+use crate::mode::{FrictionMode, Mode};
+use crate::system::{Condition, Watch};
+use crate::trajectory::{self, Record};
+
+/// What is followed along the motion.
+#[derive(Debug)]
+pub(super) struct Watches {
+    guards: Vec<Guard>,
+    /// Times of logged marks, by mark.
+    marks: Vec<Vec<f64>>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Gap(usize),
+    Stop(usize),
+    Mark(usize),
+}
+
+/// A guard and its last values, with their times.
+#[derive(Debug)]
+struct Guard {
+    kind: Kind,
+    /// Whether a stop has been false.
+    armed: bool,
+    last: Vec<(f64, f64)>,
+}
+
+impl Watches {
+    pub fn new<T: Scalar>(record: &Record<T>) -> Self {
+        let (d, declaration) = (record.description(), record.system.declaration());
+        let known = |list: &[Option<_>], i: usize| list.get(i).is_some_and(Option::is_some);
+        let gaps = (0..declaration.contacts.len()).map(|c| (Kind::Gap(c), Item::Contact(c)));
+        let stops = (0..d.stops.len()).filter(|&i| known(declaration.stops, i));
+        let stops = stops.map(|i| (Kind::Stop(i), Item::Stop(i)));
+        let marks = (0..d.marks.len()).filter(|&i| known(declaration.marks, i));
+        let marks = marks.map(|i| (Kind::Mark(i), Item::Mark(i)));
+        let all = gaps.chain(stops).chain(marks);
+        let taking = all.filter(|(_, item)| record.effects.includes(d, *item));
+        let guards = taking.map(|(kind, _)| Guard {
+            kind,
+            armed: false,
+            last: Vec::new(),
+        });
+        let times = |i: usize| {
+            let events = record.events().iter();
+            let own = events.filter(|e| e.subject == trajectory::Subject::Mark(i));
+            own.map(|e| e.time.value()).collect()
+        };
+        Self {
+            guards: guards.collect(),
+            marks: (0..d.marks.len()).map(times).collect(),
+        }
+    }
+
+    /// The motion has jumped or is in another mode.
+    pub fn forget(&mut self) {
+        self.guards.iter_mut().for_each(|guard| guard.last.clear());
+    }
+
+    /// Looks at the state that `equations` has taken; adds the times at which to look again.
+    pub fn see(
+        &mut self,
+        equations: &mut Equations,
+        findings: &mut Findings,
+        (at, mode): (Situation<'_>, &Mode),
+        passed: &[bool],
+        again: &mut Vec<f64>,
+    ) {
+        for guard in &mut self.guards {
+            let Some((value, reach)) = guard.kind.value(equations, at, mode) else {
+                guard.last.clear();
+                continue;
+            };
+            let d = equations.d;
+            let from = guard.last.last().copied();
+            match guard.kind {
+                Kind::Gap(c) if !passed[c] => {
+                    findings.book(Subject::Gaps, -value, reach, at.time, d.contacts[c].name);
+                }
+                Kind::Gap(_) => {}
+                Kind::Stop(i) => {
+                    if guard.armed {
+                        findings.book(Subject::Stops, value, reach, at.time, d.stops[i].name);
+                    }
+                    guard.armed |= value < 0.0;
+                }
+                Kind::Mark(i) => {
+                    if let Some((before, earlier)) = from {
+                        let zeros = d.marks[i].zeros;
+                        let crossed = earlier < 0.0 && value > 0.0;
+                        let crossed = crossed || zeros && earlier > 0.0 && value < 0.0;
+                        let blur = 1e-9 * (at.time - before);
+                        let near = before - blur..=at.time + blur;
+                        let logged = self.marks[i].iter().any(|t| near.contains(t));
+                        let missed = crossed && !logged;
+                        let error = if missed {
+                            earlier.abs().min(value.abs())
+                        } else {
+                            0.0
+                        };
+                        findings.book(Subject::Marks, error, reach, at.time, d.marks[i].name);
+                    }
+                }
+            }
+            again.extend(guard.remember(at.time, value));
+        }
+    }
+}
+
+impl Guard {
+    /// Keeps the last three values; where the parabola through them has an extremum beyond zero.
+    fn remember(&mut self, time: f64, value: f64) -> Option<f64> {
+        self.last.push((time, value));
+        let &[(t0, a), (t1, b), (t2, c)] = self.last.last_chunk::<3>()?;
+        self.last.remove(0);
+        let extreme = (b - a) * (c - b) < 0.0 && (b < a) == (b > 0.0);
+        if !extreme {
+            return None;
+        }
+        let (left, right) = ((b - a) / (t1 - t0), (c - b) / (t2 - t1));
+        let bend = (right - left) / (t2 - t0);
+        let slope = left + bend * (t1 - t0);
+        let shift = -slope / (2.0 * bend);
+        let lowest = b + slope * shift + bend * shift * shift;
+        (lowest * b < 0.0).then_some(t1 + shift)
+    }
+}
+
+impl Kind {
+    /// Value and reach of a guard; of a gap while its contact is open. Stops and marks are true where it is ≥ 0.
+    fn value(
+        self,
+        equations: &mut Equations,
+        at: Situation<'_>,
+        mode: &Mode,
+    ) -> Option<(f64, f64)> {
+        let (declaration, d) = (equations.declaration, equations.d);
+        let terms = match self {
+            Kind::Gap(c) if mode.contacts[c] => return None,
+            Kind::Gap(c) => {
+                let gap = declaration.contacts[c].gap;
+                return Some((equations.values.value(gap), equations.reach(gap, 0, at)));
+            }
+            Kind::Stop(i) if !holds(&d.stops[i], mode) => return None,
+            Kind::Mark(i) if !holds(&d.marks[i], mode) => return None,
+            Kind::Stop(i) => declaration.stops[i]?,
+            Kind::Mark(i) => declaration.marks[i]?,
+        };
+        let least = |a: &&usize, b: &&usize| {
+            let value = |e: &usize| equations.values.value(*e);
+            value(a).total_cmp(&value(b))
+        };
+        let &term = terms.iter().min_by(least)?;
+        let reach = equations.reach(term, 0, at);
+        // Forces do not follow from the state alone.
+        let reach = if reach > 0.0 { reach } else { 1.0 };
+        Some((equations.values.value(term), reach))
+    }
+}
+
+/// Whether the mode is as the conditions of a stop or mark say.
+fn holds(watch: &Watch, mode: &Mode) -> bool {
+    watch.conditions.iter().all(|condition| match *condition {
+        Condition::Closed(c) => mode.contacts[c],
+        Condition::Open(c) => !mode.contacts[c],
+        Condition::Sticks(f) => mode.frictions[f] == FrictionMode::Stick,
+        Condition::Slips(f) => matches!(mode.frictions[f], FrictionMode::Slip(_)),
+    })
+}

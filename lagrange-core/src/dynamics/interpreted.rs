@@ -1,0 +1,520 @@
+//! The equations of a mode as data: what runs where none have been emitted for it.
+//!
+//! Registers: zero | t q v v̇ λ | numbers | results. The parts of the program follow one another:
+//!
+//! ```text
+//! motion     t, q, v → masses, forces, rows
+//! system     → right-hand sides of K w = b, which the solver takes, w = (u̇, −λ of the rows kept)
+//! forces     w → v̇, λ of all rows
+//! report     t, q, v, v̇, λ → outputs
+//! ```
+
+use super::Operations;
+use super::compiled::{Asked, Compiled};
+use super::needs::NeedSet;
+use crate::arithmetic::{Number, Scalar};
+use crate::erased::ErasedSystem;
+use crate::linear::Plan;
+use crate::program::{Builder, Numbers, Op, Program, Register, Series, room};
+use crate::system::{Description, Held, Place};
+use std::sync::Arc;
+
+/// Parts of the program.
+pub(super) const MOTION: usize = 0;
+pub(super) const SYSTEM: usize = 1;
+pub(super) const FORCES: usize = 2;
+pub(super) const REPORT: usize = 3;
+
+/// How much of the program runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Extent {
+    /// All outputs that are held.
+    Everything,
+    /// What has a series.
+    Series,
+    /// What the accelerations need.
+    Accelerations,
+}
+
+/// The program of a mode without its numbers.
+#[derive(Debug, PartialEq)]
+pub(super) struct Shape {
+    everything: Program,
+    series: Program,
+    accelerations: Program,
+    /// Numbers that may change, with their rates.
+    pub integrals: Vec<(Register, Register)>,
+    /// Right-hand sides of the equations.
+    pub right: Vec<Register>,
+    /// Where the unknowns go.
+    pub unknowns: Vec<Register>,
+    /// Elements of the matrix that change with the state: (equation, element, unknown).
+    elements: Vec<(usize, Register, Register)>,
+    /// Outputs of the motion program, then those of the plan.
+    pub nodes: Vec<Register>,
+    pub report_nodes: Vec<Register>,
+    /// Directions given from outside: (friction, components, their rates).
+    pub headings: Vec<(usize, [Register; 2], [Register; 2])>,
+    /// Whose series are kept.
+    wanted: Vec<Register>,
+    /// The first of the numbers.
+    numbers: usize,
+    /// How many registers are used, and the room for them.
+    pub used: usize,
+    pub registers: usize,
+}
+
+impl Shape {
+    /// The program of this extent.
+    pub(super) fn program(&self, extent: Extent) -> &Program {
+        match extent {
+            Extent::Everything => &self.everything,
+            Extent::Series => &self.series,
+            Extent::Accelerations => &self.accelerations,
+        }
+    }
+
+    /// Memory for Taylor coefficients.
+    pub(super) fn series<C: Number>(&self) -> Series<C> {
+        let elements = self.elements.iter();
+        Series::new(
+            &self.series,
+            self.registers,
+            &self.wanted,
+            elements.map(|&(_, element, unknown)| (element, unknown)),
+            FORCES,
+        )
+    }
+
+    /// Right-hand sides of one order, from the coefficients `now`, the values `first`, and what `earlier` coefficients of the elements
+    /// and unknowns give.
+    #[inline(always)]
+    pub(super) fn right_hand_sides<C: Number>(
+        &self,
+        now: &[C],
+        first: &[C],
+        earlier: &[C],
+        right: &mut Vec<C>,
+    ) {
+        right.clear();
+        right.extend(self.right.iter().map(|register| now[register.index()]));
+        let elements = self.elements.iter().zip(earlier);
+        for (&(equation, element, unknown), &earlier) in elements {
+            let product = now[element.index()] * first[unknown.index()];
+            right[equation] = right[equation] - (product + earlier);
+        }
+    }
+}
+
+/// The interpreted equations of a mode, for what is asked.
+#[derive(Clone, Debug)]
+pub(super) struct Interpreted<T> {
+    held: NeedSet,
+    extra: NeedSet,
+    report: Option<NeedSet>,
+    /// Shared with other motions that do the same with other numbers.
+    pub shape: Arc<Shape>,
+    pub registers: Vec<T>,
+    /// Whether the numbers are those of other parameters.
+    outdated: bool,
+    /// Made when a series is first asked for.
+    series: Option<Series<T>>,
+    /// Order of the series held.
+    order: usize,
+}
+
+impl<T: Scalar> Interpreted<T> {
+    /// Whether it was made for this.
+    pub(super) fn is_for(&self, asked: &Asked) -> bool {
+        self.held == *asked.held
+            && self.extra == *asked.extra
+            && self.report.as_ref() == asked.report
+    }
+
+    /// Arithmetic operations of one evaluation; the solver's are those of elimination by pivots.
+    pub(super) fn operations(&self) -> Operations {
+        let size = self.shape.unknowns.len();
+        let solver = (size * (size + 1) * (4 * size + 5) / 6).saturating_sub(2 * size);
+        Operations {
+            accelerations: self.shape.accelerations.operations() + solver,
+            everything: self.shape.everything.operations() + solver,
+        }
+    }
+
+    /// Writes a state into the registers, with no acceleration and no force.
+    #[inline]
+    pub(super) fn place(&mut self, t: T, q: &[T], v: &[T]) {
+        let n = q.len();
+        let inputs = &mut self.registers[1..self.shape.numbers];
+        inputs[0] = t;
+        inputs[1..1 + n].copy_from_slice(q);
+        inputs[1 + n..1 + 2 * n].copy_from_slice(v);
+        inputs[1 + 2 * n..].fill(T::default());
+    }
+
+    /// Takes those outputs of the motion program that are held.
+    #[inline]
+    pub(super) fn take_nodes(&self, nodes: &mut [T]) {
+        let nodes = nodes.iter_mut().zip(&self.shape.nodes);
+        for (node, register) in nodes.filter(|(_, register)| !register.is_zero()) {
+            *node = self.registers[register.index()];
+        }
+    }
+
+    /// Runs a part for values.
+    #[inline]
+    pub(super) fn evaluate(&mut self, extent: Extent, part: usize) {
+        let program = self.shape.program(extent);
+        program.evaluate(part, &mut self.registers);
+    }
+
+    /// Coefficients 0 of a series from the values in the registers, and the memory of the others.
+    pub(super) fn begin_series(&mut self, order: usize) -> (&mut Series<T>, &[T]) {
+        self.order = order;
+        let series = self.series.get_or_insert_with(|| self.shape.series());
+        (series, &self.registers)
+    }
+
+    /// What an expansion works with.
+    pub(super) fn parts(&mut self) -> (&Shape, &mut [T], Option<&mut Series<T>>) {
+        (&self.shape, &mut self.registers, self.series.as_mut())
+    }
+
+    /// The parameters have changed.
+    pub(super) fn outdate(&mut self) {
+        self.outdated = true;
+    }
+
+    /// Takes the numbers of the present parameters, if they have changed; `numbers` is memory. False if others of them are zero
+    /// now: then it is the program of other parameters.
+    pub(super) fn renew(
+        &mut self,
+        system: &dyn ErasedSystem<T>,
+        compiled: &Compiled<T>,
+        numbers: &mut Vec<T>,
+    ) -> bool {
+        if self.outdated {
+            collect(system, compiled, numbers);
+            let first = self.shape.numbers;
+            let registers = &mut self.registers[first..first + numbers.len()];
+            let mut pairs = registers.iter().zip(&*numbers);
+            if pairs.any(|(x, y)| x.is_zero() != y.is_zero()) {
+                return false;
+            }
+            registers.copy_from_slice(numbers);
+            self.outdated = false;
+        }
+        true
+    }
+
+    /// Loads the equations of a mode; `numbers` is memory.
+    pub(super) fn load(
+        system: &dyn ErasedSystem<T>,
+        compiled: &Compiled<T>,
+        asked: &Asked,
+        numbers: &mut Vec<T>,
+    ) -> Self {
+        collect(system, compiled, numbers);
+        let shape = shape(system.description(), compiled, asked, numbers);
+        let mut registers = vec![T::zero(); shape.registers];
+        registers[shape.numbers..shape.numbers + numbers.len()].copy_from_slice(numbers);
+        Self {
+            held: asked.held.clone(),
+            extra: asked.extra.clone(),
+            report: asked.report.cloned(),
+            shape: Arc::new(shape),
+            registers,
+            outdated: false,
+            series: None,
+            order: 0,
+        }
+    }
+
+    /// Coefficients of t, q, v or λ, by their index in the inputs of the report.
+    #[inline]
+    pub(super) fn input_series(&self, index: usize) -> &[T] {
+        self.series_of(Register::new(1 + index))
+    }
+
+    /// Coefficients of an output of the motion program.
+    #[inline]
+    pub(super) fn node_series(&self, node: usize) -> &[T] {
+        self.series_of(self.shape.nodes[node])
+    }
+
+    /// Coefficients of an output of the report.
+    #[inline]
+    pub(super) fn report_series(&self, node: usize) -> &[T] {
+        self.series_of(self.shape.report_nodes[node])
+    }
+
+    /// Coefficients of zero.
+    pub(super) fn zero_series(&self) -> &[T] {
+        self.series_of(Register::ZERO)
+    }
+
+    #[inline]
+    fn series_of(&self, register: Register) -> &[T] {
+        let series = self.series.as_ref();
+        series.map_or(&[], |series| series.series(register, self.order))
+    }
+}
+
+/// The numbers of a mode: constants, parameters, exact numbers of both programs, those of the plan.
+fn collect<T: Scalar>(system: &dyn ErasedSystem<T>, compiled: &Compiled<T>, numbers: &mut Vec<T>) {
+    let d = system.description();
+    numbers.clear();
+    numbers.extend_from_slice(&compiled.constants);
+    numbers.extend((0..d.parameters.len()).map(|index| system.parameter(index)));
+    let exact = d.motion.numbers.iter().chain(d.report.numbers);
+    numbers.extend(exact.map(|&number| T::from_f64(number)));
+    compiled.plan.collect(numbers);
+}
+
+/// Loads the programs and writes the solution around them, for these numbers.
+fn shape<T: Scalar>(d: &Description, compiled: &Compiled<T>, asked: &Asked, values: &[T]) -> Shape {
+    let Compiled {
+        mode,
+        constants,
+        plan,
+        ..
+    } = compiled;
+    let n = d.coordinates.len();
+    let inputs: Vec<Register> = (1..2 + 3 * n + d.rows.len()).map(Register::new).collect();
+    let first = 1 + inputs.len();
+    let of_motion = Numbers {
+        constants: first,
+        parameters: first + constants.len(),
+        exact: first + constants.len() + d.parameters.len(),
+    };
+    let of_report = Numbers {
+        exact: of_motion.exact + d.motion.numbers.len(),
+        ..of_motion
+    };
+    let of_plan = of_report.exact + d.report.numbers.len();
+    let held = |needs| Held {
+        needs,
+        branches: &mode.branches,
+    };
+    let mut vanishing = vec![false; first];
+    vanishing.extend(values.iter().map(T::is_zero));
+    let mut builder = Builder::new(vanishing.len()).vanishing(vanishing);
+    let motion = held(asked.held);
+    let mut nodes = builder.load(&d.motion, &motion, of_motion, &inputs[..1 + 2 * n]);
+    builder.cut();
+    plan.program
+        .load(&mut builder, of_motion.constants, of_plan, &mut nodes);
+    let headings = plan.headings.iter().map(|heading| {
+        let components = heading.nodes.map(|node| nodes[node]);
+        let rates = [builder.fresh(), builder.fresh()];
+        (heading.friction, components, rates)
+    });
+    let headings: Vec<_> = headings.collect();
+    let mut solution = Solution {
+        builder: &mut builder,
+        plan,
+        nodes: &nodes,
+        inputs: &inputs,
+        n,
+        first: of_plan + plan.program.numbers().count(),
+        constants: of_motion.constants,
+    };
+    let right = solution.right_hand_sides();
+    let unknowns = solution.unknowns();
+    solution.builder.cut();
+    solution.forces(&unknowns, &right);
+    builder.cut();
+    let report_nodes = match asked.report {
+        Some(needs) => builder.load(&d.report, &held(needs), of_report, &inputs),
+        None => vec![Register::ZERO; d.report.outputs],
+    };
+    let (everything, used) = builder.finish();
+    // What is kept of a series: accelerations are in the velocities.
+    let mut wanted = [&inputs[1..1 + 2 * n], &inputs[1 + 3 * n..]].concat();
+    asked_places(d, asked.extra, &mut |place| {
+        if let Place::Node(node) = place {
+            wanted.push(nodes[node]);
+        }
+    });
+    wanted.extend_from_slice(&report_nodes);
+    for &(friction, ..) in &headings {
+        for row in d.frictions[friction].row..d.frictions[friction].row + 2 {
+            if let Place::Node(node) = d.rows[row].velocity {
+                wanted.push(nodes[node]);
+            }
+        }
+    }
+    // What the solution needs.
+    let matrix = plan.entries.iter().map(|e| Place::Node(e.node));
+    let system = matrix
+        .chain(plan.cancelling())
+        .filter_map(|place| match place {
+            Place::Node(node) => Some(nodes[node]),
+            Place::Zero | Place::Constant(_) => None,
+        });
+    let system: Vec<Register> = system.chain(right.iter().copied()).collect();
+    let accelerations = inputs[1 + 2 * n..1 + 3 * n].iter().chain(&system).copied();
+    let changes = (1..1 + n).chain((1 + n..1 + 2 * n).filter(|i| !plan.is_pinned(i - 1 - n)));
+    let changes = changes.map(|i| (inputs[i], inputs[i + n]));
+    let turns = headings
+        .iter()
+        .flat_map(|&(_, u, rates)| u.into_iter().zip(rates));
+    let elements = plan.entries.iter().filter(|e| !nodes[e.node].is_zero());
+    Shape {
+        series: everything.needed(wanted.iter().copied().chain(accelerations.clone()), used),
+        accelerations: everything.needed(accelerations, used),
+        everything,
+        integrals: changes.chain(turns).collect(),
+        right: right[..plan.size()].to_vec(),
+        elements: elements
+            .map(|e| (e.row, nodes[e.node], unknowns[e.column]))
+            .collect(),
+        unknowns,
+        nodes,
+        report_nodes,
+        headings,
+        wanted,
+        numbers: first,
+        used,
+        registers: room(used),
+    }
+}
+
+/// What a mode adds to the program of its motion.
+struct Solution<'a, T> {
+    builder: &'a mut Builder,
+    plan: &'a Plan<T>,
+    nodes: &'a [Register],
+    inputs: &'a [Register],
+    /// Number of coordinates.
+    n: usize,
+    /// The first number of the plan's matrix.
+    first: usize,
+    /// The first constant.
+    constants: usize,
+}
+
+impl<T: Scalar> Solution<'_, T> {
+    /// Right-hand sides of the equations and of the forces of eliminated rows.
+    fn right_hand_sides(&mut self) -> Vec<Register> {
+        let plan = self.plan;
+        let constant_loads = self.first + plan.constant.len();
+        let factors = constant_loads + plan.constant_load.len();
+        let constants = plan.constant_load.iter().enumerate();
+        constants
+            .map(|(row, constant)| {
+                let loads = plan.loads.iter().zip(factors..);
+                let loads = loads.filter(|(load, _)| load.row == row);
+                let terms = loads.map(|(load, at)| (Register::new(at), self.nodes[load.node]));
+                let sum = self.builder.sum(terms);
+                if constant.is_zero() {
+                    return sum;
+                }
+                let constant = Register::new(constant_loads + row);
+                self.builder.push(Op::Add, constant, sum)
+            })
+            .collect()
+    }
+
+    /// Where the unknowns go: accelerations of free coordinates to where they are read.
+    fn unknowns(&mut self) -> Vec<Register> {
+        let free = self.plan.elimination.free.iter();
+        let mut unknowns: Vec<_> = free.map(|&j| self.inputs[1 + 2 * self.n + j]).collect();
+        unknowns.resize_with(self.plan.size(), || self.builder.fresh());
+        unknowns
+    }
+
+    /// Accelerations and forces from the unknowns, to where the report reads them.
+    fn forces(&mut self, unknowns: &[Register], right: &[Register]) {
+        let (plan, nodes) = (self.plan, self.nodes);
+        let mut factor = self.first + plan.constant.len() + plan.constant_load.len();
+        factor += plan.loads.len();
+        for j in 0..self.n {
+            let parts = plan.elimination.right.row(j);
+            if !plan.elimination.free.contains(&j) {
+                let terms = parts.iter().zip(factor..);
+                let terms = terms.map(|(&(column, _), at)| (Register::new(at), unknowns[column]));
+                let sum = self.builder.sum(terms);
+                self.builder.copy(self.inputs[1 + 2 * self.n + j], sum);
+            }
+            factor += parts.len();
+        }
+        let force = |row: usize| self.inputs[1 + 3 * self.n + row];
+        for (&row, &unknown) in plan.kept.iter().zip(&unknowns[plan.free()..]) {
+            let negative = self.builder.push(Op::Neg, unknown, Register::ZERO);
+            self.builder.copy(force(row), negative);
+        }
+        let size = plan.size();
+        for (index, &row) in plan.eliminated.iter().enumerate() {
+            let elements = (size + index) * size..(size + index + 1) * size;
+            let constant = elements.clone().filter(|&at| !plan.constant[at].is_zero());
+            let mut sum = self.builder.sum(constant.map(|at| {
+                (
+                    Register::new(self.first + at),
+                    unknowns[at - elements.start],
+                )
+            }));
+            for entry in plan.force_entries.iter().filter(|e| e.row == size + index) {
+                let element = nodes[entry.node];
+                let product = self.builder.push(Op::Mul, element, unknowns[entry.column]);
+                sum = self.builder.push(Op::Add, sum, product);
+            }
+            let value = self.builder.push(Op::Sub, sum, right[size + index]);
+            self.builder.copy(force(row), value);
+        }
+        for slide in &plan.slides {
+            let factor = match slide.factor {
+                Place::Zero => Register::ZERO,
+                Place::Constant(at) => Register::new(self.constants + at),
+                Place::Node(node) => nodes[node],
+            };
+            let value = match (slide.factor, slide.source) {
+                (_, None) => factor,
+                (Place::Node(_), Some(source)) => self.builder.push(Op::Mul, factor, force(source)),
+                (_, Some(source)) => self.builder.push(Op::Scale, factor, force(source)),
+            };
+            self.builder.copy(force(slide.row), value);
+        }
+    }
+}
+
+/// The numbers of the motion tape that a set of needs asks for.
+fn asked_places(d: &Description, needs: &NeedSet, take: &mut dyn FnMut(Place)) {
+    for row in d.rows {
+        if needs.contains(row.needs.jacobian) {
+            row.jacobian.iter().for_each(|&(_, place)| take(place));
+        }
+        if needs.contains(row.needs.bias) {
+            take(row.bias);
+        }
+        if needs.contains(row.needs.velocity) {
+            take(row.velocity);
+        }
+        if needs.contains(row.needs.position) {
+            row.position.into_iter().for_each(&mut *take);
+        }
+    }
+    for contact in d.contacts {
+        let needs_of_row = &d.rows[contact.row].needs;
+        if needs.contains(needs_of_row.jacobian) {
+            contact.normal_factor.into_iter().for_each(&mut *take);
+        }
+        if needs.contains(needs_of_row.position) {
+            contact.region.into_iter().for_each(&mut *take);
+        }
+    }
+    for friction in d.frictions {
+        if needs.contains(friction.coefficients_need) {
+            take(friction.static_coefficient);
+            take(friction.kinetic_coefficient);
+            if let crate::system::Normal::Given(place) = friction.normal {
+                take(place);
+            }
+        }
+    }
+    for branch in d.branches.iter().filter(|b| !b.after_solve) {
+        if needs.contains(branch.need) {
+            take(branch.guard);
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! The equations of one mode as functions: what the derive emits, and what everything above calls.
+//!
+//! ```text
+//! constants    parameters → c                    what depends on parameters alone, once per run
+//! value        c, (t, q, v) → v̇, λ               one right-hand side
+//! series       c, (t, q, v) → coefficients       of q, v, λ and of everything that guards read
+//! ```
+//!
+//! The linear system of the mode is solved on the way, by pivots chosen at build time. A pivot that is not safe for the numbers at
+//! hand is refused; the core then looks for better ones.
+
+use crate::program::{Held, Place};
+
+/// Coefficients 0, 1, … of one series.
+pub type Row<N> = [N; STRIDE];
+
+/// Length of a [`Row`]: the highest order is 28, and velocities are known to one order more.
+pub const STRIDE: usize = 32;
+
+/// 1/k; of 0, 0.
+pub const INVERSES: [f64; STRIDE] = {
+    let mut table = [0.0; STRIDE];
+    let mut k = 1;
+    while k < STRIDE {
+        table[k] = 1.0 / k as f64;
+        k += 1;
+    }
+    table
+};
+
+/// How a friction acts in a [`ModeStructure`]; the sign of a slip is an argument.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FrictionState {
+    /// No force.
+    Inactive,
+    /// The slip is zero.
+    Stick,
+    /// The force is μₖ N against the slip, which has one component.
+    Slip,
+}
+
+/// Which mode a set of functions is for, and where its numbers are.
+#[derive(Debug)]
+pub struct ModeStructure {
+    /// Which contacts are closed.
+    pub contacts: &'static [bool],
+    /// How each friction acts.
+    pub frictions: &'static [FrictionState],
+    /// Number of constants.
+    pub constants: usize,
+    /// Coordinates that stand still, and where among the constants.
+    pub pins: &'static [(usize, Place)],
+    /// Number of rows of a series: q, v, λ, zero, then others.
+    pub rows: usize,
+    /// Outputs of the motion tape whose series are given: (node, row).
+    pub motion: &'static [(usize, usize)],
+    /// Outputs of the report tape whose series are given: (node, row).
+    pub report: &'static [(usize, usize)],
+}
+
+/// Time, positions and velocities.
+pub type Arguments<'a, N> = (N, &'a [N], &'a [N]);
+
+/// Accelerations, and the forces of the rows if they are asked for, from constants, needs that are held, and a state. Forces that the
+/// mode keeps at zero are left as they are. False if a pivot is not safe.
+pub type ValueFn<N> = fn(&[N], &Held, Arguments<'_, N>, &mut [N], Option<&mut [N]>) -> bool;
+
+/// Coefficients 0…order, at most 28, of the rows of [`ModeStructure::rows`], from constants, needs that are held, the order and a
+/// state.
+pub type SeriesFn<N> =
+    fn(&[N], &Held, usize, Arguments<'_, N>, &mut [Row<N>]) -> Result<(), Refused>;
+
+/// The functions of one mode.
+#[derive(Clone, Copy, Debug)]
+pub struct ModeEquations<N: 'static> {
+    /// A right-hand side.
+    pub value: ValueFn<N>,
+    /// Taylor coefficients.
+    pub series: SeriesFn<N>,
+}
+
+/// Why a series is not given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Refused {
+    /// A pivot is not safe.
+    Pivot,
+    /// An operation has no Taylor series there.
+    NoSeries,
+}
+
+/// Whether a number of parameters alone may be divided by: constant rows are eliminated by pivots chosen at build time.
+pub fn is_safe_divisor(pivot: f64, against: &[f64]) -> bool {
+    /// A pivot smaller than this beside the largest element of its row loses more than three digits.
+    const SMALLEST: f64 = 1e-3;
+    pivot.is_finite() && pivot > against.iter().fold(0.0, |largest, x| x.max(largest)) * SMALLEST
+}

@@ -1,0 +1,143 @@
+//! What a program calls of the core, compiled once for machine numbers.
+//!
+//! Everything here is generic over the scalar, so that a program would compile all of it once more for itself. The tables of
+//! machine numbers are made in this crate: programs that run on them call what is compiled already.
+
+use crate::arithmetic::{Dual, Scalar};
+use crate::certificate::{self, Certificate};
+use crate::dynamics::{Dynamics, Packets};
+use crate::effects::Effects;
+use crate::erased::Erased;
+use crate::error::Error;
+use crate::run::Run;
+use crate::run::round::{Member, go_on};
+use crate::settings::Settings;
+use crate::state::{Held, State};
+use crate::system::System;
+use crate::trajectory::{Instant, Ledger, Record, Sampler};
+use core::fmt;
+use core::ops::Range;
+use std::sync::Arc;
+
+/// A scalar that runs are made of.
+///
+/// The functions that a run consists of are called through a table, which this crate has for machine numbers. For a scalar of one's
+/// own an empty implementation will do: the table is made where it is used.
+pub trait Runnable: Scalar {
+    /// The functions for this scalar.
+    #[doc(hidden)]
+    fn functions() -> &'static Functions<Self> {
+        &const { Functions::OWN }
+    }
+}
+
+macro_rules! compiled_here {
+    ($($type:ident)*) => {$(
+        impl Runnable for $type {
+            // Not inlined: what it names is compiled here, once.
+            #[inline(never)]
+            fn functions() -> &'static Functions<Self> {
+                &const { Functions::OWN }
+            }
+        }
+    )*};
+}
+
+compiled_here! { f64 f32 }
+
+impl<T: Runnable, const N: usize> Runnable for Dual<T, N> {}
+
+/// The functions of one scalar.
+pub struct Functions<T: Scalar> {
+    pub(crate) run: fn(Erased<T>, &Settings) -> Run<T>,
+    pub(crate) execute: Execute<T>,
+    pub(crate) launch: Execute<T>,
+    pub(crate) go_on: fn(&mut Packets<T>, &mut [Member<'_, T>]),
+    pub(crate) land: fn(&mut Run<T>, &mut Record<T>),
+    pub(crate) set_system: fn(&mut Run<T>, Erased<T>),
+    pub(crate) consistent: Consistent<T>,
+    pub(crate) sampler: fn(&Record<T>) -> Sampler<'_, T>,
+    pub(crate) at: fn(&mut Sampler<'_, T>, f64) -> Result<Instant<T>, Error>,
+    pub(crate) ledgers: Book<T>,
+    pub(crate) verify: fn(&Record<T>, u64) -> Result<Certificate, Error>,
+    pub(crate) dynamics: fn(Erased<T>, &Effects) -> Dynamics<T>,
+}
+
+type Execute<T> = fn(&mut Run<T>, &State<T>, Range<f64>, &mut Record<T>) -> Result<(), Error>;
+type Book<T> = fn(&Record<T>, Option<&[f64]>) -> Result<Vec<Ledger>, Error>;
+type Consistent<T> = fn(&mut Run<T>, f64, &State<T>, &State<T>, &Held) -> Result<State<T>, Error>;
+
+impl<T: Scalar> Functions<T> {
+    /// The functions themselves.
+    pub(crate) const OWN: Self = Self {
+        run: Run::new,
+        execute: Run::execute,
+        launch: Run::launch,
+        go_on,
+        land: Run::land,
+        set_system: Run::set_system,
+        consistent: Run::consistent,
+        sampler: |record| Sampler::new(record),
+        at: |sampler, t| sampler.evaluate_at(t),
+        ledgers: Record::book,
+        verify: certificate::verify,
+        dynamics: Dynamics::of,
+    };
+}
+
+impl<T: Scalar> fmt::Debug for Functions<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Functions").finish_non_exhaustive()
+    }
+}
+
+impl<T: Runnable> Dynamics<T> {
+    /// The equations of a scene with all contacts open.
+    pub fn new<S: System<Scalar = T>>(scene: &S, effects: &Effects) -> Self {
+        (T::functions().dynamics)(Arc::new(scene.clone()), effects)
+    }
+}
+
+impl<T: Runnable> Record<T> {
+    /// Evaluates the trajectory at any time.
+    pub fn sampler(&self) -> Sampler<'_, T> {
+        (T::functions().sampler)(self)
+    }
+
+    /// Books the energy of the whole trajectory.
+    ///
+    /// # Errors
+    /// [`Error::NotRecorded`]; or the equations of motion could not be evaluated somewhere on the way.
+    pub fn ledger(&self) -> Result<Ledger, Error> {
+        let ledgers = (T::functions().ledgers)(self, None)?;
+        ledgers.into_iter().next().ok_or(Error::NotRecorded)
+    }
+
+    /// Books the energy from the beginning to each of `times`, s, in the order given; with impacts up to and at that time.
+    /// Every ledger has the same entries.
+    ///
+    /// # Errors
+    /// [`Error::OutsideTrajectory`], [`Error::NotRecorded`]; or the equations of motion could not be evaluated somewhere on
+    /// the way.
+    pub fn ledgers(&self, times: &[f64]) -> Result<Vec<Ledger>, Error> {
+        (T::functions().ledgers)(self, Some(times))
+    }
+
+    /// Checks the whole run against the declaration, at instants chosen by `seed`.
+    ///
+    /// # Errors
+    /// [`Error::NotRecorded`]; or the motion could not be evaluated somewhere.
+    pub fn verify(&self, seed: u64) -> Result<Certificate, Error> {
+        (T::functions().verify)(self, seed)
+    }
+}
+
+impl<T: Runnable> Sampler<'_, T> {
+    /// The motion at time `t`, s. At the instant of a switch: just after it.
+    ///
+    /// # Errors
+    /// [`Error::OutsideTrajectory`], [`Error::NotRecorded`]; or the equations of motion could not be evaluated there.
+    pub fn at(&mut self, t: f64) -> Result<Instant<T>, Error> {
+        (T::functions().at)(self, t)
+    }
+}

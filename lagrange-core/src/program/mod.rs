@@ -1,0 +1,21 @@
+//! Straight-line programs as data, run by one interpreter.
+//!
+//! The derive writes what a system is made of, masses, forces, rows, outputs, as two [`Encoded`] programs, before and after the
+//! solution for the accelerations. For a mode they are loaded: blocks that nobody asks for are skipped, branches
+//! are decided, and what is left is a list of instructions on registers. It runs for values over any [`Scalar`](crate::arithmetic::Scalar),
+//! dual numbers included, and for Taylor coefficients.
+
+mod builder;
+mod encoded;
+mod instruction;
+mod selection;
+mod series;
+#[cfg(test)]
+mod tests;
+
+pub(crate) use builder::{Builder, Numbers};
+pub use encoded::Encoded;
+pub(crate) use instruction::{Op, Program, Register, room};
+pub use selection::{Held, Needs, Place};
+pub(crate) use series::Series;
+pub use series::{MAX_ORDER, Operation};

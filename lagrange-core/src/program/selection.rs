@@ -1,0 +1,32 @@
+//! What of a program is asked for, and where its numbers are found.
+
+/// Where a number of the description is found after a program has run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// Structurally zero: never computed, never multiplied.
+    Zero,
+    /// Depends on parameters only: index into the constants.
+    Constant(usize),
+    /// Index into the outputs of the program.
+    Node(usize),
+}
+
+/// A set of needs: which parts of a program must run. Bit `i` is need `i` of the description.
+pub type Needs = [u64];
+
+/// What of a program runs.
+#[derive(Clone, Copy, Debug)]
+pub struct Held<'a> {
+    /// The needs to be met; a block runs only if one of its needs is here.
+    pub needs: &'a Needs,
+    /// Bit `i`: piecewise branch `i` is on its `then` side (its guard is ≥ 0).
+    pub branches: &'a [u64],
+}
+
+impl Held<'_> {
+    /// Whether branch `index` is on its `then` side.
+    #[inline(always)]
+    pub fn branch(&self, index: usize) -> bool {
+        self.branches[index / 64] >> (index % 64) & 1 == 1
+    }
+}

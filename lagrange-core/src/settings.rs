@@ -1,0 +1,59 @@
+//! What is asked of a run, beside its system.
+
+use crate::dynamics::Equations;
+use crate::effects::Effects;
+use crate::handle::Subject;
+use crate::integrate::Method;
+use crate::monitor::Monitor;
+use crate::system::Impacts;
+use crate::trajectory::{Event, EventKind};
+
+/// Everything about a run but the system.
+#[derive(Clone, Debug)]
+pub(crate) struct Settings {
+    pub effects: Effects,
+    pub tolerance: f64,
+    pub method: Method,
+    pub project_start: bool,
+    /// What evaluates the equations of motion.
+    pub equations: Equations,
+    pub record: bool,
+    /// The run ends once each of these has happened; empty: it does not.
+    pub last_events: Vec<Awaited>,
+    /// As declared if `None`.
+    pub impacts: Option<Impacts>,
+    pub max_events: usize,
+    pub max_steps: usize,
+    pub monitor: Option<Monitor>,
+}
+
+/// An event that a run can end after.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Awaited {
+    /// What it is about.
+    pub subject: Subject,
+    /// What happens to it (whatever an [`EventKind::Accumulates`] counts); `None`: anything.
+    pub kind: Option<EventKind>,
+}
+
+impl Awaited {
+    /// Whether it is this event.
+    pub(crate) fn is<T>(&self, event: &Event<T>) -> bool {
+        let same = |kind: EventKind| kind.word() == event.kind.word();
+        event.subject == self.subject && self.kind.is_none_or(same)
+    }
+}
+
+impl<I: Into<Subject>> From<I> for Awaited {
+    fn from(item: I) -> Awaited {
+        let (subject, kind) = (item.into(), None);
+        Awaited { subject, kind }
+    }
+}
+
+impl<I: Into<Subject>> From<(I, EventKind)> for Awaited {
+    fn from((item, kind): (I, EventKind)) -> Awaited {
+        let (subject, kind) = (item.into(), Some(kind));
+        Awaited { subject, kind }
+    }
+}

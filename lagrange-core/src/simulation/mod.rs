@@ -1,0 +1,279 @@
+//! A run: the system, what takes part in it, how exact it is to be.
+
+mod ensemble;
+mod runner;
+
+pub use crate::dynamics::Equations;
+pub use crate::settings::Awaited;
+pub use crate::state::Held;
+pub use ensemble::Ensemble;
+pub use runner::Runner;
+
+use crate::arithmetic::Scalar;
+use crate::effects::Effects;
+use crate::erased::ErasedSystem;
+use crate::error::Error;
+use crate::integrate::Method;
+use crate::monitor::Monitor;
+use crate::precompiled::Runnable;
+use crate::settings::Settings;
+use crate::system::{Impacts, System};
+use crate::trajectory::{State, Trajectory};
+use core::fmt;
+use core::ops::Range;
+
+/// How to run a system. Build it, set what differs from the defaults, call [`Simulation::run`].
+#[derive(Clone, Debug)]
+pub struct Simulation<'a, S: System> {
+    scene: &'a S,
+    settings: Settings,
+}
+
+/// A run that ended early, with everything up to there.
+#[derive(Debug)]
+pub struct Failure<S: System> {
+    /// Why.
+    pub error: Error,
+    /// The motion until then.
+    pub trajectory: Box<Trajectory<S>>,
+}
+
+impl<S: System> fmt::Display for Failure<S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.error.fmt(f)
+    }
+}
+
+impl<S: System + fmt::Debug> core::error::Error for Failure<S> {
+    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
+        Some(&self.error)
+    }
+}
+
+impl<'a, S: System<Scalar: Runnable>> Simulation<'a, S> {
+    /// All effects, the Taylor method, tolerance 1e-9.
+    pub fn new(scene: &'a S) -> Self {
+        Self {
+            scene,
+            settings: Settings {
+                effects: Effects::all(),
+                tolerance: 1e-9,
+                method: Method::Taylor,
+                project_start: false,
+                equations: Equations::Emitted,
+                record: true,
+                last_events: Vec::new(),
+                impacts: None,
+                max_events: 100_000,
+                max_steps: 100_000_000,
+                monitor: None,
+            },
+        }
+    }
+
+    /// Local error per step, relative and absolute (in the units of the coordinates); from 1e-17 to 0.1.
+    #[must_use]
+    pub fn tolerance(mut self, tolerance: f64) -> Self {
+        self.settings.tolerance = tolerance;
+        self
+    }
+
+    /// The integration method.
+    #[must_use]
+    pub fn method(mut self, method: Method) -> Self {
+        self.settings.method = method;
+        self
+    }
+
+    /// Which effects take part.
+    #[must_use]
+    pub fn effects(mut self, effects: Effects) -> Self {
+        self.settings.effects = effects;
+        self
+    }
+
+    /// Whether a start that violates a constraint is moved onto it instead of refused.
+    #[must_use]
+    pub fn project_start(mut self, yes: bool) -> Self {
+        self.settings.project_start = yes;
+        self
+    }
+
+    /// What evaluates the equations of motion: the functions that the derive emitted, or an interpreter of the same equations,
+    /// slower and with the same numbers to rounding. To compare the two.
+    #[must_use]
+    pub fn equations(mut self, equations: Equations) -> Self {
+        self.settings.equations = equations;
+        self
+    }
+
+    /// Whether the motion between the events is kept (it is unless this says no). Without it a trajectory has its events, its
+    /// phases and its final state; sampling it and its ledger are [`Error::NotRecorded`].
+    #[must_use]
+    pub fn record(mut self, yes: bool) -> Self {
+        self.settings.record = yes;
+        self
+    }
+
+    /// Ends the run once this has happened: any event of an item, `MassOnWheel::FLOOR`, or one of a kind, `(MassOnWheel::RIM,
+    /// EventKind::Lost)`. Given several times, once all of them have.
+    #[must_use]
+    pub fn end_after(mut self, event: impl Into<Awaited>) -> Self {
+        self.settings.last_events.push(event.into());
+        self
+    }
+
+    /// How contacts are solved that are hit together, instead of what `impacts = …` declares.
+    #[must_use]
+    pub fn impacts(mut self, impacts: Impacts) -> Self {
+        self.settings.impacts = Some(impacts);
+        self
+    }
+
+    /// Most events before the run ends with [`Error::Limit`].
+    #[must_use]
+    pub fn max_events(mut self, limit: usize) -> Self {
+        self.settings.max_events = limit;
+        self
+    }
+
+    /// Most steps before the run ends with [`Error::Limit`].
+    #[must_use]
+    pub fn max_steps(mut self, limit: usize) -> Self {
+        self.settings.max_steps = limit;
+        self
+    }
+
+    /// Lets other threads see how far a run has come, and stop it.
+    #[must_use]
+    pub fn monitor(mut self, monitor: &Monitor) -> Self {
+        self.settings.monitor = Some(monitor.clone());
+        self
+    }
+
+    /// Integrates from `start` over `span` (s), or until a stop.
+    ///
+    /// # Errors
+    /// A [`Failure`] with the error and the trajectory so far.
+    pub fn run(
+        &self,
+        start: State<S::Scalar>,
+        span: Range<f64>,
+    ) -> Result<Trajectory<S>, Failure<S>> {
+        let mut runner = self.runner();
+        let outcome = runner.run(&start, span).map(|_| ());
+        let trajectory = runner.into_trajectory();
+        match outcome {
+            Ok(()) => Ok(trajectory),
+            Err(error) => Err(Failure {
+                error,
+                trajectory: Box::new(trajectory),
+            }),
+        }
+    }
+
+    /// Everything that a run works with, made ready once for many runs.
+    pub fn runner(&self) -> Runner<S> {
+        Runner::new(self.scene, &self.settings)
+    }
+
+    /// Everything that many runs work with, several at a time.
+    pub fn ensemble(&self) -> Ensemble<S> {
+        Ensemble::new(self.scene, &self.settings)
+    }
+
+    /// The state nearest to `wanted` (in the mass metric) that satisfies all constraints, with the values in `held`
+    /// kept exactly. Contacts that are closed in `reference` stay closed; slips that vanish there vanish.
+    ///
+    /// # Errors
+    /// [`Error::Projection`] if there is none, with the row that cannot be satisfied.
+    pub fn consistent(
+        &self,
+        time: f64,
+        reference: &State<S::Scalar>,
+        wanted: &State<S::Scalar>,
+        held: &Held,
+    ) -> Result<State<S::Scalar>, Error> {
+        self.runner().consistent(time, reference, wanted, held)
+    }
+}
+
+impl Settings {
+    /// Checks what the caller set.
+    pub(crate) fn check<T: Scalar>(
+        &self,
+        system: &dyn ErasedSystem<T>,
+        start: &State<T>,
+        span: &Range<f64>,
+    ) -> Result<(), Error> {
+        let d = system.description();
+        let n = d.coordinates.len();
+        if !(1e-17..=0.1).contains(&self.tolerance) {
+            let expected = "between 1e-17 and 0.1";
+            return Err(Error::Argument {
+                what: "tolerance",
+                value: self.tolerance,
+                expected,
+            });
+        }
+        if let Method::RungeKutta4 { step } | Method::Gauss6 { step } = self.method
+            && !(step > 0.0 && step.is_finite())
+        {
+            return Err(Error::Argument {
+                what: "step of the method",
+                value: step,
+                expected: "positive",
+            });
+        }
+        for (what, value) in [("first time", span.start), ("last time", span.end)] {
+            if !value.is_finite() {
+                return Err(Error::Argument {
+                    what,
+                    value,
+                    expected: "finite",
+                });
+            }
+        }
+        if span.end < span.start {
+            return Err(Error::Argument {
+                what: "last time",
+                value: span.end,
+                expected: "not before the first",
+            });
+        }
+        for list in [&start.q, &start.v] {
+            if list.len() != n {
+                return Err(Error::Dimension {
+                    expected: n,
+                    found: list.len(),
+                });
+            }
+        }
+        let numbers = start.q.iter().chain(&start.v);
+        for (i, x) in numbers.enumerate() {
+            if !x.value().is_finite() {
+                let what = if i < n {
+                    "a position of the start"
+                } else {
+                    "a velocity of the start"
+                };
+                return Err(Error::Argument {
+                    what,
+                    value: x.value(),
+                    expected: "finite",
+                });
+            }
+        }
+        for (i, parameter) in d.parameters.iter().enumerate() {
+            let value = system.parameter(i).value();
+            if !value.is_finite() {
+                return Err(Error::Argument {
+                    what: parameter.name,
+                    value,
+                    expected: "finite",
+                });
+            }
+        }
+        Ok(())
+    }
+}

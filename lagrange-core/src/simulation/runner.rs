@@ -1,0 +1,119 @@
+//! Many runs of one system in the same memory.
+
+use crate::erased::Erased;
+use crate::error::Error;
+use crate::precompiled::Runnable;
+use crate::run::Run;
+use crate::run::round::Member;
+use crate::settings::Settings;
+use crate::state::Held;
+use crate::system::System;
+use crate::trajectory::{State, Trajectory};
+use core::ops::Range;
+use std::sync::Arc;
+
+/// Runs one system again and again: what a run works with is made once, and the trajectory is written into the same memory.
+/// From the second run on nothing is allocated, unless a run meets a mode or needs an amount of recording that none before
+/// did, or has forces that the motion leaves open.
+///
+/// Made by [`Simulation::runner`](crate::Simulation::runner).
+#[derive(Debug)]
+pub struct Runner<S: System> {
+    run: Run<S::Scalar>,
+    trajectory: Trajectory<S>,
+}
+
+impl<S: System<Scalar: Runnable>> Runner<S> {
+    pub(crate) fn new(scene: &S, settings: &Settings) -> Self {
+        let run = (S::Scalar::functions().run)(erased(scene), settings);
+        Self {
+            trajectory: Trajectory::new(scene, run.record().clone()),
+            run,
+        }
+    }
+
+    /// Integrates from `start` over `span` (s), or until a stop. The trajectory is that of this run until the next one
+    /// begins.
+    ///
+    /// # Errors
+    /// Why the run ended early; [`Self::trajectory`] has the motion until then.
+    pub fn run(
+        &mut self,
+        start: &State<S::Scalar>,
+        span: Range<f64>,
+    ) -> Result<&Trajectory<S>, Error> {
+        let execute = S::Scalar::functions().execute;
+        execute(&mut self.run, start, span, self.trajectory.record())?;
+        Ok(&self.trajectory)
+    }
+
+    /// Begins a run without going on with it.
+    pub(super) fn launch(
+        &mut self,
+        start: &State<S::Scalar>,
+        span: Range<f64>,
+    ) -> Result<(), Error> {
+        (S::Scalar::functions().launch)(&mut self.run, start, span, self.trajectory.record())
+    }
+
+    /// Whether the run that has begun has more to do.
+    pub(super) fn goes_on(&self) -> bool {
+        self.run.goes_on()
+    }
+
+    /// The run, among others.
+    pub(super) fn member(&mut self) -> Member<'_, S::Scalar> {
+        Member {
+            run: &mut self.run,
+            outcome: None,
+        }
+    }
+
+    /// Ends the run that has begun; its trajectory.
+    pub(super) fn land(&mut self) -> &Trajectory<S> {
+        (S::Scalar::functions().land)(&mut self.run, self.trajectory.record());
+        &self.trajectory
+    }
+
+    /// As [`Simulation::consistent`](crate::Simulation::consistent).
+    ///
+    /// # Errors
+    /// [`Error::Projection`] if there is no such state.
+    pub fn consistent(
+        &mut self,
+        time: f64,
+        reference: &State<S::Scalar>,
+        wanted: &State<S::Scalar>,
+        held: &Held,
+    ) -> Result<State<S::Scalar>, Error> {
+        (S::Scalar::functions().consistent)(&mut self.run, time, reference, wanted, held)
+    }
+
+    /// The trajectory of the last run.
+    pub fn trajectory(&self) -> &Trajectory<S> {
+        &self.trajectory
+    }
+
+    /// The trajectory of the last run, to keep.
+    pub fn into_trajectory(self) -> Trajectory<S> {
+        self.trajectory
+    }
+
+    /// The system.
+    pub fn scene(&self) -> &S {
+        self.trajectory.scene()
+    }
+
+    /// Takes another system of the same kind, as a sweep over parameters does.
+    pub fn set_scene(&mut self, scene: &S) {
+        let system = erased(scene);
+        self.trajectory.set_scene(scene);
+        self.trajectory.record().system = system.clone();
+        (S::Scalar::functions().set_system)(&mut self.run, system);
+    }
+}
+
+/// The system without its type.
+fn erased<S: System>(scene: &S) -> Erased<S::Scalar> {
+    Arc::new(scene.clone())
+}
