@@ -188,9 +188,10 @@ impl<T: Scalar> Compiled<T> {
         system: &dyn ErasedSystem<T>,
         numbers: &mut Vec<T>,
     ) -> &mut Interpreted<T> {
+        let no_series = NeedSet::new(system.description());
         let asked = Asked {
             held: &self.row_needs,
-            extra: &self.row_needs,
+            extra: &no_series,
             report: None,
         };
         let mut rows = self.rows.take();

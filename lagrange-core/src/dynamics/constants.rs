@@ -22,6 +22,7 @@ impl<T: Scalar> Constants<T> {
         let parameters = d.parameters.len();
         let first = 1 + parameters + d.constants.numbers.len();
         let numbers = Numbers {
+            // The constants read parameters and exact numbers only.
             constants: 0,
             parameters: 1,
             exact: 1 + parameters,
@@ -29,6 +30,7 @@ impl<T: Scalar> Constants<T> {
         let inputs: Vec<Register> = (1..1 + parameters).map(Register::new).collect();
         let mut builder = Builder::new(first);
         let outputs = builder.load(&d.constants, held, numbers, &inputs);
+        let outputs = outputs.into_iter().map(Option::unwrap_or_default);
         let (program, used) = builder.finish();
         let mut registers = vec![T::zero(); room(used)];
         for (register, &number) in registers[1 + parameters..]
@@ -40,7 +42,7 @@ impl<T: Scalar> Constants<T> {
         Self {
             program,
             registers,
-            outputs,
+            outputs: outputs.collect(),
         }
     }
 

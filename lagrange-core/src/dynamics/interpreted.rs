@@ -17,6 +17,7 @@ use crate::erased::ErasedSystem;
 use crate::linear::Plan;
 use crate::program::{Builder, Numbers, Op, Program, Register, Series, room};
 use crate::system::{Description, Held, Place};
+use core::ops::Range;
 use std::sync::Arc;
 
 /// Parts of the program.
@@ -50,15 +51,17 @@ pub(super) struct Shape {
     pub unknowns: Vec<Register>,
     /// Elements of the matrix that change with the state: (equation, element, unknown).
     elements: Vec<(usize, Register, Register)>,
-    /// Outputs of the motion program, then those of the plan.
+    /// Outputs of the motion program, zero for those that are not held, then those of the plan.
     pub nodes: Vec<Register>,
     pub report_nodes: Vec<Register>,
+    /// Outputs of the motion program that are held: (node, register).
+    held_nodes: Vec<(usize, Register)>,
     /// Directions given from outside: (friction, components, their rates).
     pub headings: Vec<(usize, [Register; 2], [Register; 2])>,
     /// Whose series are kept.
     wanted: Vec<Register>,
-    /// The first of the numbers.
-    numbers: usize,
+    /// Where the numbers are.
+    numbers: Range<usize>,
     /// How many registers are used, and the room for them.
     pub used: usize,
     pub registers: usize,
@@ -145,7 +148,7 @@ impl<T: Scalar> Interpreted<T> {
     #[inline]
     pub(super) fn place(&mut self, t: T, q: &[T], v: &[T]) {
         let n = q.len();
-        let inputs = &mut self.registers[1..self.shape.numbers];
+        let inputs = &mut self.registers[1..self.shape.numbers.start];
         inputs[0] = t;
         inputs[1..1 + n].copy_from_slice(q);
         inputs[1 + n..1 + 2 * n].copy_from_slice(v);
@@ -155,9 +158,8 @@ impl<T: Scalar> Interpreted<T> {
     /// Takes those outputs of the motion program that are held.
     #[inline]
     pub(super) fn take_nodes(&self, nodes: &mut [T]) {
-        let nodes = nodes.iter_mut().zip(&self.shape.nodes);
-        for (node, register) in nodes.filter(|(_, register)| !register.is_zero()) {
-            *node = self.registers[register.index()];
+        for &(node, register) in &self.shape.held_nodes {
+            nodes[node] = self.registers[register.index()];
         }
     }
 
@@ -168,8 +170,8 @@ impl<T: Scalar> Interpreted<T> {
         program.evaluate(part, &mut self.registers);
     }
 
-    /// Coefficients 0 of a series from the values in the registers, and the memory of the others.
-    pub(super) fn begin_series(&mut self, order: usize) -> (&mut Series<T>, &[T]) {
+    /// Memory of a series of this order, and the values in the registers, which it begins with.
+    pub(super) fn series_memory(&mut self, order: usize) -> (&mut Series<T>, &[T]) {
         self.order = order;
         let series = self.series.get_or_insert_with(|| self.shape.series());
         (series, &self.registers)
@@ -195,10 +197,9 @@ impl<T: Scalar> Interpreted<T> {
     ) -> bool {
         if self.outdated {
             collect(system, compiled, numbers);
-            let first = self.shape.numbers;
-            let registers = &mut self.registers[first..first + numbers.len()];
+            let registers = &mut self.registers[self.shape.numbers.clone()];
             let mut pairs = registers.iter().zip(&*numbers);
-            if pairs.any(|(x, y)| x.is_zero() != y.is_zero()) {
+            if registers.len() != numbers.len() || pairs.any(|(x, y)| x.is_zero() != y.is_zero()) {
                 return false;
             }
             registers.copy_from_slice(numbers);
@@ -217,7 +218,7 @@ impl<T: Scalar> Interpreted<T> {
         collect(system, compiled, numbers);
         let shape = shape(system.description(), compiled, asked, numbers);
         let mut registers = vec![T::zero(); shape.registers];
-        registers[shape.numbers..shape.numbers + numbers.len()].copy_from_slice(numbers);
+        registers[shape.numbers.clone()].copy_from_slice(numbers);
         Self {
             held: asked.held.clone(),
             extra: asked.extra.clone(),
@@ -300,7 +301,12 @@ fn shape<T: Scalar>(d: &Description, compiled: &Compiled<T>, asked: &Asked, valu
     vanishing.extend(values.iter().map(T::is_zero));
     let mut builder = Builder::new(vanishing.len()).vanishing(vanishing);
     let motion = held(asked.held);
-    let mut nodes = builder.load(&d.motion, &motion, of_motion, &inputs[..1 + 2 * n]);
+    let outputs = builder.load(&d.motion, &motion, of_motion, &inputs[..1 + 2 * n]);
+    let held_nodes = outputs.iter().enumerate();
+    let held_nodes = held_nodes.filter_map(|(node, register)| Some((node, (*register)?)));
+    let held_nodes = held_nodes.collect();
+    let outputs = outputs.into_iter().map(Option::unwrap_or_default);
+    let mut nodes: Vec<Register> = outputs.collect();
     builder.cut();
     plan.program
         .load(&mut builder, of_motion.constants, of_plan, &mut nodes);
@@ -325,7 +331,10 @@ fn shape<T: Scalar>(d: &Description, compiled: &Compiled<T>, asked: &Asked, valu
     solution.forces(&unknowns, &right);
     builder.cut();
     let report_nodes = match asked.report {
-        Some(needs) => builder.load(&d.report, &held(needs), of_report, &inputs),
+        Some(needs) => {
+            let outputs = builder.load(&d.report, &held(needs), of_report, &inputs);
+            outputs.into_iter().map(Option::unwrap_or_default).collect()
+        }
         None => vec![Register::ZERO; d.report.outputs],
     };
     let (everything, used) = builder.finish();
@@ -372,9 +381,10 @@ fn shape<T: Scalar>(d: &Description, compiled: &Compiled<T>, asked: &Asked, valu
         unknowns,
         nodes,
         report_nodes,
+        held_nodes,
         headings,
         wanted,
-        numbers: first,
+        numbers: first..first + values.len(),
         used,
         registers: room(used),
     }
@@ -388,7 +398,7 @@ struct Solution<'a, T> {
     inputs: &'a [Register],
     /// Number of coordinates.
     n: usize,
-    /// The first number of the plan's matrix.
+    /// The first number of the rows of eliminated forces.
     first: usize,
     /// The first constant.
     constants: usize,
@@ -398,7 +408,7 @@ impl<T: Scalar> Solution<'_, T> {
     /// Right-hand sides of the equations and of the forces of eliminated rows.
     fn right_hand_sides(&mut self) -> Vec<Register> {
         let plan = self.plan;
-        let constant_loads = self.first + plan.constant.len();
+        let constant_loads = self.first + plan.constant_of_forces().len();
         let factors = constant_loads + plan.constant_load.len();
         let constants = plan.constant_load.iter().enumerate();
         constants
@@ -427,7 +437,7 @@ impl<T: Scalar> Solution<'_, T> {
     /// Accelerations and forces from the unknowns, to where the report reads them.
     fn forces(&mut self, unknowns: &[Register], right: &[Register]) {
         let (plan, nodes) = (self.plan, self.nodes);
-        let mut factor = self.first + plan.constant.len() + plan.constant_load.len();
+        let mut factor = self.first + plan.constant_of_forces().len() + plan.constant_load.len();
         factor += plan.loads.len();
         for j in 0..self.n {
             let parts = plan.elimination.right.row(j);
@@ -446,14 +456,12 @@ impl<T: Scalar> Solution<'_, T> {
         }
         let size = plan.size();
         for (index, &row) in plan.eliminated.iter().enumerate() {
-            let elements = (size + index) * size..(size + index + 1) * size;
-            let constant = elements.clone().filter(|&at| !plan.constant[at].is_zero());
-            let mut sum = self.builder.sum(constant.map(|at| {
-                (
-                    Register::new(self.first + at),
-                    unknowns[at - elements.start],
-                )
-            }));
+            let elements = &plan.constant_of_forces()[index * size..(index + 1) * size];
+            let places = self.first + index * size..;
+            let terms = elements.iter().zip(places).zip(unknowns);
+            let terms = terms.filter(|((element, _), _)| !element.is_zero());
+            let terms = terms.map(|((_, at), &unknown)| (Register::new(at), unknown));
+            let mut sum = self.builder.sum(terms);
             for entry in plan.force_entries.iter().filter(|e| e.row == size + index) {
                 let element = nodes[entry.node];
                 let product = self.builder.push(Op::Mul, element, unknowns[entry.column]);
@@ -478,7 +486,7 @@ impl<T: Scalar> Solution<'_, T> {
     }
 }
 
-/// The numbers of the motion tape that a set of needs asks for.
+/// The outputs of the motion program that a set of needs asks for.
 fn asked_places(d: &Description, needs: &NeedSet, take: &mut dyn FnMut(Place)) {
     for row in d.rows {
         if needs.contains(row.needs.jacobian) {

@@ -26,10 +26,7 @@ impl<T: Scalar> Dynamics<T> {
         columns: &mut [T],
     ) -> Result<(), EvaluationError> {
         // The columns are solved for with the factors that the interpreter leaves.
-        let equations = self.equations;
-        if equations == Equations::Emitted {
-            self.equations = Equations::Interpreted;
-        }
+        let equations = core::mem::replace(&mut self.equations, Equations::Interpreted);
         let outcome = self.value(t, q, v);
         self.equations = equations;
         outcome?;
@@ -58,15 +55,18 @@ impl<T: Scalar> Dynamics<T> {
     /// The motion program and the right-hand sides with seeds on inputs `first`, `first` + 1, … of (q, v).
     fn run_derivative(&mut self, first: usize) {
         let (_, _, interpreted) = self.modes[self.current].parts();
-        let registers = interpreted.registers.iter();
-        self.lanes.clear();
-        self.lanes.extend(registers.map(|&x| Dual::constant(x)));
+        let shape = &interpreted.shape;
+        self.lanes.resize(shape.registers, Dual::default());
+        let registers = interpreted.registers[..shape.used].iter();
+        for (lanes, &x) in self.lanes.iter_mut().zip(registers) {
+            *lanes = Dual::constant(x);
+        }
         let last = (first + LANES).min(2 * self.description.coordinates.len());
         for (lane, input) in (first..last).enumerate() {
             let register = &mut self.lanes[2 + input];
             *register = Dual::variable(register.value, lane);
         }
-        let program = interpreted.shape.program(Extent::Accelerations);
+        let program = shape.program(Extent::Accelerations);
         program.evaluate(MOTION, &mut self.lanes);
         program.evaluate(SYSTEM, &mut self.lanes);
     }

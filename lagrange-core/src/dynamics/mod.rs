@@ -107,7 +107,7 @@ pub struct Dynamics<T: Scalar> {
     equations: Equations,
     /// t, q, v, v̇, λ of all rows at the last value.
     inputs: Vec<T>,
-    /// Outputs of the motion program at the last value, then those of the plan.
+    /// Outputs of the motion program at the last value.
     nodes: Vec<T>,
     report_nodes: Vec<T>,
     right: Vec<T>,

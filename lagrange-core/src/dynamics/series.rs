@@ -146,7 +146,7 @@ impl<T: Scalar> Dynamics<T> {
     pub(super) fn start_series(&mut self, order: usize) -> Result<(), EvaluationError> {
         let (_, _, interpreted) = self.modes[self.current].parts();
         interpreted.evaluate(Extent::Series, REPORT);
-        let (series, registers) = interpreted.begin_series(order);
+        let (series, registers) = interpreted.series_memory(order);
         match series.singular(registers) {
             Some(operation) => Err(EvaluationError::NoSeries { operation }),
             None => {

@@ -1,4 +1,4 @@
-//! The value reading: accelerations and forces at one state.
+//! Accelerations and forces at one state.
 
 use super::compiled::Compiled;
 use super::interpreted::{Extent, FORCES, MOTION, REPORT, SYSTEM};
@@ -208,7 +208,7 @@ impl<T: Scalar> Dynamics<T> {
         rows.take_nodes(&mut self.nodes);
     }
 
-    /// Replaces the forces of all rows that [`Self::force`] and the report tape see until the next [`Self::value`].
+    /// Replaces the forces of all rows that [`Self::force`] and the report see until the next [`Self::value`].
     pub(crate) fn replace_forces(&mut self, forces: &[T]) {
         let first = 1 + 3 * self.description().coordinates.len();
         self.inputs[first..].copy_from_slice(forces);

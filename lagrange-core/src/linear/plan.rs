@@ -66,7 +66,7 @@ pub(crate) struct Plan<T> {
     pub slides: Vec<Slide>,
     /// Of these, those whose slip begins.
     pub headings: Vec<Heading>,
-    /// Work after the motion tape.
+    /// Work after the motion program.
     pub program: Program<T>,
     /// Elements that change, in the square system: accelerations first, forces after `first_force`.
     pub entries: Vec<Entry>,
@@ -120,11 +120,16 @@ impl<T: Scalar> Plan<T> {
         self.elimination.right.row(j).is_empty()
     }
 
-    /// Appends all numbers that a program made by this plan reads, beside the constants: factors of the sums, the matrix, the right-hand
-    /// sides, the factors of loads, and those of the elimination.
+    /// The rows of the matrix that give the eliminated forces.
+    pub(crate) fn constant_of_forces(&self) -> &[T] {
+        &self.constant[self.size() * self.size()..]
+    }
+
+    /// Appends all numbers that a program made by this plan reads, beside the constants: factors of the sums, the rows of eliminated forces, the
+    /// right-hand sides, the factors of loads, and those of the elimination.
     pub(crate) fn collect(&self, numbers: &mut Vec<T>) {
         numbers.extend(self.program.numbers());
-        numbers.extend_from_slice(&self.constant);
+        numbers.extend_from_slice(self.constant_of_forces());
         numbers.extend_from_slice(&self.constant_load);
         numbers.extend(self.loads.iter().map(|load| load.factor));
         numbers.extend(self.elimination.right.values());
@@ -142,7 +147,7 @@ impl<T: Scalar> Plan<T> {
             && self.entries == other.entries
             && self.first_force == other.first_force
             && self.force_entries == other.force_entries
-            && same_zeros(&self.constant, &other.constant)
+            && same_zeros(self.constant_of_forces(), other.constant_of_forces())
             && same_zeros(&self.constant_load, &other.constant_load)
             && self.reduced == other.reduced
             && self.cancelling().eq(other.cancelling())

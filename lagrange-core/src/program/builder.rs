@@ -138,7 +138,7 @@ impl Builder {
         }
     }
 
-    /// Appends an encoded program for what is held, with its inputs in these registers; gives those of its outputs, zero for what is
+    /// Appends an encoded program for what is held, with its inputs in these registers; gives those of its outputs, none for what is
     /// not asked for.
     pub(crate) fn load(
         &mut self,
@@ -146,10 +146,10 @@ impl Builder {
         held: &Held,
         numbers: Numbers,
         inputs: &[Register],
-    ) -> Vec<Register> {
+    ) -> Vec<Option<Register>> {
         let mut values = inputs.to_vec();
         values.resize(encoded.values.max(inputs.len()), Register::ZERO);
-        let mut outputs = vec![Register::ZERO; encoded.outputs];
+        let mut outputs = vec![None; encoded.outputs];
         encoded.read(held, |value, word| {
             let result = match word {
                 Word::Constant(c) => numbers.register(c),
@@ -172,15 +172,17 @@ impl Builder {
                     result
                 }
                 Word::Set(output, x) => {
-                    outputs[output] = values[x];
+                    outputs[output] = Some(values[x]);
                     return;
                 }
                 Word::AddTo(output, x) => {
-                    outputs[output] = self.push(Op::Add, outputs[output], values[x]);
+                    let sum = outputs[output].unwrap_or_default();
+                    outputs[output] = Some(self.push(Op::Add, sum, values[x]));
                     return;
                 }
                 Word::SubtractFrom(output, x) => {
-                    outputs[output] = self.push(Op::Sub, outputs[output], values[x]);
+                    let sum = outputs[output].unwrap_or_default();
+                    outputs[output] = Some(self.push(Op::Sub, sum, values[x]));
                     return;
                 }
             };

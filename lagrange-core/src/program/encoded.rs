@@ -96,9 +96,9 @@ impl Encoded {
         let (program, used) = builder.finish();
         registers.resize(room(used), T::zero());
         program.evaluate(0, &mut registers);
-        let outputs = outputs.iter();
+        let outputs = outputs.into_iter();
         outputs
-            .map(|output| (!output.is_zero()).then(|| registers[output.index()]))
+            .map(|output| output.map(|register| registers[register.index()]))
             .collect()
     }
 

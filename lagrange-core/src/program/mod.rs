@@ -1,7 +1,7 @@
 //! Straight-line programs as data, run by one interpreter.
 //!
-//! The derive writes what a system is made of, masses, forces, rows, outputs, as two [`Encoded`] programs, before and after the
-//! solution for the accelerations. For a mode they are loaded: blocks that nobody asks for are skipped, branches
+//! The derive writes what a system is made of, masses, forces, rows, outputs, as [`Encoded`] programs: its constants, what comes before
+//! the solution for the accelerations, and what comes after. For a mode they are loaded: blocks that nobody asks for are skipped, branches
 //! are decided, and what is left is a list of instructions on registers. It runs for values over any [`Scalar`](crate::arithmetic::Scalar),
 //! dual numbers included, and for Taylor coefficients.
 
