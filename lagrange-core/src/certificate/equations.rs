@@ -17,6 +17,10 @@ pub(super) struct Equations {
     pub residual: Vec<f64>,
     /// Per coordinate: the sum of the absolute values of its terms.
     pub size: Vec<f64>,
+    /// The largest of [`Self::size`] in the run.
+    pub largest: Vec<f64>,
+    /// Per coordinate: accelerations that forces of its size would make.
+    pub swiftness: Vec<f64>,
     seeds: [Vec<Seed>; 2],
     gradient: [Vec<f64>; 3],
     zeros: Vec<f64>,
@@ -63,6 +67,8 @@ impl Equations {
             values: Evaluator::new(declaration),
             residual: zero(),
             size: zero(),
+            largest: zero(),
+            swiftness: zero(),
             seeds: [Vec::new(), Vec::new()],
             gradient: [zero(), zero(), zero()],
             zeros: vec![0.0; n.max(d.rows.len())],
@@ -133,7 +139,46 @@ impl Equations {
         self.sweep();
     }
 
-    /// ±∂L/∂v at the state taken, added to what balances; `begin` and `finish` with [`Self::begin`] and [`Self::sweep`].
+    /// [`Self::balance`] at the state taken, its sizes with everything that rounding errors are relative to: how much it changes
+    /// when each position and velocity x changes by 1 + |x| (two large forces that cancel in a spring near its rest length), and
+    /// what the forces of rows bring from one equation into another.
+    pub fn balance_with_sizes(&mut self, at: Situation<'_>, mode: &Mode) {
+        /// Changes of the state, whose rounding errors do not matter and which are small enough to be linear.
+        const CHANGE: f64 = 1.0 / 1_048_576.0;
+        let changed = |x: &[f64]| -> Vec<f64> {
+            let signs = [1.0, -1.0, 1.0, 1.0, -1.0].into_iter().cycle();
+            let signed = x.iter().zip(signs);
+            signed.map(|(x, s)| x + s * CHANGE * (1.0 + x.abs())).collect()
+        };
+        let (q, v) = (changed(at.q), changed(at.v));
+        self.take(Situation {
+            q: &q,
+            v: &v,
+            ..at
+        });
+        self.balance(at.forces);
+        let beside = self.residual.clone();
+        self.take(at);
+        self.balance(at.forces);
+        for ((size, there), here) in self.size.iter_mut().zip(beside).zip(&self.residual) {
+            *size += (there - here).abs() / CHANGE;
+        }
+        let mut brought = vec![0.0; self.size.len()];
+        for row in 0..self.d.rows.len() {
+            if self.acts(row, mode) {
+                let (value, level) = self.row(row);
+                let (along, square) = self.along(value, level, &self.size.clone());
+                for (brought, g) in brought.iter_mut().zip(&self.gradient[0]) {
+                    *brought += g * along / square.max(f64::MIN_POSITIVE);
+                }
+            }
+        }
+        for (size, brought) in self.size.iter_mut().zip(brought) {
+            *size += brought;
+        }
+    }
+
+    /// ±∂L/∂v at the state taken, added to what balances since [`Self::begin`].
     pub fn add_momenta(&mut self, factor: f64) {
         self.seeds.iter_mut().for_each(Vec::clear);
         self.seed_energies_at(1, 0, factor);
@@ -206,18 +251,50 @@ impl Equations {
         sum
     }
 
-    /// The size of the forces that balance, as a force along the gradient of a value: by velocities for one of velocity level.
+    /// Remembers the sizes of the forces that balance at the state taken.
+    pub fn survey(&mut self, at: Situation<'_>) {
+        self.take(at);
+        self.balance(at.forces);
+        for (largest, size) in self.largest.iter_mut().zip(&self.size) {
+            *largest = largest.max(*size);
+        }
+    }
+
+    /// Accelerations that forces of the sizes of the last balance would make. The inertia of a coordinate is its momentum where
+    /// all velocities are 1; terms of either sign count alike, so that it is not too small.
+    pub fn measure_swiftness(&mut self, at: Situation<'_>) {
+        let ones = vec![1.0; at.v.len()];
+        self.take(Situation { v: &ones, ..at });
+        let mut inertia = vec![0.0; ones.len()];
+        for (i, &value) in self.declaration.kinetic.iter().enumerate() {
+            if self.effects.includes(self.d, Item::Kinetic(i)) {
+                self.values.gradient_size(&[(value, 0, 1.0)], 1, &mut inertia);
+            }
+        }
+        for ((swift, size), inertia) in self.swiftness.iter_mut().zip(&self.size).zip(inertia) {
+            *swift = if inertia > 0.0 { size / inertia } else { 0.0 };
+        }
+        self.take(at);
+    }
+
+    /// The size of the forces that balance in the run, as a force along the gradient of a value: by velocities for one of velocity
+    /// level.
     pub fn force_along(&mut self, value: usize, level: Level) -> f64 {
+        let largest = core::mem::take(&mut self.largest);
+        let (along, square) = self.along(value, level, &largest);
+        self.largest = largest;
+        if square > 0.0 { along / square } else { 0.0 }
+    }
+
+    /// The gradient of a value times sizes, and its square; the gradient stays in `gradient[0]`.
+    fn along(&mut self, value: usize, level: Level, sizes: &[f64]) -> (f64, f64) {
         let gradient = &mut self.gradient[0];
         gradient.fill(0.0);
         let power = usize::from(level == Level::Velocity);
         self.values.gradient_size(&[(value, 0, 1.0)], power, gradient);
-        let (mut along, mut square) = (0.0, 0.0);
-        for (g, size) in gradient.iter().zip(&self.size) {
-            along += g * size;
-            square += g * g;
-        }
-        if square > 0.0 { along / square } else { 0.0 }
+        let pairs = gradient.iter().zip(sizes);
+        let along = pairs.map(|(g, size)| g * size).sum();
+        (along, gradient.iter().map(|g| g * g).sum())
     }
 
     /// The second rate of a value of position level or the first of one of velocity level, and the size of its terms.
@@ -232,7 +309,10 @@ impl Equations {
             gradient.fill(0.0);
             self.values.gradient_size(&[(value, power, 1.0)], k, gradient);
             let half = if k == 2 { 0.5 } else { 1.0 };
-            size += gradient.iter().zip(state).map(|(g, x)| half * g * x.abs()).sum::<f64>();
+            let terms = gradient.iter().zip(state).zip(&self.swiftness);
+            size += terms
+                .map(|((g, x), swift)| half * g * if k == 2 { x.abs() + swift } else { x.abs() })
+                .sum::<f64>();
         }
         (factor * self.values.coefficient(value, power), factor * size)
     }
@@ -257,6 +337,34 @@ impl Equations {
                 (normal, normal.abs())
             }
         }
+    }
+
+    /// The value whose rate the force of a row acts along, and its level.
+    pub fn row(&self, row: usize) -> (usize, Level) {
+        let d = self.d;
+        if let Some(i) = d.constraints.iter().position(|c| c.row == row) {
+            return (self.declaration.constraints[i], self.level(i));
+        }
+        if let Some(c) = d.contacts.iter().position(|c| c.row == row) {
+            return (self.declaration.contacts[c].gap, Level::Position);
+        }
+        let on = |f: &crate::system::Friction| (f.row..f.row + f.components).contains(&row);
+        let f = d.frictions.iter().position(on).unwrap_or(0);
+        let slip = self.declaration.frictions[f].slip;
+        (slip[row - d.frictions[f].row], Level::Velocity)
+    }
+
+    /// Whether a row acts in a mode.
+    fn acts(&self, row: usize, mode: &Mode) -> bool {
+        let d = self.d;
+        if let Some(i) = d.constraints.iter().position(|c| c.row == row) {
+            return self.constraint_acts(i, mode);
+        }
+        if let Some(c) = d.contacts.iter().position(|c| c.row == row) {
+            return mode.contacts[c];
+        }
+        let on = |f: &crate::system::Friction| (f.row..f.row + f.components).contains(&row);
+        d.frictions.iter().position(on).is_some_and(|f| self.friction_acts(f, mode))
     }
 
     /// Whether a constraint acts in a mode.

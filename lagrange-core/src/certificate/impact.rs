@@ -39,6 +39,8 @@ impl<T: Scalar> Examination<'_, T> {
             let (error, size) = (equations.residual[i].abs(), equations.size[i]);
             findings.book(Subject::Impulses, error, size, time, coordinate.name);
         }
+        // Impulses are measured by the momenta of this impact.
+        core::mem::swap(&mut equations.largest, &mut equations.size);
         // Sizes of impulses along a row.
         let along = |equations: &mut Equations, row: usize| {
             let (value, level) = equations.row(row);
@@ -112,25 +114,11 @@ impl<T: Scalar> Examination<'_, T> {
             size += impulse.abs() * (rates.rate[row].abs() + rates_after.rate[row].abs());
         }
         findings.book(Subject::Dissipation, gain, size, time, event.subject.name(d));
+        core::mem::swap(&mut equations.largest, &mut equations.size);
     }
 }
 
 impl Equations {
-    /// The value whose rate the force of a row acts along, and its level.
-    fn row(&self, row: usize) -> (usize, Level) {
-        let d = self.d;
-        if let Some(i) = d.constraints.iter().position(|c| c.row == row) {
-            return (self.declaration.constraints[i], self.level(i));
-        }
-        if let Some(c) = d.contacts.iter().position(|c| c.row == row) {
-            return (self.declaration.contacts[c].gap, Level::Position);
-        }
-        let on = |f: &crate::system::Friction| (f.row..f.row + f.components).contains(&row);
-        let f = d.frictions.iter().position(on).unwrap_or(0);
-        let slip = self.declaration.frictions[f].slip;
-        (slip[row - d.frictions[f].row], Level::Velocity)
-    }
-
     /// Rates of all rows in the state taken.
     fn rates(&mut self, time: f64, state: &State<f64>) -> Rates {
         let mut rates = Rates::default();

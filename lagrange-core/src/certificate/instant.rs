@@ -16,7 +16,7 @@ pub(super) struct Reported {
 }
 
 impl Equations {
-    /// Checks the state taken with the reported accelerations and forces. `passed` says of which contacts the motion has passed beyond
+    /// Checks a state with the reported accelerations and forces. `passed` says of which contacts the motion has passed beyond
     /// the surface outside their region.
     pub fn examine(
         &mut self,
@@ -26,12 +26,13 @@ impl Equations {
         passed: &mut [bool],
         findings: &mut Findings,
     ) {
-        self.balance(at.forces);
+        self.balance_with_sizes(at, mode);
         let d = self.d;
         for (i, coordinate) in d.coordinates.iter().enumerate() {
             let (error, size) = (self.residual[i].abs(), self.size[i]);
             findings.book(Subject::Equations, error, size, at.time, coordinate.name);
         }
+        self.measure_swiftness(at);
         self.examine_energies(at, reported, findings);
         self.examine_positions(at, mode, passed, findings);
         self.examine_constraints(at, mode, findings);

@@ -165,6 +165,8 @@ pub struct Certificate {
     pub checks: Vec<Check>,
     /// Tolerance that was asked of the run.
     pub tolerance: f64,
+    /// Steps within which constraints lose rank somewhere, so that there are no forces to be checked.
+    pub unevaluated: usize,
 }
 
 impl Certificate {

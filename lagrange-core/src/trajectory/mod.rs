@@ -7,7 +7,6 @@ mod sampler;
 
 pub(crate) use event::Around;
 pub use event::{Event, EventKind, Starts, State, Subject};
-pub(crate) use ledger::GAUSS;
 pub use ledger::{Energies, Entry, Ledger};
 pub use sampler::{Instant, Sampler};
 pub(crate) use sampler::{instant, report_everything};
