@@ -4,6 +4,7 @@ use crate::declaration::{Declaration, Evaluator, Inputs, Seed, Worked};
 use crate::effects::{Effects, Item};
 use crate::mode::{FrictionMode, Mode};
 use crate::system::Description;
+use crate::trajectory::State;
 
 /// Evaluates the declared quantities with the effects of a run.
 #[derive(Debug)]
@@ -176,6 +177,55 @@ impl Equations {
         for (size, brought) in self.size.iter_mut().zip(brought) {
             *size += brought;
         }
+    }
+
+    /// Momenta at velocities that are larger by 1, all of one sign, added to the sizes: what rounding errors of velocities
+    /// that cancel are relative to.
+    pub fn add_momentum_sizes(&mut self, time: f64, state: &State<f64>) {
+        let v: Vec<f64> = state.v.iter().map(|v| 1.0 + v.abs()).collect();
+        self.take(Situation {
+            time,
+            q: &state.q,
+            v: &v,
+            acceleration: &[],
+            forces: &[],
+            loads: &[],
+        });
+        let residual = self.residual.clone();
+        self.add_momenta(1.0);
+        self.residual = residual;
+    }
+
+    /// T or V at the state taken.
+    pub fn energy(&self, potential: bool) -> f64 {
+        let (values, item): (_, fn(usize) -> Item) = match potential {
+            false => (self.declaration.kinetic, Item::Kinetic),
+            true => (self.declaration.potential, Item::Potential),
+        };
+        let taking = values.iter().enumerate().filter(|(i, _)| self.includes(item(*i)));
+        taking.map(|(_, value)| self.values.value(*value)).sum()
+    }
+
+    /// v·∂L/∂v − L at the state taken, and the size of its terms.
+    pub fn jacobi(&mut self, at: Situation<'_>) -> (f64, f64) {
+        self.begin();
+        self.add_momenta(1.0);
+        let (mut sum, mut size) = (0.0, 0.0);
+        for ((p, s), v) in self.residual.iter().zip(&self.size).zip(at.v) {
+            sum += p * v;
+            size += s * (1.0 + v.abs());
+        }
+        let kinetic = self.declaration.kinetic.iter().enumerate();
+        let kinetic = kinetic.map(|(i, value)| (Item::Kinetic(i), *value, -1.0));
+        let potential = self.declaration.potential.iter().enumerate();
+        let potential = potential.map(|(i, value)| (Item::Potential(i), *value, 1.0));
+        for (item, value, sign) in kinetic.chain(potential) {
+            if self.includes(item) {
+                sum += sign * self.values.value(value);
+                size += self.values.value(value).abs() + self.reach(value, 0, at);
+            }
+        }
+        (sum, size)
     }
 
     /// ±∂L/∂v at the state taken, added to what balances since [`Self::begin`].

@@ -28,6 +28,7 @@ impl<T: Scalar> Examination<'_, T> {
         let d = self.equations.d;
         let (equations, findings) = (&mut self.equations, &mut self.findings);
         equations.begin();
+        equations.add_momentum_sizes(time, &after);
         equations.take(situation(time, &after));
         equations.add_momenta(1.0);
         let rates_after = equations.rates(time, &after);
@@ -113,6 +114,10 @@ impl<T: Scalar> Examination<'_, T> {
             gain += impulse * (rates.rate[row] + rates_after.rate[row]);
             size += impulse.abs() * (rates.rate[row].abs() + rates_after.rate[row].abs());
         }
+        // Where hardly anything is struck, what rounding leaves of the other rates counts beside the whole motion.
+        let speeds = before.v.iter().map(|v| v.abs());
+        let whole = equations.largest.iter().zip(speeds).map(|(p, v)| p * v);
+        let size = size + whole.sum::<f64>();
         findings.book(Subject::Dissipation, gain, size, time, event.subject.name(d));
         core::mem::swap(&mut equations.largest, &mut equations.size);
     }

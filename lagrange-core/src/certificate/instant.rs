@@ -9,10 +9,12 @@ use crate::mode::{Direction, FrictionMode, Mode};
 const VANISHING: f64 = 1e3;
 
 /// What the run reports of an instant.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Reported {
     pub kinetic: f64,
     pub potential: f64,
+    /// v·∂L/∂v − L
+    pub jacobi: f64,
 }
 
 impl Equations {
@@ -33,34 +35,24 @@ impl Equations {
             findings.book(Subject::Equations, error, size, at.time, coordinate.name);
         }
         self.measure_swiftness(at);
-        self.examine_energies(at, reported, findings);
         self.examine_positions(at, mode, passed, findings);
         self.examine_constraints(at, mode, findings);
         self.examine_contacts(at, mode, findings);
         self.examine_frictions(at, mode, findings);
+        self.examine_energies(at, reported, findings);
     }
 
     fn examine_energies(&mut self, at: Situation<'_>, reported: Reported, findings: &mut Findings) {
-        let mut sums = [0.0, 0.0];
-        let mut sizes = [0.0, 0.0];
-        let kinetic = self.declaration.kinetic.iter().enumerate();
-        let kinetic = kinetic.map(|(i, value)| (0, Item::Kinetic(i), value));
-        let potential = self.declaration.potential.iter().enumerate();
-        let potential = potential.map(|(i, value)| (1, Item::Potential(i), value));
-        for (which, item, &value) in kinetic.chain(potential) {
-            if self.includes(item) {
-                sums[which] += self.values.value(value);
-                sizes[which] += self.reach(value, 0, at) + self.values.value(value).abs();
-            }
-        }
         let name = self.d.name;
-        // Of a Lagrangian the difference is declared.
-        let pairs = match self.d.inertia {
-            Some(_) => [(reported.kinetic, sums[0]), (reported.potential, sums[1])],
-            None => [(reported.kinetic - reported.potential, sums[0] - sums[1]), (0.0, 0.0)],
-        };
-        let size = sizes[0] + sizes[1];
-        for (reported, declared) in pairs {
+        let (jacobi, size) = self.jacobi(at);
+        let error = (reported.jacobi - jacobi).abs();
+        findings.book(Subject::Energies, error, size, at.time, name);
+        // A Lagrangian does not say which of its terms are kinetic.
+        if self.d.inertia.is_none() {
+            return;
+        }
+        for (potential, reported) in [(false, reported.kinetic), (true, reported.potential)] {
+            let declared = self.energy(potential);
             let error = (reported - declared).abs();
             findings.book(Subject::Energies, error, size, at.time, name);
         }

@@ -11,6 +11,7 @@ use super::watch::Watches;
 use super::{Certificate, FINEST, Findings, Subject};
 use crate::arithmetic::Scalar;
 use crate::checks::state::Random;
+use crate::dynamics::Dynamics;
 use crate::error::Error;
 use crate::integrate::Method;
 use crate::mode::Mode;
@@ -32,6 +33,8 @@ pub(super) struct Examination<'a, T: Scalar> {
     pub time: f64,
     /// Steps within which something could not be evaluated.
     pub unevaluated: usize,
+    dynamics: Dynamics<T>,
+    scratch: State<T>,
 }
 
 /// See [`Record::verify`].
@@ -64,6 +67,8 @@ pub(crate) fn verify<T: Scalar>(record: &Record<T>, seed: u64) -> Result<Certifi
         expected: numbers(&record.start),
         time: record.first_time(),
         unevaluated: 0,
+        dynamics: record.dynamics(),
+        scratch: record.start.clone(),
     };
     let mut random = Random::new(seed);
     let segments = record.segments.iter();
@@ -155,7 +160,10 @@ impl<T: Scalar> Examination<'_, T> {
         let mut sizes = begin.clone();
         let mut again = Vec::new();
         for (s, weight) in nodes {
-            let now = Numbers::of(&sampler.inside(k, T::from_f64(s))?);
+            let now = match s == chosen {
+                true => Numbers::of(&sampler.inside(k, T::from_f64(s))?),
+                false => self.bare(k, s)?,
+            };
             self.instant(&now, s == chosen, &mut again);
             let sums = sums.q.iter_mut().zip(&now.v).chain(sums.v.iter_mut().zip(&now.acceleration));
             sums.for_each(|(sum, rate)| *sum += weight * rate);
@@ -164,8 +172,8 @@ impl<T: Scalar> Examination<'_, T> {
         }
         for time in again {
             self.watches.forget();
-            let now = sampler.inside(k, T::from_f64((time - t) / h))?;
-            self.instant(&Numbers::of(&now), false, &mut Vec::new());
+            let now = self.bare(k, (time - t) / h)?;
+            self.instant(&now, false, &mut Vec::new());
         }
         // The error of a step is a mean over its components, one of which may have all of it.
         let components = (2.0 * begin.q.len() as f64).sqrt();
@@ -185,10 +193,37 @@ impl<T: Scalar> Examination<'_, T> {
         numbers(&state)
     }
 
+    /// Accelerations and forces at part `s` of a step, by the equations that the run itself evaluates.
+    fn bare(&mut self, k: usize, s: f64) -> Result<Numbers, Error> {
+        let segment = &self.record.segments[k];
+        let (q, v) = (&mut self.scratch.q, &mut self.scratch.v);
+        self.record.state_at(segment, T::from_f64(s), q, v);
+        let time = segment.t + segment.h * T::from_f64(s);
+        let mode = &self.record.modes[segment.mode];
+        self.dynamics.set_mode(mode);
+        let d = self.record.description();
+        let outcome = self.dynamics.value_along(time, q, v);
+        outcome.map_err(|e| Error::from_evaluation(e, time.value(), mode, d))?;
+        let plain = |list: &[T]| list.iter().map(|x| x.value()).collect();
+        Ok(Numbers {
+            time: time.value(),
+            mode: mode.under_way(),
+            acceleration: plain(self.dynamics.acceleration()),
+            forces: (0..d.rows.len()).map(|row| self.dynamics.force(row).value()).collect(),
+            loads: Vec::new(),
+            energies: Reported::default(),
+            q: plain(q),
+            v: plain(v),
+        })
+    }
+
     /// Looks at an instant, at a chosen one at everything.
     fn instant(&mut self, now: &Numbers, chosen: bool, again: &mut Vec<f64>) {
         let at = now.situation();
         let (equations, findings) = (&mut self.equations, &mut self.findings);
+        if !chosen && self.watches.is_idle(&now.mode) {
+            return;
+        }
         equations.take(at);
         let seen = (at, &now.mode);
         self.watches.see(equations, findings, seen, &self.passed, again);
@@ -284,6 +319,7 @@ impl Numbers {
             energies: Reported {
                 kinetic: now.kinetic.value(),
                 potential: now.potential.value(),
+                jacobi: now.jacobi.value(),
             },
         }
     }

@@ -62,6 +62,12 @@ impl Watches {
         }
     }
 
+    /// Whether there is nothing to follow in a mode.
+    pub fn is_idle(&self, mode: &Mode) -> bool {
+        let closed = |guard: &Guard| matches!(guard.kind, Kind::Gap(c) if mode.contacts[c]);
+        self.guards.iter().all(closed)
+    }
+
     /// The motion has jumped or is in another mode.
     pub fn forget(&mut self) {
         self.guards.iter_mut().for_each(|guard| guard.last.clear());
