@@ -28,7 +28,7 @@ pub struct Entries<T: Scalar> {
     pub(crate) sampler: fn(&Record<T>) -> Sampler<'_, T>,
     pub(crate) at: fn(&mut Sampler<'_, T>, f64) -> Result<Instant<T>, Error>,
     pub(crate) ledgers: Book<T>,
-    pub(crate) verify: fn(&Record<T>, u64) -> Result<Certificate, Error>,
+    pub(crate) verify: fn(&Record<T>, u64, f64) -> Result<Certificate, Error>,
     pub(crate) dynamics: fn(Erased<T>, &Effects) -> Dynamics<T>,
 }
 

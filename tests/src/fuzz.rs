@@ -112,6 +112,7 @@ pub fn scene(scene: &dyn Scene, method: Method, tolerance: f64) -> Report {
         method,
         tolerance,
         until: Some(until),
+        certified: 1.0,
         ..Request::default()
     };
     let verdict = patiently(|| match scene.run(&request) {

@@ -20,7 +20,9 @@ pub(super) struct Equations {
     pub size: Vec<f64>,
     /// The largest of [`Self::size`] in the run.
     pub largest: Vec<f64>,
-    /// Per coordinate: accelerations that forces of its size would make.
+    /// Bound of rounding.
+    pub exact: f64,
+    /// Per coordinate: accelerations that forces of its size would make, where that has been measured.
     pub swiftness: Vec<f64>,
     seeds: [Vec<Seed>; 2],
     gradient: [Vec<f64>; 3],
@@ -57,6 +59,7 @@ impl Equations {
         declaration: &'static Declaration,
         effects: &Effects,
         parameters: Vec<f64>,
+        exact: f64,
     ) -> Self {
         let n = d.coordinates.len();
         let zero = || vec![0.0; n];
@@ -69,6 +72,7 @@ impl Equations {
             residual: zero(),
             size: zero(),
             largest: zero(),
+            exact,
             swiftness: zero(),
             seeds: [Vec::new(), Vec::new()],
             gradient: [zero(), zero(), zero()],
@@ -140,10 +144,21 @@ impl Equations {
         self.sweep();
     }
 
-    /// [`Self::balance`] at the state taken, its sizes with everything that rounding errors are relative to: how much it changes
+    /// [`Self::balance`] at a state, which is taken. Where something is beyond rounding at first sight, with all its sizes.
+    pub fn balance_at(&mut self, at: Situation<'_>, mode: &Mode) {
+        self.take(at);
+        self.balance(at.forces);
+        self.swiftness.fill(0.0);
+        let beyond = |(error, size): (&f64, &f64)| error.abs() > self.exact * size;
+        if self.residual.iter().zip(&self.size).any(beyond) {
+            self.balance_with_sizes(at, mode);
+        }
+    }
+
+    /// [`Self::balance`] at a state, which is taken, its sizes with everything that rounding errors are relative to: how much it changes
     /// when each position and velocity x changes by 1 + |x| (two large forces that cancel in a spring near its rest length), and
     /// what the forces of rows bring from one equation into another.
-    pub fn balance_with_sizes(&mut self, at: Situation<'_>, mode: &Mode) {
+    fn balance_with_sizes(&mut self, at: Situation<'_>, mode: &Mode) {
         /// Changes of the state, whose rounding errors do not matter and which are small enough to be linear.
         const CHANGE: f64 = 1.0 / 1_048_576.0;
         let changed = |x: &[f64]| -> Vec<f64> {
@@ -312,7 +327,7 @@ impl Equations {
 
     /// Accelerations that forces of the sizes of the last balance would make. The inertia of a coordinate is its momentum where
     /// all velocities are 1; terms of either sign count alike, so that it is not too small.
-    pub fn measure_swiftness(&mut self, at: Situation<'_>) {
+    fn measure_swiftness(&mut self, at: Situation<'_>) {
         let ones = vec![1.0; at.v.len()];
         self.take(Situation { v: &ones, ..at });
         let mut inertia = vec![0.0; ones.len()];
@@ -349,6 +364,20 @@ impl Equations {
 
     /// The second rate of a value of position level or the first of one of velocity level, and the size of its terms.
     pub fn acceleration(&mut self, value: usize, level: Level, at: Situation<'_>) -> (f64, f64) {
+        let (error, size) = self.acceleration_at_sight(value, level, at);
+        if error.abs() <= self.exact * size {
+            return (error, size);
+        }
+        self.measure_swiftness(at);
+        self.acceleration_at_sight(value, level, at)
+    }
+
+    fn acceleration_at_sight(
+        &mut self,
+        value: usize,
+        level: Level,
+        at: Situation<'_>,
+    ) -> (f64, f64) {
         let (power, factor) = match level {
             Level::Position => (2, 2.0),
             Level::Velocity => (1, 1.0),
@@ -421,6 +450,16 @@ impl Equations {
     pub fn constraint_acts(&self, i: usize, mode: &Mode) -> bool {
         let contact = self.d.constraints[i].while_contact;
         self.includes(Item::Constraint(i)) && contact.is_none_or(|c| mode.contacts[c])
+    }
+
+    /// Whether what presses a friction acts in a mode.
+    pub fn is_pressed(&self, f: usize, mode: &Mode) -> bool {
+        use crate::system::Normal;
+        match self.d.frictions[f].normal {
+            Normal::Contact(c) => mode.contacts[c],
+            Normal::Constraint(i) => self.constraint_acts(i, mode),
+            Normal::Given(_) => true,
+        }
     }
 
     /// Whether a friction acts in a mode.

@@ -28,13 +28,12 @@ impl Equations {
         passed: &mut [bool],
         findings: &mut Findings,
     ) {
-        self.balance_with_sizes(at, mode);
+        self.balance_at(at, mode);
         let d = self.d;
         for (i, coordinate) in d.coordinates.iter().enumerate() {
             let (error, size) = (self.residual[i].abs(), self.size[i]);
             findings.book(Subject::Equations, error, size, at.time, coordinate.name);
         }
-        self.measure_swiftness(at);
         self.examine_positions(at, mode, passed, findings);
         self.examine_constraints(at, mode, findings);
         self.examine_contacts(at, mode, findings);
@@ -86,7 +85,9 @@ impl Equations {
                 continue;
             }
             let name = d.contacts[c].name;
-            let (gap, reach) = (self.values.value(contact.gap), self.reach(contact.gap, 0, at));
+            let gap = self.values.value(contact.gap);
+            let wanting = mode.contacts[c] || gap < 0.0;
+            let reach = if wanting { self.reach(contact.gap, 0, at) } else { 1.0 };
             if mode.contacts[c] {
                 findings.book(Subject::Closed, gap.abs(), reach, at.time, name);
                 let (rate, reach) = (self.values.rate(contact.gap), self.reach(contact.gap, 1, at));
@@ -132,11 +133,16 @@ impl Equations {
         for (f, friction) in self.declaration.frictions.iter().enumerate() {
             let (first, name) = (self.d.frictions[f].row, self.d.frictions[f].name);
             let force = &at.forces[first..first + friction.slip.len()];
+            let (normal, normal_size) = self.normal(f, at.forces);
             if !self.friction_acts(f, mode) {
                 findings.book(Subject::Idle, length(force), 1.0, at.time, name);
+                if self.includes(Item::Friction(f)) && self.is_pressed(f, mode) {
+                    let mu = self.values.value(friction.kinetic_coefficient);
+                    let (missing, size) = (mu * normal, mu * normal_size);
+                    findings.book(Subject::Sliding, missing, size, at.time, name);
+                }
                 continue;
             }
-            let (normal, normal_size) = self.normal(f, at.forces);
             let mut size = 0.0_f64;
             let mut reach = 0.0_f64;
             let mut slip = [0.0; 2];

@@ -16,6 +16,8 @@ mod equations;
 mod impact;
 mod instant;
 mod motion;
+#[cfg(test)]
+mod tests;
 mod watch;
 
 pub(crate) use motion::verify;
@@ -165,6 +167,10 @@ pub struct Certificate {
     pub checks: Vec<Check>,
     /// Tolerance that was asked of the run.
     pub tolerance: f64,
+    /// Steps of the run, and how many of them were looked at.
+    pub steps: usize,
+    /// See [`Self::steps`].
+    pub looked: usize,
     /// Steps within which constraints lose rank somewhere, so that there are no forces to be checked.
     pub unevaluated: usize,
 }
@@ -190,7 +196,9 @@ impl fmt::Display for Certificate {
             None => f.write_str("Nothing is declared that could be checked."),
             Some(worst) if beyond == 0 => write!(
                 f,
-                "Certified: {all} checks within their bounds, the nearest {} with {:.0} %.",
+                "Certified: {all} checks at {} of {} steps, the nearest to its bound {} with {:.0} %.",
+                self.looked,
+                self.steps,
                 worst.subject.words(),
                 (100.0 * worst.share()).ceil(),
             ),
@@ -249,11 +257,20 @@ impl Findings {
 }
 
 impl<T: Scalar> Record<T> {
-    /// Checks the whole run against the declaration, at instants chosen by `seed`.
+    /// Checks the run against the declaration, at instants chosen by `seed`: every step, its ends and what joins them, and
+    /// every impact. It costs about as much as a few runs.
     ///
     /// # Errors
-    /// [`Error::NotRecorded`]; or the motion could not be evaluated somewhere.
+    /// [`Error::NotRecorded`].
     pub fn verify(&self, seed: u64) -> Result<Certificate, Error> {
-        (T::entries().verify)(self, seed)
+        self.verify_share(seed, 1.0)
+    }
+
+    /// The same for a share of the steps, 0 to 1, chosen by `seed`. How steps join, and impacts, are looked at in any case.
+    ///
+    /// # Errors
+    /// [`Error::NotRecorded`].
+    pub fn verify_share(&self, seed: u64, share: f64) -> Result<Certificate, Error> {
+        (T::entries().verify)(self, seed, share)
     }
 }

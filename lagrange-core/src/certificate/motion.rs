@@ -8,14 +8,15 @@
 use super::equations::{Equations, Situation};
 use super::instant::Reported;
 use super::watch::Watches;
-use super::{Certificate, FINEST, Findings, Subject};
+use super::{Certificate, FINEST, Findings, ROUNDINGS, Subject};
 use crate::arithmetic::Scalar;
 use crate::checks::state::Random;
+use crate::declaration::Declaration;
 use crate::dynamics::Dynamics;
 use crate::error::Error;
 use crate::integrate::Method;
 use crate::mode::Mode;
-use crate::trajectory::{EventKind, Instant, Record, Sampler, State};
+use crate::trajectory::{EventKind, Instant, Record, State};
 
 /// Everything about a run that is being checked.
 pub(super) struct Examination<'a, T: Scalar> {
@@ -35,21 +36,38 @@ pub(super) struct Examination<'a, T: Scalar> {
     pub unevaluated: usize,
     dynamics: Dynamics<T>,
     scratch: State<T>,
+    /// Nodes and weights of the quadrature of the last step.
+    nodes: Vec<(f64, f64)>,
 }
 
 /// See [`Record::verify`].
-pub(crate) fn verify<T: Scalar>(record: &Record<T>, seed: u64) -> Result<Certificate, Error> {
+pub(crate) fn verify<T: Scalar>(
+    record: &Record<T>,
+    seed: u64,
+    share: f64,
+) -> Result<Certificate, Error> {
     record.check_recorded()?;
-    let declaration = record.system.declaration();
+    Ok(against(record, record.system.declaration(), seed, share))
+}
+
+/// The run checked against a declaration.
+pub(super) fn against<T: Scalar>(
+    record: &Record<T>,
+    declaration: &'static Declaration,
+    seed: u64,
+    share: f64,
+) -> Certificate {
     let d = record.description();
     let tolerance = record.asked.tolerance;
     let mut certificate = Certificate {
         checks: Vec::new(),
         tolerance,
+        steps: record.segments.len(),
+        looked: 0,
         unevaluated: 0,
     };
     if declaration.words.is_empty() {
-        return Ok(certificate);
+        return certificate;
     }
     let rounding = match T::from_f64(1.0 + 1e-12).value() == 1.0 {
         true => f64::from(f32::EPSILON),
@@ -59,9 +77,15 @@ pub(crate) fn verify<T: Scalar>(record: &Record<T>, seed: u64) -> Result<Certifi
     let finest = FINEST * rounding / f64::EPSILON;
     let mut examination = Examination {
         record,
-        equations: Equations::new(d, declaration, &record.effects, parameters.collect()),
+        equations: Equations::new(
+            d,
+            declaration,
+            &record.effects,
+            parameters.collect(),
+            ROUNDINGS * rounding,
+        ),
         findings: Findings::new(tolerance.max(finest), rounding),
-        watches: Watches::new(record),
+        watches: Watches::new(record, declaration),
         passed: vec![false; d.contacts.len()],
         events: 0,
         expected: numbers(&record.start),
@@ -69,12 +93,16 @@ pub(crate) fn verify<T: Scalar>(record: &Record<T>, seed: u64) -> Result<Certifi
         unevaluated: 0,
         dynamics: record.dynamics(),
         scratch: record.start.clone(),
+        nodes: Vec::new(),
     };
     let mut random = Random::new(seed);
     let segments = record.segments.iter();
-    let chosen = segments.map(|segment| segment.end.value() * (0.5 + 0.5 * random.signed()));
-    let chosen: Vec<f64> = chosen.collect();
-    examination.survey(&chosen);
+    let chosen = segments.map(|segment| {
+        let (looked, part) = (random.signed(), random.signed());
+        (looked < 2.0 * share - 1.0).then(|| segment.end.value() * (0.5 + 0.5 * part))
+    });
+    let chosen: Vec<Option<f64>> = chosen.collect();
+    certificate.looked = chosen.iter().flatten().count();
     examination.steps(&chosen);
     certificate.unevaluated = examination.unevaluated;
     let promised = !matches!(
@@ -89,7 +117,7 @@ pub(crate) fn verify<T: Scalar>(record: &Record<T>, seed: u64) -> Result<Certifi
             certificate.checks.push(check);
         }
     }
-    Ok(certificate)
+    certificate
 }
 
 /// A state as numbers.
@@ -102,36 +130,39 @@ pub(super) fn numbers<T: Scalar>(state: &State<T>) -> State<f64> {
 }
 
 impl<T: Scalar> Examination<'_, T> {
-    /// The sizes of forces in the run; leaves out where nothing can be evaluated.
-    fn survey(&mut self, chosen: &[f64]) {
+    /// The sizes of forces in the run; what is reported at a chosen instant of each step that is looked at, if it can be evaluated.
+    fn survey(&mut self, chosen: &[Option<f64>]) -> Vec<Option<Numbers>> {
         let mut sampler = self.record.sampler();
-        for (k, &s) in chosen.iter().enumerate() {
-            if let Ok(now) = sampler.inside(k, T::from_f64(s)) {
-                let now = Numbers::of(&now);
-                self.equations.survey(now.situation());
-            }
-        }
+        let mut look = |(k, s): (usize, &Option<f64>)| {
+            let now = sampler.inside(k, T::from_f64((*s)?)).ok()?;
+            let now = Numbers::of(&now);
+            self.equations.survey(now.situation());
+            Some(now)
+        };
+        chosen.iter().enumerate().map(&mut look).collect()
     }
 
-    fn steps(&mut self, chosen: &[f64]) {
+    fn steps(&mut self, chosen: &[Option<f64>]) {
         let record = self.record;
-        let mut sampler = record.sampler();
-        for (k, segment) in record.segments.iter().enumerate() {
+        let reported = self.survey(chosen);
+        for (k, (segment, now)) in record.segments.iter().zip(&reported).enumerate() {
             let (t, h, end) = (segment.t.value(), segment.h.value(), segment.end.value());
             self.events_until(t, k == 0);
             let begin = self.state_at(k, 0.0);
             self.join(t, &begin);
             if h * end > 0.0 {
                 let last = self.state_at(k, end);
-                let looked = self.step(k, chosen[k], &mut sampler, &begin, &last);
-                // Where constraints lose rank within a step there are no forces.
-                self.unevaluated += usize::from(looked.is_err());
-                self.watches.forget();
-                let at = situation(t + h * end, &last);
-                self.equations.take(at);
-                let mode = &record.modes[segment.mode];
-                let (passed, findings) = (&mut self.passed, &mut self.findings);
-                self.equations.examine_positions(at, mode, passed, findings);
+                if chosen[k].is_some() {
+                    let looked = now.as_ref().map(|now| self.step(k, now, &begin, &last));
+                    // Where constraints lose rank within a step there are no forces.
+                    self.unevaluated += usize::from(!matches!(looked, Some(Ok(()))));
+                    self.watches.forget();
+                    let at = situation(t + h * end, &last);
+                    self.equations.take(at);
+                    let mode = &record.modes[segment.mode];
+                    let (passed, findings) = (&mut self.passed, &mut self.findings);
+                    self.equations.examine_positions(at, mode, passed, findings);
+                }
                 (self.expected, self.time) = (last, t + h * end);
             }
         }
@@ -139,36 +170,38 @@ impl<T: Scalar> Examination<'_, T> {
         self.join(record.last_time(), &numbers(&record.last));
     }
 
-    /// One step.
+    /// One step, with what is reported at an instant in it.
     fn step(
         &mut self,
         k: usize,
-        chosen: f64,
-        sampler: &mut Sampler<'_, T>,
+        reported: &Numbers,
         begin: &State<f64>,
         last: &State<f64>,
     ) -> Result<(), Error> {
         let segment = &self.record.segments[k];
         let (t, h, end) = (segment.t.value(), segment.h.value(), segment.end.value());
-        let mut nodes: Vec<(f64, f64)> = gauss(segment.degree / 2 + 2)
-            .into_iter()
-            .map(|(x, w)| (0.5 * end * (1.0 + x), 0.5 * end * h * w))
-            .chain([(chosen, 0.0)])
-            .collect();
-        nodes.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let mut sums = begin.clone();
-        let mut sizes = begin.clone();
-        let mut again = Vec::new();
-        for (s, weight) in nodes {
-            let now = match s == chosen {
-                true => Numbers::of(&sampler.inside(k, T::from_f64(s))?),
-                false => self.bare(k, s)?,
-            };
-            self.instant(&now, s == chosen, &mut again);
+        let points = segment.degree / 2 + 2;
+        if self.nodes.len() != points {
+            self.nodes = gauss(points);
+        }
+        let (mut sums, mut sizes) = (begin.clone(), begin.clone());
+        let (mut again, mut told) = (Vec::new(), false);
+        for i in 0..points {
+            let (x, w) = self.nodes[i];
+            let (s, weight) = (0.5 * end * (1.0 + x), 0.5 * end * h * w);
+            let now = self.bare(k, s)?;
+            if !told && reported.time <= now.time {
+                self.instant(reported, true, &mut again);
+                told = true;
+            }
+            self.instant(&now, false, &mut again);
             let sums = sums.q.iter_mut().zip(&now.v).chain(sums.v.iter_mut().zip(&now.acceleration));
             sums.for_each(|(sum, rate)| *sum += weight * rate);
             let sizes = sizes.q.iter_mut().zip(&now.q).chain(sizes.v.iter_mut().zip(&now.v));
             sizes.for_each(|(size, x)| *size = size.abs().max(x.abs()));
+        }
+        if !told {
+            self.instant(reported, true, &mut again);
         }
         for time in again {
             self.watches.forget();

@@ -16,7 +16,9 @@ use std::thread;
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
-    let numbers = |count: &str, from: &str| Some((count.parse().ok()?, from.parse().ok()?));
+    let numbers = |count: &str, from: &str| -> Option<(usize, u64)> {
+        Some((count.parse().ok()?, from.parse().ok()?))
+    };
     let asked = match words[..] {
         ["catalogue"] => {
             let scenes: Vec<_> = scenes().collect();
