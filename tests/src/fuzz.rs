@@ -1,12 +1,12 @@
 //! Random runs, each held to its certificate; all of a run follows from its number.
 
 use crate::Random;
+use crate::families::Family;
 use crate::families::contacts::{Balls, Blocks, Chain, Rod};
 use crate::families::linkages::{Bead, FourBar};
 use crate::families::moving::{Feeder, Shaken};
 use crate::families::space::{Body, Charge, Puck};
 use crate::families::supports::{Beam, CartPole, Cranks};
-use crate::families::Family;
 use lagrange_core::certificate::Certificate;
 use lagrange_core::effects::Item;
 use lagrange_core::prelude::*;
@@ -86,7 +86,10 @@ fn trial<F: Family>(mut random: Random) -> Report {
     if random.between(0.0, 1.0) < 0.3 && !items.is_empty() {
         effects = effects.without(items[random.bits() as usize % items.len()]);
     }
-    let left_out: Vec<&str> = effects.left_out().map(|item| item.name(F::DESCRIPTION)).collect();
+    let left_out: Vec<&str> = effects
+        .left_out()
+        .map(|item| item.name(F::DESCRIPTION))
+        .collect();
     let until = random.between(0.5, 3.0);
     let run = format!(
         "{}, {method} {tolerance:e}, until {until}, without {left_out:?}\n  {scene:?}\n  {start:?}",
@@ -119,7 +122,10 @@ pub fn scene(scene: &dyn Scene, method: Method, tolerance: f64) -> Report {
         Err(refusal) => Verdict::Refused(refusal.to_string()),
         Ok(outcome) => told(outcome.certificate.as_ref(), outcome.failure.as_ref()),
     });
-    let run = format!("{} --method {method} --tolerance {tolerance:e} --until {until}", scene.name());
+    let run = format!(
+        "{} --method {method} --tolerance {tolerance:e} --until {until}",
+        scene.name()
+    );
     Report { run, verdict }
 }
 

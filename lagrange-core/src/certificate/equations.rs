@@ -164,14 +164,12 @@ impl Equations {
         let changed = |x: &[f64]| -> Vec<f64> {
             let signs = [1.0, -1.0, 1.0, 1.0, -1.0].into_iter().cycle();
             let signed = x.iter().zip(signs);
-            signed.map(|(x, s)| x + s * CHANGE * (1.0 + x.abs())).collect()
+            signed
+                .map(|(x, s)| x + s * CHANGE * (1.0 + x.abs()))
+                .collect()
         };
         let (q, v) = (changed(at.q), changed(at.v));
-        self.take(Situation {
-            q: &q,
-            v: &v,
-            ..at
-        });
+        self.take(Situation { q: &q, v: &v, ..at });
         self.balance(at.forces);
         let beside = self.residual.clone();
         self.take(at);
@@ -217,7 +215,10 @@ impl Equations {
             false => (self.declaration.kinetic, Item::Kinetic),
             true => (self.declaration.potential, Item::Potential),
         };
-        let taking = values.iter().enumerate().filter(|(i, _)| self.includes(item(*i)));
+        let taking = values
+            .iter()
+            .enumerate()
+            .filter(|(i, _)| self.includes(item(*i)));
         taking.map(|(_, value)| self.values.value(*value)).sum()
     }
 
@@ -295,12 +296,15 @@ impl Equations {
                 self.seeds[1].push((slip, 0, -lambda[place.row + k]));
             }
         }
-        self.seeds.iter_mut().for_each(|seeds| seeds.retain(|seed| seed.2 != 0.0));
+        self.seeds
+            .iter_mut()
+            .for_each(|seeds| seeds.retain(|seed| seed.2 != 0.0));
     }
 
     fn sweep(&mut self) {
         for (power, seeds) in self.seeds.iter().enumerate() {
-            self.values.sweep(seeds, power, &mut self.residual, &mut self.size);
+            self.values
+                .sweep(seeds, power, &mut self.residual, &mut self.size);
         }
     }
 
@@ -310,8 +314,13 @@ impl Equations {
         for (k, state) in [at.q, at.v].into_iter().enumerate() {
             let gradient = &mut self.gradient[k];
             gradient.fill(0.0);
-            self.values.gradient_size(&[(value, power, 1.0)], k, gradient);
-            sum += gradient.iter().zip(state).map(|(g, x)| g * (1.0 + x.abs())).sum::<f64>();
+            self.values
+                .gradient_size(&[(value, power, 1.0)], k, gradient);
+            sum += gradient
+                .iter()
+                .zip(state)
+                .map(|(g, x)| g * (1.0 + x.abs()))
+                .sum::<f64>();
         }
         sum
     }
@@ -333,7 +342,8 @@ impl Equations {
         let mut inertia = vec![0.0; ones.len()];
         for (i, &value) in self.declaration.kinetic.iter().enumerate() {
             if self.effects.includes(self.d, Item::Kinetic(i)) {
-                self.values.gradient_size(&[(value, 0, 1.0)], 1, &mut inertia);
+                self.values
+                    .gradient_size(&[(value, 0, 1.0)], 1, &mut inertia);
             }
         }
         for ((swift, size), inertia) in self.swiftness.iter_mut().zip(&self.size).zip(inertia) {
@@ -356,7 +366,8 @@ impl Equations {
         let gradient = &mut self.gradient[0];
         gradient.fill(0.0);
         let power = usize::from(level == Level::Velocity);
-        self.values.gradient_size(&[(value, 0, 1.0)], power, gradient);
+        self.values
+            .gradient_size(&[(value, 0, 1.0)], power, gradient);
         let pairs = gradient.iter().zip(sizes);
         let along = pairs.map(|(g, size)| g * size).sum();
         (along, gradient.iter().map(|g| g * g).sum())
@@ -383,17 +394,25 @@ impl Equations {
             Level::Velocity => (1, 1.0),
         };
         let mut size = 0.0;
-        for (k, state) in [at.q, at.v, at.acceleration].into_iter().enumerate().skip(1) {
+        for (k, state) in [at.q, at.v, at.acceleration]
+            .into_iter()
+            .enumerate()
+            .skip(1)
+        {
             let gradient = &mut self.gradient[k];
             gradient.fill(0.0);
-            self.values.gradient_size(&[(value, power, 1.0)], k, gradient);
+            self.values
+                .gradient_size(&[(value, power, 1.0)], k, gradient);
             let half = if k == 2 { 0.5 } else { 1.0 };
             let terms = gradient.iter().zip(state).zip(&self.swiftness);
             size += terms
                 .map(|((g, x), swift)| half * g * if k == 2 { x.abs() + swift } else { x.abs() })
                 .sum::<f64>();
         }
-        (factor * self.values.coefficient(value, power), factor * size)
+        (
+            factor * self.values.coefficient(value, power),
+            factor * size,
+        )
     }
 
     /// The normal force of friction `f`, as it is in the state taken with these forces, and the size of forces along its source.
@@ -443,7 +462,10 @@ impl Equations {
             return mode.contacts[c];
         }
         let on = |f: &crate::system::Friction| (f.row..f.row + f.components).contains(&row);
-        d.frictions.iter().position(on).is_some_and(|f| self.friction_acts(f, mode))
+        d.frictions
+            .iter()
+            .position(on)
+            .is_some_and(|f| self.friction_acts(f, mode))
     }
 
     /// Whether a constraint acts in a mode.

@@ -1,9 +1,9 @@
 //! Impacts: the balance of momenta, restitution, friction, constraints, and what becomes of the energy.
 
+use super::Subject;
 use super::equations::{Equations, Level};
 use super::instant::length;
 use super::motion::{Examination, numbers, situation};
-use super::Subject;
 use crate::arithmetic::Scalar;
 use crate::effects::Item;
 use crate::system::{Impacts, Normal, Restitution};
@@ -48,12 +48,16 @@ impl<T: Scalar> Examination<'_, T> {
             equations.force_along(value, level)
         };
         let together = self.record.asked.impacts == Impacts::Together;
-        let newton = d.contacts.iter().all(|c| matches!(c.restitution, Restitution::Newton(_)));
+        let newton = d
+            .contacts
+            .iter()
+            .all(|c| matches!(c.restitution, Restitution::Newton(_)));
         let exact = together && newton && !event.restitution_lowered;
         let touches: Vec<bool> = (0..d.contacts.len())
             .map(|c| {
                 let row = d.contacts[c].row;
-                equations.includes(Item::Contact(c)) && (impulses[row] != 0.0 || event.after.contacts[c])
+                equations.includes(Item::Contact(c))
+                    && (impulses[row] != 0.0 || event.after.contacts[c])
             })
             .collect();
         for (c, contact) in d.contacts.iter().enumerate() {
@@ -67,18 +71,28 @@ impl<T: Scalar> Examination<'_, T> {
             let (rate, reach) = (rates_after.rate[row], rates_after.reach[row]);
             findings.book(Subject::Impacts, -rate, reach, time, name);
             if exact {
-                let e = equations.values.value(equations.declaration.contacts[c].restitution);
+                let e = equations
+                    .values
+                    .value(equations.declaration.contacts[c].restitution);
                 let aim = e * (-rates.rate[row]).max(0.0);
                 findings.book(Subject::Impacts, aim - rate, reach, time, name);
                 // Λ ⟂ rate − aim, each beside its size.
-                let (slack, push) = ((rate - aim).abs() / reach, impulse.abs() / size.max(f64::MIN_POSITIVE));
+                let (slack, push) = (
+                    (rate - aim).abs() / reach,
+                    impulse.abs() / size.max(f64::MIN_POSITIVE),
+                );
                 findings.book(Subject::Impacts, slack.min(push), 1.0, time, name);
             }
         }
         for (i, constraint) in d.constraints.iter().enumerate() {
-            let touched = constraint.while_contact.is_none_or(|c| event.after.contacts[c]);
+            let touched = constraint
+                .while_contact
+                .is_none_or(|c| event.after.contacts[c]);
             if equations.includes(Item::Constraint(i)) && touched {
-                let (rate, reach) = (rates_after.rate[constraint.row], rates_after.reach[constraint.row]);
+                let (rate, reach) = (
+                    rates_after.rate[constraint.row],
+                    rates_after.reach[constraint.row],
+                );
                 findings.book(Subject::Impacts, rate.abs(), reach, time, constraint.name);
             }
         }
@@ -100,12 +114,20 @@ impl<T: Scalar> Examination<'_, T> {
             let excess = length(tangential) - mu_static.max(mu_kinetic) * normal;
             findings.book(Subject::Impacts, excess, size, time, friction.name);
             let slip = &rates_after.rate[rows.clone()];
-            let reach = rates_after.reach[rows].iter().fold(0.0, |a: f64, b| a.max(*b));
+            let reach = rates_after.reach[rows]
+                .iter()
+                .fold(0.0, |a: f64, b| a.max(*b));
             let speed = length(slip);
             if exact && speed > 1e3 * findings.tolerance * reach {
                 let errors = tangential.iter().zip(slip);
                 let error = errors.map(|(p, s)| (p + mu_kinetic * normal * s / speed).abs());
-                findings.book(Subject::Impacts, error.fold(0.0, f64::max), size, time, friction.name);
+                findings.book(
+                    Subject::Impacts,
+                    error.fold(0.0, f64::max),
+                    size,
+                    time,
+                    friction.name,
+                );
             }
         }
         // ΔT without the work of moving surfaces is ½ Σ Λ (rate⁻ + rate⁺).
@@ -118,7 +140,13 @@ impl<T: Scalar> Examination<'_, T> {
         let speeds = before.v.iter().map(|v| v.abs());
         let whole = equations.largest.iter().zip(speeds).map(|(p, v)| p * v);
         let size = size + whole.sum::<f64>();
-        findings.book(Subject::Dissipation, gain, size, time, event.subject.name(d));
+        findings.book(
+            Subject::Dissipation,
+            gain,
+            size,
+            time,
+            event.subject.name(d),
+        );
         core::mem::swap(&mut equations.largest, &mut equations.size);
     }
 }
@@ -131,7 +159,9 @@ impl Equations {
             let (value, level) = self.row(row);
             let power = usize::from(level == Level::Position);
             rates.rate.push(self.values.coefficient(value, power));
-            rates.reach.push(self.reach(value, power, situation(time, state)));
+            rates
+                .reach
+                .push(self.reach(value, power, situation(time, state)));
         }
         rates
     }

@@ -87,14 +87,23 @@ impl Equations {
             let name = d.contacts[c].name;
             let gap = self.values.value(contact.gap);
             let wanting = mode.contacts[c] || gap < 0.0;
-            let reach = if wanting { self.reach(contact.gap, 0, at) } else { 1.0 };
+            let reach = if wanting {
+                self.reach(contact.gap, 0, at)
+            } else {
+                1.0
+            };
             if mode.contacts[c] {
                 findings.book(Subject::Closed, gap.abs(), reach, at.time, name);
-                let (rate, reach) = (self.values.rate(contact.gap), self.reach(contact.gap, 1, at));
+                let (rate, reach) = (
+                    self.values.rate(contact.gap),
+                    self.reach(contact.gap, 1, at),
+                );
                 findings.book(Subject::Closed, rate.abs(), reach, at.time, name);
                 continue;
             }
-            let outside = contact.region.is_some_and(|region| self.values.value(region) < 0.0);
+            let outside = contact
+                .region
+                .is_some_and(|region| self.values.value(region) < 0.0);
             passed[c] = gap < 0.0 && (passed[c] || outside);
             if !passed[c] {
                 findings.book(Subject::Gaps, -gap, reach, at.time, name);
@@ -170,7 +179,8 @@ impl Equations {
                     let speed = length(slip);
                     let along = match sliding.direction {
                         Direction::Fixed(along) => {
-                            let slip = slip[0] * along[0] + slip.get(1).map_or(0.0, |s| s * along[1]);
+                            let slip =
+                                slip[0] * along[0] + slip.get(1).map_or(0.0, |s| s * along[1]);
                             findings.book(Subject::Slips, -slip, reach, at.time, name);
                             along
                         }
@@ -183,7 +193,10 @@ impl Equations {
                             [-force[0] / whole, force.get(1).map_or(0.0, |f| -f / whole)]
                         }
                     };
-                    let error = force.iter().zip(along).map(|(f, e)| (f + mu * normal * e).abs());
+                    let error = force
+                        .iter()
+                        .zip(along)
+                        .map(|(f, e)| (f + mu * normal * e).abs());
                     let size = size + mu * normal_size;
                     let error = error.fold(0.0, f64::max);
                     findings.book(Subject::Sliding, error, size, at.time, name);

@@ -156,7 +156,11 @@ impl Check {
 
     /// The figure in units of the bound.
     pub fn share(&self) -> f64 {
-        if self.bound == f64::INFINITY { 0.0 } else { self.figure / self.bound }
+        if self.bound == f64::INFINITY {
+            0.0
+        } else {
+            self.figure / self.bound
+        }
     }
 }
 
@@ -183,7 +187,9 @@ impl Certificate {
 
     /// The check that comes closest to its bound, or lies farthest beyond.
     pub fn worst(&self) -> Option<&Check> {
-        self.checks.iter().max_by(|a, b| a.share().total_cmp(&b.share()))
+        self.checks
+            .iter()
+            .max_by(|a, b| a.share().total_cmp(&b.share()))
     }
 }
 
@@ -249,7 +255,11 @@ impl Findings {
         check.count += 1;
         let figure = if error <= 0.0 { 0.0 } else { error / size };
         // What is no number is worse than any number.
-        let figure = if figure.is_nan() { f64::INFINITY } else { figure };
+        let figure = if figure.is_nan() {
+            f64::INFINITY
+        } else {
+            figure
+        };
         if figure > check.figure || check.count == 1 {
             (check.figure, check.time, check.item) = (figure, time, item);
         }

@@ -195,9 +195,17 @@ impl<T: Scalar> Examination<'_, T> {
                 told = true;
             }
             self.instant(&now, false, &mut again);
-            let sums = sums.q.iter_mut().zip(&now.v).chain(sums.v.iter_mut().zip(&now.acceleration));
+            let sums = sums
+                .q
+                .iter_mut()
+                .zip(&now.v)
+                .chain(sums.v.iter_mut().zip(&now.acceleration));
             sums.for_each(|(sum, rate)| *sum += weight * rate);
-            let sizes = sizes.q.iter_mut().zip(&now.q).chain(sizes.v.iter_mut().zip(&now.v));
+            let sizes = sizes
+                .q
+                .iter_mut()
+                .zip(&now.q)
+                .chain(sizes.v.iter_mut().zip(&now.v));
             sizes.for_each(|(size, x)| *size = size.abs().max(x.abs()));
         }
         if !told {
@@ -222,7 +230,8 @@ impl<T: Scalar> Examination<'_, T> {
             v: vec![T::zero(); n],
         };
         let segment = &self.record.segments[k];
-        self.record.state_at(segment, T::from_f64(s), &mut state.q, &mut state.v);
+        self.record
+            .state_at(segment, T::from_f64(s), &mut state.q, &mut state.v);
         numbers(&state)
     }
 
@@ -242,7 +251,9 @@ impl<T: Scalar> Examination<'_, T> {
             time: time.value(),
             mode: mode.under_way(),
             acceleration: plain(self.dynamics.acceleration()),
-            forces: (0..d.rows.len()).map(|row| self.dynamics.force(row).value()).collect(),
+            forces: (0..d.rows.len())
+                .map(|row| self.dynamics.force(row).value())
+                .collect(),
             loads: Vec::new(),
             energies: Reported::default(),
             q: plain(q),
@@ -259,7 +270,8 @@ impl<T: Scalar> Examination<'_, T> {
         }
         equations.take(at);
         let seen = (at, &now.mode);
-        self.watches.see(equations, findings, seen, &self.passed, again);
+        self.watches
+            .see(equations, findings, seen, &self.passed, again);
         if chosen {
             equations.examine(at, &now.mode, now.energies, &mut self.passed, findings);
         }
@@ -320,7 +332,8 @@ impl<T: Scalar> Examination<'_, T> {
         for [a, b, sizes] in lists {
             for (((a, b), size), coordinate) in a.iter().zip(b).zip(sizes).zip(names) {
                 let size = factor * (1.0 + size.abs());
-                self.findings.book(subject, (a - b).abs(), size, time, coordinate.name);
+                self.findings
+                    .book(subject, (a - b).abs(), size, time, coordinate.name);
             }
         }
     }

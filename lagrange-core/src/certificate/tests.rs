@@ -13,9 +13,9 @@ use crate::prelude::*;
     contact(plane: n >= 0, restitution = bounce),
     friction(grip on plane: slip = der(s), static = mu),
     force(wind: s = push * sin(2 * t)),
-    start(thrown: n = 1/2, der(s) = 1),
+    start(thrown: n = 1/20, der(s) = 1/5),
     mark(passes: s >= 1/4),
-    stop(far: s >= 1),
+    stop(far: s >= 2/5),
 )]
 struct Block {
     mass: f64,
@@ -34,9 +34,9 @@ struct Block {
     contact(plane: n >= 0, restitution = bounce),
     friction(grip on plane: slip = der(s), static = mu),
     force(wind: s = 1.000001 * push * sin(2 * t)),
-    start(thrown: n = 1/2, der(s) = 1),
+    start(thrown: n = 1/20, der(s) = 1/5),
     mark(passes: s >= 1/4),
-    stop(far: s >= 1),
+    stop(far: s >= 2/5),
 )]
 struct Windier {
     mass: f64,
@@ -51,7 +51,7 @@ const BLOCK: Block = Block {
     slope: 0.3,
     bounce: 0.3,
     mu: 0.7,
-    push: 15.0,
+    push: 10.0,
 };
 
 fn run(effects: Effects) -> Trajectory<Block> {
@@ -83,7 +83,17 @@ fn what_is_right_is_certified() {
     assert!(certificate.holds(), "{certificate}");
     let looked: Vec<Subject> = certificate.checks.iter().map(|c| c.subject).collect();
     use Subject::*;
-    for subject in [Equations, Motion, Gaps, NormalForces, Cones, Sliding, Impacts, Stops, Marks] {
+    for subject in [
+        Equations,
+        Motion,
+        Gaps,
+        NormalForces,
+        Cones,
+        Sliding,
+        Impacts,
+        Stops,
+        Marks,
+    ] {
         assert!(looked.contains(&subject), "{subject:?} not in {looked:?}");
     }
 }
@@ -94,7 +104,10 @@ fn a_force_a_millionth_too_weak_is_found() {
     let windier = against(&trajectory, <Windier as System>::DECLARATION, 1, 1.0);
     finds(&windier, &[Subject::Equations]);
     let equations = windier.worst().expect("checks");
-    assert_eq!((equations.subject, equations.item), (Subject::Equations, "s"));
+    assert_eq!(
+        (equations.subject, equations.item),
+        (Subject::Equations, "s")
+    );
 }
 
 #[test]
@@ -112,7 +125,10 @@ fn a_velocity_that_is_not_the_rate_of_the_position_is_found() {
     let n = trajectory.description().coordinates.len();
     let velocity = segment.offset + n * (segment.degree + 1);
     trajectory.record().coefficients[velocity] += 1e-5;
-    finds(&certificate(&trajectory), &[Subject::Motion, Subject::Joins]);
+    finds(
+        &certificate(&trajectory),
+        &[Subject::Motion, Subject::Joins],
+    );
 }
 
 #[test]
@@ -136,7 +152,11 @@ fn what_was_left_out_is_missed() {
     ];
     for (item, subject) in cases {
         let mut trajectory = run(Effects::all().without(item));
-        assert!(certificate(&trajectory).holds(), "{}", certificate(&trajectory));
+        assert!(
+            certificate(&trajectory).holds(),
+            "{}",
+            certificate(&trajectory)
+        );
         trajectory.record().effects = Effects::all();
         finds(&certificate(&trajectory), &[subject]);
     }
@@ -155,5 +175,8 @@ fn an_impact_that_bounces_too_high_is_found() {
         record.events.push(&event);
     }
     let found = certificate(&trajectory);
-    finds(&found, &[Subject::Impulses, Subject::Impacts, Subject::Joins]);
+    finds(
+        &found,
+        &[Subject::Impulses, Subject::Impacts, Subject::Joins],
+    );
 }

@@ -91,7 +91,11 @@ impl Watches {
             };
             // What is as it should be is not measured.
             let mut book = |subject, error: f64, name| {
-                let reach = if error > 0.0 { equations.reach(term, 0, at) } else { 0.0 };
+                let reach = if error > 0.0 {
+                    equations.reach(term, 0, at)
+                } else {
+                    0.0
+                };
                 // Forces do not follow from the state alone.
                 let reach = if reach > 0.0 { reach } else { 1.0 };
                 findings.book(subject, error, reach, at.time, name);
@@ -117,7 +121,11 @@ impl Watches {
                         let near = before - blur..=at.time + blur;
                         let logged = self.marks[i].iter().any(|t| near.contains(t));
                         let missed = crossed && !logged;
-                        let error = if missed { earlier.abs().min(value.abs()) } else { 0.0 };
+                        let error = if missed {
+                            earlier.abs().min(value.abs())
+                        } else {
+                            0.0
+                        };
                         book(Subject::Marks, error, d.marks[i].name);
                     }
                 }

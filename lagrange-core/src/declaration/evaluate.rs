@@ -102,7 +102,11 @@ impl Evaluator {
                 }
                 op::DERIVATIVE => (n(i).derivative(), none, [i, NOTHING]),
                 op::SELECT => {
-                    let chosen = if n((code >> 8) as usize).0[0] >= 0.0 { i } else { j };
+                    let chosen = if n((code >> 8) as usize).0[0] >= 0.0 {
+                        i
+                    } else {
+                        j
+                    };
                     (n(chosen), [one, one], [chosen, NOTHING])
                 }
                 op::ATAN2 => {

@@ -120,6 +120,10 @@ pub(super) fn power(x: f64, p: f64) -> [f64; 4] {
             factor *= p - k + 1.0;
         }
         // The fourth derivative of a cube is 0, also at 0.
-        if factor == 0.0 { 0.0 } else { factor * raised(p - k) }
+        if factor == 0.0 {
+            0.0
+        } else {
+            factor * raised(p - k)
+        }
     })
 }

@@ -58,7 +58,9 @@ impl Verify {
             return Err(Trouble::ended(error));
         }
         match outcome.certificate {
-            None => Err(Trouble::failed("the motion could not be evaluated everywhere")),
+            None => Err(Trouble::failed(
+                "the motion could not be evaluated everywhere",
+            )),
             Some(certificate) if certificate.holds() => Ok(()),
             Some(certificate) => Err(Trouble::failed(certificate)),
         }

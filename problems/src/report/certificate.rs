@@ -94,7 +94,10 @@ pub fn csv(certificate: &Certificate, mut out: impl Write) -> io::Result<()> {
         let words = check.subject.words();
         let (figure, bound, holds) = (check.figure, check.bound, check.holds());
         let (count, time, item) = (check.count, check.time, check.item);
-        writeln!(out, "{words},{count},{figure:e},{bound:e},{holds},{time},{item}")?;
+        writeln!(
+            out,
+            "{words},{count},{figure:e},{bound:e},{holds},{time},{item}"
+        )?;
     }
     Ok(())
 }

@@ -25,7 +25,11 @@ fn main() -> ExitCode {
             let (methods, tolerances) = (METHODS.len(), TOLERANCES.len());
             let run = |k: usize| {
                 let (scene, rest) = (k / (methods * tolerances), k % (methods * tolerances));
-                fuzz::scene(scenes[scene], METHODS[rest / tolerances], TOLERANCES[rest % tolerances])
+                fuzz::scene(
+                    scenes[scene],
+                    METHODS[rest / tolerances],
+                    TOLERANCES[rest % tolerances],
+                )
             };
             return all(scenes.len() * methods * tolerances, run);
         }

@@ -1,6 +1,9 @@
 //! Families of systems whose numbers and starts are random: what fuzzing runs, and the tests of random systems.
 
-#![allow(missing_docs, reason = "fields are explained by the declarations that use them")]
+#![allow(
+    missing_docs,
+    reason = "fields are explained by the declarations that use them"
+)]
 
 pub mod contacts;
 pub mod linkages;

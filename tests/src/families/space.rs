@@ -75,7 +75,13 @@ impl Family for Puck {
         };
         let mut q = signed(random, 2, 0.5);
         q.push(perhaps(random, 0.5));
-        (puck, State { q, v: signed(random, 3, 2.0) })
+        (
+            puck,
+            State {
+                q,
+                v: signed(random, 3, 2.0),
+            },
+        )
     }
 }
 
@@ -92,7 +98,13 @@ impl Family for Body {
         };
         let mut v = signed(random, 4, 2.0);
         v[0] = 0.0;
-        (body, State { q: vec![1.0, 0.0, 0.0, 0.0], v })
+        (
+            body,
+            State {
+                q: vec![1.0, 0.0, 0.0, 0.0],
+                v,
+            },
+        )
     }
 }
 
@@ -109,6 +121,12 @@ impl Family for Charge {
             drag: perhaps(random, 0.3),
             bounce: perhaps(random, 0.9),
         };
-        (charge, State { q: signed(random, 2, 0.9), v: signed(random, 2, 2.0) })
+        (
+            charge,
+            State {
+                q: signed(random, 2, 0.9),
+                v: signed(random, 2, 2.0),
+            },
+        )
     }
 }

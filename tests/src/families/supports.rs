@@ -92,10 +92,16 @@ impl Family for Beam {
         };
         // Lying at rest half of the time.
         let start = if random.sign() > 0.0 {
-            State { q: vec![0.0; 3], v: vec![0.0; 3] }
+            State {
+                q: vec![0.0; 3],
+                v: vec![0.0; 3],
+            }
         } else {
             let q = vec![0.0, random.between(1.1, 1.5), random.between(-1.0, 1.0)];
-            State { q, v: signed(random, 3, 1.0) }
+            State {
+                q,
+                v: signed(random, 3, 1.0),
+            }
         };
         (beam, start)
     }
@@ -116,7 +122,13 @@ impl Family for CartPole {
             turn: random.between(0.5, 2.0),
         };
         let q = vec![random.between(-0.9, 0.9), random.between(-1.0, 1.0)];
-        (cart, State { q, v: signed(random, 2, 2.0) })
+        (
+            cart,
+            State {
+                q,
+                v: signed(random, 2, 2.0),
+            },
+        )
     }
 }
 

@@ -24,9 +24,7 @@ impl Elaboration<'_> {
                     (vec![(force, Worked::Coordinate(index))], value.extent)
                 }
                 Action::At(force, point) => (this.at_point(force, point)?, force.extent),
-                Action::Along(force, speed) => {
-                    (vec![this.along(force, speed)?], force.extent)
-                }
+                Action::Along(force, speed) => (vec![this.along(force, speed)?], force.extent),
             };
             let generalized = this.project(&components);
             let value = match components.as_slice() {
