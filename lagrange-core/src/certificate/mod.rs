@@ -194,12 +194,12 @@ impl Certificate {
 }
 
 impl fmt::Display for Certificate {
-    /// One sentence.
+    /// A sentence, and one more if there are steps that nothing can be said of.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let beyond = self.checks.iter().filter(|check| !check.holds()).count();
         let all = self.checks.len();
         match self.worst() {
-            None => f.write_str("Nothing is declared that could be checked."),
+            None => return f.write_str("Nothing is declared that could be checked."),
             Some(worst) if beyond == 0 => write!(
                 f,
                 "Certified: {all} checks at {} of {} steps, the nearest to its bound {} with {:.0} %.",
@@ -207,7 +207,7 @@ impl fmt::Display for Certificate {
                 self.steps,
                 worst.subject.words(),
                 (100.0 * worst.share()).ceil(),
-            ),
+            )?,
             Some(worst) => write!(
                 f,
                 "Not certified: {beyond} of {all} checks beyond their bounds; {} {:.1e} instead of {:.1e} at t = {:.6} s ({}).",
@@ -216,6 +216,13 @@ impl fmt::Display for Certificate {
                 worst.bound,
                 worst.time,
                 worst.item,
+            )?,
+        }
+        match self.unevaluated {
+            0 => Ok(()),
+            steps => write!(
+                f,
+                " In {steps} of the steps constraints lose rank; their forces are not checked."
             ),
         }
     }
@@ -276,7 +283,7 @@ impl<T: Scalar> Record<T> {
         self.verify_share(seed, 1.0)
     }
 
-    /// The same for a share of the steps, 0 to 1, chosen by `seed`. How steps join, and impacts, are looked at in any case.
+    /// The same for the first step and a share of the others, 0 to 1, chosen by `seed`. How steps join, and impacts, are looked at in any case.
     ///
     /// # Errors
     /// [`Error::NotRecorded`].

@@ -96,10 +96,11 @@ pub(super) fn against<T: Scalar>(
         nodes: Vec::new(),
     };
     let mut random = Random::new(seed);
-    let segments = record.segments.iter();
-    let chosen = segments.map(|segment| {
+    let segments = record.segments.iter().enumerate();
+    let chosen = segments.map(|(k, segment)| {
         let (looked, part) = (random.signed(), random.signed());
-        (looked < 2.0 * share - 1.0).then(|| segment.end.value() * (0.5 + 0.5 * part))
+        let looked = k == 0 || looked < 2.0 * share - 1.0;
+        looked.then(|| segment.end.value() * (0.5 + 0.5 * part))
     });
     let chosen: Vec<Option<f64>> = chosen.collect();
     certificate.looked = chosen.iter().flatten().count();
@@ -147,8 +148,8 @@ impl<T: Scalar> Examination<'_, T> {
         let reported = self.survey(chosen);
         for (k, (segment, now)) in record.segments.iter().zip(&reported).enumerate() {
             let (t, h, end) = (segment.t.value(), segment.h.value(), segment.end.value());
-            self.events_until(t, k == 0);
             let begin = self.state_at(k, 0.0);
+            self.events_until(t, &begin, k == 0);
             self.join(t, &begin);
             if h * end > 0.0 {
                 let last = self.state_at(k, end);
@@ -166,8 +167,9 @@ impl<T: Scalar> Examination<'_, T> {
                 (self.expected, self.time) = (last, t + h * end);
             }
         }
-        self.events_until(f64::INFINITY, false);
-        self.join(record.last_time(), &numbers(&record.last));
+        let last = numbers(&record.last);
+        self.events_until(f64::INFINITY, &last, false);
+        self.join(record.last_time(), &last);
     }
 
     /// One step, with what is reported at an instant in it.
@@ -277,11 +279,13 @@ impl<T: Scalar> Examination<'_, T> {
         }
     }
 
-    /// Goes through the events up to a time: impacts change the state that is expected.
-    fn events_until(&mut self, time: f64, first: bool) {
+    /// Goes through the events up to a time, when the motion goes on in the state `begin`: impacts change the state that is
+    /// expected. Of those at that very time some may come after the next step, which has no length then.
+    fn events_until(&mut self, time: f64, begin: &State<f64>, first: bool) {
         let record = self.record;
         while let Some(event) = record.events().get(self.events) {
-            if event.time.value() > time {
+            let now = event.time.value();
+            if now > time || now == time && self.is_near(begin) {
                 break;
             }
             let repeats = self.events > 0 && {
@@ -314,6 +318,15 @@ impl<T: Scalar> Examination<'_, T> {
                 _ => {}
             }
         }
+    }
+
+    /// Whether a state is the one that is expected.
+    fn is_near(&self, state: &State<f64>) -> bool {
+        let near = |(a, b): (&f64, &f64)| {
+            (a - b).abs() <= self.findings.tolerance * (1.0 + a.abs().max(b.abs()))
+        };
+        let expected = &self.expected;
+        state.q.iter().zip(&expected.q).all(near) && state.v.iter().zip(&expected.v).all(near)
     }
 
     /// The motion goes on in the state where it was.

@@ -1,7 +1,6 @@
 //! Chains over a floor, rods on it, balls between walls, blocks on blocks.
 
 use super::{Tally, Trial};
-use lagrange_core::prelude::*;
 use lagrange_tests::Random;
 use lagrange_tests::families::Family;
 use lagrange_tests::families::contacts::{Balls, Blocks, Chain, Rod};
