@@ -59,7 +59,7 @@ pub struct Functions<T: Scalar> {
     pub(crate) sampler: fn(&Record<T>) -> Sampler<'_, T>,
     pub(crate) at: fn(&mut Sampler<'_, T>, f64) -> Result<Instant<T>, Error>,
     pub(crate) ledgers: Book<T>,
-    pub(crate) verify: fn(&Record<T>, u64) -> Result<Certificate, Error>,
+    pub(crate) verify: fn(&Record<T>, u64, f64) -> Result<Certificate, Error>,
     pub(crate) dynamics: fn(Erased<T>, &Effects) -> Dynamics<T>,
 }
 
@@ -123,12 +123,21 @@ impl<T: Runnable> Record<T> {
         (T::functions().ledgers)(self, Some(times))
     }
 
-    /// Checks the whole run against the declaration, at instants chosen by `seed`.
+    /// Checks the run against the declaration, at instants chosen by `seed`: every step, its ends and what joins them, and
+    /// every impact. It costs about as much as a few runs.
     ///
     /// # Errors
-    /// [`Error::NotRecorded`]; or the motion could not be evaluated somewhere.
+    /// [`Error::NotRecorded`].
     pub fn verify(&self, seed: u64) -> Result<Certificate, Error> {
-        (T::functions().verify)(self, seed)
+        self.verify_share(seed, 1.0)
+    }
+
+    /// The same for the first step and a share of the others, 0 to 1, chosen by `seed`. How steps join, and impacts, are looked at in any case.
+    ///
+    /// # Errors
+    /// [`Error::NotRecorded`].
+    pub fn verify_share(&self, seed: u64, share: f64) -> Result<Certificate, Error> {
+        (T::functions().verify)(self, seed, share)
     }
 }
 

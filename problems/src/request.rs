@@ -47,6 +47,8 @@ pub struct Request {
     pub ledger: bool,
     /// Seed of the instants at which the run is checked against its declaration.
     pub seed: u64,
+    /// Share of the steps that are looked at for that; an eighth costs less than the run.
+    pub certified: f64,
     /// Who watches the run, and may end it; nobody if `None`.
     pub progress: Option<Progress>,
 }
@@ -68,6 +70,7 @@ impl Default for Request {
             samples: 0,
             ledger: false,
             seed: 0,
+            certified: 0.125,
             progress: None,
         }
     }

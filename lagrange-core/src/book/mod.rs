@@ -16,6 +16,7 @@
 //! | **Runs** | |
 //! | [`results`] | How do I run a system from code, and read positions, forces, events and energies? |
 //! | [`accuracy`] | How exact is a run, which method is the right one, what does accuracy cost? |
+//! | [`certificates`] | Is this run right? |
 //! | [`effects`] | What happens without friction, without the spring, without the floor? |
 //! | [`sensitivities`] | How does the result depend on a parameter? |
 //! | [`derivation`] | What was derived, and is it what I have derived by hand? |
@@ -39,6 +40,7 @@ macro_rules! chapters {
 
 chapters! {
 "[accuracy]: mod@accuracy
+[certificates]: mod@certificates
 [clusters]: mod@clusters
 [contacts]: mod@contacts
 [derivation]: mod@derivation
@@ -63,6 +65,7 @@ chapters! {
     impacts
     results
     accuracy
+    certificates
     effects
     sensitivities
     derivation

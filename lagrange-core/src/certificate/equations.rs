@@ -4,6 +4,7 @@ use crate::declaration::{Declaration, Evaluator, Inputs, Seed, Worked};
 use crate::effects::{Effects, Item};
 use crate::mode::{FrictionMode, Mode};
 use crate::system::Description;
+use crate::trajectory::State;
 
 /// Evaluates the declared quantities with the effects of a run.
 #[derive(Debug)]
@@ -17,6 +18,12 @@ pub(super) struct Equations {
     pub residual: Vec<f64>,
     /// Per coordinate: the sum of the absolute values of its terms.
     pub size: Vec<f64>,
+    /// The largest of [`Self::size`] in the run.
+    pub largest: Vec<f64>,
+    /// Bound of rounding.
+    pub exact: f64,
+    /// Per coordinate: accelerations that forces of its size would make, where that has been measured.
+    pub swiftness: Vec<f64>,
     seeds: [Vec<Seed>; 2],
     gradient: [Vec<f64>; 3],
     zeros: Vec<f64>,
@@ -52,6 +59,7 @@ impl Equations {
         declaration: &'static Declaration,
         effects: &Effects,
         parameters: Vec<f64>,
+        exact: f64,
     ) -> Self {
         let n = d.coordinates.len();
         let zero = || vec![0.0; n];
@@ -63,6 +71,9 @@ impl Equations {
             values: Evaluator::new(declaration),
             residual: zero(),
             size: zero(),
+            largest: zero(),
+            exact,
+            swiftness: zero(),
             seeds: [Vec::new(), Vec::new()],
             gradient: [zero(), zero(), zero()],
             zeros: vec![0.0; n.max(d.rows.len())],
@@ -133,7 +144,107 @@ impl Equations {
         self.sweep();
     }
 
-    /// ±∂L/∂v at the state taken, added to what balances; `begin` and `finish` with [`Self::begin`] and [`Self::sweep`].
+    /// [`Self::balance`] at a state, which is taken. Where something is beyond rounding at first sight, with all its sizes.
+    pub fn balance_at(&mut self, at: Situation<'_>, mode: &Mode) {
+        self.take(at);
+        self.balance(at.forces);
+        self.swiftness.fill(0.0);
+        let beyond = |(error, size): (&f64, &f64)| error.abs() > self.exact * size;
+        if self.residual.iter().zip(&self.size).any(beyond) {
+            self.balance_with_sizes(at, mode);
+        }
+    }
+
+    /// [`Self::balance`] at a state, which is taken, its sizes with everything that rounding errors are relative to: how much it changes
+    /// when each position and velocity x changes by 1 + |x| (two large forces that cancel in a spring near its rest length), and
+    /// what the forces of rows bring from one equation into another.
+    fn balance_with_sizes(&mut self, at: Situation<'_>, mode: &Mode) {
+        /// Changes of the state, whose rounding errors do not matter and which are small enough to be linear.
+        const CHANGE: f64 = 1.0 / 1_048_576.0;
+        let changed = |x: &[f64]| -> Vec<f64> {
+            let signs = [1.0, -1.0, 1.0, 1.0, -1.0].into_iter().cycle();
+            let signed = x.iter().zip(signs);
+            signed
+                .map(|(x, s)| x + s * CHANGE * (1.0 + x.abs()))
+                .collect()
+        };
+        let (q, v) = (changed(at.q), changed(at.v));
+        self.take(Situation { q: &q, v: &v, ..at });
+        self.balance(at.forces);
+        let beside = self.residual.clone();
+        self.take(at);
+        self.balance(at.forces);
+        for ((size, there), here) in self.size.iter_mut().zip(beside).zip(&self.residual) {
+            *size += (there - here).abs() / CHANGE;
+        }
+        let mut brought = vec![0.0; self.size.len()];
+        for row in 0..self.d.rows.len() {
+            if self.acts(row, mode) {
+                let (value, level) = self.row(row);
+                let (along, square) = self.along(value, level, &self.size.clone());
+                for (brought, g) in brought.iter_mut().zip(&self.gradient[0]) {
+                    *brought += g * along / square.max(f64::MIN_POSITIVE);
+                }
+            }
+        }
+        for (size, brought) in self.size.iter_mut().zip(brought) {
+            *size += brought;
+        }
+    }
+
+    /// Momenta at velocities that are larger by 1, all of one sign, added to the sizes: what rounding errors of velocities
+    /// that cancel are relative to.
+    pub fn add_momentum_sizes(&mut self, time: f64, state: &State<f64>) {
+        let v: Vec<f64> = state.v.iter().map(|v| 1.0 + v.abs()).collect();
+        self.take(Situation {
+            time,
+            q: &state.q,
+            v: &v,
+            acceleration: &[],
+            forces: &[],
+            loads: &[],
+        });
+        let residual = self.residual.clone();
+        self.add_momenta(1.0);
+        self.residual = residual;
+    }
+
+    /// T or V at the state taken.
+    pub fn energy(&self, potential: bool) -> f64 {
+        let (values, item): (_, fn(usize) -> Item) = match potential {
+            false => (self.declaration.kinetic, Item::Kinetic),
+            true => (self.declaration.potential, Item::Potential),
+        };
+        let taking = values
+            .iter()
+            .enumerate()
+            .filter(|(i, _)| self.includes(item(*i)));
+        taking.map(|(_, value)| self.values.value(*value)).sum()
+    }
+
+    /// v·∂L/∂v − L at the state taken, and the size of its terms.
+    pub fn jacobi(&mut self, at: Situation<'_>) -> (f64, f64) {
+        self.begin();
+        self.add_momenta(1.0);
+        let (mut sum, mut size) = (0.0, 0.0);
+        for ((p, s), v) in self.residual.iter().zip(&self.size).zip(at.v) {
+            sum += p * v;
+            size += s * (1.0 + v.abs());
+        }
+        let kinetic = self.declaration.kinetic.iter().enumerate();
+        let kinetic = kinetic.map(|(i, value)| (Item::Kinetic(i), *value, -1.0));
+        let potential = self.declaration.potential.iter().enumerate();
+        let potential = potential.map(|(i, value)| (Item::Potential(i), *value, 1.0));
+        for (item, value, sign) in kinetic.chain(potential) {
+            if self.includes(item) {
+                sum += sign * self.values.value(value);
+                size += self.values.value(value).abs() + self.reach(value, 0, at);
+            }
+        }
+        (sum, size)
+    }
+
+    /// ±∂L/∂v at the state taken, added to what balances since [`Self::begin`].
     pub fn add_momenta(&mut self, factor: f64) {
         self.seeds.iter_mut().for_each(Vec::clear);
         self.seed_energies_at(1, 0, factor);
@@ -214,23 +325,70 @@ impl Equations {
         sum
     }
 
-    /// The size of the forces that balance, as a force along the gradient of a value: by velocities for one of velocity level.
+    /// Remembers the sizes of the forces that balance at the state taken.
+    pub fn survey(&mut self, at: Situation<'_>) {
+        self.take(at);
+        self.balance(at.forces);
+        for (largest, size) in self.largest.iter_mut().zip(&self.size) {
+            *largest = largest.max(*size);
+        }
+    }
+
+    /// Accelerations that forces of the sizes of the last balance would make. The inertia of a coordinate is its momentum where
+    /// all velocities are 1; terms of either sign count alike, so that it is not too small.
+    fn measure_swiftness(&mut self, at: Situation<'_>) {
+        let ones = vec![1.0; at.v.len()];
+        self.take(Situation { v: &ones, ..at });
+        let mut inertia = vec![0.0; ones.len()];
+        for (i, &value) in self.declaration.kinetic.iter().enumerate() {
+            if self.effects.includes(self.d, Item::Kinetic(i)) {
+                self.values
+                    .gradient_size(&[(value, 0, 1.0)], 1, &mut inertia);
+            }
+        }
+        for ((swift, size), inertia) in self.swiftness.iter_mut().zip(&self.size).zip(inertia) {
+            *swift = if inertia > 0.0 { size / inertia } else { 0.0 };
+        }
+        self.take(at);
+    }
+
+    /// The size of the forces that balance in the run, as a force along the gradient of a value: by velocities for one of velocity
+    /// level.
     pub fn force_along(&mut self, value: usize, level: Level) -> f64 {
+        let largest = core::mem::take(&mut self.largest);
+        let (along, square) = self.along(value, level, &largest);
+        self.largest = largest;
+        if square > 0.0 { along / square } else { 0.0 }
+    }
+
+    /// The gradient of a value times sizes, and its square; the gradient stays in `gradient[0]`.
+    fn along(&mut self, value: usize, level: Level, sizes: &[f64]) -> (f64, f64) {
         let gradient = &mut self.gradient[0];
         gradient.fill(0.0);
         let power = usize::from(level == Level::Velocity);
         self.values
             .gradient_size(&[(value, 0, 1.0)], power, gradient);
-        let (mut along, mut square) = (0.0, 0.0);
-        for (g, size) in gradient.iter().zip(&self.size) {
-            along += g * size;
-            square += g * g;
-        }
-        if square > 0.0 { along / square } else { 0.0 }
+        let pairs = gradient.iter().zip(sizes);
+        let along = pairs.map(|(g, size)| g * size).sum();
+        (along, gradient.iter().map(|g| g * g).sum())
     }
 
     /// The second rate of a value of position level or the first of one of velocity level, and the size of its terms.
     pub fn acceleration(&mut self, value: usize, level: Level, at: Situation<'_>) -> (f64, f64) {
+        let (error, size) = self.acceleration_at_sight(value, level, at);
+        if error.abs() <= self.exact * size {
+            return (error, size);
+        }
+        self.measure_swiftness(at);
+        self.acceleration_at_sight(value, level, at)
+    }
+
+    fn acceleration_at_sight(
+        &mut self,
+        value: usize,
+        level: Level,
+        at: Situation<'_>,
+    ) -> (f64, f64) {
         let (power, factor) = match level {
             Level::Position => (2, 2.0),
             Level::Velocity => (1, 1.0),
@@ -246,10 +404,9 @@ impl Equations {
             self.values
                 .gradient_size(&[(value, power, 1.0)], k, gradient);
             let half = if k == 2 { 0.5 } else { 1.0 };
-            size += gradient
-                .iter()
-                .zip(state)
-                .map(|(g, x)| half * g * x.abs())
+            let terms = gradient.iter().zip(state).zip(&self.swiftness);
+            size += terms
+                .map(|((g, x), swift)| half * g * if k == 2 { x.abs() + swift } else { x.abs() })
                 .sum::<f64>();
         }
         (
@@ -280,10 +437,51 @@ impl Equations {
         }
     }
 
+    /// The value whose rate the force of a row acts along, and its level.
+    pub fn row(&self, row: usize) -> (usize, Level) {
+        let d = self.d;
+        if let Some(i) = d.constraints.iter().position(|c| c.row == row) {
+            return (self.declaration.constraints[i], self.level(i));
+        }
+        if let Some(c) = d.contacts.iter().position(|c| c.row == row) {
+            return (self.declaration.contacts[c].gap, Level::Position);
+        }
+        let on = |f: &crate::system::Friction| (f.row..f.row + f.components).contains(&row);
+        let f = d.frictions.iter().position(on).unwrap_or(0);
+        let slip = self.declaration.frictions[f].slip;
+        (slip[row - d.frictions[f].row], Level::Velocity)
+    }
+
+    /// Whether a row acts in a mode.
+    fn acts(&self, row: usize, mode: &Mode) -> bool {
+        let d = self.d;
+        if let Some(i) = d.constraints.iter().position(|c| c.row == row) {
+            return self.constraint_acts(i, mode);
+        }
+        if let Some(c) = d.contacts.iter().position(|c| c.row == row) {
+            return mode.contacts[c];
+        }
+        let on = |f: &crate::system::Friction| (f.row..f.row + f.components).contains(&row);
+        d.frictions
+            .iter()
+            .position(on)
+            .is_some_and(|f| self.friction_acts(f, mode))
+    }
+
     /// Whether a constraint acts in a mode.
     pub fn constraint_acts(&self, i: usize, mode: &Mode) -> bool {
         let contact = self.d.constraints[i].while_contact;
         self.includes(Item::Constraint(i)) && contact.is_none_or(|c| mode.contacts[c])
+    }
+
+    /// Whether what presses a friction acts in a mode.
+    pub fn is_pressed(&self, f: usize, mode: &Mode) -> bool {
+        use crate::system::Normal;
+        match self.d.frictions[f].normal {
+            Normal::Contact(c) => mode.contacts[c],
+            Normal::Constraint(i) => self.constraint_acts(i, mode),
+            Normal::Given(_) => true,
+        }
     }
 
     /// Whether a friction acts in a mode.

@@ -28,6 +28,7 @@ impl<T: Scalar> Examination<'_, T> {
         let d = self.equations.d;
         let (equations, findings) = (&mut self.equations, &mut self.findings);
         equations.begin();
+        equations.add_momentum_sizes(time, &after);
         equations.take(situation(time, &after));
         equations.add_momenta(1.0);
         let rates_after = equations.rates(time, &after);
@@ -39,6 +40,8 @@ impl<T: Scalar> Examination<'_, T> {
             let (error, size) = (equations.residual[i].abs(), equations.size[i]);
             findings.book(Subject::Impulses, error, size, time, coordinate.name);
         }
+        // Impulses are measured by the momenta of this impact.
+        core::mem::swap(&mut equations.largest, &mut equations.size);
         // Sizes of impulses along a row.
         let along = |equations: &mut Equations, row: usize| {
             let (value, level) = equations.row(row);
@@ -133,6 +136,10 @@ impl<T: Scalar> Examination<'_, T> {
             gain += impulse * (rates.rate[row] + rates_after.rate[row]);
             size += impulse.abs() * (rates.rate[row].abs() + rates_after.rate[row].abs());
         }
+        // Where hardly anything is struck, what rounding leaves of the other rates counts beside the whole motion.
+        let speeds = before.v.iter().map(|v| v.abs());
+        let whole = equations.largest.iter().zip(speeds).map(|(p, v)| p * v);
+        let size = size + whole.sum::<f64>();
         findings.book(
             Subject::Dissipation,
             gain,
@@ -140,25 +147,11 @@ impl<T: Scalar> Examination<'_, T> {
             time,
             event.subject.name(d),
         );
+        core::mem::swap(&mut equations.largest, &mut equations.size);
     }
 }
 
 impl Equations {
-    /// The value whose rate the force of a row acts along, and its level.
-    fn row(&self, row: usize) -> (usize, Level) {
-        let d = self.d;
-        if let Some(i) = d.constraints.iter().position(|c| c.row == row) {
-            return (self.declaration.constraints[i], self.level(i));
-        }
-        if let Some(c) = d.contacts.iter().position(|c| c.row == row) {
-            return (self.declaration.contacts[c].gap, Level::Position);
-        }
-        let on = |f: &crate::system::Friction| (f.row..f.row + f.components).contains(&row);
-        let f = d.frictions.iter().position(on).unwrap_or(0);
-        let slip = self.declaration.frictions[f].slip;
-        (slip[row - d.frictions[f].row], Level::Velocity)
-    }
-
     /// Rates of all rows in the state taken.
     fn rates(&mut self, time: f64, state: &State<f64>) -> Rates {
         let mut rates = Rates::default();

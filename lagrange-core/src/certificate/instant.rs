@@ -9,14 +9,16 @@ use crate::mode::{Direction, FrictionMode, Mode};
 const VANISHING: f64 = 1e3;
 
 /// What the run reports of an instant.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Reported {
     pub kinetic: f64,
     pub potential: f64,
+    /// v·∂L/∂v − L
+    pub jacobi: f64,
 }
 
 impl Equations {
-    /// Checks the state taken with the reported accelerations and forces. `passed` says of which contacts the motion has passed beyond
+    /// Checks a state with the reported accelerations and forces. `passed` says of which contacts the motion has passed beyond
     /// the surface outside their region.
     pub fn examine(
         &mut self,
@@ -26,43 +28,30 @@ impl Equations {
         passed: &mut [bool],
         findings: &mut Findings,
     ) {
-        self.balance(at.forces);
+        self.balance_at(at, mode);
         let d = self.d;
         for (i, coordinate) in d.coordinates.iter().enumerate() {
             let (error, size) = (self.residual[i].abs(), self.size[i]);
             findings.book(Subject::Equations, error, size, at.time, coordinate.name);
         }
-        self.examine_energies(at, reported, findings);
         self.examine_positions(at, mode, passed, findings);
         self.examine_constraints(at, mode, findings);
         self.examine_contacts(at, mode, findings);
         self.examine_frictions(at, mode, findings);
+        self.examine_energies(at, reported, findings);
     }
 
     fn examine_energies(&mut self, at: Situation<'_>, reported: Reported, findings: &mut Findings) {
-        let mut sums = [0.0, 0.0];
-        let mut sizes = [0.0, 0.0];
-        let kinetic = self.declaration.kinetic.iter().enumerate();
-        let kinetic = kinetic.map(|(i, value)| (0, Item::Kinetic(i), value));
-        let potential = self.declaration.potential.iter().enumerate();
-        let potential = potential.map(|(i, value)| (1, Item::Potential(i), value));
-        for (which, item, &value) in kinetic.chain(potential) {
-            if self.includes(item) {
-                sums[which] += self.values.value(value);
-                sizes[which] += self.reach(value, 0, at) + self.values.value(value).abs();
-            }
-        }
         let name = self.d.name;
-        // Of a Lagrangian the difference is declared.
-        let pairs = match self.d.inertia {
-            Some(_) => [(reported.kinetic, sums[0]), (reported.potential, sums[1])],
-            None => [
-                (reported.kinetic - reported.potential, sums[0] - sums[1]),
-                (0.0, 0.0),
-            ],
-        };
-        let size = sizes[0] + sizes[1];
-        for (reported, declared) in pairs {
+        let (jacobi, size) = self.jacobi(at);
+        let error = (reported.jacobi - jacobi).abs();
+        findings.book(Subject::Energies, error, size, at.time, name);
+        // A Lagrangian does not say which of its terms are kinetic.
+        if self.d.inertia.is_none() {
+            return;
+        }
+        for (potential, reported) in [(false, reported.kinetic), (true, reported.potential)] {
+            let declared = self.energy(potential);
             let error = (reported - declared).abs();
             findings.book(Subject::Energies, error, size, at.time, name);
         }
@@ -96,10 +85,13 @@ impl Equations {
                 continue;
             }
             let name = d.contacts[c].name;
-            let (gap, reach) = (
-                self.values.value(contact.gap),
-                self.reach(contact.gap, 0, at),
-            );
+            let gap = self.values.value(contact.gap);
+            let wanting = mode.contacts[c] || gap < 0.0;
+            let reach = if wanting {
+                self.reach(contact.gap, 0, at)
+            } else {
+                1.0
+            };
             if mode.contacts[c] {
                 findings.book(Subject::Closed, gap.abs(), reach, at.time, name);
                 let (rate, reach) = (
@@ -150,11 +142,16 @@ impl Equations {
         for (f, friction) in self.declaration.frictions.iter().enumerate() {
             let (first, name) = (self.d.frictions[f].row, self.d.frictions[f].name);
             let force = &at.forces[first..first + friction.slip.len()];
+            let (normal, normal_size) = self.normal(f, at.forces);
             if !self.friction_acts(f, mode) {
                 findings.book(Subject::Idle, length(force), 1.0, at.time, name);
+                if self.includes(Item::Friction(f)) && self.is_pressed(f, mode) {
+                    let mu = self.values.value(friction.kinetic_coefficient);
+                    let (missing, size) = (mu * normal, mu * normal_size);
+                    findings.book(Subject::Sliding, missing, size, at.time, name);
+                }
                 continue;
             }
-            let (normal, normal_size) = self.normal(f, at.forces);
             let mut size = 0.0_f64;
             let mut reach = 0.0_f64;
             let mut slip = [0.0; 2];

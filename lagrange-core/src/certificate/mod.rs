@@ -16,6 +16,8 @@ mod equations;
 mod impact;
 mod instant;
 mod motion;
+#[cfg(test)]
+mod tests;
 mod watch;
 
 pub(crate) use motion::verify;
@@ -166,6 +168,12 @@ pub struct Certificate {
     pub checks: Vec<Check>,
     /// Tolerance that was asked of the run.
     pub tolerance: f64,
+    /// Steps of the run, and how many of them were looked at.
+    pub steps: usize,
+    /// See [`Self::steps`].
+    pub looked: usize,
+    /// Steps within which constraints lose rank somewhere, so that there are no forces to be checked.
+    pub unevaluated: usize,
 }
 
 impl Certificate {
@@ -183,18 +191,20 @@ impl Certificate {
 }
 
 impl fmt::Display for Certificate {
-    /// One sentence.
+    /// A sentence, and one more if there are steps that nothing can be said of.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let beyond = self.checks.iter().filter(|check| !check.holds()).count();
         let all = self.checks.len();
         match self.worst() {
-            None => f.write_str("Nothing is declared that could be checked."),
+            None => return f.write_str("Nothing is declared that could be checked."),
             Some(worst) if beyond == 0 => write!(
                 f,
-                "Certified: {all} checks within their bounds, the nearest {} with {:.0} %.",
+                "Certified: {all} checks at {} of {} steps, the nearest to its bound {} with {:.0} %.",
+                self.looked,
+                self.steps,
                 worst.subject.words(),
                 (100.0 * worst.share()).ceil(),
-            ),
+            )?,
             Some(worst) => write!(
                 f,
                 "Not certified: {beyond} of {all} checks beyond their bounds; {} {:.1e} instead of {:.1e} at t = {:.6} s ({}).",
@@ -203,6 +213,13 @@ impl fmt::Display for Certificate {
                 worst.bound,
                 worst.time,
                 worst.item,
+            )?,
+        }
+        match self.unevaluated {
+            0 => Ok(()),
+            steps => write!(
+                f,
+                " In {steps} of the steps constraints lose rank; their forces are not checked."
             ),
         }
     }

@@ -6,6 +6,7 @@
 use super::equations::{Equations, Situation};
 use super::{Findings, Subject};
 use crate::arithmetic::Scalar;
+use crate::declaration::Declaration;
 use crate::effects::Item;
 use crate::mode::{FrictionMode, Mode};
 use crate::system::{Condition, Watch};
@@ -36,8 +37,8 @@ struct Guard {
 }
 
 impl Watches {
-    pub fn new<T: Scalar>(record: &Record<T>) -> Self {
-        let (d, declaration) = (record.description(), record.system.declaration());
+    pub fn new<T: Scalar>(record: &Record<T>, declaration: &Declaration) -> Self {
+        let d = record.description();
         let known = |list: &[Option<_>], i: usize| list.get(i).is_some_and(Option::is_some);
         let gaps = (0..declaration.contacts.len()).map(|c| (Kind::Gap(c), Item::Contact(c)));
         let stops = (0..d.stops.len()).filter(|&i| known(declaration.stops, i));
@@ -62,6 +63,12 @@ impl Watches {
         }
     }
 
+    /// Whether there is nothing to follow in a mode.
+    pub fn is_idle(&self, mode: &Mode) -> bool {
+        let closed = |guard: &Guard| matches!(guard.kind, Kind::Gap(c) if mode.contacts[c]);
+        self.guards.iter().all(closed)
+    }
+
     /// The motion has jumped or is in another mode.
     pub fn forget(&mut self) {
         self.guards.iter_mut().for_each(|guard| guard.last.clear());
@@ -76,21 +83,32 @@ impl Watches {
         passed: &[bool],
         again: &mut Vec<f64>,
     ) {
+        let d = equations.d;
         for guard in &mut self.guards {
-            let Some((value, reach)) = guard.kind.value(equations, at, mode) else {
+            let Some((value, term)) = guard.kind.value(equations, mode) else {
                 guard.last.clear();
                 continue;
             };
-            let d = equations.d;
+            // What is as it should be is not measured.
+            let mut book = |subject, error: f64, name| {
+                let reach = if error > 0.0 {
+                    equations.reach(term, 0, at)
+                } else {
+                    0.0
+                };
+                // Forces do not follow from the state alone.
+                let reach = if reach > 0.0 { reach } else { 1.0 };
+                findings.book(subject, error, reach, at.time, name);
+            };
             let from = guard.last.last().copied();
             match guard.kind {
                 Kind::Gap(c) if !passed[c] => {
-                    findings.book(Subject::Gaps, -value, reach, at.time, d.contacts[c].name);
+                    book(Subject::Gaps, -value, d.contacts[c].name);
                 }
                 Kind::Gap(_) => {}
                 Kind::Stop(i) => {
                     if guard.armed {
-                        findings.book(Subject::Stops, value, reach, at.time, d.stops[i].name);
+                        book(Subject::Stops, value, d.stops[i].name);
                     }
                     guard.armed |= value < 0.0;
                 }
@@ -108,7 +126,7 @@ impl Watches {
                         } else {
                             0.0
                         };
-                        findings.book(Subject::Marks, error, reach, at.time, d.marks[i].name);
+                        book(Subject::Marks, error, d.marks[i].name);
                     }
                 }
             }
@@ -137,34 +155,23 @@ impl Guard {
 }
 
 impl Kind {
-    /// Value and reach of a guard; of a gap while its contact is open. Stops and marks are true where it is ≥ 0.
-    fn value(
-        self,
-        equations: &mut Equations,
-        at: Situation<'_>,
-        mode: &Mode,
-    ) -> Option<(f64, f64)> {
+    /// The value of a guard and which it is; of a gap while its contact is open. Stops and marks are true where it is ≥ 0.
+    fn value(self, equations: &Equations, mode: &Mode) -> Option<(f64, usize)> {
         let (declaration, d) = (equations.declaration, equations.d);
+        let value = |term: usize| equations.values.value(term);
         let terms = match self {
             Kind::Gap(c) if mode.contacts[c] => return None,
             Kind::Gap(c) => {
                 let gap = declaration.contacts[c].gap;
-                return Some((equations.values.value(gap), equations.reach(gap, 0, at)));
+                return Some((value(gap), gap));
             }
             Kind::Stop(i) if !holds(&d.stops[i], mode) => return None,
             Kind::Mark(i) if !holds(&d.marks[i], mode) => return None,
             Kind::Stop(i) => declaration.stops[i]?,
             Kind::Mark(i) => declaration.marks[i]?,
         };
-        let least = |a: &&usize, b: &&usize| {
-            let value = |e: &usize| equations.values.value(*e);
-            value(a).total_cmp(&value(b))
-        };
-        let &term = terms.iter().min_by(least)?;
-        let reach = equations.reach(term, 0, at);
-        // Forces do not follow from the state alone.
-        let reach = if reach > 0.0 { reach } else { 1.0 };
-        Some((equations.values.value(term), reach))
+        let values = terms.iter().map(|&term| (value(term), term));
+        values.min_by(|a, b| a.0.total_cmp(&b.0))
     }
 }
 

@@ -48,7 +48,7 @@ pub struct Ledger {
 }
 
 /// Positive nodes and weights of Gauss–Legendre quadrature with 16 points on [−1, 1] (Abramowitz & Stegun, 25.4.30).
-pub(crate) const GAUSS: [(f64, f64); 8] = [
+const GAUSS: [(f64, f64); 8] = [
     (0.095_012_509_837_637_44, 0.189_450_610_455_068_5),
     (0.281_603_550_779_258_9, 0.182_603_415_044_923_6),
     (0.458_016_777_657_227_4, 0.169_156_519_395_002_54),

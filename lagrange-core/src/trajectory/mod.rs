@@ -9,7 +9,6 @@ pub use crate::handle::Subject;
 pub use crate::state::{Starts, State};
 pub(crate) use event::Around;
 pub use event::{Event, EventKind};
-pub(crate) use ledger::GAUSS;
 pub use ledger::{Energies, Entry, Ledger};
 pub use sampler::{Instant, Sampler};
 pub(crate) use sampler::{instant, report_everything};

@@ -44,6 +44,7 @@ impl Verify {
         let request = Request {
             samples: 0,
             seed: self.seed,
+            certified: 1.0,
             progress: Some(progress.clone()),
             ..file.request
         };

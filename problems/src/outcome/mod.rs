@@ -187,7 +187,9 @@ impl Outcome {
                 0 => Vec::new(),
                 _ => sampling::around(trajectory),
             },
-            certificate: trajectory.verify(request.seed).ok(),
+            certificate: trajectory
+                .verify_share(request.seed, request.certified)
+                .ok(),
             ledger: request.stage(trajectory.last_time(), || trajectory.ledger().ok()),
             ledgers: ledgers(samples.iter().map(|sample| sample.time).collect()),
             event_ledgers: ledgers(events.iter().map(|event| event.time).collect()),

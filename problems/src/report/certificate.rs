@@ -10,6 +10,9 @@ use std::io::{self, Write};
 #[derive(Serialize)]
 pub(super) struct Verdict {
     holds: bool,
+    steps: usize,
+    looked: usize,
+    unevaluated: usize,
     checks: Vec<Line>,
 }
 
@@ -38,6 +41,9 @@ pub(super) fn verdict(certificate: &Certificate) -> Verdict {
     };
     Verdict {
         holds: certificate.holds(),
+        steps: certificate.steps,
+        looked: certificate.looked,
+        unevaluated: certificate.unevaluated,
         checks: certificate.checks.iter().map(line).collect(),
     }
 }

@@ -2,6 +2,7 @@
 
 mod architecture;
 mod bowl;
+mod certificates;
 mod derived;
 mod diagnostics;
 mod effects;

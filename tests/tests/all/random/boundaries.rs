@@ -1,24 +1,9 @@
 //! Starts exactly on a boundary, tolerances from loose to tight, every method.
 
-use super::systems::{Balls, Blocks, Rod};
 use super::{Tally, Trial};
 use lagrange_core::prelude::*;
 use lagrange_tests::Random;
-
-/// A block on an incline.
-#[derive(Lagrangian, Clone, Debug)]
-#[lagrange(
-    coordinates(s, n),
-    kinetic = mass/2 * (der(s)^2 + der(n)^2),
-    potential = mass * 9.81 * (n * cos(slope) - s * sin(slope)),
-    contact(plane: n >= 0),
-    friction(grip on plane: slip = der(s), static = mu),
-)]
-struct Block {
-    mass: f64,
-    slope: f64,
-    mu: f64,
-}
+use lagrange_tests::families::contacts::{Balls, Block, Blocks, Rod};
 
 #[test]
 fn rods_that_start_on_the_floor() {

@@ -1,28 +1,17 @@
 //! Chains over a floor, rods on it, balls between walls, blocks on blocks.
 
-use super::systems::{Balls, Blocks, Chain, Rod};
 use super::{Tally, Trial};
-use lagrange_core::prelude::*;
 use lagrange_tests::Random;
+use lagrange_tests::families::Family;
+use lagrange_tests::families::contacts::{Balls, Blocks, Chain, Rod};
 
 #[test]
 fn chains_over_a_floor() {
     let mut random = Random::new(101);
     let mut tally = Tally::default();
     for _ in 0..40 {
-        let chain = Chain {
-            mass: [(); 3].map(|()| random.between(0.2, 2.0)),
-            length: [(); 3].map(|()| random.between(0.3, 1.0)),
-            depth: random.between(0.5, 1.5),
-            bounce: random.between(0.0, 0.7),
-            mu: random.between(0.0, 0.6),
-        };
-        // Above the floor: no link hangs below the support's half depth.
-        let q: Vec<f64> = (0..3)
-            .map(|_| random.sign() * random.between(1.7, 2.6))
-            .collect();
-        let v: Vec<f64> = (0..3).map(|_| random.between(-2.0, 2.0)).collect();
-        tally.run(&chain, &State { q, v }, Trial::until(2.0).rough(chain.mu));
+        let (chain, start) = Chain::draw(&mut random);
+        tally.run(&chain, &start, Trial::until(2.0).rough(chain.mu));
     }
     tally.check();
 }

@@ -3,49 +3,7 @@
 use super::{Tally, Trial};
 use lagrange_core::prelude::*;
 use lagrange_tests::Random;
-
-/// Three rods between two fixed pivots.
-#[derive(Lagrangian, Clone, Debug)]
-#[lagrange(
-    coordinates(theta[3]),
-    define(
-        x[k in 0..4] = sum(i in 0..k: length[i] * cos(theta[i])),
-        y[k in 0..4] = sum(i in 0..k: length[i] * sin(theta[i])),
-        cx[k in 0..3] = (x[k] + x[k+1]) / 2,
-        cy[k in 0..3] = (y[k] + y[k+1]) / 2,
-    ),
-    kinetic = sum(k in 0..3: mass[k]/2 * (der(cx[k])^2 + der(cy[k])^2) + mass[k] * length[k]^2/24 * der(theta[k])^2),
-    potential = sum(k in 0..3: mass[k] * 9.81 * cy[k]),
-    constraint(right: x[3] == pivot[0]),
-    constraint(up: y[3] == pivot[1]),
-    dissipation(oil: sum(k in 0..3: drag/2 * der(theta[k])^2)),
-    force(motor: theta[0] = torque),
-)]
-struct FourBar {
-    mass: [f64; 3],
-    length: [f64; 3],
-    pivot: [f64; 2],
-    drag: f64,
-    torque: f64,
-}
-
-/// A bead on a wavy wire between two walls.
-#[derive(Lagrangian, Clone, Debug)]
-#[lagrange(
-    coordinates(x, y),
-    kinetic = mass/2 * (der(x)^2 + der(y)^2),
-    potential = mass * 9.81 * y,
-    constraint(wire: y == bend * x^2 + wave * sin(number * x)),
-    contact(left: x >= -1, restitution = bounce),
-    contact(right: x <= 1, restitution = bounce),
-)]
-struct Bead {
-    mass: f64,
-    bend: f64,
-    wave: f64,
-    number: f64,
-    bounce: f64,
-}
+use lagrange_tests::families::linkages::{Bead, FourBar};
 
 #[test]
 fn four_bars() {

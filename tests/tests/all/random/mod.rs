@@ -7,7 +7,6 @@ mod boundaries;
 mod contacts;
 mod linkages;
 mod moving;
-mod systems;
 
 use core::fmt::Debug;
 use lagrange_core::prelude::*;

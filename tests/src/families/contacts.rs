@@ -1,7 +1,8 @@
-//! Chains, rods, balls and blocks with random numbers.
+//! Chains, rods, balls and blocks: contacts, impacts, friction.
 
+use super::{Family, masses, perhaps, signed};
+use crate::Random;
 use lagrange_core::prelude::*;
-use lagrange_tests::Random;
 
 /// A chain of three links over a rough floor.
 #[derive(Lagrangian, Clone, Debug)]
@@ -147,5 +148,64 @@ impl Blocks {
             q: along(0.5),
             v: along(1.0),
         }
+    }
+}
+
+/// A block on an incline.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(s, n),
+    kinetic = mass/2 * (der(s)^2 + der(n)^2),
+    potential = mass * 9.81 * (n * cos(slope) - s * sin(slope)),
+    contact(plane: n >= 0),
+    friction(grip on plane: slip = der(s), static = mu),
+)]
+pub struct Block {
+    pub mass: f64,
+    pub slope: f64,
+    pub mu: f64,
+}
+
+impl Family for Chain {
+    const NAME: &'static str = "chain over a floor";
+
+    fn draw(random: &mut Random) -> (Self, State<f64>) {
+        let chain = Chain {
+            mass: masses(random),
+            length: [(); 3].map(|()| random.between(0.3, 1.0)),
+            depth: random.between(0.5, 1.5),
+            bounce: perhaps(random, 0.7),
+            mu: perhaps(random, 0.6),
+        };
+        // Above the floor: no link hangs below the support's half depth.
+        let q = (0..3).map(|_| random.sign() * random.between(1.7, 2.6));
+        let q = q.collect();
+        let v = signed(random, 3, 2.0);
+        (chain, State { q, v })
+    }
+}
+
+impl Family for Rod {
+    const NAME: &'static str = "rod on a floor";
+
+    fn draw(random: &mut Random) -> (Self, State<f64>) {
+        (Rod::random(random), Rod::thrown(random))
+    }
+}
+
+impl Family for Balls {
+    const NAME: &'static str = "balls between walls";
+
+    fn draw(random: &mut Random) -> (Self, State<f64>) {
+        let balls = Balls::random(random, |random| random.between(0.1, 1.0));
+        (balls, Balls::apart(random))
+    }
+}
+
+impl Family for Blocks {
+    const NAME: &'static str = "blocks on an incline";
+
+    fn draw(random: &mut Random) -> (Self, State<f64>) {
+        (Blocks::random(random), Blocks::sliding(random))
     }
 }

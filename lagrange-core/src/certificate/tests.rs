@@ -1,0 +1,182 @@
+//! What is wrong with a run is found, and named.
+
+use super::motion::against;
+use super::{Certificate, Subject};
+use crate::prelude::*;
+
+/// A block that is thrown onto a rough incline, bounces, slides, comes to rest and is pushed on.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(s, n),
+    kinetic = mass/2 * (der(s)^2 + der(n)^2),
+    potential(weight: mass * 9.81 * (n * cos(slope) - s * sin(slope))),
+    contact(plane: n >= 0, restitution = bounce),
+    friction(grip on plane: slip = der(s), static = mu),
+    force(wind: s = push * sin(2 * t)),
+    start(thrown: n = 1/20, der(s) = 1/5),
+    mark(passes: s >= 1/4),
+    stop(far: s >= 2/5),
+)]
+struct Block {
+    mass: f64,
+    slope: f64,
+    bounce: f64,
+    mu: f64,
+    push: f64,
+}
+
+/// The same with a wind that is stronger by a millionth.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(s, n),
+    kinetic = mass/2 * (der(s)^2 + der(n)^2),
+    potential(weight: mass * 9.81 * (n * cos(slope) - s * sin(slope))),
+    contact(plane: n >= 0, restitution = bounce),
+    friction(grip on plane: slip = der(s), static = mu),
+    force(wind: s = 1.000001 * push * sin(2 * t)),
+    start(thrown: n = 1/20, der(s) = 1/5),
+    mark(passes: s >= 1/4),
+    stop(far: s >= 2/5),
+)]
+struct Windier {
+    mass: f64,
+    slope: f64,
+    bounce: f64,
+    mu: f64,
+    push: f64,
+}
+
+const BLOCK: Block = Block {
+    mass: 2.0,
+    slope: 0.3,
+    bounce: 0.3,
+    mu: 0.7,
+    push: 10.0,
+};
+
+fn run(effects: Effects) -> Trajectory<Block> {
+    let simulation = Simulation::new(&BLOCK).effects(effects);
+    simulation
+        .run(BLOCK.at(Block::THROWN), 0.0..8.0)
+        .expect("a run")
+}
+
+#[track_caller]
+fn certificate<S: System>(trajectory: &Trajectory<S>) -> Certificate {
+    trajectory.verify(1).expect("a certificate")
+}
+
+/// Asserts that the worst check is one of these and beyond its bound.
+#[track_caller]
+fn finds(certificate: &Certificate, subjects: &[Subject]) {
+    let beyond = certificate.checks.iter().filter(|check| !check.holds());
+    let beyond: Vec<Subject> = beyond.map(|check| check.subject).collect();
+    assert!(
+        subjects.iter().all(|subject| beyond.contains(subject)),
+        "{subjects:?} are not all in {beyond:?}: {certificate}"
+    );
+}
+
+#[test]
+fn what_is_right_is_certified() {
+    let certificate = certificate(&run(Effects::all()));
+    assert!(certificate.holds(), "{certificate}");
+    let looked: Vec<Subject> = certificate.checks.iter().map(|c| c.subject).collect();
+    use Subject::*;
+    for subject in [
+        Equations,
+        Motion,
+        Gaps,
+        NormalForces,
+        Cones,
+        Sliding,
+        Impacts,
+        Stops,
+        Marks,
+    ] {
+        assert!(looked.contains(&subject), "{subject:?} not in {looked:?}");
+    }
+}
+
+#[test]
+fn a_force_a_millionth_too_weak_is_found() {
+    let trajectory = run(Effects::all());
+    let windier = against(&trajectory, <Windier as System>::DECLARATION, 1, 1.0);
+    finds(&windier, &[Subject::Equations]);
+    let equations = windier.worst().expect("checks");
+    assert_eq!(
+        (equations.subject, equations.item),
+        (Subject::Equations, "s")
+    );
+}
+
+#[test]
+fn a_nudged_state_is_found() {
+    let mut trajectory = run(Effects::all());
+    let segment = trajectory.segments[trajectory.segments.len() / 2];
+    trajectory.record().coefficients[segment.offset] += 1e-6;
+    finds(&certificate(&trajectory), &[Subject::Joins]);
+}
+
+#[test]
+fn a_velocity_that_is_not_the_rate_of_the_position_is_found() {
+    let mut trajectory = run(Effects::all());
+    let segment = trajectory.segments[1];
+    let n = trajectory.description().coordinates.len();
+    let velocity = segment.offset + n * (segment.degree + 1);
+    trajectory.record().coefficients[velocity] += 1e-5;
+    finds(
+        &certificate(&trajectory),
+        &[Subject::Motion, Subject::Joins],
+    );
+}
+
+#[test]
+fn other_parameters_than_those_of_the_run_are_found() {
+    let mut trajectory = run(Effects::all());
+    let heavier = Block {
+        mass: 2.001,
+        ..BLOCK
+    };
+    trajectory.record().system = std::sync::Arc::new(heavier);
+    finds(&certificate(&trajectory), &[Subject::Motion]);
+}
+
+#[test]
+fn what_was_left_out_is_missed() {
+    let cases: [(Item, Subject); 4] = [
+        (Block::PLANE.into(), Subject::Gaps),
+        (Block::GRIP.into(), Subject::Sliding),
+        (Block::FAR.into(), Subject::Stops),
+        (Block::PASSES.into(), Subject::Marks),
+    ];
+    for (item, subject) in cases {
+        let mut trajectory = run(Effects::all().without(item));
+        assert!(
+            certificate(&trajectory).holds(),
+            "{}",
+            certificate(&trajectory)
+        );
+        trajectory.record().effects = Effects::all();
+        finds(&certificate(&trajectory), &[subject]);
+    }
+}
+
+#[test]
+fn an_impact_that_bounces_too_high_is_found() {
+    let mut trajectory = run(Effects::all());
+    let events: Vec<Event<f64>> = trajectory.events().to_vec();
+    let record = trajectory.record();
+    record.events.clear();
+    for mut event in events {
+        if event.kind == EventKind::Impact {
+            event.state_after.v[1] *= 1.01;
+        }
+        record.events.push(&event);
+    }
+    let found = certificate(&trajectory);
+    finds(
+        &found,
+        &[Subject::Impulses, Subject::Impacts, Subject::Joins],
+    );
+}
