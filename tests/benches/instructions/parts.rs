@@ -15,54 +15,55 @@ const RUNS: u64 = 50;
 /// A part: its name, and the functions that it begins with (ends of their paths).
 type Part = (&'static str, &'static [&'static str]);
 
-/// Parts of the fixed cost of a step, in its order.
-const STEP: [Part; 7] = [
+/// Parts of a step beside series and right-hand side, in its order.
+const STEP: [Part; 8] = [
     ("step size", &["::step_size"]),
     ("scaling", &["::write_polynomial"]),
     ("guard polynomials", &["::take_series"]),
     ("exclusion of roots", &["::nothing_happens"]),
+    (
+        "refinement of roots",
+        &["::first_hit", "::hides_a_start", "taylor::defect"],
+    ),
     ("check of the end", &["Curves::defect", "::defect_at_end"]),
     ("recording", &["Record<T>::push"]),
     ("rest of the step", &["Run<T>::advance"]),
 ];
 /// What stands beside it.
-const OTHERS: [Part; 7] = [
+const OTHERS: [Part; 6] = [
     ("series", &["::begin_series", "::end_series"]),
     ("right-hand sides", &["Dynamics<T>>::value"]),
-    (
-        "refinement of roots",
-        &["::first_hit", "::hides_a_start", "taylor::defect"],
-    ),
     ("decision", &["::decide"]),
     ("rest of a switch", &["switch::switch", "Run<T>>::switch"]),
     ("start", &["Run<T>::launch"]),
     (
         "change of parameters",
-        &["::set_scene", "Compiled<T>::renew"],
+        &["::set_scene", "::set_system", "Compiled<T>::renew"],
     ),
 ];
 
-/// A scene: its name, the figures of the day when the budget was made (a step, a switch, the whole run), and its runs.
+/// A scene: its name, the figures of the day when the budget was made (a step, a switch, a change of parameters, the whole run; not a number where there is
+/// none), and its runs.
 struct Scene {
     name: &'static str,
-    before: [f64; 3],
+    before: [f64; 4],
     run: fn(u64) -> [usize; 2],
 }
 
 const SCENES: [Scene; 3] = [
     Scene {
         name: "rolling-slipping sphere, 2.2 s",
-        before: [0.0, 0.0, 0.0],
+        before: [10_400.0, 13_768.0, 22_059.0, 168_310.0],
         run: |times| run(&RollingSlippingSphere::default(), 2.2, times),
     },
     Scene {
         name: "mass on wheel, 2.9 s",
-        before: [0.0, 0.0, 0.0],
+        before: [11_073.0, 14_168.0, 47_073.0, 334_864.0],
         run: |times| run(&MassOnWheel::default(), 2.9, times),
     },
     Scene {
         name: "double pendulum, 1 s",
-        before: [0.0, 0.0, 0.0],
+        before: [3_907.0, f64::NAN, 3_508.0, 294_832.0],
         run: |times| run(&DoublePendulum::default(), 1.0, times),
     },
 ];
@@ -95,59 +96,57 @@ pub fn print() {
         let [steps, switches] = (scene.run)(1);
         let (long, short) = (Profile::count(index, 2 * RUNS), Profile::count(index, RUNS));
         let cost = |part: &str| (long.of(part) - short.of(part)) / RUNS as f64;
+        let [step, switch, change, whole] = scene.before;
         println!("\n{}: {steps} steps, {switches} switches", scene.name);
-        let line = |name: &str, per: f64, times: usize| {
-            let total = format!("{:>10.0}", per);
-            if times > 0 {
-                println!("{name:<44}{total}{:>10.0}", per / times as f64);
-            }
-        };
+        let columns = ["", "a run", "each", "before", "budget"];
+        let [first, rest @ ..] = columns;
         println!(
-            "{:<44}{:>10}{:>10}{:>10}{:>10}",
-            "", "a run", "each", "before", "budget"
+            "{first:<44}{}",
+            rest.map(|word| format!("{word:>10}")).concat()
         );
-        for (part, _) in STEP {
-            line(part, cost(part), steps);
-        }
-        let sum: f64 = STEP.iter().map(|(part, _)| cost(part)).sum();
-        let goal = |name: &str, total: f64, each: f64, before: f64, budget: f64| {
-            println!("{name:<44}{total:>10.0}{each:>10.0}{before:>10.0}{budget:>10.0}");
-        };
-        let [step, switch, whole] = scene.before;
-        goal(
-            "= a step without series and values",
+        STEP.iter()
+            .for_each(|(part, _)| row(part, cost(part), steps, &[]));
+        let sum = STEP.iter().map(|(part, _)| cost(part)).sum();
+        row(
+            "= steps without the next two",
             sum,
-            sum / steps as f64,
-            step,
-            BUDGET[0],
+            steps,
+            &[step, BUDGET[0]],
         );
-        line("series", cost("series"), steps);
-        line("right-hand sides", cost("right-hand sides"), steps);
-        for part in ["refinement of roots", "decision", "rest of a switch"] {
-            line(part, cost(part), switches);
+        for part in ["series", "right-hand sides"] {
+            row(part, cost(part), steps, &[]);
         }
         if switches > 0 {
-            let sum = cost("decision") + cost("rest of a switch");
-            goal(
-                "= a switch without series and values",
+            let parts = ["decision", "rest of a switch"];
+            for part in parts {
+                row(part, cost(part), switches, &[]);
+            }
+            let sum = parts.map(cost).iter().sum();
+            row(
+                "= switches without series and values",
                 sum,
-                sum / switches as f64,
-                switch,
-                BUDGET[1],
+                switches,
+                &[switch, BUDGET[1]],
             );
         }
-        line("start", cost("start"), 1);
-        let renewal = cost("change of parameters");
-        goal(
-            "change of parameters",
-            renewal,
-            renewal,
-            f64::NAN,
-            BUDGET[2],
-        );
+        row("start", cost("start"), 1, &[]);
+        let part = "change of parameters";
+        row(part, cost(part), 1, &[change, BUDGET[2]]);
         let all = (long.total() - short.total()) / RUNS as f64;
-        println!("{:<44}{all:>10.0}{:>10}{whole:>10.0}", "= a run", "");
+        row("= a run", all, 1, &[whole]);
     }
+}
+
+/// Prints what a part costs in a run and each of so many times, and numbers to compare that with.
+fn row(name: &str, cost: f64, times: usize, compared: &[f64]) {
+    print!("{name:<44}{cost:>10.0}{:>10.0}", cost / times as f64);
+    for number in compared {
+        match number.is_nan() {
+            true => print!("{:>10}", ""),
+            false => print!("{number:>10.0}"),
+        }
+    }
+    println!();
 }
 
 /// What the functions of a process cost.
@@ -164,6 +163,7 @@ impl Profile {
         let file = std::env::temp_dir().join(format!("lagrange-parts-{}", std::process::id()));
         let status = Command::new("valgrind")
             .args(["--quiet", "--tool=callgrind", "--dump-line=no"])
+            .stderr(std::process::Stdio::null())
             .arg(format!("--callgrind-out-file={}", file.display()))
             .arg(std::env::current_exe().expect("this program"))
             .args(["--parts", &scene.to_string(), &times.to_string()])
