@@ -2,6 +2,7 @@
 
 use super::motion::against;
 use super::{Certificate, Subject};
+use crate::Runnable;
 use crate::prelude::*;
 
 /// A block that is thrown onto a rough incline, bounces, slides, comes to rest and is pushed on.
@@ -62,7 +63,7 @@ fn run(effects: Effects) -> Trajectory<Block> {
 }
 
 #[track_caller]
-fn certificate<S: System>(trajectory: &Trajectory<S>) -> Certificate {
+fn certificate<S: System<Scalar: Runnable>>(trajectory: &Trajectory<S>) -> Certificate {
     trajectory.verify(1).expect("a certificate")
 }
 
