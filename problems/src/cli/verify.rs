@@ -20,7 +20,7 @@ use std::io::{self, Write};
 #[command(after_help = "Examples:
   lagrange verify mass-on-wheel
   lagrange verify mass-on-wheel --tolerance 1e-12 --method dop853
-  lagrange verify rolling-sphere --set mu_static=0.3 --seed 7 --format json
+  lagrange verify mass-on-wheel --set mu_static=0.8 --seed 7 --format json
 
 Exit codes: 0 every check is within its bound, 1 one is not or the run failed, 2 the request makes no sense.")]
 pub(super) struct Verify {

@@ -30,6 +30,7 @@ mod permuted;
 mod piecewise;
 mod plate;
 mod pressed;
+mod quaternion;
 mod region;
 mod rocking_block;
 mod skate;
