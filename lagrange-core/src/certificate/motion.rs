@@ -149,7 +149,7 @@ impl<T: Scalar> Examination<'_, T> {
         for (k, (segment, now)) in record.segments.iter().zip(&reported).enumerate() {
             let (t, h, end) = (segment.t.value(), segment.h.value(), segment.end.value());
             let begin = self.state_at(k, 0.0);
-            self.events_until(t, &begin, k == 0);
+            self.events_until(t, &begin, k == 0, t + h * end > t);
             self.join(t, &begin);
             if h * end > 0.0 {
                 let last = self.state_at(k, end);
@@ -168,7 +168,7 @@ impl<T: Scalar> Examination<'_, T> {
             }
         }
         let last = numbers(&record.last);
-        self.events_until(f64::INFINITY, &last, false);
+        self.events_until(f64::INFINITY, &last, false, true);
         self.join(record.last_time(), &last);
     }
 
@@ -280,12 +280,12 @@ impl<T: Scalar> Examination<'_, T> {
     }
 
     /// Goes through the events up to a time, when the motion goes on in the state `begin`: impacts change the state that is
-    /// expected. Of those at that very time some may come after the next step, which has no length then.
-    fn events_until(&mut self, time: f64, begin: &State<f64>, first: bool) {
+    /// expected. Of those at that very time some may come after the next step, if it does not advance the time.
+    fn events_until(&mut self, time: f64, begin: &State<f64>, first: bool, advances: bool) {
         let record = self.record;
         while let Some(event) = record.events().get(self.events) {
             let now = event.time.value();
-            if now > time || now == time && self.is_near(begin) {
+            if now > time || now == time && !advances && self.is_near(begin) {
                 break;
             }
             let repeats = self.events > 0 && {
