@@ -16,7 +16,7 @@ fn accelerations_soon_after_the_start() {
     for k in 1..200 {
         let now = sampler.at(5e-4 * f64::from(k)).expect("an instant");
         let mut solved = trajectory.dynamics();
-        solved.set_equations(Equations::Solved);
+        solved.set_equations(Equations::Interpreted);
         solved
             .value(now.time, &now.q, &now.v)
             .expect("accelerations");
