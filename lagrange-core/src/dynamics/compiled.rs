@@ -188,15 +188,17 @@ impl<T: Scalar> Compiled<T> {
         system: &dyn ErasedSystem<T>,
         numbers: &mut Vec<T>,
     ) -> &mut Interpreted<T> {
-        let no_series = NeedSet::new(system.description());
-        let asked = Asked {
-            held: &self.row_needs,
-            extra: &no_series,
-            report: None,
-        };
         let mut rows = self.rows.take();
         let renewed = rows.take_if(|rows| rows.renew(system, self, numbers));
-        let rows = renewed.unwrap_or_else(|| Interpreted::load(system, self, &asked, numbers));
+        let rows = renewed.unwrap_or_else(|| {
+            let no_series = NeedSet::new(system.description());
+            let asked = Asked {
+                held: &self.row_needs,
+                extra: &no_series,
+                report: None,
+            };
+            Interpreted::load(system, self, &asked, numbers)
+        });
         self.rows.insert(rows)
     }
 
