@@ -1,6 +1,6 @@
 //! Certificates: a finished run checked against its declaration, by nothing that produced it.
 //!
-//! [`Record::verify`] evaluates the energies, gaps, slips and forces as they were declared ([`crate::declaration`]), without the
+//! [`Record::verify`](crate::trajectory::Record::verify) evaluates the energies, gaps, slips and forces as they were declared ([`crate::declaration`]), without the
 //! symbolic derivation, the emitted equations, the integrator and the logic of modes. Every check gives a figure without unit and
 //! a bound. There are two kinds of bounds, and none is fitted to a run:
 //!
@@ -161,7 +161,7 @@ impl Check {
     }
 }
 
-/// A finished run checked against its declaration; see [`Record::verify`].
+/// A finished run checked against its declaration; see [`Record::verify`](crate::trajectory::Record::verify).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Certificate {
     /// The checks for which there was something to look at.

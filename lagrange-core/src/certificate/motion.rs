@@ -40,7 +40,7 @@ pub(super) struct Examination<'a, T: Scalar> {
     nodes: Vec<(f64, f64)>,
 }
 
-/// See [`Record::verify`].
+/// See [`Record::verify`](crate::trajectory::Record::verify).
 pub(crate) fn verify<T: Scalar>(
     record: &Record<T>,
     seed: u64,
