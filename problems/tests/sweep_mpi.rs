@@ -64,7 +64,7 @@ fn undisturbed(folder: &Path) -> Vec<u8> {
 fn kill(mut command: Command, rank: usize, folder: &Path, output: &Path) -> Option<i32> {
     let mut run = command
         .stdout(Stdio::null())
-        .stderr(Stdio::null())
+        .stderr(fs::File::create(folder.join("stderr")).expect("a file"))
         .spawn()
         .expect("it starts");
     let rows = PathBuf::from(format!("{}.part/rows-1-of-1", path(output)));
@@ -113,8 +113,10 @@ fn a_rank_that_is_killed_is_made_up_for() {
         let Some(command) = mpirun(4, &options, &folder, &output) else {
             return;
         };
-        kill(command, rank, &folder, &output);
-        assert_eq!(fs::read(&output).expect("results"), expected, "{rank}");
+        let code = kill(command, rank, &folder, &output);
+        let said = fs::read_to_string(folder.join("stderr")).expect("words");
+        let results = fs::read(&output).unwrap_or_else(|e| panic!("{e}, exit {code:?}: {said}"));
+        assert_eq!(results, expected, "{rank}");
         fs::remove_file(&output).expect("it can be removed");
     }
 }
