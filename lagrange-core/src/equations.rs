@@ -10,12 +10,7 @@
 //! hand is refused; the core then looks for better ones.
 
 use crate::program::{Held, Place};
-
-/// Coefficients 0, 1, … of one series.
-pub type Row<N> = [N; STRIDE];
-
-/// Length of a [`Row`]: the highest order is 28, and velocities are known to one order more.
-pub const STRIDE: usize = 32;
+pub use crate::program::{Row, STRIDE};
 
 /// 1/k; of 0, 0.
 pub const INVERSES: [f64; STRIDE] = {

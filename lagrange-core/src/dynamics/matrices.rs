@@ -4,7 +4,6 @@ use super::Dynamics;
 use super::interpreted::{Extent, SYSTEM};
 use crate::arithmetic::Scalar;
 use crate::linear::{Freedom, least_norm};
-use crate::system::Place;
 use nalgebra::{DMatrix, DVector};
 
 impl<T: Scalar> Dynamics<T> {
@@ -82,7 +81,7 @@ impl<T: Scalar> Dynamics<T> {
         let nodes = self.program_nodes();
         let mut columns = vec![T::default(); n * acting.len()];
         for (index, coordinate, place) in plan.columns() {
-            columns[index * n + coordinate] += self.number(&nodes, place);
+            columns[index * n + coordinate] += place.read(&self.compiled().constants, &nodes);
         }
         let mut forces: Vec<T> = acting.iter().map(|&row| self.force(row)).collect();
         let freedom = least_norm(&columns, n, &mut forces);
@@ -99,7 +98,8 @@ impl<T: Scalar> Dynamics<T> {
         }
         for slide in &self.compiled().plan.slides {
             if let Some(source) = slide.source {
-                forces[slide.row] = self.number(&nodes, slide.factor) * forces[source];
+                forces[slide.row] =
+                    slide.factor.read(&self.compiled().constants, &nodes) * forces[source];
             }
         }
         forces
@@ -139,13 +139,5 @@ impl<T: Scalar> Dynamics<T> {
             .evaluate(SYSTEM, &mut registers);
         let nodes = shape.nodes.iter();
         nodes.map(|register| registers[register.index()]).collect()
-    }
-
-    fn number(&self, nodes: &[T], place: Place) -> T {
-        match place {
-            Place::Zero => T::default(),
-            Place::Constant(i) => self.compiled().constants[i],
-            Place::Node(i) => nodes[i],
-        }
     }
 }

@@ -406,21 +406,13 @@ impl<T: Scalar> Dynamics<T> {
     /// A number of the motion program at the last [`Self::value`]. Its need must have been held.
     #[inline]
     pub fn motion(&self, place: Place) -> T {
-        match place {
-            Place::Zero => T::default(),
-            Place::Constant(i) => self.compiled().constants[i],
-            Place::Node(i) => self.nodes[i],
-        }
+        place.read(&self.compiled().constants, &self.nodes)
     }
 
     /// A number of the report at the last [`Self::report_value`]. Its need must have been held.
     #[inline]
     pub fn report(&self, place: Place) -> T {
-        match place {
-            Place::Zero => T::default(),
-            Place::Constant(i) => self.compiled().constants[i],
-            Place::Node(i) => self.report_nodes[i],
-        }
+        place.read(&self.compiled().constants, &self.report_nodes)
     }
 
     /// v̇ at the last [`Self::value`], one per coordinate.

@@ -344,7 +344,7 @@ impl<T: Scalar> Dynamics<T> {
             self.projection.blank.resize(size * size, T::zero());
             let matrix = self.projector.begin(n, size, &self.projection.blank);
             for &(i, j, place) in d.mass {
-                let value = read(place, constants, &self.nodes);
+                let value = place.read(constants, &self.nodes);
                 if !is_held(i) && !is_held(j) {
                     matrix[i * size + j] = value;
                     matrix[j * size + i] = value;
@@ -369,12 +369,12 @@ impl<T: Scalar> Dynamics<T> {
                 };
                 for &(j, place) in d.rows[row].jacobian {
                     if !is_held(j) {
-                        let value = read(place, constants, &self.nodes);
+                        let value = place.read(constants, &self.nodes);
                         matrix[index * size + j] = value;
                         matrix[j * size + index] = value;
                     }
                 }
-                self.projection.right[index] = -read(place, constants, &self.nodes);
+                self.projection.right[index] = -place.read(constants, &self.nodes);
                 index += 1;
             }
             self.work.factorizations += 1;
@@ -389,14 +389,6 @@ impl<T: Scalar> Dynamics<T> {
             }
         }
         false
-    }
-}
-
-fn read<T: Scalar>(place: Place, constants: &[T], nodes: &[T]) -> T {
-    match place {
-        Place::Zero => T::zero(),
-        Place::Constant(i) => constants[i],
-        Place::Node(i) => nodes[i],
     }
 }
 

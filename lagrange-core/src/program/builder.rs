@@ -166,7 +166,7 @@ impl Builder {
                         Register::ZERO
                     };
                     let result = self.push(op, values[x], y);
-                    if matches!(op, Op::SinCos | Op::SinhCosh) {
+                    if op.has_two_values() {
                         values[value + 1] = result.next();
                     }
                     result

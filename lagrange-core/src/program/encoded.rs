@@ -11,7 +11,7 @@
 //! they are computed, the inputs first. A coefficient is a number by place · 4 + kind: a constant (0), a parameter (1), an exact
 //! number of the table (2).
 
-use super::{Builder, Held, Numbers, Register, room};
+use super::{Builder, Held, Numbers, Op, Register, room};
 use crate::arithmetic::Scalar;
 
 /// A program as data.
@@ -165,7 +165,7 @@ impl Word {
     fn values(self) -> usize {
         match self {
             Word::Set(..) | Word::AddTo(..) | Word::SubtractFrom(..) => 0,
-            Word::Apply(14 | 15, ..) => 2,
+            Word::Apply(number, ..) if Op::of_format(number).has_two_values() => 2,
             _ => 1,
         }
     }

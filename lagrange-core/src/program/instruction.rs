@@ -104,6 +104,11 @@ impl Op {
         matches!(self, Add | Sub | Scale | Mul | Div | Powf | Atan2)
     }
 
+    /// Whether it has two results, each a value of the program.
+    pub(super) fn has_two_values(self) -> bool {
+        matches!(self, Op::SinCos | Op::SinhCosh)
+    }
+
     /// Whether the register after the result is written as well.
     pub(super) fn is_pair(self) -> bool {
         use Op::*;

@@ -1,5 +1,7 @@
 //! What of a program is asked for, and where its numbers are found.
 
+use crate::arithmetic::Scalar;
+
 /// Where a number of the description is found after a program has run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
@@ -9,6 +11,18 @@ pub enum Place {
     Constant(usize),
     /// Index into the outputs of the program.
     Node(usize),
+}
+
+impl Place {
+    /// The number there, given the constants and the outputs.
+    #[inline]
+    pub(crate) fn read<T: Scalar>(self, constants: &[T], outputs: &[T]) -> T {
+        match self {
+            Place::Zero => T::zero(),
+            Place::Constant(index) => constants[index],
+            Place::Node(index) => outputs[index],
+        }
+    }
 }
 
 /// A set of needs: which parts of a program must run. Bit `i` is need `i` of the description.

@@ -19,17 +19,17 @@
 use super::instruction::{Instruction, Op, Program, Register, with_registers};
 use crate::arithmetic::{Number, Pack, Scalar};
 
-/// Coefficients of a row, a power of two.
-const STRIDE: usize = 32;
-
 /// No row is kept.
 const NO_ROW: u32 = u32::MAX;
 
+/// Coefficients 0, 1, … of one series.
+pub type Row<N> = [N; STRIDE];
+
+/// Length of a [`Row`], a power of two: the highest order is 28, and velocities are known to one order more.
+pub const STRIDE: usize = 32;
+
 /// Highest order of a series.
 pub const MAX_ORDER: usize = 28;
-
-/// Coefficients of one number.
-type Row<T> = [T; STRIDE];
 
 /// An operation whose Taylor series can fail to exist.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

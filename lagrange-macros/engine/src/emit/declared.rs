@@ -3,12 +3,13 @@
 //! A straight line of operations, one for each sub-expression of the declaration in the order of the pool. It is not planned,
 //! shared between modes or optimised, so that it has nothing in common with the tapes but the declaration.
 
-use super::names::{self, index};
+use super::exact::Exact;
+use super::names::index;
 use crate::model::{Declared, Normal, Restitution, System, Watch, Worked};
 use crate::symbolic::{ExprId, Function, Node, Rational, Symbol};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
 
 // Numbers of the operations; all as in `lagrange_core::declaration`.
 const NUMBER: usize = 0;
@@ -107,11 +108,11 @@ pub fn declaration(declared: &Declared, system: &System) -> TokenStream {
         watches(&system.marks, &of.marks),
     );
     let words = Literal::byte_string(&writer.bytes);
-    let numbers = writer.numbers.iter().map(|number| names::f64(*number));
+    let numbers = writer.numbers.table();
     quote! {
         #core::declaration::Declaration {
             words: #words,
-            numbers: &[#(#numbers),*],
+            numbers: #numbers,
             kinetic: &[#(#kinetic),*],
             potential: &[#(#potential),*],
             constraints: &[#(#constraints),*],
@@ -164,9 +165,7 @@ struct Writer<'a> {
     values: BTreeMap<ExprId, usize>,
     count: usize,
     bytes: Vec<u8>,
-    numbers: Vec<f64>,
-    /// Places of the numbers, by their bits.
-    known: HashMap<u64, usize>,
+    numbers: Exact,
 }
 
 #[derive(Clone, Copy)]
@@ -200,8 +199,7 @@ impl<'a> Writer<'a> {
             values: BTreeMap::new(),
             count: 0,
             bytes: Vec::new(),
-            numbers: Vec::new(),
-            known: HashMap::new(),
+            numbers: Exact::default(),
         }
     }
 
@@ -265,7 +263,7 @@ impl<'a> Writer<'a> {
                 for (e, exponent) in factors {
                     let mut factor = self.values[e];
                     if *exponent != Rational::ONE {
-                        let place = self.place(exponent.to_f64());
+                        let place = self.numbers.place(exponent.to_f64());
                         factor = self.push(POWER, factor, place);
                     }
                     product = Some(match product {
@@ -317,17 +315,8 @@ impl<'a> Writer<'a> {
     }
 
     fn number(&mut self, number: f64) -> usize {
-        let place = self.place(number);
+        let place = self.numbers.place(number);
         self.push(NUMBER, place, 0)
-    }
-
-    fn place(&mut self, number: f64) -> usize {
-        let next = self.numbers.len();
-        let place = *self.known.entry(number.to_bits()).or_insert(next);
-        if place == next {
-            self.numbers.push(number);
-        }
-        place
     }
 
     fn push(&mut self, operation: usize, x: usize, y: usize) -> usize {

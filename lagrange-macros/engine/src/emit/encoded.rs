@@ -1,23 +1,23 @@
 //! A tape as data: one literal that `lagrange_core::program` loads. Its format is described there.
 
+use super::exact::Exact;
 use super::names;
 use crate::model::System;
 use crate::plan::{Coefficient, Mode, NeedSet, Operation, Tape, Value};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
-use std::collections::HashMap;
 
 /// `Encoded { … }`
 pub fn encoded(system: &System, tape: &Tape) -> TokenStream {
     let core = &system.core;
     let writer = Writer::written(tape);
     let words = Literal::byte_string(&writer.bytes);
-    let numbers = writer.numbers.iter().map(|number| names::f64(*number));
+    let numbers = writer.numbers.table();
     let (values, outputs) = (names::index(tape.values), names::index(tape.outputs));
     quote! {
         #core::program::Encoded {
             words: #words,
-            numbers: &[#(#numbers),*],
+            numbers: #numbers,
             values: #values,
             outputs: #outputs,
         }
@@ -32,9 +32,7 @@ const SUBTRACT_FROM: usize = 25;
 #[derive(Default)]
 pub(super) struct Writer {
     pub(super) bytes: Vec<u8>,
-    numbers: Vec<f64>,
-    /// Places of the numbers, by their bits.
-    known: HashMap<u64, usize>,
+    numbers: Exact,
 }
 
 impl Writer {
@@ -82,12 +80,7 @@ impl Writer {
     }
 
     fn number(&mut self, number: f64) -> usize {
-        let next = self.numbers.len();
-        let place = *self.known.entry(number.to_bits()).or_insert(next);
-        if place == next {
-            self.numbers.push(number);
-        }
-        4 * place + 2
+        4 * self.numbers.place(number) + 2
     }
 
     fn coefficient(&mut self, coefficient: Coefficient) -> usize {

@@ -8,6 +8,7 @@ mod derivation;
 mod description;
 mod encoded;
 mod equations;
+mod exact;
 mod fallback;
 mod handles;
 mod listing;
