@@ -8,7 +8,7 @@ use super::needs::{self, NeedSet};
 use crate::arithmetic::Scalar;
 use crate::effects::Effects;
 use crate::erased::ErasedSystem;
-use crate::linear::{Plan, Solver};
+use crate::linear::{Plan, Solver, acting};
 use crate::mode::Mode;
 use crate::system::{Description, Held};
 
@@ -26,26 +26,31 @@ pub(super) struct Compiled<T: Scalar> {
     pub row_needs: NeedSet,
     /// Of the constants.
     constant_needs: NeedSet,
+    /// Rows that act, ascending.
+    pub acting: Vec<usize>,
     /// What computes the system's constants.
     own: Constants<T>,
     /// The system's own, then the plan's.
     pub constants: Vec<T>,
+    /// How the linear system is solved where no functions do it.
     pub plan: Plan<T>,
+    /// Whether the plan is that of the present parameters.
+    planned: bool,
     /// The plan for the parameters before.
     spare: Plan<T>,
     pub solver: Solver<T>,
     /// Whether the solver holds the factors of this plan.
     pub factored: bool,
-    /// Whether numbers and plan are those of other parameters.
+    /// Whether the numbers are those of other parameters.
     outdated: bool,
     /// The functions of this mode, if they have been emitted.
     pub emitted: Option<Emitted<T>>,
     /// Whether a pivot of the functions was not safe.
     pub refused: bool,
-    /// Coordinates that cannot accelerate.
-    pub pinned: Vec<usize>,
-    /// The one in use comes first.
-    interpreted: Vec<Interpreted<T>>,
+    /// The interpreted equations.
+    interpreted: Loaded<T>,
+    /// The same of outputs alone, for where functions solve the equations.
+    outputs: Loaded<T>,
     /// For projections.
     rows: Option<Interpreted<T>>,
 }
@@ -59,6 +64,8 @@ pub(super) struct Asked<'a> {
     pub extra: &'a NeedSet,
     /// What is held of the report; none if nothing is asked of it.
     pub report: Option<&'a NeedSet>,
+    /// Whether the equations of motion are solved.
+    pub solves: bool,
 }
 
 impl<T: Scalar> Compiled<T> {
@@ -82,26 +89,26 @@ impl<T: Scalar> Compiled<T> {
                 },
             ),
             constant_needs: held,
-            pinned: Vec::new(),
+            acting: acting(d, effects, mode).collect(),
             constants: Vec::new(),
             plan: Plan::default(),
+            planned: false,
             spare: Plan::default(),
             solver: Solver::default(),
             factored: false,
             outdated: false,
             emitted: Emitted::of(system, effects, mode),
             refused: false,
-            interpreted: Vec::new(),
+            interpreted: Loaded::default(),
+            outputs: Loaded::default(),
             rows: None,
         };
         compiled.set_numbers(system, effects);
-        compiled.reserve(d);
         compiled
     }
 
-    /// Constants and plan of a system.
+    /// Numbers of a system, and the plan if it is needed for sure.
     fn set_numbers(&mut self, system: &dyn ErasedSystem<T>, effects: &Effects) {
-        let d = system.description();
         let held = Held {
             needs: &self.constant_needs,
             branches: &self.mode.branches,
@@ -110,16 +117,33 @@ impl<T: Scalar> Compiled<T> {
         if let Some(emitted) = &mut self.emitted {
             emitted.renew(system, &held);
         }
-        self.plan.set(d, effects, &self.mode, &mut self.constants);
+        self.planned = false;
+        if self.functions().is_none() {
+            self.make_plan(system.description(), effects);
+        }
     }
 
-    /// What follows from the shape of the plan.
-    fn reserve(&mut self, d: &Description) {
-        let Self { plan, solver, .. } = self;
-        solver.reserve(plan.free(), plan.kept.len());
-        self.pinned.clear();
-        let pinned = (0..d.coordinates.len()).filter(|&j| plan.is_pinned(j));
-        self.pinned.extend(pinned);
+    /// Makes the plan for the present parameters, unless it is there.
+    pub(super) fn make_plan(&mut self, d: &Description, effects: &Effects) {
+        if self.planned {
+            return;
+        }
+        self.planned = true;
+        self.factored = false;
+        core::mem::swap(&mut self.plan, &mut self.spare);
+        self.plan.set(d, effects, &self.mode, &mut self.constants);
+        if !self.plan.is_like(&self.spare) {
+            self.interpreted.list.clear();
+            self.solver
+                .reserve(self.plan.free(), self.plan.kept.len());
+        }
+    }
+
+    /// The functions of the mode, if they hold for the present parameters.
+    #[inline]
+    pub(super) fn functions(&self) -> Option<&Emitted<T>> {
+        let emitted = self.emitted.as_ref().filter(|_| !self.refused);
+        emitted.filter(|emitted| emitted.is_admitted())
     }
 
     /// The parameters have changed.
@@ -133,17 +157,11 @@ impl<T: Scalar> Compiled<T> {
             return;
         }
         self.restart();
-        core::mem::swap(&mut self.plan, &mut self.spare);
+        let loaded = [&mut self.interpreted, &mut self.outputs];
+        let interpreted = loaded.into_iter().flat_map(|loaded| &mut loaded.list);
+        let interpreted = interpreted.chain(&mut self.rows);
+        interpreted.for_each(Interpreted::outdate);
         self.set_numbers(system, effects);
-        self.factored = false;
-        if self.plan.is_like(&self.spare) {
-            let interpreted = self.interpreted.iter_mut().chain(&mut self.rows);
-            interpreted.for_each(Interpreted::outdate);
-        } else {
-            self.interpreted.clear();
-            self.rows = None;
-            self.reserve(system.description());
-        }
     }
 
     /// Undoes [`Self::refuse_functions`]: one motion must not depend on those before it.
@@ -173,13 +191,28 @@ impl<T: Scalar> Compiled<T> {
     /// The interpreted equations in use, if they have been loaded.
     #[inline]
     pub(super) fn interpreted(&self) -> Option<&Interpreted<T>> {
-        self.interpreted.first()
+        self.interpreted.list.get(self.interpreted.in_use)
     }
 
     /// The parts that an evaluation by the interpreter works with.
     #[inline]
     pub(super) fn parts(&mut self) -> (&Plan<T>, &mut Solver<T>, &mut Interpreted<T>) {
-        (&self.plan, &mut self.solver, &mut self.interpreted[0])
+        let Loaded { list, in_use } = &mut self.interpreted;
+        (&self.plan, &mut self.solver, &mut list[*in_use])
+    }
+
+    /// The outputs in use.
+    #[inline]
+    pub(super) fn outputs(&mut self) -> &mut Interpreted<T> {
+        &mut self.outputs.list[self.outputs.in_use]
+    }
+
+    /// The constants that equations loaded for outputs or for a solution read.
+    pub(super) fn constants(&self, solves: bool) -> &[T] {
+        match solves {
+            true => &self.constants,
+            false => &self.constants[..self.own.count()],
+        }
     }
 
     /// What projections evaluate: inertia, Jacobians and residuals of the rows that act. `numbers` is memory.
@@ -196,6 +229,7 @@ impl<T: Scalar> Compiled<T> {
                 held: &self.row_needs,
                 extra: &no_series,
                 report: None,
+                solves: false,
             };
             Interpreted::load(system, self, &asked, numbers)
         });
@@ -214,18 +248,42 @@ impl<T: Scalar> Compiled<T> {
         asked: &Asked,
         numbers: &mut Vec<T>,
     ) {
-        let mut list = core::mem::take(&mut self.interpreted);
-        let found = list
+        let mut loaded = core::mem::take(self.loaded(asked.solves));
+        let found = loaded
+            .list
             .iter_mut()
             .position(|one| one.is_for(asked) && one.renew(system, self, numbers));
-        match found {
-            // The one used last comes first.
-            Some(index) => list[..=index].rotate_right(1),
-            None => {
-                list.truncate(MOST_INTERPRETED - 1);
-                list.insert(0, Interpreted::load(system, self, asked, numbers));
-            }
+        loaded.in_use = found.unwrap_or_else(|| {
+            let one = Interpreted::load(system, self, asked, numbers);
+            loaded.keep(one)
+        });
+        *self.loaded(asked.solves) = loaded;
+    }
+
+    fn loaded(&mut self, solves: bool) -> &mut Loaded<T> {
+        match solves {
+            true => &mut self.interpreted,
+            false => &mut self.outputs,
         }
-        self.interpreted = list;
+    }
+}
+
+/// Equations loaded for what has been asked for, and which of them are in use.
+#[derive(Clone, Debug, Default)]
+struct Loaded<T> {
+    list: Vec<Interpreted<T>>,
+    in_use: usize,
+}
+
+impl<T> Loaded<T> {
+    /// Takes one more, in the place of another if there are many; returns its place.
+    fn keep(&mut self, one: Interpreted<T>) -> usize {
+        if self.list.len() < MOST_INTERPRETED {
+            self.list.push(one);
+            return self.list.len() - 1;
+        }
+        let place = (self.in_use + 1) % MOST_INTERPRETED;
+        self.list[place] = one;
+        place
     }
 }

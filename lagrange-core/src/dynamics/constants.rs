@@ -46,6 +46,11 @@ impl<T: Scalar> Constants<T> {
         }
     }
 
+    /// How many there are.
+    pub(super) fn count(&self) -> usize {
+        self.outputs.len()
+    }
+
     /// Their values for the parameters of a system; those that nobody asks for are zero.
     pub(super) fn evaluate(&mut self, system: &dyn ErasedSystem<T>, constants: &mut Vec<T>) {
         for index in 0..system.description().parameters.len() {

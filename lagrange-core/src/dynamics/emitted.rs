@@ -57,10 +57,10 @@ fn rows_by_node(nodes: usize, rows: &[(usize, usize)]) -> Vec<u32> {
 }
 
 impl<T: Scalar> Emitted<T> {
-    /// The equations of a mode, if they have been emitted. Without a constraint or a kinetic energy others hold.
+    /// The equations of a mode, if they have been emitted. Without a constraint others hold.
     pub(super) fn of(system: &dyn ErasedSystem<T>, effects: &Effects, mode: &Mode) -> Option<Self> {
         let d = system.description();
-        let other = |item| matches!(item, Item::Constraint(_) | Item::Kinetic(_));
+        let other = |item| matches!(item, Item::Constraint(_));
         if effects.left_out().any(other) {
             return None;
         }
@@ -88,11 +88,16 @@ impl<T: Scalar> Emitted<T> {
         self.admitted = system.mode_constants(self.index, held, &self.signs, &mut self.constants);
     }
 
+    /// Whether the parameters allow the functions.
+    #[inline]
+    pub(super) fn is_admitted(&self) -> bool {
+        self.admitted
+    }
+
     /// Whether the functions hold at a state: what the mode pins is where it is pinned, and at rest.
     pub(super) fn holds_at(&self, q: &[T], v: &[T]) -> bool {
         let mut pins = self.structure.pins.iter();
-        self.admitted
-            && pins.all(|&(j, place)| {
+        pins.all(|&(j, place)| {
                 let at = match place {
                     Place::Constant(i) => self.constants[i],
                     Place::Zero | Place::Node(_) => T::default(),

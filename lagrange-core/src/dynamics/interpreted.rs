@@ -38,7 +38,7 @@ pub(super) enum Extent {
 }
 
 /// The program of a mode without its numbers.
-#[derive(Debug, PartialEq)]
+#[derive(Debug, Default, PartialEq)]
 pub(super) struct Shape {
     everything: Program,
     series: Program,
@@ -115,6 +115,7 @@ pub(super) struct Interpreted<T> {
     held: NeedSet,
     extra: NeedSet,
     report: Option<NeedSet>,
+    solves: bool,
     /// Shared with other motions that do the same with other numbers.
     pub shape: Arc<Shape>,
     pub registers: Vec<T>,
@@ -132,6 +133,12 @@ impl<T: Scalar> Interpreted<T> {
         self.held == *asked.held
             && self.extra == *asked.extra
             && self.report.as_ref() == asked.report
+    }
+
+    /// Whether any output of the motion program is held.
+    #[inline]
+    pub(super) fn has_motion(&self) -> bool {
+        !self.shape.held_nodes.is_empty()
     }
 
     /// Arithmetic operations of one evaluation; the solver's are those of elimination by pivots.
@@ -196,7 +203,7 @@ impl<T: Scalar> Interpreted<T> {
         numbers: &mut Vec<T>,
     ) -> bool {
         if self.outdated {
-            collect(system, compiled, numbers);
+            collect(system, compiled, self.solves, numbers);
             let registers = &mut self.registers[self.shape.numbers.clone()];
             let mut pairs = registers.iter().zip(&*numbers);
             if registers.len() != numbers.len() || pairs.any(|(x, y)| x.is_zero() != y.is_zero()) {
@@ -215,7 +222,7 @@ impl<T: Scalar> Interpreted<T> {
         asked: &Asked,
         numbers: &mut Vec<T>,
     ) -> Self {
-        collect(system, compiled, numbers);
+        collect(system, compiled, asked.solves, numbers);
         let shape = shape(system.description(), compiled, asked, numbers);
         let mut registers = vec![T::zero(); shape.registers];
         registers[shape.numbers.clone()].copy_from_slice(numbers);
@@ -223,6 +230,7 @@ impl<T: Scalar> Interpreted<T> {
             held: asked.held.clone(),
             extra: asked.extra.clone(),
             report: asked.report.cloned(),
+            solves: asked.solves,
             shape: Arc::new(shape),
             registers,
             outdated: false,
@@ -261,25 +269,28 @@ impl<T: Scalar> Interpreted<T> {
     }
 }
 
-/// The numbers of a mode: constants, parameters, exact numbers of both programs, those of the plan.
-fn collect<T: Scalar>(system: &dyn ErasedSystem<T>, compiled: &Compiled<T>, numbers: &mut Vec<T>) {
+/// The numbers of a mode: constants, parameters, exact numbers of both programs, those of the plan for a solution.
+fn collect<T: Scalar>(
+    system: &dyn ErasedSystem<T>,
+    compiled: &Compiled<T>,
+    solves: bool,
+    numbers: &mut Vec<T>,
+) {
     let d = system.description();
     numbers.clear();
-    numbers.extend_from_slice(&compiled.constants);
+    numbers.extend_from_slice(compiled.constants(solves));
     numbers.extend((0..d.parameters.len()).map(|index| system.parameter(index)));
     let exact = d.motion.numbers.iter().chain(d.report.numbers);
     numbers.extend(exact.map(|&number| T::from_f64(number)));
-    compiled.plan.collect(numbers);
+    if solves {
+        compiled.plan.collect(numbers);
+    }
 }
 
-/// Loads the programs and writes the solution around them, for these numbers.
+/// Loads the programs and writes the solution between them if it is asked for, for these numbers.
 fn shape<T: Scalar>(d: &Description, compiled: &Compiled<T>, asked: &Asked, values: &[T]) -> Shape {
-    let Compiled {
-        mode,
-        constants,
-        plan,
-        ..
-    } = compiled;
+    let Compiled { mode, plan, .. } = compiled;
+    let constants = compiled.constants(asked.solves);
     let n = d.coordinates.len();
     let inputs: Vec<Register> = (1..2 + 3 * n + d.rows.len()).map(Register::new).collect();
     let first = 1 + inputs.len();
@@ -308,27 +319,33 @@ fn shape<T: Scalar>(d: &Description, compiled: &Compiled<T>, asked: &Asked, valu
     let outputs = outputs.into_iter().map(Option::unwrap_or_default);
     let mut nodes: Vec<Register> = outputs.collect();
     builder.cut();
-    plan.program
-        .load(&mut builder, of_motion.constants, of_plan, &mut nodes);
-    let headings = plan.headings.iter().map(|heading| {
-        let components = heading.nodes.map(|node| nodes[node]);
-        let rates = [builder.fresh(), builder.fresh()];
-        (heading.friction, components, rates)
+    let solution = asked.solves.then(|| {
+        plan.program
+            .load(&mut builder, of_motion.constants, of_plan, &mut nodes);
+        let headings = plan.headings.iter().map(|heading| {
+            let components = heading.nodes.map(|node| nodes[node]);
+            let rates = [builder.fresh(), builder.fresh()];
+            (heading.friction, components, rates)
+        });
+        let headings: Vec<_> = headings.collect();
+        let mut solution = Solution {
+            builder: &mut builder,
+            plan,
+            nodes: &nodes,
+            inputs: &inputs,
+            n,
+            first: of_plan + plan.program.numbers().count(),
+            constants: of_motion.constants,
+        };
+        let right = solution.right_hand_sides();
+        let unknowns = solution.unknowns();
+        solution.builder.cut();
+        solution.forces(&unknowns, &right);
+        (headings, right, unknowns)
     });
-    let headings: Vec<_> = headings.collect();
-    let mut solution = Solution {
-        builder: &mut builder,
-        plan,
-        nodes: &nodes,
-        inputs: &inputs,
-        n,
-        first: of_plan + plan.program.numbers().count(),
-        constants: of_motion.constants,
-    };
-    let right = solution.right_hand_sides();
-    let unknowns = solution.unknowns();
-    solution.builder.cut();
-    solution.forces(&unknowns, &right);
+    if solution.is_none() {
+        builder.cut();
+    }
     builder.cut();
     let report_nodes = match asked.report {
         Some(needs) => {
@@ -338,6 +355,22 @@ fn shape<T: Scalar>(d: &Description, compiled: &Compiled<T>, asked: &Asked, valu
         None => vec![Register::ZERO; d.report.outputs],
     };
     let (everything, used) = builder.finish();
+    let outputs = Shape {
+        nodes,
+        report_nodes,
+        held_nodes,
+        numbers: first..first + values.len(),
+        used,
+        registers: room(used),
+        ..Shape::default()
+    };
+    let Some((headings, right, unknowns)) = solution else {
+        return Shape {
+            everything,
+            ..outputs
+        };
+    };
+    let (nodes, report_nodes) = (&outputs.nodes, &outputs.report_nodes);
     // What is kept of a series: accelerations are in the velocities.
     let mut wanted = [&inputs[1..1 + 2 * n], &inputs[1 + 3 * n..]].concat();
     asked_places(d, asked.extra, &mut |place| {
@@ -345,7 +378,7 @@ fn shape<T: Scalar>(d: &Description, compiled: &Compiled<T>, asked: &Asked, valu
             wanted.push(nodes[node]);
         }
     });
-    wanted.extend_from_slice(&report_nodes);
+    wanted.extend_from_slice(report_nodes);
     for &(friction, ..) in &headings {
         for row in d.frictions[friction].row..d.frictions[friction].row + 2 {
             if let Place::Node(node) = d.rows[row].velocity {
@@ -369,24 +402,18 @@ fn shape<T: Scalar>(d: &Description, compiled: &Compiled<T>, asked: &Asked, valu
         .iter()
         .flat_map(|&(_, u, rates)| u.into_iter().zip(rates));
     let elements = plan.entries.iter().filter(|e| !nodes[e.node].is_zero());
+    let elements = elements.map(|e| (e.row, nodes[e.node], unknowns[e.column]));
     Shape {
         series: everything.needed(wanted.iter().copied().chain(accelerations.clone()), used),
         accelerations: everything.needed(accelerations, used),
         everything,
         integrals: changes.chain(turns).collect(),
         right: right[..plan.size()].to_vec(),
-        elements: elements
-            .map(|e| (e.row, nodes[e.node], unknowns[e.column]))
-            .collect(),
+        elements: elements.collect(),
         unknowns,
-        nodes,
-        report_nodes,
-        held_nodes,
         headings,
         wanted,
-        numbers: first..first + values.len(),
-        used,
-        registers: room(used),
+        ..outputs
     }
 }
 

@@ -51,8 +51,9 @@ impl<T: Scalar> Dynamics<T> {
     /// [`Self::force`] then gives those of an independent subset.
     pub fn has_dependent_rows(&self) -> bool {
         let compiled = self.compiled();
-        compiled.plan.has_dependent_rows()
-            || (!self.by_functions && compiled.solver.has_rows_aside())
+        // The pivots of functions are safe.
+        !self.by_functions
+            && (compiled.plan.has_dependent_rows() || compiled.solver.has_rows_aside())
     }
 
     /// The forces of all rows at the last [`Self::value`], where they are not determined those of least norm; and whether

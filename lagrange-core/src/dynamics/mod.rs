@@ -46,6 +46,17 @@ pub enum Equations {
     Interpreted,
 }
 
+/// Which interpreted equations of a mode are in use.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Selected {
+    /// Those for other needs, or of another mode.
+    Outdated,
+    /// Outputs alone, where functions solve the equations of motion.
+    Outputs,
+    /// The solution as well.
+    Solution,
+}
+
 /// Modes kept ready; beyond that the oldest goes.
 const MOST_MODES: usize = 64;
 
@@ -89,6 +100,9 @@ pub struct Dynamics<T: Scalar> {
     /// The equations of motion of this mode and what was asked for beside.
     held: NeedSet,
     extra: NeedSet,
+    /// What is read of this, and whether it is guards alone.
+    read: NeedSet,
+    guards_alone: bool,
     report_needs: NeedSet,
     /// What is held of the report: the effects' own needs and what was asked for.
     report_held: NeedSet,
@@ -97,8 +111,8 @@ pub struct Dynamics<T: Scalar> {
     series_held: NeedSet,
     /// Of the named energies.
     energies: NeedSet,
-    /// Whether the interpreted equations in use are those of the present mode and needs.
-    selected: bool,
+    /// Which interpreted equations are in use.
+    selected: Selected,
     /// Whether the last evaluation was by the functions of the mode.
     by_functions: bool,
     /// Whether the last series was; a value between a series and what is read of it may not be.
@@ -140,12 +154,14 @@ impl<T: Scalar> Dynamics<T> {
             oldest: 0,
             held: NeedSet::new(d),
             extra: NeedSet::new(d),
+            read: NeedSet::new(d),
+            guards_alone: false,
             report_needs: NeedSet::new(d),
             report_held: NeedSet::new(d),
             reports: false,
             series_held: NeedSet::new(d),
             energies: needs::of_energies(d),
-            selected: false,
+            selected: Selected::Outdated,
             by_functions: false,
             series_by_functions: false,
             equations: Equations::Emitted,
@@ -209,7 +225,7 @@ impl<T: Scalar> Dynamics<T> {
     /// Operations that the equations of the mode take at the last [`Self::value`], as the interpreter counts them: what takes no part
     /// is not among them.
     pub fn operations(&mut self) -> Operations {
-        self.select();
+        self.select(Selected::Solution);
         let interpreted = self.compiled().interpreted();
         interpreted
             .map(|interpreted| interpreted.operations())
@@ -218,7 +234,7 @@ impl<T: Scalar> Dynamics<T> {
 
     /// The rows that act as equations in this mode, ascending.
     pub fn acting_rows(&self) -> &[usize] {
-        &self.compiled().plan.acting
+        &self.compiled().acting
     }
 
     /// The functions of the mode, if the last series was by them.
@@ -233,13 +249,18 @@ impl<T: Scalar> Dynamics<T> {
         (self.equations, self.by_functions) = (equations, false);
     }
 
+    /// The functions of the mode, unless the interpreter is to be used.
+    #[inline]
+    fn functions(&self) -> Option<&Emitted<T>> {
+        let functions = self.compiled().functions();
+        functions.filter(|_| self.equations == Equations::Emitted)
+    }
+
     /// Decides by what the coming evaluation is.
     #[inline]
     fn choose(&mut self, q: &[T], v: &[T]) -> bool {
-        let compiled = &self.modes[self.current];
-        let emitted = compiled.emitted.as_ref().filter(|_| !compiled.refused);
-        let emitted = emitted.filter(|_| self.equations == Equations::Emitted);
-        self.by_functions = emitted.is_some_and(|emitted| emitted.holds_at(q, v));
+        let functions = self.functions();
+        self.by_functions = functions.is_some_and(|emitted| emitted.holds_at(q, v));
         self.by_functions
     }
 
@@ -248,8 +269,8 @@ impl<T: Scalar> Dynamics<T> {
         &self.modes[self.current]
     }
 
-    /// Changes the mode. The first time in a mode parameter-only numbers and the plan of the linear system are made; they are
-    /// kept. What was asked for beside the motion stays asked for.
+    /// Changes the mode. The first time in a mode parameter-only numbers are made, and the plan of the linear system where there
+    /// are no functions; they are kept. What was asked for beside the motion stays asked for.
     pub fn set_mode(&mut self, mode: &Mode) {
         for (f, along) in mode.incipient() {
             self.set_heading(f, along.map(T::from_f64));
@@ -272,7 +293,7 @@ impl<T: Scalar> Dynamics<T> {
         self.system = system;
         self.modes.iter_mut().for_each(Compiled::outdate);
         self.renew();
-        self.selected = false;
+        self.selected = Selected::Outdated;
     }
 
     /// Brings the present mode up to date with the parameters.
@@ -299,27 +320,55 @@ impl<T: Scalar> Dynamics<T> {
         self.oldest
     }
 
-    /// Makes the interpreted equations for the present mode and needs current.
+    /// Makes interpreted equations for the present mode and needs current.
     #[inline]
-    fn select(&mut self) {
-        if self.selected {
+    fn select(&mut self, which: Selected) {
+        if self.selected == which {
             return;
         }
+        let solves = which == Selected::Solution;
+        let compiled = &mut self.modes[self.current];
+        if solves {
+            compiled.make_plan(self.description, &self.effects);
+        }
         let asked = Asked {
-            held: &self.held,
+            held: if solves { &self.held } else { &self.read },
             extra: &self.extra,
             report: self.reports.then_some(&self.report_held),
+            solves,
         };
-        self.modes[self.current].select(&*self.system, &asked, &mut self.numbers);
-        self.selected = true;
+        compiled.select(&*self.system, &asked, &mut self.numbers);
+        self.selected = which;
+    }
+
+    /// Makes those interpreted equations current that outputs are read from.
+    #[inline]
+    fn select_outputs(&mut self) {
+        let which = match self.functions() {
+            Some(_) => Selected::Outputs,
+            None => Selected::Solution,
+        };
+        self.select(which);
     }
 
     /// Asks the motion program for more than the equations of motion: gaps, slips, coefficients, branch guards.
     /// Replaces what was asked for before.
     pub fn set_extra_needs(&mut self, needs: &[u64]) {
-        if self.extra[..] != *needs {
+        if self.extra[..] != *needs || self.guards_alone {
             self.extra.clear();
             self.extra.extend(needs);
+            self.guards_alone = false;
+            self.hold();
+        }
+    }
+
+    /// The same where nothing is read but `guards`, a part of these needs: functions that give the accelerations leave the rest out.
+    pub(crate) fn set_guard_needs(&mut self, needs: &[u64], guards: &NeedSet) {
+        if self.extra[..] != *needs || !self.guards_alone || self.read != *guards {
+            self.extra.clear();
+            self.extra.extend(needs);
+            self.read.assign(guards.iter().copied());
+            self.guards_alone = true;
             self.hold();
         }
     }
@@ -340,6 +389,9 @@ impl<T: Scalar> Dynamics<T> {
         let motion = self.modes[self.current].motion_needs.iter();
         self.held
             .assign(motion.zip(self.extra.iter()).map(|(a, b)| a | b));
+        if !self.guards_alone {
+            self.read.assign(self.held.iter().copied());
+        }
         self.series_held.assign(
             self.held
                 .iter()
@@ -367,7 +419,7 @@ impl<T: Scalar> Dynamics<T> {
                 .iter()
                 .enumerate()
                 .any(|(i, &w)| w & !u64::from(i == 0) != 0);
-        self.selected = false;
+        self.selected = Selected::Outdated;
     }
 
     fn solve_error(&self, error: SolveError) -> EvaluationError {

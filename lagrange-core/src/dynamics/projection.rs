@@ -143,11 +143,10 @@ impl<T: Scalar> Dynamics<T> {
     /// Takes the rounding out of the positions and velocities of coordinates that a row of their own pins: a coordinate that is
     /// exactly at rest where it is pinned is a number in the equations of the mode. The last tape was run at (q, v).
     fn settle_pinned(&self, q: &mut [T], v: &mut [T], threshold: f64) {
-        let plan = &self.compiled().plan;
-        for &row in &plan.acting {
+        for &row in self.acting_rows() {
             let row = &self.description().rows[row];
-            if let [(j, factor)] = *row.jacobian
-                && plan.is_pinned(j)
+            if let [(j, factor @ Place::Constant(_))] = *row.jacobian
+                && self.is_constantly_zero(row.bias)
             {
                 if let Some(position) = row.position {
                     let excess = self.motion(position) / self.motion(factor);
@@ -161,6 +160,10 @@ impl<T: Scalar> Dynamics<T> {
                 }
             }
         }
+    }
+
+    fn is_constantly_zero(&self, place: Place) -> bool {
+        !matches!(place, Place::Node(_)) && self.motion(place).is_zero()
     }
 
     /// Moves positions, then velocities, with some of them held: `held_positions[j]` keeps qⱼ, `held_velocities[j]` keeps vⱼ
@@ -329,10 +332,9 @@ impl<T: Scalar> Dynamics<T> {
         let n = d.coordinates.len();
         let is_held = |j: usize| held.get(j).copied().unwrap_or(false);
         let Compiled {
-            plan, constants, ..
+            acting, constants, ..
         } = &self.modes[self.current];
-        let rows = plan
-            .acting
+        let rows = acting
             .iter()
             .filter(|&&row| Self::residual_place(&d.rows[row], level).is_some())
             .count();
@@ -363,7 +365,7 @@ impl<T: Scalar> Dynamics<T> {
                 }
             }
             let mut index = n;
-            for &row in &plan.acting {
+            for &row in acting {
                 let Some(place) = Self::residual_place(&d.rows[row], level) else {
                     continue;
                 };

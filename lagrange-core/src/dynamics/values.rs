@@ -1,8 +1,8 @@
 //! Accelerations and forces at one state.
 
 use super::compiled::Compiled;
-use super::interpreted::{Extent, FORCES, MOTION, REPORT, SYSTEM};
-use super::{Dynamics, EvaluationError};
+use super::interpreted::{Extent, FORCES, Interpreted, MOTION, REPORT, SYSTEM};
+use super::{Dynamics, EvaluationError, Selected};
 use crate::arithmetic::{Scalar, epsilon};
 use crate::linear::{Inertia, SolveError};
 use crate::system::Place;
@@ -23,10 +23,10 @@ impl<T: Scalar> Dynamics<T> {
         self.inputs = inputs;
         outcome?;
         if self.by_functions {
-            self.tape(t, q, v);
-        } else {
-            self.take_nodes(t, q, v);
+            self.select(Selected::Outputs);
+            self.run_outputs(t, q, v);
         }
+        self.take_nodes(t, q, v);
         Ok(())
     }
 
@@ -89,7 +89,7 @@ impl<T: Scalar> Dynamics<T> {
         extent: Extent,
         refined: bool,
     ) -> Result<(), EvaluationError> {
-        self.select();
+        self.select(Selected::Solution);
         let (_, _, interpreted) = self.modes[self.current].parts();
         interpreted.place(t, q, v);
         for &(friction, components, _) in &interpreted.shape.headings {
@@ -180,11 +180,29 @@ impl<T: Scalar> Dynamics<T> {
 
     /// Runs only the motion program at (t, q, v), for the needs held: then read [`Self::motion`].
     pub fn tape(&mut self, t: T, q: &[T], v: &[T]) {
-        self.select();
-        let (_, _, interpreted) = self.modes[self.current].parts();
-        interpreted.place(t, q, v);
-        interpreted.evaluate(Extent::Everything, MOTION);
+        self.select_outputs();
+        self.run_outputs(t, q, v);
         self.take_nodes(t, q, v);
+    }
+
+    /// Runs the motion program of the equations in use.
+    #[inline]
+    fn run_outputs(&mut self, t: T, q: &[T], v: &[T]) {
+        let interpreted = self.in_front();
+        if interpreted.has_motion() {
+            interpreted.place(t, q, v);
+            interpreted.evaluate(Extent::Everything, MOTION);
+        }
+    }
+
+    /// The interpreted equations in use, which have been selected.
+    #[inline]
+    fn in_front(&mut self) -> &mut Interpreted<T> {
+        let compiled = &mut self.modes[self.current];
+        match self.selected {
+            Selected::Outputs => compiled.outputs(),
+            Selected::Outdated | Selected::Solution => compiled.parts().2,
+        }
     }
 
     /// Takes state and outputs of the motion program from the registers.
@@ -194,8 +212,12 @@ impl<T: Scalar> Dynamics<T> {
         self.inputs[0] = t;
         self.inputs[1..1 + n].copy_from_slice(q);
         self.inputs[1 + n..1 + 2 * n].copy_from_slice(v);
-        let (_, _, interpreted) = self.modes[self.current].parts();
-        interpreted.take_nodes(&mut self.nodes);
+        // What has not been asked for is no number.
+        #[cfg(debug_assertions)]
+        self.nodes.fill(T::from_f64(f64::NAN));
+        let mut nodes = core::mem::take(&mut self.nodes);
+        self.in_front().take_nodes(&mut nodes);
+        self.nodes = nodes;
     }
 
     /// Runs the motion program at (t, q, v) for inertia, Jacobians and residuals of the rows that act.
@@ -217,14 +239,18 @@ impl<T: Scalar> Dynamics<T> {
     /// Runs the report at the state of the last [`Self::value`], for the needs given to
     /// [`Self::set_report_needs`]: then read [`Self::report`].
     pub fn report_value(&mut self) {
-        self.select();
-        let (_, _, interpreted) = self.modes[self.current].parts();
-        interpreted.registers[1..1 + self.inputs.len()].copy_from_slice(&self.inputs);
+        if self.selected == Selected::Outdated {
+            self.select_outputs();
+        }
+        let inputs = core::mem::take(&mut self.inputs);
+        let mut nodes = core::mem::take(&mut self.report_nodes);
+        let interpreted = self.in_front();
+        interpreted.registers[1..1 + inputs.len()].copy_from_slice(&inputs);
         interpreted.evaluate(Extent::Everything, REPORT);
-        let nodes = self.report_nodes.iter_mut();
-        for (node, register) in nodes.zip(&interpreted.shape.report_nodes) {
+        for (node, register) in nodes.iter_mut().zip(&interpreted.shape.report_nodes) {
             *node = interpreted.registers[register.index()];
         }
+        (self.inputs, self.report_nodes) = (inputs, nodes);
     }
 }
 

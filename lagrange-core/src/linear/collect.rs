@@ -39,7 +39,7 @@ pub(crate) struct Collected {
     pub loads: Vec<(usize, Place)>,
 }
 
-/// Which rows of a description act in a mode as equations.
+/// Whether a row of a description acts in a mode as an equation.
 pub(crate) fn acts(description: &Description, effects: &Effects, mode: &Mode, row: usize) -> bool {
     let constraint_acts = |i: usize| {
         effects.includes(description, Item::Constraint(i))
@@ -71,6 +71,15 @@ pub(crate) fn acts(description: &Description, effects: &Effects, mode: &Mode, ro
     })
 }
 
+/// The rows that act in a mode as equations, ascending.
+pub(crate) fn acting<'a>(
+    description: &'a Description,
+    effects: &'a Effects,
+    mode: &'a Mode,
+) -> impl Iterator<Item = usize> + 'a {
+    (0..description.rows.len()).filter(|&row| acts(description, effects, mode, row))
+}
+
 impl Collected {
     /// Collects the pieces of a mode; products are made by `program`.
     #[expect(
@@ -88,9 +97,7 @@ impl Collected {
         headings: &mut Vec<Heading>,
     ) {
         self.acting.clear();
-        self.acting.extend(
-            (0..description.rows.len()).filter(|&row| acts(description, effects, mode, row)),
-        );
+        self.acting.extend(acting(description, effects, mode));
         self.columns.clear();
         self.loads.clear();
         slides.clear();

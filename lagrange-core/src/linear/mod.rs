@@ -23,7 +23,7 @@ mod solver;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use collect::acts;
+pub(crate) use collect::{acting, acts};
 pub(crate) use consistent::{Equilibrated, SeveralSides};
 pub(crate) use least_norm::{Freedom, least_norm};
 pub(crate) use lemke::{Lemke, Outcome as LemkeOutcome};

@@ -56,11 +56,9 @@ struct Term<T> {
 /// The linear system of a mode.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Plan<T> {
-    /// Description rows that act, ascending.
-    pub acting: Vec<usize>,
-    /// Of these, rows of the system: unknown `free + i` is −λ of `kept[i]`.
+    /// Rows of the system: unknown `free + i` is −λ of `kept[i]`.
     pub kept: Vec<usize>,
-    /// Of these, rows that were eliminated; force `i` is row `size + i` of the lists.
+    /// Rows that act and were eliminated; force `i` is row `size + i` of the lists.
     pub eliminated: Vec<usize>,
     /// Frictions that slide.
     pub slides: Vec<Slide>,
@@ -106,10 +104,10 @@ impl<T: Scalar> Plan<T> {
 
     /// Whether constant rows that follow from others were left out.
     pub(crate) fn has_dependent_rows(&self) -> bool {
-        self.kept.len() + self.eliminated.len() < self.acting.len()
+        self.kept.len() + self.eliminated.len() < self.collected.acting.len()
     }
 
-    /// The generalized forces of unit forces: (index in `acting`, coordinate, factor).
+    /// The generalized forces of unit forces: (index among the rows that act, coordinate, factor).
     pub(crate) fn columns(&self) -> impl Iterator<Item = (usize, usize, Place)> + '_ {
         let elements = self.collected.columns.iter();
         elements.map(|element| (element.index, element.coordinate, element.place))
@@ -139,7 +137,7 @@ impl<T: Scalar> Plan<T> {
     pub(crate) fn is_like(&self, other: &Self) -> bool {
         let mut loads = self.loads.iter().zip(&other.loads);
         let same_zeros = |x: &[T], y: &[T]| x.iter().map(T::is_zero).eq(y.iter().map(T::is_zero));
-        self.acting == other.acting
+        self.collected.acting == other.collected.acting
             && self.kept == other.kept
             && self.eliminated == other.eliminated
             && self.slides == other.slides
@@ -175,7 +173,6 @@ impl<T: Scalar> Plan<T> {
             &mut self.slides,
             &mut self.headings,
         );
-        self.acting.clone_from(&self.collected.acting);
         self.eliminate(description, constants);
         self.collect_terms(description);
         self.merge_terms(constants);
@@ -193,9 +190,9 @@ impl<T: Scalar> Plan<T> {
             elimination,
             kept,
             eliminated,
-            acting,
             ..
         } = self;
+        let acting = &collected.acting;
         constant_rows.clear();
         constant_rows.extend(
             (0..acting.len()).filter(|&index| collected.is_constant(description, index, constants)),
@@ -254,9 +251,9 @@ impl<T: Scalar> Plan<T> {
             eliminated,
             reduced,
             cancelling,
-            acting,
             ..
         } = self;
+        let acting = &collected.acting;
         let (free, rows) = (elimination.free.len(), kept.len());
         let size = free + rows;
         terms.clear();

@@ -513,11 +513,21 @@ impl<T: Scalar> Run<T> {
 
     /// Holds what the guards of the mode, which `dynamics` is in, need.
     fn hold_guards(&mut self) {
+        self.ask_for_guards();
         let watched = self.table.of(&self.dynamics);
         self.drifts = watched.drifts;
-        self.dynamics.set_extra_needs(&watched.needs);
         let guards = watched.guards.iter().copied();
         self.curves.arm(guards, &self.mode, &self.dynamics);
+    }
+
+    /// Asks for the numbers that the guards of the mode read.
+    fn ask_for_guards(&mut self) {
+        let watched = self.table.of(&self.dynamics);
+        if self.rank.watches() {
+            self.dynamics.set_extra_needs(&watched.needs);
+        } else {
+            self.dynamics.set_guard_needs(&watched.needs, &watched.read);
+        }
     }
 
     /// Asks for the stops and marks that take part.

@@ -228,8 +228,7 @@ impl<T: Scalar> Run<T> {
                 });
             }
         }
-        let watched = self.table.of(&self.dynamics);
-        self.dynamics.set_extra_needs(&watched.needs);
+        self.ask_for_guards();
     }
 
     /// After the first step of slips that begin: from here on they go along themselves.

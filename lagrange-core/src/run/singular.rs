@@ -80,6 +80,11 @@ impl Rank {
         }
     }
 
+    /// Whether there are rows that may lose rank.
+    pub(super) fn watches(&self) -> bool {
+        !self.rows.is_empty()
+    }
+
     /// Forgets earlier runs.
     pub(super) fn restart(&mut self) {
         self.largest.fill(0.0);
