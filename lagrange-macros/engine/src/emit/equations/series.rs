@@ -520,24 +520,40 @@ impl Expansion<'_> {
         all.collect()
     }
 
-    /// Σ xⱼ yₖ₋ⱼ for 0 < j < k of all products, in one loop.
+    /// Σ xⱼ yₖ₋ⱼ for 0 < j < k of all products, in one loop over pairs of terms, which are equal in squares.
     fn sums(&self, products: &[(Ident, Product)]) -> TokenStream {
         if products.is_empty() {
             return TokenStream::new();
         }
         let number = number();
         let (k, j, i, rows) = (local("k"), local("j"), local("i"), local("rows"));
-        let names = products.iter().map(|(name, _)| name);
-        let lines = products.iter().map(|(name, (x, y))| {
+        let (mut pairs, mut doubled, mut middles) = (Vec::new(), Vec::new(), Vec::new());
+        for (name, (x, y)) in products {
             let at = |row: &Row| index(self.plan.row(*row).unwrap_or_default());
+            let is_square = x == y;
             let (x, y) = (at(x), at(y));
-            quote!(#name = #number::mul_add(#rows[#x][#j & 31], #rows[#y][#i], #name);)
-        });
+            let term = |j: &Ident, i: &Ident| {
+                quote!(#name = #number::mul_add(#rows[#x][#j], #rows[#y][#i], #name);)
+            };
+            pairs.push(term(&j, &i));
+            if is_square {
+                doubled.push(quote!(#name = #name + #name;));
+            } else {
+                pairs.push(term(&i, &j));
+            }
+            middles.push(term(&i, &i));
+        }
+        let names = products.iter().map(|(name, _)| name);
         quote! {
             #(let mut #names = #number::of(0.0);)*
-            for #j in 1..#k {
-                let #i = (#k - #j) & 31;
-                #(#lines)*
+            for #j in 1..(#k + 1) / 2 {
+                let (#j, #i) = (#j & 31, (#k - #j) & 31);
+                #(#pairs)*
+            }
+            #(#doubled)*
+            if #k % 2 == 0 {
+                let #i = (#k / 2) & 31;
+                #(#middles)*
             }
         }
     }
