@@ -64,8 +64,18 @@ pub(super) struct Asked<'a> {
     pub extra: &'a NeedSet,
     /// What is held of the report; none if nothing is asked of it.
     pub report: Option<&'a NeedSet>,
-    /// Whether the equations of motion are solved.
-    pub solves: bool,
+    pub part: Part,
+}
+
+/// Which part of the equations is loaded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Part {
+    /// All: the equations of motion are solved.
+    Solution,
+    /// Outputs.
+    Outputs,
+    /// Of the outputs of the motion program, those that were asked for beside the motion.
+    Extra,
 }
 
 impl<T: Scalar> Compiled<T> {
@@ -134,8 +144,7 @@ impl<T: Scalar> Compiled<T> {
         self.plan.set(d, effects, &self.mode, &mut self.constants);
         if !self.plan.is_like(&self.spare) {
             self.interpreted.list.clear();
-            self.solver
-                .reserve(self.plan.free(), self.plan.kept.len());
+            self.solver.reserve(self.plan.free(), self.plan.kept.len());
         }
     }
 
@@ -208,10 +217,10 @@ impl<T: Scalar> Compiled<T> {
     }
 
     /// The constants that equations loaded for outputs or for a solution read.
-    pub(super) fn constants(&self, solves: bool) -> &[T] {
-        match solves {
-            true => &self.constants,
-            false => &self.constants[..self.own.count()],
+    pub(super) fn constants(&self, part: Part) -> &[T] {
+        match part {
+            Part::Solution => &self.constants,
+            Part::Outputs | Part::Extra => &self.constants[..self.own.count()],
         }
     }
 
@@ -229,7 +238,7 @@ impl<T: Scalar> Compiled<T> {
                 held: &self.row_needs,
                 extra: &no_series,
                 report: None,
-                solves: false,
+                part: Part::Outputs,
             };
             Interpreted::load(system, self, &asked, numbers)
         });
@@ -248,7 +257,7 @@ impl<T: Scalar> Compiled<T> {
         asked: &Asked,
         numbers: &mut Vec<T>,
     ) {
-        let mut loaded = core::mem::take(self.loaded(asked.solves));
+        let mut loaded = core::mem::take(self.loaded(asked.part));
         let found = loaded
             .list
             .iter_mut()
@@ -257,13 +266,13 @@ impl<T: Scalar> Compiled<T> {
             let one = Interpreted::load(system, self, asked, numbers);
             loaded.keep(one)
         });
-        *self.loaded(asked.solves) = loaded;
+        *self.loaded(asked.part) = loaded;
     }
 
-    fn loaded(&mut self, solves: bool) -> &mut Loaded<T> {
-        match solves {
-            true => &mut self.interpreted,
-            false => &mut self.outputs,
+    fn loaded(&mut self, part: Part) -> &mut Loaded<T> {
+        match part {
+            Part::Solution => &mut self.interpreted,
+            Part::Outputs | Part::Extra => &mut self.outputs,
         }
     }
 }

@@ -10,7 +10,7 @@
 //! ```
 
 use super::Operations;
-use super::compiled::{Asked, Compiled};
+use super::compiled::{Asked, Compiled, Part};
 use super::needs::NeedSet;
 use crate::arithmetic::{Number, Scalar};
 use crate::erased::ErasedSystem;
@@ -115,7 +115,7 @@ pub(super) struct Interpreted<T> {
     held: NeedSet,
     extra: NeedSet,
     report: Option<NeedSet>,
-    solves: bool,
+    part: Part,
     /// Shared with other motions that do the same with other numbers.
     pub shape: Arc<Shape>,
     pub registers: Vec<T>,
@@ -133,6 +133,7 @@ impl<T: Scalar> Interpreted<T> {
         self.held == *asked.held
             && self.extra == *asked.extra
             && self.report.as_ref() == asked.report
+            && self.part == asked.part
     }
 
     /// Whether any output of the motion program is held.
@@ -203,7 +204,7 @@ impl<T: Scalar> Interpreted<T> {
         numbers: &mut Vec<T>,
     ) -> bool {
         if self.outdated {
-            collect(system, compiled, self.solves, numbers);
+            collect(system, compiled, self.part, numbers);
             let registers = &mut self.registers[self.shape.numbers.clone()];
             let mut pairs = registers.iter().zip(&*numbers);
             if registers.len() != numbers.len() || pairs.any(|(x, y)| x.is_zero() != y.is_zero()) {
@@ -222,7 +223,7 @@ impl<T: Scalar> Interpreted<T> {
         asked: &Asked,
         numbers: &mut Vec<T>,
     ) -> Self {
-        collect(system, compiled, asked.solves, numbers);
+        collect(system, compiled, asked.part, numbers);
         let shape = shape(system.description(), compiled, asked, numbers);
         let mut registers = vec![T::zero(); shape.registers];
         registers[shape.numbers.clone()].copy_from_slice(numbers);
@@ -230,7 +231,7 @@ impl<T: Scalar> Interpreted<T> {
             held: asked.held.clone(),
             extra: asked.extra.clone(),
             report: asked.report.cloned(),
-            solves: asked.solves,
+            part: asked.part,
             shape: Arc::new(shape),
             registers,
             outdated: false,
@@ -273,16 +274,16 @@ impl<T: Scalar> Interpreted<T> {
 fn collect<T: Scalar>(
     system: &dyn ErasedSystem<T>,
     compiled: &Compiled<T>,
-    solves: bool,
+    part: Part,
     numbers: &mut Vec<T>,
 ) {
     let d = system.description();
     numbers.clear();
-    numbers.extend_from_slice(compiled.constants(solves));
+    numbers.extend_from_slice(compiled.constants(part));
     numbers.extend((0..d.parameters.len()).map(|index| system.parameter(index)));
     let exact = d.motion.numbers.iter().chain(d.report.numbers);
     numbers.extend(exact.map(|&number| T::from_f64(number)));
-    if solves {
+    if part == Part::Solution {
         compiled.plan.collect(numbers);
     }
 }
@@ -290,7 +291,7 @@ fn collect<T: Scalar>(
 /// Loads the programs and writes the solution between them if it is asked for, for these numbers.
 fn shape<T: Scalar>(d: &Description, compiled: &Compiled<T>, asked: &Asked, values: &[T]) -> Shape {
     let Compiled { mode, plan, .. } = compiled;
-    let constants = compiled.constants(asked.solves);
+    let constants = compiled.constants(asked.part);
     let n = d.coordinates.len();
     let inputs: Vec<Register> = (1..2 + 3 * n + d.rows.len()).map(Register::new).collect();
     let first = 1 + inputs.len();
@@ -313,13 +314,22 @@ fn shape<T: Scalar>(d: &Description, compiled: &Compiled<T>, asked: &Asked, valu
     let mut builder = Builder::new(vanishing.len()).vanishing(vanishing);
     let motion = held(asked.held);
     let outputs = builder.load(&d.motion, &motion, of_motion, &inputs[..1 + 2 * n]);
+    let mut asked_nodes = vec![asked.part != Part::Extra; d.motion.outputs];
+    if asked.part == Part::Extra {
+        asked_places(d, asked.extra, &mut |place| {
+            if let Place::Node(node) = place {
+                asked_nodes[node] = true;
+            }
+        });
+    }
     let held_nodes = outputs.iter().enumerate();
+    let held_nodes = held_nodes.filter(|(node, _)| asked_nodes[*node]);
     let held_nodes = held_nodes.filter_map(|(node, register)| Some((node, (*register)?)));
-    let held_nodes = held_nodes.collect();
+    let held_nodes: Vec<(usize, Register)> = held_nodes.collect();
     let outputs = outputs.into_iter().map(Option::unwrap_or_default);
     let mut nodes: Vec<Register> = outputs.collect();
     builder.cut();
-    let solution = asked.solves.then(|| {
+    let solution = (asked.part == Part::Solution).then(|| {
         plan.program
             .load(&mut builder, of_motion.constants, of_plan, &mut nodes);
         let headings = plan.headings.iter().map(|heading| {
@@ -365,8 +375,10 @@ fn shape<T: Scalar>(d: &Description, compiled: &Compiled<T>, asked: &Asked, valu
         ..Shape::default()
     };
     let Some((headings, right, unknowns)) = solution else {
+        let nodes = outputs.held_nodes.iter().map(|(_, register)| *register);
+        let wanted = nodes.chain(outputs.report_nodes.iter().copied());
         return Shape {
-            everything,
+            everything: everything.needed(wanted, used),
             ..outputs
         };
     };

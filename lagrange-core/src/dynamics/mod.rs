@@ -33,7 +33,7 @@ use crate::erased::Erased;
 use crate::linear::{SolveError, Solver};
 use crate::mode::Mode;
 use crate::system::{Description, Place};
-use compiled::{Asked, Compiled};
+use compiled::{Asked, Compiled, Part};
 use emitted::Emitted;
 
 /// What evaluates the equations of motion.
@@ -100,8 +100,8 @@ pub struct Dynamics<T: Scalar> {
     /// The equations of motion of this mode and what was asked for beside.
     held: NeedSet,
     extra: NeedSet,
-    /// What is read of this, and whether it is guards alone.
-    read: NeedSet,
+    /// What guards read of this, and whether nothing else is read.
+    guards: NeedSet,
     guards_alone: bool,
     report_needs: NeedSet,
     /// What is held of the report: the effects' own needs and what was asked for.
@@ -154,7 +154,7 @@ impl<T: Scalar> Dynamics<T> {
             oldest: 0,
             held: NeedSet::new(d),
             extra: NeedSet::new(d),
-            read: NeedSet::new(d),
+            guards: NeedSet::new(d),
             guards_alone: false,
             report_needs: NeedSet::new(d),
             report_held: NeedSet::new(d),
@@ -331,11 +331,16 @@ impl<T: Scalar> Dynamics<T> {
         if solves {
             compiled.make_plan(self.description, &self.effects);
         }
+        let (held, extra, part) = match (solves, self.guards_alone) {
+            (true, _) => (&self.held, &self.extra, Part::Solution),
+            (false, false) => (&self.held, &self.extra, Part::Outputs),
+            (false, true) => (&self.guards, &self.guards, Part::Extra),
+        };
         let asked = Asked {
-            held: if solves { &self.held } else { &self.read },
-            extra: &self.extra,
+            held,
+            extra,
             report: self.reports.then_some(&self.report_held),
-            solves,
+            part,
         };
         compiled.select(&*self.system, &asked, &mut self.numbers);
         self.selected = which;
@@ -364,10 +369,10 @@ impl<T: Scalar> Dynamics<T> {
 
     /// The same where nothing is read but `guards`, a part of these needs: functions that give the accelerations leave the rest out.
     pub(crate) fn set_guard_needs(&mut self, needs: &[u64], guards: &NeedSet) {
-        if self.extra[..] != *needs || !self.guards_alone || self.read != *guards {
+        if self.extra[..] != *needs || !self.guards_alone || self.guards != *guards {
             self.extra.clear();
             self.extra.extend(needs);
-            self.read.assign(guards.iter().copied());
+            self.guards.assign(guards.iter().copied());
             self.guards_alone = true;
             self.hold();
         }
@@ -389,9 +394,6 @@ impl<T: Scalar> Dynamics<T> {
         let motion = self.modes[self.current].motion_needs.iter();
         self.held
             .assign(motion.zip(self.extra.iter()).map(|(a, b)| a | b));
-        if !self.guards_alone {
-            self.read.assign(self.held.iter().copied());
-        }
         self.series_held.assign(
             self.held
                 .iter()

@@ -63,3 +63,63 @@ fn interpreted_equations_give_the_same_events_and_the_same_end() {
         }
     }
 }
+
+/// A declaration in each of the forms that its equations can be written in.
+macro_rules! forms {
+    ($($name:ident $form:ident)*) => {
+        $(
+            #[derive(Lagrangian, Clone, Debug)]
+            #[lagrange(
+                emit = $form,
+                coordinates(x, y, theta),
+                define(px = x + length * sin(theta), py = y - length * cos(theta)),
+                kinetic = cart/2 * (der(x)^2 + der(y)^2) + bob/2 * (der(px)^2 + der(py)^2),
+                potential = g * (cart * y + bob * py),
+                contact(floor: y >= 0, restitution = 1/2),
+                friction(grip on floor: slip = der(x), static = 2/5, kinetic = 3/10),
+                start(thrown: y = 1/5, theta = 2, der(x) = 1),
+            )]
+            struct $name {
+                cart: f64,
+                bob: f64,
+                length: f64,
+                g: f64,
+            }
+
+            impl Default for $name {
+                fn default() -> Self {
+                    Self { cart: 1.5, bob: 0.7, length: 0.9, g: 9.81 }
+                }
+            }
+        )*
+    };
+}
+
+forms! { Unrolled unrolled Loops loops Data data }
+
+#[test]
+fn a_declaration_chooses_what_its_equations_are_written_as() {
+    fn run<S: System<Scalar = f64> + Starts + Default + core::fmt::Debug>() -> (Vec<f64>, Vec<f64>)
+    {
+        let scene = S::default();
+        // Orders beyond those that have code of their own are among them.
+        let simulation = Simulation::new(&scene).tolerance(1e-14);
+        let trajectory = simulation
+            .run(scene.at(StartId(0)), 0.0..1.5)
+            .expect("runs");
+        let state = trajectory.final_state();
+        let times = trajectory.events().iter().map(|event| event.time);
+        (times.collect(), [&state.q[..], &state.v].concat())
+    }
+    assert_eq!(Data::MODES.len(), 0);
+    assert_eq!((Loops::MODES.len(), Unrolled::MODES.len()), (4, 4));
+    let (times, end) = run::<Data>();
+    assert!(times.len() > 3, "{times:?}");
+    for (others, other_end) in [run::<Loops>(), run::<Unrolled>()] {
+        assert_eq!(times.len(), others.len());
+        let pairs = times.iter().zip(&others).chain(end.iter().zip(&other_end));
+        for (x, y) in pairs {
+            assert!((x - y).abs() < 1e-10 * x.abs().max(1.0), "{x}, {y}");
+        }
+    }
+}

@@ -50,6 +50,8 @@ pub enum ItemKind {
     Attitude(Attitude),
     /// `impacts = together | in_turn`
     Impacts(Impacts),
+    /// `emit = unrolled | loops | data`
+    Emit(Emit),
 }
 
 /// A coordinate, or an array of them.
@@ -327,4 +329,18 @@ pub enum Impacts {
     Together,
     /// One after the other, in order of declaration, again and again, until none approaches.
     InTurn,
+}
+
+/// What the equations of the modes are written as.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+pub enum Emit {
+    /// Functions for systems that are small enough, with loops over the coefficients of a series; data for others.
+    #[default]
+    BySize,
+    /// Functions without such loops: long code, which takes long to compile.
+    Unrolled,
+    /// Functions with loops.
+    Loops,
+    /// Data for the interpreter.
+    Data,
 }

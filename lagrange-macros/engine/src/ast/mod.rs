@@ -14,8 +14,8 @@ use proc_macro2::{Ident, Span, TokenStream};
 pub use expression::{Comparison, Decimal, Expr, ExprKind, Factor, Relation, Sign};
 pub use item::{
     Action, Attitude, Check, Claim, Clause, Constraint, Contact, Coordinate, Definition,
-    Dissipation, Element, Energy, Force, Friction, FrictionLaw, Impacts, Item, ItemKind, ModeWord,
-    Observe, Order, Premise, Restitution, Start, StartValue, Trigger, Watch,
+    Dissipation, Element, Emit, Energy, Force, Friction, FrictionLaw, Impacts, Item, ItemKind,
+    ModeWord, Observe, Order, Premise, Restitution, Start, StartValue, Trigger, Watch,
 };
 
 /// A struct with its declaration.

@@ -78,6 +78,7 @@ fn placeholders(declaration: &Declaration, core: &TokenStream) -> TokenStream {
             ItemKind::Define(_)
             | ItemKind::Lagrangian(_)
             | ItemKind::Impacts(_)
+            | ItemKind::Emit(_)
             | ItemKind::Check(_) => continue,
             ItemKind::Constraint(item) => ("ConstraintId", &item.head),
             ItemKind::Contact(item) => ("ContactId", &item.head),

@@ -185,6 +185,10 @@ impl Elaboration<'_> {
                 self.system.impacts = *impacts;
                 return true;
             }
+            ItemKind::Emit(emit) => {
+                self.system.emit = *emit;
+                return true;
+            }
             ItemKind::Attitude(attitude) => return self.enter_body(attitude),
             ItemKind::Coordinates(_) | ItemKind::Lagrangian(_) => return true,
             ItemKind::Kinetic(energy) | ItemKind::Potential(energy) => {

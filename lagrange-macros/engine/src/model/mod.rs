@@ -32,7 +32,7 @@ pub(crate) mod tests;
 mod units;
 mod value;
 
-use crate::ast::Impacts;
+use crate::ast::{Emit, Impacts};
 use crate::diagnostics::Extent;
 use crate::symbolic::{ExprId, Pool, Symbol};
 use proc_macro2::{Ident, Span, TokenStream};
@@ -88,6 +88,8 @@ pub struct System {
     pub marks: Vec<Watch>,
     /// How simultaneous impacts are resolved.
     pub impacts: Impacts,
+    /// What the equations of its modes are written as.
+    pub emit: Emit,
     /// Units of what a run reports.
     pub units: Units,
     /// What is right but may not be meant.
@@ -120,6 +122,7 @@ impl System {
             stops: Vec::new(),
             marks: Vec::new(),
             impacts: Impacts::default(),
+            emit: Emit::default(),
             units: Units::default(),
             hints: Vec::new(),
         }

@@ -13,6 +13,7 @@ use super::products::{Plan, Product, Row};
 use super::solve::Elimination;
 use super::value;
 use super::writer::{Writer, coefficient};
+use crate::ast::Emit;
 use crate::plan::mode::{ModeProgram, Phase};
 use crate::plan::{Block, Coefficient, Mode, Operation, Place, Program, Step, Value};
 use proc_macro2::{Ident, TokenStream};
@@ -26,7 +27,12 @@ struct Expansion<'a> {
     mode: &'a ModeProgram,
     /// Values whose coefficient leaves its block.
     crossing: BTreeSet<Value>,
+    /// The order whose coefficients are written, where each has code of its own.
+    only: Option<usize>,
 }
+
+/// Coefficients up to this order have code of their own in unrolled series; it is that of a tolerance of about 1e-13.
+const UNROLLED: usize = 21;
 
 fn coefficient_of(value: Value) -> Ident {
     local(&format!("d{}", value.0))
@@ -74,7 +80,7 @@ pub fn function(
     let steps = blocks.flat_map(|block| &block.steps);
     let declared = steps
         .flat_map(|step| (0..step.operation.values()).map(|offset| Value(step.value.0 + offset)));
-    let expansion = Expansion {
+    let mut expansion = Expansion {
         writer: Writer {
             system,
             mode,
@@ -84,11 +90,22 @@ pub fn function(
         plan,
         mode,
         crossing: names::crossing(&mode.tape),
+        only: None,
     };
     let number = number();
     let elimination = Elimination::new(&expansion.writer, &mode.system);
     let first = expansion.first(&elimination, core);
-    let next = expansion.next(&elimination);
+    let mut next = TokenStream::new();
+    let mut looped = 1;
+    if system.emit == Emit::Unrolled {
+        for k in 1..=UNROLLED {
+            expansion.only = Some(k);
+            next.extend(expansion.order(&elimination));
+        }
+        expansion.only = None;
+        looped += UNROLLED;
+    }
+    next.extend(expansion.orders_from(looped, &elimination));
     let (c, held, order, rows) = (local("c"), local("held"), local("order"), local("rows"));
     let (t, q, v) = (local("t"), local("q"), local("v"));
     let prologue = expansion.writer.prologue();
@@ -372,14 +389,41 @@ impl Expansion<'_> {
         quote!(#set #store)
     }
 
-    /// The loop over the orders from 1 on.
+    /// The loop over the orders from `first` on.
+    fn orders_from(&self, first: usize, elimination: &Elimination) -> TokenStream {
+        let (k, order, first) = (local("k"), local("order"), index(first));
+        let body = self.next(elimination);
+        quote! {
+            for #k in #first..=#order {
+                #body
+            }
+        }
+    }
+
+    /// One order, if it is asked for.
+    fn order(&self, elimination: &Elimination) -> TokenStream {
+        let (k, order) = (local("k"), local("order"));
+        let only = index(self.only.unwrap_or_default());
+        let body = self.next(elimination);
+        quote! {
+            if #order < #only {
+                return ::core::result::Result::Ok(());
+            }
+            {
+                let #k: usize = #only;
+                #body
+            }
+        }
+    }
+
+    /// Coefficient k of everything.
     fn next(&self, elimination: &Elimination) -> TokenStream {
         let (mode, plan) = (self.mode, self.plan);
         let number = number();
         let core = &self.writer.system.core;
         let n = mode.inputs.coordinates;
         let (k, p, weight, share) = (local("k"), local("p"), local("weight"), local("share"));
-        let (order, rows) = (local("order"), local("rows"));
+        let rows = local("rows");
         let mut body = TokenStream::new();
         // Sums over earlier coefficients.
         let mut products = Vec::new();
@@ -496,12 +540,10 @@ impl Expansion<'_> {
             }
         }
         quote! {
-            for #k in 1..=#order {
-                let #p = #k & 31;
-                let #weight = #number::of(#k as f64);
-                let #share = #number::of(#core::equations::INVERSES[#p]);
-                #body
-            }
+            let #p = #k & 31;
+            let #weight = #number::of(#k as f64);
+            let #share = #number::of(#core::equations::INVERSES[#p]);
+            #body
         }
     }
 
@@ -532,9 +574,7 @@ impl Expansion<'_> {
             let at = |row: &Row| index(self.plan.row(*row).unwrap_or_default());
             let is_square = x == y;
             let (x, y) = (at(x), at(y));
-            let term = |j: &Ident, i: &Ident| {
-                quote!(#name = #number::mul_add(#rows[#x][#j], #rows[#y][#i], #name);)
-            };
+            let term = |j: &Ident, i: &Ident| quote!(#name = #number::mul_add(#rows[#x][#j], #rows[#y][#i], #name););
             pairs.push(term(&j, &i));
             if is_square {
                 doubled.push(quote!(#name = #name + #name;));
@@ -544,6 +584,9 @@ impl Expansion<'_> {
             middles.push(term(&i, &i));
         }
         let names = products.iter().map(|(name, _)| name);
+        if let Some(k) = self.only {
+            return self.written_out(k, products);
+        }
         quote! {
             #(let mut #names = #number::of(0.0);)*
             for #j in 1..(#k + 1) / 2 {
@@ -556,6 +599,34 @@ impl Expansion<'_> {
                 #(#middles)*
             }
         }
+    }
+
+    /// The same for one k, term by term.
+    fn written_out(&self, k: usize, products: &[(Ident, Product)]) -> TokenStream {
+        let (number, rows) = (number(), local("rows"));
+        let sums = products.iter().map(|(name, (x, y))| {
+            let at = |row: &Row| index(self.plan.row(*row).unwrap_or_default());
+            let is_square = x == y;
+            let (x, y) = (at(x), at(y));
+            let term = |sum: TokenStream, j: usize| {
+                let (j, i) = (index(j), index(k - j));
+                quote!(#number::mul_add(#rows[#x][#j], #rows[#y][#i], #sum))
+            };
+            let mut sum = quote!(#number::of(0.0));
+            for j in 1..k.div_ceil(2) {
+                sum = term(sum, j);
+                if !is_square {
+                    sum = term(sum, k - j);
+                }
+            }
+            let doubled = is_square.then(|| quote!(let #name = #name + #name;));
+            let middle = k.is_multiple_of(2).then(|| {
+                let sum = term(quote!(#name), k / 2);
+                quote!(let #name = #sum;)
+            });
+            quote!(let #name = #sum; #doubled #middle)
+        });
+        sums.collect()
     }
 
     /// Coefficient k of the values of a phase.

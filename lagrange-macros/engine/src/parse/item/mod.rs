@@ -10,7 +10,7 @@ mod start;
 use super::cursor::Cursor;
 use super::expression::{index, whole};
 use super::relation::leftover;
-use crate::ast::{Attitude, Head, Impacts, Item, ItemKind, Name, Reference};
+use crate::ast::{Attitude, Emit, Head, Impacts, Item, ItemKind, Name, Reference};
 use crate::diagnostics::{Code, Diagnostics, Extent, nearest};
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
@@ -32,6 +32,7 @@ const KEYWORDS: &[&str] = &[
     "mark",
     "attitude",
     "impacts",
+    "emit",
     "check",
     "crate",
 ];
@@ -88,6 +89,10 @@ fn item(part: &mut Cursor, read: &mut Items, sink: &mut Diagnostics) -> Option<(
             part.next();
             ItemKind::Impacts(impacts(part, sink)?)
         }
+        ("emit", Some("="), _) => {
+            part.next();
+            ItemKind::Emit(emit(part, sink)?)
+        }
         ("kinetic" | "potential" | "lagrangian", Some("="), _) => {
             part.next();
             let value = super::expression::expression(part, sink).or_else(|| {
@@ -96,7 +101,7 @@ fn item(part: &mut Cursor, read: &mut Items, sink: &mut Diagnostics) -> Option<(
             })?;
             quantity::unnamed_energy(word, value)
         }
-        ("lagrangian" | "crate" | "impacts", ..) => {
+        ("lagrangian" | "crate" | "impacts" | "emit", ..) => {
             part.expected("`=`", sink);
             part.skip_all();
             return None;
@@ -180,17 +185,39 @@ fn attitude(part: &mut Cursor, sink: &mut Diagnostics) -> Option<ItemKind> {
 
 /// `together` or `in_turn`
 fn impacts(part: &mut Cursor, sink: &mut Diagnostics) -> Option<Impacts> {
-    let impacts = match part.word()?.text.as_str() {
-        "together" => Impacts::Together,
-        "in_turn" => Impacts::InTurn,
-        _ => {
-            part.expected("`together` or `in_turn`", sink);
-            part.skip_all();
-            return None;
-        }
+    let words = [
+        ("together", Impacts::Together),
+        ("in_turn", Impacts::InTurn),
+    ];
+    one_of(&words, "`together` or `in_turn`", part, sink)
+}
+
+/// `unrolled`, `loops` or `data`
+fn emit(part: &mut Cursor, sink: &mut Diagnostics) -> Option<Emit> {
+    let words = [
+        ("unrolled", Emit::Unrolled),
+        ("loops", Emit::Loops),
+        ("data", Emit::Data),
+    ];
+    one_of(&words, "`unrolled`, `loops` or `data`", part, sink)
+}
+
+/// What one of some words stands for.
+fn one_of<T: Copy>(
+    words: &[(&str, T)],
+    expected: &str,
+    part: &mut Cursor,
+    sink: &mut Diagnostics,
+) -> Option<T> {
+    let word = part.word();
+    let found = word.and_then(|word| words.iter().find(|(text, _)| *text == word.text));
+    let Some((_, meaning)) = found else {
+        part.expected(expected, sink);
+        part.skip_all();
+        return None;
     };
     part.next();
-    Some(impacts)
+    Some(*meaning)
 }
 
 /// The path of `crate = path`.

@@ -21,6 +21,7 @@ use super::form::Fixed;
 use super::outputs::Target;
 use super::tape::{Block, Tape, Value};
 use super::{Place, outputs, tape};
+use crate::ast::Emit;
 use crate::derive::{Equations, Output, OutputId, Stage};
 use crate::model::System;
 use crate::modes::{self, Mode};
@@ -30,7 +31,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 pub use stages::Phase;
 
-/// Systems with more operations in a mode are interpreted.
+/// Systems with more operations in a mode are interpreted, unless the declaration says otherwise.
 const MOST_OPERATIONS: usize = 220;
 /// Systems with more unknowns are interpreted.
 const MOST_UNKNOWNS: usize = 8;
@@ -123,6 +124,9 @@ impl Inputs {
 
 /// The programs of the modes that can be listed.
 pub(super) fn programs(equations: &mut Equations) -> Vec<ModeProgram> {
+    if equations.system.emit == Emit::Data {
+        return Vec::new();
+    }
     let parameters: Vec<Symbol> = equations
         .system
         .parameters
@@ -365,7 +369,8 @@ fn specialise(
         None,
         &targets,
     );
-    if whole.blocks.iter().map(|b| b.steps.len()).sum::<usize>() > MOST_OPERATIONS {
+    let operations = whole.blocks.iter().map(|b| b.steps.len()).sum::<usize>();
+    if operations > MOST_OPERATIONS && equations.system.emit == Emit::BySize {
         return None;
     }
     let sources: Vec<Target> = constants
