@@ -9,6 +9,7 @@ mod log;
 mod region;
 mod rest;
 pub(crate) mod round;
+mod samples;
 mod shares;
 mod singular;
 mod stepping;

@@ -2,6 +2,7 @@
 
 mod ball;
 mod belt;
+mod bending_guards;
 mod block;
 mod blows;
 mod breaks;
