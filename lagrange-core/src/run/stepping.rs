@@ -130,7 +130,7 @@ impl<T: Scalar> Run<T> {
             // The polynomial is as good at its root however long the step: the next try ends before it.
             match control.judge(h * end, defect, self.order) {
                 Verdict::Accept => {
-                    if self.corrects_joints(&hit, &mut corrections) {
+                    if self.corrects_joints(&hit, looked, &mut corrections) {
                         continue;
                     }
                     self.distance = distance;
@@ -336,7 +336,7 @@ impl<T: Scalar> Run<T> {
                 return self.taylor_step();
             }
             self.evaluate_end(hit.end()).map_err(|e| self.error(e))?;
-            if !self.corrects_joints(&hit, &mut corrections) {
+            if !self.corrects_joints(&hit, hit.end(), &mut corrections) {
                 return Ok(hit);
             }
             self.sample()?;

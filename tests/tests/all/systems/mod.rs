@@ -34,6 +34,7 @@ mod pressed;
 mod quaternion;
 mod region;
 mod rocking_block;
+mod shared_loads;
 mod skate;
 mod sling;
 mod slips;
