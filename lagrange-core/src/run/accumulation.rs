@@ -11,11 +11,13 @@
 use super::Run;
 use super::instant::derivatives;
 use crate::arithmetic::Scalar;
+use crate::effects::Item;
 use crate::error::Error;
+use crate::mode::{Direction, FrictionMode, Sliding};
 use crate::modes::decide::Known;
 use crate::modes::impact::Impact;
 use crate::system::{Normal, Place};
-use crate::trajectory::{EventKind, Subject};
+use crate::trajectory::{EventKind, State, Subject};
 
 /// Shrinking is believed after this many intervals.
 const FEWEST: usize = 3;
@@ -191,16 +193,16 @@ impl<T: Scalar> Run<T> {
             }
             self.train.book(self.t.value(), c);
             let ended = self.accumulate(c, known);
-            if let Some(count) = ended.or_else(|| self.die_out(known)) {
-                self.close_contacts(c, count, known)?;
+            if let Some((count, remaining)) = ended.or_else(|| self.die_out(known)) {
+                self.close_contacts(c, count, remaining, known)?;
             }
         }
         Ok(())
     }
 
     /// After an impact of contact `c`: closes it if the impacts to come are below the tolerance. Returns the number of
-    /// impacts that led here.
-    fn accumulate(&mut self, c: usize, known: &mut Known) -> Option<usize> {
+    /// impacts that led here, and how long the others last.
+    fn accumulate(&mut self, c: usize, known: &mut Known) -> Option<(usize, T)> {
         let remaining = self.impacts[c].book(self.t)?;
         if !self.is_over(remaining.value()) {
             return None;
@@ -216,16 +218,11 @@ impl<T: Scalar> Run<T> {
                 self.end(other, known);
             }
         }
-        self.t += remaining;
-        // What does not move in that time may have derivatives that do.
-        for (q, &v) in self.state.q.iter_mut().zip(&self.state.v) {
-            *q += derivatives(remaining * v);
-        }
-        Some(count)
+        Some((count, remaining))
     }
 
     /// The same for contacts that are hit without a law in it.
-    fn die_out(&mut self, known: &mut Known) -> Option<usize> {
+    fn die_out(&mut self, known: &mut Known) -> Option<(usize, T)> {
         let remaining = self.train.remaining()?;
         if remaining > ESTIMATED * self.t.value().abs() || !self.is_over(remaining) {
             return None;
@@ -235,10 +232,9 @@ impl<T: Scalar> Run<T> {
                 self.end(c, known);
             }
         }
-        self.t += T::from_f64(remaining);
         let count = self.train.count;
         self.train.restart();
-        Some(count)
+        Some((count, T::from_f64(remaining)))
     }
 
     /// Whether all that can move in so much time is below the tolerance.
@@ -264,25 +260,54 @@ impl<T: Scalar> Run<T> {
         self.impacts[c] = Impacts::default();
     }
 
-    /// Puts the state onto the contacts that have ended and logs it.
-    fn close_contacts(&mut self, c: usize, count: usize, known: &mut Known) -> Result<(), Error> {
+    /// Makes all impacts that are left in the time `remaining`, and logs it.
+    ///
+    /// Together they take from the contacts what one impact without restitution takes, with the friction of that; and meanwhile
+    /// the weight that they carry is, on the whole, that of closed contacts.
+    fn close_contacts(
+        &mut self,
+        c: usize,
+        count: usize,
+        remaining: T,
+        known: &mut Known,
+    ) -> Result<(), Error> {
         let d = self.description();
-        let vanishing = self.jump_of_gap(c);
+        self.evaluate_all_rows()?;
+        let mut near = core::mem::take(&mut self.near);
+        near.clear();
+        near.extend((0..d.contacts.len()).filter(|&c| known.touching[c]));
+        let time = self.t.value();
+        let solved = (self.collider).bring_to_rest(&self.dynamics, time, &self.state.v, &near);
+        self.near = near;
+        solved?;
+        let rest = core::mem::take(&mut self.collider.outcome);
+        self.state.v.copy_from_slice(&rest.v);
+        self.evaluate_all_rows()?;
         self.scratch_mode.clone_from(&self.mode);
         self.scratch_mode.contacts.copy_from_slice(&known.touching);
+        for (f, friction) in d.frictions.iter().enumerate() {
+            let Normal::Contact(on) = friction.normal else {
+                continue;
+            };
+            if known.touching[on] && self.dynamics.effects().includes(d, Item::Friction(f)) {
+                known.resting[f] = rest.sticks[f];
+                self.scratch_mode.frictions[f] = self.meanwhile(f, rest.sticks[f]);
+            }
+        }
+        self.collider.outcome = rest;
         self.dynamics.set_mode(&self.scratch_mode);
         self.project(true)?;
         self.evaluate_all_rows()?;
-        for (f, friction) in d.frictions.iter().enumerate() {
-            if matches!(friction.normal, Normal::Contact(on) if known.touching[on]) {
-                // A slip no faster than the impacts vanishes with them.
-                let rows = friction.row..friction.row + friction.components;
-                known.resting[f] = rows.into_iter().all(|row| {
-                    let (slip, size) = self.rate(row);
-                    slip.abs() <= (1e-13 * size).max(vanishing)
-                });
-            }
+        let half = T::from_f64(0.5) * remaining;
+        let State { q, v } = &mut self.state;
+        let motion = self.dynamics.acceleration().iter();
+        for ((q, v), &acceleration) in q.iter_mut().zip(v).zip(motion) {
+            *q += remaining * (*v + half * acceleration);
+            *v += remaining * acceleration;
         }
+        self.t += remaining;
+        self.project(true)?;
+        self.evaluate_all_rows()?;
         let state = core::mem::take(&mut self.state);
         let kind = EventKind::Accumulates { impacts: count };
         self.log_watch(Subject::Contact(c), kind, self.t, &state);
@@ -290,13 +315,21 @@ impl<T: Scalar> Run<T> {
         Ok(())
     }
 
-    /// How much the impact of this instant has changed the gap rate of contact `c`.
-    fn jump_of_gap(&self, c: usize) -> f64 {
-        let row = &self.description().rows[self.description().contacts[c].row];
-        let jump = row.jacobian.iter().map(|&(j, place)| {
-            let jump = self.before.state.v[j] - self.state.v[j];
-            (self.dynamics.motion(place) * jump).value()
-        });
-        jump.sum::<f64>().abs()
+    /// What friction `f` does while the last impacts pass, after which it `sticks` or not: it slips as it does now.
+    fn meanwhile(&self, f: usize, sticks: bool) -> FrictionMode {
+        let friction = &self.description().frictions[f];
+        if sticks {
+            return FrictionMode::Stick;
+        }
+        let slip = self
+            .dynamics
+            .motion(self.description().rows[friction.row].velocity);
+        FrictionMode::Slip(match friction.components {
+            1 => Sliding::sign(slip.value().signum()),
+            _ => Sliding {
+                direction: Direction::AlongSlip,
+                ..Sliding::sign(1.0)
+            },
+        })
     }
 }

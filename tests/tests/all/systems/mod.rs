@@ -21,6 +21,7 @@ mod incline;
 mod instants;
 mod kepler;
 mod landings;
+mod last_bounces;
 mod late;
 mod metric;
 mod multiples_of_pi;
