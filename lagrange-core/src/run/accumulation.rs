@@ -290,8 +290,8 @@ impl<T: Scalar> Run<T> {
                 continue;
             };
             if known.touching[on] && self.dynamics.effects().includes(d, Item::Friction(f)) {
-                known.resting[f] = rest.sticks[f];
-                self.scratch_mode.frictions[f] = self.meanwhile(f, rest.sticks[f]);
+                known.resting[f] = rest.sticks[f] || self.slip_vanishes(f);
+                self.scratch_mode.frictions[f] = self.meanwhile(f, known.resting[f]);
             }
         }
         self.collider.outcome = rest;
@@ -315,10 +315,10 @@ impl<T: Scalar> Run<T> {
         Ok(())
     }
 
-    /// What friction `f` does while the last impacts pass, after which it `sticks` or not: it slips as it does now.
-    fn meanwhile(&self, f: usize, sticks: bool) -> FrictionMode {
+    /// What friction `f` does while the last impacts pass, after which it `rests` or not: it slips as it does now.
+    fn meanwhile(&self, f: usize, rests: bool) -> FrictionMode {
         let friction = &self.description().frictions[f];
-        if sticks {
+        if rests {
             return FrictionMode::Stick;
         }
         let slip = self

@@ -100,6 +100,7 @@ impl<T: Scalar> Run<T> {
             let valued = self.valued;
             self.evaluate()?;
             self.valued = valued;
+            self.decider.decision.ambiguous |= self.dynamics.leaves_motion_open();
             self.note_shares();
         } else {
             self.sharing.clear();

@@ -56,3 +56,45 @@ fn a_load_that_is_too_large_for_a_moment_makes_it_slip() {
         assert!(words(&holds).is_empty(), "{:?}", words(&holds));
     }
 }
+
+/// A bar that slides on three supports, of which two are enough.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, theta),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2) + inertia/2 * der(theta)^2,
+    potential = mass * gravity * y,
+    contact(support[k in 0..3]: y + (k - 1) * theta >= 0),
+    friction(first on support[0]: slip = der(x), static = mu),
+    friction(middle on support[1]: slip = der(x), static = nu),
+    friction(last on support[2]: slip = der(x), static = mu),
+)]
+struct Bar {
+    mass: f64,
+    inertia: f64,
+    gravity: f64,
+    mu: f64,
+    nu: f64,
+}
+
+/// With equal coefficients the sum of the forces is enough, with others the share that each support carries decides on
+/// the motion, and rigid bodies do not say it.
+#[test]
+fn a_motion_that_depends_on_undetermined_forces_is_ambiguous() {
+    for (nu, open) in [(0.2, false), (0.0, true), (0.3, true)] {
+        let scene = Bar {
+            mass: 1.0,
+            inertia: 0.3,
+            gravity: 10.0,
+            mu: 0.2,
+            nu,
+        };
+        let start = state(&[0.0; 3], &[5.0, 0.0, 0.0]);
+        let motion = run_by(&scene, ("taylor", 1e-12), start, 1.0);
+        let told = motion.events().iter().any(|e| e.ambiguous);
+        assert_eq!(told, open, "{nu}: {:?}", words(&motion));
+        assert!(motion.verify(0).expect("a certificate").holds());
+        if !open {
+            agree("speed", motion.final_state().v[0], 5.0 - 0.2 * 10.0, 1e-12);
+        }
+    }
+}
