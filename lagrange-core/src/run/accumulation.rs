@@ -11,9 +11,8 @@
 use super::Run;
 use super::instant::derivatives;
 use crate::arithmetic::Scalar;
-use crate::effects::Item;
 use crate::error::Error;
-use crate::mode::{Direction, FrictionMode, Sliding};
+use crate::mode::FrictionMode;
 use crate::modes::decide::Known;
 use crate::modes::impact::Impact;
 use crate::system::{Normal, Place};
@@ -262,8 +261,8 @@ impl<T: Scalar> Run<T> {
 
     /// Makes all impacts that are left in the time `remaining`, and logs it.
     ///
-    /// Together they take from the contacts what one impact without restitution takes, with the friction of that; and meanwhile
-    /// the weight that they carry is, on the whole, that of closed contacts.
+    /// Together they do what a flight of that length does, and an impact without restitution at its end: momentum does not see
+    /// how impulses are distributed, and neither does friction that slips all the while.
     fn close_contacts(
         &mut self,
         c: usize,
@@ -272,64 +271,47 @@ impl<T: Scalar> Run<T> {
         known: &mut Known,
     ) -> Result<(), Error> {
         let d = self.description();
-        self.evaluate_all_rows()?;
         let mut near = core::mem::take(&mut self.near);
         near.clear();
         near.extend((0..d.contacts.len()).filter(|&c| known.touching[c]));
-        let time = self.t.value();
-        let solved = (self.collider).bring_to_rest(&self.dynamics, time, &self.state.v, &near);
-        self.near = near;
-        solved?;
-        let rest = core::mem::take(&mut self.collider.outcome);
-        self.state.v.copy_from_slice(&rest.v);
-        self.evaluate_all_rows()?;
+        let rubs =
+            |f: &usize| matches!(d.frictions[*f].normal, Normal::Contact(c) if near.contains(&c));
+        let rubbing = || (0..d.frictions.len()).filter(rubs);
         self.scratch_mode.clone_from(&self.mode);
-        self.scratch_mode.contacts.copy_from_slice(&known.touching);
-        for (f, friction) in d.frictions.iter().enumerate() {
-            let Normal::Contact(on) = friction.normal else {
-                continue;
-            };
-            if known.touching[on] && self.dynamics.effects().includes(d, Item::Friction(f)) {
-                known.resting[f] = rest.sticks[f] || self.slip_vanishes(f);
-                self.scratch_mode.frictions[f] = self.meanwhile(f, known.resting[f]);
-            }
-        }
-        self.collider.outcome = rest;
+        near.iter()
+            .for_each(|&c| self.scratch_mode.contacts[c] = false);
+        rubbing().for_each(|f| self.scratch_mode.frictions[f] = FrictionMode::Inactive);
         self.dynamics.set_mode(&self.scratch_mode);
-        self.project(true)?;
         self.evaluate_all_rows()?;
         let half = T::from_f64(0.5) * remaining;
         let State { q, v } = &mut self.state;
         let motion = self.dynamics.acceleration().iter();
         for ((q, v), &acceleration) in q.iter_mut().zip(v).zip(motion) {
-            *q += remaining * (*v + half * acceleration);
-            *v += remaining * acceleration;
+            let change = remaining * acceleration;
+            *q += remaining * *v + half * change;
+            *v += change;
         }
         self.t += remaining;
+        self.evaluate_all_rows()?;
+        let time = self.t.value();
+        (self.collider).bring_to_rest(&self.dynamics, time, &self.state.v, &near)?;
+        let rest = core::mem::take(&mut self.collider.outcome);
+        let State { q, v } = &mut self.state;
+        for ((q, v), &after) in q.iter_mut().zip(v).zip(&rest.v) {
+            *q += half * (after - *v);
+            *v = after;
+        }
+        near.iter()
+            .for_each(|&c| self.scratch_mode.contacts[c] = true);
+        self.dynamics.set_mode(&self.scratch_mode);
         self.project(true)?;
         self.evaluate_all_rows()?;
+        rubbing().for_each(|f| known.resting[f] = rest.sticks[f] || self.slip_vanishes(f));
+        (self.near, self.collider.outcome) = (near, rest);
         let state = core::mem::take(&mut self.state);
         let kind = EventKind::Accumulates { impacts: count };
         self.log_watch(Subject::Contact(c), kind, self.t, &state);
         self.state = state;
         Ok(())
-    }
-
-    /// What friction `f` does while the last impacts pass, after which it `rests` or not: it slips as it does now.
-    fn meanwhile(&self, f: usize, rests: bool) -> FrictionMode {
-        let friction = &self.description().frictions[f];
-        if rests {
-            return FrictionMode::Stick;
-        }
-        let slip = self
-            .dynamics
-            .motion(self.description().rows[friction.row].velocity);
-        FrictionMode::Slip(match friction.components {
-            1 => Sliding::sign(slip.value().signum()),
-            _ => Sliding {
-                direction: Direction::AlongSlip,
-                ..Sliding::sign(1.0)
-            },
-        })
     }
 }
