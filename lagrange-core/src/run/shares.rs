@@ -140,6 +140,13 @@ impl<T: Scalar> Run<T> {
             let rows = 0..self.description().rows.len();
             forces.extend(rows.map(|row| self.dynamics.force(row)));
         }
+        if self.is_undecided() {
+            undetermined.clear();
+            undetermined.resize(forces.len(), false);
+            for &row in self.dynamics.acting_rows() {
+                undetermined[row] = true;
+            }
+        }
     }
 
     /// How far a joint guard is from the zero that it was located as.

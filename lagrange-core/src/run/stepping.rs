@@ -115,8 +115,8 @@ impl<T: Scalar> Run<T> {
             // A step must not end where the constraints lose rank.
             let distance = self.rank.distance(&self.dynamics);
             if self.ends_close(distance) && closer < MOST_RETREATS {
-                if self.leap(h) {
-                    return Ok(Hit::Nothing);
+                if let Some(hit) = self.leap(h) {
+                    return Ok(hit);
                 }
                 closer += 1;
                 self.trajectory.work.rejected += 1;
@@ -271,6 +271,9 @@ impl<T: Scalar> Run<T> {
                 break;
             }
             let next = self.integrate(h)?;
+            if self.passes_close() {
+                break;
+            }
             self.sample()?;
             let defect = self.interpolation_defect().map_err(|e| self.error(e))?;
             h = self.stretch(defect) * self.step.h.value();
@@ -282,7 +285,7 @@ impl<T: Scalar> Run<T> {
             }
             self.trajectory.work.rejected += 1;
         }
-        // Where a guard has a kink no interpolation holds.
+        // Where a guard has a kink no interpolation holds; where constraints lose rank no step does.
         if let Stepper::Other(_, wanted) = &mut self.stepper {
             *wanted = None;
         }
@@ -336,6 +339,7 @@ impl<T: Scalar> Run<T> {
                 return self.taylor_step();
             }
             self.evaluate_end(hit.end()).map_err(|e| self.error(e))?;
+            self.distance = self.rank.distance(&self.dynamics);
             if !self.corrects_joints(&hit, hit.end(), &mut corrections) {
                 return Ok(hit);
             }
