@@ -21,7 +21,7 @@ const NEARER: f64 = 0.35;
 /// Farther away than this from one it may end anywhere.
 const CLOSE: f64 = 0.2;
 /// Else it is tried this much longer, over that position,
-const LEAP: f64 = 1.5;
+const LEAPS: [f64; 4] = [1.25, 1.5, 1.8, 2.2];
 /// with any degree from this on,
 const LEAST_DEGREE: usize = 6;
 /// and then this much shorter,
@@ -31,7 +31,7 @@ pub(super) const MOST_RETREATS: usize = 5;
 /// Nearer than this to one the equations say nothing reliable about forces,
 const UNDECIDED: f64 = 1e-2;
 /// Error of a leap in units of what is allowed for a step,
-const GOOD: f64 = 30.0;
+const GOOD: f64 = 3.0;
 /// and where nothing better can be had any more.
 const BEARABLE: f64 = 1e4;
 
@@ -193,26 +193,27 @@ impl<T: Scalar> Run<T> {
     /// Tries a step over the loss of rank that one of length `h` comes too close to; what happens first in it.
     ///
     /// Rounding enters the equations amplified and grows through the coefficients as if the solution had a pole there; the
-    /// truncation error falls with the order. The order with the least defect beyond is the best compromise. Nothing if none
+    /// truncation error falls with the order. The length and order with the least defect beyond are the best compromise. Nothing if none
     /// is good enough, or if the mode would have to be decided close to the loss of rank; else the step is made up to the first hit
     /// in it or the end of the run, and its end evaluated.
     pub(super) fn leap(&mut self, h: f64) -> Option<Hit> {
-        let h = LEAP * h;
         let mut least = if self.distance < CLOSE {
             BEARABLE
         } else {
             GOOD
         };
         let mut best = None;
-        for degree in LEAST_DEGREE..=self.order {
-            if let Some((defect, distance)) = self.beyond(h, degree)
-                && defect < least
-                && distance >= NEARER * NEARER * self.distance
-            {
-                (least, best) = (defect, Some(degree));
+        for leap in LEAPS {
+            for degree in LEAST_DEGREE..=self.order {
+                if let Some((defect, distance)) = self.beyond(leap * h, degree)
+                    && defect < least
+                    && distance >= NEARER * NEARER * self.distance
+                {
+                    (least, best) = (defect, Some((leap * h, degree)));
+                }
             }
         }
-        let degree = best?;
+        let (h, degree) = best?;
         self.write_polynomial(h.min(self.end - self.t.value()), degree);
         self.curves
             .take_series(&self.dynamics, &self.mode, &self.powers);
