@@ -295,7 +295,7 @@ impl<T: Scalar> Run<T> {
         self.evaluate_all_rows()?;
         let time = self.t.value();
         (self.collider).bring_to_rest(&self.dynamics, time, &self.state.v, &near)?;
-        let rest = core::mem::take(&mut self.collider.outcome);
+        let rest = core::mem::take(&mut self.collider.rest);
         let State { q, v } = &mut self.state;
         for ((q, v), &after) in q.iter_mut().zip(v).zip(&rest.v) {
             *q += half * (after - *v);
@@ -307,7 +307,7 @@ impl<T: Scalar> Run<T> {
         self.project(true)?;
         self.evaluate_all_rows()?;
         rubbing().for_each(|f| known.resting[f] = rest.sticks[f] || self.slip_vanishes(f));
-        (self.near, self.collider.outcome) = (near, rest);
+        (self.near, self.collider.rest) = (near, rest);
         let state = core::mem::take(&mut self.state);
         let kind = EventKind::Accumulates { impacts: count };
         self.log_watch(Subject::Contact(c), kind, self.t, &state);

@@ -267,10 +267,13 @@ impl<T: Scalar> Run<T> {
         }
         let mut h = first.map_err(|e| self.no_step(e))?.min(longest);
         for _ in 0..MOST_TRIES {
-            if h <= KINK * self.resolution() {
+            if h <= KINK * self.resolution() && self.curves.get(0).is_some() {
                 break;
             }
             let next = self.integrate(h)?;
+            if let Some(step) = self.loses_motion() {
+                return Err(self.step_too_large(step));
+            }
             if self.passes_close() {
                 break;
             }
@@ -312,11 +315,15 @@ impl<T: Scalar> Run<T> {
         match error {
             StepError::Acceleration(e) => self.error(e),
             StepError::TooSmall { h, .. } => self.step_too_small(h),
-            StepError::NoConvergence { h, .. } => Error::StepTooLarge {
-                time: self.t.value(),
-                step: h,
-                mode: self.mode.display(self.description()).to_string(),
-            },
+            StepError::NoConvergence { h, .. } => self.step_too_large(h),
+        }
+    }
+
+    fn step_too_large(&self, step: f64) -> Error {
+        Error::StepTooLarge {
+            time: self.t.value(),
+            step,
+            mode: self.mode.display(self.description()).to_string(),
         }
     }
 

@@ -60,6 +60,8 @@ pub struct Impact<T> {
 pub struct Collider<T> {
     /// What the last impact has done.
     pub outcome: Impact<T>,
+    /// The same of the last in which contacts came to rest.
+    pub rest: Impact<T>,
     collision: Collision<T>,
     gathering: Gathering<T>,
     law: Law<T>,
@@ -84,7 +86,7 @@ impl<T: Scalar> Collider<T> {
         self.solve_share(dynamics, t, v, near, (impacts, 1.0))
     }
 
-    /// The impact in which contacts come to rest that have bounced infinitely often: without restitution.
+    /// The impact in which contacts come to rest that have bounced infinitely often, without restitution, into [`Self::rest`].
     ///
     /// # Errors
     /// Those of [`Self::solve`].
@@ -95,7 +97,10 @@ impl<T: Scalar> Collider<T> {
         v: &[T],
         near: &[usize],
     ) -> Result<(), Error> {
-        self.solve_share(dynamics, t, v, near, (Impacts::Together, 0.0))
+        core::mem::swap(&mut self.outcome, &mut self.rest);
+        let solved = self.solve_share(dynamics, t, v, near, (Impacts::Together, 0.0));
+        core::mem::swap(&mut self.outcome, &mut self.rest);
+        solved
     }
 
     /// The impact with this share of every restitution.
