@@ -134,8 +134,7 @@ impl<T: Scalar> Compiled<T> {
         self.plan.set(d, effects, &self.mode, &mut self.constants);
         if !self.plan.is_like(&self.spare) {
             self.interpreted.list.clear();
-            self.solver
-                .reserve(self.plan.free(), self.plan.kept.len());
+            self.solver.reserve(self.plan.free(), self.plan.kept.len());
         }
     }
 

@@ -98,13 +98,13 @@ impl<T: Scalar> Emitted<T> {
     pub(super) fn holds_at(&self, q: &[T], v: &[T]) -> bool {
         let mut pins = self.structure.pins.iter();
         pins.all(|&(j, place)| {
-                let at = match place {
-                    Place::Constant(i) => self.constants[i],
-                    Place::Zero | Place::Node(_) => T::default(),
-                };
-                let allowed = 16.0 * epsilon::<T>() * at.value().abs().max(1.0);
-                v[j].is_zero() && (q[j] - at).value().abs() <= allowed
-            })
+            let at = match place {
+                Place::Constant(i) => self.constants[i],
+                Place::Zero | Place::Node(_) => T::default(),
+            };
+            let allowed = 16.0 * epsilon::<T>() * at.value().abs().max(1.0);
+            v[j].is_zero() && (q[j] - at).value().abs() <= allowed
+        })
     }
 
     /// Accelerations, and forces if asked for. False if a pivot is not safe.

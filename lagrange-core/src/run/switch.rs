@@ -96,11 +96,14 @@ impl<T: Scalar> Run<T> {
         }
         self.begin_series().map_err(|e| self.error(e))?;
         if self.dynamics.has_dependent_rows() {
-            self.expand()?;
             let valued = self.valued;
+            self.evaluate_all_rows()?;
+            self.decider.decision.ambiguous |= self.dynamics.leaves_motion_open();
+            self.ask_for_guards();
+            self.series = Progress::None;
+            self.expand()?;
             self.evaluate()?;
             self.valued = valued;
-            self.decider.decision.ambiguous |= self.dynamics.leaves_motion_open();
             self.note_shares();
         } else {
             self.sharing.clear();

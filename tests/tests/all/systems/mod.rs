@@ -1,5 +1,6 @@
 //! Systems that are not in the library, declared here, each with something independent to compare with.
 
+mod aligned;
 mod ball;
 mod belt;
 mod bending_guards;

@@ -532,9 +532,7 @@ impl Expansion<'_> {
             let at = |row: &Row| index(self.plan.row(*row).unwrap_or_default());
             let is_square = x == y;
             let (x, y) = (at(x), at(y));
-            let term = |j: &Ident, i: &Ident| {
-                quote!(#name = #number::mul_add(#rows[#x][#j], #rows[#y][#i], #name);)
-            };
+            let term = |j: &Ident, i: &Ident| quote!(#name = #number::mul_add(#rows[#x][#j], #rows[#y][#i], #name););
             pairs.push(term(&j, &i));
             if is_square {
                 doubled.push(quote!(#name = #name + #name;));
