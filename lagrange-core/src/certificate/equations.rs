@@ -187,8 +187,35 @@ impl Equations {
                 }
             }
         }
+        for f in 0..self.d.frictions.len() {
+            if self.friction_acts(f, mode) {
+                self.bring_by_friction(f, &mut brought);
+            }
+        }
         for (size, brought) in self.size.iter_mut().zip(brought) {
             *size += brought;
+        }
+    }
+
+    /// What friction `f` brings from the equations that its normal force balances in into others.
+    fn bring_by_friction(&mut self, f: usize, brought: &mut [f64]) {
+        use crate::system::Normal;
+        let source = match self.d.frictions[f].normal {
+            Normal::Contact(c) => self.d.contacts[c].row,
+            Normal::Constraint(i) => self.d.constraints[i].row,
+            Normal::Given(_) => return,
+        };
+        let sizes = self.size.clone();
+        let (value, level) = self.row(source);
+        let (along, square) = self.along(value, level, &sizes);
+        let friction = self.declaration.frictions[f];
+        let coefficient = self.values.value(friction.kinetic_coefficient);
+        let force = coefficient * along / square.max(f64::MIN_POSITIVE);
+        for &slip in friction.slip {
+            self.along(slip, Level::Velocity, &sizes);
+            for (brought, g) in brought.iter_mut().zip(&self.gradient[0]) {
+                *brought += g * force;
+            }
         }
     }
 

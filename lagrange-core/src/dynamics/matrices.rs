@@ -123,6 +123,22 @@ impl<T: Scalar> Dynamics<T> {
         !least_norm(&matrix, n, &mut forces).is_determined(count)
     }
 
+    /// Whether forces that the rows leave open change the motion at the last [`Self::value`]: the friction of a body that slides on
+    /// one of many supports.
+    pub(crate) fn leaves_motion_open(&self) -> bool {
+        let n = self.description().coordinates.len();
+        let acting = self.acting_rows();
+        let mut rows = vec![T::default(); n * acting.len()];
+        for (row, out) in acting.iter().zip(rows.chunks_exact_mut(n.max(1))) {
+            for &(j, place) in self.description().rows[*row].jacobian {
+                out[j] = self.motion(place);
+            }
+        }
+        let mut forces = vec![T::default(); acting.len()];
+        let open = least_norm(&rows, n, &mut forces).dimension();
+        open > self.least_norm_of_acting().1.dimension()
+    }
+
     /// Outputs of the motion program, then those of the plan.
     fn program_nodes(&self) -> Vec<T> {
         let Some(interpreted) = self.compiled().interpreted() else {

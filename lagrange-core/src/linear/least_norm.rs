@@ -32,6 +32,12 @@ impl Freedom {
     pub(crate) fn is_determined(&self, i: usize) -> bool {
         self.row(i)[i] <= DETERMINED
     }
+
+    /// How many forces can be chosen: the trace of P.
+    pub(crate) fn dimension(&self) -> usize {
+        let trace: f64 = (0..self.size).map(|i| self.row(i)[i]).sum();
+        trace.round() as usize
+    }
 }
 
 /// Replaces `forces` by those of least norm with the same effect, and says how else they could be. `columns` is C by

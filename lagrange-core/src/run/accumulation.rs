@@ -12,10 +12,11 @@ use super::Run;
 use super::instant::derivatives;
 use crate::arithmetic::Scalar;
 use crate::error::Error;
+use crate::mode::FrictionMode;
 use crate::modes::decide::Known;
 use crate::modes::impact::Impact;
 use crate::system::{Normal, Place};
-use crate::trajectory::{EventKind, Subject};
+use crate::trajectory::{EventKind, State, Subject};
 
 /// Shrinking is believed after this many intervals.
 const FEWEST: usize = 3;
@@ -191,16 +192,16 @@ impl<T: Scalar> Run<T> {
             }
             self.train.book(self.t.value(), c);
             let ended = self.accumulate(c, known);
-            if let Some(count) = ended.or_else(|| self.die_out(known)) {
-                self.close_contacts(c, count, known)?;
+            if let Some((count, remaining)) = ended.or_else(|| self.die_out(known)) {
+                self.close_contacts(c, count, remaining, known)?;
             }
         }
         Ok(())
     }
 
     /// After an impact of contact `c`: closes it if the impacts to come are below the tolerance. Returns the number of
-    /// impacts that led here.
-    fn accumulate(&mut self, c: usize, known: &mut Known) -> Option<usize> {
+    /// impacts that led here, and how long the others last.
+    fn accumulate(&mut self, c: usize, known: &mut Known) -> Option<(usize, T)> {
         let remaining = self.impacts[c].book(self.t)?;
         if !self.is_over(remaining.value()) {
             return None;
@@ -216,16 +217,11 @@ impl<T: Scalar> Run<T> {
                 self.end(other, known);
             }
         }
-        self.t += remaining;
-        // What does not move in that time may have derivatives that do.
-        for (q, &v) in self.state.q.iter_mut().zip(&self.state.v) {
-            *q += derivatives(remaining * v);
-        }
-        Some(count)
+        Some((count, remaining))
     }
 
     /// The same for contacts that are hit without a law in it.
-    fn die_out(&mut self, known: &mut Known) -> Option<usize> {
+    fn die_out(&mut self, known: &mut Known) -> Option<(usize, T)> {
         let remaining = self.train.remaining()?;
         if remaining > ESTIMATED * self.t.value().abs() || !self.is_over(remaining) {
             return None;
@@ -235,10 +231,9 @@ impl<T: Scalar> Run<T> {
                 self.end(c, known);
             }
         }
-        self.t += T::from_f64(remaining);
         let count = self.train.count;
         self.train.restart();
-        Some(count)
+        Some((count, T::from_f64(remaining)))
     }
 
     /// Whether all that can move in so much time is below the tolerance.
@@ -264,39 +259,59 @@ impl<T: Scalar> Run<T> {
         self.impacts[c] = Impacts::default();
     }
 
-    /// Puts the state onto the contacts that have ended and logs it.
-    fn close_contacts(&mut self, c: usize, count: usize, known: &mut Known) -> Result<(), Error> {
+    /// Makes all impacts that are left in the time `remaining`, and logs it.
+    ///
+    /// Together they do what a flight of that length does, and an impact without restitution at its end: momentum does not see
+    /// how impulses are distributed, and neither does friction that slips all the while.
+    fn close_contacts(
+        &mut self,
+        c: usize,
+        count: usize,
+        remaining: T,
+        known: &mut Known,
+    ) -> Result<(), Error> {
         let d = self.description();
-        let vanishing = self.jump_of_gap(c);
+        let mut near = core::mem::take(&mut self.near);
+        near.clear();
+        near.extend((0..d.contacts.len()).filter(|&c| known.touching[c]));
+        let rubs =
+            |f: &usize| matches!(d.frictions[*f].normal, Normal::Contact(c) if near.contains(&c));
+        let rubbing = || (0..d.frictions.len()).filter(rubs);
         self.scratch_mode.clone_from(&self.mode);
-        self.scratch_mode.contacts.copy_from_slice(&known.touching);
+        near.iter()
+            .for_each(|&c| self.scratch_mode.contacts[c] = false);
+        rubbing().for_each(|f| self.scratch_mode.frictions[f] = FrictionMode::Inactive);
+        self.dynamics.set_mode(&self.scratch_mode);
+        self.evaluate_all_rows()?;
+        let half = T::from_f64(0.5) * remaining;
+        let State { q, v } = &mut self.state;
+        let motion = self.dynamics.acceleration().iter();
+        for ((q, v), &acceleration) in q.iter_mut().zip(v).zip(motion) {
+            let change = remaining * acceleration;
+            *q += remaining * *v + half * change;
+            *v += change;
+        }
+        self.t += remaining;
+        self.evaluate_all_rows()?;
+        let time = self.t.value();
+        (self.collider).bring_to_rest(&self.dynamics, time, &self.state.v, &near)?;
+        let rest = core::mem::take(&mut self.collider.rest);
+        let State { q, v } = &mut self.state;
+        for ((q, v), &after) in q.iter_mut().zip(v).zip(&rest.v) {
+            *q += half * (after - *v);
+            *v = after;
+        }
+        near.iter()
+            .for_each(|&c| self.scratch_mode.contacts[c] = true);
         self.dynamics.set_mode(&self.scratch_mode);
         self.project(true)?;
         self.evaluate_all_rows()?;
-        for (f, friction) in d.frictions.iter().enumerate() {
-            if matches!(friction.normal, Normal::Contact(on) if known.touching[on]) {
-                // A slip no faster than the impacts vanishes with them.
-                let rows = friction.row..friction.row + friction.components;
-                known.resting[f] = rows.into_iter().all(|row| {
-                    let (slip, size) = self.rate(row);
-                    slip.abs() <= (1e-13 * size).max(vanishing)
-                });
-            }
-        }
+        rubbing().for_each(|f| known.resting[f] = rest.sticks[f] || self.slip_vanishes(f));
+        (self.near, self.collider.rest) = (near, rest);
         let state = core::mem::take(&mut self.state);
         let kind = EventKind::Accumulates { impacts: count };
         self.log_watch(Subject::Contact(c), kind, self.t, &state);
         self.state = state;
         Ok(())
-    }
-
-    /// How much the impact of this instant has changed the gap rate of contact `c`.
-    fn jump_of_gap(&self, c: usize) -> f64 {
-        let row = &self.description().rows[self.description().contacts[c].row];
-        let jump = row.jacobian.iter().map(|&(j, place)| {
-            let jump = self.before.state.v[j] - self.state.v[j];
-            (self.dynamics.motion(place) * jump).value()
-        });
-        jump.sum::<f64>().abs()
     }
 }

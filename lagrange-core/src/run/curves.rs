@@ -1,9 +1,11 @@
 //! The guards of a step as polynomials in s ∈ [0, 1].
 //!
 //! With Taylor series they come exactly, from the coefficients of the step. With a Runge–Kutta method the guards are
-//! evaluated at the Chebyshev–Lobatto points of the dense output and interpolated.
+//! evaluated at the Chebyshev–Lobatto points of the dense output and interpolated; [`super::samples`] sees to it that the
+//! interpolation holds.
 
 use super::hits::{CLEAR, value as at};
+use super::samples::SampledRoot;
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError};
 use crate::effects::{Effects, Item};
@@ -21,6 +23,12 @@ const OTHER_SIDE: f64 = 1e3;
 /// Samples of a guard in a step of a Runge–Kutta method, at least.
 const FEWEST_SAMPLES: usize = 8;
 
+/// Coefficients of an interpolation lose so many digits to rounding, relative.
+const INTERPOLATION: f64 = 1e-11;
+
+/// An interpolated guard may be off by this share of its distance from zero.
+const AWAY: f64 = 1e-2;
+
 /// A guard over a step.
 #[derive(Clone, Copy, Debug)]
 struct Curve {
@@ -31,6 +39,8 @@ struct Curve {
     sums: Sums,
     /// Whether it stays positive for certain.
     stays: bool,
+    /// Of its samples, the nearest to zero.
+    least: f64,
 }
 
 /// The guards of a mode and what is watched beside, with their polynomials over a step.
@@ -53,6 +63,8 @@ pub(super) struct Curves {
     /// Interpolation: samples → coefficients, row-major, for `nodes`.
     matrix: Vec<f64>,
     nodes: Vec<f64>,
+    /// Roots of guards that were sampled.
+    pub(super) roots: Vec<SampledRoot>,
 }
 
 impl Curves {
@@ -95,6 +107,7 @@ impl Curves {
                 rest: f64::INFINITY,
             },
             stays: false,
+            least: 0.0,
         });
         self.list.clear();
         self.list.extend(curves);
@@ -143,6 +156,7 @@ impl Curves {
     ) {
         let reading = Reading::Series(dynamics);
         self.shape(powers.len());
+        self.roots.clear();
         let coefficients = self.coefficients.chunks_exact_mut(self.width);
         for (c, curve) in coefficients.zip(&mut self.list) {
             curve.sums = match &curve.linear {
@@ -196,9 +210,20 @@ impl Curves {
         keeps_its_sign(c, self.list[index].sums.rest, CLEAR) && (c[0] < 0.0) == was_below
     }
 
+    /// Guard number `index` and its polynomial.
+    pub(super) fn get(&self, index: usize) -> Option<(Guard, &[f64])> {
+        let curve = self.list.get(index)?;
+        Some((curve.guard, self.curve(index)))
+    }
+
     /// Guard number `index` at the last value of `dynamics`.
     #[inline]
-    fn value<T: Scalar>(&self, index: usize, mode: &Mode, dynamics: &Dynamics<T>) -> f64 {
+    pub(super) fn value<T: Scalar>(
+        &self,
+        index: usize,
+        mode: &Mode,
+        dynamics: &Dynamics<T>,
+    ) -> f64 {
         let reading = Reading::Values(dynamics);
         match &self.list[index].linear {
             Some(linear) => linear.value(&reading),
@@ -289,7 +314,9 @@ impl Curves {
         let m = (step.degree + 1).max(FEWEST_SAMPLES);
         self.prepare(m);
         self.shape(m);
-        self.list.iter_mut().for_each(|curve| curve.stays = false);
+        for curve in &mut self.list {
+            (curve.stays, curve.least) = (false, f64::INFINITY);
+        }
         self.coefficients.fill(0.0);
         if self.coefficients.is_empty() {
             return Ok(());
@@ -305,13 +332,58 @@ impl Curves {
             dynamics.report_value();
             for index in 0..self.list.len() {
                 let sample = self.value(index, mode, dynamics);
+                let least = &mut self.list[index].least;
+                *least = least.min(sample.abs());
                 let curve = &mut self.coefficients[index * m..][..m];
-                for (c, row) in curve.iter_mut().zip(self.matrix.chunks_exact(m)) {
-                    *c += row[j] * sample;
+                if j == 0 {
+                    curve[0] = sample;
+                    continue;
+                }
+                // What does not change has no part in the rounding of the coefficients, which are large.
+                let change = sample - curve[0];
+                for (c, row) in curve[1..]
+                    .iter_mut()
+                    .zip(self.matrix.chunks_exact(m).skip(1))
+                {
+                    *c += row[j] * change;
                 }
             }
         }
         Ok(())
+    }
+
+    /// How far interpolated guards are off at part `s` of the step, in units of what is allowed; `dynamics` holds the values of
+    /// the state there. A guard that stays away from zero need not be known well.
+    pub(super) fn interpolation_defect<T: Scalar>(
+        &self,
+        dynamics: &mut Dynamics<T>,
+        mode: &Mode,
+        s: f64,
+        tolerance: f64,
+    ) -> f64 {
+        dynamics.report_value();
+        let mut worst = 0.0;
+        for (index, curve) in self.list.iter().enumerate() {
+            let c = self.curve(index);
+            let (share, floor) = allowance(curve.guard, false);
+            let allowed = (share * tolerance).max(floor).max(INTERPOLATION);
+            let value = self.value(index, mode, dynamics);
+            let size = value.abs() + (c[0].abs() + c[1].abs());
+            let allowed = (allowed * size + 64.0 * f64::EPSILON).max(AWAY * curve.least);
+            let ratio = (at(c, s) - value).abs() / allowed;
+            worst = if ratio > worst || ratio.is_nan() {
+                ratio
+            } else {
+                worst
+            };
+        }
+        worst
+    }
+
+    /// Two parts of a step between the samples of its guards.
+    pub(super) fn between_samples(&self) -> [f64; 2] {
+        let m = self.nodes.len();
+        [m / 4, 2 * m / 3].map(|j| 0.5 * (self.nodes[j] + self.nodes[j + 1]))
     }
 
     /// Chebyshev–Lobatto points on [0, 1] and the inverse of their Vandermonde matrix.

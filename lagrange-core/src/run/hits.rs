@@ -3,7 +3,7 @@
 use super::Run;
 use super::region::is_edge_in_flight;
 use crate::arithmetic::Scalar;
-use crate::events::{Direction, RootList, deflate, first_root, roots};
+use crate::events::{Direction, Root, RootList, deflate, first_root, roots};
 use crate::integrate::polynomial_sum as sum;
 use crate::mode::{FrictionMode, Mode};
 use crate::modes::guard::{Guard, LENGTH};
@@ -110,7 +110,7 @@ impl<T: Scalar> Run<T> {
         while let Some(root) = first_root(curve, from) {
             let falls = root.direction == Direction::Falling && !root.grazing;
             if falls && self.within_region(guard, root.s) {
-                return Some((root.s, 0.5 * root.width));
+                return Some(self.place(guard, &root));
             }
             // A root that rounding puts at 0 must not be found again.
             from = root.s.max(f64::MIN_POSITIVE);
@@ -172,6 +172,7 @@ impl<T: Scalar> Run<T> {
                 end,
                 |k| curves.stop_term(i, k),
                 |k| below[i][k],
+                |k, root| self.place(Guard::Stop(i, k), root).0,
             );
             if let Some(s) = first
                 && best.is_none_or(|(_, t)| s < t)
@@ -197,10 +198,11 @@ impl<T: Scalar> Run<T> {
                 if (below && start > 0.0) || (!below && start < 0.0) {
                     list.push((i, 0.0));
                 }
+                let places = all.iter().map(|root| self.place(Guard::Mark(i, 0), root).0);
                 list.extend(
-                    all.iter()
-                        .filter(|r| r.s <= end && holds(watch, &self.mode))
-                        .map(|r| (i, r.s)),
+                    places
+                        .filter(|s| *s <= end && holds(watch, &self.mode))
+                        .map(|s| (i, s)),
                 );
             } else {
                 let below = &self.mark_below;
@@ -210,6 +212,7 @@ impl<T: Scalar> Run<T> {
                     end,
                     |k| curves.mark_term(i, k),
                     |k| below[i][k],
+                    |k, root| self.place(Guard::Mark(i, k), root).0,
                 );
                 list.extend(first.map(|s| (i, s)));
             }
@@ -263,13 +266,15 @@ fn leading(curve: &[f64], resolution: f64) -> Option<usize> {
     curve.iter().position(|c| c.abs() > noise)
 }
 
-/// First instant up to `end` at which a watch becomes true: a term rises through zero while the others are ≥ 0.
+/// First instant up to `end` at which a watch becomes true: a term rises through zero while the others are ≥ 0; `place` tells
+/// where the root of a term's polynomial is.
 fn becomes_true<'c>(
     watch: &Watch,
     mode: &Mode,
     end: f64,
     term: impl Fn(usize) -> &'c [f64],
     was_below: impl Fn(usize) -> bool,
+    place: impl Fn(usize, &Root) -> f64,
 ) -> Option<f64> {
     if !holds(watch, mode) {
         return None;
@@ -287,11 +292,13 @@ fn becomes_true<'c>(
             consider(0.0);
         }
         let mut from = 0.0;
-        while let Some(root) = first_root(curve, from)
-            && root.s <= end
-        {
+        while let Some(root) = first_root(curve, from) {
+            let s = place(k, &root);
+            if s > end {
+                break;
+            }
             if root.direction == Direction::Rising && !root.grazing {
-                consider(root.s);
+                consider(s);
             }
             // A root that rounding puts at 0 must not be found again.
             from = root.s.max(f64::MIN_POSITIVE);

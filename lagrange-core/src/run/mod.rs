@@ -9,6 +9,7 @@ mod log;
 mod region;
 mod rest;
 pub(crate) mod round;
+mod samples;
 mod shares;
 mod singular;
 mod stepping;
@@ -381,7 +382,8 @@ impl<T: Scalar> Run<T> {
             let steps = self.trajectory.work.steps;
             let stays = matches!(self.stepper, Stepper::Taylor(_)) && !self.drifts;
             let near = self.distance < NEAR;
-            if near || !stays || steps.is_multiple_of(STEPS_OF_ROUNDING) {
+            let projects = near || !stays || steps.is_multiple_of(STEPS_OF_ROUNDING);
+            if projects && !self.is_undecided() {
                 self.project(near)?;
             }
         }

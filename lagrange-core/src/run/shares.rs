@@ -20,6 +20,12 @@ const ROOT: f64 = 1e-9;
 /// So often are the joint guards of one step found anew.
 const MOST_CORRECTIONS: usize = 12;
 
+/// Joint guards are also looked for at these parts of a step,
+const WITHIN: [f64; 3] = [0.25, 0.5, 0.75];
+
+/// and watched from there on if they have come this near to zero, relative.
+const NEARBY: f64 = 0.5;
+
 impl<T: Scalar> Run<T> {
     /// Looks at the forces at the last value of the dynamics, in the mode of the run.
     pub(super) fn look_at_shares(&mut self) {
@@ -54,9 +60,15 @@ impl<T: Scalar> Run<T> {
         curves.arm(single, mode, dynamics);
     }
 
-    /// At the end of a step that the dynamics have evaluated, after `corrections` others: whether joint guards must be
-    /// looked at again, because that state allows no forces, or because the root of one was none.
-    pub(super) fn corrects_joints(&mut self, hit: &Hit, corrections: &mut usize) -> bool {
+    /// At part `looked` of a step, its end or just before it, which the dynamics have evaluated, after `corrections` others:
+    /// whether joint guards must be looked at again, because that state allows no forces, because one before it does not or
+    /// comes near to it, or because the root of one was none.
+    pub(super) fn corrects_joints(
+        &mut self,
+        hit: &Hit,
+        looked: f64,
+        corrections: &mut usize,
+    ) -> bool {
         if !self.dynamics.has_dependent_rows() && !self.sharing.has_open() {
             return false;
         }
@@ -65,11 +77,11 @@ impl<T: Scalar> Run<T> {
             return false;
         }
         let critical = self.sharing.critical(BORDER);
-        let reading = Reading::Values(&self.dynamics);
-        let value = critical.as_ref().map(|joint| {
-            let joints = core::slice::from_ref(joint);
-            sharing::value(Guard::Joint(0), joints, &self.mode, &reading)
-        });
+        let value = critical.as_ref().map(|joint| self.joint_value(joint));
+        if self.sharing.has_open() && self.finds_joints_within(looked) {
+            *corrections += 1;
+            return true;
+        }
         let fallen = self.fallen.iter().find_map(|guard| match (hit, guard) {
             (Hit::Guards(_), Guard::Joint(k)) => Some(*k),
             _ => None,
@@ -86,6 +98,37 @@ impl<T: Scalar> Run<T> {
         true
     }
 
+    /// Looks for joint guards at some instants before part `end` of the step, where `dynamics` and `scratch` end again: whether
+    /// there are new ones, or known ones are below zero with weights that are new.
+    fn finds_joints_within(&mut self, end: f64) -> bool {
+        let mut found = false;
+        for part in WITHIN {
+            if self.evaluate_end(part * end).is_err() {
+                continue;
+            }
+            self.sharing.look(&self.dynamics);
+            let Some(joint) = self.sharing.critical(NEARBY) else {
+                continue;
+            };
+            let mut known = self.curves.joints.iter();
+            match known.position(|known| known.is_like(&joint)) {
+                None => {
+                    self.curves.joints.push(joint);
+                    found = true;
+                }
+                Some(k) => {
+                    let falls = self.joint_value(&joint) < -ROOT;
+                    found |= falls && self.joint_value(&self.curves.joints[k]) >= -ROOT;
+                    self.curves.joints[k] = joint;
+                }
+            }
+        }
+        // What could be evaluated before.
+        _ = self.evaluate_end(end);
+        self.look_at_shares();
+        found
+    }
+
     /// The forces of all rows at the last value of the dynamics, to be reported; and which are undetermined (none: all
     /// are determined).
     pub(super) fn reported_forces(&mut self, forces: &mut Vec<T>, undetermined: &mut Vec<bool>) {
@@ -97,12 +140,24 @@ impl<T: Scalar> Run<T> {
             let rows = 0..self.description().rows.len();
             forces.extend(rows.map(|row| self.dynamics.force(row)));
         }
+        if self.is_undecided() {
+            undetermined.clear();
+            undetermined.resize(forces.len(), false);
+            for &row in self.dynamics.acting_rows() {
+                undetermined[row] = true;
+            }
+        }
     }
 
     /// How far a joint guard is from the zero that it was located as.
     pub(super) fn joint_residue(&self, joint: &Joint) -> f64 {
+        self.joint_value(joint).abs()
+    }
+
+    /// A joint guard at the last value of the dynamics.
+    fn joint_value(&self, joint: &Joint) -> f64 {
         let joints = core::slice::from_ref(joint);
         let reading = Reading::Values(&self.dynamics);
-        sharing::value(Guard::Joint(0), joints, &self.mode, &reading).abs()
+        sharing::value(Guard::Joint(0), joints, &self.mode, &reading)
     }
 }

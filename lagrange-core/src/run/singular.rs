@@ -21,17 +21,22 @@ const NEARER: f64 = 0.35;
 /// Farther away than this from one it may end anywhere.
 const CLOSE: f64 = 0.2;
 /// Else it is tried this much longer, over that position,
-const LEAP: f64 = 1.5;
+const LEAPS: [f64; 4] = [1.25, 1.5, 1.8, 2.2];
 /// with any degree from this on,
 const LEAST_DEGREE: usize = 6;
 /// and then this much shorter,
 pub(super) const RETREAT: f64 = 0.75;
 /// so many times.
 pub(super) const MOST_RETREATS: usize = 5;
+/// Nearer than this to one the equations say nothing reliable about forces,
+const UNDECIDED: f64 = 1e-2;
 /// Error of a leap in units of what is allowed for a step,
-const GOOD: f64 = 30.0;
+const GOOD: f64 = 3.0;
 /// and where nothing better can be had any more.
 const BEARABLE: f64 = 1e4;
+
+/// Nearer than this the steps of other methods are left to Taylor series.
+const DOUBTFUL: f64 = 0.4;
 
 /// A pivot below this share of the first has always been zero: its row depends on others everywhere.
 const DEPENDENT: f64 = 1e-10;
@@ -173,46 +178,81 @@ impl<T: Scalar> Run<T> {
         distance < CLOSE && distance < NEARER * self.distance
     }
 
-    /// Tries a step over the loss of rank that one of length `h` comes too close to.
-    ///
-    /// Rounding enters the equations amplified and grows through the coefficients as if the solution had a pole there; the
-    /// truncation error falls with the order. The order with the least defect beyond is the best compromise. False if none
-    /// is good enough; else the step is made and its end evaluated.
-    pub(super) fn leap(&mut self, h: f64) -> bool {
-        let h = LEAP * h;
-        if h > self.end - self.t.value() {
+    /// Whether the step at hand begins near a loss of rank, ends near one or passes it: only Taylor series leap over it, other
+    /// methods may go on along another branch of the constraints.
+    pub(super) fn passes_close(&mut self) -> bool {
+        if !self.rank.watches() {
             return false;
         }
+        self.distance < DOUBTFUL
+            || [0.5, 1.0].into_iter().any(|s| {
+                self.evaluate_end(s).is_err() || self.rank.distance(&self.dynamics) < DOUBTFUL
+            })
+    }
+
+    /// Tries a step over the loss of rank that one of length `h` comes too close to; what happens first in it.
+    ///
+    /// Rounding enters the equations amplified and grows through the coefficients as if the solution had a pole there; the
+    /// truncation error falls with the order. The length and order with the least defect beyond are the best compromise. Nothing if none
+    /// is good enough, or if the mode would have to be decided close to the loss of rank; else the step is made up to the first hit
+    /// in it or the end of the run, and its end evaluated.
+    pub(super) fn leap(&mut self, h: f64) -> Option<Hit> {
         let mut least = if self.distance < CLOSE {
             BEARABLE
         } else {
             GOOD
         };
         let mut best = None;
-        for degree in LEAST_DEGREE..=self.order {
-            if let Some((defect, distance)) = self.beyond(h, degree)
-                && defect < least
-                && distance >= NEARER * NEARER * self.distance
-            {
-                (least, best) = (defect, Some((degree, distance)));
+        for leap in LEAPS {
+            for degree in LEAST_DEGREE..=self.order {
+                if let Some((defect, distance)) = self.beyond(leap * h, degree)
+                    && defect < least
+                    && distance >= NEARER * NEARER * self.distance
+                {
+                    (least, best) = (defect, Some((leap * h, degree)));
+                }
             }
         }
-        let Some((degree, distance)) = best else {
-            return false;
-        };
+        let (h, degree) = best?;
+        self.write_polynomial(h.min(self.end - self.t.value()), degree);
+        self.curves
+            .take_series(&self.dynamics, &self.mode, &self.powers);
+        let hit = self.first_hit();
+        let distance = self.distance_at(hit.end());
+        let decides = matches!(hit, Hit::Guards(_));
+        if hit.end() == 0.0 || decides && distance < UNDECIDED {
+            return None;
+        }
         self.distance = distance;
-        self.beyond(h, degree).is_some()
+        if distance < UNDECIDED {
+            // Forces are known a little before only.
+            let parts = [0.99, 0.9, 0.7, 0.4];
+            _ = parts
+                .into_iter()
+                .find(|part| self.distance_at(part * hit.end()) >= UNDECIDED);
+            self.state_at_end(hit.end());
+        }
+        Some(hit)
+    }
+
+    /// Whether constraints are about to lose their rank at the present state: their forces are those of another instant.
+    pub(super) fn is_undecided(&self) -> bool {
+        self.distance < UNDECIDED
+    }
+
+    /// Distance from a loss of rank at part `s` of the step at hand; 0 where the equations cannot be solved.
+    fn distance_at(&mut self, s: f64) -> f64 {
+        match self.evaluate_end(s) {
+            Ok(()) => self.rank.distance(&self.dynamics),
+            Err(_) => 0.0,
+        }
     }
 
     /// Defect and distance from a loss of rank at the end of a step of length `h` with a polynomial of this degree; nothing
-    /// if it cannot be evaluated there or something happens on the way.
+    /// if it cannot be evaluated there.
     fn beyond(&mut self, h: f64, degree: usize) -> Option<(f64, f64)> {
         self.write_polynomial(h, degree);
-        self.curves
-            .take_series(&self.dynamics, &self.mode, &self.powers);
-        if self.first_hit() != Hit::Nothing || self.evaluate_end(1.0).is_err() {
-            return None;
-        }
+        self.evaluate_end(1.0).ok()?;
         let acceleration = self.dynamics.acceleration();
         let defect = taylor::defect(&self.step, 1.0, acceleration, self.tolerance);
         Some((defect, self.rank.distance(&self.dynamics)))

@@ -9,14 +9,18 @@ use crate::dynamics::EvaluationError;
 use crate::error::Error;
 use crate::integrate::taylor::{self, DefectControl, Verdict};
 use crate::integrate::{Integrator, Method, StepError, onto_step};
-use crate::modes::guard::{self, Guard};
-use crate::modes::reading::Reading;
+use crate::modes::guard::Guard;
 use crate::trajectory::State;
 
 /// Where rounding hides how a guard begins, the step is made shorter by this.
 const CLOSER_LOOK: f64 = 0.1;
 /// But not beyond this share of the time that is left (close to time 0 its resolution is no limit).
 const CLOSEST: f64 = 1e-20;
+
+/// So many times a step is made shorter because the interpolation of its guards does not hold.
+const MOST_TRIES: usize = 10;
+/// Steps of so many times the resolution of time are left to Taylor series.
+const KINK: f64 = 1e4;
 
 /// What makes the polynomials of a step.
 #[derive(Debug)]
@@ -111,8 +115,8 @@ impl<T: Scalar> Run<T> {
             // A step must not end where the constraints lose rank.
             let distance = self.rank.distance(&self.dynamics);
             if self.ends_close(distance) && closer < MOST_RETREATS {
-                if self.leap(h) {
-                    return Ok(Hit::Nothing);
+                if let Some(hit) = self.leap(h) {
+                    return Ok(hit);
                 }
                 closer += 1;
                 self.trajectory.work.rejected += 1;
@@ -126,7 +130,7 @@ impl<T: Scalar> Run<T> {
             // The polynomial is as good at its root however long the step: the next try ends before it.
             match control.judge(h * end, defect, self.order) {
                 Verdict::Accept => {
-                    if self.corrects_joints(&hit, &mut corrections) {
+                    if self.corrects_joints(&hit, looked, &mut corrections) {
                         continue;
                     }
                     self.distance = distance;
@@ -261,91 +265,93 @@ impl<T: Scalar> Run<T> {
         {
             return self.taylor_step();
         }
-        let Stepper::Other(method, wanted) = &mut self.stepper else {
-            return Ok(Hit::Nothing);
+        let mut h = first.map_err(|e| self.no_step(e))?.min(longest);
+        for _ in 0..MOST_TRIES {
+            if h <= KINK * self.resolution() && self.curves.get(0).is_some() {
+                break;
+            }
+            let next = self.integrate(h)?;
+            if let Some(step) = self.loses_motion() {
+                return Err(self.step_too_large(step));
+            }
+            if self.passes_close() {
+                break;
+            }
+            self.sample()?;
+            let defect = self.interpolation_defect().map_err(|e| self.error(e))?;
+            h = self.stretch(defect) * self.step.h.value();
+            if let Stepper::Other(_, wanted) = &mut self.stepper {
+                *wanted = Some(next.min(h));
+            }
+            if defect <= 1.0 {
+                return self.hit_among_samples();
+            }
+            self.trajectory.work.rejected += 1;
+        }
+        // Where a guard has a kink no interpolation holds; where constraints lose rank no step does.
+        if let Stepper::Other(_, wanted) = &mut self.stepper {
+            *wanted = None;
+        }
+        self.taylor_step()
+    }
+
+    /// One step of a method other than Taylor's, of at most `h`; the step that it would like to take next.
+    fn integrate(&mut self, h: f64) -> Result<f64, Error> {
+        let Stepper::Other(method, _) = &mut self.stepper else {
+            return Ok(h);
         };
         let (q, v) = (&self.state.q, &self.state.v);
-        let outcome = first.and_then(|h| {
-            let h = h.min(longest);
-            method.step(
-                &mut self.dynamics,
-                self.t,
-                q,
-                v,
-                h,
-                self.tolerance,
-                &mut self.step,
-            )
-        });
-        match outcome {
+        let (dynamics, step) = (&mut self.dynamics, &mut self.step);
+        match method.step(dynamics, self.t, q, v, h, self.tolerance, step) {
             Ok(accepted) => {
-                *wanted = Some(accepted.h_next);
                 self.trajectory.work.rejected += accepted.rejected;
+                Ok(accepted.h_next)
             }
-            Err(StepError::Acceleration(e)) => return Err(self.error(e)),
-            Err(StepError::TooSmall { h, .. }) => return Err(self.step_too_small(h)),
-            Err(StepError::NoConvergence { h, .. }) => {
-                let mode = self.mode.display(self.description()).to_string();
-                return Err(Error::StepTooLarge {
-                    time: self.t.value(),
-                    step: h,
-                    mode,
-                });
-            }
+            Err(error) => Err(self.no_step(error)),
         }
+    }
+
+    fn no_step(&self, error: StepError<EvaluationError>) -> Error {
+        match error {
+            StepError::Acceleration(e) => self.error(e),
+            StepError::TooSmall { h, .. } => self.step_too_small(h),
+            StepError::NoConvergence { h, .. } => self.step_too_large(h),
+        }
+    }
+
+    fn step_too_large(&self, step: f64) -> Error {
+        Error::StepTooLarge {
+            time: self.t.value(),
+            step,
+            mode: self.mode.display(self.description()).to_string(),
+        }
+    }
+
+    /// Samples the guards along the step.
+    fn sample(&mut self) -> Result<(), Error> {
+        let State { q, v } = &mut self.scratch;
+        let (curves, dynamics) = (&mut self.curves, &mut self.dynamics);
+        let sampled = curves.sample(dynamics, &self.mode, &self.step, q, v);
+        sampled.map_err(|e| self.error(e))
+    }
+
+    /// What happens first in a step whose guards were sampled.
+    fn hit_among_samples(&mut self) -> Result<Hit, Error> {
         let mut corrections = 0;
         loop {
-            let sampled = self.curves.sample(
-                &mut self.dynamics,
-                &self.mode,
-                &self.step,
-                &mut self.scratch.q,
-                &mut self.scratch.v,
-            );
-            sampled.map_err(|e| self.error(e))?;
+            self.sharpen_roots();
             let hit = self.first_hit();
             // What happens close to the start is for a method that can make any step.
             if hit.end() == 0.0 || self.hides_a_start() {
                 return self.taylor_step();
             }
-            let hit = self.refined(hit)?;
             self.evaluate_end(hit.end()).map_err(|e| self.error(e))?;
-            if !self.corrects_joints(&hit, &mut corrections) {
+            self.distance = self.rank.distance(&self.dynamics);
+            if !self.corrects_joints(&hit, hit.end(), &mut corrections) {
                 return Ok(hit);
             }
+            self.sample()?;
         }
-    }
-
-    /// Moves the end of a step to where the guard located there vanishes on the dense output: the guard's interpolation has an
-    /// error of its own.
-    fn refined(&mut self, hit: Hit) -> Result<Hit, Error> {
-        const MOST: usize = 5;
-        let (Hit::Guards(located), Some(&guard)) = (&hit, self.fallen.first()) else {
-            return Ok(hit);
-        };
-        let (located, mut s) = (*located, *located);
-        if self.curves.of(guard).is_none() {
-            return Ok(hit);
-        }
-        let slope = |s: f64, curve: &[f64]| {
-            let terms = curve.iter().enumerate().skip(1).rev();
-            terms.fold(0.0, |sum, (k, c)| sum * s + k as f64 * c)
-        };
-        for _ in 0..MOST {
-            self.evaluate_end(s).map_err(|e| self.error(e))?;
-            let value = guard::value(guard, &self.mode, &Reading::Values(&self.dynamics));
-            let change = value / self.curves.of(guard).map_or(f64::NAN, |c| slope(s, c));
-            let next = s - change;
-            // Near a double root, or where it lies in the next step, the interpolation has to do.
-            if !(next > 0.0 && next <= 1.0 && (next - located).abs() < 0.1) {
-                return Ok(hit);
-            }
-            s = next;
-            if change.abs() <= 4.0 * f64::EPSILON * s {
-                break;
-            }
-        }
-        Ok(Hit::Guards(s))
     }
 
     fn step_too_small(&self, step: f64) -> Error {

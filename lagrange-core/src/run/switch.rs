@@ -96,8 +96,12 @@ impl<T: Scalar> Run<T> {
         }
         self.begin_series().map_err(|e| self.error(e))?;
         if self.dynamics.has_dependent_rows() {
-            self.expand()?;
             let valued = self.valued;
+            self.evaluate_all_rows()?;
+            self.decider.decision.ambiguous |= self.dynamics.leaves_motion_open();
+            self.ask_for_guards();
+            self.series = Progress::None;
+            self.expand()?;
             self.evaluate()?;
             self.valued = valued;
             self.note_shares();
@@ -161,15 +165,11 @@ impl<T: Scalar> Run<T> {
             || before.branches != after.branches
     }
 
-    /// Whether the gap of contact `c` closes at the present state.
+    /// Whether the gap of contact `c` closes at the present state: faster than rounding does.
     fn approaching(&self, c: usize) -> bool {
         let d = self.description();
-        self.dynamics.effects().includes(d, Item::Contact(c))
-            && self
-                .dynamics
-                .motion(d.rows[d.contacts[c].row].velocity)
-                .value()
-                < 0.0
+        let (rate, size) = self.rate(d.contacts[c].row);
+        self.dynamics.effects().includes(d, Item::Contact(c)) && rate < -f64::EPSILON * size
     }
 
     /// What is known after an impact; `dynamics` still holds the state before.

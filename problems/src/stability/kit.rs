@@ -78,7 +78,17 @@ pub fn run<S: System<Scalar = f64>>(
     start: StartId,
     until: f64,
 ) -> Result<Trajectory<S>, Surprise> {
-    let simulation = Simulation::new(scene).tolerance(TOLERANCE);
+    run_by(scene, (Method::Taylor, TOLERANCE), start, until)
+}
+
+/// The same by a method at a tolerance.
+pub fn run_by<S: System<Scalar = f64>>(
+    scene: &S,
+    (method, tolerance): (Method, f64),
+    start: StartId,
+    until: f64,
+) -> Result<Trajectory<S>, Surprise> {
+    let simulation = Simulation::new(scene).method(method).tolerance(tolerance);
     Ok(simulation.run(scene.at(start), 0.0..until)?)
 }
 

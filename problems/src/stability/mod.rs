@@ -9,6 +9,7 @@ mod constraints;
 mod coordinates;
 mod frictions;
 mod kit;
+mod methods;
 mod rolling;
 mod scales;
 mod slips;
@@ -280,5 +281,23 @@ pub static CASES: &[Case] = &[
         scene: "unequal-pendulum",
         trouble: "masses 1 : 1e8: digits lost in the mass matrix",
         measure: scales::unequal_pendulum,
+    },
+    Case {
+        name: "catch-by-all-methods",
+        scene: "string-pendulum",
+        trouble: "a long step sees nothing of a guard that bends",
+        measure: methods::catch,
+    },
+    Case {
+        name: "dead-positions-by-all-methods",
+        scene: "parallelogram",
+        trouble: "goes on along the other branch, without a word",
+        measure: methods::dead_positions,
+    },
+    Case {
+        name: "coarse-bounces",
+        scene: "thrown-ball",
+        trouble: "what is left of the bounces is forgotten",
+        measure: methods::coarse_bounces,
     },
 ];

@@ -353,6 +353,7 @@ fn steps_that_lose_the_motion_are_named_as_such() {
         ("gauss6:10", 10.0),
         ("rk4:1", 1.0),
         ("gauss6:1", 1.0),
+        ("rk4:0.3", 0.3),
     ] {
         let error = Simulation::new(&scene)
             .method(method.parse().expect("a method"))

@@ -69,4 +69,7 @@ cases! {
     turntable "turntable"
     spring_pendulum "spring-pendulum"
     unequal_pendulum "unequal-pendulum"
+    catch "catch-by-all-methods"
+    dead_positions "dead-positions-by-all-methods"
+    coarse_bounces "coarse-bounces"
 }

@@ -60,6 +60,8 @@ pub struct Impact<T> {
 pub struct Collider<T> {
     /// What the last impact has done.
     pub outcome: Impact<T>,
+    /// The same of the last in which contacts came to rest.
+    pub rest: Impact<T>,
     collision: Collision<T>,
     gathering: Gathering<T>,
     law: Law<T>,
@@ -81,12 +83,44 @@ impl<T: Scalar> Collider<T> {
         near: &[usize],
         impacts: Impacts,
     ) -> Result<(), Error> {
+        self.solve_share(dynamics, t, v, near, (impacts, 1.0))
+    }
+
+    /// The impact in which contacts come to rest that have bounced infinitely often, without restitution, into [`Self::rest`].
+    ///
+    /// # Errors
+    /// Those of [`Self::solve`].
+    pub fn bring_to_rest(
+        &mut self,
+        dynamics: &Dynamics<T>,
+        t: f64,
+        v: &[T],
+        near: &[usize],
+    ) -> Result<(), Error> {
+        core::mem::swap(&mut self.outcome, &mut self.rest);
+        let solved = self.solve_share(dynamics, t, v, near, (Impacts::Together, 0.0));
+        core::mem::swap(&mut self.outcome, &mut self.rest);
+        solved
+    }
+
+    /// The impact with this share of every restitution.
+    fn solve_share(
+        &mut self,
+        dynamics: &Dynamics<T>,
+        t: f64,
+        v: &[T],
+        near: &[usize],
+        (impacts, share): (Impacts, f64),
+    ) -> Result<(), Error> {
         let d = dynamics.description();
         let contact = |k: usize| d.contacts[near.get(k).copied().unwrap_or(0)].name;
         self.law.search.tried = 0;
         let collected = self
             .gathering
             .collect(dynamics, v, near, &mut self.collision);
+        for touch in &mut self.collision.touches {
+            touch.restitution *= T::from_f64(share);
+        }
         let solved = if collected {
             self.solve_rows(impacts)
         } else {

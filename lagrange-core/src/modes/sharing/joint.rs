@@ -26,6 +26,20 @@ pub struct Joint {
     pub parts: Vec<Part>,
 }
 
+impl Joint {
+    /// Whether it is made of the same guards, of cones about the same side.
+    pub fn is_like(&self, other: &Joint) -> bool {
+        /// Cosine of the angle between sides that one plane touches well enough.
+        const SAME_SIDE: f64 = 0.9;
+        let pairs = self.parts.iter().zip(&other.parts);
+        let alike = |(x, y): (&Part, &Part)| {
+            let cosine = x.along[0] * y.along[0] + x.along[1] * y.along[1];
+            x.guard == y.guard && (x.along == y.along || cosine > SAME_SIDE)
+        };
+        self.parts.len() == other.parts.len() && pairs.into_iter().all(alike)
+    }
+}
+
 /// [`guard::series`], also of joint guards.
 #[inline]
 pub fn series<T: Scalar>(

@@ -1,7 +1,9 @@
 //! Systems that are not in the library, declared here, each with something independent to compare with.
 
+mod aligned;
 mod ball;
 mod belt;
+mod bending_guards;
 mod block;
 mod blows;
 mod breaks;
@@ -20,6 +22,7 @@ mod incline;
 mod instants;
 mod kepler;
 mod landings;
+mod last_bounces;
 mod late;
 mod metric;
 mod multiples_of_pi;
@@ -33,6 +36,7 @@ mod pressed;
 mod quaternion;
 mod region;
 mod rocking_block;
+mod shared_loads;
 mod skate;
 mod sling;
 mod slips;

@@ -1,0 +1,160 @@
+//! Guards that are known by samples: their interpolation is compared with the guards themselves.
+//!
+//! A step of a Runge–Kutta method is chosen for the motion, and the motion of a ball in free flight allows any step. The
+//! gap above a table that shakes does not: where the interpolation is off between its samples the step is made shorter.
+//! Roots of the interpolation are then moved to where the guard vanishes on the dense output.
+
+use super::Run;
+use crate::arithmetic::Scalar;
+use crate::dynamics::EvaluationError;
+use crate::events::{Direction, Root, RootList, roots};
+use crate::integrate::polynomial_derivative as slope;
+use crate::modes::guard::Guard;
+
+/// What the next step aims at, in units of what is allowed.
+const AIM: f64 = 0.3;
+/// Step sizes change by these factors at most.
+const FACTORS: [f64; 2] = [0.1, 5.0];
+
+/// A root of a guard that was sampled.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SampledRoot {
+    guard: Guard,
+    /// Of its interpolation,
+    interpolated: f64,
+    /// of the guard on the dense output,
+    exact: f64,
+    /// and half the width of what rounding lets it be.
+    width: f64,
+}
+
+impl<T: Scalar> Run<T> {
+    /// How far the interpolated guards are off between their samples, in units of what is allowed.
+    pub(super) fn interpolation_defect(&mut self) -> Result<f64, EvaluationError> {
+        if self.curves.get(0).is_none() {
+            return Ok(0.0);
+        }
+        let mut worst = 0.0_f64;
+        for s in self.curves.between_samples() {
+            self.evaluate_end(s)?;
+            let (curves, tolerance) = (&self.curves, self.tolerance.relative);
+            let defect = curves.interpolation_defect(&mut self.dynamics, &self.mode, s, tolerance);
+            // Not the larger of a number and a NaN, which would be the number.
+            worst = if defect <= worst { worst } else { defect };
+        }
+        Ok(worst)
+    }
+
+    /// By which factor a step with this defect of its guards may be longer, or has to be shorter.
+    pub(super) fn stretch(&self, defect: f64) -> f64 {
+        let [least, most] = FACTORS;
+        let degree = self.curves.get(0).map_or(1, |(_, c)| c.len());
+        let factor = (AIM / defect).powf(1.0 / degree as f64);
+        if factor.is_nan() {
+            least
+        } else {
+            factor.clamp(least, most)
+        }
+    }
+
+    /// Finds where the guards vanish on the dense output, next to the roots of their interpolations.
+    pub(super) fn sharpen_roots(&mut self) {
+        self.curves.roots.clear();
+        let mut all = RootList::new();
+        let mut index = 0;
+        while let Some((guard, curve)) = self.curves.get(index) {
+            roots(self.judged(guard, curve).unwrap_or_default(), &mut all);
+            for root in all.iter() {
+                let exact = self.sharpened(index, root);
+                let width = exact.map_or(0.5 * root.width, |s| 2.0 * f64::EPSILON * s);
+                self.curves.roots.push(SampledRoot {
+                    guard,
+                    interpolated: root.s,
+                    exact: exact.unwrap_or(root.s),
+                    width,
+                });
+            }
+            index += 1;
+        }
+    }
+
+    /// Where guard number `index` vanishes next to a root of its interpolation. Nothing where it only touches zero, or vanishes
+    /// beyond the step.
+    fn sharpened(&mut self, index: usize, root: &Root) -> Option<f64> {
+        const MOST_PROBES: usize = 12;
+        const MOST_SECANTS: usize = 60;
+        if root.grazing {
+            return None;
+        }
+        let (guard, curve) = self.curves.get(index)?;
+        let known = curve.len() - self.judged(guard, curve)?.len();
+        let rate = slope(curve, root.s).abs();
+        let side = match root.direction {
+            Direction::Falling => 1.0,
+            Direction::Rising => -1.0,
+        };
+        // Positive before the root.
+        let guard_at = |run: &mut Self, s: f64| -> Option<f64> {
+            run.evaluate_end(s).ok()?;
+            run.dynamics.report_value();
+            Some(side * run.curves.value(index, &run.mode, &run.dynamics))
+        };
+        let first = guard_at(self, root.s)?;
+        let mut reach = (2.0 * first / rate).abs().max(4.0 * f64::EPSILON * root.s);
+        let [mut before, mut after] = [(root.s, first); 2];
+        for _ in 0..MOST_PROBES {
+            if before.1 >= 0.0 && after.1 <= 0.0 {
+                break;
+            }
+            let (s, probe) = if first > 0.0 {
+                ((root.s + reach).min(1.0), &mut after)
+            } else {
+                ((root.s - reach).max(0.0), &mut before)
+            };
+            *probe = (s, guard_at(self, s)?);
+            reach *= 4.0;
+        }
+        if before.1 < 0.0 || after.1 > 0.0 || known > 0 && before.0 == 0.0 {
+            return None;
+        }
+        // Secants that keep the root between them (the Illinois algorithm, Dowell & Jarratt 1971).
+        let mut weights = [before.1, after.1];
+        let mut moved = 0.0;
+        for _ in 0..MOST_SECANTS {
+            let (width, resolution) = (after.0 - before.0, 2.0 * f64::EPSILON * after.0);
+            if before.1 == 0.0 || after.1 == 0.0 || width <= resolution {
+                break;
+            }
+            let share = weights[0] / (weights[0] - weights[1]);
+            let middle = before.0 + width * share;
+            let s = middle.clamp(before.0 + 0.5 * resolution, after.0 - 0.5 * resolution);
+            let value = guard_at(self, s)?;
+            let again = if value * moved > 0.0 { 0.5 } else { 1.0 };
+            moved = value;
+            if value > 0.0 {
+                (before, weights) = ((s, value), [value, again * weights[1]]);
+            } else {
+                (after, weights) = ((s, value), [again * weights[0], value]);
+            }
+        }
+        Some(if before.1.abs() < after.1.abs() {
+            before.0
+        } else {
+            after.0
+        })
+    }
+
+    /// Where a root of a guard's polynomial is, and half its width: of what was sampled, on the dense output.
+    pub(super) fn place(&self, guard: Guard, root: &Root) -> (f64, f64) {
+        let of_guard = self
+            .curves
+            .roots
+            .iter()
+            .filter(|known| known.guard == guard);
+        let distance = |known: &&SampledRoot| (known.interpolated - root.s).abs();
+        let nearest = of_guard.min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        nearest.map_or((root.s, 0.5 * root.width), |known| {
+            (known.exact, known.width)
+        })
+    }
+}

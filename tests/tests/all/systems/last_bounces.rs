@@ -1,0 +1,95 @@
+//! Impacts that accumulate while the body slides on: what is left of them acts on all coordinates.
+
+use super::state;
+use lagrange_core::prelude::*;
+use lagrange_tests::{agree, event, run_by};
+
+/// A block dropped onto a rough incline, which lifts or not while the block bounces.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(s, n),
+    kinetic = mass/2 * (der(s)^2 + der(n)^2),
+    potential = mass * gravity * (n * cos(slope) - s * sin(slope)),
+    contact(plane: n >= lift * t^2 / 2, restitution = bounce),
+    friction(grip on plane: slip = der(s), static = mu),
+)]
+struct Incline {
+    mass: f64,
+    gravity: f64,
+    slope: f64,
+    lift: f64,
+    bounce: f64,
+    mu: f64,
+}
+
+/// While it slides, friction is μ times the normal impulse, however that is distributed: with n = ½ a t² at the end,
+/// ∫N dt = m (a t + g t cos β − ṅ₀). The motion down the incline at the end follows from the momentum.
+#[test]
+fn the_last_bounces_rub_as_the_others_do() {
+    for (lift, bounce, mu) in [(0.0, 0.5, 0.2), (0.0, 0.8, 0.1), (3.0, 0.6, 0.3)] {
+        let scene = Incline {
+            mass: 2.0,
+            gravity: 9.0,
+            slope: 0.3,
+            lift,
+            bounce,
+            mu,
+        };
+        for method in ["taylor", "dop853"] {
+            for tolerance in [1e-6, 1e-9, 1e-12] {
+                let until = 4.0;
+                let start = state(&[0.0, 0.5], &[8.0, -1.0]);
+                let motion = run_by(&scene, (method, tolerance), start, until);
+                let closes = event(&motion, "plane", "accumulates").time;
+                assert!(closes < until);
+                let normal = (lift + 9.0 * scene.slope.cos()) * until + 1.0;
+                let speed = 8.0 + 9.0 * scene.slope.sin() * until - mu * normal;
+                assert!(speed > 0.0, "it slides all the time");
+                let asked = format!("{method} {tolerance:e}, {bounce}: speed");
+                agree(&asked, motion.final_state().v[0], speed, 10.0 * tolerance);
+            }
+        }
+    }
+}
+
+/// A bar that falls flat, end after end, and slides on: the rest of its impacts must not turn its friction round.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, theta),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2) + inertia/2 * der(theta)^2,
+    potential = mass * 9.81 * y,
+    contact(left: y - reach * sin(theta) >= 0, restitution = bounce),
+    contact(right: y + reach * sin(theta) >= 0, restitution = bounce),
+    friction(left_grip on left: slip = der(x) + reach * sin(theta) * der(theta), static = mu),
+    friction(right_grip on right: slip = der(x) - reach * sin(theta) * der(theta), static = mu),
+)]
+struct Bar {
+    mass: f64,
+    inertia: f64,
+    reach: f64,
+    bounce: f64,
+    mu: f64,
+}
+
+#[test]
+fn a_bar_that_has_fallen_flat_is_slowed_down() {
+    let scene = Bar {
+        mass: 1.5,
+        inertia: 0.14,
+        reach: 0.85,
+        bounce: 0.07,
+        mu: 0.15,
+    };
+    for method in ["taylor", "dopri5"] {
+        for tolerance in [1e-6, 1e-9, 1e-12] {
+            let start = state(&[0.0, 1.2, 0.25], &[2.7, -0.4, 0.5]);
+            let motion = run_by(&scene, (method, tolerance), start, 0.9);
+            let asked = format!("{method} {tolerance:e}");
+            assert!(event(&motion, "left", "closed").time < 0.8, "{asked}");
+            // Whatever the ends carry, ∫N dt = m (g t − ẏ₀).
+            let speed = 2.7 - 0.15 * (9.81 * 0.9 + 0.4);
+            agree(&asked, motion.final_state().v[0], speed, 10.0 * tolerance);
+            assert!(motion.verify(0).expect("a certificate").holds(), "{asked}");
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! Frictions that share a load in no determined way, and a load that exceeds what they hold for a moment only.
+
+use super::state;
+use lagrange_core::prelude::*;
+use lagrange_tests::{agree, event, run_by, words};
+
+/// A sledge on two rough runners under a load that comes and goes.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, theta),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2) + inertia/2 * der(theta)^2,
+    potential = mass * gravity * y,
+    contact(rear: y - theta >= 0),
+    contact(front: y + theta >= 0),
+    friction(rear_grip on rear: slip = der(x), static = mu),
+    friction(front_grip on front: slip = der(x), static = mu),
+    force(pull: (load * sin(t)^8, 0) at (x, y)),
+)]
+struct Sledge {
+    mass: f64,
+    inertia: f64,
+    gravity: f64,
+    mu: f64,
+    load: f64,
+}
+
+/// It slips where load sin⁸t = μ m g, however long the steps before are, and whatever the load is at their ends.
+#[test]
+fn a_load_that_is_too_large_for_a_moment_makes_it_slip() {
+    for load in [4.01, 4.3, 6.0] {
+        let scene = Sledge {
+            mass: 1.0,
+            inertia: 0.3,
+            gravity: 10.0,
+            mu: 0.4,
+            load,
+        };
+        for method in ["taylor", "dop853", "verner98", "radau5", "rk4:0.01"] {
+            for tolerance in [1e-6, 1e-12] {
+                let start = state(&[0.0; 3], &[0.0; 3]);
+                let motion = run_by(&scene, (method, tolerance), start, 2.0);
+                let asked = format!("{load} {method} {tolerance:e}");
+                assert!(!words(&motion).is_empty(), "{asked}");
+                for grip in ["rear_grip", "front_grip"] {
+                    let time = event(&motion, grip, "slips").time;
+                    agree(&asked, load * time.sin().powi(8), 4.0, 20.0 * tolerance);
+                    assert!(time < 0.5 * core::f64::consts::PI, "{asked}");
+                }
+            }
+        }
+        let scene = Sledge {
+            load: 3.99,
+            ..scene
+        };
+        let holds = run_by(&scene, ("taylor", 1e-6), state(&[0.0; 3], &[0.0; 3]), 2.0);
+        assert!(words(&holds).is_empty(), "{:?}", words(&holds));
+    }
+}
+
+/// A bar that slides on three supports, of which two are enough.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, theta),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2) + inertia/2 * der(theta)^2,
+    potential = mass * gravity * y,
+    contact(support[k in 0..3]: y + (k - 1) * theta >= 0),
+    friction(first on support[0]: slip = der(x), static = mu),
+    friction(middle on support[1]: slip = der(x), static = nu),
+    friction(last on support[2]: slip = der(x), static = mu),
+)]
+struct Bar {
+    mass: f64,
+    inertia: f64,
+    gravity: f64,
+    mu: f64,
+    nu: f64,
+}
+
+/// With equal coefficients the sum of the forces is enough, with others the share that each support carries decides on
+/// the motion, and rigid bodies do not say it.
+#[test]
+fn a_motion_that_depends_on_undetermined_forces_is_ambiguous() {
+    for (nu, open) in [(0.2, false), (0.0, true), (0.3, true)] {
+        let scene = Bar {
+            mass: 1.0,
+            inertia: 0.3,
+            gravity: 10.0,
+            mu: 0.2,
+            nu,
+        };
+        let start = state(&[0.0; 3], &[5.0, 0.0, 0.0]);
+        let motion = run_by(&scene, ("taylor", 1e-12), start, 1.0);
+        let told = motion.events().iter().any(|e| e.ambiguous);
+        assert_eq!(told, open, "{nu}: {:?}", words(&motion));
+        assert!(motion.verify(0).expect("a certificate").holds());
+        if !open {
+            agree("speed", motion.final_state().v[0], 5.0 - 0.2 * 10.0, 1e-12);
+        }
+    }
+}
