@@ -54,6 +54,9 @@ const NEAR: f64 = 0.7;
 /// Steps between two looks at rows that a step does not leave by more than rounding.
 const STEPS_OF_ROUNDING: usize = 16;
 
+/// A force this near to its limit, relative, is at it if it was.
+const AT_LIMIT: f64 = 1e-13;
+
 /// How much of a Taylor series there is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Progress {
@@ -378,7 +381,7 @@ impl<T: Scalar> Run<T> {
                 self.t = T::from_f64(self.end);
             }
             self.stuck.clear();
-            self.zeros.clear();
+            self.forget_zeros();
             let steps = self.trajectory.work.steps;
             let stays = matches!(self.stepper, Stepper::Taylor(_)) && !self.drifts;
             let near = self.distance < NEAR;
@@ -412,6 +415,17 @@ impl<T: Scalar> Run<T> {
         }
         self.finished |= self.has_seen_all();
         Ok(())
+    }
+
+    /// What began at zero with the last step is an ordinary guard in the next, but for a force that stays at its limit: a block that
+    /// is just held. It is as long as its value is rounding.
+    fn forget_zeros(&mut self) {
+        let mut zeros = core::mem::take(&mut self.zeros);
+        zeros.retain(|&(guard, order)| {
+            let stays = order >= guard::LENGTH && guard.is_force() && self.valued;
+            stays && self.decider.residue(&self.dynamics, &self.mode, &[guard]) <= AT_LIMIT
+        });
+        self.zeros = zeros;
     }
 
     /// Whether everything has happened that the run is to end after.

@@ -43,12 +43,12 @@ fn work_on_the_wheel_does_not_grow() {
         &expect![[r#"
             method        steps  rejected  evaluations  series  factorizations  projections
             taylor           13         1           20      14               0            0
-            dop853           20         0          496       4               0            0
-            dopri5           91         0         1385       4               0            0
-            verner98         17         0          526       4               0            0
-            radau5          281         0         4524       4               9            0
-            rk4:0.005       603         0         7851       4               0            0
-            gauss6:0.01     303         0         6424       4               0            0
+            dop853           20         0          545       4               0            0
+            dopri5           91         0         1572       4               0            0
+            verner98         17         0          571       4               0            0
+            radau5          281         0         5098       4               9            0
+            rk4:0.005       603         0         9670       4               0            0
+            gauss6:0.01     303         0         7345       4               0            0
         "#]],
     );
 }
@@ -61,12 +61,12 @@ fn work_on_the_cartesian_pendulum_does_not_grow() {
         &expect![[r#"
             method        steps  rejected  evaluations  series  factorizations  projections
             taylor           85         0           87      85              76           75
-            dop853          167         6         2859       1             192          117
-            dopri5          734         0         5696       1             828          554
-            verner98        119         0         2545       1              51           42
-            radau5         3077         0        24834       1             207            2
-            rk4:0.005      2000         0        11886       1            2015         1884
-            gauss6:0.01    1001         0        16093       1               0            0
+            dop853          167         6         3193       1             192          117
+            dopri5          734         0         7164       1             828          554
+            verner98        119         0         2783       1              51           42
+            radau5         3077         0        30988       1             207            2
+            rk4:0.005      2000         0        17886       1            2015         1884
+            gauss6:0.01    1001         0        19096       1               0            0
         "#]],
     );
 }

@@ -1,6 +1,7 @@
 //! Systems that are not in the library, declared here, each with something independent to compare with.
 
 mod aligned;
+mod at_limit;
 mod ball;
 mod belt;
 mod bending_guards;
