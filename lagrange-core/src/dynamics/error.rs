@@ -104,7 +104,7 @@ impl fmt::Display for EvaluationError {
             ),
             Self::NoSeries { operation } => write!(
                 f,
-                "the motion has no Taylor series here ({}); use a Runge-Kutta method",
+                "the motion or a guard has no Taylor series here ({}), and every method decides modes by series; write what breaks off there as branches, with `if`",
                 match operation {
                     Operation::Division => "division by zero",
                     Operation::SquareRoot => "square root of a number that is not positive",
