@@ -84,7 +84,7 @@ pub fn coarse_bounces(_: Extent) -> Result<Vec<Figure>, Surprise> {
             let asked = (Method::Taylor, tolerance);
             let coarse = run_by(&scene, asked, ThrownBall::THROWN, 3.0)?;
             let [(x, v), (place, rate)] = [&exact, &coarse]
-                .map(Trajectory::final_state)
+                .map(|run| run.final_state())
                 .map(|end| (end.q[0], end.v[0]));
             figures.push(Figure::new(
                 format!("{what}, {tolerance:e}: speed"),
