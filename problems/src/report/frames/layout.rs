@@ -21,6 +21,11 @@ const ROUND: &str = "<radialGradient id=\"round\" cx=\".36\" cy=\".3\" r=\".75\"
      stop-opacity=\".45\"/><stop offset=\".4\" stop-color=\"#fff\" stop-opacity=\"0\"/><stop offset=\"1\" \
      stop-opacity=\".45\"/></radialGradient>\n";
 
+/// Units from left to right of so many panels.
+pub fn width(panels: usize) -> f64 {
+    GAP + panels as f64 * (WIDTH + GAP)
+}
+
 /// Everything that does not depend on the instant.
 pub(super) struct Layout<'a> {
     pub panels: Vec<Place<'a>>,
@@ -90,7 +95,7 @@ impl<'a> Layout<'a> {
                 .enumerate()
                 .map(place)
                 .collect(),
-            width: GAP + panels.len() as f64 * (WIDTH + GAP),
+            width: width(panels.len()),
             height: top + height + GAP + BAR + 2.0 * LETTER,
             first,
             last,
@@ -212,8 +217,8 @@ impl Place<'_> {
         }
         let arrows = self.picture.iter().flat_map(|picture| &picture.arrows);
         let ends = |arrow: &picture::Arrow| {
-            let ends = arrow.numbers.each_ref().map(|column| column.at(place));
-            (arrow.name.clone(), ends)
+            let [x, y, dx, dy] = arrow.numbers.each_ref().map(|column| column.at(place));
+            (arrow.name.clone(), [x, y, x + dx, y + dy])
         };
         arrows.map(ends).map(seen).collect()
     }

@@ -55,10 +55,10 @@ function picture(stage, run) {
     const shape = svg("polygon", { style: `fill: ${colour(i)}` }, pushes);
     const name = svg("text", { class: "name", style: `fill: ${colour(i)}` }, pushes);
     name.textContent = arrow.name;
-    const value = entry(legend, `force ${arrow.name}`, colour(i));
+    const value = entry(legend, arrow.impulse ? arrow.name : `force ${arrow.name}`, colour(i));
     return (where) => {
-      const [x1, y1, x2, y2] = arrow.numbers.map((column) => at(column, where));
-      value.textContent = `${digits(at(arrow.size, where))} N`;
+      const [x1, y1, dx, dy] = arrow.numbers.map((column) => at(column, where)), [x2, y2] = [x1 + dx, y1 + dy];
+      value.textContent = `${digits(at(arrow.size, where))} ${arrow.impulse ? "Ns" : "N"}`;
       const length = Math.hypot(x2 - x1, y2 - y1);
       shape.style.display = length < 2 ? "none" : "";
       name.style.display = length < 0.5 * letter ? "none" : "";

@@ -86,7 +86,7 @@ function space(stage, run) {
   const pointed = arrows.map((arrow, i) => {
     const name = svg("text", { class: "name", style: `fill: ${colour(i)}` }, over);
     name.textContent = arrow.name;
-    return { ...arrow, label: name, value: entry(legend, `force ${arrow.name}`, colour(i)), paint: `c${i % 6}` };
+    return { ...arrow, label: name, value: entry(legend, arrow.impulse ? arrow.name : `force ${arrow.name}`, colour(i)), paint: `c${i % 6}` };
   });
   if (cut) html("p", { class: "note" }, stage, "The strongest forces are drawn shorter than they are.");
   const scale = svg("text", { class: "words", x: 10 }, over);
@@ -129,8 +129,8 @@ function space(stage, run) {
     render({ parts, thrusts: pushing ? thrusts(last) : [], floor, camera: now, light, away: 0.004 * size, taps, sun, colours, traces: traces.map((points) => ({ points, count: last[0] + 1 })) });
     const taken = [];
     for (const arrow of pointed) {
-      const { size: newtons, label, value, name } = arrow, { from, along, long } = ends(arrow, last), fine = thin * seen.near();
-      value.textContent = `${digits(at(newtons, last))} N`;
+      const { size: strength, label, value, name, impulse } = arrow, { from, along, long } = ends(arrow, last), fine = thin * seen.near();
+      value.textContent = `${digits(at(strength, last))} ${impulse ? "Ns" : "N"}`;
       const [across, up] = now.project(plus(from, along, 1 + (2.5 * fine) / (long || 1)));
       const x = (0.5 + 0.5 * across) * width, y = (0.5 - 0.5 * up) * height, half = 4 * name.length;
       // A name that would cover another one is left to the legend.

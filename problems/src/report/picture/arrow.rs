@@ -1,6 +1,7 @@
 //! Forces as arrows.
 
-use super::frame::Frame;
+use super::frame::{Frame, Newtons};
+use super::impulse::{self, Rows};
 use super::{Column, hundredths};
 use crate::film::Film;
 use crate::outcome::forces;
@@ -12,16 +13,39 @@ use serde::Serialize;
 pub(crate) struct Arrow {
     /// Name of the item.
     pub name: String,
-    /// How large it is, N.
+    /// Whether it is an impulse, seen for a while after its impact.
+    #[serde(skip_serializing_if = "is_false")]
+    pub impulse: bool,
+    /// How large it is, N or Ns.
     pub size: Column,
-    /// Where it acts and where it points: x, y, x, y.
+    /// Where it acts, and the arrow from there: x, y, x, y.
     pub numbers: [Column; 4],
 }
 
 /// Shorter arrows are not drawn.
 pub(crate) const SHORTEST: f64 = 2.0;
 
+pub(super) fn is_false(flag: &bool) -> bool {
+    !flag
+}
+
+/// Forces, then impulses.
 pub(super) fn arrows(film: &Film, frame: &Frame) -> Vec<Arrow> {
+    let forces = of(film, frame, &impulse::forces(&film.outcome), &frame.newtons);
+    let impulses = of(film, frame, &impulse::impulses(&film.outcome), &frame.blows).into_iter();
+    let ever = impulses.filter(|arrow| arrow.size != Column::Constant(0.0));
+    let named = ever.map(|arrow| Arrow {
+        name: format!("impulse of {}", arrow.name),
+        impulse: true,
+        ..arrow
+    });
+    forces.into_iter().chain(named).collect()
+}
+
+fn of(film: &Film, frame: &Frame, acting: &Rows, newtons: &Newtons) -> Vec<Arrow> {
+    if acting.is_empty() {
+        return Vec::new();
+    }
     let rows = forces(film.outcome.description);
     let Some(first) = film.drawings.first() else {
         return Vec::new();
@@ -29,25 +53,26 @@ pub(super) fn arrows(film: &Film, frame: &Frame) -> Vec<Arrow> {
     let arrow = |(i, arrow): (usize, &crate::drawing::Arrow)| {
         let force = rows.iter().find(|force| force.name == arrow.force)?;
         let row = film.outcome.includes(force.source).then_some(force.row)?;
-        let samples = film.drawings.iter().zip(&film.outcome.samples);
+        let samples = film.drawings.iter().zip(acting);
         let pushes: Vec<([f64; 2], [f64; 2])> = samples
-            .map(|(drawing, sample)| {
+            .map(|(drawing, acting)| {
                 let arrow = &drawing.arrows[i];
-                (arrow.at, arrow.along.map(|c| c * sample.forces[row]))
+                (arrow.at, arrow.along.map(|c| c * acting[row]))
             })
             .collect();
-        let over = |number: fn(&Frame, [f64; 2], [f64; 2]) -> f64| {
+        let over = |number: &dyn Fn(&Frame, [f64; 2], [f64; 2]) -> f64| {
             let numbers = pushes.iter().map(|(at, force)| number(frame, *at, *force));
             Column::of(numbers.map(hundredths))
         };
         Some(Arrow {
             name: arrow.force.to_owned(),
+            impulse: false,
             size: Column::of(pushes.iter().map(|(_, [x, y])| significant(x.hypot(*y)))),
             numbers: [
-                over(|frame, at, _| frame.x(at[0])),
-                over(|frame, at, _| frame.y(at[1])),
-                over(|frame, at, force| frame.x(at[0] + frame.newtons.arrow(force)[0])),
-                over(|frame, at, force| frame.y(at[1] + frame.newtons.arrow(force)[1])),
+                over(&|frame, at, _| frame.x(at[0])),
+                over(&|frame, at, _| frame.y(at[1])),
+                over(&|frame, _, force| frame.scale * newtons.arrow(force)[0]),
+                over(&|frame, _, force| -frame.scale * newtons.arrow(force)[1]),
             ],
         })
     };

@@ -159,7 +159,7 @@ impl Painter {
             let at = Vector::new(n[0], n[1], n[2]);
             let ends = [at, at + Vector::new(n[3], n[4], n[5])].map(|end| self.view.place(end));
             (
-                thrust.name.to_owned(),
+                thrust.name.clone(),
                 [ends[0][0], ends[0][1], ends[1][0], ends[1][1]],
             )
         };

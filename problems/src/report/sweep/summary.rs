@@ -1,7 +1,7 @@
 //! What came out of a sweep, to read and as JSON.
 
 use crate::report::table::page;
-use crate::sweep::{Column, QUANTILES, Summary, Sweep};
+use crate::sweep::{Column, Observation, QUANTILES, Sequence, Summary, Sweep};
 use comfy_table::{CellAlignment, ContentArrangement};
 use serde_json::{Map, Value, json};
 use std::io::{self, Write};
@@ -17,14 +17,17 @@ pub fn table(sweep: &Sweep, summary: &Summary, mut out: impl Write) -> io::Resul
     let parts = parts.iter().map(String::as_str);
     let header = ["observed", "runs", "mean", "deviation", "least"].into_iter();
     table.set_header(header.chain(parts).chain(["greatest"]));
-    for column in &summary.columns {
+    let numbers = summary
+        .columns
+        .iter()
+        .filter(|column| column.sequences.is_empty());
+    let numbers = || numbers.clone().filter(|column| column.count > 0);
+    for column in numbers() {
         let mut cells = vec![column.name.clone(), column.count.to_string()];
-        if column.count > 0 {
-            let spread = [column.mean, column.deviation(), column.least.0];
-            let numbers = spread.iter().chain(&column.quantiles);
-            let numbers = numbers.chain([&column.greatest.0]);
-            cells.extend(numbers.map(|x| figure(*x)));
-        }
+        let spread = [column.mean, column.deviation(), column.least.0];
+        let numbers = spread.iter().chain(&column.quantiles);
+        let numbers = numbers.chain([&column.greatest.0]);
+        cells.extend(numbers.map(|x| figure(*x)));
         table.add_row(cells);
     }
     for (index, column) in table.column_iter_mut().enumerate() {
@@ -33,8 +36,29 @@ pub fn table(sweep: &Sweep, summary: &Summary, mut out: impl Write) -> io::Resul
             column.set_cell_alignment(CellAlignment::Right);
         }
     }
-    writeln!(out, "{}\n", table.trim_fmt())?;
-    for column in summary.columns.iter().filter(|column| column.count > 0) {
+    if numbers().next().is_some() {
+        writeln!(out, "{}\n", table.trim_fmt())?;
+    }
+    for column in summary.columns.iter().filter(|column| column.count == 0) {
+        writeln!(out, "{}: no run has it", column.name)?;
+    }
+    for (column, observed) in summary.columns.iter().zip(&sweep.observed) {
+        let sequences = column.sequences.iter();
+        for Sequence {
+            number,
+            count,
+            first,
+        } in sequences
+        {
+            let words = told(observed, *number);
+            let (runs, place) = (
+                if *count == 1 { "run" } else { "runs" },
+                place(sweep, *first),
+            );
+            writeln!(out, "{words}: {count} {runs}, the first at {place}")?;
+        }
+    }
+    for column in numbers() {
         let (name, least, greatest) = (&column.name, column.least.1, column.greatest.1);
         let (least, greatest) = (place(sweep, least), place(sweep, greatest));
         writeln!(out, "{name}: least at {least}; greatest at {greatest}")?;
@@ -58,9 +82,20 @@ pub fn table(sweep: &Sweep, summary: &Summary, mut out: impl Write) -> io::Resul
 /// # Errors
 /// Of `out`.
 pub fn json(sweep: &Sweep, summary: &Summary, mut out: impl Write) -> io::Result<()> {
-    let column = |column: &Column| {
+    let column = |(column, observed): (&Column, &Observation)| {
         if column.count == 0 {
             return json!({ "name": column.name, "runs": 0 });
+        }
+        if !column.sequences.is_empty() {
+            let sequences = column.sequences.iter().map(|sequence| {
+                json!({
+                    "switches": observed.words(sequence.number),
+                    "runs": sequence.count,
+                    "first_at": point(sweep, sequence.first),
+                })
+            });
+            let sequences: Vec<Value> = sequences.collect();
+            return json!({ "name": column.name, "runs": column.count, "sequences": sequences });
         }
         let quantiles = QUANTILES.iter().zip(&column.quantiles);
         let quantiles = quantiles.map(|(part, x)| (part.to_string(), json!(x)));
@@ -88,9 +123,18 @@ pub fn json(sweep: &Sweep, summary: &Summary, mut out: impl Write) -> io::Result
         "runs": summary.runs,
         "failed": summary.failures(),
         "failures": failed.collect::<Vec<_>>(),
-        "observed": summary.columns.iter().map(column).collect::<Vec<_>>(),
+        "observed": summary.columns.iter().zip(&sweep.observed).map(column).collect::<Vec<_>>(),
     });
     writeln!(out, "{}", serde_json::to_string_pretty(&value)?)
+}
+
+/// A sequence of switches in a line.
+pub(super) fn told(observed: &Observation, number: f64) -> String {
+    let words = observed.words(number).unwrap_or_default();
+    match words[..] {
+        [] => "no switch".to_owned(),
+        _ => words.join(" → "),
+    }
 }
 
 /// The values of a point, by name.
