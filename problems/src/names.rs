@@ -1,7 +1,6 @@
 //! Which name did they mean?
 
 use crate::accuracy::Family;
-use crate::request::velocity_name;
 use lagrange_core::integrate::ParseMethodError;
 use lagrange_core::prelude::Method;
 
@@ -29,7 +28,7 @@ fn rate<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
     let suffixes = ["_dot", "dot", "_rate", "'"].map(|end| name.strip_suffix(end));
     let prefixes = ["dot_", "d_", "v_", "d", "v"].map(|begin| name.strip_prefix(begin));
     let stems = suffixes.into_iter().chain(prefixes).flatten();
-    let mut rates = stems.map(velocity_name);
+    let mut rates = stems.map(|stem| format!("der({stem})"));
     rates.find_map(|rate| known.iter().copied().find(|name| *name == rate))
 }
 

@@ -26,8 +26,8 @@ const SAMPLES: usize = 400;
 #[command(after_help = "Examples:
   lagrange run mass-on-wheel
   lagrange run mass-on-wheel --set mu_static=10 --tolerance 1e-12 --plot wheel.png
-  lagrange run mass-on-wheel --plot wheel.pdf --show \"theta, |grip| vs t\" --show \"der(theta) vs theta\"
-  lagrange run mass-on-wheel --plot grip.svg --show theta --compare set:mu_static=1 --compare without:grip
+  lagrange run mass-on-wheel --plot wheel.pdf --show \"theta, |grip| vs t\"
+  lagrange run mass-on-wheel --plot grip.svg --show theta --compare without:grip
   lagrange run rolling-sphere --start theta=0.3 --start \"der(theta)=1\"
   lagrange run rolling-sphere --end-after \"shell lost\" --output run.parquet
   lagrange run mass-on-wheel --without grip --save smooth.toml

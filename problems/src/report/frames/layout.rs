@@ -201,10 +201,13 @@ impl Place<'_> {
     pub fn arrows(&self, place: picture::Place) -> Vec<Seen> {
         let height = self.seen_height();
         let mut taken: Vec<[f64; 3]> = Vec::new();
-        let seen = |(name, ends): (String, [f64; 4])| {
+        let seen = |(name, impulse, ends): (String, bool, [f64; 4])| {
             let characters = name.chars().count();
             let half = 0.3 * LETTER * characters as f64;
-            let label = label(ends, characters, LETTER, height).filter(|[x, y]| {
+            let [x1, y1, x2, y2] = ends;
+            // Beyond the end where it does not act.
+            let away = if impulse { [x2, y2, x1, y1] } else { ends };
+            let label = label(away, characters, LETTER, height).filter(|[x, y]| {
                 let apart =
                     |[u, v, wide]: &[f64; 3]| (x - u).abs() > half + wide || (y - v).abs() > LETTER;
                 taken.iter().all(apart)
@@ -218,7 +221,7 @@ impl Place<'_> {
         let arrows = self.picture.iter().flat_map(|picture| &picture.arrows);
         let ends = |arrow: &picture::Arrow| {
             let [x, y, dx, dy] = arrow.numbers.each_ref().map(|column| column.at(place));
-            (arrow.name.clone(), [x, y, x + dx, y + dy])
+            (arrow.name.clone(), arrow.impulse, [x, y, x + dx, y + dy])
         };
         arrows.map(ends).map(seen).collect()
     }

@@ -68,7 +68,9 @@ function picture(stage, run) {
       const corners = [[0, thick], [neck, thick], [neck, 0.45 * tip], [length, 0], [neck, -0.45 * tip], [neck, -thick], [0, -thick]];
       set(shape, { points: pairs(corners.flatMap(([along, left]) => [x1 + along * ux - left * uy, y1 + along * uy + left * ux])) });
       const half = 0.3 * letter * arrow.name.length, within = (v, most, margin) => Math.max(Math.min(v, most - margin), margin);
-      set(name, { x: within(x2 + ux * (half + 6), 1000, half), y: within(y2 + uy * (0.5 * letter + 6), height, 0.6 * letter) + 0.35 * letter });
+      // Beyond the end where it does not act.
+      const [x, y, out] = arrow.impulse ? [x1, y1, -1] : [x2, y2, 1];
+      set(name, { x: within(x + out * ux * (half + 6), 1000, half), y: within(y + out * uy * (0.5 * letter + 6), height, 0.6 * letter) + 0.35 * letter });
     };
   });
   if (cut) html("p", { class: "note" }, stage, "The strongest forces are drawn shorter than they are.");

@@ -18,7 +18,7 @@ pub(crate) struct Arrow {
     pub impulse: bool,
     /// How large it is, N or Ns.
     pub size: Column,
-    /// Where it acts, and the arrow from there: x, y, x, y.
+    /// Where it begins, and the arrow from there: x, y, x, y. Forces begin where they act, impulses end there.
     pub numbers: [Column; 4],
 }
 
@@ -29,10 +29,23 @@ pub(super) fn is_false(flag: &bool) -> bool {
     !flag
 }
 
-/// Forces, then impulses.
+/// Forces, then impulses, which end where they act.
 pub(super) fn arrows(film: &Film, frame: &Frame) -> Vec<Arrow> {
-    let forces = of(film, frame, &impulse::forces(&film.outcome), &frame.newtons);
-    let impulses = of(film, frame, &impulse::impulses(&film.outcome), &frame.blows).into_iter();
+    let forces = of(
+        film,
+        frame,
+        &impulse::forces(&film.outcome),
+        &frame.newtons,
+        0.0,
+    );
+    let impulses = of(
+        film,
+        frame,
+        &impulse::impulses(&film.outcome),
+        &frame.blows,
+        1.0,
+    )
+    .into_iter();
     let ever = impulses.filter(|arrow| arrow.size != Column::Constant(0.0));
     let named = ever.map(|arrow| Arrow {
         name: format!("impulse of {}", arrow.name),
@@ -42,7 +55,8 @@ pub(super) fn arrows(film: &Film, frame: &Frame) -> Vec<Arrow> {
     forces.into_iter().chain(named).collect()
 }
 
-fn of(film: &Film, frame: &Frame, acting: &Rows, newtons: &Newtons) -> Vec<Arrow> {
+/// An arrow for each force of the drawing; `back` is the part of it that is before the place where it acts.
+fn of(film: &Film, frame: &Frame, acting: &Rows, newtons: &Newtons, back: f64) -> Vec<Arrow> {
     if acting.is_empty() {
         return Vec::new();
     }
@@ -69,8 +83,8 @@ fn of(film: &Film, frame: &Frame, acting: &Rows, newtons: &Newtons) -> Vec<Arrow
             impulse: false,
             size: Column::of(pushes.iter().map(|(_, [x, y])| significant(x.hypot(*y)))),
             numbers: [
-                over(&|frame, at, _| frame.x(at[0])),
-                over(&|frame, at, _| frame.y(at[1])),
+                over(&|frame, at, force| frame.x(at[0] - back * newtons.arrow(force)[0])),
+                over(&|frame, at, force| frame.y(at[1] - back * newtons.arrow(force)[1])),
                 over(&|frame, _, force| frame.scale * newtons.arrow(force)[0]),
                 over(&|frame, _, force| -frame.scale * newtons.arrow(force)[1]),
             ],

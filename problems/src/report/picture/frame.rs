@@ -114,17 +114,22 @@ impl Frame {
             newtons: Newtons::new(sizes(&forces).into_iter(), size),
             blows: Newtons::to_scale(strongest, size),
         };
-        let tips = |pushes: &[[f64; 4]], newtons: &Newtons| -> Vec<[f64; 4]> {
-            let tip = |&[x, y, fx, fy]: &[f64; 4]| {
+        // Far ends: the tips of forces, the beginnings of impulses.
+        let far = |pushes: &[[f64; 4]], newtons: &Newtons, sign: f64| -> Vec<[f64; 2]> {
+            let end = |&[x, y, fx, fy]: &[f64; 4]| {
                 let [dx, dy] = newtons.arrow([fx, fy]);
-                [x, y, dx, dy]
+                [x + sign * dx, y + sign * dy]
             };
-            pushes.iter().map(tip).collect()
+            pushes.iter().map(end).collect()
         };
-        let all = [tips(&forces, &frame.newtons), tips(&impulses, &frame.blows)].concat();
-        for [x, y, dx, dy] in all {
-            (frame.left, frame.right) = (frame.left.min(x + dx), frame.right.max(x + dx));
-            (frame.low, frame.high) = (frame.low.min(y + dy), frame.high.max(y + dy));
+        let ends = [
+            far(&forces, &frame.newtons, 1.0),
+            far(&impulses, &frame.blows, -1.0),
+        ]
+        .concat();
+        for [x, y] in ends {
+            (frame.left, frame.right) = (frame.left.min(x), frame.right.max(x));
+            (frame.low, frame.high) = (frame.low.min(y), frame.high.max(y));
         }
         let grow = |from: f64, to: f64, least: f64| {
             let more = (0.5 * (least - (to - from))).max(0.0) + 0.06 * size;

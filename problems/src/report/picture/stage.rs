@@ -53,7 +53,7 @@ pub(crate) struct Thrust {
     pub impulse: bool,
     /// How large it is, N or Ns.
     pub size: Column,
-    /// Where it acts, and the arrow from there, m: x, y, z, x, y, z.
+    /// Where it begins, and the arrow from there, m: x, y, z, x, y, z. Forces begin where they act, impulses end there.
     pub numbers: Vec<Column>,
 }
 
@@ -90,8 +90,8 @@ fn stage<'a>(film: &Film, alike: impl Iterator<Item = &'a Film> + Clone) -> Stag
             Kind::Impulse => Newtons::to_scale(sizes.fold(0.0, f64::max), size),
         };
         for (at, force) in &thrusts {
-            let tip = at + Vector::from(newtons.arrow((*force).into()));
-            around.hold(tip, Vector::zeros());
+            let end = at + kind.far() * Vector::from(newtons.arrow((*force).into()));
+            around.hold(end, Vector::zeros());
         }
         newtons
     };
@@ -217,6 +217,14 @@ enum Kind {
 }
 
 impl Kind {
+    /// Where the end of an arrow is that is not where it acts: forces begin there, impulses end there.
+    fn far(self) -> f64 {
+        match self {
+            Kind::Force => 1.0,
+            Kind::Impulse => -1.0,
+        }
+    }
+
     /// What acts along every row at every sample.
     fn rows(self, outcome: &Outcome) -> Rows {
         match self {
@@ -280,7 +288,9 @@ fn arrows(film: &Film, kind: Kind, newtons: &Newtons, size: f64) -> Vec<Thrust> 
         let over = |number: &dyn Fn(&(Vector, Vector)) -> f64| {
             Column::of(thrusts.iter().map(|thrust| near(number(thrust), size)))
         };
-        let at = (0..3).map(|k| over(&|(at, _)| at[k]));
+        let back = 0.5 - 0.5 * kind.far();
+        let at =
+            (0..3).map(|k| over(&|(at, force)| at[k] - back * newtons.arrow((*force).into())[k]));
         let along = (0..3).map(|k| over(&|(_, force)| newtons.arrow((*force).into())[k]));
         Some(Thrust {
             name: match kind {

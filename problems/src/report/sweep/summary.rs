@@ -43,7 +43,7 @@ pub fn table(sweep: &Sweep, summary: &Summary, mut out: impl Write) -> io::Resul
         writeln!(out, "{}: no run has it", column.name)?;
     }
     for (column, observed) in summary.columns.iter().zip(&sweep.observed) {
-        let sequences = column.sequences.iter();
+        let sequences = column.sequences.iter().take(SEQUENCES);
         for Sequence {
             number,
             count,
@@ -56,6 +56,13 @@ pub fn table(sweep: &Sweep, summary: &Summary, mut out: impl Write) -> io::Resul
                 place(sweep, *first),
             );
             writeln!(out, "{words}: {count} {runs}, the first at {place}")?;
+        }
+        let others = column.sequences.iter().skip(SEQUENCES);
+        let (kinds, runs) = others.fold((0, 0), |(kinds, runs), other| {
+            (kinds + 1, runs + other.count)
+        });
+        if kinds > 0 {
+            writeln!(out, "{kinds} other sequences: {runs} runs")?;
         }
     }
     for column in numbers() {
@@ -128,13 +135,50 @@ pub fn json(sweep: &Sweep, summary: &Summary, mut out: impl Write) -> io::Result
     writeln!(out, "{}", serde_json::to_string_pretty(&value)?)
 }
 
-/// A sequence of switches in a line.
+/// Most sequences that are told.
+const SEQUENCES: usize = 12;
+/// Most switches of a cycle that is told once.
+const CYCLE: usize = 4;
+
+/// A sequence of switches in a line; of a cycle, how often it comes: `(grip slips → grip sticks) × 7`.
 pub(super) fn told(observed: &Observation, number: f64) -> String {
     let words = observed.words(number).unwrap_or_default();
-    match words[..] {
-        [] => "no switch".to_owned(),
-        _ => words.join(" → "),
+    match words.is_empty() {
+        true => "no switch".to_owned(),
+        false => in_cycles(&words),
     }
+}
+
+fn in_cycles(words: &[&str]) -> String {
+    let mut told: Vec<String> = Vec::new();
+    let mut rest = words;
+    while !rest.is_empty() {
+        let times = |length: usize| {
+            let cycle = rest.get(..length)?;
+            Some((
+                length,
+                rest.chunks(length)
+                    .take_while(|chunk| *chunk == cycle)
+                    .count(),
+            ))
+        };
+        let cycles = (2..=CYCLE)
+            .filter_map(times)
+            .filter(|(_, times)| *times > 1);
+        // Of equally long ones the shortest cycle.
+        let (length, times) = cycles
+            .rev()
+            .max_by_key(|(length, times)| length * times)
+            .unwrap_or((1, 1));
+        let cycle = rest[..length].join(" → ");
+        told.push(if times > 1 {
+            format!("({cycle}) × {times}")
+        } else {
+            cycle
+        });
+        rest = &rest[length * times..];
+    }
+    told.join(" → ")
 }
 
 /// The values of a point, by name.
@@ -177,5 +221,23 @@ fn figure(x: f64) -> String {
             }
         }
         _ => text,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::in_cycles;
+
+    #[test]
+    fn cycles_are_told_once() {
+        assert_eq!(in_cycles(&["a", "b", "c"]), "a → b → c");
+        assert_eq!(
+            in_cycles(&["x", "a", "b", "a", "b", "a", "b", "a"]),
+            "x → (a → b) × 3 → a"
+        );
+        assert_eq!(
+            in_cycles(&["a", "b", "c", "a", "b", "c", "…"]),
+            "(a → b → c) × 2 → …"
+        );
     }
 }
