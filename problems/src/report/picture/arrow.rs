@@ -55,6 +55,9 @@ pub(super) fn arrows(film: &Film, frame: &Frame) -> Vec<Arrow> {
     forces.into_iter().chain(named).collect()
 }
 
+/// A number of an arrow, from where it acts, m, and its components, N or Ns.
+type Number<'n> = &'n dyn Fn([f64; 2], [f64; 2]) -> f64;
+
 /// An arrow for each force of the drawing; `back` is the part of it that is before the place where it acts.
 fn of(film: &Film, frame: &Frame, acting: &Rows, newtons: &Newtons, back: f64) -> Vec<Arrow> {
     if acting.is_empty() {
@@ -74,8 +77,8 @@ fn of(film: &Film, frame: &Frame, acting: &Rows, newtons: &Newtons, back: f64) -
                 (arrow.at, arrow.along.map(|c| c * acting[row]))
             })
             .collect();
-        let over = |number: &dyn Fn(&Frame, [f64; 2], [f64; 2]) -> f64| {
-            let numbers = pushes.iter().map(|(at, force)| number(frame, *at, *force));
+        let over = |number: Number| {
+            let numbers = pushes.iter().map(|(at, force)| number(*at, *force));
             Column::of(numbers.map(hundredths))
         };
         Some(Arrow {
@@ -83,10 +86,10 @@ fn of(film: &Film, frame: &Frame, acting: &Rows, newtons: &Newtons, back: f64) -
             impulse: false,
             size: Column::of(pushes.iter().map(|(_, [x, y])| significant(x.hypot(*y)))),
             numbers: [
-                over(&|frame, at, force| frame.x(at[0] - back * newtons.arrow(force)[0])),
-                over(&|frame, at, force| frame.y(at[1] - back * newtons.arrow(force)[1])),
-                over(&|frame, _, force| frame.scale * newtons.arrow(force)[0]),
-                over(&|frame, _, force| -frame.scale * newtons.arrow(force)[1]),
+                over(&|at, force| frame.x(at[0] - back * newtons.arrow(force)[0])),
+                over(&|at, force| frame.y(at[1] - back * newtons.arrow(force)[1])),
+                over(&|_, force| frame.scale * newtons.arrow(force)[0]),
+                over(&|_, force| -frame.scale * newtons.arrow(force)[1]),
             ],
         })
     };
