@@ -30,9 +30,9 @@ const RESULTS: &str = "Results";
   lagrange report mass-on-wheel --compare without:grip
   lagrange report double-pendulum --compare tolerance:1e-3,method:dopri5
   lagrange report mass-on-wheel --output wheel.svg                 moves by itself, in browsers and slides
-  lagrange report mass-on-wheel --output wheel.gif                 the same for everywhere else; .png, .mp4
+  lagrange report mass-on-wheel --output wheel.gif --fps 10        the same for everywhere else; .png, .mp4
   lagrange report mass-on-wheel --frames frames --fps 25           frames/frame-0001.svg, …
-  lagrange report mass-on-wheel --frames frames --format png --width 1920")]
+  lagrange report mass-on-wheel --frames frames --fps 5 --format png --width 1920")]
 pub(super) struct Report {
     /// Scenes and scene files (….toml); `lagrange list` shows the scenes.
     #[arg(required = true, value_name = "SCENE")]

@@ -62,13 +62,16 @@ impl Still {
     ///
     /// # Errors
     /// Of `out`; what the picture cannot become.
+    #[cfg_attr(not(feature = "export"), expect(unused_variables))]
     pub fn write(self, svg: &str, scale: f32, out: &mut dyn Write) -> io::Result<()> {
         match self {
+            Still::Svg => out.write_all(svg.as_bytes()),
             #[cfg(feature = "export")]
             Still::Png => Raster::draw(svg, scale)?.png(out),
             #[cfg(feature = "export")]
             Still::Pdf => pdf(svg, out),
-            _ => out.write_all(svg.as_bytes()),
+            #[cfg(not(feature = "export"))]
+            Still::Png | Still::Pdf => Err(io::Error::other(WITHOUT)),
         }
     }
 }
