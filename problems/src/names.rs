@@ -7,15 +7,29 @@ use lagrange_core::prelude::Method;
 /// The known name nearest to `name`, if it is near enough to be a slip of the finger.
 ///
 /// Distance counts insertions, deletions, substitutions and swaps of neighbours (Damerau 1964); up to a third of
-/// the letters may differ.
+/// the letters may differ, but not all of them.
+///
+/// A rate in another notation (`thetadot`, `dtheta`, `v_theta`, `theta'`) is near to `der(theta)`.
 pub fn nearest<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
+    if let Some(rate) = rate(name, known) {
+        return Some(rate);
+    }
     let distance = |candidate: &str| strsim::damerau_levenshtein(&name.to_lowercase(), candidate);
     let best = known
         .iter()
         .copied()
         .min_by_key(|candidate| distance(candidate))?;
-    let allowed = name.chars().count().max(best.chars().count()).div_ceil(3);
-    (distance(best) <= allowed).then_some(best)
+    let longest = name.chars().count().max(best.chars().count());
+    (distance(best) <= longest.div_ceil(3) && distance(best) < longest).then_some(best)
+}
+
+/// The known rate that is meant by a name in another notation.
+fn rate<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
+    let suffixes = ["_dot", "dot", "_rate", "'"].map(|end| name.strip_suffix(end));
+    let prefixes = ["dot_", "d_", "v_", "d", "v"].map(|begin| name.strip_prefix(begin));
+    let stems = suffixes.into_iter().chain(prefixes).flatten();
+    let mut rates = stems.map(|stem| format!("der({stem})"));
+    rates.find_map(|rate| known.iter().copied().find(|name| *name == rate))
 }
 
 /// The method called `name`.
@@ -56,5 +70,23 @@ mod tests {
         assert_eq!(nearest("Rolling-Sphere", &known), Some("rolling-sphere"));
         assert_eq!(nearest("pendulum", &known), None);
         assert_eq!(nearest("x", &[]), None);
+        assert_eq!(nearest("x", &["t"]), None);
+    }
+
+    #[test]
+    fn rates_are_recognised_in_other_notations() {
+        let known = ["theta", "der(theta)", "d", "der(d)"];
+        for name in [
+            "thetadot",
+            "theta_dot",
+            "dtheta",
+            "v_theta",
+            "theta'",
+            "dot_theta",
+        ] {
+            assert_eq!(nearest(name, &known), Some("der(theta)"), "{name}");
+        }
+        assert_eq!(nearest("ddot", &known), Some("der(d)"));
+        assert_eq!(nearest("thet", &known), Some("theta"));
     }
 }

@@ -180,9 +180,9 @@ fn outputs_that_cannot_be_written_are_refused_before_the_run() {
     );
     told(&["--save", "./long.toml"], 2, "is the scene file itself");
     told(
-        &["--output", "a.csv", "--plot", "a.csv"],
+        &["--format", "csv", "--output", "a.svg", "--plot", "a.svg"],
         2,
-        "two results would go to a.csv",
+        "two results would go to a.svg",
     );
     told(&["--output", "run.xlsx"], 2, "let it end in .csv");
     told(

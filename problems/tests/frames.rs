@@ -81,8 +81,12 @@ fn frames_are_numbered_and_show_their_instants() {
 fn what_makes_no_sense_is_refused() {
     let long = ["report", "kepler", "--frames", "frames", "--speed", "0.01"];
     refuses(&long, 2, "choose a lower --fps");
-    let both = ["report", "kepler", "--frames", "frames", "--format", "svg"];
-    refuses(&both, 2, "--format");
+    let both = [
+        "report", "kepler", "--frames", "frames", "--output", "a.svg",
+    ];
+    refuses(&both, 2, "--output");
+    let page = ["report", "kepler", "--frames", "frames", "--format", "html"];
+    refuses(&page, 2, "--format svg or --format png");
     refuses(&["report", "kepler", "--fps", "0"], 2, "above 0");
     assert!(!std::path::Path::new("frames").exists());
 }

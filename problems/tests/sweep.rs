@@ -2,7 +2,8 @@
 
 mod program;
 
-use program::{folder, path, refuses, says};
+use program::{folder, lagrange, path, refuses, says, text};
+use serde_json::Value;
 use std::fs;
 use std::path::PathBuf;
 
@@ -174,8 +175,8 @@ fn pictures_have_units_and_do_not_grow() {
     let [mu, theta] = ["mu_static=0.2..1:20", "theta=0.01..0.4:30"];
     let map = draw(&[&leave[..], &["--vary", mu, "--vary", theta]].concat());
     for words in [
-        "theta [rad]",
-        "mu_static",
+        "θ [rad]",
+        "μₛ",
         "leave angle [rad]",
         "failed",
         "url(#failed)",
@@ -244,7 +245,7 @@ fn sweeps_without_sense_are_refused_in_one_line() {
     );
     of_wheel(
         &["--vary", "mass=1..2:3", "--observe", "y"],
-        "no coordinate or velocity is called `y`",
+        "no coordinate, velocity or force is called `y`",
     );
     of_wheel(
         &["--vary", "mass=1..2:3", "--observe", "theta at rim loss"],
@@ -310,4 +311,154 @@ fn without_mpi_many_processes_do_not_all_do_the_same() {
     let output = ["--output", path(&file)].map(|word| word.to_owned().leak() as &str);
     let part = many("7", &[output[0], output[1], "--shard", "8/64"]);
     assert_eq!(part.status.code(), Some(0));
+}
+
+/// The sequences of a grid are those that single runs tell.
+#[test]
+fn modes_are_the_switches_of_the_runs() {
+    let file = place("modes.csv");
+    let picture = place("modes.svg");
+    let [mu, mass] = ["mu_static=0.6..1.2:4", "mass=0.1..4:3"];
+    let axes = [
+        "sweep",
+        "mass-on-wheel",
+        "--quiet",
+        "--vary",
+        mu,
+        "--vary",
+        mass,
+    ];
+    let said = says(
+        &[
+            &axes[..],
+            &[
+                "--observe",
+                "modes",
+                "--output",
+                path(&file),
+                "--plot",
+                path(&picture),
+            ],
+        ]
+        .concat(),
+    );
+    let table = fs::read_to_string(&file).expect("a table");
+    let mut sequences: Vec<String> = Vec::new();
+    let mut lines = csv::Reader::from_reader(table.as_bytes());
+    for line in lines.records() {
+        let line = line.expect("a line");
+        let set = [
+            format!("mu_static={}", &line[0]),
+            format!("mass={}", &line[1]),
+        ];
+        let run = says(&[
+            "run",
+            "mass-on-wheel",
+            "--set",
+            &set[0],
+            "--set",
+            &set[1],
+            "--format",
+            "json",
+        ]);
+        let run: Value = serde_json::from_str(&run).expect("JSON");
+        let events = run["events"].as_array().expect("events").iter();
+        let word = |event: &Value, key: &str| event[key].as_str().expect("a word").to_owned();
+        let mut events: Vec<String> = events
+            .map(|event| [word(event, "item"), word(event, "kind")].join(" "))
+            .collect();
+        events.dedup();
+        assert_eq!(line[2], events.join(", "), "{set:?}");
+        let told = events.join(" → ");
+        assert!(said.contains(&told), "{told}");
+        if !sequences.contains(&told) {
+            sequences.push(told);
+        }
+    }
+    let drawn = fs::read_to_string(&picture).expect("a picture");
+    assert!(sequences.len() > 1, "{sequences:?}");
+    for told in sequences {
+        assert!(drawn.contains(&told), "{told}");
+    }
+    // The same sequences draw lines into the map of something else.
+    let lines = [
+        &axes[..],
+        &[
+            "--observe",
+            "t",
+            "--observe",
+            "modes",
+            "--plot",
+            path(&picture),
+        ],
+    ]
+    .concat();
+    says(&lines);
+    let drawn = fs::read_to_string(&picture).expect("a picture");
+    assert!(
+        drawn.contains("lines: other modes")
+            && drawn.contains("stroke=\"#000000\" stroke-width=\"10\" stroke-linecap=\"square\"")
+    );
+    refuses(
+        &[
+            "sweep",
+            "mass-on-wheel",
+            "--vary",
+            mu,
+            "--observe",
+            "modes",
+            "--plot",
+            path(&picture),
+        ],
+        2,
+        "over two axes",
+    );
+}
+
+#[test]
+fn what_never_happens_and_what_has_no_room_is_said() {
+    let said = says(&[
+        "sweep",
+        "mass-on-wheel",
+        "--quiet",
+        "--vary",
+        "mu_static=0.5..1:2",
+        "--observe",
+        "t at rim impact",
+    ]);
+    assert!(said.contains("t at rim impact: no run has it"), "{said}");
+    let grid = |x: &str, y: &str, more: &[&str], reason: &str| {
+        let fixed = [
+            "sweep",
+            "mass-on-wheel",
+            "--vary",
+            x,
+            "--vary",
+            y,
+            "--observe",
+            "t",
+        ];
+        let output = lagrange(&[&fixed[..], more].concat());
+        let told = text(&output.stderr);
+        assert_ne!(output.status.code(), Some(0));
+        assert!(told.contains(reason) && told.lines().count() == 1, "{told}");
+    };
+    grid(
+        "mass=1..2:1e7",
+        "radius=1..2:1e7",
+        &[],
+        "1e14 points are too many: their results would take 1.6e15 bytes",
+    );
+    grid(
+        "mass=1..2:1e11",
+        "radius=1..2:1e11",
+        &[],
+        "1e22 points are too many",
+    );
+    grid(
+        "mass=1..2:1e4",
+        "radius=1..2:1e5",
+        &[],
+        "the results take 1.6e10 bytes, too many for memory; keep them in a file with --output",
+    );
 }

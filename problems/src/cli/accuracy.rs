@@ -2,9 +2,9 @@
 
 use super::Trouble;
 use super::course::Motion;
-use super::output::{Output, ready, to_file};
+use super::output::{Output, draw, ready};
 use super::terminal::{keep_what_is_done, patiently};
-use super::values::{positive, tolerances};
+use super::values::{picture, positive, tolerances};
 use clap::Args;
 use lagrange_problems::accuracy::{Accuracy, Family, Study};
 use lagrange_problems::names::family;
@@ -47,8 +47,8 @@ pub(super) struct Measure {
     target: Option<f64>,
     #[command(flatten)]
     output: Output,
-    /// Draw time over error.
-    #[arg(long, value_name = "FILE.svg")]
+    /// Draw time over error, into a file ….svg, ….png or ….pdf.
+    #[arg(long, value_name = "FILE", value_parser = picture)]
     plot: Option<PathBuf>,
 }
 
@@ -88,7 +88,7 @@ impl Measure {
             .write(|out| write(&accuracy, format, target, out))?;
         if let Some(path) = &self.plot {
             let picture = plot::svg(&accuracy).map_err(Trouble::failed)?;
-            to_file(path, |out| out.write_all(picture.as_bytes()))?;
+            draw(path, &picture)?;
         }
         if progress.is_stopped() {
             let reason = "interrupted; what was measured until then is kept";

@@ -10,6 +10,9 @@ use lagrange_problems::request::{Refusal, Request};
 use lagrange_problems::scene_file::{self, Outputs, SceneFile};
 use std::path::Path;
 
+/// Steps after which a run ends, as [`Simulation::max_steps`](lagrange_core::Simulation::max_steps) has it.
+const MOST_STEPS: f64 = 1e8;
+
 /// What is to move, and how exactly it is followed.
 #[derive(Args)]
 pub(super) struct Course {
@@ -62,14 +65,13 @@ impl Course {
     /// The run of the scene of this name, or of a scene file; the command line has the last word.
     pub(super) fn of(&self, name: &str) -> Result<SceneFile, Trouble> {
         let file = self.motion.of(name)?;
-        Ok(SceneFile {
-            request: Request {
-                tolerance: self.tolerance.unwrap_or(file.request.tolerance),
-                method: self.method.unwrap_or(file.request.method),
-                ..file.request
-            },
-            ..file
-        })
+        let request = Request {
+            tolerance: self.tolerance.unwrap_or(file.request.tolerance),
+            method: self.method.unwrap_or(file.request.method),
+            ..file.request
+        };
+        can_end(request.method, request.until.unwrap_or(file.scene.until()))?;
+        Ok(SceneFile { request, ..file })
     }
 }
 
@@ -101,6 +103,21 @@ impl Motion {
             impacts: self.impacts.or(base.impacts),
             ..base
         }
+    }
+}
+
+/// Refuses steps so short that a run would end after hours, at the limit of their number.
+fn can_end(method: Method, until: f64) -> Result<(), Trouble> {
+    let (Method::RungeKutta4 { step } | Method::Gauss6 { step }) = method else {
+        return Ok(());
+    };
+    let steps = until / step;
+    match steps <= MOST_STEPS {
+        true => Ok(()),
+        false => Err(Trouble::usage(format_args!(
+            "{method}: {until} s are {steps:.0e} steps, which take hours, and a run has at most {MOST_STEPS:e}; choose longer \
+             steps, or end earlier with --until"
+        ))),
     }
 }
 

@@ -3,6 +3,7 @@
 use super::Trouble;
 use clap::Args;
 use lagrange_problems::report::Format;
+use lagrange_problems::report::export::Still;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -42,6 +43,9 @@ impl Output {
         }
     }
 }
+
+/// Pixels per unit of plots: fine enough for print at their usual size.
+const PLOTS: f32 = 2.0;
 
 /// Refuses, before any work is done, what could not be written when it is: outputs in folders that are not there or not
 /// writable, one in the place of another, and those in the place of an input.
@@ -100,5 +104,16 @@ pub(super) fn to_file(
     let mut text = Vec::new();
     write(&mut text)
         .and_then(|()| fs::write(path, text))
-        .map_err(|error| Trouble::failed(format_args!("cannot write {}: {error}", path.display())))
+        .map_err(|error| unwritten(path, &error))
+}
+
+/// A file could not be written.
+pub(super) fn unwritten(path: &Path, error: &io::Error) -> Trouble {
+    Trouble::failed(format_args!("cannot write {}: {error}", path.display()))
+}
+
+/// Draws a picture into a file of a kind that its name says.
+pub(super) fn draw(path: &Path, svg: &str) -> Result<(), Trouble> {
+    let still = Still::of(path).map_err(Trouble::usage)?;
+    to_file(path, |out| still.write(svg, PLOTS, out))
 }

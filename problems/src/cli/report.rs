@@ -3,15 +3,17 @@
 use super::Trouble;
 use super::compare::Comparison;
 use super::course::Course;
-use super::output::{ready, to_file};
+use super::output::{ready, to_file, unwritten};
 use super::terminal::{keep_what_is_done, patiently};
 use super::values::positive;
 use clap::{Args, ValueEnum};
 use lagrange_problems::catalogue::{FILM_STAGES, Scene};
 use lagrange_problems::progress::Progress;
+use lagrange_problems::report::export::{Moving, Pace, Still};
 use lagrange_problems::report::frames::{self, Clock, Panel};
 use lagrange_problems::report::html::{self, Shown};
 use lagrange_problems::request::Request;
+use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
 /// Heading of what is written, in the help.
@@ -19,8 +21,8 @@ const RESULTS: &str = "Results";
 
 /// Run scenes and write a page that shows them.
 ///
-/// Animation, forces and their limits, energy, events, equations. The page is one file and needs no network. For slides: an SVG
-/// file that moves by itself, or numbered frames.
+/// Animation, forces and their limits, energy, events, equations. The page is one file and needs no network. For slides: a file
+/// that moves by itself (SVG, animated PNG, GIF, MP4), or numbered frames.
 #[derive(Args)]
 #[command(after_help = "Examples:
   lagrange report mass-on-wheel --output wheel.html
@@ -28,7 +30,9 @@ const RESULTS: &str = "Results";
   lagrange report mass-on-wheel --compare without:grip
   lagrange report double-pendulum --compare tolerance:1e-3,method:dopri5
   lagrange report mass-on-wheel --output wheel.svg                 moves by itself, in browsers and slides
-  lagrange report mass-on-wheel --frames frames --fps 25           frames/frame-0001.svg, …")]
+  lagrange report mass-on-wheel --output wheel.gif --fps 10        the same for everywhere else; .png, .mp4
+  lagrange report mass-on-wheel --frames frames --fps 25           frames/frame-0001.svg, …
+  lagrange report mass-on-wheel --frames frames --fps 5 --format png --width 1920")]
 pub(super) struct Report {
     /// Scenes and scene files (….toml); `lagrange list` shows the scenes.
     #[arg(required = true, value_name = "SCENE")]
@@ -39,16 +43,19 @@ pub(super) struct Report {
     /// from:START, until:T, tolerance:X, method:M, or several of them with commas between. May be repeated.
     #[arg(long, help_heading = RESULTS, value_name = "CHANGE", allow_hyphen_values = true)]
     compare: Vec<Comparison>,
-    /// What to write [default: svg if the output is called so, else html].
+    /// What to write [default: what the name of the output says, else html; of frames svg].
     #[arg(long, help_heading = RESULTS, value_enum)]
     format: Option<Form>,
-    /// The file to write [default: report.html, or report.svg].
+    /// The file to write: ….html, or a picture that moves, ….svg, ….png, ….gif, ….mp4 [default: report.html].
     #[arg(long, help_heading = RESULTS, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Write numbered pictures into a folder instead: frame-0001.svg, frame-0002.svg, … What is there of an earlier, longer
-    /// sequence is removed.
-    #[arg(long, help_heading = RESULTS, value_name = "DIR", conflicts_with_all = ["format", "output"])]
+    /// Write numbered pictures into a folder instead: frame-0001.svg, frame-0002.svg, …, or with --format png
+    /// frame-0001.png, … What is there of an earlier, longer sequence is removed.
+    #[arg(long, help_heading = RESULTS, value_name = "DIR", conflicts_with = "output")]
     frames: Option<PathBuf>,
+    /// Pixels from left to right of PNG, GIF and MP4 [default: 1048 for one run, 1000 more for each that stands beside it].
+    #[arg(long, help_heading = RESULTS, value_name = "N", value_parser = clap::value_parser!(u16).range(16..=8192))]
+    width: Option<u16>,
     /// Pictures a second, of frames and of a picture that moves.
     #[arg(long, help_heading = RESULTS, value_name = "N", default_value = "25", value_parser = positive, allow_hyphen_values = true)]
     fps: f64,
@@ -61,13 +68,44 @@ pub(super) struct Report {
 enum Form {
     /// A page with everything.
     Html,
-    /// A picture that moves.
+    /// A picture that moves, of shapes.
     Svg,
+    /// A picture that moves, of pixels.
+    Png,
+    /// The same in 256 colours, which every program shows.
+    Gif,
+    /// A film; needs the program ffmpeg.
+    Mp4,
+}
+
+impl Form {
+    /// The end of a file's name.
+    fn ending(self) -> &'static str {
+        match self {
+            Form::Html => "html",
+            Form::Svg => "svg",
+            Form::Png => "png",
+            Form::Gif => "gif",
+            Form::Mp4 => "mp4",
+        }
+    }
+
+    /// What it becomes if it is of pixels.
+    fn moving(self) -> Option<Moving> {
+        match self {
+            Form::Html | Form::Svg => None,
+            Form::Png => Some(Moving::Png),
+            Form::Gif => Some(Moving::Gif),
+            Form::Mp4 => Some(Moving::Mp4),
+        }
+    }
 }
 
 impl Report {
     pub(super) fn execute(self) -> Result<(), Trouble> {
-        self.form()?;
+        if let Some(moving) = self.form()?.moving() {
+            moving.ready(self.fps).map_err(Trouble::usage)?;
+        }
         ready(self.output.as_deref(), &self.scenes)?;
         let progress = Progress::default();
         progress.expect(self.runs() * FILM_STAGES);
@@ -91,22 +129,36 @@ impl Report {
         self.scenes.len() * (1 + self.compare.len())
     }
 
-    /// What to write, if it is not frames.
+    /// What to write.
     fn form(&self) -> Result<Form, Trouble> {
         let ending = self.output.as_deref().and_then(Path::extension);
-        match (self.format, ending.and_then(|ending| ending.to_str())) {
-            (Some(form), _) => Ok(form),
-            (None, Some("svg")) => Ok(Form::Svg),
-            (None, Some("html" | "htm") | None) => Ok(Form::Html),
-            (None, Some(other)) => Err(Trouble::usage(format_args!(
-                "a report is no .{other}: let the output end in .html or .svg, or give --format"
-            ))),
+        let ending = ending.and_then(|ending| ending.to_str());
+        let forms = Form::value_variants().iter().copied();
+        let form = match (self.format, ending) {
+            (Some(form), _) => form,
+            (None, None) if self.frames.is_some() => Form::Svg,
+            (None, Some("htm") | None) => Form::Html,
+            (None, Some(ending)) => forms.clone().find(|form| form.ending() == ending).ok_or_else(|| {
+                let endings: Vec<String> = forms.map(|form| format!(".{}", form.ending())).collect();
+                Trouble::usage(format_args!(
+                    "a report is no .{ending}: let the output end in one of {}, or give --format",
+                    endings.join(", ")
+                ))
+            })?,
+        };
+        match self.frames.is_some() && !matches!(form, Form::Svg | Form::Png) {
+            true => Err(Trouble::usage(
+                "frames are pictures: give --format svg or --format png",
+            )),
+            false => Ok(form),
         }
     }
 
     fn write(&self, runs: &[Shown]) -> Result<(), Trouble> {
-        if self.frames.is_none() && self.form()? == Form::Html {
-            let path = self.output.as_deref().unwrap_or(Path::new("report.html"));
+        let form = self.form()?;
+        let usual = PathBuf::from(format!("report.{}", form.ending()));
+        let path = self.output.as_deref().unwrap_or(&usual);
+        if form == Form::Html {
             let command = command(std::env::args());
             return to_file(path, |out| {
                 html::write(runs, self.speed, Some(&command), out)
@@ -114,18 +166,52 @@ impl Report {
         }
         let panels: Vec<Panel> = runs.iter().map(Shown::panel).collect();
         let clock = Clock::new(&panels, self.fps, self.speed).map_err(Trouble::usage)?;
-        let Some(folder) = &self.frames else {
-            let path = self.output.as_deref().unwrap_or(Path::new("report.svg"));
+        if let Some(folder) = &self.frames {
+            return self.frames(&panels, &clock, form, folder);
+        }
+        let Some(moving) = form.moving() else {
             let text = frames::animated(&panels, &clock);
             return to_file(path, |out| out.write_all(text.as_bytes()));
         };
+        let pace = Pace {
+            count: clock.instants.len(),
+            rate: clock.rate,
+            scale: self.scale(&panels),
+        };
+        moving
+            .write(|| frames::stills(&panels, &clock), pace, path)
+            .map_err(|error| unwritten(path, &error))
+    }
+
+    /// Pixels per unit of a picture.
+    fn scale(&self, panels: &[Panel]) -> f32 {
+        self.width.map_or(1.0, |width| {
+            f32::from(width) / frames::width(panels.len()) as f32
+        })
+    }
+
+    /// Writes numbered pictures.
+    fn frames(
+        &self,
+        panels: &[Panel],
+        clock: &Clock,
+        form: Form,
+        folder: &Path,
+    ) -> Result<(), Trouble> {
         std::fs::create_dir_all(folder).map_err(|error| {
             Trouble::failed(format_args!("cannot make {}: {error}", folder.display()))
         })?;
-        let frame = |i: usize| folder.join(format!("frame-{:04}.svg", i + 1));
-        for (i, text) in frames::stills(&panels, &clock).enumerate() {
-            to_file(&frame(i), |out| out.write_all(text.as_bytes()))?;
-        }
+        let frame = |i: usize| folder.join(format!("frame-{:04}.{}", i + 1, form.ending()));
+        let pictures: Vec<(usize, String)> = frames::stills(panels, clock).enumerate().collect();
+        let scale = self.scale(panels);
+        pictures.into_par_iter().try_for_each(|(i, svg)| {
+            let still = if form == Form::Png {
+                Still::Png
+            } else {
+                Still::Svg
+            };
+            to_file(&frame(i), |out| still.write(&svg, scale, out))
+        })?;
         // What is left of a longer sequence would be taken for its end.
         let left = (clock.instants.len()..)
             .map(frame)

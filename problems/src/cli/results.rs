@@ -1,7 +1,8 @@
 //! What is made of a sweep that is complete: a file with a line per run, a picture, a few numbers.
 
 use super::Trouble;
-use super::output::to_file;
+use super::output::draw;
+use super::values::picture;
 use clap::Args;
 use lagrange_problems::report::{Format, sweep as report};
 use lagrange_problems::sweep::{Journal, Summary, Sweep};
@@ -15,8 +16,8 @@ pub(super) struct Results {
     /// Write a line per run, as Parquet (….parquet) or CSV (….csv).
     #[arg(long, value_name = "FILE")]
     pub(super) output: Option<PathBuf>,
-    /// Draw the first observation: a curve over one axis, a map over two, points of a sample.
-    #[arg(long, value_name = "FILE.svg")]
+    /// Draw the first observation, into a file ….svg, ….png or ….pdf: a curve over one axis, a map over two, points of a sample.
+    #[arg(long, value_name = "FILE", value_parser = picture)]
     plot: Option<PathBuf>,
     /// In what form to print what came out, in a few numbers; csv: a line per run.
     #[arg(long, value_enum, default_value_t = Format::Table)]
@@ -38,6 +39,14 @@ impl Results {
         Ok(())
     }
 
+    /// Refuses what could not be drawn.
+    pub(super) fn check_picture(&self, sweep: &Sweep) -> Result<(), Trouble> {
+        match self.plot {
+            Some(_) => report::drawable(sweep).map_err(Trouble::usage),
+            None => Ok(()),
+        }
+    }
+
     /// Writes and prints them.
     pub(super) fn write(&self, sweep: &Sweep, journal: &Journal) -> Result<Summary, Trouble> {
         let summary = Summary::new(sweep, journal).map_err(Trouble::failed)?;
@@ -46,7 +55,7 @@ impl Results {
         }
         if let Some(path) = &self.plot {
             let picture = report::svg(sweep, journal).map_err(Trouble::failed)?;
-            to_file(path, |out| out.write_all(picture.as_bytes()))?;
+            draw(path, &picture)?;
         }
         super::print(|out| match self.format {
             Format::Table => report::table(sweep, &summary, out),

@@ -1,16 +1,19 @@
 //! `lagrange run`: one scene, from a start to its end.
 
 use super::Trouble;
+use super::compare::Comparison;
 use super::course::Course;
-use super::output::{ready, to_file};
+use super::output::{draw, ready, to_file};
 use super::terminal::{keep_what_is_done, patiently};
-use super::values::intervals;
+use super::values::{intervals, picture};
 use clap::Args;
-use lagrange_problems::catalogue::RUN_STAGES;
+use core::iter;
+use lagrange_problems::catalogue::{RUN_STAGES, Scene};
 use lagrange_problems::outcome::Outcome;
 use lagrange_problems::progress::Progress;
-use lagrange_problems::report::{RunFormat, plot};
-use lagrange_problems::request::Request;
+use lagrange_problems::report::RunFormat;
+use lagrange_problems::report::plot::{self, Show};
+use lagrange_problems::request::{Refusal, Request};
 use lagrange_problems::scene_file::{self, Outputs};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -22,7 +25,9 @@ const SAMPLES: usize = 400;
 #[derive(Args)]
 #[command(after_help = "Examples:
   lagrange run mass-on-wheel
-  lagrange run mass-on-wheel --set mu_static=10 --tolerance 1e-12 --plot wheel.svg
+  lagrange run mass-on-wheel --set mu_static=10 --tolerance 1e-12 --plot wheel.png
+  lagrange run mass-on-wheel --plot wheel.pdf --show \"theta, |grip| vs t\"
+  lagrange run mass-on-wheel --plot grip.svg --show theta --compare without:grip
   lagrange run rolling-sphere --start theta=0.3 --start \"der(theta)=1\"
   lagrange run rolling-sphere --end-after \"shell lost\" --output run.parquet
   lagrange run mass-on-wheel --without grip --save smooth.toml
@@ -49,9 +54,17 @@ struct Results {
     /// May be repeated; `-` is stdout.
     #[arg(long, value_name = "FILE")]
     output: Vec<PathBuf>,
-    /// Draw forces and state over time.
-    #[arg(long, value_name = "FILE.svg")]
+    /// Draw forces and coordinates over time, or what --show says, into a file ….svg, ….png or ….pdf.
+    #[arg(long, value_name = "FILE", value_parser = picture)]
     plot: Option<PathBuf>,
+    /// What to draw: "theta, rim vs t", "der(theta) vs theta". Coordinates, velocities, forces, outputs, kinetic, potential,
+    /// energy; |grip| and limit(grip) of a friction. A panel for each unit; may be repeated.
+    #[arg(long, value_name = "WHAT")]
+    show: Vec<String>,
+    /// Draw upon it the same run with something changed: set:NAME=VALUE, without:ITEM, method:M, … as `report` has it. May be
+    /// repeated.
+    #[arg(long, value_name = "CHANGE", allow_hyphen_values = true)]
+    compare: Vec<Comparison>,
     /// Equal intervals of time to sample the motion at, beside the ends of its phases [default: 400].
     #[arg(long, value_name = "N", value_parser = intervals)]
     samples: Option<usize>,
@@ -73,11 +86,12 @@ impl Run {
         let files = files.chain(outputs.plot.as_deref());
         let files = files.chain(self.results.save.as_deref());
         ready(files, std::slice::from_ref(&self.scene))?;
+        let shows = shows(&outputs, &self.results.compare, scene)?;
         let ledger = self.results.ledger || file.request.ledger;
         let sampled = |(format, _): &(RunFormat, _)| format.is_sampled();
         let sampled = ledger || outputs.plot.is_some() || destinations.iter().any(sampled);
         let progress = Progress::default();
-        progress.expect(RUN_STAGES);
+        progress.expect(RUN_STAGES * (1 + self.results.compare.len()));
         let request = Request {
             samples: match sampled {
                 true => outputs.samples.unwrap_or(SAMPLES),
@@ -88,8 +102,14 @@ impl Run {
             ..file.request
         };
         keep_what_is_done(&progress);
-        let outcome = patiently(&format!("running {}", scene.name()), &progress, || {
-            scene.run(&request)
+        let words = format!("running {}", scene.name());
+        let (outcome, compared) = patiently(&words, &progress, || -> Result<_, Refusal> {
+            let compared = self.results.compare.iter();
+            let compared = compared.map(|change| scene.run(&change.of(request.clone())));
+            Ok((
+                scene.run(&request)?,
+                compared.collect::<Result<Vec<_>, _>>()?,
+            ))
         })
         .map_err(Trouble::refused)?;
         if let Some(path) = &self.results.save {
@@ -100,12 +120,23 @@ impl Run {
             write(&outcome, *format, path.as_deref())?;
         }
         if let Some(path) = &outputs.plot {
-            let picture = plot::svg(&outcome).map_err(Trouble::failed)?;
-            to_file(path, |out| out.write_all(picture.as_bytes()))?;
+            let titles: Vec<String> = self
+                .results
+                .compare
+                .iter()
+                .map(ToString::to_string)
+                .collect();
+            let titles = iter::once(scene.name()).chain(titles.iter().map(String::as_str));
+            let runs = titles.zip(iter::once(&outcome).chain(&compared));
+            let runs: Vec<plot::Run> = runs
+                .map(|(title, outcome)| plot::Run { title, outcome })
+                .collect();
+            draw(path, &plot::svg(&runs, &shows).map_err(Trouble::failed)?)?;
         }
-        outcome
-            .failure
-            .map_or(Ok(()), |error| Err(Trouble::ended(error)))
+        let failed = iter::once(outcome)
+            .chain(compared)
+            .find_map(|run| run.failure);
+        failed.map_or(Ok(()), |error| Err(Trouble::ended(error)))
     }
 }
 
@@ -119,9 +150,30 @@ impl Results {
                 false => self.output.clone(),
             },
             plot: self.plot.clone().or(file.plot),
+            show: match self.show.is_empty() {
+                true => file.show,
+                false => self.show.clone(),
+            },
             samples: self.samples.or(file.samples),
         }
     }
+}
+
+/// What is drawn.
+fn shows(
+    outputs: &Outputs,
+    compare: &[Comparison],
+    scene: &dyn Scene,
+) -> Result<Vec<Show>, Trouble> {
+    if outputs.plot.is_none() && !(outputs.show.is_empty() && compare.is_empty()) {
+        let reason = "--show and --compare say what to draw; say where with --plot FILE.svg";
+        return Err(Trouble::usage(reason));
+    }
+    let shows = outputs
+        .show
+        .iter()
+        .map(|text| Show::new(text, scene.description()));
+    shows.collect::<Result<_, _>>().map_err(Trouble::usage)
 }
 
 /// In which format the run goes into which file, or to stdout.

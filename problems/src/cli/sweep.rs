@@ -68,6 +68,7 @@ impl Sweeps {
         };
         let sweep = Sweep::new(file.scene, file.request, points, &self.observe)
             .map_err(Trouble::refused)?;
+        self.results.check_picture(&sweep)?;
         match launch::place() {
             Some(place) if self.shard.is_none() => self.together(&sweep, place),
             _ => self.alone(&sweep),

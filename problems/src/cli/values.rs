@@ -1,7 +1,9 @@
 //! `name=value` and numbers, as they come from the command line.
 
 use lagrange_problems::count::count;
+use lagrange_problems::report::export::Still;
 use lagrange_problems::request::{MOST_SAMPLES, TOLERANCES};
+use std::path::PathBuf;
 
 /// `name=value` with a finite value.
 pub(super) fn named(text: &str) -> Result<(String, f64), String> {
@@ -39,6 +41,17 @@ pub(super) fn intervals(text: &str) -> Result<usize, String> {
         Some(_) => Err(format!("at most {MOST_SAMPLES} intervals are sampled")),
         None => Err(format!("`{}` is not a number of intervals", text.trim())),
     }
+}
+
+/// A file for a picture, of a kind that can be written.
+pub(super) fn picture(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    let hint = match text.contains(" vs ") {
+        true => "; what to draw is said with --show",
+        false => "",
+    };
+    let known = Still::of(&path).map_err(|reason| format!("{reason}{hint}"));
+    known.map(|_| path)
 }
 
 /// A tolerance of an integration.

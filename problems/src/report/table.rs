@@ -182,7 +182,7 @@ fn story(outcome: &Outcome) -> Table {
         })
         .collect();
     for line in &lines {
-        let mut row = vec![format!("{:.6}", line.time), line.event.clone()];
+        let mut row = vec![time(line.time), line.event.clone()];
         row.extend(
             shown
                 .iter()
@@ -307,27 +307,48 @@ pub(super) fn page() -> Table {
     table
 }
 
-/// How many decimals a column of numbers needs: five significant digits of its largest.
-struct Decimals(usize);
+/// How a column of numbers is written: with five significant digits of its largest.
+#[derive(Clone, Copy)]
+enum Decimals {
+    /// With so many of them.
+    Plain(usize),
+    /// As 1.2345e30.
+    Scientific,
+}
 
 impl Decimals {
     fn of(values: impl IntoIterator<Item = f64>) -> Self {
         let largest = values
             .into_iter()
             .fold(0.0, |largest: f64, value| largest.max(value.abs()));
-        if largest == 0.0 {
-            return Decimals(4);
+        match largest {
+            0.0 => Decimals::Plain(4),
+            1e-9..1e12 => {
+                Decimals::Plain((4.0 - largest.log10().floor()).clamp(0.0, 13.0) as usize)
+            }
+            _ => Decimals::Scientific,
         }
-        Decimals((4.0 - largest.log10().floor()).clamp(0.0, 12.0) as usize)
     }
 
     /// The number, without the sign of a zero.
-    fn show(&self, value: f64) -> String {
-        let text = format!("{value:.*}", self.0);
+    fn show(self, value: f64) -> String {
+        let text = match self {
+            Decimals::Plain(decimals) => format!("{value:.decimals$}"),
+            Decimals::Scientific if value == 0.0 => "0".to_owned(),
+            Decimals::Scientific => format!("{value:.4e}"),
+        };
         match text.strip_prefix('-') {
             Some(digits) if digits.chars().all(|c| matches!(c, '0' | '.')) => digits.to_owned(),
             _ => text,
         }
+    }
+}
+
+/// A time, to a microsecond where that has a meaning.
+fn time(t: f64) -> String {
+    match t.abs() < 1e9 {
+        true => format!("{t:.6}"),
+        false => format!("{t:.9e}"),
     }
 }
 
@@ -342,5 +363,11 @@ mod tests {
         assert_eq!(decimals.show(-0.00001), "0.000");
         assert_eq!(Decimals::of([0.0]).show(-0.0), "0.0000");
         assert_eq!(Decimals::of([123456.7]).show(123456.7), "123457");
+        let far = Decimals::of([-1.5e300]);
+        assert_eq!(
+            [-1.5e300, 2.0, -0.0].map(|x| far.show(x)),
+            ["-1.5000e300", "2.0000e0", "0"]
+        );
+        assert_eq!(Decimals::of([3e-20]).show(3e-20), "3.0000e-20");
     }
 }

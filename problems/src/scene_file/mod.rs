@@ -47,6 +47,8 @@ pub struct Outputs {
     pub output: Vec<PathBuf>,
     /// The picture to draw.
     pub plot: Option<PathBuf>,
+    /// What it shows; forces and coordinates if empty.
+    pub show: Vec<String>,
     /// Intervals to sample the motion at.
     pub samples: Option<usize>,
 }
@@ -97,7 +99,7 @@ const KEYS: [&str; 11] = [
     "effects",
     "outputs",
 ];
-const OUTPUTS: [&str; 5] = ["format", "output", "plot", "ledger", "samples"];
+const OUTPUTS: [&str; 6] = ["format", "output", "plot", "show", "ledger", "samples"];
 
 #[cfg(test)]
 mod tests;

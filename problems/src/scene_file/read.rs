@@ -5,6 +5,8 @@ use super::{KEYS, Mistake, OUTPUTS, Outputs, SceneFile};
 use crate::catalogue;
 use crate::names::{self, nearest};
 use crate::report::RunFormat;
+use crate::report::export::Still;
+use crate::report::plot::Show;
 use crate::request::{
     MOST_SAMPLES, Refusal, Request, TOLERANCES, find_effect, find_parameter, find_start, find_state,
 };
@@ -102,7 +104,7 @@ fn contents(document: &DeTable) -> (Option<SceneFile>, Vec<Wrong>) {
         }
     }
     let outputs = document.get("outputs");
-    let outputs = outputs.map(|value| reader.outputs(value, &mut request));
+    let outputs = outputs.map(|value| reader.outputs(value, d, &mut request));
     let file = SceneFile {
         scene,
         request,
@@ -158,7 +160,7 @@ impl Reader {
         self.mistakes.extend(mistakes);
     }
 
-    fn outputs(&mut self, value: &Value, request: &mut Request) -> Outputs {
+    fn outputs(&mut self, value: &Value, d: &Description, request: &mut Request) -> Outputs {
         let mut outputs = Outputs::default();
         let Some(table) = self.take(value, table) else {
             return outputs;
@@ -171,7 +173,12 @@ impl Reader {
                     let paths = self.take(value, texts).unwrap_or_default();
                     outputs.output = paths.into_iter().map(|(_, path)| path.into()).collect();
                 }
-                "plot" => outputs.plot = self.take(value, text).map(PathBuf::from),
+                "plot" => outputs.plot = self.take(value, picture),
+                "show" => {
+                    outputs.show = self
+                        .take(value, |value| shows(value, d))
+                        .unwrap_or_default()
+                }
                 "ledger" => request.ledger = self.take(value, flag).unwrap_or_default(),
                 "samples" => outputs.samples = self.take(value, count),
                 _ => {}
@@ -240,10 +247,27 @@ fn count(value: &Value) -> Result<usize, Wrong> {
     }
 }
 
+/// A file for a picture.
+fn picture(value: &Value) -> Result<PathBuf, Wrong> {
+    let path = PathBuf::from(text(value)?);
+    let known = Still::of(&path).map_err(|reason| (value.span().start, reason));
+    known.map(|_| path)
+}
+
 fn events(value: &Value, d: &'static Description) -> Result<Vec<String>, Wrong> {
     let names = texts(value)?.into_iter();
     let known = names.map(|(byte, name)| match event(name, d) {
         Ok(_) => Ok(name.to_owned()),
+        Err(refusal) => Err((byte, refusal.to_string())),
+    });
+    known.collect()
+}
+
+/// What a picture shows.
+fn shows(value: &Value, d: &Description) -> Result<Vec<String>, Wrong> {
+    let texts = texts(value)?.into_iter();
+    let known = texts.map(|(byte, text)| match Show::new(text, d) {
+        Ok(_) => Ok(text.to_owned()),
         Err(refusal) => Err((byte, refusal.to_string())),
     });
     known.collect()

@@ -68,6 +68,7 @@ fn a_file_says_what_a_command_line_says() {
         format: Some(RunFormat::Json),
         output: vec!["wheel.json".into()],
         plot: Some("wheel.svg".into()),
+        show: Vec::new(),
         samples: Some(1000),
     };
     assert_eq!(file.outputs, outputs);

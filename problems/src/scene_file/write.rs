@@ -39,6 +39,8 @@ struct Results<'a> {
     output: &'a [PathBuf],
     #[serde(skip_serializing_if = "Option::is_none")]
     plot: Option<&'a PathBuf>,
+    #[serde(skip_serializing_if = "is_empty")]
+    show: &'a [String],
     #[serde(skip_serializing_if = "is_false")]
     ledger: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -71,6 +73,7 @@ pub fn write(
         format: outputs.format.map(|format| format.to_string()),
         output: &outputs.output,
         plot: outputs.plot.as_ref(),
+        show: &outputs.show,
         ledger: request.ledger,
         samples: outputs.samples,
     };

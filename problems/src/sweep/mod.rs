@@ -8,6 +8,7 @@ mod axis;
 mod failure;
 mod journal;
 pub mod launch;
+mod modes;
 mod observe;
 mod points;
 mod quantile;
@@ -28,7 +29,7 @@ pub use observe::Observation;
 pub(crate) use observe::event;
 pub use points::{Kind, Points, Sampling};
 pub use shard::Shard;
-pub use summary::{Column, Failed, QUANTILES, Summary};
+pub use summary::{Column, Failed, QUANTILES, Sequence, Summary};
 pub use work::work;
 pub(crate) use worker::worker;
 

@@ -5,12 +5,14 @@
 //! theta at floor impact 2    … at its second occurrence
 //! count floor impact         how often
 //! theta                      at the end of the run
+//! modes                      the sequence of its switches
 //! ```
 
+use super::modes::Switches;
 use super::unit;
 use crate::catalogue::Scene;
 use crate::outcome::{Force, forces};
-use crate::request::{Quantity, Refusal, find_state};
+use crate::request::{Quantity, Refusal, find_state, velocity_name};
 use lagrange_core::prelude::*;
 
 /// A number read from a run.
@@ -22,13 +24,14 @@ pub struct Observation {
     at: At,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 enum What {
     Time,
     Position(usize),
     Velocity(usize),
     Force(usize),
     Count,
+    Modes(Switches),
 }
 
 /// An event of a kind.
@@ -74,6 +77,7 @@ impl Observation {
         let asked = text.split_whitespace().collect::<Vec<_>>().join(" ");
         let name = scene.result(&asked);
         let (what, at) = match (name.strip_prefix("count "), name.split_once(" at ")) {
+            _ if name == "modes" => (What::Modes(Switches::of(description)), At::End),
             (Some(event), _) => (What::Count, event_of(event, description)?),
             (None, Some((quantity, event))) => (
                 quantity_of(quantity, description)?,
@@ -90,13 +94,26 @@ impl Observation {
 
     /// Its unit; empty for a plain number.
     pub(super) fn unit(&self, description: &Description) -> String {
-        match self.what {
+        match &self.what {
             What::Time => "s".to_owned(),
-            What::Position(index) => unit(description, index, Quantity::Position),
-            What::Velocity(index) => unit(description, index, Quantity::Velocity),
-            What::Force(row) => description.units.row(row).to_owned(),
-            What::Count => String::new(),
+            What::Position(index) => unit(description, *index, Quantity::Position),
+            What::Velocity(index) => unit(description, *index, Quantity::Velocity),
+            What::Force(row) => description.units.row(*row).to_owned(),
+            What::Count | What::Modes(_) => String::new(),
         }
+    }
+
+    /// A value in words, one for each switch, if it stands for a sequence of switches.
+    pub fn words(&self, value: f64) -> Option<Vec<&str>> {
+        match &self.what {
+            What::Modes(switches) if !value.is_nan() => Some(switches.words(value)),
+            _ => None,
+        }
+    }
+
+    /// Whether its values stand for sequences of switches: they can be told apart and nothing else.
+    pub fn is_sequence(&self) -> bool {
+        matches!(self.what, What::Modes(_))
     }
 
     /// The event after whose first occurrence a run has no more to say to this, if there is one.
@@ -109,6 +126,9 @@ impl Observation {
 
     /// Its value in a run; NaN if the run has no such event.
     pub(crate) fn read(&self, trajectory: &Record<f64>) -> f64 {
+        if let What::Modes(switches) = &self.what {
+            return switches.number(trajectory.events());
+        }
         let (time, state, forces) = match &self.at {
             At::End => {
                 let state = trajectory.final_state();
@@ -125,12 +145,12 @@ impl Observation {
                 (event.time, &event.state, Some(&event.forces))
             }
         };
-        match self.what {
+        match &self.what {
             What::Time => time,
-            What::Position(i) => state.q[i],
-            What::Velocity(i) => state.v[i],
-            What::Force(row) => forces.map_or(f64::NAN, |forces| forces[row]),
-            What::Count => 0.0,
+            What::Position(i) => state.q[*i],
+            What::Velocity(i) => state.v[*i],
+            What::Force(row) => forces.map_or(f64::NAN, |forces| forces[*row]),
+            What::Count | What::Modes(_) => 0.0,
         }
     }
 }
@@ -142,11 +162,25 @@ fn quantity_of(name: &str, description: &'static Description) -> Result<What, Re
     if let Some(Force { row, .. }) = forces(description).iter().find(|force| force.name == name) {
         return Ok(What::Force(*row));
     }
-    let (index, level) = find_state(description, name)?;
+    let (index, level) = find_state(description, name).map_err(|_| unknown(name, description))?;
     Ok(match level {
         Quantity::Position => What::Position(index),
         Quantity::Velocity => What::Velocity(index),
     })
+}
+
+fn unknown(name: &str, description: &'static Description) -> Refusal {
+    let mut known = vec!["t".to_owned()];
+    for coordinate in description.coordinates {
+        known.extend([coordinate.name.to_owned(), velocity_name(coordinate.name)]);
+    }
+    known.extend(forces(description).into_iter().map(|force| force.name));
+    known.push("modes".to_owned());
+    Refusal::unknown(
+        "coordinate, velocity or force",
+        name,
+        known.iter().map(String::as_str),
+    )
 }
 
 /// What `item kind` names, an event at its first occurrence.

@@ -22,6 +22,8 @@ pub struct Column {
     pub mean: f64,
     /// What parts of the values are below, for each of [`QUANTILES`].
     pub quantiles: Vec<f64>,
+    /// Of an observation that is a sequence of switches: the sequences, the most frequent first; the numbers mean nothing.
+    pub sequences: Vec<Sequence>,
     /// Sum of squared deviations from the mean.
     squares: f64,
 }
@@ -35,6 +37,7 @@ impl Column {
             greatest: (f64::NEG_INFINITY, 0),
             mean: 0.0,
             quantiles: Vec::new(),
+            sequences: Vec::new(),
             squares: 0.0,
         }
     }
@@ -57,6 +60,17 @@ impl Column {
         self.mean += off / self.count as f64;
         self.squares += off * (value - self.mean);
     }
+}
+
+/// Runs that have the same switches in the same order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sequence {
+    /// The number that stands for them.
+    pub number: f64,
+    /// How many runs.
+    pub count: usize,
+    /// Number of the first such point.
+    pub first: usize,
 }
 
 /// Runs that failed for one reason.
@@ -90,6 +104,7 @@ impl Summary {
         let names = sweep.observed.iter().map(|o| o.name.as_str());
         let mut columns: Vec<Column> = names.map(Column::new).collect();
         let mut failed: BTreeMap<&'static str, Failed> = BTreeMap::new();
+        let mut sequences: Vec<BTreeMap<u64, Sequence>> = vec![BTreeMap::new(); columns.len()];
         rows(sweep, journal, |point, observed, code| {
             if let Some(reason) = reason(code) {
                 let failed = failed.entry(reason).or_insert(Failed {
@@ -99,9 +114,19 @@ impl Summary {
                 });
                 failed.count += 1;
             }
-            for (column, value) in columns.iter_mut().zip(observed) {
-                if !value.is_nan() {
-                    column.take(*value, point);
+            for (index, &value) in observed
+                .iter()
+                .enumerate()
+                .filter(|(_, value)| !value.is_nan())
+            {
+                columns[index].take(value, point);
+                if sweep.observed[index].is_sequence() {
+                    let new = Sequence {
+                        number: value,
+                        count: 0,
+                        first: point,
+                    };
+                    sequences[index].entry(value as u64).or_insert(new).count += 1;
                 }
             }
         })?;
@@ -119,6 +144,12 @@ impl Summary {
         }
         for (column, search) in columns.iter_mut().zip(&searches) {
             column.quantiles = search.found();
+        }
+        for (column, sequences) in columns.iter_mut().zip(sequences) {
+            column.sequences = sequences.into_values().collect();
+            column
+                .sequences
+                .sort_by_key(|sequence| std::cmp::Reverse(sequence.count));
         }
         let mut failed: Vec<Failed> = failed.into_values().collect();
         failed.sort_by_key(|failed| std::cmp::Reverse(failed.count));

@@ -93,7 +93,7 @@ pub(super) fn arrow(index: usize, seen: &Seen) -> (Element, Option<Element>) {
         text: escaped(&seen.name),
         ..Element::new(
             "text",
-            format!(" class=\"name\"{fill}"),
+            format!(" class=\"name\" text-anchor=\"middle\"{fill}"),
             vec![("x", short(x)), ("y", short(y))],
         )
     });

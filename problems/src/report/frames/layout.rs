@@ -21,6 +21,11 @@ const ROUND: &str = "<radialGradient id=\"round\" cx=\".36\" cy=\".3\" r=\".75\"
      stop-opacity=\".45\"/><stop offset=\".4\" stop-color=\"#fff\" stop-opacity=\"0\"/><stop offset=\"1\" \
      stop-opacity=\".45\"/></radialGradient>\n";
 
+/// Units from left to right of so many panels.
+pub fn width(panels: usize) -> f64 {
+    GAP + panels as f64 * (WIDTH + GAP)
+}
+
 /// Everything that does not depend on the instant.
 pub(super) struct Layout<'a> {
     pub panels: Vec<Place<'a>>,
@@ -90,7 +95,7 @@ impl<'a> Layout<'a> {
                 .enumerate()
                 .map(place)
                 .collect(),
-            width: GAP + panels.len() as f64 * (WIDTH + GAP),
+            width: width(panels.len()),
             height: top + height + GAP + BAR + 2.0 * LETTER,
             first,
             last,
@@ -196,10 +201,13 @@ impl Place<'_> {
     pub fn arrows(&self, place: picture::Place) -> Vec<Seen> {
         let height = self.seen_height();
         let mut taken: Vec<[f64; 3]> = Vec::new();
-        let seen = |(name, ends): (String, [f64; 4])| {
+        let seen = |(name, impulse, ends): (String, bool, [f64; 4])| {
             let characters = name.chars().count();
             let half = 0.3 * LETTER * characters as f64;
-            let label = label(ends, characters, LETTER, height).filter(|[x, y]| {
+            let [x1, y1, x2, y2] = ends;
+            // Beyond the end where it does not act.
+            let away = if impulse { [x2, y2, x1, y1] } else { ends };
+            let label = label(away, characters, LETTER, height).filter(|[x, y]| {
                 let apart =
                     |[u, v, wide]: &[f64; 3]| (x - u).abs() > half + wide || (y - v).abs() > LETTER;
                 taken.iter().all(apart)
@@ -212,8 +220,8 @@ impl Place<'_> {
         }
         let arrows = self.picture.iter().flat_map(|picture| &picture.arrows);
         let ends = |arrow: &picture::Arrow| {
-            let ends = arrow.numbers.each_ref().map(|column| column.at(place));
-            (arrow.name.clone(), ends)
+            let [x, y, dx, dy] = arrow.numbers.each_ref().map(|column| column.at(place));
+            (arrow.name.clone(), arrow.impulse, [x, y, x + dx, y + dy])
         };
         arrows.map(ends).map(seen).collect()
     }

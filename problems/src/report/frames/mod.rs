@@ -12,6 +12,7 @@ use crate::film::Film;
 use std::fmt;
 
 pub use animated::animated;
+pub use layout::width;
 pub use still::stills;
 
 /// A run and its title.

@@ -71,7 +71,7 @@ pub(super) fn data(runs: &[Shown], speed: Option<f64>) -> Data {
     let runs = runs.iter().zip(seen);
     let runs = runs.map(|(shown, seen)| run(shown, seen, first(&shown.film)));
     Data {
-        schema: "lagrange.report.2",
+        schema: "lagrange.report.3",
         speeds,
         speed,
         runs: runs.collect(),

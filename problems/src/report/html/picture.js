@@ -55,32 +55,43 @@ function picture(stage, run) {
     const shape = svg("polygon", { style: `fill: ${colour(i)}` }, pushes);
     const name = svg("text", { class: "name", style: `fill: ${colour(i)}` }, pushes);
     name.textContent = arrow.name;
-    const value = entry(legend, `force ${arrow.name}`, colour(i));
-    return (where) => {
-      const [x1, y1, x2, y2] = arrow.numbers.map((column) => at(column, where));
-      value.textContent = `${digits(at(arrow.size, where))} N`;
+    const value = entry(legend, arrow.impulse ? arrow.name : `force ${arrow.name}`, colour(i));
+    return (where, taken) => {
+      const [x1, y1, dx, dy] = arrow.numbers.map((column) => at(column, where)), [x2, y2] = [x1 + dx, y1 + dy];
+      value.textContent = `${digits(at(arrow.size, where))} ${arrow.impulse ? "Ns" : "N"}`;
       const length = Math.hypot(x2 - x1, y2 - y1);
       shape.style.display = length < 2 ? "none" : "";
-      name.style.display = length < 0.5 * letter ? "none" : "";
+      name.style.display = "none";
       if (length < 2) return;
       const [ux, uy] = [(x2 - x1) / length, (y2 - y1) / length];
       const thick = letter / 16, tip = Math.min(0.5 * length, 12 * thick), neck = length - tip;
       const corners = [[0, thick], [neck, thick], [neck, 0.45 * tip], [length, 0], [neck, -0.45 * tip], [neck, -thick], [0, -thick]];
       set(shape, { points: pairs(corners.flatMap(([along, left]) => [x1 + along * ux - left * uy, y1 + along * uy + left * ux])) });
       const half = 0.3 * letter * arrow.name.length, within = (v, most, margin) => Math.max(Math.min(v, most - margin), margin);
-      set(name, { x: within(x2 + ux * (half + 6), 1000, half), y: within(y2 + uy * (0.5 * letter + 6), height, 0.6 * letter) + 0.35 * letter });
+      // Beyond the end where it does not act.
+      const [u, v, out] = arrow.impulse ? [x1, y1, -1] : [x2, y2, 1];
+      const x = within(u + out * ux * (half + 6), 1000, half), y = within(v + out * uy * (0.5 * letter + 6), height, 0.6 * letter) + 0.35 * letter;
+      set(name, { x, y });
+      // A name that would cover another one is left to the legend.
+      if (length < 0.5 * letter || taken.some(([a, b, wide]) => Math.abs(x - a) < half + wide && Math.abs(y - b) < letter)) return;
+      taken.push([x, y, half]);
+      name.style.display = "";
     };
   });
   if (cut) html("p", { class: "note" }, stage, "The strongest forces are drawn shorter than they are.");
 
   let last = [0, 0];
+  const point = (where) => {
+    const taken = [];
+    for (const one of pointed) one(where, taken);
+  };
   const show = (where, pushing) => {
     last = where;
     marks.forEach((mark, i) => drawn[i](mark.numbers.map((column) => at(column, where)), where));
-    for (const point of pointed) point(where);
+    point(where);
     pushes.style.display = pushing ? "" : "none";
   };
-  new ResizeObserver(() => { fit(); for (const point of pointed) point(last); }).observe(root);
+  new ResizeObserver(() => { fit(); point(last); }).observe(root);
   fit();
   return show;
 }

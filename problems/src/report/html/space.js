@@ -86,25 +86,27 @@ function space(stage, run) {
   const pointed = arrows.map((arrow, i) => {
     const name = svg("text", { class: "name", style: `fill: ${colour(i)}` }, over);
     name.textContent = arrow.name;
-    return { ...arrow, label: name, value: entry(legend, `force ${arrow.name}`, colour(i)), paint: `c${i % 6}` };
+    return { ...arrow, label: name, value: entry(legend, arrow.impulse ? arrow.name : `force ${arrow.name}`, colour(i)), paint: `c${i % 6}` };
   });
   if (cut) html("p", { class: "note" }, stage, "The strongest forces are drawn shorter than they are.");
   const scale = svg("text", { class: "words", x: 10 }, over);
   if (floor) scale.textContent = `Grid ${digits(cell)} m`;
 
   // Where each force acts and where it points; near by, arrows are as large to the eye as from afar.
-  const ends = ({ numbers }, where) => {
+  const ends = ({ numbers, impulse }, where) => {
     const n = numbers.map((column) => at(column, where)), along = n.slice(3).map((x) => x * seen.near());
-    return { from: n.slice(0, 3), along, long: Math.hypot(...along) };
+    // Forces begin where they act, impulses end there.
+    const acts = impulse ? plus(n.slice(0, 3), n.slice(3)) : n.slice(0, 3), from = impulse ? plus(acts, along, -1) : acts;
+    return { from, along, acts, long: Math.hypot(...along) };
   };
 
   // Shaft and tip of each force that is strong enough to be seen, and a dot where it acts.
   function thrusts(where) {
     return pointed.flatMap((arrow) => {
-      const { from, along, long } = ends(arrow, where), fine = thin * seen.near(), paint = colours[arrow.paint];
+      const { from, along, acts, long } = ends(arrow, where), fine = thin * seen.near(), paint = colours[arrow.paint];
       if (long < fine) return [];
       const tip = Math.min(0.5 * long, 6 * fine), neck = plus(from, along, 1 - tip / long);
-      return [straight("shaft", from, neck, 0.6 * fine, paint), straight("tip", neck, plus(from, along), 0.3 * tip, paint), bead("bead", from, 1.1 * fine, paint)];
+      return [straight("shaft", from, neck, 0.6 * fine, paint), straight("tip", neck, plus(from, along), 0.3 * tip, paint), bead("bead", acts, 1.1 * fine, paint)];
     });
   }
 
@@ -129,9 +131,9 @@ function space(stage, run) {
     render({ parts, thrusts: pushing ? thrusts(last) : [], floor, camera: now, light, away: 0.004 * size, taps, sun, colours, traces: traces.map((points) => ({ points, count: last[0] + 1 })) });
     const taken = [];
     for (const arrow of pointed) {
-      const { size: newtons, label, value, name } = arrow, { from, along, long } = ends(arrow, last), fine = thin * seen.near();
-      value.textContent = `${digits(at(newtons, last))} N`;
-      const [across, up] = now.project(plus(from, along, 1 + (2.5 * fine) / (long || 1)));
+      const { size: strength, label, value, name, impulse } = arrow, { acts, along, long } = ends(arrow, last), fine = thin * seen.near();
+      value.textContent = `${digits(at(strength, last))} ${impulse ? "Ns" : "N"}`;
+      const [across, up] = now.project(plus(acts, along, (impulse ? -1 : 1) * (1 + (2.5 * fine) / (long || 1))));
       const x = (0.5 + 0.5 * across) * width, y = (0.5 - 0.5 * up) * height, half = 4 * name.length;
       // A name that would cover another one is left to the legend.
       const free = pushing && long > 5 * fine && taken.every(([u, v, wide]) => Math.abs(x - u) > half + wide || Math.abs(y - v) > 14);

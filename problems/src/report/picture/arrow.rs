@@ -1,6 +1,7 @@
 //! Forces as arrows.
 
-use super::frame::Frame;
+use super::frame::{Frame, Newtons};
+use super::impulse::{self, Rows};
 use super::{Column, hundredths};
 use crate::film::Film;
 use crate::outcome::forces;
@@ -12,16 +13,56 @@ use serde::Serialize;
 pub(crate) struct Arrow {
     /// Name of the item.
     pub name: String,
-    /// How large it is, N.
+    /// Whether it is an impulse, seen for a while after its impact.
+    #[serde(skip_serializing_if = "is_false")]
+    pub impulse: bool,
+    /// How large it is, N or Ns.
     pub size: Column,
-    /// Where it acts and where it points: x, y, x, y.
+    /// Where it begins, and the arrow from there: x, y, x, y. Forces begin where they act, impulses end there.
     pub numbers: [Column; 4],
 }
 
 /// Shorter arrows are not drawn.
 pub(crate) const SHORTEST: f64 = 2.0;
 
+pub(super) fn is_false(flag: &bool) -> bool {
+    !flag
+}
+
+/// Forces, then impulses, which end where they act.
 pub(super) fn arrows(film: &Film, frame: &Frame) -> Vec<Arrow> {
+    let forces = of(
+        film,
+        frame,
+        &impulse::forces(&film.outcome),
+        &frame.newtons,
+        0.0,
+    );
+    let impulses = of(
+        film,
+        frame,
+        &impulse::impulses(&film.outcome),
+        &frame.blows,
+        1.0,
+    )
+    .into_iter();
+    let ever = impulses.filter(|arrow| arrow.size != Column::Constant(0.0));
+    let named = ever.map(|arrow| Arrow {
+        name: format!("impulse of {}", arrow.name),
+        impulse: true,
+        ..arrow
+    });
+    forces.into_iter().chain(named).collect()
+}
+
+/// A number of an arrow, from where it acts, m, and its components, N or Ns.
+type Number<'n> = &'n dyn Fn([f64; 2], [f64; 2]) -> f64;
+
+/// An arrow for each force of the drawing; `back` is the part of it that is before the place where it acts.
+fn of(film: &Film, frame: &Frame, acting: &Rows, newtons: &Newtons, back: f64) -> Vec<Arrow> {
+    if acting.is_empty() {
+        return Vec::new();
+    }
     let rows = forces(film.outcome.description);
     let Some(first) = film.drawings.first() else {
         return Vec::new();
@@ -29,25 +70,26 @@ pub(super) fn arrows(film: &Film, frame: &Frame) -> Vec<Arrow> {
     let arrow = |(i, arrow): (usize, &crate::drawing::Arrow)| {
         let force = rows.iter().find(|force| force.name == arrow.force)?;
         let row = film.outcome.includes(force.source).then_some(force.row)?;
-        let samples = film.drawings.iter().zip(&film.outcome.samples);
+        let samples = film.drawings.iter().zip(acting);
         let pushes: Vec<([f64; 2], [f64; 2])> = samples
-            .map(|(drawing, sample)| {
+            .map(|(drawing, acting)| {
                 let arrow = &drawing.arrows[i];
-                (arrow.at, arrow.along.map(|c| c * sample.forces[row]))
+                (arrow.at, arrow.along.map(|c| c * acting[row]))
             })
             .collect();
-        let over = |number: fn(&Frame, [f64; 2], [f64; 2]) -> f64| {
-            let numbers = pushes.iter().map(|(at, force)| number(frame, *at, *force));
+        let over = |number: Number| {
+            let numbers = pushes.iter().map(|(at, force)| number(*at, *force));
             Column::of(numbers.map(hundredths))
         };
         Some(Arrow {
             name: arrow.force.to_owned(),
+            impulse: false,
             size: Column::of(pushes.iter().map(|(_, [x, y])| significant(x.hypot(*y)))),
             numbers: [
-                over(|frame, at, _| frame.x(at[0])),
-                over(|frame, at, _| frame.y(at[1])),
-                over(|frame, at, force| frame.x(at[0] + frame.newtons.arrow(force)[0])),
-                over(|frame, at, force| frame.y(at[1] + frame.newtons.arrow(force)[1])),
+                over(&|at, force| frame.x(at[0] - back * newtons.arrow(force)[0])),
+                over(&|at, force| frame.y(at[1] - back * newtons.arrow(force)[1])),
+                over(&|_, force| frame.scale * newtons.arrow(force)[0]),
+                over(&|_, force| -frame.scale * newtons.arrow(force)[1]),
             ],
         })
     };

@@ -1,9 +1,10 @@
 //! Which part of the plane is seen, and how long arrows are.
 
+use super::impulse::{self, Rows};
 use super::{Column, WIDTH};
 use crate::drawing::{Shape, union};
 use crate::film::Film;
-use crate::outcome::forces;
+use crate::outcome::{Outcome, forces};
 
 /// Part of the picture that the strongest force takes.
 const LONGEST: f64 = 0.2;
@@ -22,8 +23,10 @@ pub(crate) struct Frame {
     pub size: f64,
     /// Units per metre.
     pub scale: f64,
-    /// How long arrows are.
+    /// How long arrows of forces are.
     pub newtons: Newtons,
+    /// How long arrows of impulses are.
+    pub blows: Newtons,
 }
 
 /// How long the arrows of forces are.
@@ -40,7 +43,11 @@ impl Newtons {
         let mut sizes: Vec<f64> = sizes.filter(|f| f.is_finite() && *f > 0.0).collect();
         sizes.sort_by(f64::total_cmp);
         let at = (TO_SCALE * sizes.len() as f64) as usize;
-        let strongest = sizes.get(at).copied().unwrap_or(0.0);
+        Self::to_scale(sizes.get(at).copied().unwrap_or(0.0), size)
+    }
+
+    /// For forces of which the strongest that is to scale is this one, N.
+    pub fn to_scale(strongest: f64, size: f64) -> Self {
         Self {
             strongest,
             reach: if strongest > 0.0 {
@@ -86,7 +93,17 @@ impl Frame {
             .into_iter()
             .filter(|x| x.is_finite())
             .fold(0.0, f64::max);
-        let pushes: Vec<[f64; 4]> = films.flat_map(pushes).collect();
+        let all = |rows: fn(&Outcome) -> Rows| -> Vec<[f64; 4]> {
+            films
+                .clone()
+                .flat_map(|film| pushes(film, &rows(&film.outcome)))
+                .collect()
+        };
+        let (forces, impulses) = (all(impulse::forces), all(impulse::impulses));
+        let sizes = |pushes: &[[f64; 4]]| -> Vec<f64> {
+            pushes.iter().map(|[_, _, x, y]| x.hypot(*y)).collect()
+        };
+        let strongest = sizes(&impulses).into_iter().fold(0.0, f64::max);
         let mut frame = Self {
             left,
             right,
@@ -94,12 +111,25 @@ impl Frame {
             high,
             size,
             scale: 1.0,
-            newtons: Newtons::new(pushes.iter().map(|[_, _, x, y]| x.hypot(*y)), size),
+            newtons: Newtons::new(sizes(&forces).into_iter(), size),
+            blows: Newtons::to_scale(strongest, size),
         };
-        for [x, y, fx, fy] in pushes {
-            let [dx, dy] = frame.newtons.arrow([fx, fy]);
-            (frame.left, frame.right) = (frame.left.min(x + dx), frame.right.max(x + dx));
-            (frame.low, frame.high) = (frame.low.min(y + dy), frame.high.max(y + dy));
+        // Far ends: the tips of forces, the beginnings of impulses.
+        let far = |pushes: &[[f64; 4]], newtons: &Newtons, sign: f64| -> Vec<[f64; 2]> {
+            let end = |&[x, y, fx, fy]: &[f64; 4]| {
+                let [dx, dy] = newtons.arrow([fx, fy]);
+                [x + sign * dx, y + sign * dy]
+            };
+            pushes.iter().map(end).collect()
+        };
+        let ends = [
+            far(&forces, &frame.newtons, 1.0),
+            far(&impulses, &frame.blows, -1.0),
+        ]
+        .concat();
+        for [x, y] in ends {
+            (frame.left, frame.right) = (frame.left.min(x), frame.right.max(x));
+            (frame.low, frame.high) = (frame.low.min(y), frame.high.max(y));
         }
         let grow = |from: f64, to: f64, least: f64| {
             let more = (0.5 * (least - (to - from))).max(0.0) + 0.06 * size;
@@ -132,17 +162,18 @@ impl Frame {
     }
 }
 
-/// Places and forces of all arrows at all samples: x and y, m, and the components, N.
-fn pushes(film: &Film) -> impl Iterator<Item = [f64; 4]> + '_ {
+/// Places of all arrows at all samples and what acts there: x and y, m, and the components, N or Ns.
+fn pushes(film: &Film, acting: &Rows) -> Vec<[f64; 4]> {
     let rows = forces(film.outcome.description);
-    let samples = film.drawings.iter().zip(&film.outcome.samples);
-    samples.flat_map(move |(drawing, sample)| {
+    let samples = film.drawings.iter().zip(acting);
+    let pushes = samples.flat_map(|(drawing, acting)| {
         let push = |arrow: &crate::drawing::Arrow| {
             let row = rows.iter().find(|force| force.name == arrow.force)?.row;
-            let force = sample.forces[row];
+            let force = acting[row];
             let [x, y] = arrow.at;
             Some([x, y, arrow.along[0] * force, arrow.along[1] * force])
         };
         drawing.arrows.iter().filter_map(push).collect::<Vec<_>>()
-    })
+    });
+    pushes.collect()
 }

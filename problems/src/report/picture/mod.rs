@@ -5,6 +5,7 @@
 mod arrow;
 mod column;
 mod frame;
+mod impulse;
 mod mark;
 mod painter;
 pub(crate) mod palette;
@@ -32,7 +33,7 @@ pub(crate) struct Picture {
     pub marks: Vec<Mark>,
     /// Forces, in front of the shapes.
     pub arrows: Vec<Arrow>,
-    /// What lengths mean: one of metres and, if there are arrows, one of newtons.
+    /// What lengths mean: one of metres, one of newtons if there are forces, one of newton seconds if there are impulses.
     pub rulers: Vec<Ruler>,
     /// Whether some arrows are drawn shorter than the force is large.
     pub cut: bool,
@@ -61,12 +62,16 @@ pub(crate) fn pictures(films: &[&Film]) -> Vec<Option<Picture>> {
             let newton = frame.newtons.reach * frame.scale;
             rulers.push(Ruler::new(nice(0.6 * frame.newtons.strongest), newton, "N"));
         }
+        if frame.blows.strongest > 0.0 {
+            let blow = frame.blows.reach * frame.scale;
+            rulers.push(Ruler::new(nice(0.6 * frame.blows.strongest), blow, "Ns"));
+        }
         Some(Picture {
             height: hundredths(frame.height()),
             marks,
             cut: arrows
                 .iter()
-                .any(|arrow| largest(&arrow.size) > frame.newtons.most()),
+                .any(|arrow| !arrow.impulse && largest(&arrow.size) > frame.newtons.most()),
             arrows,
             rulers,
         })

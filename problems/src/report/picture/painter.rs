@@ -148,8 +148,8 @@ impl Painter {
         }
     }
 
-    /// From where to where each arrow is seen.
-    pub fn arrows(&self, place: Place) -> Vec<(String, [f64; 4])> {
+    /// Each arrow: its name, whether it is an impulse, from where to where it is seen.
+    pub fn arrows(&self, place: Place) -> Vec<(String, bool, [f64; 4])> {
         let arrow = |thrust: &Thrust| {
             let n: Vec<f64> = thrust
                 .numbers
@@ -159,7 +159,8 @@ impl Painter {
             let at = Vector::new(n[0], n[1], n[2]);
             let ends = [at, at + Vector::new(n[3], n[4], n[5])].map(|end| self.view.place(end));
             (
-                thrust.name.to_owned(),
+                thrust.name.clone(),
+                thrust.impulse,
                 [ends[0][0], ends[0][1], ends[1][0], ends[1][1]],
             )
         };

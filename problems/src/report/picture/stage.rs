@@ -3,7 +3,9 @@
 //! What the page draws with the light on it, and frames project.
 
 use super::Column;
+use super::arrow::is_false;
 use super::frame::{Newtons, largest};
+use super::impulse::{self, Rows};
 use crate::film::Film;
 use crate::outcome::{Outcome, forces};
 use crate::report::significant;
@@ -45,10 +47,13 @@ pub(crate) struct Body {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(crate) struct Thrust {
     /// Name of the item.
-    pub name: &'static str,
-    /// How large it is, N.
+    pub name: String,
+    /// Whether it is an impulse, seen for a while after its impact.
+    #[serde(skip_serializing_if = "is_false")]
+    pub impulse: bool,
+    /// How large it is, N or Ns.
     pub size: Column,
-    /// Where it acts, and the arrow from there, m: x, y, z, x, y, z.
+    /// Where it begins, and the arrow from there, m: x, y, z, x, y, z. Forces begin where they act, impulses end there.
     pub numbers: Vec<Column>,
 }
 
@@ -74,18 +79,30 @@ fn stage<'a>(film: &Film, alike: impl Iterator<Item = &'a Film> + Clone) -> Stag
         }
     }
     let size = around.size();
-    let thrusts: Vec<(Vector, Vector)> = alike.flat_map(all_thrusts).collect();
-    let newtons = Newtons::new(thrusts.iter().map(|(_, force)| force.norm()), size);
-    for (at, force) in &thrusts {
-        let tip = at + Vector::from(newtons.arrow((*force).into()));
-        around.hold(tip, Vector::zeros());
-    }
-    let arrows = arrows(film, &newtons, size);
+    let mut scale = |kind: Kind| {
+        let thrusts: Vec<(Vector, Vector)> = alike
+            .clone()
+            .flat_map(|film| all_thrusts(film, kind))
+            .collect();
+        let sizes = thrusts.iter().map(|(_, force)| force.norm());
+        let newtons = match kind {
+            Kind::Force => Newtons::new(sizes, size),
+            Kind::Impulse => Newtons::to_scale(sizes.fold(0.0, f64::max), size),
+        };
+        for (at, force) in &thrusts {
+            let end = at + kind.far() * Vector::from(newtons.arrow((*force).into()));
+            around.hold(end, Vector::zeros());
+        }
+        newtons
+    };
+    let (newtons, blows) = (scale(Kind::Force), scale(Kind::Impulse));
+    let mut arrows = self::arrows(film, Kind::Force, &newtons, size);
+    arrows.extend(self::arrows(film, Kind::Impulse, &blows, size));
     Stage {
         bodies: bodies(&film.spaces, size),
         cut: arrows
             .iter()
-            .any(|arrow| largest(&arrow.size) > newtons.most()),
+            .any(|arrow| !arrow.impulse && largest(&arrow.size) > newtons.most()),
         arrows,
         low: around.low.map(significant),
         high: around.high.map(significant),
@@ -192,27 +209,54 @@ fn columns(turns: &[UnitQuaternion<f64>]) -> Vec<Column> {
     (0..4).map(column).collect()
 }
 
-/// The forces that act in a film, where and how strong at every sample.
-fn all_thrusts(film: &Film) -> Vec<(Vector, Vector)> {
+/// What arrows stand for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Force,
+    Impulse,
+}
+
+impl Kind {
+    /// Where the end of an arrow is that is not where it acts: forces begin there, impulses end there.
+    fn far(self) -> f64 {
+        match self {
+            Kind::Force => 1.0,
+            Kind::Impulse => -1.0,
+        }
+    }
+
+    /// What acts along every row at every sample.
+    fn rows(self, outcome: &Outcome) -> Rows {
+        match self {
+            Kind::Force => impulse::forces(outcome),
+            Kind::Impulse => impulse::impulses(outcome),
+        }
+    }
+}
+
+/// What acts in a film, where and how strong at every sample.
+fn all_thrusts(film: &Film, kind: Kind) -> Vec<(Vector, Vector)> {
     let count = film.spaces.first().map_or(0, |space| space.pushes.len());
+    let acting = kind.rows(&film.outcome);
     (0..count)
-        .filter_map(|i| thrusts(film, i))
+        .filter_map(|i| thrusts(film, kind, &acting, i))
         .flatten()
         .collect()
 }
 
 /// The push number `i` over time; nothing if it has been left out of the run.
-fn thrusts(film: &Film, i: usize) -> Option<Vec<(Vector, Vector)>> {
-    let outcome = &film.outcome;
-    let rows = rows(outcome, &film.spaces.first()?.pushes[i])?;
-    let samples = film.spaces.iter().zip(&outcome.samples);
-    let thrust = samples.map(|(space, sample)| {
+fn thrusts(film: &Film, kind: Kind, acting: &Rows, i: usize) -> Option<Vec<(Vector, Vector)>> {
+    let rows = rows(&film.outcome, &film.spaces.first()?.pushes[i])?;
+    let samples = film.spaces.iter().zip(acting);
+    let thrust = samples.map(|(space, acting)| {
         let push = &space.pushes[i];
         let parts = push.parts.iter().zip(&rows);
-        let force = parts.fold(push.applied, |sum, ((_, along), row)| {
-            sum + along * sample.forces[*row]
-        });
-        (push.at, force)
+        let applied = match kind {
+            Kind::Force => push.applied,
+            Kind::Impulse => Vector::zeros(),
+        };
+        let sum = parts.fold(applied, |sum, ((_, along), row)| sum + along * acting[*row]);
+        (push.at, sum)
     });
     Some(thrust.collect())
 }
@@ -230,19 +274,30 @@ fn rows(outcome: &Outcome, push: &Push) -> Option<Vec<usize>> {
     push.parts.iter().map(row).collect()
 }
 
-fn arrows(film: &Film, newtons: &Newtons, size: f64) -> Vec<Thrust> {
+/// An arrow for each push; of impulses, for those that there ever are.
+fn arrows(film: &Film, kind: Kind, newtons: &Newtons, size: f64) -> Vec<Thrust> {
     let Some(first) = film.spaces.first() else {
         return Vec::new();
     };
+    let acting = kind.rows(&film.outcome);
     let arrow = |(i, push): (usize, &Push)| {
-        let thrusts = thrusts(film, i)?;
+        let thrusts = thrusts(film, kind, &acting, i)?;
+        if kind == Kind::Impulse && thrusts.iter().all(|(_, impulse)| impulse.norm() == 0.0) {
+            return None;
+        }
         let over = |number: &dyn Fn(&(Vector, Vector)) -> f64| {
             Column::of(thrusts.iter().map(|thrust| near(number(thrust), size)))
         };
-        let at = (0..3).map(|k| over(&|(at, _)| at[k]));
+        let back = 0.5 - 0.5 * kind.far();
+        let at =
+            (0..3).map(|k| over(&|(at, force)| at[k] - back * newtons.arrow((*force).into())[k]));
         let along = (0..3).map(|k| over(&|(_, force)| newtons.arrow((*force).into())[k]));
         Some(Thrust {
-            name: push.name,
+            name: match kind {
+                Kind::Force => push.name.to_owned(),
+                Kind::Impulse => format!("impulse of {}", push.name),
+            },
+            impulse: kind == Kind::Impulse,
             size: Column::of(thrusts.iter().map(|(_, force)| significant(force.norm()))),
             numbers: at.chain(along).collect(),
         })

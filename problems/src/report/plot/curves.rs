@@ -1,22 +1,47 @@
-//! Which curves a picture has: one panel of forces, one per unit of the coordinates, broken where modes change.
+//! Which curves a picture has: what was asked for or, if nothing was, one panel of forces and one per unit of the coordinates.
 
-use crate::outcome::{Outcome, Sample, Source, forces};
+use super::quantity::Quantity;
+use crate::outcome::{Outcome, Sample};
 use crate::report::words::brief;
-use crate::report::{is_angle, symbol};
+use crate::request::Refusal;
+use lagrange_core::system::Description;
 
-/// Curves that share an axis.
+/// Some quantities over another one, as a user asks for them: `theta, rim vs t`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Show {
+    over: Quantity,
+    curves: Vec<Quantity>,
+}
+
+impl Show {
+    /// Names with commas between, and what they are drawn over (`vs x`), which is time if it is not said.
+    ///
+    /// # Errors
+    /// A name that the scene does not have.
+    pub fn new(text: &str, d: &Description) -> Result<Self, Refusal> {
+        let (curves, over) = text.split_once(" vs ").unwrap_or((text, "t"));
+        let curves = curves.split(',').map(|name| Quantity::find(name, d));
+        Ok(Self {
+            curves: curves.collect::<Result<_, _>>()?,
+            over: Quantity::find(over, d)?,
+        })
+    }
+}
+
+/// Curves that share both axes.
 pub(super) struct Panel {
     pub title: String,
+    pub over: Quantity,
     pub curves: Vec<Curve>,
 }
 
-/// One named quantity over time, in pieces: (time, value).
+/// A quantity and how it looks.
 pub(super) struct Curve {
-    pub name: String,
-    pub pieces: Vec<Vec<(f64, f64)>>,
-    pub dashed: bool,
+    pub quantity: Quantity,
     /// Index into the colours.
     pub colour: usize,
+    /// Index into the patterns of dashes.
+    pub dash: usize,
 }
 
 /// The phases as bands: (from, to, mode), and what each mode is called.
@@ -45,112 +70,90 @@ pub(super) fn bands(outcome: &Outcome) -> Bands {
     Bands { spans, names }
 }
 
-pub(super) fn panels(outcome: &Outcome) -> Vec<Panel> {
-    let description = outcome.description;
-    let mut panels: Vec<Panel> = by_unit(force_curves(outcome), "force");
-    let coordinates = description.coordinates.iter().enumerate();
-    let curves = coordinates.map(|(i, coordinate)| {
-        let angle = is_angle(coordinate);
-        let scale = if angle {
-            180.0 / core::f64::consts::PI
-        } else {
-            1.0
-        };
-        let value = |sample: &Sample| Some(sample.state.q[i] * scale);
-        let curve = Curve {
-            name: symbol(coordinate.name),
-            pieces: pieces(outcome, value),
-            dashed: false,
-            colour: 0,
-        };
-        (if angle { "°" } else { coordinate.unit }, curve)
-    });
-    let (angles, others): (Vec<_>, Vec<_>) = curves.partition(|(unit, _)| *unit == "°");
-    panels.extend(by_unit(recoloured(angles), "angle"));
-    panels.extend(by_unit(recoloured(others), "position"));
+/// What was asked for, a panel for each unit.
+pub(super) fn shown(d: &Description, shows: &[Show]) -> Vec<Panel> {
+    let of_one = |show: &Show| by_unit(d, &show.over, coloured(show.curves.clone()));
+    shows.iter().flat_map(of_one).collect()
+}
+
+/// Forces and coordinates over time. Forces that never act in any of the runs are left out.
+pub(super) fn usual(outcomes: &[&Outcome], d: &Description) -> Vec<Panel> {
+    let acts = |quantity: &Quantity| {
+        let mut samples = outcomes.iter().flat_map(|outcome| &outcome.samples);
+        samples.any(|sample| quantity.of(d, sample).is_some())
+    };
+    let forces = coloured(Quantity::all_forces(d));
+    let forces = forces
+        .into_iter()
+        .filter(|curve| acts(&curve.quantity))
+        .collect();
+    let mut panels = by_unit(d, &Quantity::Time, forces);
+    let positions = (0..d.coordinates.len()).map(Quantity::Position);
+    let (angles, others): (Vec<_>, Vec<_>) = positions.partition(|q| q.kind(d) == "angle");
+    for positions in [angles, others] {
+        panels.extend(by_unit(d, &Quantity::Time, coloured(positions)));
+    }
     panels
 }
 
-/// Colours in order.
-fn recoloured(curves: Vec<(&'static str, Curve)>) -> Vec<(&'static str, Curve)> {
-    let curves = curves.into_iter().enumerate();
+/// Each its colour; a limit is dashed in the colour of the force before it.
+fn coloured(quantities: Vec<Quantity>) -> Vec<Curve> {
+    let mut curves: Vec<Curve> = Vec::new();
+    for quantity in quantities {
+        let next = curves.last().map_or(0, |last| last.colour + 1);
+        let bounds = |size: &Quantity| matches!((size, &quantity), (Quantity::Size(a), Quantity::Limit(b)) if a == b);
+        let limit = curves.last().is_some_and(|last| bounds(&last.quantity));
+        curves.push(Curve {
+            colour: if limit { next - 1 } else { next },
+            dash: usize::from(limit),
+            quantity,
+        });
+    }
     curves
-        .map(|(colour, (unit, curve))| (unit, Curve { colour, ..curve }))
-        .collect()
 }
 
 /// One panel for each unit.
-fn by_unit(curves: Vec<(&'static str, Curve)>, what: &str) -> Vec<Panel> {
-    let mut panels: Vec<Panel> = Vec::new();
-    for (unit, curve) in curves {
-        let title = match unit {
-            "" => what.to_owned(),
-            unit => format!("{what}, {unit}"),
-        };
-        match panels.iter_mut().find(|panel| panel.title == title) {
-            Some(panel) => panel.curves.push(curve),
-            None => panels.push(Panel {
-                title,
-                curves: vec![curve],
-            }),
+fn by_unit(d: &Description, over: &Quantity, curves: Vec<Curve>) -> Vec<Panel> {
+    let mut groups: Vec<(String, Vec<Curve>)> = Vec::new();
+    for curve in curves {
+        let unit = curve.quantity.unit(d);
+        match groups.iter_mut().find(|(known, _)| *known == unit) {
+            Some((_, group)) => group.push(curve),
+            None => groups.push((unit, vec![curve])),
         }
     }
-    panels
-}
-
-/// Curves with their units.
-fn force_curves(outcome: &Outcome) -> Vec<(&'static str, Curve)> {
-    let description = outcome.description;
-    let mut curves = Vec::new();
-    let mut forces = forces(description);
-    // A friction of two components is one curve, too.
-    forces.dedup_by_key(|force| force.source);
-    for (colour, force) in forces.into_iter().enumerate() {
-        let value = |sample: &Sample| {
-            let value = match force.source {
-                Source::Friction(i) => {
-                    let components = description.frictions[i].components;
-                    let parts = &sample.forces[force.row..force.row + components];
-                    parts.iter().fold(0.0, |size, x| x.hypot(size))
-                }
-                _ => sample.forces[force.row],
-            };
-            force.acts(description, &sample.mode).then_some(value)
-        };
-        let name = match force.source {
-            Source::Friction(i) => format!("|{}|", description.frictions[i].name),
-            _ => force.name.clone(),
-        };
-        let unit = description.units.row(force.row);
-        let curve = Curve {
-            name,
-            pieces: pieces(outcome, value),
-            dashed: false,
-            colour,
-        };
-        curves.push((unit, curve));
-        if let Source::Friction(i) = force.source {
-            let limit = |sample: &Sample| sample.limits[i];
-            let name = format!("μN of {}", description.frictions[i].name);
-            let curve = Curve {
-                name,
-                pieces: pieces(outcome, limit),
-                dashed: true,
-                colour,
-            };
-            curves.push((unit, curve));
+    let panel = |(unit, curves): (String, Vec<Curve>)| {
+        let mut kinds: Vec<&str> = curves.iter().map(|curve| curve.quantity.kind(d)).collect();
+        kinds.dedup();
+        Panel {
+            title: with_comma(&kinds.join(", "), &unit),
+            over: over.clone(),
+            curves,
         }
-    }
-    curves.retain(|(_, curve)| !curve.pieces.is_empty());
-    curves
+    };
+    groups.into_iter().map(panel).collect()
 }
 
-/// The values of a quantity, broken where it does not exist or the phase changes.
-fn pieces(outcome: &Outcome, value: impl Fn(&Sample) -> Option<f64>) -> Vec<Vec<(f64, f64)>> {
+/// `force, N`
+pub(super) fn with_comma(name: &str, unit: &str) -> String {
+    match unit {
+        "" => name.to_owned(),
+        unit => format!("{name}, {unit}"),
+    }
+}
+
+/// A quantity over another one, broken where one of them does not exist or the phase changes.
+pub(super) fn pieces(
+    outcome: &Outcome,
+    over: &Quantity,
+    quantity: &Quantity,
+) -> Vec<Vec<(f64, f64)>> {
+    let d = outcome.description;
     let mut pieces: Vec<Vec<(f64, f64)>> = Vec::new();
     let mut phase = None;
+    let point = |sample: &Sample| Some((over.of(d, sample)?, quantity.of(d, sample)?));
     for sample in &outcome.samples {
-        let Some(value) = value(sample) else {
+        let Some(point) = point(sample) else {
             phase = None;
             continue;
         };
@@ -159,8 +162,27 @@ fn pieces(outcome: &Outcome, value: impl Fn(&Sample) -> Option<f64>) -> Vec<Vec<
         }
         phase = Some(sample.phase);
         if let Some(piece) = pieces.last_mut() {
-            piece.push((sample.time, value));
+            piece.push(point);
         }
     }
     pieces
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::catalogue::find;
+
+    #[test]
+    fn names_are_found_and_mistakes_told() {
+        let d = find("mass-on-wheel").expect("a scene").description();
+        let show = Show::new("theta, grip ,limit( grip ) vs der(theta)", d).expect("curves");
+        assert_eq!((show.curves.len(), &show.over), (3, &Quantity::Velocity(3)));
+        assert_eq!(Show::new("energy", d).expect("curves").over, Quantity::Time);
+        let said = |text: &str| Show::new(text, d).expect_err("a mistake").to_string();
+        assert!(said("thet vs t").contains("did you mean `theta`?"));
+        assert!(said("theta vs thetadot").contains("did you mean `der(theta)`?"));
+        assert!(said("limit(grib)").contains("did you mean `limit(grip)`?"));
+        assert!(said("theta,").contains("no quantity is called ``"));
+    }
 }

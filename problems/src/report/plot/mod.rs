@@ -1,4 +1,4 @@
-//! Outcome → SVG: forces and state over time, with the modes as shaded bands.
+//! Outcomes → SVG: quantities of a run over time or over each other; of one run with the modes as shaded bands.
 //!
 //! ```text
 //!   title
@@ -10,12 +10,20 @@
 
 mod curves;
 mod panel;
+mod quantity;
 
 use crate::outcome::Outcome;
-use curves::{bands, panels};
+pub use curves::Show;
+use curves::{Bands, bands, shown, usual};
 use panel::Frame;
+use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
+use quantity::Quantity;
+
+pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+pub(super) type Drawn<'a> =
+    Result<(), DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>>;
 
 /// Subdivision of a pixel. The drawing library knows whole numbers only, so the picture is drawn this much larger
 /// and scaled down by its view box.
@@ -24,7 +32,11 @@ pub(super) const FINE: u32 = 10;
 pub(super) const WIDTH: u32 = 900 * FINE;
 const TITLE: u32 = 34 * FINE;
 const PANEL: u32 = 210 * FINE;
-const AXIS: u32 = 38 * FINE;
+/// A panel over something else than time.
+const PORTRAIT: u32 = 420 * FINE;
+const AXIS: u32 = 46 * FINE;
+/// Room around the key at the foot.
+const FOOT: u32 = 18 * FINE;
 const KEY_LINE: u32 = 20 * FINE;
 /// Room for the names of the curves, right of the panels.
 const NAMES: u32 = 150 * FINE;
@@ -52,53 +64,108 @@ const TINTS: [RGBColor; 6] = [
     RGBColor(236, 236, 236),
 ];
 
-/// The picture, as the text of an SVG file.
+/// A run in a picture.
+#[derive(Clone, Copy)]
+pub struct Run<'a> {
+    /// What it is called where there are several.
+    pub title: &'a str,
+    /// What happened.
+    pub outcome: &'a Outcome,
+}
+
+/// Runs of one scene upon each other, as the text of an SVG file: what is asked for or, if nothing is, forces and coordinates
+/// over time.
 ///
 /// # Errors
 /// A sentence, if there is nothing to draw or the drawing fails.
-pub fn svg(outcome: &Outcome) -> Result<String, String> {
-    let (Some(first), Some(last)) = (outcome.first(), outcome.last()) else {
+pub fn svg(runs: &[Run], shows: &[Show]) -> Result<String, String> {
+    let ends = runs
+        .iter()
+        .filter_map(|run| Some((run.outcome.first()?.time, run.outcome.last()?.time)));
+    let Some((first, last)) = ends.reduce(|(a, b), (c, d)| (a.min(c), b.max(d))) else {
         return Err("there is nothing to plot: the run did not begin".to_owned());
     };
-    if last.time <= first.time {
+    if last <= first {
         return Err("there is nothing to plot: the run ended at its first instant".to_owned());
     }
-    let panels = panels(outcome);
-    let bands = bands(outcome);
-    let columns = key_columns(&bands.names);
-    let key = bands.names.len().div_ceil(columns) as u32 * KEY_LINE;
-    let height = TITLE + panels.len() as u32 * PANEL + AXIS + key + 8 * FINE;
+    let outcomes: Vec<&Outcome> = runs.iter().map(|run| run.outcome).collect();
+    let d = outcomes[0].description;
+    let panels = match shows {
+        [] => usual(&outcomes, d),
+        shows => shown(d, shows),
+    };
+    // Runs upon each other are not in the same modes.
+    let bands = match outcomes[..] {
+        [one] => bands(one),
+        _ => Bands {
+            spans: Vec::new(),
+            names: Vec::new(),
+        },
+    };
+    let keys: Vec<String> = match runs {
+        [_] => bands.names.clone(),
+        runs => runs.iter().map(|run| run.title.to_owned()).collect(),
+    };
+    let columns = key_columns(&keys);
+    let key = keys.len().div_ceil(columns) as u32 * KEY_LINE + FOOT;
+    let alone = |i: usize| {
+        panels
+            .get(i + 1)
+            .is_none_or(|next| next.over != panels[i].over)
+    };
+    let heights = (0..panels.len()).map(|i| match (alone(i), &panels[i].over) {
+        (true, Quantity::Time) => PANEL + AXIS,
+        (true, _) => PORTRAIT + AXIS,
+        (false, _) => PANEL,
+    });
+    let heights: Vec<u32> = heights.collect();
+    let body: u32 = heights.iter().sum();
+    draw_in(TITLE + body + key, |root| {
+        let (title, rest) = root.split_vertically(TITLE);
+        let heading = words(17, &BLACK, HPos::Left, VPos::Center);
+        title.draw_text(
+            outcomes[0].scene,
+            &heading,
+            (MARGIN as i32, TITLE as i32 / 2),
+        )?;
+        let (mut rest, foot) = rest.split_vertically(body);
+        for (index, (panel, height)) in panels.iter().zip(&heights).enumerate() {
+            let (area, below) = rest.split_vertically(*height);
+            rest = below;
+            let frame = Frame {
+                outcomes: &outcomes,
+                times: (first, last),
+                bands: &bands,
+                top: index == 0,
+                bottom: alone(index),
+            };
+            panel::draw(&area, panel, &frame)?;
+        }
+        panel::draw_key(&foot, &keys, columns, runs.len() > 1)
+    })
+}
+
+/// A picture of a height as the text of an SVG file.
+///
+/// # Errors
+/// A sentence, if the drawing fails.
+pub(super) fn draw_in(
+    height: u32,
+    draw: impl for<'a> FnOnce(&Area<'a>) -> Drawn<'a>,
+) -> Result<String, String> {
     let mut text = String::new();
     {
         let root = SVGBackend::with_string(&mut text, (WIDTH, height)).into_drawing_area();
         root.fill(&WHITE).map_err(|e| e.to_string())?;
-        let (title, rest) = root.split_vertically(TITLE);
-        let heading = words(17, &BLACK, HPos::Left, VPos::Center);
-        title
-            .draw_text(outcome.scene, &heading, (MARGIN as i32, TITLE as i32 / 2))
-            .map_err(|e| e.to_string())?;
-        let (body, foot) = rest.split_vertically(panels.len() as u32 * PANEL + AXIS);
-        let count = panels.len();
-        let mut rest = body;
-        for (index, panel) in panels.iter().enumerate() {
-            let bottom = index + 1 == count;
-            let (area, below) = rest.split_vertically(PANEL + if bottom { AXIS } else { 0 });
-            rest = below;
-            let frame = Frame {
-                from: first.time,
-                to: last.time,
-                bands: &bands,
-                top: index == 0,
-                bottom,
-            };
-            panel::draw(&area, panel, &frame).map_err(|e| e.to_string())?;
-        }
-        panel::draw_key(&foot, &bands.names, columns).map_err(|e| e.to_string())?;
+        draw(&root).map_err(|e| e.to_string())?;
         root.present().map_err(|e| e.to_string())?;
     }
     let drawn = format!("width=\"{WIDTH}\" height=\"{height}\"");
     let shown = format!("width=\"{}\" height=\"{}\"", WIDTH / FINE, height / FINE);
-    Ok(text.replacen(&drawn, &shown, 1))
+    // Half of an x is below the middle of figures and capitals.
+    Ok(text
+        .replacen(&drawn, &shown, 1)
+        .replace("dy=\"0.5ex\"", "dy=\"0.36em\""))
 }
 
 /// As many columns as the longest name of a mode allows.

@@ -1,27 +1,68 @@
 //! One panel of curves over shaded bands, and the key of the modes.
 
-use super::curves::{Bands, Panel};
-use super::{COLOURS, FINE, KEY_LINE, MARGIN, NAMES, TINTS, WIDTH, px, words};
-use plotters::coord::Shift;
+use super::curves::{Bands, Curve, Panel, pieces, with_comma};
+use super::quantity::Quantity;
+use super::{Area, COLOURS, Drawn, FINE, KEY_LINE, MARGIN, NAMES, TINTS, WIDTH, px, words};
+use crate::outcome::Outcome;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-type Drawn<'a> = Result<(), DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>>;
-
 /// What all panels of a picture share.
 pub(super) struct Frame<'b> {
-    pub from: f64,
-    pub to: f64,
+    pub outcomes: &'b [&'b Outcome],
+    /// First and last time, s.
+    pub times: (f64, f64),
     pub bands: &'b Bands,
     /// Whether it carries the numbers of the modes.
     pub top: bool,
-    /// Whether it carries the time axis.
+    /// Whether it carries the axis from left to right.
     pub bottom: bool,
 }
 
+/// A curve with its points, as it is drawn.
+struct Line<'p> {
+    curve: &'p Curve,
+    /// Number of its run.
+    run: usize,
+    pieces: Vec<Vec<(f64, f64)>>,
+}
+
+/// Dashes and gaps, in pixels; curves without are drawn through.
+const DASHES: [Option<(i32, i32)>; 4] = [None, Some((5, 4)), Some((2, 3)), Some((11, 4))];
+
+/// Of several runs each has its colour and quantities have dashes, of one run quantities have colours.
+fn look(curve: &Curve, order: usize, several: bool) -> (usize, usize) {
+    match several {
+        true => (COLOURS.len() - 1, order % DASHES.len()),
+        false => (curve.colour, curve.dash),
+    }
+}
+
 pub(super) fn draw<'a>(area: &Area<'a>, panel: &Panel, frame: &Frame) -> Drawn<'a> {
-    let (low, high) = range(panel);
+    let d = frame.outcomes[0].description;
+    let over_time = panel.over == Quantity::Time;
+    let lines = || {
+        let curves = panel.curves.iter();
+        curves.flat_map(|curve| {
+            frame
+                .outcomes
+                .iter()
+                .enumerate()
+                .map(move |(run, outcome)| Line {
+                    curve,
+                    run,
+                    pieces: pieces(outcome, &panel.over, &curve.quantity),
+                })
+        })
+    };
+    let lines: Vec<Line> = lines().collect();
+    let points = || lines.iter().flat_map(|line| line.pieces.iter().flatten());
+    let (low, high) = range(points().map(|(_, y)| *y), 2.0);
+    let (left, right) = match over_time {
+        true => frame.times,
+        false => range(points().map(|(x, _)| *x), 1.0),
+    };
+    let across = with_comma(&panel.over.name(d), &panel.over.unit(d));
     let mut chart = ChartBuilder::on(area)
         .margin_left(px(8))
         .margin_top(px(6))
@@ -32,81 +73,76 @@ pub(super) fn draw<'a>(area: &Area<'a>, panel: &Panel, frame: &Frame) -> Drawn<'
             LabelAreaPosition::Bottom,
             if frame.bottom { px(42) } else { 0 },
         )
-        .build_cartesian_2d(frame.from..frame.to, low..high)?;
-    chart.draw_series(frame.bands.spans.iter().map(|&(from, to, mode)| {
+        .build_cartesian_2d(left..right, low..high)?;
+    let no_bands: &[(f64, f64, usize)] = &[];
+    let spans = if over_time {
+        &frame.bands.spans
+    } else {
+        no_bands
+    };
+    chart.draw_series(spans.iter().map(|&(from, to, mode)| {
         Rectangle::new(
             [(from, low), (to, high)],
             TINTS[mode % TINTS.len()].filled(),
         )
     }))?;
-    chart
-        .configure_mesh()
-        .disable_x_mesh()
-        .light_line_style(TRANSPARENT)
+    let mut mesh = chart.configure_mesh();
+    if over_time {
+        mesh.disable_x_mesh();
+    }
+    mesh.light_line_style(TRANSPARENT)
         .bold_line_style(BLACK.mix(0.10).stroke_width(FINE))
         .axis_style(BLACK.stroke_width(FINE))
         .set_all_tick_mark_size(px(5))
         .x_labels(if frame.bottom { 10 } else { 0 })
         .y_labels(8)
-        .x_label_formatter(&label)
-        .y_label_formatter(&label)
-        .x_desc(if frame.bottom { "time, s" } else { "" })
+        .x_label_formatter(&|x| label(*x, right - left))
+        .y_label_formatter(&|y| label(*y, high - low))
+        .x_desc(if frame.bottom { across.as_str() } else { "" })
         .y_desc(panel.title.as_str())
         .axis_desc_style(("sans-serif", 14 * FINE))
         .label_style(("sans-serif", 13 * FINE))
         .draw()?;
-    for curve in &panel.curves {
-        let style = COLOURS[curve.colour % COLOURS.len()].stroke_width(2 * FINE);
-        for piece in &curve.pieces {
+    let several = frame.outcomes.len() > 1;
+    for (index, line) in lines.iter().enumerate() {
+        let (colour, dash) = look(line.curve, index / frame.outcomes.len(), several);
+        let colour = if several { line.run } else { colour };
+        let style = COLOURS[colour % COLOURS.len()].stroke_width(2 * FINE);
+        for piece in &line.pieces {
             let points = piece.iter().copied();
-            match curve.dashed {
-                true => chart.draw_series(DashedLineSeries::new(points, px(5), px(4), style))?,
-                false => chart.draw_series(LineSeries::new(points, style))?,
+            match DASHES[dash] {
+                Some((dash, gap)) => {
+                    chart.draw_series(DashedLineSeries::new(points, px(dash), px(gap), style))?
+                }
+                None => chart.draw_series(LineSeries::new(points, style))?,
             };
         }
     }
     if frame.top {
         let style = words(13, &BLACK.mix(0.6), HPos::Center, VPos::Top);
-        let wide =
-            |&&(from, to, _): &&(f64, f64, usize)| to - from > 0.015 * (frame.to - frame.from);
-        chart.draw_series(
-            frame
-                .bands
-                .spans
-                .iter()
-                .filter(wide)
-                .map(|&(from, to, mode)| {
-                    Text::new(
-                        (mode + 1).to_string(),
-                        (0.5 * (from + to), high),
-                        style.clone(),
-                    )
-                }),
-        )?;
+        let wide = |&&(from, to, _): &&(f64, f64, usize)| to - from > 0.015 * (right - left);
+        chart.draw_series(spans.iter().filter(wide).map(|&(from, to, mode)| {
+            Text::new(
+                (mode + 1).to_string(),
+                (0.5 * (from + to), high),
+                style.clone(),
+            )
+        }))?;
     }
-    draw_names(area, panel)
+    draw_names(area, panel, frame)
 }
 
 /// Names of the curves, right of the panel.
-fn draw_names<'a>(area: &Area<'a>, panel: &Panel) -> Drawn<'a> {
+fn draw_names<'a>(area: &Area<'a>, panel: &Panel, frame: &Frame) -> Drawn<'a> {
     let style = words(13, &BLACK, HPos::Left, VPos::Center);
     let left = (WIDTH - NAMES) as i32 + px(10);
-    for (line, curve) in panel.curves.iter().enumerate() {
-        let y = px(16 + line as i32 * 19);
-        let colour = COLOURS[curve.colour % COLOURS.len()].stroke_width(2 * FINE);
-        let dashes: &[(i32, i32)] = if curve.dashed {
-            &[(0, 6), (9, 15), (18, 22)]
-        } else {
-            &[(0, 22)]
-        };
-        for (from, to) in dashes {
-            area.draw(&PathElement::new(
-                vec![(left + px(*from), y), (left + px(*to), y)],
-                colour,
-            ))?;
-        }
+    let (d, several) = (frame.outcomes[0].description, frame.outcomes.len() > 1);
+    for (order, curve) in panel.curves.iter().enumerate() {
+        let y = px(16 + order as i32 * 19);
+        let (colour, dash) = look(curve, order, several);
+        sample(area, (left, y), COLOURS[colour % COLOURS.len()], dash)?;
         area.draw(&Text::new(
-            curve.name.clone(),
+            curve.quantity.name(d),
             (left + px(28), y),
             style.clone(),
         ))?;
@@ -114,13 +150,37 @@ fn draw_names<'a>(area: &Area<'a>, panel: &Panel) -> Drawn<'a> {
     Ok(())
 }
 
-/// What the numbered tints mean.
-pub(super) fn draw_key<'a>(area: &Area<'a>, names: &[String], columns: usize) -> Drawn<'a> {
+/// A piece of a curve, beside its name.
+fn sample<'a>(area: &Area<'a>, (left, y): (i32, i32), colour: RGBColor, dash: usize) -> Drawn<'a> {
+    const LONG: i32 = 22;
+    let (dash, gap) = DASHES[dash].unwrap_or((LONG, 0));
+    for from in (0..LONG).step_by((dash + gap) as usize) {
+        let ends = [from, (from + dash).min(LONG)].map(|x| (left + px(x), y));
+        area.draw(&PathElement::new(
+            ends.to_vec(),
+            colour.stroke_width(2 * FINE),
+        ))?;
+    }
+    Ok(())
+}
+
+/// What the numbered tints mean, or the colours of several runs.
+pub(super) fn draw_key<'a>(
+    area: &Area<'a>,
+    names: &[String],
+    columns: usize,
+    several: bool,
+) -> Drawn<'a> {
     let style = words(13, &BLACK, HPos::Left, VPos::Center);
     let width = (WIDTH - 2 * MARGIN) as i32 / columns as i32;
     for (mode, name) in names.iter().enumerate() {
         let x = MARGIN as i32 + (mode % columns) as i32 * width;
-        let y = (mode / columns) as i32 * KEY_LINE as i32 + px(8);
+        let y = (mode / columns) as i32 * KEY_LINE as i32 + px(18);
+        if several {
+            sample(area, (x, y), COLOURS[mode % COLOURS.len()], 0)?;
+            area.draw(&Text::new(name.clone(), (x + px(30), y), style.clone()))?;
+            continue;
+        }
         let tint = TINTS[mode % TINTS.len()];
         area.draw(&Rectangle::new(
             [(x, y - px(7)), (x + px(18), y + px(7))],
@@ -139,14 +199,8 @@ pub(super) fn draw_key<'a>(area: &Area<'a>, names: &[String], columns: usize) ->
     Ok(())
 }
 
-/// All values and zero-width safety: a constant curve still gets room.
-fn range(panel: &Panel) -> (f64, f64) {
-    let values = panel
-        .curves
-        .iter()
-        .flat_map(|curve| &curve.pieces)
-        .flatten()
-        .map(|(_, value)| *value);
+/// Around all values, with `above` times as much room above as below: a constant curve gets room, too.
+fn range(values: impl Iterator<Item = f64>, above: f64) -> (f64, f64) {
     let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
         (value.min(low), value.max(high))
     });
@@ -158,16 +212,35 @@ fn range(panel: &Panel) -> (f64, f64) {
     } else {
         0.1 * high.abs().max(1.0)
     };
-    (low - room, high + 2.0 * room)
+    (low - room, high + above * room)
 }
 
-/// A number on an axis, without the digits that rounding adds.
-fn label(value: &f64) -> String {
-    let text = format!("{value:.9}");
-    let short = text.trim_end_matches('0').trim_end_matches('.');
-    if short == "-0" {
-        "0".to_owned()
-    } else {
-        short.to_owned()
+/// A number on an axis of a length, without the digits that rounding adds.
+fn label(value: f64, length: f64) -> String {
+    if value.abs() < 1e-9 * length {
+        return "0".to_owned();
+    }
+    let text = match (1e-5..1e7).contains(&value.abs()) {
+        true => format!("{value:.9}"),
+        false => format!("{value:.9e}"),
+    };
+    let (digits, power) = text.split_at(text.find('e').unwrap_or(text.len()));
+    format!(
+        "{}{power}",
+        digits.trim_end_matches('0').trim_end_matches('.')
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::label;
+
+    #[test]
+    fn numbers_of_axes_are_short() {
+        assert_eq!(label(0.1 + 0.2, 1.0), "0.3");
+        assert_eq!(label(-1e-17, 1.0), "0");
+        assert_eq!(label(-2e300, 5e300), "-2e300");
+        assert_eq!(label(5e-8, 1e-7), "5e-8");
+        assert_eq!(label(200.0, 1000.0), "200");
     }
 }

@@ -18,8 +18,16 @@ pub fn csv(sweep: &Sweep, journal: &Journal, out: impl Write) -> Result<(), Fail
             true => String::new(),
             false => x.to_string(),
         };
-        let numbers = point.iter().chain(observed).map(number);
-        let line = numbers.chain([failure.unwrap_or_default().to_owned()]);
+        let observed = observed.iter().zip(&sweep.observed);
+        let observed = observed.map(|(value, observation)| match observation.words(*value) {
+            Some(words) => words.join(", "),
+            None => number(value),
+        });
+        let line = point
+            .iter()
+            .map(number)
+            .chain(observed)
+            .chain([failure.unwrap_or_default().to_owned()]);
         Ok(table.write_record(line).map_err(io::Error::from)?)
     })?;
     Ok(table.flush()?)

@@ -7,7 +7,7 @@ mod summary;
 
 pub use csv::csv;
 pub use parquet::parquet;
-pub use picture::svg;
+pub use picture::{drawable, svg};
 pub use summary::{json, table};
 
 use crate::sweep::{Journal, Sweep, Trouble, reason};

@@ -22,6 +22,7 @@ pub fn parquet(sweep: &Sweep, journal: &Journal, out: impl Write + Send) -> Resu
     let numbers = names(sweep).enumerate();
     let numbers = numbers.map(|(index, name)| match index < axes {
         true => (name, Kind::Number),
+        false if sweep.observed[index - axes].is_sequence() => (name, Kind::MaybeText),
         false => (name, Kind::MaybeNumber),
     });
     let columns: Vec<(&str, Kind)> = numbers.chain([("failure", Kind::MaybeText)]).collect();
@@ -29,9 +30,11 @@ pub fn parquet(sweep: &Sweep, journal: &Journal, out: impl Write + Send) -> Resu
     let mut rows = Rows::new(out, &columns, &[(RECIPE, &recipe)])?;
     lines(sweep, journal, |point, observed, failure| {
         for (column, &number) in point.iter().chain(observed).enumerate() {
-            match number.is_nan() {
-                true => rows.nothing(column),
-                false => rows.number(column, number),
+            let observation = column.checked_sub(axes).map(|index| &sweep.observed[index]);
+            match observation.and_then(|observation| observation.words(number)) {
+                Some(words) => rows.text(column, &words.join(", ")),
+                None if number.is_nan() => rows.nothing(column),
+                None => rows.number(column, number),
             }
         }
         match failure {

@@ -1,7 +1,7 @@
 //! What came out of a sweep, to read and as JSON.
 
 use crate::report::table::page;
-use crate::sweep::{Column, QUANTILES, Summary, Sweep};
+use crate::sweep::{Column, Observation, QUANTILES, Sequence, Summary, Sweep};
 use comfy_table::{CellAlignment, ContentArrangement};
 use serde_json::{Map, Value, json};
 use std::io::{self, Write};
@@ -17,14 +17,17 @@ pub fn table(sweep: &Sweep, summary: &Summary, mut out: impl Write) -> io::Resul
     let parts = parts.iter().map(String::as_str);
     let header = ["observed", "runs", "mean", "deviation", "least"].into_iter();
     table.set_header(header.chain(parts).chain(["greatest"]));
-    for column in &summary.columns {
+    let numbers = summary
+        .columns
+        .iter()
+        .filter(|column| column.sequences.is_empty());
+    let numbers = || numbers.clone().filter(|column| column.count > 0);
+    for column in numbers() {
         let mut cells = vec![column.name.clone(), column.count.to_string()];
-        if column.count > 0 {
-            let spread = [column.mean, column.deviation(), column.least.0];
-            let numbers = spread.iter().chain(&column.quantiles);
-            let numbers = numbers.chain([&column.greatest.0]);
-            cells.extend(numbers.map(|x| figure(*x)));
-        }
+        let spread = [column.mean, column.deviation(), column.least.0];
+        let numbers = spread.iter().chain(&column.quantiles);
+        let numbers = numbers.chain([&column.greatest.0]);
+        cells.extend(numbers.map(|x| figure(*x)));
         table.add_row(cells);
     }
     for (index, column) in table.column_iter_mut().enumerate() {
@@ -33,8 +36,36 @@ pub fn table(sweep: &Sweep, summary: &Summary, mut out: impl Write) -> io::Resul
             column.set_cell_alignment(CellAlignment::Right);
         }
     }
-    writeln!(out, "{}\n", table.trim_fmt())?;
-    for column in summary.columns.iter().filter(|column| column.count > 0) {
+    if numbers().next().is_some() {
+        writeln!(out, "{}\n", table.trim_fmt())?;
+    }
+    for column in summary.columns.iter().filter(|column| column.count == 0) {
+        writeln!(out, "{}: no run has it", column.name)?;
+    }
+    for (column, observed) in summary.columns.iter().zip(&sweep.observed) {
+        let sequences = column.sequences.iter().take(SEQUENCES);
+        for Sequence {
+            number,
+            count,
+            first,
+        } in sequences
+        {
+            let words = told(observed, *number);
+            let (runs, place) = (
+                if *count == 1 { "run" } else { "runs" },
+                place(sweep, *first),
+            );
+            writeln!(out, "{words}: {count} {runs}, the first at {place}")?;
+        }
+        let others = column.sequences.iter().skip(SEQUENCES);
+        let (kinds, runs) = others.fold((0, 0), |(kinds, runs), other| {
+            (kinds + 1, runs + other.count)
+        });
+        if kinds > 0 {
+            writeln!(out, "{kinds} other sequences: {runs} runs")?;
+        }
+    }
+    for column in numbers() {
         let (name, least, greatest) = (&column.name, column.least.1, column.greatest.1);
         let (least, greatest) = (place(sweep, least), place(sweep, greatest));
         writeln!(out, "{name}: least at {least}; greatest at {greatest}")?;
@@ -58,9 +89,20 @@ pub fn table(sweep: &Sweep, summary: &Summary, mut out: impl Write) -> io::Resul
 /// # Errors
 /// Of `out`.
 pub fn json(sweep: &Sweep, summary: &Summary, mut out: impl Write) -> io::Result<()> {
-    let column = |column: &Column| {
+    let column = |(column, observed): (&Column, &Observation)| {
         if column.count == 0 {
             return json!({ "name": column.name, "runs": 0 });
+        }
+        if !column.sequences.is_empty() {
+            let sequences = column.sequences.iter().map(|sequence| {
+                json!({
+                    "switches": observed.words(sequence.number),
+                    "runs": sequence.count,
+                    "first_at": point(sweep, sequence.first),
+                })
+            });
+            let sequences: Vec<Value> = sequences.collect();
+            return json!({ "name": column.name, "runs": column.count, "sequences": sequences });
         }
         let quantiles = QUANTILES.iter().zip(&column.quantiles);
         let quantiles = quantiles.map(|(part, x)| (part.to_string(), json!(x)));
@@ -88,9 +130,55 @@ pub fn json(sweep: &Sweep, summary: &Summary, mut out: impl Write) -> io::Result
         "runs": summary.runs,
         "failed": summary.failures(),
         "failures": failed.collect::<Vec<_>>(),
-        "observed": summary.columns.iter().map(column).collect::<Vec<_>>(),
+        "observed": summary.columns.iter().zip(&sweep.observed).map(column).collect::<Vec<_>>(),
     });
     writeln!(out, "{}", serde_json::to_string_pretty(&value)?)
+}
+
+/// Most sequences that are told.
+const SEQUENCES: usize = 12;
+/// Most switches of a cycle that is told once.
+const CYCLE: usize = 4;
+
+/// A sequence of switches in a line; of a cycle, how often it comes: `(grip slips → grip sticks) × 7`.
+pub(super) fn told(observed: &Observation, number: f64) -> String {
+    let words = observed.words(number).unwrap_or_default();
+    match words.is_empty() {
+        true => "no switch".to_owned(),
+        false => in_cycles(&words),
+    }
+}
+
+fn in_cycles(words: &[&str]) -> String {
+    let mut told: Vec<String> = Vec::new();
+    let mut rest = words;
+    while !rest.is_empty() {
+        let times = |length: usize| {
+            let cycle = rest.get(..length)?;
+            Some((
+                length,
+                rest.chunks(length)
+                    .take_while(|chunk| *chunk == cycle)
+                    .count(),
+            ))
+        };
+        let cycles = (2..=CYCLE)
+            .filter_map(times)
+            .filter(|(_, times)| *times > 1);
+        // Of equally long ones the shortest cycle.
+        let (length, times) = cycles
+            .rev()
+            .max_by_key(|(length, times)| length * times)
+            .unwrap_or((1, 1));
+        let cycle = rest[..length].join(" → ");
+        told.push(if times > 1 {
+            format!("({cycle}) × {times}")
+        } else {
+            cycle
+        });
+        rest = &rest[length * times..];
+    }
+    told.join(" → ")
 }
 
 /// The values of a point, by name.
@@ -133,5 +221,23 @@ fn figure(x: f64) -> String {
             }
         }
         _ => text,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::in_cycles;
+
+    #[test]
+    fn cycles_are_told_once() {
+        assert_eq!(in_cycles(&["a", "b", "c"]), "a → b → c");
+        assert_eq!(
+            in_cycles(&["x", "a", "b", "a", "b", "a", "b", "a"]),
+            "x → (a → b) × 3 → a"
+        );
+        assert_eq!(
+            in_cycles(&["a", "b", "c", "a", "b", "c", "…"]),
+            "(a → b → c) × 2 → …"
+        );
     }
 }

@@ -18,6 +18,9 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use store::Store;
 
+/// Most bytes of results that are kept in memory.
+const MOST_IN_MEMORY: f64 = 2e9;
+
 /// What has been done of a sweep.
 pub struct Journal {
     keep: Keep,
@@ -47,11 +50,11 @@ impl Journal {
     /// A journal that is lost with the process.
     ///
     /// # Errors
-    /// The results do not fit into memory.
+    /// The results take more memory than is used for that.
     pub fn in_memory(sweep: &Sweep) -> Result<Self, Trouble> {
-        let numbers = sweep.points.len().saturating_mul(sweep.width());
-        if Vec::<f64>::new().try_reserve_exact(numbers).is_err() {
-            return Err(Trouble::Memory(numbers.saturating_mul(8)));
+        let bytes = 8.0 * sweep.points.size() * sweep.width() as f64;
+        if bytes > MOST_IN_MEMORY {
+            return Err(Trouble::Memory(bytes));
         }
         Ok(Self {
             keep: Keep::Memory(Mutex::new(vec![None; sweep.chunks()])),
@@ -61,12 +64,13 @@ impl Journal {
     /// The journal in a folder, which is made if it is not there, to work on a shard of the sweep.
     ///
     /// # Errors
-    /// It holds another sweep, another process works on it, or it cannot be written.
+    /// It holds another sweep, another process works on it, it cannot be written, or the disk is too small.
     pub fn in_folder(sweep: &Sweep, folder: &Path, shard: Shard) -> Result<Self, Trouble> {
         let cannot = |path: &Path| {
             let path = path.to_owned();
             move |error| Trouble::File(path, error)
         };
+        fits(sweep, folder, shard)?;
         fs::create_dir_all(folder).map_err(cannot(folder))?;
         let path = folder.join("lock");
         let lock = open(&path)?;
@@ -338,4 +342,29 @@ fn replace(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
     let unfinished = path.with_extension(format!("{}.unfinished", std::process::id()));
     fs::write(&unfinished, bytes)?;
     fs::rename(&unfinished, path)
+}
+
+/// Refuses what has no room on the disk: what is kept of a shard and, of a sweep as a whole, the file that is made of it.
+fn fits(sweep: &Sweep, folder: &Path, shard: Shard) -> Result<(), Trouble> {
+    let numbers = match shard == Shard::WHOLE {
+        true => 2 * sweep.width() + sweep.points.axes.len(),
+        false => sweep.width(),
+    };
+    let needed = 8.0 * sweep.points.size() / shard.of() as f64 * numbers as f64;
+    let there: u64 = fs::read_dir(folder).map_or(0, |files| {
+        let lengths = files.flatten().flat_map(|file| file.metadata());
+        lengths.map(|known| known.len()).sum()
+    });
+    let above = folder
+        .ancestors()
+        .find(|above| above.is_dir())
+        .unwrap_or(Path::new("."));
+    match fs4::available_space(above) {
+        Ok(free) if needed > there as f64 + free as f64 => Err(Trouble::Disk {
+            needed,
+            free: free as f64,
+        }),
+        // Where nobody knows, writing will tell.
+        _ => Ok(()),
+    }
 }

@@ -22,8 +22,15 @@ pub enum Trouble {
     NoSweep(PathBuf, String),
     /// A chunk was there and can no longer be read.
     Damaged(PathBuf),
-    /// The results take more memory than there is: so many bytes.
-    Memory(usize),
+    /// The results take more memory than is used for that: so many bytes.
+    Memory(f64),
+    /// The results take more room than there is on the disk.
+    Disk {
+        /// Bytes that they take.
+        needed: f64,
+        /// Bytes that are free.
+        free: f64,
+    },
     /// Chunks are missing.
     Incomplete(Missing),
 }
@@ -125,7 +132,11 @@ impl fmt::Display for Trouble {
             ),
             Trouble::Memory(bytes) => write!(
                 f,
-                "the results take {bytes} bytes, more than there is memory; keep them in a file with --output"
+                "the results take {bytes:.1e} bytes, too many for memory; keep them in a file with --output"
+            ),
+            Trouble::Disk { needed, free } => write!(
+                f,
+                "the results take {needed:.1e} bytes and the disk has {free:.1e} left; do fewer points, or a --shard on each of several disks"
             ),
             Trouble::Incomplete(missing) => missing.fmt(f),
         }

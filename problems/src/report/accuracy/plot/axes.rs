@@ -1,7 +1,7 @@
-//! Logarithmic axes: error to the right getting smaller, time upward.
+//! Logarithmic axes: error to the right, time upward.
 
-use super::{Area, Drawn, HEIGHT};
-use crate::report::plot::{FINE, WIDTH, px, words};
+use super::HEIGHT;
+use crate::report::plot::{Area, Drawn, FINE, WIDTH, px, words};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 
@@ -23,7 +23,7 @@ impl Frame {
         let floor = floor.log10();
         let room = 0.06 * (most - least).max(1.0);
         Some(Self {
-            error: ((largest + 0.2).max(floor + 1.0), floor - 0.5),
+            error: (floor - 0.5, (largest + 0.2).max(floor + 1.0)),
             time: (least - 1.5 * room, most + room),
             floor,
         })
@@ -66,7 +66,7 @@ pub(super) fn draw<'a>(root: &Area<'a>, frame: &Frame) -> Drawn<'a> {
     let (left, right, top, bottom) = (frame.left(), frame.right(), frame.top(), frame.bottom());
     let floor = frame.column(frame.floor);
     root.draw(&Rectangle::new(
-        [(floor, top), (right, bottom)],
+        [(left, top), (floor, bottom)],
         BLACK.mix(0.07).filled(),
     ))?;
     let line = |from, to, shade: f64| {
@@ -75,9 +75,9 @@ pub(super) fn draw<'a>(root: &Area<'a>, frame: &Frame) -> Drawn<'a> {
     };
     let numbers = |horizontal, vertical| words(13, &BLACK, horizontal, vertical);
 
-    let (last, first) = (frame.error.1.ceil() as i32, frame.error.0.floor() as i32);
-    let every = if first - last > 10 { 2 } else { 1 };
-    for power in last..=first {
+    let (first, last) = (frame.error.0.ceil() as i32, frame.error.1.floor() as i32);
+    let every = if last - first > 10 { 2 } else { 1 };
+    for power in first..=last {
         let x = frame.column(f64::from(power));
         let named = power % every == 0;
         line((x, top), (x, bottom), if named { 0.14 } else { 0.07 })?;
@@ -110,13 +110,13 @@ pub(super) fn draw<'a>(root: &Area<'a>, frame: &Frame) -> Drawn<'a> {
 
     let title = words(14, &BLACK, HPos::Center, VPos::Top);
     let middle = ((left + right) / 2, bottom + px(31));
-    root.draw(&Text::new("error, more exact to the right", middle, title))?;
+    root.draw(&Text::new("error, more exact to the left", middle, title))?;
     let upward = words(14, &BLACK, HPos::Center, VPos::Top).transform(FontTransform::Rotate270);
     let beside = (px(8), (top + bottom) / 2);
     root.draw(&Text::new("time of one run", beside, upward))?;
     let style =
         words(12, &BLACK.mix(0.55), HPos::Center, VPos::Bottom).transform(FontTransform::None);
-    let above = ((floor + right) / 2, top - px(4));
+    let above = ((left + floor) / 2, top - px(4));
     root.draw(&Text::new("floor", above, style))
 }
 

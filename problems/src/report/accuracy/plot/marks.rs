@@ -1,7 +1,6 @@
 //! One marker per method, so that a picture can be read without its colours.
 
-use super::{Area, Drawn};
-use crate::report::plot::{COLOURS, FINE, px};
+use crate::report::plot::{Area, COLOURS, Drawn, FINE, px};
 use plotters::prelude::*;
 
 /// Draws marker `look` at a place, filled and with a light edge that keeps it apart from the lines.

@@ -1,21 +1,17 @@
 //! Accuracy → SVG, the work–precision diagram: time of a run over the error of its result, both logarithmic.
 //!
-//! More exact is to the right, faster is below. Each method is one curve, from its loosest tolerance to its tightest; at
-//! the right edge is the floor, where errors cannot be told from those of the reference.
+//! More exact is to the left, faster is below. Each method is one curve, from its loosest tolerance to its tightest; at
+//! the left edge is the floor, where errors cannot be told from those of the reference.
 
 mod axes;
 mod marks;
 
 use super::demand;
 use crate::accuracy::{Accuracy, Family, Setting};
-use crate::report::plot::{COLOURS, FINE, WIDTH, px, words};
+use crate::report::plot::{Area, COLOURS, Drawn, FINE, draw_in, px, words};
 use axes::Frame;
-use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
-
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-type Drawn<'a> = Result<(), DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>>;
 
 const HEIGHT: u32 = 560 * FINE;
 
@@ -39,15 +35,7 @@ pub fn svg(accuracy: &Accuracy) -> Result<String, String> {
     let points = || curves.iter().flat_map(|curve| &curve.points);
     let frame = Frame::around(points().copied(), accuracy.reference.floor)
         .ok_or("there is nothing to plot: no method got to the end with an error below 1")?;
-    let mut text = String::new();
-    {
-        let root = SVGBackend::with_string(&mut text, (WIDTH, HEIGHT)).into_drawing_area();
-        draw(&root, accuracy, &frame, &curves).map_err(|e| e.to_string())?;
-        root.present().map_err(|e| e.to_string())?;
-    }
-    let drawn = format!("width=\"{WIDTH}\" height=\"{HEIGHT}\"");
-    let shown = format!("width=\"{}\" height=\"{}\"", WIDTH / FINE, HEIGHT / FINE);
-    Ok(text.replacen(&drawn, &shown, 1))
+    draw_in(HEIGHT, |root| draw(root, accuracy, &frame, &curves))
 }
 
 /// The curves in the order of the study; a method without a single point keeps its place in the key.
@@ -80,7 +68,6 @@ fn look(name: &str) -> usize {
 }
 
 fn draw<'a>(root: &Area<'a>, accuracy: &Accuracy, frame: &Frame, curves: &[Curve]) -> Drawn<'a> {
-    root.fill(&WHITE)?;
     let heading = words(17, &BLACK, HPos::Left, VPos::Center);
     root.draw_text(accuracy.scene, &heading, (px(14), px(20)))?;
     axes::draw(root, frame)?;

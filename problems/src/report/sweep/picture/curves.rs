@@ -3,7 +3,7 @@
 use super::frame::Frame;
 use super::marks::{Look, Marks};
 use super::scale::Scale;
-use super::{Picture, observed, varied};
+use super::{HEIGHT, Picture, columns, observed, varied};
 use crate::report::plot::{COLOURS, px};
 use crate::report::sweep::{Failure, lines};
 use crate::sweep::{Journal, Sweep};
@@ -22,7 +22,8 @@ struct Piece {
 pub(super) fn curves(sweep: &Sweep, journal: &Journal) -> Result<Option<Picture>, Failure> {
     let axis = &sweep.points.axes[0];
     let count = axis.count.min(MOST);
-    let mut pieces: Vec<Vec<Option<Piece>>> = vec![vec![None; count]; sweep.observed.len()];
+    let (_, numbers) = columns(sweep);
+    let mut pieces: Vec<Vec<Option<Piece>>> = vec![vec![None; count]; numbers.len()];
     let mut failed = vec![false; count];
     let mut edges: Option<(f64, f64)> = None;
     let mut index = 0;
@@ -30,7 +31,8 @@ pub(super) fn curves(sweep: &Sweep, journal: &Journal) -> Result<Option<Picture>
         let place = index * count / axis.count;
         index += 1;
         failed[place] |= failure.is_some();
-        for (pieces, &value) in pieces.iter_mut().zip(observed) {
+        for (pieces, &index) in pieces.iter_mut().zip(&numbers) {
+            let value = observed[index];
             if value.is_nan() {
                 continue;
             }
@@ -83,6 +85,8 @@ pub(super) fn curves(sweep: &Sweep, journal: &Journal) -> Result<Option<Picture>
         frame,
         colours: None,
         marks,
+        key: Vec::new(),
+        height: HEIGHT,
     }))
 }
 
@@ -92,8 +96,8 @@ pub(super) fn look(RGBColor(r, g, b): RGBColor) -> Look {
 
 /// Observations in their colours, if there are several; one is named on the axis.
 pub(super) fn names(sweep: &Sweep) -> Vec<(String, RGBColor)> {
-    let several = 0..sweep.observed.len();
-    let names = several.clone().map(|index| observed(sweep, index));
+    let (_, several) = columns(sweep);
+    let names = several.iter().map(|index| observed(sweep, *index));
     names
         .filter(|_| several.len() > 1)
         .zip(COLOURS.iter().copied().cycle())
@@ -102,15 +106,14 @@ pub(super) fn names(sweep: &Sweep) -> Vec<(String, RGBColor)> {
 
 /// The frame of values over the first axis.
 pub(super) fn frame(sweep: &Sweep, x: Scale, (low, high): (f64, f64)) -> Frame {
-    let all: Vec<String> = (0..sweep.observed.len())
-        .map(|i| sweep.unit_observed(i))
-        .collect();
-    let y = match (&all[..], sweep.observed.len()) {
-        (_, 1) => observed(sweep, 0),
+    let (_, numbers) = columns(sweep);
+    let all: Vec<String> = numbers.iter().map(|i| sweep.unit_observed(*i)).collect();
+    let y = match (&all[..], &numbers[..]) {
+        (_, [one]) => observed(sweep, *one),
         // A unit that all have in common.
         ([first, rest @ ..], _) if rest.iter().all(|unit| unit == first) => first.clone(),
         _ => String::new(),
     };
     let y = (Scale::around(low, high, 0.05), y);
-    Frame::new((x, varied(sweep, 0)), y, true, sweep.observed.len())
+    Frame::new((x, varied(sweep, 0)), y, true, numbers.len())
 }

@@ -1,10 +1,12 @@
 //! The points of a sample: values over one axis, colours over two.
 
+use super::colours::Colours;
 use super::curves::{frame, look, names};
 use super::frame::Frame;
 use super::marks::{Look, Marks};
+use super::regions::Regions;
 use super::scale::Scale;
-use super::{Picture, heading, observed, varied};
+use super::{HEIGHT, Picture, columns, heading, observed, varied};
 use crate::report::plot::{COLOURS, px};
 use crate::report::sweep::{Failure, lines};
 use crate::sweep::{Journal, Sweep};
@@ -57,15 +59,20 @@ fn note(sweep: &Sweep, dots: &[Dot]) -> String {
 /// `None` if no run has what was observed.
 pub(super) fn over_one(sweep: &Sweep, journal: &Journal) -> Result<Option<Picture>, Failure> {
     let dots = dots(sweep, journal)?;
-    let Some(edges) = edges(dots.iter().flat_map(|dot| &dot.observed)) else {
+    let (_, numbers) = columns(sweep);
+    let values = dots
+        .iter()
+        .flat_map(|dot| numbers.iter().map(|index| &dot.observed[*index]));
+    let Some(edges) = edges(values) else {
         return Ok(None);
     };
     let frame = frame(sweep, Scale::of(&sweep.points.axes[0], 0.0), edges);
     let mut marks = marks(&dots);
     for dot in &dots {
-        for (value, colour) in dot.observed.iter().zip(COLOURS.iter().cycle()) {
+        for (index, colour) in numbers.iter().zip(COLOURS.iter().cycle()) {
+            let value = dot.observed[*index];
             if !value.is_nan() {
-                marks.dot(look(*colour), frame.place(dot.point[0], *value));
+                marks.dot(look(*colour), frame.place(dot.point[0], value));
             }
         }
         if dot.failed {
@@ -84,6 +91,8 @@ pub(super) fn over_one(sweep: &Sweep, journal: &Journal) -> Result<Option<Pictur
         frame,
         colours: None,
         marks,
+        key: Vec::new(),
+        height: HEIGHT,
     }))
 }
 
@@ -93,7 +102,13 @@ pub(super) fn over_two(sweep: &Sweep, journal: &Journal) -> Result<Option<Pictur
     let Some((low, high)) = edges(dots.iter().map(|dot| &dot.observed[0])) else {
         return Ok(None);
     };
-    let colours = Scale::around(low, high, 0.0);
+    let sequences = sweep.observed[0].is_sequence();
+    let regions = Regions::of(
+        dots.iter()
+            .map(|dot| dot.observed[0])
+            .filter(|v| sequences && !v.is_nan()),
+    );
+    let colours = Colours::new(low, high, observed(sweep, 0));
     let axes = &sweep.points.axes;
     let frame = Frame::new(
         (Scale::of(&axes[0], 0.0), varied(sweep, 0)),
@@ -104,18 +119,25 @@ pub(super) fn over_two(sweep: &Sweep, journal: &Journal) -> Result<Option<Pictur
     let mut marks = marks(&dots);
     for dot in &dots {
         let look = match dot.observed[0] {
-            value if !value.is_nan() => Look::at(colours.part(value)),
+            value if !value.is_nan() && sequences => regions.look(value),
+            value if !value.is_nan() => colours.look(value),
             _ if dot.failed => Look::Failed,
             _ => Look::None,
         };
         marks.dot(look, frame.place(dot.point[0], dot.point[1]));
     }
     marks.explain();
-    Ok(Some(Picture {
+    let mut picture = Picture {
         heading: heading(sweep) + &note(sweep, &dots),
         names: Vec::new(),
         frame,
-        colours: Some((colours, observed(sweep, 0))),
+        colours: (!sequences).then_some(colours),
         marks,
-    }))
+        key: Vec::new(),
+        height: HEIGHT,
+    };
+    if sequences {
+        regions.explain(&sweep.observed[0], &mut picture);
+    }
+    Ok(Some(picture))
 }

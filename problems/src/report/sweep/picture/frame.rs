@@ -1,8 +1,9 @@
 //! The frame of a picture: axes with names, units and numbers; the scale of colours beside it.
 
+use super::HEIGHT;
+use super::colours::Colours;
 use super::scale::{Scale, short};
-use super::{Area, Drawn, HEIGHT, shade};
-use crate::report::plot::{FINE, WIDTH, px, words};
+use crate::report::plot::{Area, Drawn, FINE, WIDTH, px, words};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 
@@ -95,13 +96,14 @@ pub(super) fn beside() -> i32 {
 }
 
 /// The colours with their numbers.
-pub(super) fn colour_scale<'a>(root: &Area<'a>, scale: &Scale, name: &str) -> Drawn<'a> {
+pub(super) fn colour_scale<'a>(root: &Area<'a>, colours: &Colours) -> Drawn<'a> {
+    let (scale, name) = (&colours.scale, &colours.name);
     const STEPS: i32 = 64;
     let (left, top, bottom) = (beside(), px(42), HEIGHT as i32 - px(110));
     let place = |part: f64| bottom - (part * f64::from(bottom - top)).round() as i32;
     for step in 0..STEPS {
         let part = |step: i32| f64::from(step) / f64::from(STEPS);
-        let colour = shade((f64::from(step) + 0.5) / f64::from(STEPS));
+        let colour = colours.at((f64::from(step) + 0.5) / f64::from(STEPS));
         // Each a trifle too high: no line shows between them.
         let over = if step + 1 < STEPS { px(1) } else { 0 };
         let corners = [
@@ -120,5 +122,5 @@ pub(super) fn colour_scale<'a>(root: &Area<'a>, scale: &Scale, name: &str) -> Dr
     }
     let upward = words(14, &BLACK, HPos::Center, VPos::Top).transform(FontTransform::Rotate270);
     let beside = (left + px(84), (top + bottom) / 2);
-    root.draw(&Text::new(name.to_owned(), beside, upward))
+    root.draw(&Text::new(name.clone(), beside, upward))
 }

@@ -1,9 +1,11 @@
 //! A map over the first two axes of a grid.
 
+use super::colours::Colours;
 use super::frame::Frame;
 use super::marks::{Look, Marks};
+use super::regions::{Regions, borders};
 use super::scale::Scale;
-use super::{Picture, heading, observed, varied};
+use super::{HEIGHT, Picture, columns as columns_of, heading, observed, varied};
 use crate::report::sweep::{Failure, lines};
 use crate::sweep::{Journal, Sweep};
 
@@ -16,6 +18,8 @@ struct Cell {
     sum: f64,
     count: usize,
     failed: bool,
+    /// The sequence of modes of the first run that has one.
+    sequence: Option<u64>,
 }
 
 impl Cell {
@@ -32,6 +36,7 @@ pub(super) fn map(sweep: &Sweep, journal: &Journal) -> Result<Option<Picture>, F
     let (columns, rows) = (x.count.min(MOST.0), y.count.min(MOST.1));
     let others: usize = axes[2..].iter().map(|axis| axis.count).product();
     let mut cells = vec![Cell::default(); columns * rows];
+    let (sequences, _) = columns_of(sweep);
     let mut index = 0;
     lines(sweep, journal, |_, observed, failure| {
         let (i, j) = (index / others / y.count, index / others % y.count);
@@ -41,6 +46,10 @@ pub(super) fn map(sweep: &Sweep, journal: &Journal) -> Result<Option<Picture>, F
             cell.count += 1;
         }
         cell.failed |= failure.is_some();
+        let known = sequences
+            .map(|index| observed[index])
+            .filter(|value| !value.is_nan());
+        cell.sequence = cell.sequence.or(known.map(|value| value as u64));
         index += 1;
         Ok(())
     })?;
@@ -51,17 +60,21 @@ pub(super) fn map(sweep: &Sweep, journal: &Journal) -> Result<Option<Picture>, F
     }) else {
         return Ok(None);
     };
-    let colours = Scale::around(low, high, 0.0);
+    let colours = Colours::new(low, high, observed(sweep, 0));
+    let by_modes = sequences == Some(0);
+    let known = cells.iter().filter_map(|cell| cell.sequence);
+    let regions = Regions::of(known.filter(|_| by_modes).map(|number| number as f64));
     let frame = Frame::new(
         (Scale::of(x, 0.5), varied(sweep, 0)),
         (Scale::of(y, 0.5), varied(sweep, 1)),
         false,
         0,
     );
-    let look = |cell: &Cell| match cell.value() {
-        Some(value) => Look::at(colours.part(value)),
-        None if cell.failed => Look::Failed,
-        None => Look::None,
+    let look = |cell: &Cell| match (cell.value(), cell.sequence) {
+        (_, Some(number)) if by_modes => regions.look(number as f64),
+        (Some(value), _) => colours.look(value),
+        (None, _) if cell.failed => Look::Failed,
+        (None, _) => Look::None,
     };
     let mut marks = Marks::default();
     // An axis may go down.
@@ -77,19 +90,37 @@ pub(super) fn map(sweep: &Sweep, journal: &Journal) -> Result<Option<Picture>, F
             i = end;
         }
     }
+    let sequence = |i: usize, j: usize| cells[i * rows + j].sequence;
+    borders(
+        columns,
+        rows,
+        sequence,
+        |i, j| (column(i), row(j)),
+        &mut marks,
+    );
     marks.explain();
     let mut heading = heading(sweep);
     if axes.len() > 2 {
         let names: Vec<&str> = axes[2..].iter().map(|axis| axis.name.as_str()).collect();
-        heading += &format!(", mean over {}", names.join(", "));
+        let how = if by_modes { "the first" } else { "mean" };
+        heading += &format!(", {how} over {}", names.join(", "));
     }
-    Ok(Some(Picture {
+    if sequences.is_some() && !by_modes {
+        heading += "; lines: other modes";
+    }
+    let mut picture = Picture {
         heading,
         names: Vec::new(),
         frame,
-        colours: Some((colours, observed(sweep, 0))),
+        colours: (!by_modes).then_some(colours),
         marks,
-    }))
+        key: Vec::new(),
+        height: HEIGHT,
+    };
+    if by_modes {
+        regions.explain(&sweep.observed[0], &mut picture);
+    }
+    Ok(Some(picture))
 }
 
 /// Edge number `index` of `count` cells, as a part of the way.

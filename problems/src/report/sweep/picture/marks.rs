@@ -1,20 +1,23 @@
 //! What fills a picture: many cells and dots of few looks, gathered so that each look is one element of the file.
 
+use super::HEIGHT;
+use super::colours::{shade, signed};
 use super::frame::beside;
-use super::{HEIGHT, shade};
 use crate::report::plot::px;
 use plotters::style::RGBColor;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// Steps of the colours.
-const LEVELS: f64 = 63.0;
+/// Steps of the colours, an even number of them, so that zero has one of a scale around it.
+pub(super) const LEVELS: f64 = 64.0;
 
 /// How a cell or a dot looks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Look {
-    /// A value: one of the colours.
+    /// A value: one of the colours from low to high.
     Level(u8),
+    /// The same, from below zero to above it.
+    Signed(u8),
     /// A curve.
     Plain(u8, u8, u8),
     /// No run has it.
@@ -24,15 +27,11 @@ pub(super) enum Look {
 }
 
 impl Look {
-    /// Of a value at a part of the scale.
-    pub(super) fn at(part: f64) -> Self {
-        Look::Level((part.clamp(0.0, 1.0) * LEVELS).round() as u8)
-    }
-
     fn colour(self) -> String {
         let hex = |RGBColor(r, g, b): RGBColor| format!("#{r:02x}{g:02x}{b:02x}");
         match self {
             Look::Level(level) => hex(shade(f64::from(level) / LEVELS)),
+            Look::Signed(level) => hex(signed(f64::from(level) / LEVELS)),
             Look::Plain(r, g, b) => hex(RGBColor(r, g, b)),
             Look::None => "#d4d4d4".to_owned(),
             Look::Failed => "url(#failed)".to_owned(),
@@ -45,6 +44,8 @@ impl Look {
 pub(super) struct Marks {
     cells: BTreeMap<Look, String>,
     dots: BTreeMap<Look, String>,
+    /// Lines between regions.
+    borders: String,
     /// Diameter of a dot.
     size: i32,
     key: Vec<(&'static str, (i32, i32))>,
@@ -65,6 +66,11 @@ impl Marks {
         let (wide, high) = (to.0 - from.0, to.1 - from.1);
         // Writing to a text cannot fail.
         let _ = write!(path, "M{} {}h{wide}v{high}h{}z", from.0, from.1, -wide);
+    }
+
+    /// A line between two regions.
+    pub(super) fn border(&mut self, from: (i32, i32), to: (i32, i32)) {
+        let _ = write!(self.borders, "M{} {}L{} {}", from.0, from.1, to.0, to.1);
     }
 
     /// A dot; a cross for a run that failed.
@@ -126,6 +132,13 @@ impl Marks {
             let _ = write!(
                 text,
                 "\n<path fill=\"{colour}\" shape-rendering=\"crispEdges\" d=\"{path}\"/>"
+            );
+        }
+        if !self.borders.is_empty() {
+            let (width, path) = (px(1), &self.borders);
+            let _ = write!(
+                text,
+                "\n<path fill=\"none\" stroke=\"#000000\" stroke-width=\"{width}\" stroke-linecap=\"square\" d=\"{path}\"/>"
             );
         }
         for (look, path) in &self.dots {

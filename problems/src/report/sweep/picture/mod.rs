@@ -1,29 +1,28 @@
 //! Sweep → SVG: curves over one axis, a map over two, the points of a sample.
 //!
-//! Colours are Viridis (Smith and van der Walt 2015), which colour-blind readers and printers in grey keep apart. Where runs failed the
-//! picture is hatched, where they do not have what was observed it is grey. Pictures do not grow with the sweep: cells that are too
+//! Where `modes` are observed, sequences of modes are regions, or have lines between them. Where runs failed the picture is hatched, where they do not have what was observed it is grey. Pictures do not grow with the sweep: cells that are too
 //! many are put together, of many points the first are drawn.
 
+mod colours;
 mod curves;
 mod dots;
 mod frame;
 mod map;
 mod marks;
+mod regions;
 mod scale;
 
 use super::Failure;
-use crate::report::plot::{FINE, WIDTH, px, words};
+use crate::report::letters::Letters;
+use crate::report::plot::{Area, Drawn, FINE, draw_in, px, words};
 use crate::report::with_unit;
 use crate::sweep::{Journal, Sampling, Sweep};
+use colours::Colours;
 use frame::Frame;
 use marks::Marks;
-use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 use std::io;
-
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-type Drawn<'a> = Result<(), DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>>;
 
 const HEIGHT: u32 = 520 * FINE;
 
@@ -34,8 +33,22 @@ struct Picture {
     names: Vec<(String, RGBColor)>,
     frame: Frame,
     /// The scale of colours, with its name.
-    colours: Option<(scale::Scale, String)>,
+    colours: Option<Colours>,
     marks: Marks,
+    /// Words below the frame, and where they go.
+    key: Vec<(String, (i32, i32))>,
+    height: u32,
+}
+
+/// Whether there is a picture for what is observed, which can be said before anything is run.
+///
+/// # Errors
+/// A sentence that says what would have one.
+pub fn drawable(sweep: &Sweep) -> Result<(), &'static str> {
+    match sweep.points.axes.len() == 1 && columns(sweep).1.is_empty() {
+        true => Err("modes are drawn over two axes; over one, observe something beside them"),
+        false => Ok(()),
+    }
 }
 
 /// The picture, as the text of an SVG file: all observations over one axis, the first one over two or more.
@@ -44,6 +57,7 @@ struct Picture {
 /// The journal is not complete; no run has what was observed.
 pub fn svg(sweep: &Sweep, journal: &Journal) -> Result<String, Failure> {
     let one = sweep.points.axes.len() == 1;
+    drawable(sweep).map_err(|words| reason(words.to_owned()))?;
     let picture = match (sweep.points.sampling, one) {
         (Sampling::Grid, true) => curves::curves(sweep, journal)?,
         (Sampling::Grid, false) => map::map(sweep, journal)?,
@@ -53,15 +67,7 @@ pub fn svg(sweep: &Sweep, journal: &Journal) -> Result<String, Failure> {
     let picture = picture.ok_or_else(|| {
         reason("there is nothing to draw: no run has what was observed".to_owned())
     })?;
-    let mut text = String::new();
-    {
-        let root = SVGBackend::with_string(&mut text, (WIDTH, HEIGHT)).into_drawing_area();
-        draw(&root, &picture).map_err(|e| reason(e.to_string()))?;
-        root.present().map_err(|e| reason(e.to_string()))?;
-    }
-    let drawn = format!("width=\"{WIDTH}\" height=\"{HEIGHT}\"");
-    let shown = format!("width=\"{}\" height=\"{}\"", WIDTH / FINE, HEIGHT / FINE);
-    let mut text = text.replacen(&drawn, &shown, 1);
+    let mut text = draw_in(picture.height, |root| draw(root, &picture)).map_err(reason)?;
     // What is drawn first is the background; marks come before axes and words.
     if let Some(place) = text.find("/>") {
         text.insert_str(place + 2, &picture.marks.svg());
@@ -74,7 +80,6 @@ fn reason(text: String) -> Failure {
 }
 
 fn draw<'a>(root: &Area<'a>, picture: &Picture) -> Drawn<'a> {
-    root.fill(&WHITE)?;
     let heading = words(17, &BLACK, HPos::Left, VPos::Center);
     root.draw_text(&picture.heading, &heading, (px(14), px(20)))?;
     for (line, (name, colour)) in picture.names.iter().enumerate() {
@@ -83,8 +88,12 @@ fn draw<'a>(root: &Area<'a>, picture: &Picture) -> Drawn<'a> {
         root.draw_text(name, &style, place)?;
     }
     picture.frame.draw(root)?;
-    if let Some((scale, name)) = &picture.colours {
-        frame::colour_scale(root, scale, name)?;
+    if let Some(colours) = &picture.colours {
+        frame::colour_scale(root, colours)?;
+    }
+    for (text, place) in &picture.key {
+        let style = words(13, &BLACK, HPos::Left, VPos::Center);
+        root.draw_text(text, &style, *place)?;
     }
     for (text, place) in picture.marks.key() {
         let style = words(13, &BLACK, HPos::Left, VPos::Center);
@@ -93,22 +102,35 @@ fn draw<'a>(root: &Area<'a>, picture: &Picture) -> Drawn<'a> {
     Ok(())
 }
 
+/// Columns of `modes` among the observations, and of numbers.
+fn columns(sweep: &Sweep) -> (Option<usize>, Vec<usize>) {
+    let (sequences, numbers): (Vec<_>, Vec<_>) =
+        (0..sweep.observed.len()).partition(|index| sweep.observed[*index].is_sequence());
+    (sequences.first().copied(), numbers)
+}
+
 /// The scene, and the first observation with its unit.
 fn heading(sweep: &Sweep) -> String {
     format!("{}: {}", sweep.scene.name(), observed(sweep, 0))
 }
 
-/// An observation with its unit.
+/// An observation with its unit, each word of it that is a name as a letter.
 fn observed(sweep: &Sweep, index: usize) -> String {
-    with_unit(&sweep.observed[index].name, &sweep.unit_observed(index))
+    let letters = Letters::of(sweep.scene.derivation());
+    let name = &sweep.observed[index].name;
+    let (what, rest) = name
+        .split_once(' ')
+        .map_or((name.as_str(), String::new()), |(what, rest)| {
+            (what, format!(" {rest}"))
+        });
+    with_unit(&(letters.letter(what) + &rest), &sweep.unit_observed(index))
 }
 
-/// An axis with its unit.
+/// An axis as a letter, with its unit.
 fn varied(sweep: &Sweep, index: usize) -> String {
-    with_unit(&sweep.points.axes[index].name, &sweep.unit_varied(index))
-}
-
-/// From dark blue to yellow, each step lighter than the last.
-fn shade(part: f64) -> RGBColor {
-    ViridisRGB.get_color(part.clamp(0.0, 1.0))
+    let letters = Letters::of(sweep.scene.derivation());
+    with_unit(
+        &letters.letter(&sweep.points.axes[index].name),
+        &sweep.unit_varied(index),
+    )
 }

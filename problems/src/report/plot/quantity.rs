@@ -1,0 +1,163 @@
+//! What of a run can be drawn, by name: `t`, a coordinate `theta`, its rate `der(theta)`, a force, `|grip|`, what a friction can
+//! hold `limit(grip)`, an output, `kinetic`, `potential`, `energy`.
+
+use crate::outcome::{Force, Sample, Source, forces};
+use crate::report::{is_angle, rate_unit, symbol};
+use crate::request::{Refusal, velocity_name};
+use lagrange_core::system::Description;
+
+/// A number that a run has at every instant, or while something acts.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Quantity {
+    Time,
+    Position(usize),
+    Velocity(usize),
+    /// Of one row, with its sign.
+    Force(Force),
+    /// Of a friction, whatever its direction.
+    Size(usize),
+    /// What a friction can hold.
+    Limit(usize),
+    /// An extra output.
+    Output(usize),
+    Kinetic,
+    Potential,
+    /// Kinetic and potential.
+    Energy,
+}
+
+impl Quantity {
+    /// All of a scene, with the names that a user gives.
+    fn all(d: &Description) -> Vec<(String, Self)> {
+        let mut all = vec![("t".to_owned(), Quantity::Time)];
+        for (i, coordinate) in d.coordinates.iter().enumerate() {
+            all.push((coordinate.name.to_owned(), Quantity::Position(i)));
+            all.push((velocity_name(coordinate.name), Quantity::Velocity(i)));
+        }
+        for force in forces(d) {
+            all.push((force.name.clone(), Quantity::Force(force)));
+        }
+        for (i, friction) in d.frictions.iter().enumerate() {
+            all.push((format!("|{}|", friction.name), Quantity::Size(i)));
+            all.push((format!("limit({})", friction.name), Quantity::Limit(i)));
+        }
+        for (i, output) in d.observes.iter().enumerate() {
+            all.push((output.name.to_owned(), Quantity::Output(i)));
+        }
+        let energies = [Quantity::Kinetic, Quantity::Potential, Quantity::Energy];
+        // What a scene has declared goes before.
+        all.extend(
+            ["kinetic", "potential", "energy"]
+                .map(str::to_owned)
+                .into_iter()
+                .zip(energies),
+        );
+        all
+    }
+
+    /// The one called `name`, blanks ignored.
+    pub(super) fn find(name: &str, d: &Description) -> Result<Self, Refusal> {
+        let plain: String = name.chars().filter(|c| !c.is_whitespace()).collect();
+        let all = Self::all(d);
+        let found = all.iter().find(|(known, _)| *known == plain);
+        found.map(|(_, quantity)| quantity.clone()).ok_or_else(|| {
+            Refusal::unknown(
+                "quantity",
+                &plain,
+                all.iter().map(|(known, _)| known.as_str()),
+            )
+        })
+    }
+
+    /// As it is written beside a curve.
+    pub(super) fn name(&self, d: &Description) -> String {
+        match self {
+            Quantity::Time => "time".to_owned(),
+            Quantity::Position(i) => symbol(d.coordinates[*i].name),
+            Quantity::Velocity(i) => format!("d{}/dt", symbol(d.coordinates[*i].name)),
+            Quantity::Force(force) => force.name.clone(),
+            Quantity::Size(i) => format!("|{}|", d.frictions[*i].name),
+            Quantity::Limit(i) => format!("μN of {}", d.frictions[*i].name),
+            Quantity::Output(i) => d.observes[*i].name.to_owned(),
+            Quantity::Kinetic => "kinetic".to_owned(),
+            Quantity::Potential => "potential".to_owned(),
+            Quantity::Energy => "energy".to_owned(),
+        }
+    }
+
+    /// What several of them are called together.
+    pub(super) fn kind(&self, d: &Description) -> &'static str {
+        match self {
+            Quantity::Time => "time",
+            Quantity::Position(i) if is_angle(&d.coordinates[*i]) => "angle",
+            Quantity::Position(_) => "position",
+            Quantity::Velocity(_) => "rate",
+            Quantity::Force(_) | Quantity::Size(_) | Quantity::Limit(_) => "force",
+            Quantity::Output(_) => "output",
+            Quantity::Kinetic | Quantity::Potential | Quantity::Energy => "energy",
+        }
+    }
+
+    /// Its unit on paper, where angles are in degrees, and how many of that one of its own is; empty for a plain number.
+    fn scaled_unit(&self, d: &Description) -> (String, f64) {
+        let unit = match self {
+            Quantity::Time => "s".to_owned(),
+            Quantity::Position(i) if is_angle(&d.coordinates[*i]) => "rad".to_owned(),
+            Quantity::Velocity(i) if is_angle(&d.coordinates[*i]) => "rad/s".to_owned(),
+            Quantity::Position(i) => d.coordinates[*i].unit.to_owned(),
+            Quantity::Velocity(i) => rate_unit(d.coordinates[*i].unit),
+            Quantity::Force(force) => d.units.row(force.row).to_owned(),
+            Quantity::Size(i) | Quantity::Limit(i) => d.units.row(d.frictions[*i].row).to_owned(),
+            Quantity::Output(i) => d.observes[*i].unit.to_owned(),
+            Quantity::Kinetic | Quantity::Potential | Quantity::Energy => d.units.energy.to_owned(),
+        };
+        match unit.strip_prefix("rad") {
+            Some(rest @ ("" | "/s")) => (format!("°{rest}"), 180.0 / core::f64::consts::PI),
+            _ => (unit, 1.0),
+        }
+    }
+
+    /// Its unit on paper.
+    pub(super) fn unit(&self, d: &Description) -> String {
+        self.scaled_unit(d).0
+    }
+
+    /// Its value in that unit, `None` while it does not act.
+    pub(super) fn of(&self, d: &Description, sample: &Sample) -> Option<f64> {
+        let value = match self {
+            Quantity::Time => sample.time,
+            Quantity::Position(i) => sample.state.q[*i],
+            Quantity::Velocity(i) => sample.state.v[*i],
+            Quantity::Force(force) if !force.acts(d, &sample.mode) => return None,
+            Quantity::Force(force) => sample.forces[force.row],
+            Quantity::Size(i) => {
+                sample.limits[*i]?;
+                let friction = &d.frictions[*i];
+                let parts = &sample.forces[friction.row..friction.row + friction.components];
+                parts.iter().fold(0.0, |size, x| x.hypot(size))
+            }
+            Quantity::Limit(i) => sample.limits[*i]?,
+            Quantity::Output(i) => sample.observes[*i],
+            Quantity::Kinetic => sample.kinetic,
+            Quantity::Potential => sample.potential,
+            Quantity::Energy => sample.kinetic + sample.potential,
+        };
+        Some(self.scaled_unit(d).1 * value)
+    }
+
+    /// The forces of a scene, each friction followed by what it can hold.
+    pub(super) fn all_forces(d: &Description) -> Vec<Self> {
+        let mut all = Vec::new();
+        for force in forces(d) {
+            match force.source {
+                Source::Friction(i) if force.row == d.frictions[i].row => {
+                    all.extend([Quantity::Size(i), Quantity::Limit(i)]);
+                }
+                // A friction of two components is one curve.
+                Source::Friction(_) => {}
+                _ => all.push(Quantity::Force(force)),
+            }
+        }
+        all
+    }
+}
