@@ -173,9 +173,11 @@ impl fmt::Display for Refusal {
 impl core::error::Error for Refusal {}
 
 impl Request {
-    /// The default system with the parameters of the request.
-    pub(crate) fn system<S: System<Scalar = f64> + Default>(&self) -> Result<S, Refusal> {
-        let mut system = S::default();
+    /// Gives a system the parameters of the request; those that it does not name stay as they are.
+    pub(crate) fn set_parameters<S: System<Scalar = f64>>(
+        &self,
+        system: &mut S,
+    ) -> Result<(), Refusal> {
         for (index, (name, value)) in self.parameters.iter().enumerate() {
             if self.parameters[..index]
                 .iter()
@@ -183,9 +185,9 @@ impl Request {
             {
                 return Err(Refusal::Repeated { name: name.clone() });
             }
-            system.set_parameter(find_parameter(S::DESCRIPTION, name)?, *value);
+            system.set_parameter(find_parameter(system.description(), name)?, *value);
         }
-        Ok(system)
+        Ok(())
     }
 
     /// How to run `system`.
@@ -196,7 +198,7 @@ impl Request {
         let simulation = Simulation::new(system)
             .tolerance(self.tolerance)
             .method(self.method)
-            .effects(self.effects(S::DESCRIPTION)?)
+            .effects(self.effects(system.description())?)
             .project_start(self.project)
             .equations(self.equations);
         let mut simulation = match self.impacts {
@@ -204,7 +206,7 @@ impl Request {
             None => simulation,
         };
         for name in &self.end_after {
-            let (subject, kind) = event(name, S::DESCRIPTION)?;
+            let (subject, kind) = event(name, system.description())?;
             simulation = simulation.end_after((subject, kind));
         }
         Ok(match &self.progress {
@@ -244,7 +246,7 @@ impl Request {
         system: &S,
         simulation: &Simulation<'_, S>,
     ) -> Result<State<f64>, Refusal> {
-        let start = Start::new(self, S::DESCRIPTION)?;
+        let start = Start::new(self, system.description())?;
         start
             .state(system, |reference, wanted, held| {
                 simulation.consistent(0.0, reference, wanted, held)
@@ -309,7 +311,7 @@ impl Start {
         system: &S,
         consistent: impl FnOnce(&State<f64>, &State<f64>, &Held) -> Result<State<f64>, Error>,
     ) -> Result<State<f64>, Error> {
-        let n = S::DESCRIPTION.coordinates.len();
+        let n = system.description().coordinates.len();
         let mut reference = State {
             q: vec![0.0; n],
             v: vec![0.0; n],
