@@ -9,6 +9,7 @@ pub mod closed_form;
 pub mod cost;
 pub mod count;
 pub mod drawing;
+pub mod file;
 pub mod film;
 pub mod names;
 pub mod outcome;

@@ -91,6 +91,11 @@ pub enum Refusal {
         /// All known names.
         known: Vec<String>,
     },
+    /// A file that declares a system cannot be read, or has mistakes.
+    Declaration {
+        /// Which, where, and what to do.
+        reason: String,
+    },
     /// The same name twice.
     Repeated {
         /// The name.
@@ -152,6 +157,7 @@ impl fmt::Display for Refusal {
                     None => write!(f, "; there are: {}", known.join(", ")),
                 }
             }
+            Refusal::Declaration { reason } => f.write_str(reason),
             Refusal::Repeated { name } => write!(f, "`{name}` is given twice; give it once"),
             Refusal::TooMany {
                 points,

@@ -12,7 +12,7 @@ use std::io::{self, Write};
   lagrange list
   lagrange list mass-on-wheel")]
 pub(super) struct List {
-    /// A scene (or scene file), to see its parameters, coordinates, starts and forces.
+    /// A scene (or declaration, or scene file), to see its parameters, coordinates, starts and forces.
     scene: Option<String>,
 }
 

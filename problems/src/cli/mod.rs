@@ -9,9 +9,11 @@ mod complaint;
 mod completions;
 mod course;
 mod effects;
+mod export;
 mod inspect;
 mod list;
 mod merge;
+mod new;
 mod output;
 mod report;
 mod results;
@@ -21,6 +23,7 @@ mod sweep;
 mod terminal;
 mod values;
 mod verify;
+mod watch;
 
 use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 use lagrange_core::Error;
@@ -39,6 +42,8 @@ use std::process::ExitCode;
   lagrange list mass-on-wheel                 what one of them can be given
   lagrange run mass-on-wheel                  what happens
   lagrange report mass-on-wheel --output wheel.html
+  lagrange new cart                           a system of one's own, in cart.lagrange
+  lagrange run cart.lagrange
 
 lagrange COMMAND --help has examples of each command.")]
 struct Arguments {
@@ -70,6 +75,8 @@ enum Command {
     Stability(stability::Stability),
     Sweep(sweep::Sweeps),
     Merge(merge::Merge),
+    New(new::New),
+    Export(export::Export),
     Completions(completions::Completions),
 }
 
@@ -148,6 +155,8 @@ pub(crate) fn main() -> ExitCode {
         Command::Stability(stability) => stability.execute(),
         Command::Sweep(sweep) => sweep.execute(),
         Command::Merge(merge) => merge.execute(),
+        Command::New(new) => new.execute(),
+        Command::Export(export) => export.execute(),
         Command::Completions(completions) => completions.execute(),
     };
     match result {
@@ -169,7 +178,7 @@ fn complain(trouble: &Trouble) -> ExitCode {
     ExitCode::from(code)
 }
 
-/// Words to the user, in one line.
+/// Words to the user, in one line but for mistakes that are shown where they are.
 fn say(words: &str) {
     let style = anstyle::AnsiColor::Red.on_default().bold();
     // There is nobody to tell that stderr is closed.

@@ -9,6 +9,7 @@ mod description;
 mod encoded;
 mod equations;
 mod exact;
+mod export;
 mod fallback;
 mod handles;
 mod listing;
@@ -24,6 +25,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 pub use derivation::{derivation, on_request as derivation_on_request};
+pub use export::{declared_struct, export};
 pub use fallback::fallback;
 pub use listing::listing;
 
