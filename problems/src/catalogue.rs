@@ -1,5 +1,5 @@
-//! All scenes that the program knows. A new scene is one line in [`SCENES`] or, with a case of
-//! [`stability`](crate::stability), in [`HARD`].
+//! All scenes that the program knows. A new scene is one line in `SCENES` or, with a case of `stability`, in `HARD`. A
+//! [`Program`](crate::Program) of one's own has its own instead.
 
 use crate::accuracy::{self, Accuracy, Course, Study};
 use crate::closed_form::ClosedForm;
@@ -8,15 +8,16 @@ use crate::drawing::Drawing;
 use crate::film::{self, Film};
 use crate::outcome::Outcome;
 use crate::request::{Refusal, Request};
-use crate::scenes::hard::*;
-use crate::scenes::*;
+#[cfg(feature = "scenes")]
+use crate::scenes::{hard::*, *};
 use crate::space::Space;
 use crate::sweep::{self, Sweep, Worker};
-use core::f64::consts::PI;
 use lagrange_core::prelude::*;
 use lagrange_core::system::Description;
+use std::sync::OnceLock;
 
 /// Every scene, in the order of `lagrange list`.
+#[cfg(feature = "scenes")]
 pub static SCENES: &[&dyn Scene] = &[
     &Entry::<MassOnShell>::new("mass-on-shell", 20.0)
         .known(MassOnShell::closed_form)
@@ -54,7 +55,7 @@ pub static SCENES: &[&dyn Scene] = &[
     &Entry::<CartesianPendulum>::new("cartesian-pendulum", 100.0)
         .known(CartesianPendulum::closed_form)
         .drawn(CartesianPendulum::drawing),
-    &Entry::<Kepler>::new("kepler", 200.0 * PI)
+    &Entry::<Kepler>::new("kepler", 200.0 * core::f64::consts::PI)
         .drawn(Kepler::drawing)
         .known(Kepler::closed_form),
     &Entry::<StiffSpringPendulum>::new("stiff-spring-pendulum", 10.0)
@@ -62,6 +63,7 @@ pub static SCENES: &[&dyn Scene] = &[
 ];
 
 /// The hard cases, in the order of `lagrange list`.
+#[cfg(feature = "scenes")]
 pub static HARD: &[&dyn Scene] = &[
     &Entry::<BouncingBall>::new("bouncing-ball", 10.0).drawn(BouncingBall::drawing),
     &Entry::<ThrownBall>::new("thrown-ball", 3.0).drawn(ThrownBall::drawing),
@@ -102,9 +104,18 @@ pub const RUN_STAGES: usize = 2;
 /// See [`RUN_STAGES`].
 pub const FILM_STAGES: usize = 3;
 
-/// All scenes: the textbook's, then the hard cases.
+/// The scenes of a program of one's own, which stand in the place of the catalogue's.
+pub(crate) static OWN: OnceLock<Vec<&'static dyn Scene>> = OnceLock::new();
+
+/// All scenes: the textbook's, then the hard cases; or those of a [`Program`](crate::Program) of one's own.
 pub fn scenes() -> impl Iterator<Item = &'static dyn Scene> {
-    SCENES.iter().chain(HARD).copied()
+    #[cfg(feature = "scenes")]
+    let catalogue = [SCENES, HARD];
+    #[cfg(not(feature = "scenes"))]
+    let catalogue = [];
+    let own = OWN.get().map(Vec::as_slice);
+    let catalogue = catalogue.into_iter().filter(move |_| own.is_none());
+    own.into_iter().chain(catalogue).flatten().copied()
 }
 
 /// A scene whose type has been forgotten: what the program can do with it.

@@ -12,8 +12,13 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 /// What `lagrange export` makes of the template, compiled.
-#[path = "golden/pendulum.rs"]
+#[path = "golden/crate/pendulum.rs"]
 mod exported;
+
+/// The crate that `lagrange new --crate` writes, compiled; it has the same struct.
+#[path = "golden/crate/main.rs"]
+#[allow(dead_code, clippy::duplicate_mod)]
+mod written;
 
 /// Runs it in a folder with the template as `pendulum.lagrange`, expects success; stdout.
 fn says(folder: &Path, arguments: &[&str]) -> String {
@@ -128,7 +133,8 @@ fn new_writes_what_runs() {
 #[test]
 fn an_exported_struct_moves_as_the_file_does() {
     let folder = folder("declaration-export");
-    expect_file!["golden/pendulum.rs"].assert_eq(&says(&folder, &["export", "pendulum.lagrange"]));
+    expect_file!["golden/crate/pendulum.rs"]
+        .assert_eq(&says(&folder, &["export", "pendulum.lagrange"]));
     let json = says(
         &folder,
         &[
@@ -151,6 +157,23 @@ fn an_exported_struct_moves_as_the_file_does() {
     for (event, told) in run.events().iter().zip(marks) {
         let time = told["time"].as_f64().expect("a time");
         assert!((event.time - time).abs() < 1e-12, "{} {time}", event.time);
+    }
+}
+
+#[test]
+fn new_writes_a_crate() {
+    let folder = folder("declaration-crate");
+    let output = lagrange_in(&folder, &["new", "--crate", "Swings 2"]);
+    assert_eq!(text(&output.stderr), "");
+    let written = |name: &str| fs::read_to_string(folder.join("Swings 2").join(name)).expect("it");
+    expect_file!["golden/crate/main.rs"].assert_eq(&written("src/main.rs"));
+    expect_file!["golden/crate/pendulum.rs"].assert_eq(&written("src/pendulum.rs"));
+    let cargo: toml::Table = written("Cargo.toml").parse().expect("TOML");
+    assert_eq!(cargo["package"]["name"].as_str(), Some("swings-2"));
+    for (name, krate) in cargo["dependencies"].as_table().expect("dependencies") {
+        let path = Path::new(krate["path"].as_str().expect("a path"));
+        let text = fs::read_to_string(path.join("Cargo.toml")).expect("a crate");
+        assert!(text.contains(&format!("name = \"{name}\"")), "{name}");
     }
 }
 

@@ -30,7 +30,8 @@ impl Export {
             )));
         }
         ready(self.output.as_deref(), std::slice::from_ref(&self.file))?;
-        let rust = file::rust(&self.file).map_err(Trouble::usage)?;
+        let rust = file::read(&self.file).and_then(|text| file::rust(&self.file, &text));
+        let rust = rust.map_err(Trouble::usage)?;
         match &self.output {
             None => super::print(|out| out.write_all(rust.as_bytes())),
             Some(path) => to_file(path, |out| out.write_all(rust.as_bytes())),

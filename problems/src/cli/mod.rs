@@ -18,6 +18,7 @@ mod output;
 mod report;
 mod results;
 mod run;
+#[cfg(feature = "scenes")]
 mod stability;
 mod sweep;
 mod terminal;
@@ -72,6 +73,7 @@ enum Command {
     Report(report::Report),
     Accuracy(accuracy::Measure),
     Effects(effects::Effects),
+    #[cfg(feature = "scenes")]
     Stability(stability::Stability),
     Sweep(sweep::Sweeps),
     Merge(merge::Merge),
@@ -124,12 +126,12 @@ impl Trouble {
     }
 }
 
-/// Runs the program with the arguments of the process.
-pub(crate) fn main() -> ExitCode {
-    let choice = colour_asked(std::env::args_os());
+/// Runs the program with these arguments, its name first.
+pub(crate) fn run(arguments: &[OsString]) -> ExitCode {
+    let choice = colour_asked(arguments.iter());
     terminal::colour(choice);
     let command = Arguments::command().color(choice);
-    let parsed = command.try_get_matches();
+    let parsed = command.try_get_matches_from(arguments);
     let arguments = match parsed.and_then(|matches| Arguments::from_arg_matches(&matches)) {
         Ok(arguments) => arguments,
         Err(error) if error.use_stderr() => {
@@ -152,6 +154,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Report(report) => report.execute(),
         Command::Accuracy(accuracy) => accuracy.execute(),
         Command::Effects(effects) => effects.execute(),
+        #[cfg(feature = "scenes")]
         Command::Stability(stability) => stability.execute(),
         Command::Sweep(sweep) => sweep.execute(),
         Command::Merge(merge) => merge.execute(),
@@ -186,7 +189,7 @@ fn say(words: &str) {
 }
 
 /// The colours asked for, before anything is parsed: help and complaints about arguments need it.
-fn colour_asked(arguments: impl Iterator<Item = OsString>) -> ColorChoice {
+fn colour_asked<'a>(arguments: impl Iterator<Item = &'a OsString>) -> ColorChoice {
     let words: Vec<String> = arguments
         .map(|argument| argument.to_string_lossy().into_owned())
         .collect();

@@ -114,16 +114,19 @@ pub fn scene(path: &str, text: &str) -> Result<&'static dyn Scene, Refused> {
     Ok(Box::leak(Box::new(entry)))
 }
 
-/// The text of a Rust file that declares on a struct what a file declares.
+/// The text of a Rust file that declares on a struct what the text of a file declares.
 ///
 /// # Errors
-/// As [`load`].
-pub fn rust(path: &str) -> Result<String, Refused> {
-    let text = read(path)?;
-    Ok(derived(path, &text)?.rust)
+/// What it declares has mistakes.
+pub fn rust(path: &str, text: &str) -> Result<String, Refused> {
+    Ok(derived(path, text)?.rust)
 }
 
-fn read(path: &str) -> Result<String, Refused> {
+/// The text of a file.
+///
+/// # Errors
+/// It cannot be read.
+pub fn read(path: &str) -> Result<String, Refused> {
     fs::read_to_string(path).map_err(|error| Refused::Unreadable(format!("{path}: {error}")))
 }
 
