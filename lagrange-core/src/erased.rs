@@ -42,11 +42,11 @@ pub(crate) type Erased<T> = Arc<dyn ErasedSystem<T>>;
 
 impl<S: System> ErasedSystem<S::Scalar> for S {
     fn description(&self) -> &'static Description {
-        S::DESCRIPTION
+        System::description(self)
     }
 
     fn declaration(&self) -> &'static Declaration {
-        S::DECLARATION
+        System::declaration(self)
     }
 
     fn parameter(&self, index: usize) -> S::Scalar {

@@ -10,7 +10,7 @@ pub use crate::handle::*;
 pub use crate::integrate::Method;
 pub use crate::mode::{FrictionMode, Mode};
 pub use crate::simulation::{Awaited, Ensemble, Equations, Failure, Held, Runner, Simulation};
-pub use crate::system::{Description, Impacts, System};
+pub use crate::system::{Derived, Description, Impacts, System};
 pub use crate::trajectory::{
     Energies, Entry, Event, EventKind, Instant, Ledger, Phase, Record, Sampler, Starts, State,
     Subject, Trajectory, Work,

@@ -31,7 +31,7 @@ impl<T: Clone> Clone for State<T> {
 pub trait Starts: System {
     /// The state of a named start at time 0.
     fn at(&self, start: StartId) -> State<Self::Scalar> {
-        let n = Self::DESCRIPTION.coordinates.len();
+        let n = self.description().coordinates.len();
         let zero = Self::Scalar::default();
         let mut state = State {
             q: vec![zero; n],

@@ -17,7 +17,7 @@ pub use crate::program::{Held, Needs, Place};
 use core::fmt;
 use core::str::FromStr;
 
-/// A mechanical system: what `#[derive(Lagrangian)]` implements.
+/// A mechanical system: what `#[derive(Lagrangian)]` implements, with [`Derived`].
 ///
 /// What its equations are made of stands in its description, as [programs](crate::program).
 pub trait System: Clone + Send + Sync + 'static {
@@ -25,13 +25,15 @@ pub trait System: Clone + Send + Sync + 'static {
     type Scalar: Scalar;
 
     /// The table of names, places and needs.
-    const DESCRIPTION: &'static Description;
+    fn description(&self) -> &'static Description;
 
     /// What was declared, as numbers to be evaluated; [`Declaration::NONE`] of a system written by hand.
-    const DECLARATION: &'static Declaration = &Declaration::NONE;
+    fn declaration(&self) -> &'static Declaration {
+        &Declaration::NONE
+    }
 
     /// What was derived, to be read; [`Derivation::NONE`] of a system written by hand.
-    fn derivation() -> &'static Derivation {
+    fn derivation(&self) -> &'static Derivation {
         &Derivation::NONE
     }
 
@@ -64,6 +66,16 @@ pub trait System: Clone + Send + Sync + 'static {
     fn mode_equations<N: Number>() -> &'static [ModeEquations<N>] {
         &[]
     }
+}
+
+/// A system whose tables are known when the program is built: those of all values of its type are the same. A system that is read
+/// from a file when the program runs is a [`System`] only.
+pub trait Derived: System {
+    /// What [`System::description`] returns.
+    const DESCRIPTION: &'static Description;
+
+    /// What [`System::declaration`] returns.
+    const DECLARATION: &'static Declaration;
 }
 
 /// Everything the core knows of a system. Indices run in order of declaration.

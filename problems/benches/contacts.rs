@@ -132,7 +132,7 @@ fn timed(work: impl FnOnce()) -> Duration {
     begin.elapsed()
 }
 
-fn measure<S: System<Scalar = f64> + Default>(until: f64) -> Line {
+fn measure<S: Derived<Scalar = f64> + Default>(until: f64) -> Line {
     const REPEATED: u32 = 100;
     let budget = Duration::from_millis(100);
     let scene = S::default();

@@ -65,7 +65,7 @@ impl Bench {
     }
 
     /// The mode number `mode` that a scene's run from its first start meets, and its closed form in some of the coordinates.
-    fn mode<S: System<Scalar = f64> + Starts, const K: usize, const N: usize>(
+    fn mode<S: Derived<Scalar = f64> + Starts, const K: usize, const N: usize>(
         &mut self,
         system: &S,
         name: &str,
@@ -125,7 +125,7 @@ fn chain_by_hand<const N: usize>(
 }
 
 /// The first mode number `index` of the run from the first start, in the middle of its first phase.
-fn place<S: System<Scalar = f64> + Starts>(system: &S, index: usize) -> Place {
+fn place<S: Derived<Scalar = f64> + Starts>(system: &S, index: usize) -> Place {
     let trajectory = Simulation::new(system)
         .tolerance(1e-12)
         .run(system.at(StartId(0)), 0.0..4.0)

@@ -23,7 +23,7 @@ fn main() {
     criterion.final_summary();
 }
 
-fn scene<S: System<Scalar = f64> + Default>(criterion: &mut Criterion, until: f64) {
+fn scene<S: Derived<Scalar = f64> + Default>(criterion: &mut Criterion, until: f64) {
     let system = S::default();
     let n = S::DESCRIPTION.coordinates.len();
     let mut start = State {

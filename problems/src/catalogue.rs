@@ -1,5 +1,5 @@
-//! All scenes that the program knows. A new scene is one line in [`SCENES`] or, with a case of
-//! [`stability`](crate::stability), in [`HARD`].
+//! All scenes that the program knows. A new scene is one line in `SCENES` or, with a case of `stability`, in `HARD`. A
+//! [`Program`](crate::Program) of one's own has its own instead.
 
 use crate::accuracy::{self, Accuracy, Course, Study};
 use crate::closed_form::ClosedForm;
@@ -8,16 +8,16 @@ use crate::drawing::Drawing;
 use crate::film::{self, Film};
 use crate::outcome::Outcome;
 use crate::request::{Refusal, Request};
-use crate::scenes::hard::*;
-use crate::scenes::*;
+#[cfg(feature = "scenes")]
+use crate::scenes::{hard::*, *};
 use crate::space::Space;
 use crate::sweep::{self, Sweep, Worker};
-use core::f64::consts::PI;
-use core::marker::PhantomData;
 use lagrange_core::prelude::*;
 use lagrange_core::system::Description;
+use std::sync::OnceLock;
 
 /// Every scene, in the order of `lagrange list`.
+#[cfg(feature = "scenes")]
 pub static SCENES: &[&dyn Scene] = &[
     &Entry::<MassOnShell>::new("mass-on-shell", 20.0)
         .known(MassOnShell::closed_form)
@@ -55,7 +55,7 @@ pub static SCENES: &[&dyn Scene] = &[
     &Entry::<CartesianPendulum>::new("cartesian-pendulum", 100.0)
         .known(CartesianPendulum::closed_form)
         .drawn(CartesianPendulum::drawing),
-    &Entry::<Kepler>::new("kepler", 200.0 * PI)
+    &Entry::<Kepler>::new("kepler", 200.0 * core::f64::consts::PI)
         .drawn(Kepler::drawing)
         .known(Kepler::closed_form),
     &Entry::<StiffSpringPendulum>::new("stiff-spring-pendulum", 10.0)
@@ -63,6 +63,7 @@ pub static SCENES: &[&dyn Scene] = &[
 ];
 
 /// The hard cases, in the order of `lagrange list`.
+#[cfg(feature = "scenes")]
 pub static HARD: &[&dyn Scene] = &[
     &Entry::<BouncingBall>::new("bouncing-ball", 10.0).drawn(BouncingBall::drawing),
     &Entry::<ThrownBall>::new("thrown-ball", 3.0).drawn(ThrownBall::drawing),
@@ -103,9 +104,18 @@ pub const RUN_STAGES: usize = 2;
 /// See [`RUN_STAGES`].
 pub const FILM_STAGES: usize = 3;
 
-/// All scenes: the textbook's, then the hard cases.
+/// The scenes of a program of one's own, which stand in the place of the catalogue's.
+pub(crate) static OWN: OnceLock<Vec<&'static dyn Scene>> = OnceLock::new();
+
+/// All scenes: the textbook's, then the hard cases; or those of a [`Program`](crate::Program) of one's own.
 pub fn scenes() -> impl Iterator<Item = &'static dyn Scene> {
-    SCENES.iter().chain(HARD).copied()
+    #[cfg(feature = "scenes")]
+    let catalogue = [SCENES, HARD];
+    #[cfg(not(feature = "scenes"))]
+    let catalogue = [];
+    let own = OWN.get().map(Vec::as_slice);
+    let catalogue = catalogue.into_iter().filter(move |_| own.is_none());
+    own.into_iter().chain(catalogue).flatten().copied()
 }
 
 /// A scene whose type has been forgotten: what the program can do with it.
@@ -170,14 +180,22 @@ pub trait Scene: Sync {
 }
 
 /// A scene of type `S`.
-pub struct Entry<S> {
+pub struct Entry<S: 'static> {
     name: &'static str,
+    prototype: Prototype<S>,
     until: f64,
     closed_form: Option<Solution<S>>,
     drawing: Option<Picture<S, Drawing>>,
     space: Option<Picture<S, Space>>,
     results: &'static [(&'static str, &'static str)],
-    system: PhantomData<fn() -> S>,
+}
+
+/// The system with its default parameters.
+enum Prototype<S: 'static> {
+    /// Of a type that knows them.
+    Made(fn() -> S),
+    /// Read from a file, and kept as long as the program runs.
+    Kept(&'static S),
 }
 
 /// Where the motion from a start at time 0 to a last time ends, if that is known in closed form.
@@ -188,15 +206,27 @@ pub type Picture<S, D> = fn(&S, f64, &[f64]) -> D;
 
 impl<S> Entry<S> {
     /// A scene called `name` that runs for `until` seconds unless asked otherwise.
-    pub const fn new(name: &'static str, until: f64) -> Self {
+    pub const fn new(name: &'static str, until: f64) -> Self
+    where
+        S: Default,
+    {
+        Self::of(name, until, Prototype::Made(S::default))
+    }
+
+    /// The scene of a system that is kept as long as the program runs, with its parameters as defaults.
+    pub const fn kept(name: &'static str, until: f64, system: &'static S) -> Self {
+        Self::of(name, until, Prototype::Kept(system))
+    }
+
+    const fn of(name: &'static str, until: f64, prototype: Prototype<S>) -> Self {
         Self {
             name,
+            prototype,
             until,
             closed_form: None,
             drawing: None,
             space: None,
             results: &[],
-            system: PhantomData,
         }
     }
 
@@ -230,7 +260,22 @@ impl<S> Entry<S> {
     }
 }
 
-impl<S: System<Scalar = f64> + Default> Entry<S> {
+impl<S: System<Scalar = f64>> Entry<S> {
+    /// The system with its default parameters.
+    fn prototype(&self) -> S {
+        match self.prototype {
+            Prototype::Made(system) => system(),
+            Prototype::Kept(system) => system.clone(),
+        }
+    }
+
+    /// The system with the parameters of a request.
+    fn system(&self, request: &Request) -> Result<S, Refusal> {
+        let mut system = self.prototype();
+        request.set_parameters(&mut system)?;
+        Ok(system)
+    }
+
     /// The motion as asked for, and why it ended early if it did.
     fn trajectory(
         &self,
@@ -259,7 +304,7 @@ fn drawn<S, D>(picture: Option<Picture<S, D>>, system: &S, outcome: &Outcome) ->
     drawn.unwrap_or_default()
 }
 
-impl<S: System<Scalar = f64> + Default + Send + 'static> Scene for Entry<S> {
+impl<S: System<Scalar = f64>> Scene for Entry<S> {
     fn name(&self) -> &'static str {
         self.name
     }
@@ -269,28 +314,28 @@ impl<S: System<Scalar = f64> + Default + Send + 'static> Scene for Entry<S> {
     }
 
     fn description(&self) -> &'static Description {
-        S::DESCRIPTION
+        self.prototype().description()
     }
 
     fn derivation(&self) -> &'static Derivation {
-        S::derivation()
+        self.prototype().derivation()
     }
 
     fn defaults(&self) -> Vec<f64> {
-        let system = S::default();
-        (0..S::DESCRIPTION.parameters.len())
+        let system = self.prototype();
+        (0..system.description().parameters.len())
             .map(|i| system.parameter(i))
             .collect()
     }
 
     fn run(&self, request: &Request) -> Result<Outcome, Refusal> {
-        let system: S = request.system()?;
+        let system = self.system(request)?;
         let (trajectory, failure) = self.trajectory(&system, request)?;
         Ok(Outcome::new(self.name, &trajectory, failure, request))
     }
 
     fn film(&self, request: &Request) -> Result<Film, Refusal> {
-        let system: S = request.system()?;
+        let system = self.system(request)?;
         let (trajectory, failure) = self.trajectory(&system, request)?;
         let times = film::instants(&trajectory, request.samples);
         let mut outcome = Outcome::sampled(self.name, &trajectory, failure, request, &times);
@@ -307,11 +352,11 @@ impl<S: System<Scalar = f64> + Default + Send + 'static> Scene for Entry<S> {
     }
 
     fn costs(&self, request: &Request) -> Result<Costs, Refusal> {
-        let system: S = request.system()?;
+        let system = self.system(request)?;
         let simulation = request.simulation(&system)?;
         let start = request.start(&system, &simulation)?;
         let until = request.until.unwrap_or(self.until);
-        let effects = request.effects(S::DESCRIPTION)?;
+        let effects = request.effects(system.description())?;
         let progress = request.progress.clone().unwrap_or_default();
         let run = (&start, until);
         cost::measure(self.name, &system, &simulation, &effects, run, &progress)
@@ -323,13 +368,13 @@ impl<S: System<Scalar = f64> + Default + Send + 'static> Scene for Entry<S> {
     }
 
     fn worker<'a>(&self, sweep: &'a Sweep) -> Result<Worker<'a>, Refusal> {
-        sweep::worker::<S>(sweep, self.until)
+        sweep::worker(sweep, self.prototype(), self.until)
     }
 
     fn accuracy(&self, study: &Study) -> Result<Accuracy, Refusal> {
         let request = &study.request;
-        let system: S = request.system()?;
-        let effects = request.effects(S::DESCRIPTION)?;
+        let system = self.system(request)?;
+        let effects = request.effects(system.description())?;
         let simulation = request.simulation(&system)?;
         let start = request.start(&system, &simulation)?;
         let until = request.until.unwrap_or(self.until);

@@ -1,7 +1,5 @@
 //! The program `lagrange`.
 
-mod cli;
-
 fn main() -> std::process::ExitCode {
-    cli::main()
+    lagrange_problems::Program::of_the_catalogue().main()
 }

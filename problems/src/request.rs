@@ -91,6 +91,11 @@ pub enum Refusal {
         /// All known names.
         known: Vec<String>,
     },
+    /// A file that declares a system cannot be read, or has mistakes.
+    Declaration {
+        /// Which, where, and what to do.
+        reason: String,
+    },
     /// The same name twice.
     Repeated {
         /// The name.
@@ -152,6 +157,7 @@ impl fmt::Display for Refusal {
                     None => write!(f, "; there are: {}", known.join(", ")),
                 }
             }
+            Refusal::Declaration { reason } => f.write_str(reason),
             Refusal::Repeated { name } => write!(f, "`{name}` is given twice; give it once"),
             Refusal::TooMany {
                 points,
@@ -173,9 +179,11 @@ impl fmt::Display for Refusal {
 impl core::error::Error for Refusal {}
 
 impl Request {
-    /// The default system with the parameters of the request.
-    pub(crate) fn system<S: System<Scalar = f64> + Default>(&self) -> Result<S, Refusal> {
-        let mut system = S::default();
+    /// Gives a system the parameters of the request; those that it does not name stay as they are.
+    pub(crate) fn set_parameters<S: System<Scalar = f64>>(
+        &self,
+        system: &mut S,
+    ) -> Result<(), Refusal> {
         for (index, (name, value)) in self.parameters.iter().enumerate() {
             if self.parameters[..index]
                 .iter()
@@ -183,9 +191,9 @@ impl Request {
             {
                 return Err(Refusal::Repeated { name: name.clone() });
             }
-            system.set_parameter(find_parameter(S::DESCRIPTION, name)?, *value);
+            system.set_parameter(find_parameter(system.description(), name)?, *value);
         }
-        Ok(system)
+        Ok(())
     }
 
     /// How to run `system`.
@@ -196,7 +204,7 @@ impl Request {
         let simulation = Simulation::new(system)
             .tolerance(self.tolerance)
             .method(self.method)
-            .effects(self.effects(S::DESCRIPTION)?)
+            .effects(self.effects(system.description())?)
             .project_start(self.project)
             .equations(self.equations);
         let mut simulation = match self.impacts {
@@ -204,7 +212,7 @@ impl Request {
             None => simulation,
         };
         for name in &self.end_after {
-            let (subject, kind) = event(name, S::DESCRIPTION)?;
+            let (subject, kind) = event(name, system.description())?;
             simulation = simulation.end_after((subject, kind));
         }
         Ok(match &self.progress {
@@ -244,7 +252,7 @@ impl Request {
         system: &S,
         simulation: &Simulation<'_, S>,
     ) -> Result<State<f64>, Refusal> {
-        let start = Start::new(self, S::DESCRIPTION)?;
+        let start = Start::new(self, system.description())?;
         start
             .state(system, |reference, wanted, held| {
                 simulation.consistent(0.0, reference, wanted, held)
@@ -309,7 +317,7 @@ impl Start {
         system: &S,
         consistent: impl FnOnce(&State<f64>, &State<f64>, &Held) -> Result<State<f64>, Error>,
     ) -> Result<State<f64>, Error> {
-        let n = S::DESCRIPTION.coordinates.len();
+        let n = system.description().coordinates.len();
         let mut reference = State {
             q: vec![0.0; n],
             v: vec![0.0; n],

@@ -70,14 +70,13 @@ fn commands_say_what_is_shown() {
             .expect("unicode");
         let text_of_file = fs::read_to_string(&file).expect("a text");
         let folder = folder(&format!("book-{name}"));
-        // A scene file begins with its name.
-        for block in blocks(&text_of_file, "toml") {
-            if let Some(name) = block
-                .lines()
-                .next()
-                .and_then(|line| line.strip_prefix("# "))
-            {
-                fs::write(folder.join(name), block).expect("a scene file");
+        // A scene file or declaration begins with its name.
+        for (language, remark) in [("toml", "# "), ("lagrange", "// ")] {
+            for block in blocks(&text_of_file, language) {
+                let first = block.lines().next();
+                if let Some(name) = first.and_then(|line| line.strip_prefix(remark)) {
+                    fs::write(folder.join(name), block).expect("a file");
+                }
             }
         }
         let blocks = blocks(&text_of_file, "console");

@@ -2,6 +2,7 @@
 
 mod program;
 
+use lagrange_problems::file::TEMPLATE;
 use program::{folder, says, shell, text};
 use std::fs;
 
@@ -41,6 +42,7 @@ fn every_example_works() {
     // Some speak of a scene file of the user's.
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/sticky-wheel.toml");
     fs::copy(file, folder.join("sticky.toml")).expect("a scene file");
+    fs::write(folder.join("pendulum.lagrange"), TEMPLATE).expect("a declaration");
     let commands = commands();
     assert!(commands.len() >= 9, "{commands:?}");
     let mut helps = vec![says(&["--help"])];

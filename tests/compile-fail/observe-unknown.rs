@@ -6,4 +6,4 @@
     observe(z),
 )]
 struct S { mass: f64, gravity: f64, length: f64 }
-//~ 6:13 E201 `z` is not known; declare it as a field of the struct, a coordinate, or with `define`
+//~ 6:13 E201 `z` is not known; declare it as a parameter (a field of the struct), a coordinate, or with `define`

@@ -32,7 +32,7 @@ impl Equations {
     /// # Panics
     /// If the library cannot.
     pub fn of<S: System<Scalar = f64>>(scene: &S, mode: &Mode, q: &[f64], v: &[f64]) -> Self {
-        let d = S::DESCRIPTION;
+        let d = scene.description();
         let n = d.coordinates.len();
         let mut dynamics = Dynamics::new(scene, &Effects::all());
         dynamics.set_mode(mode);

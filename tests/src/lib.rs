@@ -97,7 +97,7 @@ pub fn run_by<S: System<Scalar = f64>>(
 
 /// The state that the first start of a scene sets.
 pub fn first_start<S: System<Scalar = f64>>(scene: &S) -> State<f64> {
-    let n = S::DESCRIPTION.coordinates.len();
+    let n = scene.description().coordinates.len();
     let mut start = State {
         q: vec![0.0; n],
         v: vec![0.0; n],

@@ -1,15 +1,15 @@
 //! Modes by hand.
 
 use lagrange_core::mode::{FrictionMode, Mode, Sliding};
-use lagrange_core::system::{Description, Normal, System};
+use lagrange_core::system::{Derived, Description, Normal};
 
 /// Everything open.
-pub fn flight<S: System>() -> Mode {
+pub fn flight<S: Derived>() -> Mode {
     Mode::open(S::DESCRIPTION)
 }
 
 /// Every contact closed, every friction sticks.
-pub fn stuck<S: System>() -> Mode {
+pub fn stuck<S: Derived>() -> Mode {
     let mut mode = flight::<S>();
     mode.contacts.fill(true);
     mode.frictions.fill(FrictionMode::Stick);
@@ -17,7 +17,7 @@ pub fn stuck<S: System>() -> Mode {
 }
 
 /// Every contact closed, every friction slips in this direction.
-pub fn slipping<S: System>(sign: f64) -> Mode {
+pub fn slipping<S: Derived>(sign: f64) -> Mode {
     let mut mode = stuck::<S>();
     mode.frictions.fill(FrictionMode::Slip(Sliding::sign(sign)));
     mode

@@ -7,8 +7,8 @@ pub trait Visitor {
     /// A declaration with an item, what leaves it out, and the same declaration that never had it.
     fn pair<Whole, Part>(&mut self, pair: &Pair, whole: &Whole, part: &Part)
     where
-        Whole: System<Scalar = f64> + Starts,
-        Part: System<Scalar = f64> + Starts;
+        Whole: Derived<Scalar = f64> + Starts,
+        Part: Derived<Scalar = f64> + Starts;
 }
 
 /// What a pair differs in.

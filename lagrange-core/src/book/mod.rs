@@ -7,6 +7,7 @@
 //! |---|---|
 //! | **Systems** | |
 //! | [`language`] | How do I write a system down? Vectors, rigid bodies in space, arrays, forces, starts, outputs. |
+//! | [`files`] | The same in a text file, without a compiler. |
 //! | [`units`] | Which units are checked, and which signs do forces have? |
 //! | [`errors`] | What does this message mean, and what is there to do? |
 //! | [`large_systems`] | How many bodies can a system have? |
@@ -46,6 +47,7 @@ chapters! {
 [derivation]: mod@derivation
 [effects]: mod@effects
 [errors]: mod@errors
+[files]: mod@files
 [impacts]: mod@impacts
 [inside]: mod@inside
 [language]: mod@language
@@ -58,6 +60,7 @@ chapters! {
 [units]: mod@units
 "
     language
+    files
     units
     errors
     large_systems

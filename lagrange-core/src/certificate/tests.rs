@@ -102,7 +102,7 @@ fn what_is_right_is_certified() {
 #[test]
 fn a_force_a_millionth_too_weak_is_found() {
     let trajectory = run(Effects::all());
-    let windier = against(&trajectory, <Windier as System>::DECLARATION, 1, 1.0);
+    let windier = against(&trajectory, <Windier as Derived>::DECLARATION, 1, 1.0);
     finds(&windier, &[Subject::Equations]);
     let equations = windier.worst().expect("checks");
     assert_eq!(

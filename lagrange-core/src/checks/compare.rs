@@ -109,7 +109,7 @@ pub(super) fn compare<S: System<Scalar = f64>>(
         return Err(Error::Projection {
             time: 0.0,
             residual: f64::INFINITY,
-            item: S::DESCRIPTION.name,
+            item: checks.scene.description().name,
         });
     };
     Ok(Comparison {
@@ -117,13 +117,13 @@ pub(super) fn compare<S: System<Scalar = f64>>(
         tolerance: checks.tolerance,
         worst,
         state: numbers(&scene, &now),
-        mode: now.mode.display(S::DESCRIPTION).to_string(),
+        mode: now.mode.display(scene.description()).to_string(),
     })
 }
 
 /// (name, value) of parameters, coordinates and velocities.
 fn numbers<S: System<Scalar = f64>>(scene: &S, now: &Instant<f64>) -> Vec<(String, f64)> {
-    let d = S::DESCRIPTION;
+    let d = scene.description();
     let mut state = Vec::new();
     for (i, parameter) in d.parameters.iter().enumerate() {
         state.push((parameter.name.to_owned(), scene.parameter(i)));

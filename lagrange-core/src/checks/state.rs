@@ -30,7 +30,7 @@ pub struct Checks<'a, S: System<Scalar = f64>> {
 impl<'a, S: System<Scalar = f64>> Checks<'a, S> {
     /// 100 states around zero with a spread of 1, all contacts open, tolerance 1e-9.
     pub fn new(scene: &'a S) -> Self {
-        let d = S::DESCRIPTION;
+        let d = scene.description();
         let n = d.coordinates.len();
         Self {
             scene,
@@ -70,7 +70,7 @@ impl<'a, S: System<Scalar = f64>> Checks<'a, S> {
     }
 
     fn close_under(mut self, friction: FrictionId) -> Self {
-        let d = S::DESCRIPTION;
+        let d = self.scene.description();
         let contact = match d.frictions[friction.0].normal {
             Normal::Contact(contact) => Some(contact),
             Normal::Constraint(constraint) => d.constraints[constraint].while_contact,
@@ -137,7 +137,7 @@ impl<'a, S: System<Scalar = f64>> Checks<'a, S> {
 
     /// The state of a number, if there is one.
     pub(super) fn draw(&self, number: usize) -> Result<(S, Instant<f64>), Error> {
-        let d = S::DESCRIPTION;
+        let d = self.scene.description();
         let mut random =
             Random(self.seed ^ (number as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
         let mut scene = self.scene.clone();

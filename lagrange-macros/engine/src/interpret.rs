@@ -3,7 +3,7 @@
 //! Every step is done exactly as the emitted code does it in the value reading, in the same order, so emitted code
 //! run on f64 must agree to the last bit.
 
-use crate::plan::{Coefficient, Mode, Operation, Place, Program, StartTarget, Tape, Value};
+use crate::plan::{Coefficient, Mode, Operation, Place, Program, Start, StartTarget, Tape, Value};
 
 /// What a tape is told beside its inputs; as `lagrange_core::system::Held`.
 #[derive(Clone, Copy, Debug)]
@@ -57,23 +57,7 @@ impl Machine<'_> {
         let count = self.program.equations.system.coordinates.len();
         let (mut q, mut v) = (vec![0.0; count], vec![0.0; count]);
         let start = &self.program.starts[index];
-        let mut x = self.parameters.clone();
-        x.push(t);
-        let y = self.run(
-            &start.tape,
-            &Held {
-                needs: &[1],
-                branches: &[],
-            },
-            &[],
-            &x,
-        );
-        for (target, value) in start.targets.iter().zip(y) {
-            match target {
-                StartTarget::Position(i) => q[*i] = value,
-                StartTarget::Velocity(i) => v[*i] = value,
-            }
-        }
+        self::start(start, &self.parameters, t, &mut q, &mut v);
         (q, v)
     }
 
@@ -86,44 +70,68 @@ impl Machine<'_> {
         }
     }
 
-    fn coefficient(&self, constants: &[f64], coefficient: Coefficient) -> f64 {
-        match coefficient {
-            Coefficient::Number(number) => number.to_f64(),
-            Coefficient::Pi(multiple) => Coefficient::multiple_of_pi(multiple),
-            Coefficient::Parameter(index) => self.parameters[index],
-            Coefficient::Constant(index) => constants[index],
-        }
-    }
-
     fn run(&self, tape: &Tape, held: &Held, constants: &[f64], inputs: &[f64]) -> Vec<f64> {
-        assert_eq!(inputs.len(), tape.inputs, "number of inputs");
-        let mut values = vec![f64::NAN; tape.values];
-        values[..tape.inputs].copy_from_slice(inputs);
-        let mut outputs = vec![f64::NAN; tape.outputs];
-        for block in tape
-            .blocks
-            .iter()
-            .filter(|block| block.needs.runs(held.needs))
-        {
-            for step in &block.steps {
-                let number = |coefficient| self.coefficient(constants, coefficient);
-                let (first, second) = apply(step.operation, &|Value(i)| values[i], &number, held);
-                values[step.value.0] = first;
-                if step.operation.values() == 2 {
-                    values[step.value.0 + 1] = second;
-                }
-            }
-            for write in &block.writes {
-                let value = values[write.value.0];
-                match write.mode {
-                    Mode::Set => outputs[write.output] = value,
-                    Mode::Add => outputs[write.output] += value,
-                    Mode::Sub => outputs[write.output] -= value,
-                }
+        run(tape, held, &self.parameters, constants, inputs)
+    }
+}
+
+/// Positions and velocities of a start at time t, for parameters in order of declaration.
+pub fn start(start: &Start, parameters: &[f64], t: f64, q: &mut [f64], v: &mut [f64]) {
+    let always = Held {
+        needs: &[1],
+        branches: &[],
+    };
+    let inputs: Vec<f64> = parameters.iter().copied().chain([t]).collect();
+    let outputs = run(&start.tape, &always, parameters, &[], &inputs);
+    q.fill(0.0);
+    v.fill(0.0);
+    for (target, value) in start.targets.iter().zip(outputs) {
+        match target {
+            StartTarget::Position(i) => q[*i] = value,
+            StartTarget::Velocity(i) => v[*i] = value,
+        }
+    }
+}
+
+fn run(
+    tape: &Tape,
+    held: &Held,
+    parameters: &[f64],
+    constants: &[f64],
+    inputs: &[f64],
+) -> Vec<f64> {
+    assert_eq!(inputs.len(), tape.inputs, "number of inputs");
+    let number = |coefficient| match coefficient {
+        Coefficient::Number(number) => number.to_f64(),
+        Coefficient::Pi(multiple) => Coefficient::multiple_of_pi(multiple),
+        Coefficient::Parameter(index) => parameters[index],
+        Coefficient::Constant(index) => constants[index],
+    };
+    let mut values = vec![f64::NAN; tape.values];
+    values[..tape.inputs].copy_from_slice(inputs);
+    let mut outputs = vec![f64::NAN; tape.outputs];
+    for block in tape
+        .blocks
+        .iter()
+        .filter(|block| block.needs.runs(held.needs))
+    {
+        for step in &block.steps {
+            let (first, second) = apply(step.operation, &|Value(i)| values[i], &number, held);
+            values[step.value.0] = first;
+            if step.operation.values() == 2 {
+                values[step.value.0 + 1] = second;
             }
         }
-        outputs
+        for write in &block.writes {
+            let value = values[write.value.0];
+            match write.mode {
+                Mode::Set => outputs[write.output] = value,
+                Mode::Add => outputs[write.output] += value,
+                Mode::Sub => outputs[write.output] -= value,
+            }
+        }
     }
+    outputs
 }
 
 /// The values that an operation defines; the second is meant for pairs only.

@@ -83,6 +83,50 @@ pub fn checked(input: TokenStream) -> Result<(Program, Vec<Verdict>), Diagnostic
     }
 }
 
+/// A system that is declared in a file, derived.
+pub struct FromFile {
+    /// The named starts, for [`interpret::start`].
+    pub starts: Vec<plan::Start>,
+    /// The tables of the core.
+    pub tables: emit::Tables,
+    /// Values of the parameters, in the order of the description.
+    pub defaults: Vec<f64>,
+    /// Time at which a run ends if the file says so, s.
+    pub until: Option<f64>,
+    /// The struct with its `#[lagrange(…)]` that declares the same; [`inspect()`] and [`readable`] read it.
+    pub declaration: String,
+    /// A Rust file with that struct, its derive and its default values.
+    pub rust: String,
+}
+
+/// Derives the system that a text declares; `name` is that of the system, an identifier.
+///
+/// # Errors
+/// All mistakes that the first stage with mistakes has found, at their lines and columns of the text.
+pub fn file(text: &str, name: &str) -> Result<FromFile, Diagnostics> {
+    let mut sink = Diagnostics::new();
+    match from_file(text, name, &mut sink) {
+        Some(found) if sink.is_empty() => Ok(found),
+        _ => Err(sink),
+    }
+}
+
+fn from_file(text: &str, name: &str, sink: &mut Diagnostics) -> Option<FromFile> {
+    let file = parse::file(text, name, sink)?;
+    let (program, _) = planned(&file.declaration, sink)?;
+    let defaults = model::defaults(&file.declaration, &file.defaults, sink)?;
+    let until = file.until.as_ref();
+    let until = until.and_then(|until| model::number(&file.declaration, until, sink));
+    Some(FromFile {
+        tables: emit::tables(&program, &model::declared(&file.declaration)),
+        declaration: emit::declared_struct(&file, text),
+        rust: emit::export(&file, text, &defaults),
+        starts: program.starts,
+        defaults,
+        until,
+    })
+}
+
 fn planned(declaration: &Declaration, sink: &mut Diagnostics) -> Option<(Program, Vec<Verdict>)> {
     let system = model::scoped(declaration, sink);
     if system

@@ -7,7 +7,7 @@ use lagrange_core::prelude::*;
 /// made ready once per mode is kept, as the others keep their compiled equations.
 pub fn runs<S: Scene>(method: Method, tolerance: f64) -> impl FnMut() -> Option<Vec<f64>> {
     let scene = S::Declared::default();
-    let n = <S::Declared as System>::DESCRIPTION.coordinates.len();
+    let n = scene.description().coordinates.len();
     let mut start = State {
         q: vec![0.0; n],
         v: vec![0.0; n],

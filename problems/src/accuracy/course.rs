@@ -56,7 +56,7 @@ impl<S: System<Scalar = f64>> Course<'_, S> {
 
     /// Value of every parameter.
     pub(super) fn parameters(&self) -> Vec<f64> {
-        (0..S::DESCRIPTION.parameters.len())
+        (0..self.system.description().parameters.len())
             .map(|i| self.system.parameter(i))
             .collect()
     }

@@ -119,7 +119,7 @@ pub(crate) fn measure<S: System<Scalar = f64>>(
     timing::rest(&mut rows, study.repeat, &progress);
     Ok(Accuracy {
         scene,
-        description: S::DESCRIPTION,
+        description: course.system.description(),
         parameters: course.parameters(),
         reference,
         rows: rows.into_iter().map(Timed::done).collect(),

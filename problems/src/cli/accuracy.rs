@@ -27,7 +27,7 @@ use std::path::PathBuf;
 
 Ctrl-C ends the measurement; what has been measured is written.")]
 pub(super) struct Measure {
-    /// The scene, or a scene file (….toml); `lagrange list` shows the scenes.
+    /// The scene, a declaration (….lagrange) or a scene file (….toml); `lagrange list` shows the scenes.
     scene: String,
     #[command(flatten)]
     motion: Motion,

@@ -4,6 +4,7 @@ use super::Arguments;
 use clap::CommandFactory;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use lagrange_problems::catalogue::find;
+use lagrange_problems::file::ENDING;
 use lagrange_problems::names::nearest;
 use std::error::Error;
 
@@ -76,7 +77,7 @@ fn option(argument: &str) -> &str {
 
 /// A command that there is not.
 fn command(name: &str) -> String {
-    if name.ends_with(".toml") || find(name).is_ok() {
+    if name.ends_with(".toml") || name.ends_with(ENDING) || find(name).is_ok() {
         return format!("`{name}` is what to run: lagrange run {name}");
     }
     let command = Arguments::command();

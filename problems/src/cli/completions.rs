@@ -37,7 +37,7 @@ impl Completions {
 fn zsh(script: &str) -> String {
     let names: Vec<&str> = scenes().map(|scene| scene.name()).collect();
     let names = names.join(" ");
-    let files = r#""files:scene file:_files -g \"*.toml\"""#;
+    let files = r#""files:scene file:_files -g \"*.(toml|lagrange)\"""#;
     let both = format!(":{{_alternative \"scenes:scene:({names})\" {files}}}");
     let line = |line: &str| match line.contains("scene file") {
         true => line.replace(&format!(":({names})"), &both) + "\n",

@@ -4,7 +4,7 @@ use super::Trouble;
 use super::values::{named, positive, tolerance};
 use clap::Args;
 use lagrange_core::prelude::{Impacts, Method};
-use lagrange_problems::catalogue::find;
+use lagrange_problems::file::{ENDING, find};
 use lagrange_problems::names::method;
 use lagrange_problems::request::{Refusal, Request};
 use lagrange_problems::scene_file::{self, Outputs, SceneFile};
@@ -121,7 +121,7 @@ fn can_end(method: Method, until: f64) -> Result<(), Trouble> {
     }
 }
 
-/// The scene of this name, or what a file says if it is the path of one (`….toml`).
+/// The scene of this name or declaration (`….lagrange`), or what a file says if it is the path of a scene file (`….toml`).
 pub(super) fn scene(name: &str) -> Result<SceneFile, Trouble> {
     if !name.ends_with(".toml") {
         return Ok(SceneFile {
@@ -137,15 +137,15 @@ pub(super) fn scene(name: &str) -> Result<SceneFile, Trouble> {
 
 /// A scene that there is not; perhaps a file was meant.
 fn unknown(name: &str, refusal: &Refusal) -> Trouble {
-    let file = format!("{name}.toml");
-    if Path::new(&file).is_file() {
+    let files = [".toml", ENDING].map(|ending| format!("{name}{ending}"));
+    if let Some(file) = files.iter().find(|file| Path::new(file).is_file()) {
         return Trouble::usage(format_args!(
             "no scene is called `{name}`; did you mean the file `{file}`?"
         ));
     }
-    match Path::new(name).is_file() {
+    match Path::new(name).is_file() && !name.ends_with(ENDING) {
         true => Trouble::usage(format_args!(
-            "`{name}` is no scene; the name of a scene file ends in .toml"
+            "`{name}` is no scene; the name of a scene file ends in .toml, that of a declaration in {ENDING}"
         )),
         false => Trouble::usage(refusal),
     }

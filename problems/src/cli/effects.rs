@@ -19,7 +19,7 @@ use std::io::{self, Write};
   lagrange effects mass-on-wheel
   lagrange effects mass-on-wheel --without floor --format json")]
 pub(super) struct Effects {
-    /// The scene, or a scene file (….toml); `lagrange list` shows the scenes.
+    /// The scene, a declaration (….lagrange) or a scene file (….toml); `lagrange list` shows the scenes.
     scene: String,
     #[command(flatten)]
     course: Course,

@@ -18,7 +18,7 @@ use std::path::PathBuf;
   lagrange inspect mass-on-wheel --mode \"rim closed, grip sticks\"
   lagrange inspect mass-on-wheel --format latex --output wheel.tex")]
 pub(super) struct Inspect {
-    /// The scene, or a scene file (….toml); `lagrange list` shows the scenes.
+    /// The scene, a declaration (….lagrange) or a scene file (….toml); `lagrange list` shows the scenes.
     scene: String,
     /// How to write it.
     #[arg(long, value_enum, default_value_t = Format::Text)]

@@ -3,7 +3,7 @@
 use super::course::scene;
 use super::{Trouble, print};
 use clap::Args;
-use lagrange_problems::catalogue::{HARD, SCENES, Scene, scenes};
+use lagrange_problems::catalogue::{Scene, scenes};
 use std::io::{self, Write};
 
 /// List the scenes, or everything that one of them can be given.
@@ -12,7 +12,7 @@ use std::io::{self, Write};
   lagrange list
   lagrange list mass-on-wheel")]
 pub(super) struct List {
-    /// A scene (or scene file), to see its parameters, coordinates, starts and forces.
+    /// A scene (or declaration, or scene file), to see its parameters, coordinates, starts and forces.
     scene: Option<String>,
 }
 
@@ -30,13 +30,9 @@ impl List {
 
 fn all(out: &mut dyn Write) -> io::Result<()> {
     let width = scenes().map(|scene| scene.name().len()).max().unwrap_or(0);
-    let mut lines = |scenes: &[&dyn Scene]| {
-        let line =
-            |scene: &&dyn Scene| writeln!(out, "{:width$}  {}", scene.name(), scene.summary());
-        scenes.iter().try_for_each(line)
-    };
-    lines(SCENES)?;
-    lines(HARD)
+    let mut line =
+        |scene: &dyn Scene| writeln!(out, "{:width$}  {}", scene.name(), scene.summary());
+    scenes().try_for_each(&mut line)
 }
 
 fn one(scene: &dyn Scene, out: &mut dyn Write) -> io::Result<()> {

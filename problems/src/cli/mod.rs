@@ -9,18 +9,22 @@ mod complaint;
 mod completions;
 mod course;
 mod effects;
+mod export;
 mod inspect;
 mod list;
 mod merge;
+mod new;
 mod output;
 mod report;
 mod results;
 mod run;
+#[cfg(feature = "scenes")]
 mod stability;
 mod sweep;
 mod terminal;
 mod values;
 mod verify;
+mod watch;
 
 use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 use lagrange_core::Error;
@@ -39,6 +43,8 @@ use std::process::ExitCode;
   lagrange list mass-on-wheel                 what one of them can be given
   lagrange run mass-on-wheel                  what happens
   lagrange report mass-on-wheel --output wheel.html
+  lagrange new cart                           a system of one's own, in cart.lagrange
+  lagrange run cart.lagrange
 
 lagrange COMMAND --help has examples of each command.")]
 struct Arguments {
@@ -67,9 +73,12 @@ enum Command {
     Report(report::Report),
     Accuracy(accuracy::Measure),
     Effects(effects::Effects),
+    #[cfg(feature = "scenes")]
     Stability(stability::Stability),
     Sweep(sweep::Sweeps),
     Merge(merge::Merge),
+    New(new::New),
+    Export(export::Export),
     Completions(completions::Completions),
 }
 
@@ -117,12 +126,12 @@ impl Trouble {
     }
 }
 
-/// Runs the program with the arguments of the process.
-pub(crate) fn main() -> ExitCode {
-    let choice = colour_asked(std::env::args_os());
+/// Runs the program with these arguments, its name first.
+pub(crate) fn run(arguments: &[OsString]) -> ExitCode {
+    let choice = colour_asked(arguments.iter());
     terminal::colour(choice);
     let command = Arguments::command().color(choice);
-    let parsed = command.try_get_matches();
+    let parsed = command.try_get_matches_from(arguments);
     let arguments = match parsed.and_then(|matches| Arguments::from_arg_matches(&matches)) {
         Ok(arguments) => arguments,
         Err(error) if error.use_stderr() => {
@@ -145,9 +154,12 @@ pub(crate) fn main() -> ExitCode {
         Command::Report(report) => report.execute(),
         Command::Accuracy(accuracy) => accuracy.execute(),
         Command::Effects(effects) => effects.execute(),
+        #[cfg(feature = "scenes")]
         Command::Stability(stability) => stability.execute(),
         Command::Sweep(sweep) => sweep.execute(),
         Command::Merge(merge) => merge.execute(),
+        Command::New(new) => new.execute(),
+        Command::Export(export) => export.execute(),
         Command::Completions(completions) => completions.execute(),
     };
     match result {
@@ -169,7 +181,7 @@ fn complain(trouble: &Trouble) -> ExitCode {
     ExitCode::from(code)
 }
 
-/// Words to the user, in one line.
+/// Words to the user, in one line but for mistakes that are shown where they are.
 fn say(words: &str) {
     let style = anstyle::AnsiColor::Red.on_default().bold();
     // There is nobody to tell that stderr is closed.
@@ -177,7 +189,7 @@ fn say(words: &str) {
 }
 
 /// The colours asked for, before anything is parsed: help and complaints about arguments need it.
-fn colour_asked(arguments: impl Iterator<Item = OsString>) -> ColorChoice {
+fn colour_asked<'a>(arguments: impl Iterator<Item = &'a OsString>) -> ColorChoice {
     let words: Vec<String> = arguments
         .map(|argument| argument.to_string_lossy().into_owned())
         .collect();

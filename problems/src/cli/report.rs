@@ -6,6 +6,7 @@ use super::course::Course;
 use super::output::{ready, to_file, unwritten};
 use super::terminal::{keep_what_is_done, patiently};
 use super::values::positive;
+use super::watch::watched;
 use clap::{Args, ValueEnum};
 use lagrange_problems::catalogue::{FILM_STAGES, Scene};
 use lagrange_problems::progress::Progress;
@@ -34,7 +35,7 @@ const RESULTS: &str = "Results";
   lagrange report mass-on-wheel --frames frames --fps 25           frames/frame-0001.svg, …
   lagrange report mass-on-wheel --frames frames --fps 5 --format png --width 1920")]
 pub(super) struct Report {
-    /// Scenes and scene files (….toml); `lagrange list` shows the scenes.
+    /// Scenes, declarations (….lagrange) and scene files (….toml); `lagrange list` shows the scenes.
     #[arg(required = true, value_name = "SCENE")]
     scenes: Vec<String>,
     #[command(flatten)]
@@ -62,6 +63,9 @@ pub(super) struct Report {
     /// How much faster than it happens it is shown [default: so that it takes some seconds].
     #[arg(long, help_heading = RESULTS, value_name = "X", value_parser = positive, allow_hyphen_values = true)]
     speed: Option<f64>,
+    /// Write it again whenever the file of a scene changes, until Ctrl-C.
+    #[arg(long)]
+    watch: bool,
 }
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
@@ -103,6 +107,10 @@ impl Form {
 
 impl Report {
     pub(super) fn execute(self) -> Result<(), Trouble> {
+        watched(self.watch, &self.scenes, || self.once())
+    }
+
+    fn once(&self) -> Result<(), Trouble> {
         if let Some(moving) = self.form()?.moving() {
             moving.ready(self.fps).map_err(Trouble::usage)?;
         }

@@ -6,6 +6,7 @@ use super::course::Course;
 use super::output::{draw, ready, to_file};
 use super::terminal::{keep_what_is_done, patiently};
 use super::values::{intervals, picture};
+use super::watch::watched;
 use clap::Args;
 use core::iter;
 use lagrange_problems::catalogue::{RUN_STAGES, Scene};
@@ -32,15 +33,19 @@ const SAMPLES: usize = 400;
   lagrange run rolling-sphere --end-after \"shell lost\" --output run.parquet
   lagrange run mass-on-wheel --without grip --save smooth.toml
   lagrange run smooth.toml --format json
+  lagrange run pendulum.lagrange              a declaration of one's own; `lagrange new pendulum` writes one
 
 Ctrl-C ends a run; what there is of it is written. Exit codes: 0 all went well, 1 the run failed, 2 the request makes no sense, 130 interrupted.")]
 pub(super) struct Run {
-    /// The scene, or a scene file (….toml); `lagrange list` shows the scenes.
+    /// The scene, a declaration (….lagrange) or a scene file (….toml); `lagrange list` shows the scenes.
     scene: String,
     #[command(flatten)]
     course: Course,
     #[command(flatten)]
     results: Results,
+    /// Run again whenever the file of the scene changes, until Ctrl-C.
+    #[arg(long)]
+    watch: bool,
 }
 
 /// What to write, and where to.
@@ -78,6 +83,11 @@ struct Results {
 
 impl Run {
     pub(super) fn execute(self) -> Result<(), Trouble> {
+        let names = std::slice::from_ref(&self.scene);
+        watched(self.watch, names, || self.once())
+    }
+
+    fn once(&self) -> Result<(), Trouble> {
         let file = self.course.of(&self.scene)?;
         let scene = file.scene;
         let outputs = self.results.or(file.outputs);

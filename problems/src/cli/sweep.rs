@@ -22,7 +22,7 @@ use lagrange_problems::sweep::{Axis, Journal, Points, Sampling, Shard, Sweep, wo
 
 A run that fails is a line that says why; the sweep goes on. Exit codes: 0 runs went well, 1 every run failed or a file could not be written, 2 the request makes no sense, 130 interrupted.")]
 pub(super) struct Sweeps {
-    /// The scene, or a scene file (….toml); `lagrange list` shows the scenes.
+    /// The scene, a declaration (….lagrange) or a scene file (….toml); `lagrange list` shows the scenes.
     scene: String,
     /// Vary a parameter, coordinate or velocity of the start: name=from..to:count, name=from..to:count:log, or name=from..to
     /// with --sample. May be repeated: all combinations are run.

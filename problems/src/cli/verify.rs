@@ -24,7 +24,7 @@ use std::io::{self, Write};
 
 Exit codes: 0 every check is within its bound, 1 one is not or the run failed, 2 the request makes no sense.")]
 pub(super) struct Verify {
-    /// The scene, or a scene file (….toml); `lagrange list` shows the scenes.
+    /// The scene, a declaration (….lagrange) or a scene file (….toml); `lagrange list` shows the scenes.
     scene: String,
     #[command(flatten)]
     course: Course,

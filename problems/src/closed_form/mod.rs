@@ -4,6 +4,9 @@
 //! grows with time (a mean anomaly, the argument of an elliptic function) is reduced to one period with twice the
 //! digits, so that the hundredth period is as exact as the first.
 
+// Without the scenes nobody evaluates one.
+#![cfg_attr(not(feature = "scenes"), allow(dead_code))]
+
 mod double_double;
 pub(crate) mod elliptic;
 pub(crate) mod orbit;

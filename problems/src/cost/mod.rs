@@ -76,7 +76,7 @@ pub(crate) fn measure<S: System<Scalar = f64>>(
     (start, until): (&State<f64>, f64),
     progress: &Progress,
 ) -> Result<Costs, Error> {
-    let d = S::DESCRIPTION;
+    let d = system.description();
     let trajectory = simulation
         .clone()
         .effects(effects.clone())

@@ -62,7 +62,7 @@ impl RightSide {
         place: &Place,
     ) -> Option<Self> {
         let mut dynamics = Dynamics::new(system, effects);
-        dynamics.set_mode(&remaining(S::DESCRIPTION, effects, &place.mode));
+        dynamics.set_mode(&remaining(system.description(), effects, &place.mode));
         let State { q, v } = &place.state;
         dynamics.value(place.time, q, v).ok()?;
         Some(Self {

@@ -65,7 +65,7 @@ pub fn table(certificate: &Certificate, mut out: impl Write) -> io::Result<()> {
                 true => format!("{:.1e}", check.bound),
                 false => "none".to_owned(),
             },
-            super::stability::verdict(check.holds()).to_owned(),
+            super::table::verdict(check.holds()).to_owned(),
             match check.figure > 0.0 {
                 true => format!("{} at t = {:.6} s", check.item, check.time),
                 false => String::new(),

@@ -16,6 +16,7 @@ mod picture;
 pub mod plot;
 mod row_groups;
 mod rows;
+#[cfg(feature = "scenes")]
 pub mod stability;
 pub mod sweep;
 pub mod table;

@@ -1,17 +1,10 @@
 //! Hard cases → table, JSON, CSV: one line per figure.
 
-use super::table::page;
+use super::table::{page, verdict};
 use crate::stability::{Figure, Report};
 use comfy_table::{CellAlignment, ContentArrangement};
 use serde_json::{Value, json};
 use std::io::{self, Write};
-
-pub(super) fn verdict(holds: bool) -> &'static str {
-    match holds {
-        true => "holds",
-        false => "FAILS",
-    }
-}
 
 /// Writes a table to read.
 ///

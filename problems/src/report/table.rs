@@ -297,6 +297,14 @@ fn work(outcome: &Outcome) -> String {
     )
 }
 
+/// Whether a figure is within its bound.
+pub(super) fn verdict(holds: bool) -> &'static str {
+    match holds {
+        true => "holds",
+        false => "FAILS",
+    }
+}
+
 pub(super) fn page() -> Table {
     let rule = LineStyle::none().fill('─').junction('─');
     let mut table = Table::new();

@@ -2,7 +2,7 @@
 
 use super::value::{Value, Wrong, flag, number, positive, table, text, texts};
 use super::{KEYS, Mistake, OUTPUTS, Outputs, SceneFile};
-use crate::catalogue;
+use crate::file;
 use crate::names::{self, nearest};
 use crate::report::RunFormat;
 use crate::report::export::Still;
@@ -62,7 +62,7 @@ fn contents(document: &DeTable) -> (Option<SceneFile>, Vec<Wrong>) {
     reader.known_keys(document, &KEYS, "key");
     let scene = document
         .get("scene")
-        .and_then(|name| reader.take(name, |name| refused(name, catalogue::find(text(name)?))));
+        .and_then(|name| reader.take(name, |name| refused(name, file::find(text(name)?))));
     let Some(scene) = scene else {
         return (None, reader.mistakes);
     };

@@ -1,6 +1,8 @@
 //! A sweep written down in TOML, and made again from that: what a folder holds the beginning of, and what its parts have in common.
 
 use super::{CHUNK, Points, Sampling, Sweep};
+use crate::catalogue::Scene;
+use crate::file::ENDING;
 use crate::scene_file::{self, Outputs};
 use serde::{Deserialize, Serialize};
 
@@ -17,6 +19,9 @@ struct Recipe {
     #[serde(skip_serializing_if = "Option::is_none")]
     seed: Option<u32>,
     observe: Vec<String>,
+    /// What the file of the scene declares, if it is in one: it may change.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    declaration: Option<String>,
     /// What all runs have in common, as a scene file.
     run: String,
 }
@@ -36,6 +41,7 @@ impl Sweep {
             sample: (sampling != Sampling::Grid).then(|| sampling.to_string()),
             seed: sampling.seed(),
             observe: self.observed.iter().map(|o| o.name.clone()).collect(),
+            declaration: declaration(self.scene),
             run: run.map_err(|error| error.to_string())?,
         };
         toml::to_string(&recipe).map_err(|error| error.to_string())
@@ -62,4 +68,10 @@ impl Sweep {
         Sweep::new(file.scene, file.request, points, &recipe.observe)
             .map_err(|refusal| refusal.to_string())
     }
+}
+
+/// What a scene in a file declares.
+fn declaration(scene: &dyn Scene) -> Option<String> {
+    let in_file = scene.name().ends_with(ENDING);
+    in_file.then(|| scene.derivation().declaration.to_owned())
 }

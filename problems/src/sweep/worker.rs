@@ -17,15 +17,17 @@ enum Target {
     Held(usize),
 }
 
-/// Runs the points of a sweep over a system of type `S`, until a time if the request names none.
-pub(crate) fn worker<S: System<Scalar = f64> + Default + Send + 'static>(
+/// Runs the points of a sweep over a system, given with its default parameters, until a time if the request names none.
+pub(crate) fn worker<S: System<Scalar = f64>>(
     sweep: &Sweep,
+    mut system: S,
     until: f64,
 ) -> Result<Worker<'_>, Refusal> {
     let request = &sweep.request;
-    let mut system: S = request.system()?;
-    let mut start = Start::new(request, S::DESCRIPTION)?;
-    let targets = targets(sweep, S::DESCRIPTION, &mut start)?;
+    request.set_parameters(&mut system)?;
+    let description = system.description();
+    let mut start = Start::new(request, description)?;
+    let targets = targets(sweep, description, &mut start)?;
     let mut simulation = request
         .simulation(&system)?
         .record(false)

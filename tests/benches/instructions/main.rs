@@ -128,8 +128,8 @@ struct Work {
 impl Visitor for Work {
     fn pair<Whole, Part>(&mut self, pair: &Pair, whole: &Whole, part: &Part)
     where
-        Whole: System<Scalar = f64> + Starts,
-        Part: System<Scalar = f64> + Starts,
+        Whole: Derived<Scalar = f64> + Starts,
+        Part: Derived<Scalar = f64> + Starts,
     {
         self.pairs += 1;
         if self.pairs != self.asked.pair {
@@ -155,7 +155,7 @@ impl Visitor for Work {
     }
 }
 
-fn work<S: System<Scalar = f64>>(
+fn work<S: Derived<Scalar = f64>>(
     asked: Asked,
     system: &S,
     effects: &Effects,
@@ -199,8 +199,8 @@ struct Table(usize);
 impl Visitor for Table {
     fn pair<Whole, Part>(&mut self, pair: &Pair, _: &Whole, _: &Part)
     where
-        Whole: System<Scalar = f64> + Starts,
-        Part: System<Scalar = f64> + Starts,
+        Whole: Derived<Scalar = f64> + Starts,
+        Part: Derived<Scalar = f64> + Starts,
     {
         self.0 += 1;
         let count = |whole, runs| {

@@ -16,7 +16,7 @@ use core::fmt::Debug;
 use lagrange_core::prelude::*;
 
 /// A system with numbers and a start to draw.
-pub trait Family: System<Scalar = f64> + Debug {
+pub trait Family: Derived<Scalar = f64> + Debug {
     /// Its name.
     const NAME: &'static str;
 

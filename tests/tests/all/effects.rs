@@ -66,7 +66,7 @@ const PLAIN: Plain = Plain {
 };
 
 /// Operations and accelerations, on the floor or above it, with all that a step watches.
-fn cost<S: System<Scalar = f64>>(
+fn cost<S: Derived<Scalar = f64>>(
     system: &S,
     effects: &Effects,
     closed: bool,
@@ -123,7 +123,7 @@ fn each_effect_adds_its_own_operations() {
 }
 
 /// Operations and accelerations in a mode, with all that a step watches; nothing if the equations cannot be solved.
-fn cost_in<S: System<Scalar = f64>>(
+fn cost_in<S: Derived<Scalar = f64>>(
     system: &S,
     effects: &Effects,
     mode: &Mode,
@@ -145,7 +145,7 @@ fn cost_in<S: System<Scalar = f64>>(
 }
 
 /// The mode of the whole that is this mode of the part: what is left out, declared last, does not act.
-fn widened<Whole: System>(mode: &Mode) -> Mode {
+fn widened<Whole: Derived>(mode: &Mode) -> Mode {
     let mut wide = Mode::open(Whole::DESCRIPTION);
     wide.contacts[..mode.contacts.len()].copy_from_slice(&mode.contacts);
     wide.frictions[..mode.frictions.len()].copy_from_slice(&mode.frictions);
@@ -158,8 +158,8 @@ struct Equal(usize);
 impl Visitor for Equal {
     fn pair<Whole, Part>(&mut self, pair: &Pair, whole: &Whole, part: &Part)
     where
-        Whole: System<Scalar = f64> + Starts,
-        Part: System<Scalar = f64> + Starts,
+        Whole: Derived<Scalar = f64> + Starts,
+        Part: Derived<Scalar = f64> + Starts,
     {
         for mode in all(Part::DESCRIPTION) {
             let what = format!("{}: {}", pair.name, mode.display(Part::DESCRIPTION));

@@ -17,7 +17,7 @@ const METHODS: [&str; 7] = [
 ];
 
 /// Work of every method from a scene's first start; `UPDATE_EXPECT=1 cargo test` accepts what has become better.
-fn check<S: System<Scalar = f64> + Default>(until: f64, tolerance: f64, expected: &Expect) {
+fn check<S: Derived<Scalar = f64> + Default>(until: f64, tolerance: f64, expected: &Expect) {
     let scene = S::default();
     let mut table = String::from(
         "method        steps  rejected  evaluations  series  factorizations  projections\n",

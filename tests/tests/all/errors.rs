@@ -189,7 +189,7 @@ fn an_empty_span_is_the_start() {
 
 /// The error of a run from the first start, which must come before any step.
 #[track_caller]
-fn refused<S: System<Scalar = f64>>(scene: &S) -> Error {
+fn refused<S: Derived<Scalar = f64>>(scene: &S) -> Error {
     let failure = Simulation::new(scene)
         .run(lagrange_tests::first_start(scene), 0.0..1.0)
         .map(|trajectory| lagrange_tests::words(&trajectory))

@@ -2,7 +2,7 @@
 //! scene's source is read again through the pipeline, in process, and both are run on the same numbers, with any set of needs.
 
 use lagrange_core::arithmetic::Dual;
-use lagrange_core::system::{Held, System};
+use lagrange_core::system::{Derived, Held};
 use lagrange_engine::interpret::{self, Machine};
 use lagrange_engine::plan::Program;
 use lagrange_problems::scenes::*;
@@ -31,7 +31,7 @@ fn program(source: &str, name: &str) -> Program {
 }
 
 /// Constants, motion and report of the core's interpreter; NaN where nothing that is held asks for a number.
-fn interpreted_by_core<S: System<Scalar = f64>>(
+fn interpreted_by_core<S: Derived<Scalar = f64>>(
     scene: &S,
     held: &Held,
     x: &[f64],
@@ -48,18 +48,18 @@ fn interpreted_by_core<S: System<Scalar = f64>>(
     [constants, motion, report]
 }
 
-fn parameters<S: System<Scalar = f64>>(scene: &S) -> Vec<f64> {
+fn parameters<S: Derived<Scalar = f64>>(scene: &S) -> Vec<f64> {
     let count = S::DESCRIPTION.parameters.len();
     (0..count).map(|i| scene.parameter(i)).collect()
 }
 
-fn random_inputs<S: System>(random: &mut Random) -> Vec<f64> {
+fn random_inputs<S: Derived>(random: &mut Random) -> Vec<f64> {
     let d = S::DESCRIPTION;
     let count = 1 + 3 * d.coordinates.len() + d.rows.len();
     (0..count).map(|_| random.between(0.2, 2.0)).collect()
 }
 
-pub fn check<S: System<Scalar = f64> + Default>(source: &str) {
+pub fn check<S: Derived<Scalar = f64> + Default>(source: &str) {
     let d = S::DESCRIPTION;
     let program = program(source, d.name);
     let mut random = Random::new(d.name.len() as u64);
@@ -117,7 +117,7 @@ pub fn check<S: System<Scalar = f64> + Default>(source: &str) {
 }
 
 /// Starts of the emitted code against the interpretation, at random parameters.
-fn check_starts<S: System<Scalar = f64> + Default>(source: &str) {
+fn check_starts<S: Derived<Scalar = f64> + Default>(source: &str) {
     let d = S::DESCRIPTION;
     let program = program(source, d.name);
     let mut random = Random::new(7);
@@ -142,7 +142,7 @@ fn check_starts<S: System<Scalar = f64> + Default>(source: &str) {
 }
 
 /// The motion program over dual numbers against central differences of the engine's interpretation.
-pub fn check_derivatives<S: System<Scalar = f64> + Default>(source: &str) {
+pub fn check_derivatives<S: Derived<Scalar = f64> + Default>(source: &str) {
     let d = S::DESCRIPTION;
     let program = program(source, d.name);
     let mut random = Random::new(11);

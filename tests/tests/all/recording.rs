@@ -38,7 +38,7 @@ unsafe impl GlobalAlloc for Counting {
 static ALLOCATOR: Counting = Counting;
 
 /// Steps of every method, from a scene's first start.
-fn steps_do_not_allocate<S: System<Scalar = f64>>(scene: &S) {
+fn steps_do_not_allocate<S: Derived<Scalar = f64>>(scene: &S) {
     let methods = [
         "taylor",
         "dop853",
@@ -90,7 +90,7 @@ fn a_step_does_not_allocate() {
 /// All modes of the textbook's scenes and impacts, events and recording included.
 #[test]
 fn a_second_run_does_not_allocate() {
-    fn check<S: System<Scalar = f64>>(scene: &S) {
+    fn check<S: Derived<Scalar = f64>>(scene: &S) {
         let start = first_start(scene);
         for record in [true, false] {
             let mut runner = Simulation::new(scene).record(record).runner();

@@ -5,7 +5,7 @@ use lagrange_problems::scenes::hard::{CueBall, HoopBead, InclineBlock, TurningPu
 use lagrange_problems::scenes::*;
 
 /// Runs a scene from its first start in a new simulation.
-fn single<S: System<Scalar = f64>>(scene: &S, tolerance: f64, until: f64) -> Trajectory<S> {
+fn single<S: Derived<Scalar = f64>>(scene: &S, tolerance: f64, until: f64) -> Trajectory<S> {
     let run = Simulation::new(scene)
         .tolerance(tolerance)
         .run(start(scene), 0.0..until);
@@ -15,7 +15,7 @@ fn single<S: System<Scalar = f64>>(scene: &S, tolerance: f64, until: f64) -> Tra
     }
 }
 
-fn start<S: System<Scalar = f64>>(scene: &S) -> State<f64> {
+fn start<S: Derived<Scalar = f64>>(scene: &S) -> State<f64> {
     let n = S::DESCRIPTION.coordinates.len();
     let mut state = State {
         q: vec![0.0; n],
@@ -37,7 +37,7 @@ fn assert_same(one: &Record<f64>, other: &Record<f64>) {
     }
 }
 
-fn check<S: System<Scalar = f64>>(scene: &S) {
+fn check<S: Derived<Scalar = f64>>(scene: &S) {
     let long = single(scene, 1e-9, 20.0);
     let short = single(scene, 1e-9, 1.0);
     let simulation = Simulation::new(scene).tolerance(1e-9);
@@ -108,14 +108,17 @@ fn an_error_leaves_the_motion_until_then() {
 /// Events stay the same ones, however loose the tolerance that they can be told apart at.
 #[test]
 fn loose_tolerances_find_the_same_events() {
-    fn names<S: System<Scalar = f64>>(scene: &S, tolerance: f64) -> Vec<(&'static str, EventKind)> {
+    fn names<S: Derived<Scalar = f64>>(
+        scene: &S,
+        tolerance: f64,
+    ) -> Vec<(&'static str, EventKind)> {
         let trajectory = single(scene, tolerance, 20.0);
         let events = trajectory.events().iter();
         events
             .map(|e| (e.subject.name(S::DESCRIPTION), e.kind))
             .collect()
     }
-    fn check<S: System<Scalar = f64>>(scene: &S) {
+    fn check<S: Derived<Scalar = f64>>(scene: &S) {
         let expected = names(scene, 1e-12);
         for k in 0..24 {
             let tolerance = 10f64.powf(-1.5 - 0.125 * f64::from(k));

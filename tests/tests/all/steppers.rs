@@ -5,7 +5,7 @@ use lagrange_problems::scenes::*;
 use lagrange_tests::{agree, words};
 
 /// Runs a scene from its first start by each method and compares with the Taylor method at 1e-14.
-fn check<S: System<Scalar = f64> + Default>(until: f64) {
+fn check<S: Derived<Scalar = f64> + Default>(until: f64) {
     let scene = S::default();
     let n = S::DESCRIPTION.coordinates.len();
     let mut start = State {

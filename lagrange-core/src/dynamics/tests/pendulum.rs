@@ -25,4 +25,4 @@ pub const ROD: usize = 0;
 pub const TWIN: usize = 1;
 pub const GROWING: usize = 2;
 
-pub const PENDULUM: &Description = <Pendulum as System>::DESCRIPTION;
+pub const PENDULUM: &Description = <Pendulum as Derived>::DESCRIPTION;

@@ -48,7 +48,7 @@ pub const ROLLING: usize = 0;
 pub const RIM: usize = 1;
 pub const GRIP: usize = 2;
 
-pub const WHEEL: &Description = <Wheel as System>::DESCRIPTION;
+pub const WHEEL: &Description = <Wheel as Derived>::DESCRIPTION;
 
 /// The mass at rest on the rim.
 pub fn stuck() -> Mode {

@@ -3,6 +3,7 @@
 
 use super::derivation;
 use super::handles::{self, Indices};
+use super::names;
 use crate::ast::{Declaration, Head, ItemKind, Name, Observe};
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -112,12 +113,12 @@ fn implementation(input: &DeriveInput, core: &TokenStream) -> TokenStream {
     let scalar = scalar.map_or(quote!(f64), |scalar| quote!(#scalar));
     let name = &input.ident;
     let (parameters, arguments, conditions) = generics.split_for_impl();
-    let description = empty(core);
+    let (description, read_tables) = (empty(core), names::read_tables(core));
     quote! {
         #[automatically_derived]
         impl #parameters #core::system::System for #name #arguments #conditions {
             type Scalar = #scalar;
-            const DESCRIPTION: &'static #core::system::Description = &#description;
+            #read_tables
             fn parameter(&self, _: usize) -> Self::Scalar {
                 ::core::unreachable!()
             }
@@ -127,6 +128,12 @@ fn implementation(input: &DeriveInput, core: &TokenStream) -> TokenStream {
             fn start(&self, _: usize, _: Self::Scalar, _: &mut [Self::Scalar], _: &mut [Self::Scalar]) {
                 ::core::unreachable!()
             }
+        }
+
+        #[automatically_derived]
+        impl #parameters #core::system::Derived for #name #arguments #conditions {
+            const DESCRIPTION: &'static #core::system::Description = &#description;
+            const DECLARATION: &'static #core::declaration::Declaration = &#core::declaration::Declaration::NONE;
         }
     }
 }

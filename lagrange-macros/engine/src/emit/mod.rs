@@ -9,6 +9,7 @@ mod description;
 mod encoded;
 mod equations;
 mod exact;
+mod export;
 mod fallback;
 mod handles;
 mod listing;
@@ -24,6 +25,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 pub use derivation::{derivation, on_request as derivation_on_request};
+pub use export::{declared_struct, export};
 pub use fallback::fallback;
 pub use listing::listing;
 
@@ -34,6 +36,22 @@ const LARGEST: usize = 500;
 pub fn is_large(program: &Program) -> bool {
     let blocks = program.motion.blocks.iter();
     blocks.map(|block| block.steps.len()).sum::<usize>() > LARGEST
+}
+
+/// The tables of a system, as literals of the types of the core.
+pub struct Tables {
+    /// `Description { … }`
+    pub description: TokenStream,
+    /// `Declaration { … }`
+    pub declaration: TokenStream,
+}
+
+/// The tables of a program: what is read, of a system that is derived when a program starts, instead of compiled.
+pub fn tables(program: &Program, declared: &Declared) -> Tables {
+    Tables {
+        description: description::description(program),
+        declaration: declared::declaration(declared, &program.equations.system),
+    }
 }
 
 /// `impl System` and the handles of a program; [`derivation()`] belongs to it.
@@ -54,8 +72,11 @@ pub fn emit(program: &Program, declared: &Declared, verdicts: &[Verdict]) -> Tok
     };
     let handles = handles::handles(program);
     let checks = checks::checks(program, verdicts);
-    let description = description::description(program);
-    let declaration = declared::declaration(declared, system);
+    let Tables {
+        description,
+        declaration,
+    } = tables(program, declared);
+    let read_tables = names::read_tables(core);
     let access = scalar::access(system);
     let start = scalar::starts(program);
     let equations = equations::equations(program);
@@ -67,14 +88,19 @@ pub fn emit(program: &Program, declared: &Declared, verdicts: &[Verdict]) -> Tok
         #[allow(unused, clippy::all, clippy::pedantic, clippy::nursery)]
         impl #generics #core::system::System for #name #arguments {
             type Scalar = #scalar;
-            const DESCRIPTION: &'static #core::system::Description = &#description;
-            const DECLARATION: &'static #core::declaration::Declaration = &#declaration;
-            fn derivation() -> &'static #core::Derivation {
+            #read_tables
+            fn derivation(&self) -> &'static #core::Derivation {
                 #inherent::derivation()
             }
             #access
             #start
             #equations
+        }
+
+        #[automatically_derived]
+        impl #generics #core::system::Derived for #name #arguments {
+            const DESCRIPTION: &'static #core::system::Description = &#description;
+            const DECLARATION: &'static #core::declaration::Declaration = &#declaration;
         }
     }
 }

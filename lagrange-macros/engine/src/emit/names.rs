@@ -59,6 +59,18 @@ pub fn field(parameter: &Parameter) -> TokenStream {
     }
 }
 
+/// The methods of `System` that return the tables of `Derived`.
+pub fn read_tables(core: &TokenStream) -> TokenStream {
+    quote! {
+        fn description(&self) -> &'static #core::system::Description {
+            <Self as #core::system::Derived>::DESCRIPTION
+        }
+        fn declaration(&self) -> &'static #core::declaration::Declaration {
+            <Self as #core::system::Derived>::DECLARATION
+        }
+    }
+}
+
 /// A number that is fixed during a run, as a scalar.
 pub fn coefficient(system: &System, coefficient: Coefficient) -> TokenStream {
     let core = &system.core;

@@ -42,11 +42,17 @@ impl Elaboration<'_> {
             .collect()
     }
 
-    fn field(&mut self, field: &Field) {
+    pub(super) fn field(&mut self, field: &Field) {
         if self
             .enter(&field.name, Kind::Field, Meaning::Poisoned)
             .is_none()
         {
+            return;
+        }
+        let length = field
+            .length
+            .map_or(1, |n| i64::try_from(n).unwrap_or(i64::MAX));
+        if self.unroll(length, (&field.name).into()).is_none() {
             return;
         }
         let mut one = |element: Option<usize>| {

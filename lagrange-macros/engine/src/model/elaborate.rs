@@ -37,6 +37,8 @@ pub(super) struct Elaboration<'a> {
     pub dropped: bool,
     /// Whether an exact number that did not fit has been reported.
     pub overflowed: bool,
+    /// Elements that arrays, sums and indexed items have been unrolled to.
+    pub unrolled: i64,
 }
 
 /// A definition or output.
@@ -129,6 +131,7 @@ impl<'a> Elaboration<'a> {
             bodies: BTreeMap::new(),
             dropped: false,
             overflowed: false,
+            unrolled: 0,
         }
     }
 
@@ -168,6 +171,7 @@ impl<'a> Elaboration<'a> {
             coordinate_names: scope.coordinate_names,
             bodies: scope.bodies,
             dropped: false,
+            unrolled: 0,
         }
     }
 

@@ -7,8 +7,11 @@ use crate::ast::{Expr, Index, Name, Range};
 use crate::diagnostics::{Code, Extent};
 use crate::symbolic::{MOST_OPERANDS, Rational};
 
-/// What sums and indexed items may unroll to.
+/// What a sum, an array or an indexed item may unroll to.
 const MOST_ELEMENTS: i64 = 10_000;
+
+/// What all of them may unroll to; sums inside of sums multiply.
+const MOST_UNROLLED: i64 = 1_000_000;
 
 impl Elaboration<'_> {
     /// The position of an index in a list of `length` elements whose first index is `lower`.
@@ -54,7 +57,19 @@ impl Elaboration<'_> {
                 .report(Code::TooMany, extent, &[&count, &MOST_ELEMENTS]);
             return None;
         }
+        self.unroll((to - from).max(0), extent)?;
         Some((from, to))
+    }
+
+    /// Counts elements that are about to be made.
+    pub fn unroll(&mut self, count: i64, at: Extent) -> Option<()> {
+        self.unrolled = self.unrolled.saturating_add(count);
+        if self.unrolled > MOST_UNROLLED {
+            let elements = &[&self.unrolled as &dyn std::fmt::Display, &MOST_UNROLLED];
+            self.sink.report(Code::TooMany, at, elements);
+            return None;
+        }
+        Some(())
     }
 
     /// Enters an index for as long as `body` runs.

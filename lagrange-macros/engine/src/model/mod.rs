@@ -12,6 +12,7 @@ mod constraints;
 mod contacts;
 mod declare;
 mod declared;
+mod defaults;
 mod degree;
 mod elaborate;
 mod energies;
@@ -39,6 +40,7 @@ use proc_macro2::{Ident, Span, TokenStream};
 
 pub use checks::{Check, Premise, checks};
 pub use declared::{Declared, declared};
+pub use defaults::{defaults, number};
 pub use elaborate::{Scope, scoped, system};
 pub(crate) use names::shouting;
 

@@ -221,7 +221,8 @@ impl Elaboration<'_> {
         match nearest(text, names) {
             Some(known) => format!("did you mean `{known}`?"),
             None => {
-                "declare it as a field of the struct, a coordinate, or with `define`".to_string()
+                "declare it as a parameter (a field of the struct), a coordinate, or with `define`"
+                    .to_string()
             }
         }
     }

@@ -15,7 +15,7 @@ const OPERATORS: &[&str] = &[
 ];
 
 /// How deep groups may nest: what recursion in the parser and later stages certainly survives.
-const DEEPEST: usize = 100;
+pub(super) const DEEPEST: usize = 100;
 
 /// Tokens and a position among them.
 #[derive(Clone)]

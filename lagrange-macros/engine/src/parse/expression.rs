@@ -114,7 +114,13 @@ fn power(cursor: &mut Cursor, sink: &mut Diagnostics) -> Option<Expr> {
 
 fn postfix(cursor: &mut Cursor, sink: &mut Diagnostics) -> Option<Expr> {
     let mut value = atom(cursor, sink)?;
+    let mut levels = 0;
     loop {
+        // What is taken of a value nests as parentheses do.
+        if cursor.group(Delimiter::Bracket).is_some() || cursor.operator() == Some(".") {
+            cursor.deeper(sink)?;
+            levels += 1;
+        }
         if let Some(group) = cursor.take_group(Delimiter::Bracket) {
             let index = whole(&mut cursor.inside(&group, sink)?, sink)?;
             value = Expr {
@@ -132,6 +138,7 @@ fn postfix(cursor: &mut Cursor, sink: &mut Diagnostics) -> Option<Expr> {
                 kind: ExprKind::Member(Box::new(value), name),
             };
         } else {
+            (0..levels).for_each(|_| cursor.shallower());
             return Some(value);
         }
     }

@@ -5,6 +5,7 @@
 
 mod cursor;
 mod expression;
+mod file;
 mod item;
 mod number;
 mod relation;
@@ -17,6 +18,7 @@ use crate::diagnostics::Diagnostics;
 use proc_macro2::TokenStream;
 
 pub(crate) use expression::FUNCTIONS;
+pub use file::{File, file};
 
 /// Reads a struct with its `#[lagrange(…)]` attributes; mistakes go to the sink.
 pub fn declaration(input: TokenStream, sink: &mut Diagnostics) -> Option<Declaration> {

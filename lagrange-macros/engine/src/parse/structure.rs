@@ -86,20 +86,31 @@ fn field(field: &syn::Field, scalar: Option<&Ident>, sink: &mut Diagnostics) -> 
             return None;
         }
     };
-    let mut read = Field {
-        name: Name::new(field.ident.as_ref()?),
+    let name = Name::new(field.ident.as_ref()?);
+    Some(described(name, length, &field.attrs, sink))
+}
+
+/// A field with what its attributes say.
+pub(super) fn described(
+    name: Name,
+    length: Option<usize>,
+    attributes: &[Attribute],
+    sink: &mut Diagnostics,
+) -> Field {
+    let mut field = Field {
+        name,
         length,
-        documentation: documentation(&field.attrs),
+        documentation: documentation(attributes),
         tex: String::new(),
         unit: None,
         letter: String::new(),
     };
-    for attribute in field.attrs.iter().filter(|a| a.path().is_ident("lagrange")) {
+    for attribute in attributes.iter().filter(|a| a.path().is_ident("lagrange")) {
         for mut part in parts(attribute, "unit = \"kg\"", sink) {
-            field_attribute(&mut part, &mut read, sink);
+            field_attribute(&mut part, &mut field, sink);
         }
     }
-    Some(read)
+    field
 }
 
 /// A type without the invisible groups around what a `macro_rules!` substituted.
@@ -183,7 +194,7 @@ fn parts(attribute: &Attribute, example: &str, sink: &mut Diagnostics) -> Vec<Cu
 }
 
 /// Doc comments, one line each, without the space that follows `///`.
-fn documentation(attributes: &[Attribute]) -> String {
+pub(super) fn documentation(attributes: &[Attribute]) -> String {
     let mut lines = Vec::new();
     for attribute in attributes.iter().filter(|a| a.path().is_ident("doc")) {
         if let Meta::NameValue(pair) = &attribute.meta

@@ -8,7 +8,7 @@ mod sphere;
 mod wheel;
 
 use lagrange_core::mode::Mode;
-use lagrange_core::system::System;
+use lagrange_core::system::Derived;
 use lagrange_tests::equations::Equations;
 use lagrange_tests::{agree, all_agree};
 
@@ -28,7 +28,7 @@ struct Textbook {
 
 /// Compares accelerations and forces at a state, which must be on the constraints of the mode.
 #[track_caller]
-fn check_motion<S: System<Scalar = f64>>(
+fn check_motion<S: Derived<Scalar = f64>>(
     scene: &S,
     mode: &Mode,
     q: &[f64],
@@ -47,7 +47,7 @@ fn check_motion<S: System<Scalar = f64>>(
 
 /// Compares mass matrix and forcing, anywhere.
 #[track_caller]
-fn check_inertia<S: System<Scalar = f64>>(
+fn check_inertia<S: Derived<Scalar = f64>>(
     scene: &S,
     mode: &Mode,
     q: &[f64],
@@ -74,7 +74,7 @@ struct HandRow {
 }
 
 #[track_caller]
-fn check_row<S: System<Scalar = f64>>(
+fn check_row<S: Derived<Scalar = f64>>(
     scene: &S,
     mode: &Mode,
     q: &[f64],

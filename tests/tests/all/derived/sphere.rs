@@ -4,7 +4,7 @@
 //! With `side` = +1 outside and −1 inside, gravity pulls along side·sin θ in the direction of θ, and s = ρ θ̇ − side a φ̇.
 
 use super::{HandRow, STATES, Textbook, check_inertia, check_motion, check_row};
-use lagrange_core::system::System;
+use lagrange_core::system::Derived;
 use lagrange_problems::scenes::{RollingSlippingSphere, RollingSphere, SphereInBowl};
 use lagrange_tests::Random;
 use lagrange_tests::modes::{flight, slipping, stuck};
@@ -115,7 +115,7 @@ fn forces(contact_first: bool, normal: f64, tangential: f64) -> Vec<f64> {
     }
 }
 
-fn rolls<S: System<Scalar = f64>>(
+fn rolls<S: Derived<Scalar = f64>>(
     seed: u64,
     build: fn(&mut Random) -> Case<S>,
     contact_first: bool,
@@ -152,7 +152,7 @@ fn sphere_rolls_in_bowl() {
     rolls(12, inside, true);
 }
 
-fn slips<S: System<Scalar = f64>>(seed: u64, build: fn(&mut Random) -> Case<S>) {
+fn slips<S: Derived<Scalar = f64>>(seed: u64, build: fn(&mut Random) -> Case<S>) {
     for sign in [1.0, -1.0] {
         let mut random = Random::new(seed);
         for _ in 0..STATES {
@@ -182,7 +182,7 @@ fn sphere_slips_in_bowl_both_ways() {
 }
 
 /// Anywhere: M = diag(m, m r², I); the forces of a parabola with spin; the contact and the slip as rows.
-fn inertia_and_flight<S: System<Scalar = f64>>(
+fn inertia_and_flight<S: Derived<Scalar = f64>>(
     seed: u64,
     build: fn(&mut Random) -> Case<S>,
     contact_first: bool,

@@ -52,7 +52,7 @@ struct Tally {
 
 impl Tally {
     /// Runs and books what comes of it.
-    fn run<S: System<Scalar = f64> + Debug>(
+    fn run<S: Derived<Scalar = f64> + Debug>(
         &mut self,
         scene: &S,
         start: &State<f64>,
@@ -65,7 +65,7 @@ impl Tally {
         }
     }
 
-    fn judge<S: System<Scalar = f64> + Debug>(
+    fn judge<S: Derived<Scalar = f64> + Debug>(
         &mut self,
         scene: &S,
         start: &State<f64>,
@@ -125,7 +125,7 @@ impl Tally {
 }
 
 /// What must hold at one time.
-fn instant<S: System<Scalar = f64>>(now: &Instant<f64>, trial: Trial) -> Result<(), String> {
+fn instant<S: Derived<Scalar = f64>>(now: &Instant<f64>, trial: Trial) -> Result<(), String> {
     let d = S::DESCRIPTION;
     let mut numbers = now.q.iter().chain(&now.v).chain(&now.forces);
     if !numbers.all(|x| x.is_finite()) {

@@ -92,7 +92,7 @@ relay!(Signed force(relay: x = -force * sign(x)),);
 relay!(Chosen force(relay: x = if(x >= 0, -force, force)),);
 
 /// Four falls of √(2 m x₀/F) make a period.
-fn check_relay<S: System<Scalar = f64>>(scene: &S) {
+fn check_relay<S: Derived<Scalar = f64>>(scene: &S) {
     let name = S::DESCRIPTION.name;
     let quarter = (2.0 * 2.0 * 0.7 / 3.0_f64).sqrt();
     let trajectory = run(scene, state(&[0.7], &[0.0]), 20.5 * quarter);

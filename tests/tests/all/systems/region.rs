@@ -72,7 +72,7 @@ fn state(q: [f64; 2], v: [f64; 2]) -> State<f64> {
     }
 }
 
-fn story<S: System<Scalar = f64>>(trajectory: &Trajectory<S>) -> Vec<(&'static str, String)> {
+fn story<S: Derived<Scalar = f64>>(trajectory: &Trajectory<S>) -> Vec<(&'static str, String)> {
     let events = trajectory.events().iter();
     events
         .map(|e| (e.subject.name(S::DESCRIPTION), e.kind.to_string()))

@@ -4,8 +4,11 @@ mod check;
 mod contact;
 mod force;
 mod output;
+mod parameter;
 mod quantity;
 mod start;
+
+pub(super) use parameter::{Parameters, attributes};
 
 use super::cursor::Cursor;
 use super::expression::{index, whole};
@@ -37,9 +40,9 @@ const KEYWORDS: &[&str] = &[
     "crate",
 ];
 
-/// Whether the word begins an item.
+/// Whether the word begins an item, of a struct or of a file.
 pub(super) fn is_keyword(word: &str) -> bool {
-    KEYWORDS.contains(&word)
+    KEYWORDS.contains(&word) || parameter::KEYWORDS.contains(&word)
 }
 
 /// What has been read so far.
@@ -47,6 +50,8 @@ pub(super) fn is_keyword(word: &str) -> bool {
 pub(super) struct Items {
     pub items: Vec<Item>,
     pub core: Option<TokenStream>,
+    /// What only a file has; `None` of a struct.
+    pub parameters: Option<Parameters>,
 }
 
 /// The items of a part: one, or several where commas are missing.
@@ -70,10 +75,17 @@ fn item(part: &mut Cursor, read: &mut Items, sink: &mut Diagnostics) -> Option<(
         return None;
     };
     let word = keyword.text.as_str();
-    if !is_keyword(word) {
-        let hint = match nearest(word, KEYWORDS.iter().copied()) {
+    if let Some(parameters) = &mut read.parameters
+        && parameter::KEYWORDS.contains(&word)
+    {
+        return parameters.read(&keyword, part, sink);
+    }
+    if !KEYWORDS.contains(&word) {
+        let own = read.parameters.iter().flat_map(|_| parameter::KEYWORDS);
+        let known: Vec<&str> = own.chain(KEYWORDS.iter().copied()).collect();
+        let hint = match nearest(word, known.iter().copied()) {
             Some(known) => format!("did you mean `{known}`?"),
-            None => format!("items are {}", KEYWORDS.join(", ")),
+            None => format!("items are {}", known.join(", ")),
         };
         sink.report(Code::UnknownItem, &keyword, &[&word, &hint]);
         part.skip_all();

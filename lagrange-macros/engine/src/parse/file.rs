@@ -1,0 +1,128 @@
+//! A declaration in a text file: the items of `#[lagrange(…)]` with commas between them, and what stands for the struct.
+//!
+//! ```text
+//! //! A mass on a spring.
+//! parameters(mass: "kg" = 1, stiffness: "N/m" = 40),
+//! coordinates(x: "m"),
+//! kinetic = mass/2 * der(x)^2,
+//! potential = stiffness/2 * x^2,
+//! ```
+
+use super::cursor::{Cursor, DEEPEST};
+use super::item::{self, Items, Parameters, attributes};
+use super::structure;
+use crate::ast::{Declaration, Expr, Field};
+use crate::diagnostics::{Code, Diagnostics, Extent};
+use core::ops::Range;
+use proc_macro2::{Ident, Span, TokenStream, TokenTree};
+
+/// Most bytes of a file.
+const LARGEST: usize = 1 << 20;
+
+/// A file as it was read.
+pub struct File {
+    /// What it declares; the parameters are its fields.
+    pub declaration: Declaration,
+    /// Values of the parameters, one expression for each field.
+    pub defaults: Vec<Expr>,
+    /// Time at which a run ends, s.
+    pub until: Option<Expr>,
+    /// Where in the text the items of the struct's attribute are, in bytes, with their commas and comments.
+    pub items: Vec<Range<usize>>,
+}
+
+/// Reads the text of a file; `name` is that of the system. Mistakes go to the sink.
+pub fn file(text: &str, name: &str, sink: &mut Diagnostics) -> Option<File> {
+    let before = sink.count();
+    if text.len() > LARGEST {
+        sink.report(Code::FileSize, Span::call_site(), &[&LARGEST]);
+        return None;
+    }
+    let tokens: TokenStream = match text.parse() {
+        Ok(tokens) => tokens,
+        Err(error) => {
+            sink.report(Code::Unreadable, error.span(), &[]);
+            return None;
+        }
+    };
+    shallow(&tokens, sink)?;
+    let begin = tokens.clone().into_iter().next();
+    let begin = begin.map_or(Span::call_site(), |token| token.span());
+    let end = tokens.clone().into_iter().last();
+    let end = end.map_or(begin, |token| token.span());
+    let mut cursor = Cursor::new(tokens, end.into(), 0);
+    let head = attributes(&mut cursor, sink)?;
+    let mut read = Items {
+        parameters: Some(Parameters::default()),
+        ..Items::default()
+    };
+    let mut items = Vec::new();
+    if cursor.is_at_end() {
+        sink.report(
+            Code::EmptyPart,
+            begin,
+            &[&"`coordinates(x)`, `kinetic = …`"],
+        );
+    }
+    let mut from = match head.is_empty() {
+        true => 0,
+        false => behind(text, cursor.behind()),
+    };
+    for mut part in cursor.parts("an item, as `coordinates(x)`", sink) {
+        let before = read.items.len();
+        item::items(&mut part, &mut read, sink);
+        part.skip_all();
+        let to = behind(text, part.here());
+        if read.items.len() > before {
+            items.push(from..to);
+        }
+        from = to;
+    }
+    let Parameters { fields, until } = read.parameters.unwrap_or_default();
+    let (fields, defaults): (Vec<Field>, Vec<Expr>) = fields.into_iter().unzip();
+    let file = File {
+        declaration: Declaration {
+            name: Ident::new(name, begin),
+            documentation: structure::documentation(&head),
+            scalar: None,
+            fields,
+            items: read.items,
+            core: read.core,
+        },
+        defaults,
+        until,
+        items,
+    };
+    (sink.count() == before).then_some(file)
+}
+
+/// Where in the text the line ends whose last token this is; the end of the token if others follow it there.
+fn behind(text: &str, token: Extent) -> usize {
+    let end = token.end.byte_range().end;
+    let rest = text.get(end..).unwrap_or_default();
+    let line = rest.split('\n').next().unwrap_or_default();
+    match line.trim_start() {
+        "" => end + line.len(),
+        comment if comment.starts_with("//") => end + line.len(),
+        _ => end,
+    }
+}
+
+/// Whether groups nest no deeper than is read; looked at without recursion, since a file may nest them as deep as it likes.
+fn shallow(tokens: &TokenStream, sink: &mut Diagnostics) -> Option<()> {
+    let mut open = vec![tokens.clone().into_iter()];
+    while let Some(innermost) = open.last_mut() {
+        match innermost.next() {
+            Some(TokenTree::Group(group)) if open.len() > DEEPEST => {
+                sink.report(Code::TooDeep, group.span_open(), &[]);
+                return None;
+            }
+            Some(TokenTree::Group(group)) => open.push(group.stream().into_iter()),
+            Some(_) => {}
+            None => {
+                open.pop();
+            }
+        }
+    }
+    Some(())
+}

@@ -1,0 +1,109 @@
+//! What only a declaration in a file has: `parameters(mass: "kg" = 1, length[3] = 0.5)` in the place of the fields of a struct, and
+//! `until = 20`, the time at which a run ends.
+
+use super::super::cursor::Cursor;
+use super::super::expression::whole;
+use super::super::number::number;
+use super::super::structure;
+use super::quantity::every;
+use super::{once, text};
+use crate::ast::{Expr, Field, Name, Unit};
+use crate::diagnostics::{Code, Diagnostics};
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
+use syn::Attribute;
+use syn::parse::Parser;
+
+/// Words that begin such an item.
+pub(super) const KEYWORDS: [&str; 2] = ["parameters", "until"];
+
+/// What has been read of it.
+#[derive(Default)]
+pub(in crate::parse) struct Parameters {
+    /// Parameters with their values.
+    pub fields: Vec<(Field, Expr)>,
+    /// Time at which a run ends, s.
+    pub until: Option<Expr>,
+}
+
+impl Parameters {
+    /// Reads an item behind its keyword.
+    pub(super) fn read(
+        &mut self,
+        keyword: &Name,
+        part: &mut Cursor,
+        sink: &mut Diagnostics,
+    ) -> Option<()> {
+        if keyword.text == "until" {
+            part.require("=", sink)?;
+            once(&mut self.until, whole(part, sink)?, keyword, sink);
+            return Some(());
+        }
+        let Some(group) = part.take_group(Delimiter::Parenthesis) else {
+            part.expected("`(`", sink);
+            part.skip_all();
+            return None;
+        };
+        let inside = part.inside(&group, sink)?;
+        let example = "parameters, as in `parameters(mass: \"kg\" = 1)`";
+        self.fields
+            .extend(every(inside.parts(example, sink), sink, parameter)?);
+        Some(())
+    }
+}
+
+/// `mass = 1`, `mass: "kg" = 1`, `length[3]: "m" = [1, 2, 3]`, with attributes of a field before it.
+fn parameter(part: &mut Cursor, sink: &mut Diagnostics) -> Option<(Field, Expr)> {
+    let attributes = attributes(part, sink)?;
+    let name = part.name("the name of a parameter", sink)?;
+    let length = match part.take_group(Delimiter::Bracket) {
+        None => None,
+        Some(group) => Some(length(&mut part.inside(&group, sink)?, sink)?),
+    };
+    let mut field = structure::described(name, length, &attributes, sink);
+    if let Some(colon) = part.take(":") {
+        let extent = part.here();
+        let text = text(part, sink)?;
+        if field.unit.is_some() {
+            sink.report(Code::RepeatedPart, colon, &[&"unit"]);
+        }
+        field.unit = Some(Unit { text, extent });
+    }
+    if part.is_at_end() {
+        let (name, text) = (&field.name, &field.name.text);
+        sink.report(Code::MissingPart, name, &[text, &"value", &"= 1"]);
+        return None;
+    }
+    part.require("=", sink)?;
+    Some((field, whole(part, sink)?))
+}
+
+/// The number N of `[N]`.
+fn length(inside: &mut Cursor, sink: &mut Diagnostics) -> Option<usize> {
+    let here = inside.here();
+    let length = match inside.next() {
+        Some(TokenTree::Literal(literal)) => Some(number(&literal, sink)?),
+        _ => None,
+    };
+    let length = length.filter(|length| length.exponent == 0 && inside.is_at_end());
+    let length = length.and_then(|length| usize::try_from(length.digits).ok());
+    if length.is_none() {
+        let found = "something else";
+        sink.report(Code::Expected, here, &[&"a number of elements", &found]);
+    }
+    length
+}
+
+/// Attributes and doc comments here, outer and inner, as the attributes of an item.
+pub(in crate::parse) fn attributes(
+    part: &mut Cursor,
+    sink: &mut Diagnostics,
+) -> Option<Vec<Attribute>> {
+    let mut tokens = TokenStream::new();
+    while part.operator() == Some("#") {
+        tokens.extend(part.next());
+        part.take("!");
+        tokens.extend(part.take_group(Delimiter::Bracket).map(TokenTree::from));
+    }
+    let attributes = Attribute::parse_outer.parse2(tokens);
+    attributes.map_err(|error| sink.absorb(error)).ok()
+}

@@ -1,0 +1,344 @@
+//! A file gives what the struct gives; its mistakes are shown where they are; hostile files end in an error.
+
+use super::{Refused, TEMPLATE, scene, type_name};
+use crate::catalogue::{Scene, scenes};
+use crate::outcome::Outcome;
+use crate::request::Request;
+use lagrange_core::prelude::Equations;
+use quote::{ToTokens, quote};
+use std::fmt::Write;
+use std::fs;
+use std::path::{Path, PathBuf};
+use syn::{Attribute, Item, ItemStruct, Type};
+
+/// All structs of the scenes' sources that are not made by a macro.
+fn structs() -> Vec<ItemStruct> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/scenes");
+    let list = |folder: &Path| -> Vec<PathBuf> {
+        let entries = fs::read_dir(folder).expect("the scenes");
+        entries.map(|entry| entry.expect("a file").path()).collect()
+    };
+    let files = list(&folder).into_iter().chain(list(&folder.join("hard")));
+    let sources = files.filter(|file| file.extension().is_some_and(|end| end == "rs"));
+    let items = sources.flat_map(|file| {
+        let text = fs::read_to_string(file).expect("text");
+        syn::parse_file(&text).expect("Rust").items
+    });
+    let structs = items.filter_map(|item| match item {
+        Item::Struct(item) => Some(item),
+        _ => None,
+    });
+    structs.collect()
+}
+
+/// The file that declares the same as a struct.
+fn text(item: &ItemStruct, defaults: &[f64]) -> String {
+    let is = |name| move |attribute: &&Attribute| attribute.path().is_ident(name);
+    let mut text = String::new();
+    for doc in item.attrs.iter().filter(is("doc")) {
+        let meta = &doc.meta;
+        let _ = writeln!(text, "#![{}]", quote!(#meta));
+    }
+    let mut defaults = defaults.iter();
+    let _ = writeln!(text, "parameters(");
+    for field in &item.fields {
+        for attribute in &field.attrs {
+            let _ = writeln!(text, "{}", attribute.to_token_stream());
+        }
+        let name = field.ident.to_token_stream();
+        let _ = match &field.ty {
+            Type::Array(array) => {
+                let length = array.len.to_token_stream();
+                let count = length.to_string().parse().expect("a number");
+                let values: Vec<_> = defaults.by_ref().take(count).collect();
+                writeln!(text, "{name}[{length}] = {values:?},")
+            }
+            _ => writeln!(text, "{name} = {:?},", defaults.next().expect("a value")),
+        };
+    }
+    let _ = writeln!(text, "),");
+    for attribute in item.attrs.iter().filter(is("lagrange")) {
+        let list = attribute.meta.require_list().expect("items");
+        let _ = writeln!(text, "{}", list.tokens);
+    }
+    text
+}
+
+/// The scenes of the catalogue that stand in the sources, with the same read from a text.
+fn pairs() -> Vec<(&'static dyn Scene, &'static dyn Scene)> {
+    let structs = structs();
+    let pairs = scenes().filter_map(|compiled| {
+        let name = compiled.description().name;
+        let item = structs.iter().find(|item| item.ident == name)?;
+        let text = text(item, &compiled.defaults());
+        let read = scene(&format!("{name}.lagrange"), &text);
+        Some((compiled, read.unwrap_or_else(|refused| panic!("{refused}"))))
+    });
+    pairs.collect()
+}
+
+#[test]
+fn a_file_has_the_tables_and_defaults_of_the_struct() {
+    let pairs = pairs();
+    assert!(pairs.len() > 35, "{} scenes", pairs.len());
+    for (compiled, read) in pairs {
+        let [expected, found] = [compiled, read].map(|s| format!("{:?}", s.description()));
+        assert_eq!(found, expected);
+        assert_eq!(read.defaults(), compiled.defaults(), "{}", compiled.name());
+    }
+}
+
+/// One interpreter takes both through the same operations, so that they move alike to the last bit. What is read off the motion, such as
+/// forces, comes from emitted functions where there are any, and is equal to rounding.
+#[test]
+fn a_file_moves_as_the_struct_does() {
+    for (compiled, read) in pairs() {
+        let request = Request {
+            until: Some(compiled.until().min(2.0)),
+            equations: Equations::Interpreted,
+            samples: 20,
+            ..Request::default()
+        };
+        let [expected, found] = [compiled, read].map(|scene| scene.run(&request).expect("a start"));
+        let name = compiled.name();
+        assert_eq!(found.samples.len(), expected.samples.len(), "{name}");
+        for (found, expected) in found.samples.iter().zip(&expected.samples) {
+            assert_eq!(found.time, expected.time, "{name}");
+            assert_eq!(found.mode, expected.mode, "{name}");
+            assert_eq!(found.state, expected.state, "{name}");
+            let size = expected
+                .forces
+                .iter()
+                .fold(1.0, |size, f| f.abs().max(size));
+            for (found, expected) in found.forces.iter().zip(&expected.forces) {
+                assert!(
+                    (found - expected).abs() < 1e-11 * size,
+                    "{name}: {found} {expected}"
+                );
+            }
+        }
+        let story = |run: &Outcome| -> Vec<String> {
+            let events = run.events.iter();
+            events
+                .map(|e| format!("{:?} {} {}", e.subject, e.kind, e.time))
+                .collect()
+        };
+        assert_eq!(story(&found), story(&expected), "{name}");
+    }
+}
+
+/// What is exported is a struct that declares the same.
+#[test]
+fn an_export_declares_the_same() {
+    for (_, read) in pairs() {
+        let declaration = read.derivation().declaration;
+        let item: ItemStruct = syn::parse_str(declaration).expect("a struct");
+        let again = scene("Again.lagrange", &text(&item, &read.defaults()));
+        let again = again.unwrap_or_else(|refused| panic!("{refused}"));
+        let name = format!("name: {:?}", read.description().name);
+        let expected = format!("{:?}", read.description()).replacen(&name, "name: \"Again\"", 1);
+        // The names of the structs differ, as those of the files do.
+        let found = format!("{:?}", again.description());
+        let own = format!("name: {:?}", item.ident.to_string());
+        assert_eq!(found, expected.replacen(&own, "name: \"Again\"", 1));
+    }
+}
+
+#[test]
+fn names_of_files_become_names_of_types() {
+    for (path, name) in [
+        ("a/double-pendulum.lagrange", "DoublePendulum"),
+        ("3_bodies.lagrange", "System3Bodies"),
+        ("self.lagrange", "SystemSelf"),
+        ("çé.lagrange", "System"),
+    ] {
+        assert_eq!(type_name(path), name);
+    }
+}
+
+fn mistakes(text: &str) -> String {
+    match scene("spring.lagrange", text) {
+        Err(Refused::Mistakes(mistakes)) => mistakes.to_string(),
+        Err(other) => panic!("{other}"),
+        Ok(_) => panic!("nothing is wrong with\n{text}"),
+    }
+}
+
+#[test]
+fn mistakes_are_marked_where_they_are() {
+    let text = "//! A spring.\nparameters(mass: \"kg\" = 1, stiffness: \"N/m\" = 40),\n\
+                coordinates(x: \"m\"),\n\tkinetic = mass/2 * der(x)^2,\npotential = stifness/2 * x^2,\n";
+    expect_test::expect![[r#"
+        spring.lagrange:5:13: `stifness` is not known; did you mean `stiffness`? [E201]
+          5 | potential = stifness/2 * x^2,
+            |             ^^^^^^^^"#]]
+    .assert_eq(&mistakes(text));
+    expect_test::expect![[r#"
+        spring.lagrange:4:12: a kinetic energy is in J, and this is in kg² m²/s²; a factor in 1/kg is missing [E704]
+          4 | 	kinetic = mass^2/2 * der(x)^2,
+            | 	          ^^^^^^^^^^^^^^^^^^^"#]]
+    .assert_eq(&mistakes(&text.replace("stifness", "stiffness").replace("mass/2", "mass^2/2")));
+}
+
+#[test]
+fn what_only_a_file_has_is_checked() {
+    let rest = "coordinates(x), kinetic = der(x)^2";
+    for (text, expected) in [
+        (
+            format!("parameters(a), {rest}"),
+            "1:12: `a` has no value; add `= 1` [E018]",
+        ),
+        (
+            format!("parameters(a = b, b = 1), {rest}"),
+            "1:16: expected a number, as `3`, `-1/2` or `2*pi`, found `b` [E001]",
+        ),
+        (
+            format!("parameters(a = c), {rest}"),
+            "1:16: `c` is not known",
+        ),
+        (
+            format!("parameters(a[2] = [1, 2, 3]), {rest}"),
+            "1:19: lists of 2 and 3 elements do not fit",
+        ),
+        (
+            format!("parameters(a = sqrt(-1)), {rest}"),
+            "1:16: `sqrt(-1)` has no value",
+        ),
+        (
+            format!("parameters(a = 1, a = 2), {rest}"),
+            "1:19: `a` is already the name of a field",
+        ),
+        (
+            format!("parameters(a[9999999] = 1), {rest}"),
+            "1:12: 9999999 elements are too many",
+        ),
+        (
+            format!("parametres(a = 1), {rest}"),
+            "1:1: `parametres` is not an item; did you mean `parameters`?",
+        ),
+        (
+            format!("{rest}, until = 1, until = 2"),
+            "1:48: `until` is given twice",
+        ),
+        (format!("{rest}, until = x"), "1:45: `x` is not known"),
+        (String::new(), "1:1: nothing is written here"),
+        (
+            "kinetic = \"a".to_owned(),
+            "1:11: what begins here cannot be read",
+        ),
+        (
+            "kinetic = (1".to_owned(),
+            "1:11: what begins here cannot be read",
+        ),
+    ] {
+        let found = mistakes(&text);
+        assert!(
+            found.starts_with(&format!("spring.lagrange:{expected}")),
+            "{text}\n{found}"
+        );
+    }
+}
+
+#[test]
+fn values_are_numbers_written_as_expressions() {
+    let text = "parameters(a = 2*pi, b[2] = 1/4, c[2] = [1, -2], type = sqrt(4)), coordinates(x),\n\
+                kinetic = a * b[0] * c[0] * type * der(x)^2, until = 3/2";
+    let scene = scene("a.lagrange", text).unwrap_or_else(|refused| panic!("{refused}"));
+    let tau = 2.0 * std::f64::consts::PI;
+    assert_eq!(scene.defaults(), [tau, 0.25, 0.25, 1.0, -2.0, 2.0]);
+    assert_eq!(scene.until(), 1.5);
+}
+
+/// Whatever a file says, there is a scene or a mistake.
+#[track_caller]
+fn survives(text: &str) {
+    if let Err(Refused::Bug(reason)) = scene("hostile.lagrange", text) {
+        panic!("{reason}\n{text}");
+    }
+}
+
+/// Numbers of a linear congruential generator (Knuth 1998, MMIX).
+struct Random(u64);
+
+impl Random {
+    fn below(&mut self, bound: usize) -> usize {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 33) as usize % bound.max(1)
+    }
+}
+
+#[test]
+fn garbage_is_refused() {
+    let mut random = Random(1);
+    let words: Vec<&str> = "parameters coordinates kinetic potential contact friction constraint start stop mark check until define \
+        force observe x y der sum if min pi t 0 1 1/2 1e400 1e-9 0..8 ( ) [ ] { } , : = == >= <= + - * / ^ . .. ' \" # ! // \u{e9} \n"
+        .split(' ')
+        .collect();
+    for _ in 0..1000 {
+        let count = random.below(60);
+        let garbage: Vec<&str> = (0..count)
+            .map(|_| words[random.below(words.len())])
+            .collect();
+        survives(&garbage.join(" "));
+    }
+}
+
+#[test]
+fn mutations_of_a_good_file_are_read_or_refused() {
+    let mut random = Random(2);
+    let good: Vec<char> = TEMPLATE.chars().collect();
+    for _ in 0..300 {
+        let mut text = good.clone();
+        for _ in 0..1 + random.below(4) {
+            let (at, from) = (random.below(text.len()), random.below(text.len()));
+            let length = random.below(20).min(text.len() - at.max(from));
+            match random.below(3) {
+                0 => drop(text.drain(at..at + length)),
+                1 => text[at] = good[random.below(good.len())],
+                _ => {
+                    let copy: Vec<char> = text[from..from + length].to_vec();
+                    text.splice(at..at, copy);
+                }
+            }
+        }
+        survives(&text.into_iter().collect::<String>());
+    }
+}
+
+#[test]
+fn bombs_do_not_go_off() {
+    let with = |value: &str| format!("coordinates(x), kinetic = der(x)^2 + {value}");
+    let many = 100_000;
+    for bomb in ["(", "[", "sin(", "-", "x^", "x+", "x*", "x.", "2^", "x/"] {
+        survives(&with(&(bomb.repeat(many) + "x")));
+    }
+    for (open, close) in [
+        ("(", ")"),
+        ("[", "]"),
+        ("sin(", ")"),
+        ("{", "}"),
+        ("max(x, ", ")"),
+    ] {
+        survives(&with(&(open.repeat(many) + "x" + &close.repeat(many))));
+    }
+    survives(&with(
+        "sum(i in 0..10000: sum(j in 0..10000: sum(k in 0..10000: x^i)))",
+    ));
+    survives(&with("9^999^999^999"));
+    survives(
+        "parameters(a[10000] = 1, b[99999999999999999999] = 2), coordinates(q[10000]), kinetic = der(q[0])^2",
+    );
+    survives(
+        "coordinates(q[300]), kinetic = sum(i in 0..300: sum(j in 0..300: cos(q[i]-q[j])*der(q[i])*der(q[j])))",
+    );
+    let doubled: String = (1..200)
+        .map(|k| format!("a{k} = a{}*sin(a{}) + a{},", k - 1, k - 1, k - 1))
+        .collect();
+    survives(&format!(
+        "define(a0 = x, {doubled}), coordinates(x), kinetic = a199*der(x)^2"
+    ));
+    survives(&" ".repeat(2 << 20));
+}
