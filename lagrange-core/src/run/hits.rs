@@ -128,6 +128,11 @@ impl<T: Scalar> Run<T> {
         if known >= LENGTH {
             return None;
         }
+        if let Some((_, size)) = self.at_limit.iter().find(|(g, _)| *g == guard) {
+            // At its limit a force begins at zero, whatever rounding makes of it.
+            let change: f64 = curve.iter().map(|c| c.abs()).sum();
+            return (change > CLEAR * size).then(|| deflate(curve, 1));
+        }
         let judged = deflate(curve, known);
         if let (0, [start, rate, ..]) = (known, judged)
             && *start < 0.0

@@ -86,6 +86,8 @@ pub(crate) struct Run<T: Scalar> {
     below: Vec<bool>,
     /// Guards whose leading coefficients vanish at the start of the coming step.
     zeros: Vec<(Guard, usize)>,
+    /// Forces that are at their limit, with their sizes.
+    at_limit: Vec<(Guard, f64)>,
     /// How much of the Taylor series at the present state `dynamics` holds.
     series: Progress,
     /// Whether `dynamics` holds the values of the present state, for the needs of the mode.
@@ -170,6 +172,7 @@ impl<T: Scalar> Run<T> {
             drifts: true,
             below: vec![false; d.contacts.len()],
             zeros: Vec::new(),
+            at_limit: Vec::new(),
             series: Progress::None,
             valued: false,
             falls: Vec::new(),
@@ -417,15 +420,20 @@ impl<T: Scalar> Run<T> {
         Ok(())
     }
 
-    /// What began at zero with the last step is an ordinary guard in the next, but for a force that stays at its limit: a block that
-    /// is just held. It is as long as its value is rounding.
+    /// What began at zero with the last step is an ordinary guard in the next, but for a force that is still at its limit to
+    /// rounding: a block that is just held.
     fn forget_zeros(&mut self) {
-        let mut zeros = core::mem::take(&mut self.zeros);
-        zeros.retain(|&(guard, order)| {
-            let stays = order >= guard::LENGTH && guard.is_force() && self.valued;
-            stays && self.decider.residue(&self.dynamics, &self.mode, &[guard]) <= AT_LIMIT
+        let is_single = |guard: &Guard| guard.is_force() && !matches!(guard, Guard::Joint(_));
+        let zeros = self.zeros.drain(..);
+        let stay = zeros.filter(|(guard, order)| *order >= guard::LENGTH && is_single(guard));
+        let mut held = core::mem::take(&mut self.at_limit);
+        held.extend(stay.map(|(guard, _)| (guard, 0.0)));
+        held.retain_mut(|(guard, size)| {
+            let value;
+            (value, *size) = self.decider.force(&self.dynamics, &self.mode, *guard);
+            self.valued && value.abs() <= AT_LIMIT * *size
         });
-        self.zeros = zeros;
+        self.at_limit = held;
     }
 
     /// Whether everything has happened that the run is to end after.
@@ -520,6 +528,7 @@ impl<T: Scalar> Run<T> {
 
     /// Enters the mode that the decider has found.
     fn set_mode_decided(&mut self) {
+        self.at_limit.clear();
         self.mode.clone_from(&self.decider.decision.mode);
         self.trajectory.enter(&self.mode);
         self.curves.joints.clone_from(&self.decider.decision.joints);

@@ -168,6 +168,14 @@ impl<T: Scalar> Decider<T> {
         forces.map(relative).fold(0.0, f64::max)
     }
 
+    /// The guard of a force in the mode given, and the size of the terms that it is made of; `dynamics` holds values.
+    pub fn force(&mut self, dynamics: &Dynamics<T>, mode: &Mode, guard: Guard) -> (f64, f64) {
+        self.sizes.take(dynamics);
+        let reading = Reading::Values(dynamics);
+        let value = guard::value(guard, mode, &reading);
+        (value, self.sizes.of(guard, dynamics))
+    }
+
     /// Looks for the feasible candidate to be preferred, into `self.best`. False: there is none.
     ///
     /// # Errors
