@@ -83,7 +83,8 @@ fn the_hard_cases_end_after_the_one_in_hand() {
     let folder = folder("interrupted-stability");
     let (code, _, complaint) = interrupted(&folder, &["stability", "--long"], A_WHILE / 4);
     assert_eq!(code, Some(130), "{complaint}");
-    assert!(complaint.contains("of 31 cases"), "{complaint}");
+    assert!(complaint.contains("interrupted after"), "{complaint}");
+    assert!(complaint.contains(" cases"), "{complaint}");
 }
 
 #[test]
