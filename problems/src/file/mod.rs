@@ -10,7 +10,7 @@
 //! ```
 //!
 //! It is the engine of the derive that reads them, with the same checks. Its tables are read here instead of being compiled
-//! ([`literal`]), and what they describe is a [`Scene`] as those of the catalogue are.
+//! (`literal`), and what they describe is a [`Scene`] as those of the catalogue are.
 
 mod literal;
 mod mistake;
