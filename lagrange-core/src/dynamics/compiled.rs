@@ -51,8 +51,8 @@ pub(super) struct Compiled<T: Scalar> {
     interpreted: Loaded<T>,
     /// The same of outputs alone, for where functions solve the equations.
     outputs: Loaded<T>,
-    /// For projections.
-    rows: Option<Interpreted<T>>,
+    /// For projections: one, once it has been asked for.
+    rows: Vec<Interpreted<T>>,
 }
 
 /// What equations are loaded for.
@@ -111,7 +111,7 @@ impl<T: Scalar> Compiled<T> {
             refused: false,
             interpreted: Loaded::default(),
             outputs: Loaded::default(),
-            rows: None,
+            rows: Vec::new(),
         };
         compiled.set_numbers(system, effects);
         compiled
@@ -166,9 +166,12 @@ impl<T: Scalar> Compiled<T> {
             return;
         }
         self.restart();
-        let loaded = [&mut self.interpreted, &mut self.outputs];
-        let interpreted = loaded.into_iter().flat_map(|loaded| &mut loaded.list);
-        let interpreted = interpreted.chain(&mut self.rows);
+        let lists = [
+            &mut self.interpreted.list,
+            &mut self.outputs.list,
+            &mut self.rows,
+        ];
+        let interpreted = lists.into_iter().flatten();
         interpreted.for_each(Interpreted::outdate);
         self.set_numbers(system, effects);
     }
@@ -230,19 +233,23 @@ impl<T: Scalar> Compiled<T> {
         system: &dyn ErasedSystem<T>,
         numbers: &mut Vec<T>,
     ) -> &mut Interpreted<T> {
-        let mut rows = self.rows.take();
-        let renewed = rows.take_if(|rows| rows.renew(system, self, numbers));
-        let rows = renewed.unwrap_or_else(|| {
-            let no_series = NeedSet::new(system.description());
-            let asked = Asked {
-                held: &self.row_needs,
-                extra: &no_series,
-                report: None,
-                part: Part::Outputs,
-            };
-            Interpreted::load(system, self, &asked, numbers)
-        });
-        self.rows.insert(rows)
+        let ready = self.rows.first().is_some_and(Interpreted::is_current);
+        if !ready {
+            let mut rows = core::mem::take(&mut self.rows);
+            rows.retain_mut(|rows| rows.renew(system, self, numbers));
+            if rows.is_empty() {
+                let no_series = NeedSet::new(system.description());
+                let asked = Asked {
+                    held: &self.row_needs,
+                    extra: &no_series,
+                    report: None,
+                    part: Part::Outputs,
+                };
+                rows.push(Interpreted::load(system, self, &asked, numbers));
+            }
+            self.rows = rows;
+        }
+        &mut self.rows[0]
     }
 
     /// Leaves the equations to the interpreter and the linear systems to the solver from now on.

@@ -190,6 +190,11 @@ impl<T: Scalar> Interpreted<T> {
         (&self.shape, &mut self.registers, self.series.as_mut())
     }
 
+    /// Whether the numbers are those of the present parameters.
+    pub(super) fn is_current(&self) -> bool {
+        !self.outdated
+    }
+
     /// The parameters have changed.
     pub(super) fn outdate(&mut self) {
         self.outdated = true;
