@@ -64,6 +64,7 @@ pub(super) struct Asked<'a> {
     pub extra: &'a NeedSet,
     /// What is held of the report; none if nothing is asked of it.
     pub report: Option<&'a NeedSet>,
+    /// How much of the equations it is.
     pub part: Part,
 }
 

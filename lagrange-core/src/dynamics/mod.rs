@@ -46,17 +46,6 @@ pub enum Equations {
     Interpreted,
 }
 
-/// Which interpreted equations of a mode are in use.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Selected {
-    /// Those for other needs, or of another mode.
-    Outdated,
-    /// Outputs alone, where functions solve the equations of motion.
-    Outputs,
-    /// The solution as well.
-    Solution,
-}
-
 /// Modes kept ready; beyond that the oldest goes.
 const MOST_MODES: usize = 64;
 
@@ -111,8 +100,8 @@ pub struct Dynamics<T: Scalar> {
     series_held: NeedSet,
     /// Of the named energies.
     energies: NeedSet,
-    /// Which interpreted equations are in use.
-    selected: Selected,
+    /// Which interpreted equations are in use; none if they are those for other needs, or of another mode.
+    selected: Option<Part>,
     /// Whether the last evaluation was by the functions of the mode.
     by_functions: bool,
     /// Whether the last series was; a value between a series and what is read of it may not be.
@@ -161,7 +150,7 @@ impl<T: Scalar> Dynamics<T> {
             reports: false,
             series_held: NeedSet::new(d),
             energies: needs::of_energies(d),
-            selected: Selected::Outdated,
+            selected: None,
             by_functions: false,
             series_by_functions: false,
             equations: Equations::Emitted,
@@ -225,7 +214,7 @@ impl<T: Scalar> Dynamics<T> {
     /// Operations that the equations of the mode take at the last [`Self::value`], as the interpreter counts them: what takes no part
     /// is not among them.
     pub fn operations(&mut self) -> Operations {
-        self.select(Selected::Solution);
+        self.select(Part::Solution);
         let interpreted = self.compiled().interpreted();
         interpreted
             .map(|interpreted| interpreted.operations())
@@ -293,7 +282,7 @@ impl<T: Scalar> Dynamics<T> {
         self.system = system;
         self.modes.iter_mut().for_each(Compiled::outdate);
         self.renew();
-        self.selected = Selected::Outdated;
+        self.selected = None;
     }
 
     /// Brings the present mode up to date with the parameters.
@@ -320,21 +309,19 @@ impl<T: Scalar> Dynamics<T> {
         self.oldest
     }
 
-    /// Makes interpreted equations for the present mode and needs current.
+    /// Makes a part of the interpreted equations for the present mode and needs current.
     #[inline]
-    fn select(&mut self, which: Selected) {
-        if self.selected == which {
+    fn select(&mut self, part: Part) {
+        if self.selected == Some(part) {
             return;
         }
-        let solves = which == Selected::Solution;
         let compiled = &mut self.modes[self.current];
-        if solves {
+        if part == Part::Solution {
             compiled.make_plan(self.description, &self.effects);
         }
-        let (held, extra, part) = match (solves, self.guards_alone) {
-            (true, _) => (&self.held, &self.extra, Part::Solution),
-            (false, false) => (&self.held, &self.extra, Part::Outputs),
-            (false, true) => (&self.guards, &self.guards, Part::Extra),
+        let (held, extra) = match part {
+            Part::Solution | Part::Outputs => (&self.held, &self.extra),
+            Part::Extra => (&self.guards, &self.guards),
         };
         let asked = Asked {
             held,
@@ -343,17 +330,26 @@ impl<T: Scalar> Dynamics<T> {
             part,
         };
         compiled.select(&*self.system, &asked, &mut self.numbers);
-        self.selected = which;
+        self.selected = Some(part);
+    }
+
+    /// What outputs are read from beside functions.
+    #[inline]
+    fn outputs(&self) -> Part {
+        match self.guards_alone {
+            true => Part::Extra,
+            false => Part::Outputs,
+        }
     }
 
     /// Makes those interpreted equations current that outputs are read from.
     #[inline]
     fn select_outputs(&mut self) {
-        let which = match self.functions() {
-            Some(_) => Selected::Outputs,
-            None => Selected::Solution,
+        let part = match self.functions() {
+            Some(_) => self.outputs(),
+            None => Part::Solution,
         };
-        self.select(which);
+        self.select(part);
     }
 
     /// Asks the motion program for more than the equations of motion: gaps, slips, coefficients, branch guards.
@@ -421,7 +417,7 @@ impl<T: Scalar> Dynamics<T> {
                 .iter()
                 .enumerate()
                 .any(|(i, &w)| w & !u64::from(i == 0) != 0);
-        self.selected = Selected::Outdated;
+        self.selected = None;
     }
 
     fn solve_error(&self, error: SolveError) -> EvaluationError {

@@ -1,8 +1,8 @@
 //! Accelerations and forces at one state.
 
-use super::compiled::Compiled;
+use super::compiled::{Compiled, Part};
 use super::interpreted::{Extent, FORCES, Interpreted, MOTION, REPORT, SYSTEM};
-use super::{Dynamics, EvaluationError, Selected};
+use super::{Dynamics, EvaluationError};
 use crate::arithmetic::{Scalar, epsilon};
 use crate::linear::{Inertia, SolveError};
 use crate::system::Place;
@@ -23,7 +23,7 @@ impl<T: Scalar> Dynamics<T> {
         self.inputs = inputs;
         outcome?;
         if self.by_functions {
-            self.select(Selected::Outputs);
+            self.select(self.outputs());
             self.run_outputs(t, q, v);
         }
         self.take_nodes(t, q, v);
@@ -89,7 +89,7 @@ impl<T: Scalar> Dynamics<T> {
         extent: Extent,
         refined: bool,
     ) -> Result<(), EvaluationError> {
-        self.select(Selected::Solution);
+        self.select(Part::Solution);
         let (_, _, interpreted) = self.modes[self.current].parts();
         interpreted.place(t, q, v);
         for &(friction, components, _) in &interpreted.shape.headings {
@@ -200,8 +200,8 @@ impl<T: Scalar> Dynamics<T> {
     fn in_front(&mut self) -> &mut Interpreted<T> {
         let compiled = &mut self.modes[self.current];
         match self.selected {
-            Selected::Outputs => compiled.outputs(),
-            Selected::Outdated | Selected::Solution => compiled.parts().2,
+            Some(Part::Outputs | Part::Extra) => compiled.outputs(),
+            Some(Part::Solution) | None => compiled.parts().2,
         }
     }
 
@@ -239,7 +239,7 @@ impl<T: Scalar> Dynamics<T> {
     /// Runs the report at the state of the last [`Self::value`], for the needs given to
     /// [`Self::set_report_needs`]: then read [`Self::report`].
     pub fn report_value(&mut self) {
-        if self.selected == Selected::Outdated {
+        if self.selected.is_none() {
             self.select_outputs();
         }
         let inputs = core::mem::take(&mut self.inputs);

@@ -63,22 +63,27 @@ fn bounce_by_bounce(ball: &ThrownBall, until: f64) -> (f64, f64, f64) {
     (x + v * (until - landed - slide), v, 0.0)
 }
 
+/// Balls that stop sliding in a bounce, and after the last.
+pub(super) fn throws() -> [(&'static str, ThrownBall); 2] {
+    let throw = |speed| ThrownBall {
+        speed,
+        ..ThrownBall::default()
+    };
+    [
+        ("grips in a bounce", throw(4.0)),
+        ("slides on after the last", throw(6.0)),
+    ]
+}
+
 pub fn thrown_ball(_: Extent) -> Result<Vec<Figure>, Surprise> {
     let mut figures = Vec::new();
-    for (what, speed) in [
-        ("grips in a bounce", 4.0),
-        ("slides on after the last", 6.0),
-    ] {
-        let scene = ThrownBall {
-            speed,
-            ..ThrownBall::default()
-        };
+    for (what, scene) in throws() {
         let trajectory = run(&scene, ThrownBall::THROWN, 3.0)?;
         let (x, v, _) = bounce_by_bounce(&scene, 3.0);
         let end = trajectory.final_state();
         figures.push(Figure::new(
             format!("{what}: 5/7 of the speed"),
-            relative(end.v[0], 5.0 / 7.0 * speed),
+            relative(end.v[0], 5.0 / 7.0 * scene.speed),
             1e-11,
         ));
         figures.push(Figure::new(

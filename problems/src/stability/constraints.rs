@@ -7,19 +7,19 @@ use crate::scenes::hard::{LongPendulum, Parallelogram, SliderCrank};
 use core::f64::consts::TAU;
 use lagrange_core::prelude::*;
 
+/// Time of a turn: a pendulum that goes round (Abramowitz & Stegun 16.1), T = 4 K(k)/ω₀, k = 2√(g/l)/ω₀.
+pub(super) fn turn(scene: &Parallelogram) -> f64 {
+    let (rate, k) = (
+        scene.speed / scene.length,
+        2.0 * (scene.gravity * scene.length).sqrt() / scene.speed,
+    );
+    TAU / (rate * agm(1.0, ((1.0 - k) * (1.0 + k)).sqrt()))
+}
+
 pub fn parallelogram(_: Extent) -> Result<Vec<Figure>, Surprise> {
     const TURNS: f64 = 20.0;
     let scene = Parallelogram::default();
-    let Parallelogram {
-        length,
-        gravity,
-        speed,
-        ..
-    } = scene;
-    // A pendulum that goes round (Abramowitz & Stegun 16.1): T = 4 K(k)/ω₀, k = 2√(g/l)/ω₀.
-    let (rate, k) = (speed / length, 2.0 * (gravity * length).sqrt() / speed);
-    let turn = TAU / (rate * agm(1.0, ((1.0 - k) * (1.0 + k)).sqrt()));
-    let trajectory = run(&scene, Parallelogram::SPUN, TURNS * turn)?;
+    let trajectory = run(&scene, Parallelogram::SPUN, TURNS * turn(&scene))?;
     let end = trajectory.final_state();
     let angle = end.q[0].atan2(-end.q[1]);
     // Each passage of a dead position costs some 1e-11 of the speed: rounding over the distance at which it is crossed.

@@ -1,8 +1,9 @@
 //! What has to be the same whatever the method, and whatever the tolerance but for the digits that it gives away.
 
+use super::bounces::throws;
+use super::constraints::turn;
 use super::kit::{TOLERANCE, distance, event, relative, run, run_by};
 use super::{Extent, Figure, Surprise};
-use crate::reference::agm;
 use crate::scenes::hard::{Parallelogram, StringPendulum, ThrownBall};
 use core::f64::consts::TAU;
 use lagrange_core::prelude::*;
@@ -42,17 +43,14 @@ pub fn catch(_: Extent) -> Result<Vec<Figure>, Surprise> {
 /// Once round through the dead positions, and to a stop of the clock in one of them.
 pub fn dead_positions(_: Extent) -> Result<Vec<Figure>, Surprise> {
     let scene = Parallelogram::default();
-    let Parallelogram {
-        length,
-        gravity,
-        speed,
-        ..
-    } = scene;
-    let (rate, k) = (speed / length, 2.0 * (gravity * length).sqrt() / speed);
-    let turn = TAU / (rate * agm(1.0, ((1.0 - k) * (1.0 + k)).sqrt()));
     let mut figures = Vec::new();
     for method in OTHERS {
-        let trajectory = run_by(&scene, (method, TOLERANCE), Parallelogram::SPUN, turn)?;
+        let trajectory = run_by(
+            &scene,
+            (method, TOLERANCE),
+            Parallelogram::SPUN,
+            turn(&scene),
+        )?;
         let end = trajectory.final_state();
         figures.push(Figure::new(
             format!("{method}: the beam turns, rad"),
@@ -71,14 +69,7 @@ pub fn dead_positions(_: Extent) -> Result<Vec<Figure>, Surprise> {
 /// At a loose tolerance more of the impacts is left over when they end: the ball must come out as at a tight one.
 pub fn coarse_bounces(_: Extent) -> Result<Vec<Figure>, Surprise> {
     let mut figures = Vec::new();
-    for (what, speed) in [
-        ("grips in a bounce", 4.0),
-        ("slides on after the last", 6.0),
-    ] {
-        let scene = ThrownBall {
-            speed,
-            ..ThrownBall::default()
-        };
+    for (what, scene) in throws() {
         let exact = run(&scene, ThrownBall::THROWN, 3.0)?;
         for tolerance in [1e-6, 1e-9] {
             let asked = (Method::Taylor, tolerance);

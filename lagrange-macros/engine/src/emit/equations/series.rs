@@ -584,49 +584,30 @@ impl Expansion<'_> {
             middles.push(term(&i, &i));
         }
         let names = products.iter().map(|(name, _)| name);
-        if let Some(k) = self.only {
-            return self.written_out(k, products);
-        }
+        let pairs = match self.only {
+            None => quote! {
+                for #j in 1..(#k + 1) / 2 {
+                    let (#j, #i) = (#j & 31, (#k - #j) & 31);
+                    #(#pairs)*
+                }
+            },
+            Some(only) => {
+                let each = (1..only.div_ceil(2)).map(|at| {
+                    let (first, second) = (index(at), index(only - at));
+                    quote!({ let (#j, #i) = (#first, #second); #(#pairs)* })
+                });
+                each.collect()
+            }
+        };
         quote! {
             #(let mut #names = #number::of(0.0);)*
-            for #j in 1..(#k + 1) / 2 {
-                let (#j, #i) = (#j & 31, (#k - #j) & 31);
-                #(#pairs)*
-            }
+            #pairs
             #(#doubled)*
             if #k % 2 == 0 {
                 let #i = (#k / 2) & 31;
                 #(#middles)*
             }
         }
-    }
-
-    /// The same for one k, term by term.
-    fn written_out(&self, k: usize, products: &[(Ident, Product)]) -> TokenStream {
-        let (number, rows) = (number(), local("rows"));
-        let sums = products.iter().map(|(name, (x, y))| {
-            let at = |row: &Row| index(self.plan.row(*row).unwrap_or_default());
-            let is_square = x == y;
-            let (x, y) = (at(x), at(y));
-            let term = |sum: TokenStream, j: usize| {
-                let (j, i) = (index(j), index(k - j));
-                quote!(#number::mul_add(#rows[#x][#j], #rows[#y][#i], #sum))
-            };
-            let mut sum = quote!(#number::of(0.0));
-            for j in 1..k.div_ceil(2) {
-                sum = term(sum, j);
-                if !is_square {
-                    sum = term(sum, k - j);
-                }
-            }
-            let doubled = is_square.then(|| quote!(let #name = #name + #name;));
-            let middle = k.is_multiple_of(2).then(|| {
-                let sum = term(quote!(#name), k / 2);
-                quote!(let #name = #sum;)
-            });
-            quote!(let #name = #sum; #doubled #middle)
-        });
-        sums.collect()
     }
 
     /// Coefficient k of the values of a phase.
