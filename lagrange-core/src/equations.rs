@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! constants    parameters → c                    what depends on parameters alone, once per run
-//! value        c, (t, q, v) → v̇, λ               one right-hand side
+//! value        c, (t, q, v) → v̇, λ               one right-hand side, and what guards read
 //! series       c, (t, q, v) → coefficients       of q, v, λ and of everything that guards read
 //! ```
 //!
@@ -56,14 +56,24 @@ pub struct ModeStructure {
 /// Time, positions and velocities.
 pub type Arguments<'a, N> = (N, &'a [N], &'a [N]);
 
-/// Accelerations, and the forces of the rows if they are asked for, from constants, needs that are held, and a state. Forces that the
-/// mode keeps at zero are left as they are. False if a pivot is not safe.
+/// Accelerations from constants, needs that are held, and a state; if asked for, also the first coefficients of the rows of
+/// [`ModeStructure::rows`] that are forces or that guards read. Those of q and v, and what the mode keeps at zero, are left as they
+/// are. False if a pivot is not safe.
 pub type ValueFn<N> = fn(&[N], &Held, Arguments<'_, N>, &mut [N], Option<&mut [N]>) -> bool;
 
 /// Coefficients 0…order, at most 28, of the rows of [`ModeStructure::rows`], from constants, needs that are held, the order and a
 /// state.
 pub type SeriesFn<N> =
     fn(&[N], &Held, usize, Arguments<'_, N>, &mut [Row<N>]) -> Result<(), Refused>;
+
+/// The arguments of a [`SeriesFn`] as one.
+pub type SeriesArguments<'a, N> = (
+    &'a [N],
+    &'a Held<'a>,
+    usize,
+    Arguments<'a, N>,
+    &'a mut [Row<N>],
+);
 
 /// The functions of one mode.
 #[derive(Clone, Copy, Debug)]

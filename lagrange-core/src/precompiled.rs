@@ -5,12 +5,12 @@
 
 use crate::arithmetic::{Dual, Scalar};
 use crate::certificate::{self, Certificate};
-use crate::dynamics::{Dynamics, Packets};
+use crate::dynamics::Dynamics;
 use crate::effects::Effects;
 use crate::erased::Erased;
 use crate::error::Error;
 use crate::run::Run;
-use crate::run::round::{Member, go_on};
+use crate::run::round::{Member, Together, go_on};
 use crate::settings::Settings;
 use crate::state::{Held, State};
 use crate::system::System;
@@ -52,7 +52,7 @@ pub struct Functions<T: Scalar> {
     pub(crate) run: fn(Erased<T>, &Settings) -> Run<T>,
     pub(crate) execute: Execute<T>,
     pub(crate) launch: Execute<T>,
-    pub(crate) go_on: fn(&mut Packets<T>, &mut [Member<'_, T>]),
+    pub(crate) go_on: fn(&mut Together<T>, &mut [Member<'_, T>]),
     pub(crate) land: fn(&mut Run<T>, &mut Record<T>),
     pub(crate) set_system: fn(&mut Run<T>, Erased<T>),
     pub(crate) consistent: Consistent<T>,

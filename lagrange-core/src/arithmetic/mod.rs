@@ -10,7 +10,7 @@ mod scalar;
 mod tests;
 
 pub use dual::Dual;
-pub use number::Number;
+pub use number::{Body, Number};
 pub(crate) use number::{epsilon, positive_definite};
 pub use pack::Pack;
 

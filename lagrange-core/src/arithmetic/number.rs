@@ -1,6 +1,7 @@
 //! What the equations of a mode work with: a number, or the numbers of several motions side by side.
 
 use super::{Pack, Scalar};
+use core::marker::PhantomData;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A number of a motion, or one of each of several motions: every operation gives each what it would give it alone.
@@ -13,6 +14,11 @@ pub trait Number:
     + Neg<Output = Self>
     + 'static
 {
+    /// A function, compiled for numbers of this kind: for several side by side with the widest registers that the processor has.
+    #[inline(always)]
+    fn across<B: Body<A>, A>(arguments: A) -> B::Output {
+        B::run(arguments)
+    }
     /// The same number in every place.
     fn of(x: f64) -> Self;
     /// x y + z, rounded as [`Scalar::mul_add`] rounds.
@@ -53,6 +59,14 @@ pub trait Number:
     fn is_positive_share(pivot: Self, diagonal: Self) -> bool;
     /// Whether a pivot is not small beside what it was before, nor beside the elements below.
     fn is_safe_pivot(pivot: Self, before: Self, below: &[Self]) -> bool;
+}
+
+/// A function of arguments `A` that can be compiled for every kind of processor: its implementation is `#[inline(always)]`.
+pub trait Body<A> {
+    /// What it returns.
+    type Output;
+    /// The function.
+    fn run(arguments: A) -> Self::Output;
 }
 
 /// The distance from 1 to the next number of a type.
@@ -177,7 +191,23 @@ macro_rules! each {
     )*};
 }
 
+/// The arguments of a function that a kind of processor is chosen for.
+struct Across<B, A>(A, PhantomData<B>);
+
+impl<A, B: Body<A>> pulp::WithSimd for Across<B, A> {
+    type Output = B::Output;
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) -> B::Output {
+        B::run(self.0)
+    }
+}
+
 impl<T: Scalar, const L: usize> Number for Pack<T, L> {
+    #[inline(always)]
+    fn across<B: Body<A>, A>(arguments: A) -> B::Output {
+        pulp::Arch::new().dispatch(Across::<B, A>(arguments, PhantomData))
+    }
     #[inline(always)]
     fn of(x: f64) -> Self {
         Pack([T::from_f64(x); L])

@@ -7,6 +7,7 @@ use super::interpreted::Interpreted;
 use super::needs::{self, NeedSet};
 use crate::arithmetic::Scalar;
 use crate::effects::Effects;
+use crate::equations::Arguments;
 use crate::erased::ErasedSystem;
 use crate::linear::{Plan, Solver, acting};
 use crate::mode::Mode;
@@ -75,8 +76,6 @@ pub(super) enum Part {
     Solution,
     /// Outputs.
     Outputs,
-    /// Of the outputs of the motion program, those that were asked for beside the motion.
-    Extra,
 }
 
 impl<T: Scalar> Compiled<T> {
@@ -182,7 +181,36 @@ impl<T: Scalar> Compiled<T> {
         self.refused = false;
     }
 
-    /// What the functions of the mode are told, with the needs that are held.
+    /// Accelerations by the functions of the mode. False if a pivot is not safe, or there are none.
+    #[inline]
+    pub(super) fn accelerations(&self, state: Arguments<T>, out: &mut [T]) -> bool {
+        let emitted = self.emitted(&self.motion_needs);
+        emitted.is_some_and(|(emitted, held)| emitted.accelerations(&held, state, out))
+    }
+
+    /// The same with the forces of all rows and what `needs` ask for beside.
+    #[inline]
+    pub(super) fn value(
+        &mut self,
+        d: &Description,
+        needs: Option<&NeedSet>,
+        state: Arguments<T>,
+        accelerations: &mut [T],
+        forces: &mut [T],
+    ) -> bool {
+        let held = Held {
+            needs: needs.unwrap_or(&self.motion_needs),
+            branches: &self.mode.branches,
+        };
+        let Some(emitted) = &mut self.emitted else {
+            return false;
+        };
+        let safe = emitted.value(&held, state, accelerations);
+        forces.copy_from_slice(emitted.forces(d));
+        safe
+    }
+
+    /// The functions of the mode, with what they are told for these needs.
     #[inline]
     pub(super) fn emitted<'a>(&'a self, needs: &'a NeedSet) -> Option<(&'a Emitted<T>, Held<'a>)> {
         let branches = &self.mode.branches;
@@ -224,7 +252,7 @@ impl<T: Scalar> Compiled<T> {
     pub(super) fn constants(&self, part: Part) -> &[T] {
         match part {
             Part::Solution => &self.constants,
-            Part::Outputs | Part::Extra => &self.constants[..self.own.count()],
+            Part::Outputs => &self.constants[..self.own.count()],
         }
     }
 
@@ -280,7 +308,7 @@ impl<T: Scalar> Compiled<T> {
     fn loaded(&mut self, part: Part) -> &mut Loaded<T> {
         match part {
             Part::Solution => &mut self.interpreted,
-            Part::Outputs | Part::Extra => &mut self.outputs,
+            Part::Outputs => &mut self.outputs,
         }
     }
 }

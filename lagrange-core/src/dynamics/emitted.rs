@@ -1,6 +1,6 @@
 //! One mode's functions with the memory that they work in.
 
-use crate::arithmetic::{Scalar, epsilon};
+use crate::arithmetic::{Pack, Scalar, epsilon};
 use crate::effects::{Effects, Item};
 use crate::equations::{
     Arguments, FrictionState, ModeEquations, ModeStructure, Refused, Row, STRIDE,
@@ -25,6 +25,10 @@ pub(super) struct Emitted<T: Scalar> {
     admitted: bool,
     rows: Vec<Row<T>>,
     order: usize,
+    /// Rows that are read: state, forces, what guards are made of.
+    read: Vec<usize>,
+    /// The same rows at the last value that was asked for all of them.
+    values: Vec<T>,
     /// By node: its row.
     motion_rows: Vec<u32>,
     report_rows: Vec<u32>,
@@ -69,6 +73,12 @@ impl<T: Scalar> Emitted<T> {
         let (index, structure, signs) =
             matching.find_map(|(index, s)| Some((index, s, signs(s, mode)?)))?;
         let zero = T::default();
+        let extras = structure.motion.iter().chain(structure.report);
+        let mut read: Vec<usize> = (0..2 * d.coordinates.len() + d.rows.len())
+            .chain(extras.map(|&(_, row)| row))
+            .collect();
+        read.sort_unstable();
+        read.dedup();
         Some(Self {
             index,
             structure,
@@ -78,6 +88,8 @@ impl<T: Scalar> Emitted<T> {
             admitted: false,
             rows: vec![[zero; STRIDE]; structure.rows],
             order: 0,
+            read,
+            values: vec![zero; structure.rows],
             motion_rows: rows_by_node(d.motion.outputs, structure.motion),
             report_rows: rows_by_node(d.report.outputs, structure.report),
         })
@@ -107,16 +119,46 @@ impl<T: Scalar> Emitted<T> {
         })
     }
 
-    /// Accelerations, and forces if asked for. False if a pivot is not safe.
+    /// Accelerations. False if a pivot is not safe.
+    #[inline]
+    pub(super) fn accelerations(&self, held: &Held, state: Arguments<T>, out: &mut [T]) -> bool {
+        (self.equations.value)(&self.constants, held, state, out, None)
+    }
+
+    /// Accelerations, forces, and what `held` asks for. False if a pivot is not safe.
     #[inline]
     pub(super) fn value(
-        &self,
+        &mut self,
         held: &Held,
         state: Arguments<T>,
         accelerations: &mut [T],
-        forces: Option<&mut [T]>,
     ) -> bool {
-        (self.equations.value)(&self.constants, held, state, accelerations, forces)
+        let (_, q, v) = state;
+        let (positions, rest) = self.values.split_at_mut(q.len());
+        positions.copy_from_slice(q);
+        rest[..v.len()].copy_from_slice(v);
+        let values = Some(&mut self.values[..]);
+        (self.equations.value)(&self.constants, held, state, accelerations, values)
+    }
+
+    /// The forces of all rows at the last [value](Self::value).
+    #[inline]
+    pub(super) fn forces(&self, d: &Description) -> &[T] {
+        &self.values[2 * d.coordinates.len()..][..d.rows.len()]
+    }
+
+    /// What guards read of the motion program and of the report at the last [value](Self::value).
+    #[inline]
+    pub(super) fn take_outputs(&self, motion: &mut [T], report: &mut [T]) {
+        let lists = [
+            (self.structure.motion, motion),
+            (self.structure.report, report),
+        ];
+        for (list, nodes) in lists {
+            for &(node, row) in list {
+                nodes[node] = self.values[row];
+            }
+        }
     }
 
     /// Coefficients 0…`order` of all rows.
@@ -129,6 +171,32 @@ impl<T: Scalar> Emitted<T> {
     ) -> Result<(), Refused> {
         self.order = order;
         (self.equations.series)(&self.constants, held, order, state, &mut self.rows)
+    }
+
+    /// Which of the structures of the system it is.
+    pub(super) fn index(&self) -> usize {
+        self.index
+    }
+
+    /// The numbers that depend on parameters alone.
+    pub(super) fn constants(&self) -> &[T] {
+        &self.constants
+    }
+
+    /// Takes coefficients 0…`order` from those of several motions side by side.
+    pub(super) fn take_lane<const L: usize>(
+        &mut self,
+        rows: &[Row<Pack<T, L>>],
+        lane: usize,
+        order: usize,
+    ) {
+        self.order = order;
+        for &row in &self.read {
+            let packs = rows[row][..=order].iter();
+            for (own, pack) in self.rows[row].iter_mut().zip(packs) {
+                *own = pack.0[lane];
+            }
+        }
     }
 
     fn row(&self, index: usize) -> &[T] {

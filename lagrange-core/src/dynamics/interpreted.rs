@@ -319,16 +319,7 @@ fn shape<T: Scalar>(d: &Description, compiled: &Compiled<T>, asked: &Asked, valu
     let mut builder = Builder::new(vanishing.len()).vanishing(vanishing);
     let motion = held(asked.held);
     let outputs = builder.load(&d.motion, &motion, of_motion, &inputs[..1 + 2 * n]);
-    let mut asked_nodes = vec![asked.part != Part::Extra; d.motion.outputs];
-    if asked.part == Part::Extra {
-        asked_places(d, asked.extra, &mut |place| {
-            if let Place::Node(node) = place {
-                asked_nodes[node] = true;
-            }
-        });
-    }
     let held_nodes = outputs.iter().enumerate();
-    let held_nodes = held_nodes.filter(|(node, _)| asked_nodes[*node]);
     let held_nodes = held_nodes.filter_map(|(node, register)| Some((node, (*register)?)));
     let held_nodes: Vec<(usize, Register)> = held_nodes.collect();
     let outputs = outputs.into_iter().map(Option::unwrap_or_default);

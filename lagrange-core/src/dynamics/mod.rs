@@ -11,6 +11,7 @@ mod error;
 mod heading;
 mod interpreted;
 mod jacobian;
+mod lanes;
 mod matrices;
 mod needs;
 mod packets;
@@ -23,6 +24,7 @@ mod values;
 
 pub use error::{EvaluationError, row_name};
 pub(crate) use heading::{approach, solve_small};
+pub(crate) use lanes::{Lanes, Start};
 pub use needs::{NeedSet, add_branch_guards, add_guards};
 pub(crate) use packets::Packets;
 pub use projection::Residual;
@@ -89,9 +91,10 @@ pub struct Dynamics<T: Scalar> {
     /// The equations of motion of this mode and what was asked for beside.
     held: NeedSet,
     extra: NeedSet,
-    /// What guards read of this, and whether nothing else is read.
-    guards: NeedSet,
+    /// Whether nothing else is read of this than what guards read.
     guards_alone: bool,
+    /// Whether the outputs at the last value are those that the functions of the mode have given.
+    given: bool,
     report_needs: NeedSet,
     /// What is held of the report: the effects' own needs and what was asked for.
     report_held: NeedSet,
@@ -143,8 +146,8 @@ impl<T: Scalar> Dynamics<T> {
             oldest: 0,
             held: NeedSet::new(d),
             extra: NeedSet::new(d),
-            guards: NeedSet::new(d),
             guards_alone: false,
+            given: false,
             report_needs: NeedSet::new(d),
             report_held: NeedSet::new(d),
             reports: false,
@@ -282,7 +285,7 @@ impl<T: Scalar> Dynamics<T> {
         self.system = system;
         self.modes.iter_mut().for_each(Compiled::outdate);
         self.renew();
-        self.selected = None;
+        (self.selected, self.given) = (None, false);
     }
 
     /// Brings the present mode up to date with the parameters.
@@ -319,13 +322,9 @@ impl<T: Scalar> Dynamics<T> {
         if part == Part::Solution {
             compiled.make_plan(self.description, &self.effects);
         }
-        let (held, extra) = match part {
-            Part::Solution | Part::Outputs => (&self.held, &self.extra),
-            Part::Extra => (&self.guards, &self.guards),
-        };
         let asked = Asked {
-            held,
-            extra,
+            held: &self.held,
+            extra: &self.extra,
             report: self.reports.then_some(&self.report_held),
             part,
         };
@@ -333,20 +332,11 @@ impl<T: Scalar> Dynamics<T> {
         self.selected = Some(part);
     }
 
-    /// What outputs are read from beside functions.
-    #[inline]
-    fn outputs(&self) -> Part {
-        match self.guards_alone {
-            true => Part::Extra,
-            false => Part::Outputs,
-        }
-    }
-
     /// Makes those interpreted equations current that outputs are read from.
     #[inline]
     fn select_outputs(&mut self) {
         let part = match self.functions() {
-            Some(_) => self.outputs(),
+            Some(_) => Part::Outputs,
             None => Part::Solution,
         };
         self.select(part);
@@ -355,21 +345,19 @@ impl<T: Scalar> Dynamics<T> {
     /// Asks the motion program for more than the equations of motion: gaps, slips, coefficients, branch guards.
     /// Replaces what was asked for before.
     pub fn set_extra_needs(&mut self, needs: &[u64]) {
-        if self.extra[..] != *needs || self.guards_alone {
-            self.extra.clear();
-            self.extra.extend(needs);
-            self.guards_alone = false;
-            self.hold();
-        }
+        self.ask_for(needs, false);
     }
 
-    /// The same where nothing is read but `guards`, a part of these needs: functions that give the accelerations leave the rest out.
-    pub(crate) fn set_guard_needs(&mut self, needs: &[u64], guards: &NeedSet) {
-        if self.extra[..] != *needs || !self.guards_alone || self.guards != *guards {
+    /// The same where nothing is read but guards: the functions of a mode give these.
+    pub(crate) fn set_guard_needs(&mut self, needs: &[u64]) {
+        self.ask_for(needs, true);
+    }
+
+    fn ask_for(&mut self, needs: &[u64], guards_alone: bool) {
+        if self.extra[..] != *needs || self.guards_alone != guards_alone {
             self.extra.clear();
             self.extra.extend(needs);
-            self.guards.assign(guards.iter().copied());
-            self.guards_alone = true;
+            self.guards_alone = guards_alone;
             self.hold();
         }
     }
@@ -417,7 +405,7 @@ impl<T: Scalar> Dynamics<T> {
                 .iter()
                 .enumerate()
                 .any(|(i, &w)| w & !u64::from(i == 0) != 0);
-        self.selected = None;
+        (self.selected, self.given) = (None, false);
     }
 
     fn solve_error(&self, error: SolveError) -> EvaluationError {

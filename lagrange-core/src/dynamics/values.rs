@@ -22,11 +22,17 @@ impl<T: Scalar> Dynamics<T> {
         let outcome = self.evaluate(t, q, v, accelerations, Some(forces));
         self.inputs = inputs;
         outcome?;
+        self.take_state(t, q, v);
+        self.given = self.by_functions && self.guards_alone;
+        if self.given {
+            self.take_given();
+            return Ok(());
+        }
         if self.by_functions {
-            self.select(self.outputs());
+            self.select(Part::Outputs);
             self.run_outputs(t, q, v);
         }
-        self.take_nodes(t, q, v);
+        self.take_nodes();
         Ok(())
     }
 
@@ -42,13 +48,18 @@ impl<T: Scalar> Dynamics<T> {
         mut forces: Option<&mut [T]>,
     ) -> Result<(), EvaluationError> {
         if self.choose(q, v) {
-            if let Some(forces) = forces.as_deref_mut() {
-                forces.fill(T::default());
-            }
-            let compiled = &self.modes[self.current];
-            let safe = compiled.emitted(&self.held).is_some_and(|(emitted, held)| {
-                emitted.value(&held, (t, q, v), accelerations, forces.as_deref_mut())
-            });
+            let held = match self.guards_alone {
+                true => Some(&self.series_held),
+                false => None,
+            };
+            let state = (t, q, v);
+            let compiled = &mut self.modes[self.current];
+            let safe = match forces.as_deref_mut() {
+                None => compiled.accelerations(state, accelerations),
+                Some(forces) => {
+                    compiled.value(self.description, held, state, accelerations, forces)
+                }
+            };
             if safe && is_finite(accelerations) {
                 return Ok(());
             }
@@ -180,9 +191,25 @@ impl<T: Scalar> Dynamics<T> {
 
     /// Runs only the motion program at (t, q, v), for the needs held: then read [`Self::motion`].
     pub fn tape(&mut self, t: T, q: &[T], v: &[T]) {
+        self.given = false;
         self.select_outputs();
         self.run_outputs(t, q, v);
-        self.take_nodes(t, q, v);
+        self.take_state(t, q, v);
+        self.take_nodes();
+    }
+
+    /// The outputs of the motion program at the last value: all that are held, also where those for guards were enough.
+    pub(crate) fn complete_outputs(&mut self) {
+        if !self.given {
+            return;
+        }
+        let inputs = core::mem::take(&mut self.inputs);
+        let n = self.description.coordinates.len();
+        let (q, v) = inputs[1..=2 * n].split_at(n);
+        self.select(Part::Outputs);
+        self.run_outputs(inputs[0], q, v);
+        self.take_nodes();
+        self.inputs = inputs;
     }
 
     /// Runs the motion program of the equations in use.
@@ -200,14 +227,13 @@ impl<T: Scalar> Dynamics<T> {
     fn in_front(&mut self) -> &mut Interpreted<T> {
         let compiled = &mut self.modes[self.current];
         match self.selected {
-            Some(Part::Outputs | Part::Extra) => compiled.outputs(),
+            Some(Part::Outputs) => compiled.outputs(),
             Some(Part::Solution) | None => compiled.parts().2,
         }
     }
 
-    /// Takes state and outputs of the motion program from the registers.
     #[inline]
-    fn take_nodes(&mut self, t: T, q: &[T], v: &[T]) {
+    fn take_state(&mut self, t: T, q: &[T], v: &[T]) {
         let n = q.len();
         self.inputs[0] = t;
         self.inputs[1..1 + n].copy_from_slice(q);
@@ -215,9 +241,24 @@ impl<T: Scalar> Dynamics<T> {
         // What has not been asked for is no number.
         #[cfg(debug_assertions)]
         self.nodes.fill(T::from_f64(f64::NAN));
+    }
+
+    /// Takes the outputs of the motion program from the registers.
+    #[inline]
+    fn take_nodes(&mut self) {
         let mut nodes = core::mem::take(&mut self.nodes);
         self.in_front().take_nodes(&mut nodes);
         self.nodes = nodes;
+    }
+
+    /// Takes the outputs that the functions of the mode have given.
+    #[inline]
+    fn take_given(&mut self) {
+        #[cfg(debug_assertions)]
+        self.report_nodes.fill(T::from_f64(f64::NAN));
+        if let Some(emitted) = &self.modes[self.current].emitted {
+            emitted.take_outputs(&mut self.nodes, &mut self.report_nodes);
+        }
     }
 
     /// Runs the motion program at (t, q, v) for inertia, Jacobians and residuals of the rows that act.
@@ -234,11 +275,15 @@ impl<T: Scalar> Dynamics<T> {
     pub(crate) fn replace_forces(&mut self, forces: &[T]) {
         let first = 1 + 3 * self.description().coordinates.len();
         self.inputs[first..].copy_from_slice(forces);
+        self.given = false;
     }
 
     /// Runs the report at the state of the last [`Self::value`], for the needs given to
     /// [`Self::set_report_needs`]: then read [`Self::report`].
     pub fn report_value(&mut self) {
+        if self.given {
+            return;
+        }
         if self.selected.is_none() {
             self.select_outputs();
         }

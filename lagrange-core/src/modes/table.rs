@@ -15,8 +15,6 @@ pub struct Watched {
     pub guards: Vec<Guard>,
     /// Needs of the motion, the guards and the report.
     pub needs: NeedSet,
-    /// Of these, what guards and report read.
-    pub read: NeedSet,
     /// All needs and what the accelerations of all gaps and slips are made of, as far as it changes.
     pub deciding: NeedSet,
     /// Whether a step can leave the rows that act by more than rounding: one of them is not linear with constant coefficients.
@@ -50,11 +48,6 @@ fn watched<T: Scalar>(dynamics: &Dynamics<T>) -> Watched {
     let mut needs = dynamics.motion_needs().clone();
     needs.extend(dynamics.report_needs());
     add_guards(d, effects, mode, &mut needs);
-    let mut read = dynamics.report_needs().clone();
-    add_guards(d, effects, mode, &mut read);
-    for branch in d.branches.iter().filter(|b| needs.contains(b.need)) {
-        read.insert(branch.need);
-    }
     let mut guards = Vec::new();
     guard::guards_of_mode(mode, dynamics, &needs, &mut guards);
     let mut deciding = needs.clone();
@@ -82,7 +75,6 @@ fn watched<T: Scalar>(dynamics: &Dynamics<T>) -> Watched {
         mode: mode.clone(),
         guards,
         needs,
-        read,
         deciding,
         drifts,
     }

@@ -430,7 +430,7 @@ impl<T: Scalar> Run<T> {
         held.extend(stay.map(|(guard, _)| (guard, 0.0)));
         held.retain_mut(|(guard, size)| {
             let value;
-            (value, *size) = self.decider.force(&self.dynamics, &self.mode, *guard);
+            (value, *size) = self.decider.force(&mut self.dynamics, &self.mode, *guard);
             self.valued && value.abs() <= AT_LIMIT * *size
         });
         self.at_limit = held;
@@ -551,7 +551,7 @@ impl<T: Scalar> Run<T> {
         if self.rank.watches() {
             self.dynamics.set_extra_needs(&watched.needs);
         } else {
-            self.dynamics.set_guard_needs(&watched.needs, &watched.read);
+            self.dynamics.set_guard_needs(&watched.needs);
         }
     }
 

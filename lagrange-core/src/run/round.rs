@@ -2,8 +2,9 @@
 
 use super::{Progress, Run, Stepper};
 use crate::arithmetic::Scalar;
-use crate::dynamics::{Dynamics, Packets};
+use crate::dynamics::{Dynamics, Lanes, Packets, Start};
 use crate::error::Error;
+use crate::trajectory::State;
 
 /// A run among others, and how it ended, once it has.
 #[derive(Debug)]
@@ -12,13 +13,31 @@ pub(crate) struct Member<'a, T: Scalar> {
     pub(crate) outcome: Option<Result<(), Error>>,
 }
 
+/// What expands series of several runs at once: by functions, and by the interpreter.
+#[derive(Debug)]
+pub(crate) struct Together<T: 'static> {
+    pub(crate) lanes: Lanes<T>,
+    pub(crate) packets: Packets<T>,
+}
+
 /// Goes on with all members until the first of them end. What each does is, bit for bit, what it does alone.
-pub(crate) fn go_on<T: Scalar>(packets: &mut Packets<T>, members: &mut [Member<'_, T>]) {
+pub(crate) fn go_on<T: Scalar>(together: &mut Together<T>, members: &mut [Member<'_, T>]) {
+    let Together { lanes, packets } = together;
     let order = match members {
         [] => return,
         [first, ..] => first.run.order,
     };
     loop {
+        let at_start = |member: &Member<'_, T>| member.run.begins_step();
+        let mut starts: Vec<_> = (members.iter_mut().filter(|m| at_start(m)))
+            .map(|member| member.run.start_of_step())
+            .collect();
+        lanes.expand(&mut starts, order);
+        let expanded: Vec<bool> = starts.iter().map(|start| start.expanded).collect();
+        let begins = members.iter_mut().filter(|m| at_start(m));
+        for (member, _) in begins.zip(expanded).filter(|(_, expanded)| *expanded) {
+            member.run.series = Progress::Complete;
+        }
         let mut waiting: Vec<&mut Dynamics<T>> = Vec::with_capacity(members.len());
         for Member { run, .. } in &mut *members {
             if run.awaits_series() {
@@ -42,6 +61,24 @@ pub(crate) fn go_on<T: Scalar>(packets: &mut Packets<T>, members: &mut [Member<'
 }
 
 impl<T: Scalar> Run<T> {
+    /// Whether the coming step begins with a series of which nothing is there.
+    fn begins_step(&self) -> bool {
+        let taylor = matches!(self.stepper, Stepper::Taylor(_)) && self.goes_on();
+        taylor && self.series == Progress::None
+    }
+
+    /// The motion at the start of the coming step.
+    fn start_of_step(&mut self) -> Start<'_, T> {
+        let State { q, v } = &self.state;
+        Start {
+            dynamics: &mut self.dynamics,
+            t: self.t,
+            q,
+            v,
+            expanded: false,
+        }
+    }
+
     /// Whether the coming step begins with a series that is begun, but not complete.
     fn awaits_series(&mut self) -> bool {
         let taylor = matches!(self.stepper, Stepper::Taylor(_)) && self.goes_on();

@@ -25,7 +25,7 @@ impl<T: Scalar> Run<T> {
         known.clear(d);
         known.residue = self
             .decider
-            .residue(&self.dynamics, &self.mode, &self.fallen);
+            .residue(&mut self.dynamics, &self.mode, &self.fallen);
         known.touching.copy_from_slice(&self.mode.contacts);
         for (resting, friction) in known.resting.iter_mut().zip(&self.mode.frictions) {
             *resting = friction.rests();

@@ -1,9 +1,10 @@
 //! Many runs of one system, several at a time.
 
 use super::Runner;
-use crate::dynamics::Packets;
+use crate::dynamics::{Lanes, Packets};
 use crate::error::Error;
 use crate::precompiled::Runnable;
+use crate::run::round::Together;
 use crate::settings::Settings;
 use crate::system::System;
 use crate::trajectory::{State, Trajectory};
@@ -13,9 +14,9 @@ use core::ops::Range;
 /// no longer stay in the cache, which costs more.
 const BERTHS: usize = 4;
 
-/// Runs many motions of one system, with other parameters or from other states, several at a time. Where a mode's equations are
-/// interpreted, those in the same mode share the instructions of the processor (SIMD), each in a lane of its own; emitted functions
-/// run one by one. A motion comes out, bit for bit, as it would alone; which others run beside it does not matter.
+/// Runs many motions of one system, with other parameters or from other states, several at a time. The Taylor series of those in
+/// the same mode share the instructions of the processor (SIMD), each in a lane of its own. A motion comes out, bit for bit, as it
+/// would alone; which others run beside it does not matter.
 ///
 /// Made by [`Simulation::ensemble`](crate::Simulation::ensemble).
 ///
@@ -58,7 +59,7 @@ pub struct Ensemble<S: System> {
     scene: S,
     settings: Settings,
     runners: Vec<Runner<S>>,
-    packets: Packets<S::Scalar>,
+    together: Together<S::Scalar>,
 }
 
 impl<S: System<Scalar: Runnable>> Ensemble<S> {
@@ -67,7 +68,10 @@ impl<S: System<Scalar: Runnable>> Ensemble<S> {
             scene: scene.clone(),
             settings: settings.clone(),
             runners: Vec::new(),
-            packets: Packets::new(),
+            together: Together {
+                lanes: Lanes::new(S::mode_equations()),
+                packets: Packets::new(),
+            },
         }
     }
 
@@ -106,7 +110,7 @@ impl<S: System<Scalar: Runnable>> Ensemble<S> {
             if members.is_empty() {
                 return;
             }
-            (S::Scalar::functions().go_on)(&mut self.packets, &mut members);
+            (S::Scalar::functions().go_on)(&mut self.together, &mut members);
             let outcomes: Vec<_> = members.into_iter().map(|m| m.outcome).collect();
             let mut outcomes = outcomes.into_iter();
             for (runner, under_way) in self.runners.iter_mut().zip(&mut under_way) {

@@ -67,8 +67,12 @@ impl<T: Scalar> Decider<T> {
         dynamics.set_mode(&self.posed);
         let mode = &self.posed;
         let watched = table.of(dynamics);
-        dynamics.set_extra_needs(&watched.deciding);
         let serves = watched.deciding == watched.needs;
+        if serves {
+            dynamics.set_guard_needs(&watched.deciding);
+        } else {
+            dynamics.set_extra_needs(&watched.deciding);
+        }
         list_questions(
             dynamics.description(),
             mode,
@@ -80,6 +84,7 @@ impl<T: Scalar> Decider<T> {
         dynamics.value(t, q, v)?;
         // The inertia and what drives are the same in all modes, but for branches.
         if !self.sized || known.balanced.contains(&true) {
+            dynamics.complete_outputs();
             self.sizes.take(dynamics);
             self.sized = true;
         }

@@ -154,10 +154,11 @@ impl<T: Scalar> Decider<T> {
     }
 
     /// See [`Known::residue`]; `dynamics` holds the values of the moment in the mode that ends.
-    pub fn residue(&mut self, dynamics: &Dynamics<T>, mode: &Mode, located: &[Guard]) -> f64 {
+    pub fn residue(&mut self, dynamics: &mut Dynamics<T>, mode: &Mode, located: &[Guard]) -> f64 {
         let is_force = |guard: &&Guard| guard.is_force() && !matches!(guard, Guard::Joint(_));
         let mut forces = located.iter().filter(is_force).peekable();
         if forces.peek().is_some() {
+            dynamics.complete_outputs();
             self.sizes.take(dynamics);
         }
         let reading = Reading::Values(dynamics);
@@ -169,7 +170,8 @@ impl<T: Scalar> Decider<T> {
     }
 
     /// The guard of a force in the mode given, and the size of the terms that it is made of; `dynamics` holds values.
-    pub fn force(&mut self, dynamics: &Dynamics<T>, mode: &Mode, guard: Guard) -> (f64, f64) {
+    pub fn force(&mut self, dynamics: &mut Dynamics<T>, mode: &Mode, guard: Guard) -> (f64, f64) {
+        dynamics.complete_outputs();
         self.sizes.take(dynamics);
         let reading = Reading::Values(dynamics);
         let value = guard::value(guard, mode, &reading);

@@ -33,7 +33,7 @@ use schedule::Demand;
 use std::collections::BTreeMap;
 
 /// Where a number is found after a tape has run; as `lagrange_core::system::Place`.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum Place {
     /// Structurally zero.
     Zero,

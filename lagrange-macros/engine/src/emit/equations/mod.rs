@@ -41,7 +41,7 @@ pub fn equations(program: &Program) -> TokenStream {
         );
         let words = mode.mode.name(&program.equations.system);
         let heading = format!(" {words}: {} operations.", operations(mode));
-        functions.push(value::function(&value, &heading, program, mode));
+        functions.push(value::function(&value, &heading, program, mode, &plan));
         let sums = plan.convolutions();
         let heading = format!(" {words}: {sums} sums over earlier coefficients for each new one.");
         functions.push(series::function(&series, &heading, program, mode, &plan));

@@ -7,7 +7,7 @@
 //! The sums over earlier coefficients come first, all in one loop; one factorization serves every order. Rules: Jorba & Zou
 //! 2005, Experimental Mathematics 14, section 2; Griewank & Walther 2008, section 13.2.
 
-use super::super::names::{self, index, local};
+use super::super::names::{self, index, local, plain};
 use super::number;
 use super::products::{Plan, Product, Row};
 use super::solve::Elimination;
@@ -112,21 +112,36 @@ pub fn function(
     let needs = names::needs(program.equations.needs.len());
     let count = index(plan.rows);
     let bound = names::array(&rows, quote!(#rows.first_chunk_mut::<#count>()));
+    let (body, state) = (plain("Coefficients"), local("state"));
+    let result = quote!(::core::result::Result<(), #core::equations::Refused>);
     quote! {
         #[doc = #heading]
         fn #name<#number: #core::arithmetic::Number>(
             #c: &[#number],
             #held: &#core::system::Held,
             #order: usize,
-            (#t, #q, #v): (#number, &[#number], &[#number]),
+            #state: #core::equations::Arguments<#number>,
             #rows: &mut [#core::equations::Row<#number>],
-        ) -> ::core::result::Result<(), #core::equations::Refused> {
-            #prologue
-            #bound
-            #needs
-            #first
-            #next
-            ::core::result::Result::Ok(())
+        ) -> #result {
+            struct #body;
+            impl<#number: #core::arithmetic::Number>
+                #core::arithmetic::Body<#core::equations::SeriesArguments<'_, #number>> for #body
+            {
+                type Output = #result;
+                #[inline(always)]
+                fn run(
+                    (#c, #held, #order, (#t, #q, #v), #rows):
+                        #core::equations::SeriesArguments<'_, #number>,
+                ) -> #result {
+                    #prologue
+                    #bound
+                    #needs
+                    #first
+                    #next
+                    ::core::result::Result::Ok(())
+                }
+            }
+            #number::across::<#body, _>((#c, #held, #order, #state, #rows))
         }
     }
 }

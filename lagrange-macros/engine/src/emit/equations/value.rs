@@ -1,14 +1,15 @@
-//! `value`: accelerations, and forces if they are asked for, at one state.
+//! `value`: accelerations, and forces and what guards read if they are asked for, at one state.
 
 use super::super::names::{self, index, local};
 use super::number;
+use super::products::Plan;
 use super::solve::Elimination;
 use super::writer::Writer;
 use crate::plan::mode::{ModeProgram, Phase};
-use crate::plan::{Mode, Place, Program, Value};
+use crate::plan::{Block, Mode, Place, Program, Value};
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Outputs that several writes enter.
 pub fn sums(mode: &ModeProgram) -> BTreeSet<usize> {
@@ -20,7 +21,13 @@ pub fn sums(mode: &ModeProgram) -> BTreeSet<usize> {
 }
 
 /// `fn value_…`
-pub fn function(name: &Ident, heading: &str, program: &Program, mode: &ModeProgram) -> TokenStream {
+pub fn function(
+    name: &Ident,
+    heading: &str,
+    program: &Program,
+    mode: &ModeProgram,
+    plan: &Plan,
+) -> TokenStream {
     let system = &program.equations.system;
     let core = &system.core;
     let writer = Writer {
@@ -40,27 +47,52 @@ pub fn function(name: &Ident, heading: &str, program: &Program, mode: &ModeProgr
         let name = names::value(mode.inputs.unknown(i));
         quote!(let #name = #x;)
     });
-    let [assembly, accelerations, forces] =
-        [Phase::Assembly, Phase::Accelerations, Phase::Forces].map(|phase| blocks(&writer, phase));
+    let nothing = |_: &Block| TokenStream::new();
+    let [assembly, accelerations, forces] = [Phase::Assembly, Phase::Accelerations, Phase::Forces]
+        .map(|phase| blocks(&writer, phase, nothing));
     let n = mode.inputs.coordinates;
-    let (rates, lambda) = (local("rates"), local("lambda"));
-    let results = mode.accelerations.iter().enumerate().map(|(j, place)| {
+    let (rates, values) = (local("rates"), local("values"));
+    let rates_of = mode.accelerations.iter().enumerate().map(|(j, place)| {
         let (j, value) = (index(j), writer.place(*place));
         quote!(#rates[#j] = #value;)
     });
     let of_rows = mode.forces.iter().enumerate().filter_map(|(r, place)| {
-        let (r, value) = (index(r), writer.place((*place)?));
-        Some(quote!(#lambda[#r] = #value;))
+        let (row, value) = (index(2 * n + r), writer.place((*place)?));
+        Some(quote!(#values[#row] = #value;))
     });
-    let (c, held, asked) = (local("c"), local("held"), local("forces"));
+    let results = results(mode).into_iter().map(|(value, place)| {
+        let (name, result) = (names::value(value), writer.place(place));
+        quote!(let #name = #result;)
+    });
+    let kept = kept(mode, plan);
+    let store = |row: usize, place: Place| {
+        let (row, value) = (index(row), writer.place(place));
+        quote!(#values[#row] = #value;)
+    };
+    let outputs = blocks(&writer, Phase::Outputs, |block| {
+        let writes = block.writes.iter();
+        let single = writes.filter(|write| !writer.sums.contains(&write.output));
+        let rows = single.filter_map(|write| {
+            let place = Place::Node(write.output);
+            Some(store(*kept.get(&place)?, place))
+        });
+        quote!(#(#rows)*)
+    });
+    let whole = kept.iter().filter(|(place, _)| match place {
+        Place::Node(output) => writer.sums.contains(output),
+        Place::Constant(_) => true,
+        Place::Zero => false,
+    });
+    let whole = whole.map(|(place, row)| store(*row, *place));
+    let (c, held) = (local("c"), local("held"));
     let (t, q, v) = (local("t"), local("q"), local("v"));
     let number = number();
     let prologue = writer.prologue();
     let declarations = writer.declarations();
     let needs = names::needs(program.equations.needs.len());
-    let (count, rows) = (index(n), index(mode.forces.len()));
+    let (count, rows) = (index(n), index(plan.rows));
     let bound = names::array(&rates, quote!(#rates.first_chunk_mut::<#count>()));
-    let bound_forces = names::array(&lambda, quote!(#asked.first_chunk_mut::<#rows>()));
+    let bound_values = names::array(&values, quote!(#values.first_chunk_mut::<#rows>()));
     let safe = local("safe");
     quote! {
         #[doc = #heading]
@@ -69,7 +101,7 @@ pub fn function(name: &Ident, heading: &str, program: &Program, mode: &ModeProgr
             #held: &#core::system::Held,
             (#t, #q, #v): (#number, &[#number], &[#number]),
             #rates: &mut [#number],
-            #asked: ::core::option::Option<&mut [#number]>,
+            #values: ::core::option::Option<&mut [#number]>,
         ) -> bool {
             #prologue
             #bound
@@ -80,23 +112,37 @@ pub fn function(name: &Ident, heading: &str, program: &Program, mode: &ModeProgr
             #solve
             #(#unknowns)*
             #accelerations
-            #(#results)*
-            if let ::core::option::Option::Some(#asked) = #asked {
-                #bound_forces
+            #(#rates_of)*
+            if let ::core::option::Option::Some(#values) = #values {
+                #bound_values
                 #forces
                 #(#of_rows)*
+                #(#results)*
+                #outputs
+                #(#whole)*
             }
             #safe
         }
     }
 }
 
-/// The blocks of a phase.
-fn blocks(writer: &Writer, phase: Phase) -> TokenStream {
+/// What guards read beside the state and the forces, and in which row of a series it stands.
+fn kept(mode: &ModeProgram, plan: &Plan) -> BTreeMap<Place, usize> {
+    let others = 2 * mode.inputs.coordinates + mode.forces.len() + 1;
+    let extras = mode.extras.iter();
+    extras
+        .filter_map(|extra| Some((extra.place, plan.extra_row(mode, extra)?)))
+        .filter(|(_, row)| *row >= others)
+        .collect()
+}
+
+/// The blocks of a phase, each with what is `then` done at its end.
+fn blocks(writer: &Writer, phase: Phase, then: impl Fn(&Block) -> TokenStream) -> TokenStream {
     let blocks = writer.mode.blocks(phase).map(|block| {
         let steps = block.steps.iter().map(|step| writer.step(step));
         let writes = writer.writes(block);
-        let body = quote!(#(#steps)* #writes);
+        let end = then(block);
+        let body = quote!(#(#steps)* #writes #end);
         if block.needs.is_always() {
             return body;
         }

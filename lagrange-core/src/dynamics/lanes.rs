@@ -1,0 +1,142 @@
+//! Taylor series by the functions of a mode, of several motions at once: each in a lane of its own, bit for bit as alone.
+
+use super::Dynamics;
+use super::emitted::Emitted;
+use crate::arithmetic::{Pack, Scalar};
+use crate::equations::{ModeEquations, Row, STRIDE};
+use crate::system::Held;
+
+/// Motions side by side.
+pub(crate) const LANES: usize = 4;
+
+/// A motion at the start of a step.
+#[derive(Debug)]
+pub(crate) struct Start<'a, T: Scalar> {
+    pub(crate) dynamics: &'a mut Dynamics<T>,
+    pub(crate) t: T,
+    pub(crate) q: &'a [T],
+    pub(crate) v: &'a [T],
+    /// Whether its series is there.
+    pub(crate) expanded: bool,
+}
+
+/// The functions of all modes for numbers side by side, and memory for one call of them.
+#[derive(Debug)]
+pub(crate) struct Lanes<T: 'static> {
+    equations: &'static [ModeEquations<Pack<T, LANES>>],
+    constants: Vec<Pack<T, LANES>>,
+    positions: Vec<Pack<T, LANES>>,
+    velocities: Vec<Pack<T, LANES>>,
+    /// Of each mode: what its functions do not write stays zero.
+    rows: Vec<Vec<Row<Pack<T, LANES>>>>,
+    /// (mode, motion)
+    members: Vec<(usize, usize)>,
+}
+
+impl<T: Scalar> Lanes<T> {
+    /// For a system with these equations.
+    pub(crate) fn new(equations: &'static [ModeEquations<Pack<T, LANES>>]) -> Self {
+        Self {
+            equations,
+            constants: Vec::new(),
+            positions: Vec::new(),
+            velocities: Vec::new(),
+            rows: vec![Vec::new(); equations.len()],
+            members: Vec::new(),
+        }
+    }
+
+    /// Expands up to `order` what can be expanded together: motions in the same mode, of which the same is asked.
+    pub(crate) fn expand(&mut self, starts: &mut [Start<'_, T>], order: usize) {
+        let mut members = core::mem::take(&mut self.members);
+        members.clear();
+        for (motion, start) in starts.iter_mut().enumerate() {
+            if let Some(mode) = start.dynamics.mode_of_functions(start.q, start.v) {
+                members.push((mode, motion));
+            }
+        }
+        members.sort_unstable();
+        for same in members.chunk_by(|a, b| a.0 == b.0) {
+            for group in same.chunks(LANES).filter(|group| group.len() > 1) {
+                self.run(group, starts, order);
+            }
+        }
+        self.members = members;
+    }
+
+    /// Expands one group. Lanes that are left over repeat the last motion.
+    fn run(&mut self, group: &[(usize, usize)], starts: &mut [Start<'_, T>], order: usize) {
+        let lanes: [&Start<'_, T>; LANES] =
+            core::array::from_fn(|lane| &starts[group[lane.min(group.len() - 1)].1]);
+        let Some((_, held)) = lanes[0].dynamics.functions_of_series() else {
+            return;
+        };
+        let alike = lanes.iter().all(|start| {
+            let other = start.dynamics.functions_of_series();
+            other.is_some_and(|(_, other)| {
+                *other.needs == *held.needs && other.branches == held.branches
+            })
+        });
+        if !alike {
+            return;
+        }
+        let constants = lanes.map(|start| match start.dynamics.functions_of_series() {
+            Some((emitted, _)) => emitted.constants(),
+            None => &[],
+        });
+        side_by_side(&mut self.constants, constants);
+        side_by_side(&mut self.positions, lanes.map(|start| start.q));
+        side_by_side(&mut self.velocities, lanes.map(|start| start.v));
+        let time = Pack(lanes.map(|start| start.t));
+        let mode = group[0].0;
+        let zero = Pack([T::default(); LANES]);
+        let rows = &mut self.rows[mode];
+        rows.resize(lanes[0].dynamics.rows_of(mode), [zero; STRIDE]);
+        let state = (time, &self.positions[..], &self.velocities[..]);
+        let series = self.equations[mode].series;
+        // What one of them cannot do, each finds out alone.
+        if series(&self.constants, &held, order, state, rows).is_err() {
+            return;
+        }
+        for (lane, &(_, motion)) in group.iter().enumerate() {
+            starts[motion].dynamics.take_lane(rows, lane, order);
+            starts[motion].expanded = true;
+        }
+    }
+}
+
+/// Numbers of several motions as packs.
+fn side_by_side<T: Scalar>(packs: &mut Vec<Pack<T, LANES>>, lanes: [&[T]; LANES]) {
+    packs.clear();
+    let count = lanes.iter().map(|lane| lane.len()).min().unwrap_or(0);
+    packs.extend((0..count).map(|i| Pack(lanes.map(|lane| lane[i]))));
+}
+
+impl<T: Scalar> Dynamics<T> {
+    /// The mode, among those whose functions have been emitted, whose functions hold at a state.
+    fn mode_of_functions(&mut self, q: &[T], v: &[T]) -> Option<usize> {
+        let chosen = self.choose(q, v);
+        let functions = self.functions().filter(|_| chosen);
+        functions.map(Emitted::index)
+    }
+
+    /// The functions of the mode, and what they are told for a series.
+    fn functions_of_series(&self) -> Option<(&Emitted<T>, Held<'_>)> {
+        self.compiled().emitted(&self.series_held)
+    }
+
+    /// Number of rows of a series in a mode whose functions have been emitted.
+    fn rows_of(&self, mode: usize) -> usize {
+        self.system.structures()[mode].rows
+    }
+
+    /// Takes a series that was expanded together with others.
+    fn take_lane(&mut self, rows: &[Row<Pack<T, LANES>>], lane: usize, order: usize) {
+        self.work.series += 1;
+        self.work.coefficients += order + 1;
+        self.series_by_functions = true;
+        if let Some((emitted, _)) = self.modes[self.current].emitted_mut(&self.series_held) {
+            emitted.take_lane(rows, lane, order);
+        }
+    }
+}
