@@ -75,15 +75,6 @@ pub type SeriesArguments<'a, N> = (
     &'a mut [Row<N>],
 );
 
-/// The functions of one mode.
-#[derive(Clone, Copy, Debug)]
-pub struct ModeEquations<N: 'static> {
-    /// A right-hand side.
-    pub value: ValueFn<N>,
-    /// Taylor coefficients.
-    pub series: SeriesFn<N>,
-}
-
 /// Why a series is not given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Refused {
@@ -91,6 +82,8 @@ pub enum Refused {
     Pivot,
     /// An operation has no Taylor series there.
     NoSeries,
+    /// The processor has no registers for several motions side by side.
+    NoLanes,
 }
 
 /// Whether a number of parameters alone may be divided by: constant rows are eliminated by pivots chosen at build time.

@@ -5,7 +5,7 @@
 
 use crate::arithmetic::Scalar;
 use crate::declaration::Declaration;
-use crate::equations::{ModeEquations, ModeStructure};
+use crate::equations::{ModeStructure, SeriesFn, ValueFn};
 use crate::system::{Description, Held, System};
 use core::fmt;
 use std::sync::Arc;
@@ -24,8 +24,11 @@ pub(crate) trait ErasedSystem<T: Scalar>: Send + Sync {
     /// The modes whose equations are emitted.
     fn structures(&self) -> &'static [ModeStructure];
 
-    /// Their functions.
-    fn mode_equations(&self) -> &'static [ModeEquations<T>];
+    /// Their right-hand sides.
+    fn mode_values(&self) -> &'static [ValueFn<T>];
+
+    /// Their Taylor coefficients.
+    fn mode_series(&self) -> &'static [SeriesFn<T>];
 
     /// Their constants; false if the parameters do not allow the pivots that were chosen at build time.
     fn mode_constants(&self, mode: usize, held: &Held, signs: &[T], c: &mut [T]) -> bool;
@@ -57,8 +60,12 @@ impl<S: System> ErasedSystem<S::Scalar> for S {
         S::MODES
     }
 
-    fn mode_equations(&self) -> &'static [ModeEquations<S::Scalar>] {
-        S::mode_equations::<S::Scalar>()
+    fn mode_values(&self) -> &'static [ValueFn<S::Scalar>] {
+        S::mode_values::<S::Scalar>()
+    }
+
+    fn mode_series(&self) -> &'static [SeriesFn<S::Scalar>] {
+        S::mode_series::<S::Scalar>()
     }
 
     fn mode_constants(

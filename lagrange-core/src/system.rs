@@ -11,7 +11,7 @@
 use crate::arithmetic::{Number, Scalar};
 use crate::declaration::Declaration;
 use crate::derivation::Derivation;
-use crate::equations::{ModeEquations, ModeStructure};
+use crate::equations::{ModeStructure, SeriesFn, ValueFn};
 use crate::program::Encoded;
 pub use crate::program::{Held, Needs, Place};
 use core::fmt;
@@ -46,7 +46,7 @@ pub trait System: Clone + Send + Sync + 'static {
     /// Positions `q` and velocities `v` of start `index`, at time `t`.
     fn start(&self, index: usize, t: Self::Scalar, q: &mut [Self::Scalar], v: &mut [Self::Scalar]);
 
-    /// The modes whose equations are [emitted](Self::mode_equations).
+    /// The modes whose equations are emitted: [values](Self::mode_values) and [series](Self::mode_series).
     const MODES: &'static [ModeStructure] = &[];
 
     /// Everything that depends on parameters only in mode `mode` of [`Self::MODES`]; `signs` are, per friction, those of its slip
@@ -62,8 +62,13 @@ pub trait System: Clone + Send + Sync + 'static {
         false
     }
 
-    /// The functions of the modes, in the order of [`Self::MODES`].
-    fn mode_equations<N: Number>() -> &'static [ModeEquations<N>] {
+    /// Right-hand sides of the modes, in the order of [`Self::MODES`].
+    fn mode_values<N: Number>() -> &'static [ValueFn<N>] {
+        &[]
+    }
+
+    /// Taylor series of the modes, in the order of [`Self::MODES`].
+    fn mode_series<N: Number>() -> &'static [SeriesFn<N>] {
         &[]
     }
 }

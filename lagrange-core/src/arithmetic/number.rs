@@ -1,6 +1,7 @@
 //! What the equations of a mode work with: a number, or the numbers of several motions side by side.
 
 use super::{Pack, Scalar};
+#[cfg(target_arch = "x86_64")]
 use core::marker::PhantomData;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -14,10 +15,10 @@ pub trait Number:
     + Neg<Output = Self>
     + 'static
 {
-    /// A function, compiled for numbers of this kind: for several side by side with the widest registers that the processor has.
+    /// A function, compiled for the registers that numbers of this kind fill; none if the processor does not have them.
     #[inline(always)]
-    fn across<B: Body<A>, A>(arguments: A) -> B::Output {
-        B::run(arguments)
+    fn across<B: Body<A>, A>(arguments: A) -> Option<B::Output> {
+        Some(B::run(arguments))
     }
     /// The same number in every place.
     fn of(x: f64) -> Self;
@@ -61,7 +62,7 @@ pub trait Number:
     fn is_safe_pivot(pivot: Self, before: Self, below: &[Self]) -> bool;
 }
 
-/// A function of arguments `A` that can be compiled for every kind of processor: its implementation is `#[inline(always)]`.
+/// A function of arguments `A` that can be compiled for several kinds of processors: its implementation is `#[inline(always)]`.
 pub trait Body<A> {
     /// What it returns.
     type Output;
@@ -191,9 +192,11 @@ macro_rules! each {
     )*};
 }
 
-/// The arguments of a function that a kind of processor is chosen for.
+/// The arguments of a function that is compiled for a kind of processor.
+#[cfg(target_arch = "x86_64")]
 struct Across<B, A>(A, PhantomData<B>);
 
+#[cfg(target_arch = "x86_64")]
 impl<A, B: Body<A>> pulp::WithSimd for Across<B, A> {
     type Output = B::Output;
 
@@ -204,9 +207,15 @@ impl<A, B: Body<A>> pulp::WithSimd for Across<B, A> {
 }
 
 impl<T: Scalar, const L: usize> Number for Pack<T, L> {
+    // Compiled for AVX2 alone: without it four lanes gain little, and each kind of processor costs the compiler its time.
+    #[cfg(target_arch = "x86_64")]
     #[inline(always)]
-    fn across<B: Body<A>, A>(arguments: A) -> B::Output {
-        pulp::Arch::new().dispatch(Across::<B, A>(arguments, PhantomData))
+    fn across<B: Body<A>, A>(arguments: A) -> Option<B::Output> {
+        let processor = pulp::x86::V3::try_new()?;
+        Some(pulp::Simd::vectorize(
+            processor,
+            Across::<B, A>(arguments, PhantomData),
+        ))
     }
     #[inline(always)]
     fn of(x: f64) -> Self {

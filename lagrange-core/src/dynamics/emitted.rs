@@ -3,7 +3,7 @@
 use crate::arithmetic::{Pack, Scalar, epsilon};
 use crate::effects::{Effects, Item};
 use crate::equations::{
-    Arguments, FrictionState, ModeEquations, ModeStructure, Refused, Row, STRIDE,
+    Arguments, FrictionState, ModeStructure, Refused, Row, STRIDE, SeriesFn, ValueFn,
 };
 use crate::erased::ErasedSystem;
 use crate::mode::{Direction, FrictionMode, Mode};
@@ -17,7 +17,8 @@ const NO_ROW: u32 = u32::MAX;
 pub(super) struct Emitted<T: Scalar> {
     index: usize,
     structure: &'static ModeStructure,
-    equations: ModeEquations<T>,
+    value: ValueFn<T>,
+    series: SeriesFn<T>,
     constants: Vec<T>,
     /// Per friction: sign of its slip, and of the multiplier that presses.
     signs: Vec<T>,
@@ -82,7 +83,8 @@ impl<T: Scalar> Emitted<T> {
         Some(Self {
             index,
             structure,
-            equations: *system.mode_equations().get(index)?,
+            value: *system.mode_values().get(index)?,
+            series: *system.mode_series().get(index)?,
             constants: vec![zero; structure.constants],
             signs,
             admitted: false,
@@ -122,7 +124,7 @@ impl<T: Scalar> Emitted<T> {
     /// Accelerations. False if a pivot is not safe.
     #[inline]
     pub(super) fn accelerations(&self, held: &Held, state: Arguments<T>, out: &mut [T]) -> bool {
-        (self.equations.value)(&self.constants, held, state, out, None)
+        (self.value)(&self.constants, held, state, out, None)
     }
 
     /// Accelerations, forces, and what `held` asks for. False if a pivot is not safe.
@@ -138,7 +140,7 @@ impl<T: Scalar> Emitted<T> {
         positions.copy_from_slice(q);
         rest[..v.len()].copy_from_slice(v);
         let values = Some(&mut self.values[..]);
-        (self.equations.value)(&self.constants, held, state, accelerations, values)
+        (self.value)(&self.constants, held, state, accelerations, values)
     }
 
     /// The forces of all rows at the last [value](Self::value).
@@ -170,7 +172,7 @@ impl<T: Scalar> Emitted<T> {
         state: Arguments<T>,
     ) -> Result<(), Refused> {
         self.order = order;
-        (self.equations.series)(&self.constants, held, order, state, &mut self.rows)
+        (self.series)(&self.constants, held, order, state, &mut self.rows)
     }
 
     /// Which of the structures of the system it is.

@@ -3,7 +3,7 @@
 use super::Dynamics;
 use super::emitted::Emitted;
 use crate::arithmetic::{Pack, Scalar};
-use crate::equations::{ModeEquations, Row, STRIDE};
+use crate::equations::{Row, STRIDE, SeriesFn};
 use crate::system::Held;
 
 /// Motions side by side.
@@ -20,10 +20,10 @@ pub(crate) struct Start<'a, T: Scalar> {
     pub(crate) expanded: bool,
 }
 
-/// The functions of all modes for numbers side by side, and memory for one call of them.
+/// The series of all modes for numbers side by side, and memory for one call of them.
 #[derive(Debug)]
 pub(crate) struct Lanes<T: 'static> {
-    equations: &'static [ModeEquations<Pack<T, LANES>>],
+    series: &'static [SeriesFn<Pack<T, LANES>>],
     constants: Vec<Pack<T, LANES>>,
     positions: Vec<Pack<T, LANES>>,
     velocities: Vec<Pack<T, LANES>>,
@@ -34,14 +34,14 @@ pub(crate) struct Lanes<T: 'static> {
 }
 
 impl<T: Scalar> Lanes<T> {
-    /// For a system with these equations.
-    pub(crate) fn new(equations: &'static [ModeEquations<Pack<T, LANES>>]) -> Self {
+    /// For a system with these series.
+    pub(crate) fn new(series: &'static [SeriesFn<Pack<T, LANES>>]) -> Self {
         Self {
-            equations,
+            series,
             constants: Vec::new(),
             positions: Vec::new(),
             velocities: Vec::new(),
-            rows: vec![Vec::new(); equations.len()],
+            rows: vec![Vec::new(); series.len()],
             members: Vec::new(),
         }
     }
@@ -93,7 +93,7 @@ impl<T: Scalar> Lanes<T> {
         let rows = &mut self.rows[mode];
         rows.resize(lanes[0].dynamics.rows_of(mode), [zero; STRIDE]);
         let state = (time, &self.positions[..], &self.velocities[..]);
-        let series = self.equations[mode].series;
+        let series = self.series[mode];
         // What one of them cannot do, each finds out alone.
         if series(&self.constants, &held, order, state, rows).is_err() {
             return;

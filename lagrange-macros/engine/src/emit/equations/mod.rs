@@ -27,27 +27,33 @@ pub fn equations(program: &Program) -> TokenStream {
     }
     let core = &program.equations.system.core;
     let number = number();
-    let (mut structures, mut constants, mut functions, mut entries) =
-        (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let (mut structures, mut constants) = (Vec::new(), Vec::new());
+    let (mut values, mut value_entries) = (Vec::new(), Vec::new());
+    let (mut series, mut series_entries) = (Vec::new(), Vec::new());
     for (at, mode) in program.modes.iter().enumerate() {
         let plan = products::Plan::new(mode);
         structures.push(structure(program, mode, &plan));
         let body = mode_constants(program, mode);
         let at_index = index(at);
         constants.push(quote!(#at_index => { #body }));
-        let (value, series) = (
+        let (value, one_series) = (
             plain(&format!("value_{at}")),
             plain(&format!("series_{at}")),
         );
         let words = mode.mode.name(&program.equations.system);
         let heading = format!(" {words}: {} operations.", operations(mode));
-        functions.push(value::function(&value, &heading, program, mode, &plan));
+        values.push(value::function(&value, &heading, program, mode, &plan));
+        value_entries.push(quote!(#value::<#number> as #core::equations::ValueFn<#number>));
         let sums = plan.convolutions();
         let heading = format!(" {words}: {sums} sums over earlier coefficients for each new one.");
-        functions.push(series::function(&series, &heading, program, mode, &plan));
-        entries.push(quote! {
-            #core::equations::ModeEquations { value: #value::<#number>, series: #series::<#number> }
-        });
+        series.push(series::function(
+            &one_series,
+            &heading,
+            program,
+            mode,
+            &plan,
+        ));
+        series_entries.push(quote!(#one_series::<#number> as #core::equations::SeriesFn<#number>));
     }
     let (mode, held, signs, c) = (local("mode"), local("held"), local("signs"), local("c"));
     quote! {
@@ -66,10 +72,16 @@ pub fn equations(program: &Program) -> TokenStream {
             }
         }
 
-        fn mode_equations<#number: #core::arithmetic::Number>(
-        ) -> &'static [#core::equations::ModeEquations<#number>] {
-            #(#functions)*
-            const { &[#(#entries),*] }
+        fn mode_values<#number: #core::arithmetic::Number>(
+        ) -> &'static [#core::equations::ValueFn<#number>] {
+            #(#values)*
+            const { &[#(#value_entries),*] }
+        }
+
+        fn mode_series<#number: #core::arithmetic::Number>(
+        ) -> &'static [#core::equations::SeriesFn<#number>] {
+            #(#series)*
+            const { &[#(#series_entries),*] }
         }
     }
 }

@@ -142,6 +142,7 @@ pub fn function(
                 }
             }
             #number::across::<#body, _>((#c, #held, #order, #state, #rows))
+                .unwrap_or(::core::result::Result::Err(#core::equations::Refused::NoLanes))
         }
     }
 }
