@@ -6,9 +6,11 @@
 //! An operation is three little-endian words of four bytes, (operation | guard·256, x, y). Every operation defines the next
 //! value, and operands are values before it.
 
+mod draw;
 mod evaluate;
 mod series;
 
+pub use draw::{Draw, Form, Turn};
 pub use evaluate::{Evaluator, Inputs, Seed};
 pub use series::Series;
 
@@ -37,6 +39,8 @@ pub struct Declaration {
     pub stops: &'static [Option<&'static [usize]>],
     /// Terms of marks.
     pub marks: &'static [Option<&'static [usize]>],
+    /// What a picture shows, from the back to the front.
+    pub draws: &'static [Draw],
 }
 
 /// A contact.
@@ -99,6 +103,7 @@ impl Declaration {
         dissipations: &[],
         stops: &[],
         marks: &[],
+        draws: &[],
     };
 }
 

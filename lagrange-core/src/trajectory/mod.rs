@@ -242,6 +242,16 @@ impl<T: Scalar> Record<T> {
         &self.effects
     }
 
+    /// Relative and absolute tolerance that was asked for.
+    pub fn tolerance(&self) -> f64 {
+        self.asked.tolerance
+    }
+
+    /// Method of integration that was asked for.
+    pub fn method(&self) -> Method {
+        self.asked.method
+    }
+
     /// First time, s.
     pub fn first_time(&self) -> f64 {
         self.first_time.value()
