@@ -251,3 +251,177 @@ fn coil(from: Vector, to: Vector) -> Vec<Vector> {
     let inner = (1..JOINTS).map(joint);
     core::iter::once(from).chain(inner).chain([to]).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::drawing::Shape;
+    use crate::file;
+    use crate::film::Film;
+    use crate::request::Request;
+    use crate::space::{Solid, UnitQuaternion, Vector};
+
+    /// A film of what a text declares, with some items left out.
+    fn film(items: &str, without: &[&str]) -> Film {
+        let effects = without.iter().map(|name| (name.to_string(), false));
+        let request = Request {
+            samples: 20,
+            effects: effects.collect(),
+            ..Request::default()
+        };
+        let scene = file::scene("drawn.lagrange", items).expect("a declaration");
+        scene.film(&request).expect("a film")
+    }
+
+    const BLOCK: &str = "
+        parameters(mass = 2, gravity = 10, speed = 3, radius = 0.5),
+        coordinates(x, y, phi),
+        kinetic = mass/2 * (der(x)^2 + der(y)^2) + mass/2 * der(phi)^2,
+        potential = mass * gravity * y,
+        contact(floor: y >= 0, restitution = 1/2),
+        friction(grip on floor: slip = der(x), static = 0.1),
+        force(wind: (t, 2) at (x, y)),
+        force(drive: x = 4 * t),
+        start(thrown: y = 1, der(x) = speed, der(phi) = 1),
+        until = 2,
+    ";
+
+    #[test]
+    fn shapes_and_forces_have_the_values_that_are_written() {
+        let draws = "
+            draw(floor: -radius),
+            draw(box: (x, y), size = (2, 1), angle = phi),
+            draw(rod: (0, 0) to list(k in 1..3: (k * x, y + t))),
+            draw(arrow: floor * (0, 1) + grip * (1, 0) at (x, y)),
+            draw(arrow: drive * (1, 0) + (0, -mass * gravity) at (x, 0), name = sum),
+            draw(arrow: wind),
+        ";
+        let film = film(&format!("{BLOCK}{draws}"), &[]);
+        assert!(film.outcome.events.len() > 3, "it bounces");
+        for (drawing, sample) in film.drawings.iter().zip(&film.outcome.samples) {
+            let [x, y, phi] = sample.state.q[..] else {
+                panic!("three coordinates");
+            };
+            let t = sample.time;
+            let (sin, cos) = phi.sin_cos();
+            let [floor, block, rod] = &drawing.shapes[..] else {
+                panic!("three shapes");
+            };
+            assert_eq!(*floor, Shape::Floor(-0.5));
+            assert_eq!(
+                *rod,
+                Shape::Rod(vec![[0.0, 0.0], [x, y + t], [2.0 * x, y + t]])
+            );
+            let Shape::Block(corners) = block else {
+                panic!("{block:?}");
+            };
+            // The third corner is at (1, ½) along the axes of the box.
+            let third = [x + cos - 0.5 * sin, y + sin + 0.5 * cos];
+            assert!((corners[2][0] - third[0]).hypot(corners[2][1] - third[1]) < 1e-14);
+            let [contact, sum, wind] = &drawing.arrows[..] else {
+                panic!("three arrows");
+            };
+            assert_eq!([contact.name, sum.name, wind.name], ["floor + grip", "sum", "wind"]);
+            let [normal, grip] = sample.forces[..] else {
+                panic!("two rows");
+            };
+            assert_eq!(contact.sum(&sample.forces, false), [grip, normal]);
+            assert_eq!(contact.sum(&[7.0, 5.0], true), [5.0, 7.0]);
+            assert_eq!(sum.sum(&sample.forces, false), [4.0 * t, -20.0]);
+            // No applied force is an impulse.
+            assert_eq!(sum.sum(&[7.0, 5.0], true), [0.0, 0.0]);
+            assert_eq!((wind.at, wind.sum(&[0.0; 2], false)), ([x, y], [t, 2.0]));
+        }
+    }
+
+    #[test]
+    fn what_is_left_out_has_no_arrow() {
+        let draws = "
+            draw(mass: (x, y)),
+            draw(arrow: floor * (0, 1) at (x, y)),
+            draw(arrow: grip * (1, 0) at (x, y)),
+            draw(arrow: drive * (1, 0) at (x, y)),
+            draw(arrow: wind),
+        ";
+        let named = |without: &[&str]| -> Vec<&str> {
+            let film = film(&format!("{BLOCK}{draws}"), without);
+            let arrows = &film.drawings[0].arrows;
+            arrows.iter().map(|arrow| arrow.name).collect()
+        };
+        assert_eq!(named(&[]), ["floor", "grip", "drive", "wind"]);
+        assert_eq!(named(&["grip", "wind"]), ["floor", "drive"]);
+        // A friction goes with the contact that it is on.
+        assert_eq!(named(&["floor"]), ["drive", "wind"]);
+    }
+
+    #[test]
+    fn bodies_in_space_are_turned_as_written() {
+        let film = film(
+            "
+            parameters(mass = 1, radius = 0.5),
+            coordinates(x, a, b),
+            attitude(body: q),
+            kinetic = mass/2 * (der(x)^2 + der(a)^2 + der(b)^2) + dot(body.body_rate, body.body_rate),
+            start(spun: der(x) = 1, der(a) = 2, der(b) = -1, der(q[1]) = 0.5, der(q[3]) = 0.2),
+            draw(disc: (x, 0, 1), radius = radius, turn = ((0, 0, a), (b, 0, 0))),
+            draw(sphere: (0, x, 0), radius = radius, attitude = body),
+            draw(sphere: (0, 0, x), radius = radius, rolled = (a, b, 0)),
+            draw(floor: -1, turn = (0.1, 0, 0)),
+            until = 2,
+            ",
+            &[],
+        );
+        assert!(film.drawings.is_empty());
+        let about = |axis: Vector, angle: f64| UnitQuaternion::from_scaled_axis(angle * axis);
+        for (space, sample) in film.spaces.iter().zip(&film.outcome.samples) {
+            let q = &sample.state.q;
+            let (x, a, b) = (q[0], q[1], q[2]);
+            let [disc, ball, rolled, floor] = &space.solids[..] else {
+                panic!("four solids");
+            };
+            let Solid::Disc(radius, height, pose) = disc else {
+                panic!("{disc:?}");
+            };
+            assert_eq!((*radius, *height), (0.5, 0.025));
+            assert_eq!(pose.at, Vector::new(x, 0.0, 1.0));
+            let turned = about(Vector::z(), a) * about(Vector::x(), b);
+            assert!(pose.turn.angle_to(&turned) < 1e-7);
+            let Solid::Ball(_, pose) = ball else {
+                panic!("{ball:?}");
+            };
+            // The scalar part comes last in nalgebra's list.
+            let attitude = pose.turn.coords;
+            assert!((attitude - nalgebra::Vector4::new(q[4], q[5], q[6], q[3])).norm() < 1e-7);
+            assert_eq!(
+                *rolled,
+                Solid::RolledBall(0.5, x * Vector::z(), Vector::new(a, b, 0.0))
+            );
+            assert_eq!(floor.places(), [-Vector::z()]);
+        }
+    }
+
+    #[test]
+    fn without_a_picture_points_are_seen() {
+        let film = film(BLOCK, &[]);
+        let kinds: Vec<&str> = film.drawings[0].shapes.iter().map(Shape::kind).collect();
+        assert_eq!(kinds, ["floor", "trace", "mass"]);
+        let names: Vec<&str> = film.drawings[0].arrows.iter().map(|a| a.name).collect();
+        assert_eq!(names, ["floor", "wind"]);
+        let [first, .., last] = &film.drawings[..] else {
+            panic!("a film");
+        };
+        assert_eq!(first.shapes[2], Shape::Mass([0.0, 1.0]));
+        assert_eq!(first.shapes[0], Shape::Floor(0.0));
+        let end = &film.outcome.samples[film.outcome.samples.len() - 1].state.q;
+        assert_eq!(last.shapes[2], Shape::Mass([end[0], end[1]]));
+    }
+
+    #[test]
+    fn springs_in_space_end_at_their_ends() {
+        let (from, to) = (Vector::new(1.0, 2.0, 3.0), Vector::new(1.0, 2.0, 5.0));
+        let coil = super::coil(from, to);
+        assert_eq!((coil[0], coil[coil.len() - 1]), (from, to));
+        let wide = coil.iter().map(|joint| (joint - from).xy().norm());
+        assert!((wide.fold(0.0, f64::max) - 2.0 / 24.0).abs() < 1e-14);
+        assert!(super::coil(from, from).iter().all(|joint| *joint == from));
+    }
+}

@@ -5,3 +5,4 @@
     draw(arrow: (0, -mass) at (x, y)),
 )]
 struct S { mass: f64, inertia: f64, radius: f64 }
+//~ 5:10 E018 `arrow` has no name; add `name = …`

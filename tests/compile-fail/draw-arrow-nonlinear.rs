@@ -6,3 +6,4 @@
     draw(arrow: floor^2 * (0, 1) at (x, y)),
 )]
 struct S { mass: f64, inertia: f64, radius: f64 }
+//~ 6:17 E509 the force is not linear in `floor`; the forces of contacts and constraints enter the equations linearly

@@ -6,3 +6,4 @@
     draw(arrow: drive * (1, 0)),
 )]
 struct S { mass: f64, inertia: f64, radius: f64 }
+//~ 6:17 E018 `arrow` has no place; add `at (x, y)`

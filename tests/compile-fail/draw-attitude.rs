@@ -5,3 +5,4 @@
     draw(disc: (x, y, 0), radius = radius, attitude = phi),
 )]
 struct S { mass: f64, inertia: f64, radius: f64 }
+//~ 5:55 E206 `phi` is a coordinate, not a body; name the body of an `attitude(body: q)`; angles stand in `turn`

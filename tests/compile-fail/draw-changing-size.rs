@@ -5,3 +5,4 @@
     draw(sphere: (x, y, 0), radius = x),
 )]
 struct S { mass: f64, inertia: f64, radius: f64 }
+//~ 5:10 E906 the size of this `sphere` changes; a body in space keeps its size: write it in parameters alone

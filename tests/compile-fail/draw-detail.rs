@@ -6,3 +6,5 @@
     draw(disc: (x, y), radus = radius),
 )]
 struct S { mass: f64, inertia: f64, radius: f64 }
+//~ 5:24 E016 `radius = radius` is not a part of `mass`; it has places only, joined by `to`
+//~ 6:24 E016 `radus` is not a part of `disc`; did you mean `radius`?

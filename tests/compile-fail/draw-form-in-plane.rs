@@ -5,3 +5,4 @@
     draw(sphere: (x, y), radius = radius),
 )]
 struct S { mass: f64, inertia: f64, radius: f64 }
+//~ 5:10 E904 there is no `sphere` in a plane; draw a `disc`, or give places three coordinates

@@ -5,3 +5,4 @@
     draw(rod: (x, y)),
 )]
 struct S { mass: f64, inertia: f64, radius: f64 }
+//~ 5:10 E902 `rod` takes 2 places or more, not 1; places are joined by `to`

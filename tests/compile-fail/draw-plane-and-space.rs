@@ -6,3 +6,4 @@
     draw(path: (x, y, 0)),
 )]
 struct S { mass: f64, inertia: f64, radius: f64 }
+//~ 6:16 E903 places have 2 coordinates here, and this has 3; a picture is in a plane, `(x, y)`, or in space, `(x, y, z)`

@@ -5,3 +5,4 @@
     draw(box: (x, y), size = (radius, radius), turn = (0, 0, phi)),
 )]
 struct S { mass: f64, inertia: f64, radius: f64 }
+//~ 5:48 E904 there is no `turn` in a plane; what is turned in a plane has an `angle`, counter-clockwise

@@ -5,3 +5,4 @@
     draw(mass: (x, phi)),
 )]
 struct S { mass: f64, inertia: f64, radius: f64 }
+//~ 5:20 E704 a place in a picture is in m, and this is a plain number; a factor in m is missing

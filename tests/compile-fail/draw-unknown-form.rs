@@ -5,3 +5,4 @@
     draw(disk: (x, y), radius = radius),
 )]
 struct S { mass: f64, inertia: f64, radius: f64 }
+//~ 5:10 E901 `disk` is not the name of a form; did you mean `disc`?

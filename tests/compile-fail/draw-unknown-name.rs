@@ -5,3 +5,4 @@
     draw(disc: (x, y), radius = radious, angle = phi),
 )]
 struct S { mass: f64, inertia: f64, radius: f64 }
+//~ 5:33 E201 `radious` is not known; did you mean `radius`?

@@ -5,3 +5,4 @@
     draw(disc: (x, y)),
 )]
 struct S { mass: f64, inertia: f64, radius: f64 }
+//~ 5:10 E018 `disc` has no radius; add `radius = …`

@@ -94,3 +94,30 @@ fn mistakes_come_with_an_implementation_that_type_checks() {
     );
     assert_eq!(emitted.to_string().matches("compile_error").count(), 1);
 }
+
+/// What is drawn stands beside the equations and changes nothing in them, whatever is in it.
+#[test]
+fn a_picture_is_no_equation() {
+    let of = |draws: TokenStream| {
+        let declaration = quote! {
+            #[lagrange(
+                coordinates(x, y),
+                define(height = y + x^2),
+                kinetic = mass/2 * (der(x)^2 + der(y)^2),
+                potential = mass * gravity * height,
+                contact(floor: height >= 0),
+                #draws
+            )]
+            struct Bead { mass: f64, gravity: f64 }
+        };
+        let program = program(declaration.clone());
+        super::tables(&program, &declared(declaration))
+    };
+    let plain = of(quote!());
+    let drawn = of(quote! {
+        draw(mass: (max(x^2 - y, gravity * x), sin(height))),
+        draw(arrow: floor * (0, cos(x*y)) at (abs(x), y)),
+    });
+    assert_eq!(plain.description.to_string(), drawn.description.to_string());
+    assert_ne!(plain.declaration.to_string(), drawn.declaration.to_string());
+}
