@@ -1,6 +1,7 @@
 //! The result of a run: the motion as polynomials in time, the modes, the events, the work done.
 
 mod by_handle;
+mod display;
 mod event;
 mod ledger;
 mod sampler;
