@@ -29,18 +29,16 @@ pub static SCENES: &[&dyn Scene] = &[
             ("leave angle", "theta at shell lost"),
             ("leave time", "t at shell lost"),
         ]),
-    &Entry::<RollingSlippingSphere>::new("rolling-slipping-sphere", 20.0)
-        .results(&[
-            ("leave angle", "theta at shell lost"),
-            ("leave time", "t at shell lost"),
-            ("slip angle", "theta at grip slips"),
-        ]),
-    &Entry::<MassOnWheel>::new("mass-on-wheel", 20.0)
-        .results(&[
-            ("leave angle", "theta at rim lost"),
-            ("leave time", "t at rim lost"),
-            ("slip angle", "theta at grip slips"),
-        ]),
+    &Entry::<RollingSlippingSphere>::new("rolling-slipping-sphere", 20.0).results(&[
+        ("leave angle", "theta at shell lost"),
+        ("leave time", "t at shell lost"),
+        ("slip angle", "theta at grip slips"),
+    ]),
+    &Entry::<MassOnWheel>::new("mass-on-wheel", 20.0).results(&[
+        ("leave angle", "theta at rim lost"),
+        ("leave time", "t at rim lost"),
+        ("slip angle", "theta at grip slips"),
+    ]),
     &Entry::<SphereInBowl>::new("sphere-in-bowl", 10.0),
     &Entry::<DoublePendulum>::new("double-pendulum", 5.0),
     &Entry::<FiveLinkChain>::new("five-link-chain", 2.0),
@@ -48,8 +46,7 @@ pub static SCENES: &[&dyn Scene] = &[
     &Entry::<Net>::new("net", 2.0),
     &Entry::<CartesianPendulum>::new("cartesian-pendulum", 100.0)
         .known(CartesianPendulum::closed_form),
-    &Entry::<Kepler>::new("kepler", 200.0 * core::f64::consts::PI)
-        .known(Kepler::closed_form),
+    &Entry::<Kepler>::new("kepler", 200.0 * core::f64::consts::PI).known(Kepler::closed_form),
     &Entry::<StiffSpringPendulum>::new("stiff-spring-pendulum", 10.0),
 ];
 

@@ -214,9 +214,9 @@ impl Moment<'_> {
         let pose = Pose::at(at.x, at.y, at.z);
         match turn {
             Turn::Attitude(first) => pose.attitude(&self.q[first..first + 4]),
-            Turn::About(vectors) => vectors.chunks_exact(3).fold(pose, |pose, vector| {
-                pose.turned(self.list(vector).into())
-            }),
+            Turn::About(vectors) => vectors
+                .chunks_exact(3)
+                .fold(pose, |pose, vector| pose.turned(self.list(vector).into())),
             Turn::None | Turn::Angle(_) | Turn::Rolled(_) => pose,
         }
     }
@@ -320,7 +320,10 @@ mod tests {
             let [contact, sum, wind] = &drawing.arrows[..] else {
                 panic!("three arrows");
             };
-            assert_eq!([contact.name, sum.name, wind.name], ["floor + grip", "sum", "wind"]);
+            assert_eq!(
+                [contact.name, sum.name, wind.name],
+                ["floor + grip", "sum", "wind"]
+            );
             let [normal, grip] = sample.forces[..] else {
                 panic!("two rows");
             };

@@ -104,9 +104,7 @@ impl<S: System<Scalar = f64>> Results for Trajectory<S> {
     fn plot_of(&self, path: impl AsRef<Path>, shows: &[&str]) -> io::Result<()> {
         let path = path.as_ref();
         let still = Still::of(path).map_err(refused)?;
-        let shows = shows
-            .iter()
-            .map(|text| Show::new(text, self.description()));
+        let shows = shows.iter().map(|text| Show::new(text, self.description()));
         let shows: Vec<Show> = shows.collect::<Result<_, _>>().map_err(refused)?;
         let outcome = outcome(self, SAMPLES);
         let run = plot::Run {

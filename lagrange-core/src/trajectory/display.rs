@@ -73,11 +73,7 @@ impl<T: Scalar> Display for Record<T> {
             writeln!(f, "{event}")?;
         }
         let steps = self.work().steps;
-        write!(
-            f,
-            "t = {:.9} s: end, after {steps} steps",
-            self.last_time()
-        )
+        write!(f, "t = {:.9} s: end, after {steps} steps", self.last_time())
     }
 }
 

@@ -99,10 +99,7 @@ impl Elaboration<'_> {
                 found.resize(self.system.draws.len(), order);
             }
         }
-        let mut ordered: Vec<_> = found
-            .into_iter()
-            .zip(self.system.draws.drain(..))
-            .collect();
+        let mut ordered: Vec<_> = found.into_iter().zip(self.system.draws.drain(..)).collect();
         ordered.sort_by_key(|(order, _)| *order);
         self.system.draws = ordered.into_iter().map(|(_, draw)| draw).collect();
     }
@@ -180,8 +177,7 @@ impl Elaboration<'_> {
         let (count, expected) = (place.len(), self.components(places));
         if !(2..=3).contains(&count) || expected.is_some_and(|expected| expected != count) {
             let expected = expected.map_or("2 or 3".to_owned(), |count| count.to_string());
-            self.sink
-                .report(Code::PlaceSize, at, &[&expected, &count]);
+            self.sink.report(Code::PlaceSize, at, &[&expected, &count]);
             return None;
         }
         places.push(place);
@@ -202,8 +198,11 @@ impl Elaboration<'_> {
                 (_, true) => "draw it with `box`, `rod` or `disc`, or give places two coordinates",
                 (_, false) => "draw it with `polygon` or `disc`, or give places three coordinates",
             };
-            self.sink
-                .report(Code::NotInPicture, word, &[&word.text, &surroundings, &hint]);
+            self.sink.report(
+                Code::NotInPicture,
+                word,
+                &[&word.text, &surroundings, &hint],
+            );
             return None;
         };
         for (detail, key, value) in &declared.details {
@@ -263,13 +262,13 @@ impl Elaboration<'_> {
     /// Whether the size of a body in space, whose faces are made once, does not change.
     fn fixed_size(&mut self, declared: &ast::Draw, draw: &Draw) -> Option<()> {
         let (pool, time) = (&self.system.pool, self.system.time);
-        let changes = |e: &ExprId| self.depth(&[*e]) > Depth::Parameter || pool.depends_on(*e, time);
+        let changes =
+            |e: &ExprId| self.depth(&[*e]) > Depth::Parameter || pool.depends_on(*e, time);
         if !draw.size.iter().any(changes) {
             return Some(());
         }
         let word = &declared.word;
-        self.sink
-            .report(Code::ChangingSize, word, &[&word.text]);
+        self.sink.report(Code::ChangingSize, word, &[&word.text]);
         None
     }
 
@@ -313,8 +312,11 @@ impl Elaboration<'_> {
         let hint = "name the body of an `attitude(body: q)`; angles stand in `turn`";
         let ExprKind::Name(name) = &value.kind else {
             let found = format!("`{value}`");
-            self.sink
-                .report(Code::Expected, value.extent, &[&"the name of a body", &found]);
+            self.sink.report(
+                Code::Expected,
+                value.extent,
+                &[&"the name of a body", &found],
+            );
             return None;
         };
         if let Some(&first) = self.bodies.get(&name.text) {
@@ -386,11 +388,8 @@ impl Elaboration<'_> {
         let placed = found.filter(|load| placed_force(&self.system, *load).is_some());
         if placed.is_none() {
             let add = "at (x, y)";
-            self.sink.report(
-                Code::MissingPart,
-                force.extent,
-                &[&"arrow", &"place", &add],
-            );
+            self.sink
+                .report(Code::MissingPart, force.extent, &[&"arrow", &"place", &add]);
         }
         placed
     }
@@ -462,13 +461,18 @@ pub(super) fn placed_force(system: &System, load: usize) -> Option<(Vec<ExprId>,
         Worked::Point(p) => Some((f, p)),
         _ => None,
     });
-    placed.collect::<Option<Vec<_>>>().map(|all| all.into_iter().unzip())
+    placed
+        .collect::<Option<Vec<_>>>()
+        .map(|all| all.into_iter().unzip())
 }
 
 /// The items that are drawn, from the back to the front.
 pub(super) fn drawn(declaration: &Declaration) -> impl Iterator<Item = &ast::Draw> {
-    declaration.items.iter().filter_map(|item| match &item.kind {
-        ItemKind::Draw(draw) => Some(&**draw),
-        _ => None,
-    })
+    declaration
+        .items
+        .iter()
+        .filter_map(|item| match &item.kind {
+            ItemKind::Draw(draw) => Some(&**draw),
+            _ => None,
+        })
 }

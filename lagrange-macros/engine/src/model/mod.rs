@@ -42,8 +42,8 @@ use proc_macro2::{Ident, Span, TokenStream};
 
 pub use checks::{Check, Premise, checks};
 pub use declared::{Declared, declared};
-pub use draws::{Draw, Turn};
 pub use defaults::{defaults, number};
+pub use draws::{Draw, Turn};
 pub use elaborate::{Scope, scoped, system};
 pub(crate) use names::shouting;
 

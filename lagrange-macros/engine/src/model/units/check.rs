@@ -145,9 +145,7 @@ impl Checker<'_, '_> {
                 self.each(&watch.head, |this, _| this.trigger(&watch.trigger))
             }
             (8, ItemKind::Check(check)) => self.check(check),
-            (8, ItemKind::Draw(draw)) => {
-                self.indexed(draw.index.as_ref(), |this| this.draw(draw))
-            }
+            (8, ItemKind::Draw(draw)) => self.indexed(draw.index.as_ref(), |this| this.draw(draw)),
             _ => Some(()),
         }
     }
