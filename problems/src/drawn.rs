@@ -68,7 +68,7 @@ impl Instant {
     fn new(declaration: &'static Declaration, parameters: Vec<f64>) -> Self {
         Self {
             declaration,
-            evaluator: Evaluator::new(declaration),
+            evaluator: Evaluator::with_pictures(declaration),
             parameters,
         }
     }

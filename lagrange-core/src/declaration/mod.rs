@@ -21,6 +21,8 @@ pub struct Declaration {
     pub words: &'static [u8],
     /// Exact numbers.
     pub numbers: &'static [f64],
+    /// How many values there are without those that only pictures need, which follow.
+    pub values: usize,
     /// Kinetic energies; of a `lagrangian` the whole of it.
     pub kinetic: &'static [usize],
     /// Potential energies.
@@ -94,6 +96,7 @@ impl Declaration {
     pub const NONE: Self = Self {
         words: &[],
         numbers: &[],
+        values: 0,
         kinetic: &[],
         potential: &[],
         constraints: &[],

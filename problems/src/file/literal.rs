@@ -198,7 +198,7 @@ structs! {
     Watch { name terms conditions need zeros }
     Units { energy rows forces dissipations }
     Declaration {
-        words numbers kinetic potential constraints contacts frictions forces dissipations stops marks draws
+        words numbers values kinetic potential constraints contacts frictions forces dissipations stops marks draws
     }
     declaration::Contact { gap normal_factor restitution region }
     declaration::Friction { slip normal static_coefficient kinetic_coefficient }

@@ -150,6 +150,7 @@ table! {
     NotInPicture "E904" "there is no `{0}` {1}" "{2}";
     DetailSize "E905" "`{0}` takes {1} numbers, not {2}" "write them as a list, `(a, b)` in a plane and `(a, b, c)` in space";
     ChangingSize "E906" "the size of this `{0}` changes" "a body in space keeps its size: write it in parameters alone";
+    ManyPlaces "E907" "a picture has at most {0} places" "draw fewer elements: nobody sees more";
 
     Bug "E999" "a bug in the derive: something was left out without a message" "please report it with the declaration";
 }

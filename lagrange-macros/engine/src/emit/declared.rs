@@ -32,6 +32,8 @@ pub fn declaration(declared: &Declared, system: &System) -> TokenStream {
     let core = &system.core;
     let mut writer = Writer::new(declared);
     writer.write(&roots(of));
+    let values = index(writer.count);
+    writer.write(&drawn_roots(of));
     let value = |e: &ExprId| index(writer.values[e]);
     let option = |e: &Option<ExprId>| match e {
         Some(e) => {
@@ -114,6 +116,7 @@ pub fn declaration(declared: &Declared, system: &System) -> TokenStream {
         #core::declaration::Declaration {
             words: #words,
             numbers: #numbers,
+            values: #values,
             kinetic: &[#(#kinetic),*],
             potential: &[#(#potential),*],
             constraints: &[#(#constraints),*],
@@ -176,7 +179,7 @@ fn drawn(draw: &Draw, core: &TokenStream, writer: &Writer) -> TokenStream {
     }
 }
 
-/// Everything that is evaluated.
+/// Everything that is evaluated but for pictures.
 fn roots(system: &System) -> Vec<ExprId> {
     let energies = system.kinetic.iter().chain(&system.potential);
     let mut roots: Vec<ExprId> = energies.map(|term| term.energy).collect();
@@ -205,6 +208,12 @@ fn roots(system: &System) -> Vec<ExprId> {
     roots.extend(system.dissipations.iter().map(|d| d.rayleigh));
     let watches = system.stops.iter().chain(&system.marks);
     roots.extend(watches.flat_map(|watch| &watch.terms));
+    roots
+}
+
+/// What is evaluated for pictures only.
+fn drawn_roots(system: &System) -> Vec<ExprId> {
+    let mut roots = Vec::new();
     for draw in &system.draws {
         roots.extend(draw.places.iter().flatten());
         roots.extend(draw.size.iter().chain(&draw.applied));
@@ -270,7 +279,7 @@ impl<'a> Writer<'a> {
         let mut all: BTreeSet<ExprId> = BTreeSet::new();
         let mut stack = roots.to_vec();
         while let Some(e) = stack.pop() {
-            if !all.insert(e) {
+            if self.values.contains_key(&e) || !all.insert(e) {
                 continue;
             }
             let node = pool.node(e);

@@ -15,6 +15,9 @@ use crate::symbolic::{ExprId, Rational, Symbol};
 const PLACE: Context = Context::new(Reach::Positions, "a picture");
 const FORCE: Context = Context::new(Reach::Outputs, "the force of an arrow");
 
+/// Places that a picture may have: nobody sees more.
+pub(super) const MOST_PLACES: usize = 2_000;
+
 /// Something that a picture shows.
 pub struct Draw {
     /// What it is.
@@ -152,6 +155,12 @@ impl Elaboration<'_> {
             self.fixed_size(declared, &draw)?;
         }
         self.system.draws.push(draw);
+        let count: usize = self.system.draws.iter().map(|draw| draw.places.len()).sum();
+        if count > MOST_PLACES {
+            self.sink
+                .report(Code::ManyPlaces, &declared.word, &[&MOST_PLACES]);
+            return None;
+        }
         Some(())
     }
 

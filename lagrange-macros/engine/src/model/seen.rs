@@ -3,7 +3,7 @@
 //! Names that differ in one letter, `x` and `y`, `bob_x` and `bob_y`, `x1` and `y1`, are the coordinates of a point. Where one of them is
 //! `z` the picture is in space. A contact whose gap is the height of a point over a level gives a floor.
 
-use super::draws::{Draw, placed_force};
+use super::draws::{Draw, MOST_PLACES, placed_force};
 use super::elaborate::Elaboration;
 use super::names::{Kind, Meaning};
 use super::reach::Depth;
@@ -21,7 +21,7 @@ impl Elaboration<'_> {
             true => self.points(2),
             false => space,
         };
-        let Some(first) = points.first() else {
+        let Some(first) = points.first().filter(|_| points.len() <= MOST_PLACES) else {
             return;
         };
         let components = first.len();
