@@ -13,7 +13,7 @@ use crate::diagnostics::{Code, Extent};
 use crate::symbolic::{ExprId, Rational, Symbol};
 
 const PLACE: Context = Context::new(Reach::Positions, "a picture");
-const FORCE: Context = Context::new(Reach::Outputs, "the force of an arrow");
+const FORCE: Context = Context::new(Reach::Forces, "the force of an arrow");
 
 /// Places that a picture may have: nobody sees more.
 pub(super) const MOST_PLACES: usize = 2_000;
@@ -96,8 +96,9 @@ impl Elaboration<'_> {
         // The others say whether floors are in a plane or in space.
         for floors in [false, true] {
             for (order, draw) in drawn(declaration).enumerate() {
-                if floors == (draw.form == Form::Floor) && self.draw(draw).is_none() {
-                    return;
+                if floors == (draw.form == Form::Floor) {
+                    // A mistake does not hide those of others.
+                    let _ = self.draw(draw);
                 }
                 found.resize(self.system.draws.len(), order);
             }
@@ -405,19 +406,20 @@ impl Elaboration<'_> {
 
     /// A force as a sum over the multipliers.
     fn parts(&mut self, components: &[ExprId], force: &Expr, draw: &mut Draw) -> Option<()> {
+        let pool = &self.system.pool;
+        let contained: Vec<Symbol> = components.iter().flat_map(|&e| pool.symbols(e)).collect();
         let multipliers = self.system.multipliers();
-        let mut columns: Vec<Vec<ExprId>> = vec![Vec::new(); multipliers.len()];
+        let (rows, acting): (Vec<usize>, Vec<Symbol>) = (multipliers.iter().copied())
+            .enumerate()
+            .filter(|(_, multiplier)| contained.contains(multiplier))
+            .unzip();
+        let mut columns: Vec<Vec<ExprId>> = vec![Vec::new(); rows.len()];
         for &component in components {
-            if self.depth(&[component]) == Depth::Acceleration {
-                self.sink
-                    .report(Code::AccelerationHere, force.extent, &[force]);
-                return None;
-            }
             let nonlinear = self.nonlinear_in(component, &multipliers);
             let split = self
                 .system
                 .pool
-                .coefficients_linear(component, &multipliers)
+                .coefficients_linear(component, &acting)
                 .filter(|_| nonlinear.is_none());
             let Some((slopes, rest)) = split else {
                 let name = nonlinear.map(|symbol| self.system.pool.name(symbol).to_owned());
@@ -431,12 +433,7 @@ impl Elaboration<'_> {
             }
             draw.applied.push(rest);
         }
-        let pool = &self.system.pool;
-        let rows = columns.into_iter().enumerate();
-        draw.parts = rows
-            .filter(|(_, column)| !column.iter().all(|slope| pool.is_zero(*slope)))
-            .collect();
-        let contained: Vec<Symbol> = components.iter().flat_map(|&e| pool.symbols(e)).collect();
+        draw.parts = rows.into_iter().zip(columns).collect();
         for (load, force) in self.system.forces.iter().enumerate() {
             if contained.contains(&force.force) && !draw.loads.contains(&load) {
                 draw.loads.push(load);
