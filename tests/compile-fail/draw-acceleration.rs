@@ -6,3 +6,5 @@
     draw(arrow: (momentum(x), 0) at (x, y), name = momentum_of_x),
 )]
 struct S { mass: f64 }
+//~ 5:25 E402 `der(der(x))` is an acceleration; accelerations are known after the equations are solved: in `observe`, `stop`, `mark` and `check` only
+//~ 6:18 E405 `momentum` has a value after the equations are solved; use it in `observe`, `stop`, `mark` or `check`
