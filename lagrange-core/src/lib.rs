@@ -20,7 +20,7 @@
 //! let scene = MassOnBall { mass: 1.0, gravity: 9.81, radius: 1.0 };
 //! let run = Simulation::new(&scene).run(scene.at(MassOnBall::NUDGED), 0.0..1.0)?;
 //! let lost = &run.events()[0];
-//! println!("{}", lost.sentence(run.description()));
+//! println!("{lost}");
 //! println!("at {:.4}°", lost.q(MassOnBall::THETA).to_degrees());
 //! println!("N = {:.4} at 0.5 s", run.sampler().at(0.5)?.force(MassOnBall::BALL));
 //! # assert!((lost.q(MassOnBall::THETA).cos() - 2.0 / 3.0 * 0.1_f64.cos()).abs() < 1e-9);

@@ -4,13 +4,11 @@
 use crate::accuracy::{self, Accuracy, Course, Study};
 use crate::closed_form::ClosedForm;
 use crate::cost::{self, Costs};
-use crate::drawing::Drawing;
-use crate::film::{self, Film};
+use crate::film::Film;
 use crate::outcome::Outcome;
 use crate::request::{Refusal, Request};
 #[cfg(feature = "scenes")]
 use crate::scenes::{hard::*, *};
-use crate::space::Space;
 use crate::sweep::{self, Sweep, Worker};
 use lagrange_core::prelude::*;
 use lagrange_core::system::Description;
@@ -21,81 +19,71 @@ use std::sync::OnceLock;
 pub static SCENES: &[&dyn Scene] = &[
     &Entry::<MassOnShell>::new("mass-on-shell", 20.0)
         .known(MassOnShell::closed_form)
-        .drawn(MassOnShell::drawing)
         .results(&[
             ("leave angle", "theta at shell lost"),
             ("leave time", "t at shell lost"),
         ]),
     &Entry::<RollingSphere>::new("rolling-sphere", 20.0)
         .known(RollingSphere::closed_form)
-        .drawn(RollingSphere::drawing)
         .results(&[
             ("leave angle", "theta at shell lost"),
             ("leave time", "t at shell lost"),
         ]),
-    &Entry::<RollingSlippingSphere>::new("rolling-slipping-sphere", 20.0)
-        .drawn(RollingSlippingSphere::drawing)
-        .results(&[
-            ("leave angle", "theta at shell lost"),
-            ("leave time", "t at shell lost"),
-            ("slip angle", "theta at grip slips"),
-        ]),
-    &Entry::<MassOnWheel>::new("mass-on-wheel", 20.0)
-        .drawn(MassOnWheel::drawing)
-        .results(&[
-            ("leave angle", "theta at rim lost"),
-            ("leave time", "t at rim lost"),
-            ("slip angle", "theta at grip slips"),
-        ]),
-    &Entry::<SphereInBowl>::new("sphere-in-bowl", 10.0).drawn(SphereInBowl::drawing),
-    &Entry::<DoublePendulum>::new("double-pendulum", 5.0).drawn(DoublePendulum::drawing),
-    &Entry::<FiveLinkChain>::new("five-link-chain", 2.0).drawn(FiveLinkChain::drawing),
-    &Entry::<Chain20>::new("chain", 2.0).drawn(Chain20::drawing),
-    &Entry::<Net>::new("net", 2.0).built(Net::drawing),
+    &Entry::<RollingSlippingSphere>::new("rolling-slipping-sphere", 20.0).results(&[
+        ("leave angle", "theta at shell lost"),
+        ("leave time", "t at shell lost"),
+        ("slip angle", "theta at grip slips"),
+    ]),
+    &Entry::<MassOnWheel>::new("mass-on-wheel", 20.0).results(&[
+        ("leave angle", "theta at rim lost"),
+        ("leave time", "t at rim lost"),
+        ("slip angle", "theta at grip slips"),
+    ]),
+    &Entry::<SphereInBowl>::new("sphere-in-bowl", 10.0),
+    &Entry::<DoublePendulum>::new("double-pendulum", 5.0),
+    &Entry::<FiveLinkChain>::new("five-link-chain", 2.0),
+    &Entry::<Chain20>::new("chain", 2.0),
+    &Entry::<Net>::new("net", 2.0),
     &Entry::<CartesianPendulum>::new("cartesian-pendulum", 100.0)
-        .known(CartesianPendulum::closed_form)
-        .drawn(CartesianPendulum::drawing),
-    &Entry::<Kepler>::new("kepler", 200.0 * core::f64::consts::PI)
-        .drawn(Kepler::drawing)
-        .known(Kepler::closed_form),
-    &Entry::<StiffSpringPendulum>::new("stiff-spring-pendulum", 10.0)
-        .drawn(StiffSpringPendulum::drawing),
+        .known(CartesianPendulum::closed_form),
+    &Entry::<Kepler>::new("kepler", 200.0 * core::f64::consts::PI).known(Kepler::closed_form),
+    &Entry::<StiffSpringPendulum>::new("stiff-spring-pendulum", 10.0),
 ];
 
 /// The hard cases, in the order of `lagrange list`.
 #[cfg(feature = "scenes")]
 pub static HARD: &[&dyn Scene] = &[
-    &Entry::<BouncingBall>::new("bouncing-ball", 10.0).drawn(BouncingBall::drawing),
-    &Entry::<ThrownBall>::new("thrown-ball", 3.0).drawn(ThrownBall::drawing),
-    &Entry::<Ladder>::new("ladder", 5.0).drawn(Ladder::drawing),
-    &Entry::<BackspinBall>::new("backspin-ball", 3.0).drawn(BackspinBall::drawing),
-    &Entry::<BeltOscillator>::new("belt-oscillator", 20.0).drawn(BeltOscillator::drawing),
-    &Entry::<CoulombOscillator>::new("coulomb-oscillator", 10.0).drawn(CoulombOscillator::drawing),
-    &Entry::<InclineBlock>::new("incline-block", 2.0).built(InclineBlock::drawing),
-    &Entry::<CueBall>::new("cue-ball", 2.0).built(CueBall::drawing),
-    &Entry::<TurningPush>::new("turning-push", 2.5).built(TurningPush::drawing),
-    &Entry::<HoopBead>::new("hoop-bead", 10.0).drawn(HoopBead::drawing),
-    &Entry::<RodSleeve>::new("rod-sleeve", 2.0).drawn(RodSleeve::drawing),
-    &Entry::<Cradle>::new("cradle", 1.0).drawn(Cradle::drawing),
-    &Entry::<FiveBallCradle>::new("five-ball-cradle", 1.0).drawn(FiveBallCradle::drawing),
-    &Entry::<RockingBlock>::new("rocking-block", 10.0).drawn(RockingBlock::drawing),
-    &Entry::<PainleveRod>::new("painleve-rod", 1.0).drawn(PainleveRod::drawing),
-    &Entry::<StringPendulum>::new("string-pendulum", 3.0).drawn(StringPendulum::drawing),
-    &Entry::<SphericalPendulum>::new("spherical-pendulum", 5.0).built(SphericalPendulum::drawing),
-    &Entry::<PolarParticle>::new("polar-particle", 2.0).drawn(PolarParticle::drawing),
-    &Entry::<RodOnSupports>::new("rod-on-supports", 10.0).drawn(RodOnSupports::drawing),
-    &Entry::<BeamOnSupports>::new("beam-on-supports", 10.0).drawn(BeamOnSupports::drawing),
-    &Entry::<Sled>::new("sled", 2.0).drawn(Sled::drawing),
-    &Entry::<Table>::new("table", 4.0).built(Table::drawing),
-    &Entry::<Parallelogram>::new("parallelogram", 2.0).drawn(Parallelogram::drawing),
-    &Entry::<SliderCrank>::new("slider-crank", 2.0).drawn(SliderCrank::drawing),
-    &Entry::<RollingDisk>::new("rolling-disk", 5.0).built(RollingDisk::drawing),
-    &Entry::<Rattleback>::new("rattleback", 5.0).built(Rattleback::drawing),
-    &Entry::<Turntable>::new("turntable", 10.0).built(Turntable::drawing),
-    &Entry::<SpringPendulum>::new("spring-pendulum", 0.1).drawn(SpringPendulum::drawing),
-    &Entry::<UnequalPendulum>::new("unequal-pendulum", 5.0).drawn(UnequalPendulum::drawing),
-    &Entry::<TumblingBody>::new("tumbling-body", 30.0).built(TumblingBody::drawing),
-    &Entry::<LongPendulum>::new("long-pendulum", 10.0).drawn(LongPendulum::drawing),
+    &Entry::<BouncingBall>::new("bouncing-ball", 10.0),
+    &Entry::<ThrownBall>::new("thrown-ball", 3.0),
+    &Entry::<Ladder>::new("ladder", 5.0),
+    &Entry::<BackspinBall>::new("backspin-ball", 3.0),
+    &Entry::<BeltOscillator>::new("belt-oscillator", 20.0),
+    &Entry::<CoulombOscillator>::new("coulomb-oscillator", 10.0),
+    &Entry::<InclineBlock>::new("incline-block", 2.0),
+    &Entry::<CueBall>::new("cue-ball", 2.0),
+    &Entry::<TurningPush>::new("turning-push", 2.5),
+    &Entry::<HoopBead>::new("hoop-bead", 10.0),
+    &Entry::<RodSleeve>::new("rod-sleeve", 2.0),
+    &Entry::<Cradle>::new("cradle", 1.0),
+    &Entry::<FiveBallCradle>::new("five-ball-cradle", 1.0),
+    &Entry::<RockingBlock>::new("rocking-block", 10.0),
+    &Entry::<PainleveRod>::new("painleve-rod", 1.0),
+    &Entry::<StringPendulum>::new("string-pendulum", 3.0),
+    &Entry::<SphericalPendulum>::new("spherical-pendulum", 5.0),
+    &Entry::<PolarParticle>::new("polar-particle", 2.0),
+    &Entry::<RodOnSupports>::new("rod-on-supports", 10.0),
+    &Entry::<BeamOnSupports>::new("beam-on-supports", 10.0),
+    &Entry::<Sled>::new("sled", 2.0),
+    &Entry::<Table>::new("table", 4.0),
+    &Entry::<Parallelogram>::new("parallelogram", 2.0),
+    &Entry::<SliderCrank>::new("slider-crank", 2.0),
+    &Entry::<RollingDisk>::new("rolling-disk", 5.0),
+    &Entry::<Rattleback>::new("rattleback", 5.0),
+    &Entry::<Turntable>::new("turntable", 10.0),
+    &Entry::<SpringPendulum>::new("spring-pendulum", 0.1),
+    &Entry::<UnequalPendulum>::new("unequal-pendulum", 5.0),
+    &Entry::<TumblingBody>::new("tumbling-body", 30.0),
+    &Entry::<LongPendulum>::new("long-pendulum", 10.0),
 ];
 
 /// Stages of [`Progress`](crate::progress::Progress) that a run advances by: the run itself and the energy book; a film: one
@@ -185,8 +173,6 @@ pub struct Entry<S: 'static> {
     prototype: Prototype<S>,
     until: f64,
     closed_form: Option<Solution<S>>,
-    drawing: Option<Picture<S, Drawing>>,
-    space: Option<Picture<S, Space>>,
     results: &'static [(&'static str, &'static str)],
 }
 
@@ -200,9 +186,6 @@ enum Prototype<S: 'static> {
 
 /// Where the motion from a start at time 0 to a last time ends, if that is known in closed form.
 pub type Solution<S> = fn(&S, &State<f64>, f64) -> Option<ClosedForm>;
-
-/// How a system is drawn at a time, s, and positions.
-pub type Picture<S, D> = fn(&S, f64, &[f64]) -> D;
 
 impl<S> Entry<S> {
     /// A scene called `name` that runs for `until` seconds unless asked otherwise.
@@ -224,8 +207,6 @@ impl<S> Entry<S> {
             prototype,
             until,
             closed_form: None,
-            drawing: None,
-            space: None,
             results: &[],
         }
     }
@@ -233,22 +214,6 @@ impl<S> Entry<S> {
     /// The same with names for what a sweep may read from a run: name and observation.
     pub const fn results(self, results: &'static [(&'static str, &'static str)]) -> Self {
         Self { results, ..self }
-    }
-
-    /// The same with pictures in a plane, for [`Scene::film`].
-    pub const fn drawn(self, drawing: Picture<S, Drawing>) -> Self {
-        Self {
-            drawing: Some(drawing),
-            ..self
-        }
-    }
-
-    /// The same with pictures in space, for [`Scene::film`].
-    pub const fn built(self, space: Picture<S, Space>) -> Self {
-        Self {
-            space: Some(space),
-            ..self
-        }
     }
 
     /// The same with a closed form, for [`Scene::accuracy`] to measure errors against.
@@ -293,17 +258,6 @@ impl<S: System<Scalar = f64>> Entry<S> {
     }
 }
 
-/// The pictures of all samples, if it is known how they are drawn.
-fn drawn<S, D>(picture: Option<Picture<S, D>>, system: &S, outcome: &Outcome) -> Vec<D> {
-    let drawn = picture.map(|picture| {
-        let samples = outcome.samples.iter();
-        samples
-            .map(|sample| picture(system, sample.time, &sample.state.q))
-            .collect()
-    });
-    drawn.unwrap_or_default()
-}
-
 impl<S: System<Scalar = f64>> Scene for Entry<S> {
     fn name(&self) -> &'static str {
         self.name
@@ -337,18 +291,7 @@ impl<S: System<Scalar = f64>> Scene for Entry<S> {
     fn film(&self, request: &Request) -> Result<Film, Refusal> {
         let system = self.system(request)?;
         let (trajectory, failure) = self.trajectory(&system, request)?;
-        let times = film::instants(&trajectory, request.samples);
-        let mut outcome = Outcome::sampled(self.name, &trajectory, failure, request, &times);
-        film::without_rounding(&mut outcome);
-        let samples = outcome.samples.iter();
-        let instants = samples.map(|sample| (sample.time, &sample.mode, &sample.state));
-        Ok(Film {
-            drawings: drawn(self.drawing, &system, &outcome),
-            spaces: drawn(self.space, &system, &outcome),
-            books: request.stage(trajectory.last_time(), || film::books(&trajectory)),
-            drift: film::drift(&trajectory, instants),
-            outcome,
-        })
+        Ok(Film::of(self.name, &trajectory, failure, request))
     }
 
     fn costs(&self, request: &Request) -> Result<Costs, Refusal> {

@@ -1,7 +1,6 @@
-//! How a scene is drawn, as plain data: shapes in metres, and where each force acts.
+//! A picture in a plane, as plain data: shapes in metres, and where each force acts.
 //!
-//! A scene says it beside its declaration, for one instant: `fn drawing(&self, t, q) -> Drawing`. It gives the same shapes in
-//! the same order at every instant, only their numbers differ. Nothing here knows of pages or pixels.
+//! A run has the same shapes in the same order at every instant, only their numbers differ. Nothing here knows of pages or pixels.
 
 /// x to the right and y upward, m.
 pub type Point = [f64; 2];
@@ -11,8 +10,8 @@ pub type Point = [f64; 2];
 pub struct Drawing {
     /// From the back to the front.
     pub shapes: Vec<Shape>,
-    /// Forces of the declaration's items.
-    pub arrows: Vec<Arrow>,
+    /// Forces.
+    pub arrows: Vec<Arrow<2>>,
 }
 
 /// Something with a place.
@@ -26,12 +25,14 @@ pub enum Shape {
     Shell(Point, f64),
     /// A fixed round hollow, seen from inside.
     Bowl(Point, f64),
-    /// A round body with a mark that shows how far it has turned, clockwise.
+    /// A round body with a mark that shows how far it has turned, counter-clockwise.
     Disc(Point, f64, f64),
     /// A body with corners.
     Block(Vec<Point>),
-    /// A rod, a string or a chain, from joint to joint.
+    /// A rod or a chain, from joint to joint.
     Rod(Vec<Point>),
+    /// A string, from joint to joint.
+    Rope(Vec<Point>),
     /// A spring between two points.
     Spring(Point, Point),
     /// A point mass.
@@ -42,55 +43,33 @@ pub enum Shape {
     Trace(Point),
 }
 
-/// The force of an item, drawn as an arrow.
+/// A force, drawn as an arrow.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Arrow {
-    /// Name of the constraint, contact or friction.
-    pub force: &'static str,
-    /// Where it acts.
-    pub at: Point,
-    /// Force in newtons per unit of the item's multiplier: where a positive one points to.
-    pub along: Point,
+pub struct Arrow<const D: usize> {
+    /// What it is called.
+    pub name: &'static str,
+    /// Where it acts, m.
+    pub at: [f64; D],
+    /// Rows, and the force in newtons per unit of the multiplier of each.
+    pub parts: Vec<(usize, [f64; D])>,
+    /// What is applied beside them, N.
+    pub applied: [f64; D],
 }
 
-impl Drawing {
-    /// Of these shapes.
-    pub fn of(shapes: impl IntoIterator<Item = Shape>) -> Self {
-        Self {
-            shapes: shapes.into_iter().collect(),
-            arrows: Vec::new(),
+impl<const D: usize> Arrow<D> {
+    /// The force where these act along the rows, N; of impulses, Ns, in which applied forces have no part.
+    pub fn sum(&self, acting: &[f64], impulse: bool) -> [f64; D] {
+        let mut sum = if impulse { [0.0; D] } else { self.applied };
+        for (row, along) in &self.parts {
+            for (sum, along) in sum.iter_mut().zip(along) {
+                *sum += along * acting[*row];
+            }
         }
-    }
-
-    /// Links of one length hung from the origin, at angles from the downward vertical; with the path of the end.
-    pub fn chain(length: f64, angles: &[f64]) -> Self {
-        let mut joints = vec![[0.0; 2]];
-        for angle in angles {
-            let last = joints[joints.len() - 1];
-            joints.push(from_bottom(last, length, *angle));
-        }
-        let masses = joints[1..].iter().copied().map(Shape::Mass);
-        let trace = Shape::Trace(joints[joints.len() - 1]);
-        let links = Shape::Rod(joints.clone());
-        let hung = [trace, links, Shape::Pivot([0.0; 2])];
-        Self::of(hung.into_iter().chain(masses))
-    }
-
-    /// The same with an arrow for the force of an item.
-    #[must_use]
-    pub fn force(mut self, force: &'static str, at: Point, along: Point) -> Self {
-        self.arrows.push(Arrow { force, at, along });
-        self
+        sum
     }
 }
 
 impl Shape {
-    /// A wedge that ends in a point.
-    pub fn support(tip: Point, height: f64) -> Self {
-        let (half, low) = (0.4 * height, tip[1] - height);
-        Shape::Fixed(vec![tip, [tip[0] + half, low], [tip[0] - half, low]])
-    }
-
     /// One word.
     pub fn kind(&self) -> &'static str {
         match self {
@@ -101,6 +80,7 @@ impl Shape {
             Shape::Disc(..) => "disc",
             Shape::Block(_) => "block",
             Shape::Rod(_) => "rod",
+            Shape::Rope(_) => "rope",
             Shape::Spring(..) => "spring",
             Shape::Mass(_) => "mass",
             Shape::Pivot(_) => "pivot",
@@ -114,7 +94,10 @@ impl Shape {
             Shape::Floor(height) => vec![*height],
             Shape::Shell([x, y], radius) | Shape::Bowl([x, y], radius) => vec![*x, *y, *radius],
             Shape::Disc([x, y], radius, angle) => vec![*x, *y, *radius, *angle],
-            Shape::Fixed(points) | Shape::Block(points) | Shape::Rod(points) => points.concat(),
+            Shape::Fixed(points)
+            | Shape::Block(points)
+            | Shape::Rod(points)
+            | Shape::Rope(points) => points.concat(),
             Shape::Spring(from, to) => [*from, *to].concat(),
             Shape::Mass(at) | Shape::Pivot(at) | Shape::Trace(at) => at.to_vec(),
         }
@@ -126,7 +109,10 @@ impl Shape {
         match self {
             Shape::Floor(height) => [f64::INFINITY, f64::NEG_INFINITY, *height, *height],
             Shape::Shell(at, r) | Shape::Bowl(at, r) | Shape::Disc(at, r, _) => round(*at, *r),
-            Shape::Fixed(points) | Shape::Block(points) | Shape::Rod(points) => around(points),
+            Shape::Fixed(points)
+            | Shape::Block(points)
+            | Shape::Rod(points)
+            | Shape::Rope(points) => around(points),
             Shape::Spring(from, to) => around(&[*from, *to]),
             Shape::Mass(at) | Shape::Pivot(at) | Shape::Trace(at) => around(&[*at]),
         }
@@ -156,22 +142,6 @@ pub fn union(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
     ]
 }
 
-/// The point at a distance from `centre`, at an angle from the **upward** vertical, clockwise.
-pub fn from_top(centre: Point, distance: f64, angle: f64) -> Point {
-    [
-        centre[0] + distance * angle.sin(),
-        centre[1] + distance * angle.cos(),
-    ]
-}
-
-/// The point at a distance from `centre`, at an angle from the **downward** vertical, counter-clockwise.
-pub fn from_bottom(centre: Point, distance: f64, angle: f64) -> Point {
-    [
-        centre[0] + distance * angle.sin(),
-        centre[1] - distance * angle.cos(),
-    ]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -187,7 +157,5 @@ mod tests {
         assert_eq!(rod.numbers(), [0.0, 0.0, -1.0, 4.0]);
         let ground = union(Shape::Floor(-1.0).extent(), rod.extent());
         assert_eq!(ground, [-1.0, 0.0, -1.0, 4.0]);
-        assert_eq!(from_top([1.0, 0.0], 2.0, 0.0), [1.0, 2.0]);
-        assert_eq!(from_bottom([1.0, 0.0], 2.0, 0.0), [1.0, -2.0]);
     }
 }

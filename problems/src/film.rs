@@ -1,7 +1,9 @@
 //! A run with all that is needed to show it move: pictures of every sample and the energy book at some of them.
 
 use crate::drawing::Drawing;
+use crate::drawn::{self, Pictures};
 use crate::outcome::{Outcome, equal};
+use crate::request::Request;
 use crate::space::Space;
 use lagrange_core::prelude::*;
 
@@ -9,7 +11,7 @@ use lagrange_core::prelude::*;
 pub struct Film {
     /// What happened.
     pub outcome: Outcome,
-    /// One for every sample of the outcome; none if the scene does not say how it is drawn in a plane.
+    /// One for every sample of the outcome; none if the scene does not move in a plane.
     pub drawings: Vec<Drawing>,
     /// The same for a scene in space.
     pub spaces: Vec<Space>,
@@ -20,9 +22,35 @@ pub struct Film {
     pub drift: Option<f64>,
 }
 
+impl Film {
+    /// Of a finished run, which may have failed half-way.
+    pub(crate) fn of<S: System<Scalar = f64>>(
+        scene: &'static str,
+        trajectory: &Trajectory<S>,
+        failure: Option<Error>,
+        request: &Request,
+    ) -> Self {
+        let times = instants(trajectory, request.samples);
+        let mut outcome = Outcome::sampled(scene, trajectory, failure, request, &times);
+        without_rounding(&mut outcome);
+        let samples = outcome.samples.iter();
+        let instants = samples.map(|sample| (sample.time, &sample.mode, &sample.state));
+        let drift = drift(trajectory, instants);
+        let declaration = trajectory.scene().declaration();
+        let Pictures { drawings, spaces } = drawn::pictures(declaration, &outcome);
+        Self {
+            drawings,
+            spaces,
+            books: request.stage(trajectory.last_time(), || books(trajectory)),
+            drift,
+            outcome,
+        }
+    }
+}
+
 /// About so many instants of a motion, in order: half of them at equal intervals, half spread over the integrator's steps, which
 /// are short where much happens in little time.
-pub(crate) fn instants(trajectory: &Record<f64>, count: usize) -> Vec<f64> {
+fn instants(trajectory: &Record<f64>, count: usize) -> Vec<f64> {
     let mut times = equal(trajectory, count.div_ceil(2));
     let steps: Vec<f64> = trajectory
         .step_times()
@@ -40,7 +68,7 @@ pub(crate) fn instants(trajectory: &Record<f64>, count: usize) -> Vec<f64> {
 }
 
 /// Makes forces zero that only rounding keeps from it: those below 1e-12 of the largest one.
-pub(crate) fn without_rounding(outcome: &mut Outcome) {
+fn without_rounding(outcome: &mut Outcome) {
     let samples = outcome.samples.iter().flat_map(|sample| &sample.forces);
     let events = outcome.events.iter().flat_map(|event| &event.forces);
     let sizes = samples.chain(events).map(|force| force.abs());
@@ -62,7 +90,7 @@ pub(crate) fn without_rounding(outcome: &mut Outcome) {
 const BOOKS: usize = 120;
 
 /// The energy book at equal intervals.
-pub(crate) fn books(trajectory: &Record<f64>) -> Vec<(f64, Ledger)> {
+fn books(trajectory: &Record<f64>) -> Vec<(f64, Ledger)> {
     let (first, last) = (trajectory.first_time(), trajectory.last_time());
     let part = |k: usize| first + (last - first) * k as f64 / BOOKS as f64;
     let times: Vec<f64> = (0..BOOKS).map(part).chain([last]).collect();

@@ -14,6 +14,7 @@ pub mod closed_form;
 pub mod cost;
 pub mod count;
 pub mod drawing;
+mod drawn;
 pub mod file;
 pub mod film;
 pub mod names;
@@ -24,6 +25,7 @@ pub mod progress;
 pub mod reference;
 pub mod report;
 pub mod request;
+pub mod results;
 pub mod scene_file;
 #[cfg(feature = "scenes")]
 pub mod scenes;
@@ -34,3 +36,4 @@ pub mod sweep;
 
 pub use catalogue::Entry;
 pub use program::Program;
+pub use results::Results;

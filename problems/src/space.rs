@@ -1,7 +1,8 @@
-//! How a scene in space is drawn, as plain data: solids in metres, and where each force acts.
+//! A picture in space, as plain data: solids in metres, and where each force acts.
 //!
-//! A scene says it beside its declaration, for one instant: `fn drawing(&self, t, q) -> Space`. It gives the same solids in
-//! the same order at every instant, only their numbers differ. Nothing here knows of pages or pixels.
+//! A run has the same solids in the same order at every instant, only their numbers differ. Nothing here knows of pages or pixels.
+
+use crate::drawing::Arrow;
 
 pub use nalgebra::{UnitQuaternion, Vector3};
 
@@ -13,8 +14,8 @@ pub type Vector = Vector3<f64>;
 pub struct Space {
     /// In any order.
     pub solids: Vec<Solid>,
-    /// Forces of the declaration's items.
-    pub pushes: Vec<Push>,
+    /// Forces.
+    pub arrows: Vec<Arrow<3>>,
 }
 
 /// Where a body is, and how it is turned.
@@ -51,58 +52,6 @@ pub enum Solid {
     Trace(Vector),
 }
 
-/// The force of an item, drawn as an arrow.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Push {
-    /// What it is called.
-    pub name: &'static str,
-    /// Where it acts.
-    pub at: Vector,
-    /// Names of forces, `grip` or `grip[1]`, and what each gives, in newtons per unit of its multiplier.
-    pub parts: Vec<(&'static str, Vector)>,
-    /// What is applied beside them, N.
-    pub applied: Vector,
-}
-
-impl Space {
-    /// Of these solids.
-    pub fn of(solids: impl IntoIterator<Item = Solid>) -> Self {
-        Self {
-            solids: solids.into_iter().collect(),
-            pushes: Vec::new(),
-        }
-    }
-
-    /// The same with an arrow for the sum of some forces.
-    #[must_use]
-    pub fn force(
-        mut self,
-        name: &'static str,
-        at: Vector,
-        parts: impl IntoIterator<Item = (&'static str, Vector)>,
-    ) -> Self {
-        self.pushes.push(Push {
-            name,
-            at,
-            parts: parts.into_iter().collect(),
-            applied: Vector::zeros(),
-        });
-        self
-    }
-
-    /// The same with an arrow for a `force` of the declaration, N.
-    #[must_use]
-    pub fn applied(mut self, name: &'static str, at: Vector, applied: Vector) -> Self {
-        self.pushes.push(Push {
-            name,
-            at,
-            parts: Vec::new(),
-            applied,
-        });
-        self
-    }
-}
-
 impl Pose {
     /// At a place, not turned.
     pub fn at(x: f64, y: f64, z: f64) -> Self {
@@ -122,26 +71,11 @@ impl Pose {
         }
     }
 
-    /// The same turned about one of its own axes.
+    /// The same turned about one of its own axes, by an angle that is the length of the vector, rad.
     #[must_use]
-    pub fn turned(self, axis: Vector, angle: f64) -> Self {
-        let about = nalgebra::Unit::new_normalize(axis);
+    pub fn turned(self, by: Vector) -> Self {
         Self {
-            turn: self.turn * UnitQuaternion::from_axis_angle(&about, angle),
-            ..self
-        }
-    }
-
-    /// The place of a point of the body.
-    pub fn place(&self, x: f64, y: f64, z: f64) -> Vector {
-        self.at + self.turn * Vector::new(x, y, z)
-    }
-
-    /// The same moved to a point of the body.
-    #[must_use]
-    pub fn moved(self, x: f64, y: f64, z: f64) -> Self {
-        Self {
-            at: self.place(x, y, z),
+            turn: self.turn * UnitQuaternion::from_scaled_axis(by),
             ..self
         }
     }
@@ -231,19 +165,19 @@ mod tests {
 
     #[test]
     fn bodies_turn_about_their_own_axes() {
-        let quarter = Pose::at(1.0, 0.0, 0.0).turned(Vector::z(), FRAC_PI_2);
-        assert!((quarter.place(1.0, 0.0, 0.0) - Vector::new(1.0, 1.0, 0.0)).norm() < 1e-15);
+        let quarter = Pose::at(1.0, 0.0, 0.0).turned(FRAC_PI_2 * Vector::z());
+        assert!((quarter.turn * Vector::x() - Vector::y()).norm() < 1e-15);
         let half = (0.5 * FRAC_PI_2).sin_cos();
         let same = Pose::at(1.0, 0.0, 0.0).attitude(&[2.0 * half.1, 0.0, 0.0, 2.0 * half.0]);
         assert!(same.turn.angle_to(&quarter.turn) < 1e-15);
-        let tipped = quarter.turned(Vector::x(), FRAC_PI_2);
+        let tipped = quarter.turned(FRAC_PI_2 * Vector::x());
         let up = tipped.turn * Vector::z();
         assert!((up - Vector::x()).norm() < 1e-15, "{up}");
     }
 
     #[test]
     fn boxes_hold_what_is_there() {
-        let eighth = Pose::at(5.0, 0.0, 0.0).turned(Vector::z(), FRAC_PI_2 / 2.0);
+        let eighth = Pose::at(5.0, 0.0, 0.0).turned(FRAC_PI_2 / 2.0 * Vector::z());
         let reach = |solid: Solid, expected: [f64; 3]| {
             let error = (solid.reach() - Vector::from(expected)).norm();
             assert!(error < 1e-15, "{solid:?}: {error}");
@@ -257,7 +191,7 @@ mod tests {
             Solid::HalfEllipsoid([1.0, 1.0, 3.0], eighth),
             [1.0, 1.0, 3.0],
         );
-        let upright = Pose::at(0.0, 0.0, 0.0).turned(Vector::x(), FRAC_PI_2);
+        let upright = Pose::at(0.0, 0.0, 0.0).turned(FRAC_PI_2 * Vector::x());
         reach(Solid::Disc(1.0, 0.5, upright), [1.0, 0.25, 1.0]);
         reach(Solid::Mass(Vector::x()), [0.0; 3]);
     }

@@ -51,9 +51,18 @@ pub struct Evaluator {
 const NOTHING: usize = usize::MAX;
 
 impl Evaluator {
-    /// An evaluator without values.
+    /// An evaluator of everything but pictures, without values.
     pub fn new(declaration: &'static Declaration) -> Self {
-        let count = declaration.words.len() / 12;
+        Self::of(declaration, declaration.values)
+    }
+
+    /// An evaluator of everything, without values.
+    pub fn with_pictures(declaration: &'static Declaration) -> Self {
+        Self::of(declaration, declaration.words.len() / 12)
+    }
+
+    /// An evaluator of so many values.
+    fn of(declaration: &'static Declaration, count: usize) -> Self {
         Self {
             declaration,
             values: Vec::with_capacity(count),
@@ -75,7 +84,8 @@ impl Evaluator {
         self.operands.clear();
         let one = Series::constant(1.0);
         let none = [Series::default(); 2];
-        for words in self.declaration.words.chunks_exact(12) {
+        let words = self.declaration.words.chunks_exact(12);
+        for words in words.take(self.weights.len()) {
             let word = |k: usize| {
                 let bytes = [words[k], words[k + 1], words[k + 2], words[k + 3]];
                 u32::from_le_bytes(bytes)

@@ -6,9 +6,11 @@
 //! An operation is three little-endian words of four bytes, (operation | guard·256, x, y). Every operation defines the next
 //! value, and operands are values before it.
 
+mod draw;
 mod evaluate;
 mod series;
 
+pub use draw::{Draw, Form, Turn};
 pub use evaluate::{Evaluator, Inputs, Seed};
 pub use series::Series;
 
@@ -19,6 +21,8 @@ pub struct Declaration {
     pub words: &'static [u8],
     /// Exact numbers.
     pub numbers: &'static [f64],
+    /// How many values there are without those that only pictures need, which follow.
+    pub values: usize,
     /// Kinetic energies; of a `lagrangian` the whole of it.
     pub kinetic: &'static [usize],
     /// Potential energies.
@@ -37,6 +41,8 @@ pub struct Declaration {
     pub stops: &'static [Option<&'static [usize]>],
     /// Terms of marks.
     pub marks: &'static [Option<&'static [usize]>],
+    /// What a picture shows, from the back to the front.
+    pub draws: &'static [Draw],
 }
 
 /// A contact.
@@ -90,6 +96,7 @@ impl Declaration {
     pub const NONE: Self = Self {
         words: &[],
         numbers: &[],
+        values: 0,
         kinetic: &[],
         potential: &[],
         constraints: &[],
@@ -99,6 +106,7 @@ impl Declaration {
         dissipations: &[],
         stops: &[],
         marks: &[],
+        draws: &[],
     };
 }
 

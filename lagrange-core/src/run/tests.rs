@@ -25,12 +25,7 @@ fn the_mass_on_the_wheel_slips_and_leaves_where_the_reference_says() {
             .run(start.clone(), 0.0..2.9);
         let trajectory = run.unwrap_or_else(|f| panic!("{f} {:?}", f.trajectory.events()));
         for event in trajectory.events() {
-            println!(
-                "{} {:?} {:?}",
-                event.sentence(trajectory.description()),
-                event.state,
-                event.forces
-            );
+            println!("{event} {:?} {:?}", event.state, event.forces);
         }
         println!("{:?} {:?}", trajectory.work(), trajectory.final_state());
     }

@@ -34,6 +34,22 @@ impl<T: Copy> State<T> {
     }
 }
 
+impl<T> State<T> {
+    /// The same with another position of a coordinate.
+    #[must_use]
+    pub fn with_q(mut self, coordinate: CoordinateId, q: T) -> Self {
+        self.q[coordinate.0] = q;
+        self
+    }
+
+    /// The same with another velocity of a coordinate.
+    #[must_use]
+    pub fn with_v(mut self, coordinate: CoordinateId, v: T) -> Self {
+        self.v[coordinate.0] = v;
+        self
+    }
+}
+
 impl<T: Scalar> Instant<T> {
     /// Position of a coordinate.
     pub fn q(&self, coordinate: CoordinateId) -> T {

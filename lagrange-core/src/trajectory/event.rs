@@ -5,7 +5,6 @@ use crate::handle::Subject;
 use crate::mode::Mode;
 use crate::state::State;
 use crate::system::Description;
-use core::fmt;
 
 /// What happened to it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -158,30 +157,5 @@ impl<T: crate::arithmetic::Scalar> Event<T> {
         self.restitution_lowered = false;
         self.impulses_undetermined = false;
         self.ambiguous = false;
-    }
-
-    /// The event as a sentence, `t = 2.461759150: grip slips (0.62385 …)`.
-    pub fn sentence(&self, description: &'static Description) -> String {
-        let name = self.subject.name(description);
-        let what = match self.kind {
-            EventKind::Lost => "lets go",
-            EventKind::Closed => "closes and holds",
-            EventKind::Impact => "is hit",
-            EventKind::Accumulates { .. } => "has bounced infinitely often",
-            EventKind::Slips => "starts to slip",
-            EventKind::Sticks => "sticks",
-            EventKind::Reverses => "reverses its slip",
-            EventKind::Branches => "changes branch",
-            EventKind::Ambiguous => "could go on otherwise",
-            EventKind::Stop => "ends the run",
-            EventKind::Mark => "is reached",
-        };
-        format!("t = {:.9} s: {name} {what}", self.time.value())
-    }
-}
-
-impl fmt::Display for EventKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.word())
     }
 }

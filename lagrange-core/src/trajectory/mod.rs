@@ -1,6 +1,7 @@
 //! The result of a run: the motion as polynomials in time, the modes, the events, the work done.
 
 mod by_handle;
+mod display;
 mod event;
 mod ledger;
 mod sampler;
@@ -240,6 +241,16 @@ impl<T: Scalar> Record<T> {
     /// The effects that took part.
     pub fn effects(&self) -> &Effects {
         &self.effects
+    }
+
+    /// Relative and absolute tolerance that was asked for.
+    pub fn tolerance(&self) -> f64 {
+        self.asked.tolerance
+    }
+
+    /// Method of integration that was asked for.
+    pub fn method(&self) -> Method {
+        self.asked.method
     }
 
     /// First time, s.

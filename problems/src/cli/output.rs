@@ -4,6 +4,7 @@ use super::Trouble;
 use clap::Args;
 use lagrange_problems::report::Format;
 use lagrange_problems::report::export::Still;
+use lagrange_problems::results::{self, PLOTS};
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -43,9 +44,6 @@ impl Output {
         }
     }
 }
-
-/// Pixels per unit of plots: fine enough for print at their usual size.
-const PLOTS: f32 = 2.0;
 
 /// Refuses, before any work is done, what could not be written when it is: outputs in folders that are not there or not
 /// writable, one in the place of another, and those in the place of an input.
@@ -101,10 +99,7 @@ pub(super) fn to_file(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), Trouble> {
-    let mut text = Vec::new();
-    write(&mut text)
-        .and_then(|()| fs::write(path, text))
-        .map_err(|error| unwritten(path, &error))
+    results::to_file(path, write).map_err(|error| unwritten(path, &error))
 }
 
 /// A file could not be written.

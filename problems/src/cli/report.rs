@@ -244,8 +244,9 @@ impl Report {
             Some(comparison) => comparison.of(file.request),
             None => file.request,
         };
+        let until = request.until.unwrap_or(file.scene.until());
         let request = Request {
-            samples: html::intervals(file.scene, &request, self.runs()),
+            samples: html::intervals(file.scene.description(), until, self.runs()),
             progress: Some(progress.clone()),
             ..request
         };

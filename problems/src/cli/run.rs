@@ -15,12 +15,10 @@ use lagrange_problems::progress::Progress;
 use lagrange_problems::report::RunFormat;
 use lagrange_problems::report::plot::{self, Show};
 use lagrange_problems::request::{Refusal, Request};
+use lagrange_problems::results::SAMPLES;
 use lagrange_problems::scene_file::{self, Outputs};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
-
-/// Intervals at which tables of numbers and pictures sample a trajectory.
-const SAMPLES: usize = 400;
 
 /// Run a scene and tell what happened.
 #[derive(Args)]

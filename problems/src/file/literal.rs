@@ -3,7 +3,7 @@
 //! Where a system is a struct, rustc reads these literals; where it is a file, this reads the same. What is read lives as long as the
 //! program.
 
-use lagrange_core::declaration::{self, Declaration, Worked};
+use lagrange_core::declaration::{self, Declaration, Draw, Form, Turn, Worked};
 use lagrange_core::program::Encoded;
 use lagrange_core::system::*;
 use syn::{Expr, Lit, Member};
@@ -198,11 +198,12 @@ structs! {
     Watch { name terms conditions need zeros }
     Units { energy rows forces dissipations }
     Declaration {
-        words numbers kinetic potential constraints contacts frictions forces dissipations stops marks
+        words numbers values kinetic potential constraints contacts frictions forces dissipations stops marks draws
     }
     declaration::Contact { gap normal_factor restitution region }
     declaration::Friction { slip normal static_coefficient kinetic_coefficient }
     declaration::Force { value components }
+    Draw { form name places size turn parts applied loads }
 }
 
 variants! {
@@ -212,4 +213,8 @@ variants! {
     Condition { ; Closed Open Sticks Slips }
     Impacts { Together InTurn }
     Worked { ; Coordinate Point Speed }
+    Turn { None; Angle Attitude About Rolled }
+    Form {
+        Floor Ground Shell Bowl Disc Polygon Box Sphere HalfEllipsoid Rod Rope Spring Mass Pivot Path Arrow
+    }
 }

@@ -178,8 +178,8 @@ impl Outcome {
             parameters: (0..description.parameters.len())
                 .map(|i| trajectory.parameter(i))
                 .collect(),
-            method: request.method,
-            tolerance: request.tolerance,
+            method: trajectory.method(),
+            tolerance: trajectory.tolerance(),
             effects: trajectory.effects().clone(),
             events: events.to_vec(),
             phases: trajectory.phases(),

@@ -1,7 +1,6 @@
 //! A pendulum in Cartesian coordinates: the plainest problem of index 3.
 
 use crate::closed_form::{ClosedForm, pendulum};
-use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// A point mass swings on a massless rod, described by x and y alone: the rod is a constraint.
@@ -24,6 +23,11 @@ use lagrange_core::prelude::*;
     constraint(rod: x^2 + y^2 == length^2),
     start(level: x = length),
     start(kicked: y = -length, der(x) = start_speed),
+    draw(rod: (0, 0) to (x, y)),
+    draw(pivot: (0, 0)),
+    draw(mass: (x, y)),
+    // The gradient of x² + y².
+    draw(arrow: 2*rod * (x, y) at (x, y)),
 )]
 pub struct CartesianPendulum<T = f64> {
     /// Mass, kg.
@@ -55,19 +59,5 @@ impl CartesianPendulum {
     /// The state at time `until` by Jacobi's elliptic functions; none for the motion that ends at the top.
     pub fn closed_form(&self, start: &State<f64>, until: f64) -> Option<ClosedForm> {
         pendulum::swing(self.length, self.gravity, start, until)
-    }
-}
-
-impl CartesianPendulum {
-    /// The rod and the mass.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        let mass = [q[0], q[1]];
-        Drawing::of([
-            Shape::Rod(vec![[0.0; 2], mass]),
-            Shape::Pivot([0.0; 2]),
-            Shape::Mass(mass),
-        ])
-        // The gradient of x² + y².
-        .force("rod", mass, [2.0 * q[0], 2.0 * q[1]])
     }
 }

@@ -1,6 +1,5 @@
 //! Long hanging chains: one declaration, three lengths.
 
-use crate::drawing::Drawing;
 use lagrange_core::prelude::*;
 
 /// A chain of so many links.
@@ -24,6 +23,10 @@ macro_rules! chain {
             start(arc: theta[k in 0..$n] = start_angle + turn * k),
             start(hanging: theta[k in 0..$n] = 0),
             observe(tip_x = x[$n - 1], tip_y = y[$n - 1]),
+            draw(path: (x[$n - 1], y[$n - 1])),
+            draw(rod: (0, 0) to list(k in 0..$n: (x[k], y[k]))),
+            draw(pivot: (0, 0)),
+            draw(mass[k in 0..$n]: (x[k], y[k])),
         )]
         pub struct $name<T = f64> {
             /// Mass at the end of each link, kg.
@@ -36,13 +39,6 @@ macro_rules! chain {
             pub start_angle: T,
             /// By how much each link is turned against the one above at the start, rad.
             pub turn: T,
-        }
-
-        impl $name {
-            /// The links, and the path of the end.
-            pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-                Drawing::chain(self.length, q)
-            }
         }
 
         impl Default for $name {

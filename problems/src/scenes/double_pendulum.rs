@@ -1,6 +1,5 @@
 //! Two rods, one hung from the other: smooth, and chaotic.
 
-use crate::drawing::{Drawing, Shape, from_bottom};
 use lagrange_core::prelude::*;
 
 /// A double pendulum swings in a plane: two point masses on massless rods.
@@ -23,6 +22,11 @@ use lagrange_core::prelude::*;
     potential = gravity * (upper_mass * y1 + lower_mass * y2),
     start(rest: theta1 = upper_angle, theta2 = lower_angle),
     observe(x1, y1, x2, y2),
+    draw(path: (x2, y2)),
+    draw(rod: (0, 0) to (x1, y1) to (x2, y2)),
+    draw(pivot: (0, 0)),
+    draw(mass: (x1, y1)),
+    draw(mass: (x2, y2)),
 )]
 pub struct DoublePendulum<T = f64> {
     /// The mass between the rods, kg.
@@ -59,20 +63,5 @@ impl Default for DoublePendulum {
             upper_angle: 2.0,
             lower_angle: 2.5,
         }
-    }
-}
-
-impl DoublePendulum {
-    /// The rods, the masses and the path of the lower one.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        let upper = from_bottom([0.0; 2], self.upper_length, q[0]);
-        let lower = from_bottom(upper, self.lower_length, q[1]);
-        Drawing::of([
-            Shape::Trace(lower),
-            Shape::Rod(vec![[0.0; 2], upper, lower]),
-            Shape::Pivot([0.0; 2]),
-            Shape::Mass(upper),
-            Shape::Mass(lower),
-        ])
     }
 }

@@ -1,6 +1,5 @@
 //! A hanging chain, written once for any number of links.
 
-use crate::drawing::Drawing;
 use lagrange_core::prelude::*;
 
 /// A chain of five links swings in a plane: point masses at the ends of massless rods.
@@ -20,6 +19,10 @@ use lagrange_core::prelude::*;
     potential = sum(k in 0..5: mass * gravity * y[k]),
     start(bent: theta[k in 0..5] = start_angle[k]),
     observe(tip_x = x[4], tip_y = y[4]),
+    draw(path: (x[4], y[4])),
+    draw(rod: (0, 0) to list(k in 0..5: (x[k], y[k]))),
+    draw(pivot: (0, 0)),
+    draw(mass[k in 0..5]: (x[k], y[k])),
 )]
 pub struct FiveLinkChain<T = f64> {
     /// Mass at the end of each link, kg.
@@ -44,12 +47,5 @@ impl Default for FiveLinkChain {
             gravity: 9.81,
             start_angle: [0.5, 0.7, 0.9, 1.1, 1.3],
         }
-    }
-}
-
-impl FiveLinkChain {
-    /// The links, and the path of the end.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        Drawing::chain(self.length, q)
     }
 }

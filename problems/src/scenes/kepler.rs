@@ -1,7 +1,6 @@
 //! A planet on an eccentric orbit.
 
 use crate::closed_form::{ClosedForm, orbit};
-use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// A body of unit mass orbits a fixed centre that attracts it with μ/r².
@@ -21,6 +20,9 @@ use lagrange_core::prelude::*;
     start(pericentre:
         x = semi_major_axis * (1 - eccentricity),
         der(y) = sqrt(attraction / semi_major_axis * (1 + eccentricity) / (1 - eccentricity))),
+    draw(shell: (0, 0), radius = semi_major_axis/20),
+    draw(path: (x, y)),
+    draw(mass: (x, y)),
 )]
 pub struct Kepler<T = f64> {
     /// μ, m³/s².
@@ -48,17 +50,5 @@ impl Kepler {
     /// The state at time `until` by Kepler's equation; none for orbits that do not close.
     pub fn closed_form(&self, start: &State<f64>, until: f64) -> Option<ClosedForm> {
         orbit::elliptic(self.attraction, start, until)
-    }
-}
-
-impl Kepler {
-    /// The centre, the planet and its path.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        let planet = [q[0], q[1]];
-        Drawing::of([
-            Shape::Shell([0.0; 2], 0.05 * self.semi_major_axis),
-            Shape::Trace(planet),
-            Shape::Mass(planet),
-        ])
     }
 }

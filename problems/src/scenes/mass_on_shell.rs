@@ -1,7 +1,6 @@
 //! Where does a mass that slides down a smooth sphere leave it?
 
 use crate::closed_form::{ClosedForm, slide};
-use crate::drawing::{Drawing, Shape, from_top};
 use lagrange_core::prelude::*;
 
 /// A point mass slides without friction down a fixed spherical shell, leaves it and falls.
@@ -35,6 +34,11 @@ use lagrange_core::prelude::*;
         when closed(shell) and energy == mass * gravity * radius * cos(start_angle)),
     check(falling: der(der(y)) == -gravity when open(shell)),
     check(conserved energy),
+    draw(floor: -radius),
+    draw(shell: (0, 0), radius = radius),
+    draw(path: (x, y)),
+    draw(mass: (x, y)),
+    draw(arrow: shell * (sin(theta), cos(theta)) at (x, y)),
 )]
 pub struct MassOnShell<T = f64> {
     /// Mass, kg.
@@ -83,20 +87,5 @@ impl MassOnShell {
             v: vec![land.rising, land.turning],
         };
         slide::landing(&moments, until, "shell lost", state)
-    }
-}
-
-impl MassOnShell {
-    /// The shell, the mass and its path.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        let (r, theta) = (q[0], q[1]);
-        let mass = from_top([0.0; 2], r, theta);
-        Drawing::of([
-            Shape::Floor(-self.radius),
-            Shape::Shell([0.0; 2], self.radius),
-            Shape::Trace(mass),
-            Shape::Mass(mass),
-        ])
-        .force("shell", mass, [theta.sin(), theta.cos()])
     }
 }

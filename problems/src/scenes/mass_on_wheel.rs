@@ -1,6 +1,5 @@
 //! A mass rides on a wheel that is free to roll away under it.
 
-use crate::drawing::{Drawing, Shape, from_top};
 use lagrange_core::prelude::*;
 
 /// A small mass carried up and thrown off by the rim of a rolling wheel.
@@ -39,6 +38,13 @@ use lagrange_core::prelude::*;
         == mass * (wheel + inertia/radius^2) * (gravity*cos(theta) - radius*der(theta)^2)
         when slips(grip) and slip(grip) >= 0),
     check(thrown: conserved der(px) when open(rim)),
+    draw(floor: -radius),
+    draw(disc: (x, 0), radius = radius, angle = -phi),
+    draw(path: (px, py)),
+    draw(mass: (px, py)),
+    draw(arrow: rolling * (1, 0) at (x, -radius)),
+    draw(arrow: rim * (sin(theta), cos(theta)) at (px, py)),
+    draw(arrow: grip * (cos(theta), -sin(theta)) at (px, py)),
 )]
 pub struct MassOnWheel<T = f64> {
     /// Mass of the wheel, kg.
@@ -79,23 +85,5 @@ impl Default for MassOnWheel {
             mu_kinetic: 0.5,
             start_angle: 0.05,
         }
-    }
-}
-
-impl MassOnWheel {
-    /// The floor, the wheel, the mass and its path.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        let (x, phi, r, theta) = (q[0], q[1], q[2], q[3]);
-        let centre = [x, 0.0];
-        let mass = from_top(centre, r, theta);
-        Drawing::of([
-            Shape::Floor(-self.radius),
-            Shape::Disc(centre, self.radius, phi),
-            Shape::Trace(mass),
-            Shape::Mass(mass),
-        ])
-        .force("rolling", [x, -self.radius], [1.0, 0.0])
-        .force("rim", mass, [theta.sin(), theta.cos()])
-        .force("grip", mass, [theta.cos(), -theta.sin()])
     }
 }

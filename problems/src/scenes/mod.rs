@@ -6,7 +6,6 @@
 //!
 //! The scenes without contacts are smooth: they are here to compare methods, and begin as in the literature.
 
-mod alike;
 mod cartesian_pendulum;
 mod chain;
 mod double_pendulum;

@@ -1,6 +1,5 @@
 //! A net of point masses and springs in space.
 
-use crate::space::{Pose, Solid, Space, Vector};
 use lagrange_core::prelude::*;
 
 /// A net of eight by eight knots hangs by its corners from four hooks and drops under its own weight.
@@ -24,6 +23,15 @@ use lagrange_core::prelude::*;
     dissipation(air: drag/2 * sum(k in 0..64: der(x[k])^2 + der(y[k])^2 + der(z[k])^2)),
     start(flat: z[k in 0..64] = 0),
     observe(sag = -(z[27] + z[28] + z[35] + z[36])/4),
+    draw(rod[i in 0..8]: list(j in 0..8: (length*j + x[8*i + j], length*i + y[8*i + j], z[8*i + j]))),
+    draw(rod[j in 0..8]: list(i in 0..8: (length*j + x[8*i + j], length*i + y[8*i + j], z[8*i + j]))),
+    draw(rod[i in 0..2]: (0, 7*length*i, length) to (x[56*i], 7*length*i + y[56*i], z[56*i])),
+    draw(rod[i in 0..2]: (7*length, 7*length*i, length)
+        to (7*length + x[56*i + 7], 7*length*i + y[56*i + 7], z[56*i + 7])),
+    draw(pivot[i in 0..2]: (0, 7*length*i, length)),
+    draw(pivot[i in 0..2]: (7*length, 7*length*i, length)),
+    // Where it is out of the way of the deepest sag.
+    draw(floor: -10*length),
 )]
 pub struct Net<T = f64> {
     /// Mass of a knot, kg.
@@ -47,29 +55,5 @@ impl Default for Net {
             length: 0.1,
             drag: 0.01,
         }
-    }
-}
-
-impl Net {
-    /// The rows and columns, the corners with their hooks.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Space {
-        let flat = |row: usize, column: usize, height: f64| {
-            let [x, y] = [column, row].map(|n| self.length * n as f64);
-            Vector::new(x, y, height)
-        };
-        let knot = |row: usize, column: usize| {
-            let k = 8 * row + column;
-            flat(row, column, 0.0) + Vector::new(q[k], q[64 + k], q[128 + k])
-        };
-        let rows = (0..8).map(|row| (0..8).map(|column| knot(row, column)).collect());
-        let columns = (0..8).map(|column| (0..8).map(|row| knot(row, column)).collect());
-        let corners = [[0, 0], [0, 7], [7, 0], [7, 7]];
-        let hook = |[row, column]: [usize; 2]| flat(row, column, self.length);
-        let hung = corners.map(|corner| vec![hook(corner), knot(corner[0], corner[1])]);
-        let lines = rows.chain(columns).chain(hung).map(Solid::Rod);
-        let hooks = corners.map(|corner| Solid::Pivot(hook(corner)));
-        // Where it is out of the way of the deepest sag.
-        let ground = Solid::Ground(Pose::at(0.0, 0.0, -10.0 * self.length));
-        Space::of(lines.chain(hooks).chain([ground]))
     }
 }

@@ -1,6 +1,5 @@
 //! A real ball on a sphere: it rolls, slips, and only then leaves.
 
-use crate::drawing::Drawing;
 use lagrange_core::prelude::*;
 
 /// A solid sphere rolls down a fixed spherical shell, begins to slip, leaves and falls.
@@ -46,6 +45,12 @@ use lagrange_core::prelude::*;
     check(leaves: shell == mass * gravity * cos(theta) - mass * (radius + sphere_radius) * der(theta)^2
         when closed(shell)),
     check(spin: conserved der(phi) when open(shell)),
+    draw(floor: -radius - sphere_radius),
+    draw(shell: (0, 0), radius = radius),
+    draw(path: (x, y)),
+    draw(disc: (x, y), radius = sphere_radius, angle = -phi),
+    draw(arrow: shell * (sin(theta), cos(theta)) at (r - sphere_radius) * (sin(theta), cos(theta))),
+    draw(arrow: grip * (cos(theta), -sin(theta)) at (r - sphere_radius) * (sin(theta), cos(theta))),
 )]
 pub struct RollingSlippingSphere<T = f64> {
     /// Mass of the sphere, kg.
@@ -82,12 +87,5 @@ impl Default for RollingSlippingSphere {
             mu_kinetic: 0.3,
             start_angle: 0.01,
         }
-    }
-}
-
-impl RollingSlippingSphere {
-    /// The shell, the sphere and the path of its centre.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        super::alike::sphere_on_shell(self.radius, self.sphere_radius, [q[0], q[1], q[2]], "grip")
     }
 }

@@ -1,7 +1,6 @@
 //! A ball rolls down a sphere: where does it leave?
 
 use crate::closed_form::{ClosedForm, slide};
-use crate::drawing::Drawing;
 use lagrange_core::prelude::*;
 
 /// A solid sphere rolls without slipping down a fixed spherical shell, leaves it and falls, still spinning.
@@ -40,6 +39,12 @@ use lagrange_core::prelude::*;
         when closed(shell) and energy == mass * gravity * (radius + sphere_radius) * cos(start_angle)),
     check(uphill: rolling == -2/7 * mass * gravity * sin(theta) when closed(shell)),
     check(conserved energy),
+    draw(floor: -radius - sphere_radius),
+    draw(shell: (0, 0), radius = radius),
+    draw(path: (x, y)),
+    draw(disc: (x, y), radius = sphere_radius, angle = -phi),
+    draw(arrow: shell * (sin(theta), cos(theta)) at (r - sphere_radius) * (sin(theta), cos(theta))),
+    draw(arrow: rolling * (cos(theta), -sin(theta)) at (r - sphere_radius) * (sin(theta), cos(theta))),
 )]
 pub struct RollingSphere<T = f64> {
     /// Mass of the sphere, kg.
@@ -96,17 +101,5 @@ impl RollingSphere {
             v: vec![land.rising, land.turning, spin],
         };
         slide::landing(&moments, until, "shell lost", state)
-    }
-}
-
-impl RollingSphere {
-    /// The shell, the sphere and the path of its centre.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        super::alike::sphere_on_shell(
-            self.radius,
-            self.sphere_radius,
-            [q[0], q[1], q[2]],
-            "rolling",
-        )
     }
 }

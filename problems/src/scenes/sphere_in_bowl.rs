@@ -1,6 +1,5 @@
 //! A ball inside a hollow sphere: swings, slips, goes round, or falls off on the way.
 
-use crate::drawing::{Drawing, Shape, from_bottom};
 use lagrange_core::prelude::*;
 
 /// A solid sphere moves inside a fixed hollow sphere, in a vertical plane.
@@ -47,6 +46,11 @@ use lagrange_core::prelude::*;
     // At the top it still presses if v₀² ≥ (27/7) g (R − a).
     check(from_kick: bowl == mass * start_speed^2/(radius - sphere_radius) + mass * gravity / 7 * (17*cos(theta) - 10)
         when sticks(grip) and energy == 7/10 * mass * start_speed^2 - mass * gravity * (radius - sphere_radius)),
+    draw(bowl: (0, 0), radius = radius),
+    draw(path: (x, y)),
+    draw(disc: (x, y), radius = sphere_radius, angle = phi),
+    draw(arrow: bowl * (-sin(theta), cos(theta)) at (r + sphere_radius) * (sin(theta), -cos(theta))),
+    draw(arrow: grip * (cos(theta), sin(theta)) at (r + sphere_radius) * (sin(theta), -cos(theta))),
 )]
 pub struct SphereInBowl<T = f64> {
     /// Mass of the sphere, kg.
@@ -87,21 +91,5 @@ impl Default for SphereInBowl {
             start_angle: 1.2,
             start_speed: 6.0,
         }
-    }
-}
-
-impl SphereInBowl {
-    /// The bowl, the sphere and the path of its centre.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        let (r, theta, phi) = (q[0], q[1], q[2]);
-        let centre = from_bottom([0.0; 2], r, theta);
-        let touching = from_bottom([0.0; 2], r + self.sphere_radius, theta);
-        Drawing::of([
-            Shape::Bowl([0.0; 2], self.radius),
-            Shape::Trace(centre),
-            Shape::Disc(centre, self.sphere_radius, -phi),
-        ])
-        .force("bowl", touching, [-theta.sin(), theta.cos()])
-        .force("grip", touching, [theta.cos(), theta.sin()])
     }
 }

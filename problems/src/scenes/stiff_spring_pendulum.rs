@@ -1,6 +1,5 @@
 //! A pendulum whose rod is a very stiff spring: two time scales.
 
-use crate::drawing::Drawing;
 use lagrange_core::prelude::*;
 
 /// A point mass swings on a spring so stiff that it is almost a rod.
@@ -22,6 +21,10 @@ use lagrange_core::prelude::*;
     potential(spring: stiffness/2 * (r - length)^2),
     start(rest: r = length, theta = start_angle),
     observe(x, y),
+    draw(path: (x, y)),
+    draw(spring: (0, 0) to (x, y)),
+    draw(pivot: (0, 0)),
+    draw(mass: (x, y)),
 )]
 pub struct StiffSpringPendulum<T = f64> {
     /// Mass, kg.
@@ -50,12 +53,5 @@ impl Default for StiffSpringPendulum {
             stiffness: 1e6,
             start_angle: 1.0,
         }
-    }
-}
-
-impl StiffSpringPendulum {
-    /// The spring, the mass and its path.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        super::alike::mass_on_spring(q[0], q[1])
     }
 }

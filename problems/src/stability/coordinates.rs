@@ -109,6 +109,7 @@ pub fn tumbling_body(_: Extent) -> Result<Vec<Figure>, Surprise> {
         inertia: [a, b, c],
         rate,
         nudge,
+        ..
     } = scene;
     // Landau & Lifshitz, Mechanics, §37, with 1 and 3 exchanged, since L² < 2 E I₂.
     let (energy2, momentum2) = (

@@ -84,6 +84,15 @@ const PAGE: &[(&str, &[&str])] = &[
             "units-inferred",
         ],
     ),
+    (
+        "Pictures",
+        &[
+            "draw-unknown-form",
+            "draw-without-radius",
+            "draw-plane-and-space",
+            "draw-arrow-place",
+        ],
+    ),
 ];
 
 fn cases() -> Vec<PathBuf> {

@@ -78,6 +78,8 @@ pub enum ExprKind {
     If(Box<Comparison>, Box<Expr>, Box<Expr>),
     /// sum(i in a..b: body)
     SumOver(Box<Index>, Box<Expr>),
+    /// list(i in a..b: body)
+    ListOver(Box<Index>, Box<Expr>),
     /// [a, b] or (a, b)
     List(Vec<Expr>),
     /// `list[index]`

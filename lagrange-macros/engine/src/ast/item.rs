@@ -1,6 +1,6 @@
 //! Items of a declaration.
 
-use super::{Comparison, Expr, Head, Index, Name, Reference, Unit};
+use super::{Comparison, Draw, Expr, Head, Index, Name, Reference, Unit};
 use crate::diagnostics::Extent;
 use proc_macro2::Span;
 
@@ -46,6 +46,8 @@ pub enum ItemKind {
     Mark(Watch),
     /// `check(name: a == b when …)`
     Check(Box<Check>),
+    /// `draw(disc: (x, y), radius = r)`
+    Draw(Box<Draw>),
     /// `attitude(body: q)`
     Attitude(Attitude),
     /// `impacts = together | in_turn`

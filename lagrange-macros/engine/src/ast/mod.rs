@@ -3,6 +3,7 @@
 //! Nothing is resolved here: names are text, ranges are expressions, levels of constraints are unknown.
 //! Indices run over half-open ranges `k in a..b`.
 
+mod draw;
 mod expression;
 mod item;
 mod print;
@@ -11,6 +12,7 @@ mod without;
 use crate::diagnostics::Extent;
 use proc_macro2::{Ident, Span, TokenStream};
 
+pub use draw::{Detail, Draw, Form};
 pub use expression::{Comparison, Decimal, Expr, ExprKind, Factor, Relation, Sign};
 pub use item::{
     Action, Attitude, Check, Claim, Clause, Constraint, Contact, Coordinate, Definition,

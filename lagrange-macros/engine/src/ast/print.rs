@@ -91,6 +91,14 @@ impl Display for Expr {
                     index.name.text, range.from, range.to
                 )
             }
+            ExprKind::ListOver(index, body) => {
+                let range = &index.range;
+                write!(
+                    f,
+                    "list({} in {}..{}: {body})",
+                    index.name.text, range.from, range.to
+                )
+            }
             ExprKind::List(elements) => {
                 f.write_str("[")?;
                 list(elements, f)?;

@@ -4,7 +4,7 @@ use super::{Declaration, Item, ItemKind, Name, Reference};
 
 impl Declaration {
     /// Takes out the items of these names, and the frictions and constraints that act only together with them. Outputs,
-    /// stops, marks and checks go too: they may speak of what is gone, and do not change the motion. Nothing happens if no
+    /// stops, marks, checks and pictures go too: they may speak of what is gone, and do not change the motion. Nothing happens if no
     /// name is given; an element of an indexed item stays.
     pub fn leave_out(&mut self, names: &[&str]) {
         if names.is_empty() {
@@ -15,7 +15,11 @@ impl Declaration {
             let (name, carrier) = identity(item);
             let watches = matches!(
                 item.kind,
-                ItemKind::Observe(_) | ItemKind::Stop(_) | ItemKind::Mark(_) | ItemKind::Check(_)
+                ItemKind::Observe(_)
+                    | ItemKind::Stop(_)
+                    | ItemKind::Mark(_)
+                    | ItemKind::Check(_)
+                    | ItemKind::Draw(_)
             );
             !watches
                 && !name.is_some_and(is_gone)

@@ -1,6 +1,7 @@
 //! Every message of the macro: its code, what is wrong, and what to do next. `{0}`, `{1}`, … are blanks.
 //!
-//! E0xx notation · E1xx the struct · E2xx names · E3xx values · E4xx what may stand where · E5xx, E6xx mechanics · E7xx units · E8xx checks
+//! E0xx notation · E1xx the struct · E2xx names · E3xx values · E4xx what may stand where · E5xx, E6xx mechanics · E7xx units · E8xx checks ·
+//! E9xx pictures
 
 /// A row of the table.
 pub(super) struct Row {
@@ -142,6 +143,14 @@ table! {
     CheckNever "E802" "no state fulfils the condition of this check" "{0}";
     CheckModes "E803" "the condition leaves {0} modes open" "say of more contacts whether they are `open` or `closed`; `open(name)` of an indexed contact means all its elements that are not named otherwise";
     CheckPremise "E804" "`{0}` is known after the equations are solved" "the condition of a check is made of positions, velocities, `closed(…)`, `open(…)`, `sticks(…)` and `slips(…)`";
+
+    UnknownForm "E901" "`{0}` is not the name of a form" "{1}";
+    PlaceCount "E902" "`{0}` takes {1}, not {2}" "places are joined by `to`";
+    PlaceSize "E903" "places have {0} coordinates here, and this has {1}" "a picture is in a plane, `(x, y)`, or in space, `(x, y, z)`";
+    NotInPicture "E904" "there is no `{0}` {1}" "{2}";
+    DetailSize "E905" "`{0}` takes {1} numbers, not {2}" "write them as a list, `(a, b)` in a plane and `(a, b, c)` in space";
+    ChangingSize "E906" "the size of this `{0}` changes" "a body in space keeps its size: write it in parameters alone";
+    ManyPlaces "E907" "a picture has at most {0} places" "draw fewer elements: nobody sees more";
 
     Bug "E999" "a bug in the derive: something was left out without a message" "please report it with the declaration";
 }

@@ -4,8 +4,8 @@
 //! shared between modes or optimised, so that it has nothing in common with the tapes but the declaration.
 
 use super::exact::Exact;
-use super::names::index;
-use crate::model::{Declared, Normal, Restitution, System, Watch, Worked};
+use super::names::{self, index};
+use crate::model::{Declared, Draw, Normal, Restitution, System, Turn, Watch, Worked};
 use crate::symbolic::{ExprId, Function, Node, Rational, Symbol};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -32,6 +32,8 @@ pub fn declaration(declared: &Declared, system: &System) -> TokenStream {
     let core = &system.core;
     let mut writer = Writer::new(declared);
     writer.write(&roots(of));
+    let values = index(writer.count);
+    writer.write(&drawn_roots(of));
     let value = |e: &ExprId| index(writer.values[e]);
     let option = |e: &Option<ExprId>| match e {
         Some(e) => {
@@ -107,12 +109,14 @@ pub fn declaration(declared: &Declared, system: &System) -> TokenStream {
         watches(&system.stops, &of.stops),
         watches(&system.marks, &of.marks),
     );
+    let draws = of.draws.iter().map(|draw| drawn(draw, core, &writer));
     let words = Literal::byte_string(&writer.bytes);
     let numbers = writer.numbers.table();
     quote! {
         #core::declaration::Declaration {
             words: #words,
             numbers: #numbers,
+            values: #values,
             kinetic: &[#(#kinetic),*],
             potential: &[#(#potential),*],
             constraints: &[#(#constraints),*],
@@ -122,11 +126,60 @@ pub fn declaration(declared: &Declared, system: &System) -> TokenStream {
             dissipations: &[#(#dissipations),*],
             stops: &[#(#stops),*],
             marks: &[#(#marks),*],
+            draws: &[#(#draws),*],
         }
     }
 }
 
-/// Everything that is evaluated.
+/// `Draw { … }`
+fn drawn(draw: &Draw, core: &TokenStream, writer: &Writer) -> TokenStream {
+    let values = |all: &[ExprId]| {
+        let all = all.iter().map(|e| index(writer.values[e]));
+        quote!(&[#(#all),*])
+    };
+    let form = names::plain(&format!("{:?}", draw.form));
+    let name = &draw.name;
+    let places = draw.places.iter().map(|place| values(place));
+    let (size, applied) = (values(&draw.size), values(&draw.applied));
+    let turn = match &draw.turn {
+        Turn::None => quote!(None),
+        Turn::Angle(angle) => {
+            let angle = index(writer.values[angle]);
+            quote!(Angle(#angle))
+        }
+        Turn::Attitude(first) => {
+            let first = index(*first);
+            quote!(Attitude(#first))
+        }
+        Turn::About(vectors) => {
+            let vectors = values(vectors);
+            quote!(About(#vectors))
+        }
+        Turn::Rolled(angles) => {
+            let angles = values(angles);
+            quote!(Rolled(#angles))
+        }
+    };
+    let parts = draw.parts.iter().map(|(row, slope)| {
+        let (row, slope) = (index(*row), values(slope));
+        quote!((#row, #slope))
+    });
+    let loads = draw.loads.iter().map(|load| index(*load));
+    quote! {
+        #core::declaration::Draw {
+            form: #core::declaration::Form::#form,
+            name: #name,
+            places: &[#(#places),*],
+            size: #size,
+            turn: #core::declaration::Turn::#turn,
+            parts: &[#(#parts),*],
+            applied: #applied,
+            loads: &[#(#loads),*],
+        }
+    }
+}
+
+/// Everything that is evaluated but for pictures.
 fn roots(system: &System) -> Vec<ExprId> {
     let energies = system.kinetic.iter().chain(&system.potential);
     let mut roots: Vec<ExprId> = energies.map(|term| term.energy).collect();
@@ -155,6 +208,22 @@ fn roots(system: &System) -> Vec<ExprId> {
     roots.extend(system.dissipations.iter().map(|d| d.rayleigh));
     let watches = system.stops.iter().chain(&system.marks);
     roots.extend(watches.flat_map(|watch| &watch.terms));
+    roots
+}
+
+/// What is evaluated for pictures only.
+fn drawn_roots(system: &System) -> Vec<ExprId> {
+    let mut roots = Vec::new();
+    for draw in &system.draws {
+        roots.extend(draw.places.iter().flatten());
+        roots.extend(draw.size.iter().chain(&draw.applied));
+        roots.extend(draw.parts.iter().flat_map(|(_, slope)| slope));
+        match &draw.turn {
+            Turn::None | Turn::Attitude(_) => {}
+            Turn::Angle(angle) => roots.push(*angle),
+            Turn::About(numbers) | Turn::Rolled(numbers) => roots.extend(numbers),
+        }
+    }
     roots
 }
 
@@ -210,7 +279,7 @@ impl<'a> Writer<'a> {
         let mut all: BTreeSet<ExprId> = BTreeSet::new();
         let mut stack = roots.to_vec();
         while let Some(e) = stack.pop() {
-            if !all.insert(e) {
+            if self.values.contains_key(&e) || !all.insert(e) {
                 continue;
             }
             let node = pool.node(e);

@@ -80,7 +80,8 @@ fn placeholders(declaration: &Declaration, core: &TokenStream) -> TokenStream {
             | ItemKind::Lagrangian(_)
             | ItemKind::Impacts(_)
             | ItemKind::Emit(_)
-            | ItemKind::Check(_) => continue,
+            | ItemKind::Check(_)
+            | ItemKind::Draw(_) => continue,
             ItemKind::Constraint(item) => ("ConstraintId", &item.head),
             ItemKind::Contact(item) => ("ContactId", &item.head),
             ItemKind::Friction(item) => ("FrictionId", &item.head),

@@ -94,3 +94,37 @@ fn mistakes_come_with_an_implementation_that_type_checks() {
     );
     assert_eq!(emitted.to_string().matches("compile_error").count(), 1);
 }
+
+/// What is drawn stands beside the equations and changes nothing in them, whatever is in it.
+#[test]
+fn a_picture_is_no_equation() {
+    let of = |draws: TokenStream| {
+        let declaration = quote! {
+            #[lagrange(
+                coordinates(x, y),
+                define(height = y + x^2),
+                kinetic = mass/2 * (der(x)^2 + der(y)^2),
+                potential = mass * gravity * height,
+                contact(floor: height >= 0),
+                #draws
+            )]
+            struct Bead { mass: f64, gravity: f64 }
+        };
+        let program = program(declaration.clone());
+        super::tables(&program, &declared(declaration))
+    };
+    let plain = of(quote!());
+    let drawn = of(quote! {
+        draw(mass: (max(x^2 - y, gravity * x), sin(height))),
+        draw(arrow: floor * (0, cos(x*y)) at (abs(x), y)),
+    });
+    assert_eq!(plain.description.to_string(), drawn.description.to_string());
+    let (plain, drawn) = (plain.declaration.to_string(), drawn.declaration.to_string());
+    assert_ne!(plain, drawn);
+    // Certificates evaluate as many values as without a picture.
+    let counted = |text: &str| -> Option<String> {
+        let (_, after) = text.split_once("values :")?;
+        Some(after.split(',').next()?.trim().to_owned())
+    };
+    assert!(counted(&plain).is_some_and(|count| counted(&drawn) == Some(count)));
+}

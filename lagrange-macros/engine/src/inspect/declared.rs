@@ -84,7 +84,8 @@ fn written(kind: &ItemKind, names: &Names, items: &mut Vec<Item>) {
         }
         ItemKind::Check(check) => add("check", name(&check.head), claim(check, names)),
         ItemKind::Impacts(Impacts::InTurn) => add("impacts", unnamed(), vec![word("in turn")]),
-        ItemKind::Impacts(Impacts::Together) | ItemKind::Emit(_) => {}
+        // What is drawn says nothing of the motion.
+        ItemKind::Impacts(Impacts::Together) | ItemKind::Emit(_) | ItemKind::Draw(_) => {}
     }
 }
 

@@ -42,6 +42,16 @@ impl Names {
                 ];
                 Formula::SumOver(Letter::new(&index.name.text), Box::new(parts))
             }
+            ExprKind::ListOver(index, body) => {
+                let range = &index.range;
+                let over = [
+                    Formula::Letter(Letter::new(&index.name.text)),
+                    self.written(&range.from),
+                    self.written(&range.to),
+                    self.written(body),
+                ];
+                self.call("list", over.into())
+            }
             ExprKind::List(elements) => Formula::List(all(elements)),
             ExprKind::Element(base, index) => match (self.written(base), &index.kind) {
                 (Formula::Letter(letter), _) => {

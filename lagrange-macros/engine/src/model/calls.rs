@@ -83,7 +83,7 @@ impl Elaboration<'_> {
             }
             "dot" | "cross" | "norm" => self.of_lists(name, arguments, context),
             "gap" | "slip" | "momentum" => self.of_item(name, arguments, context),
-            "sum" | "if" => None, // the parser gives these a form of their own
+            "sum" | "list" | "if" => None, // the parser gives these a form of their own
             _ => {
                 self.not_a_function(name);
                 None
@@ -120,7 +120,9 @@ impl Elaboration<'_> {
             format!("a product is written with `*`: `{text}*(…)`; an element `{text}[…]`")
         } else if let Some((_, known)) = ALIASES.iter().find(|(alias, _)| *alias == text) {
             format!("write `{known}`")
-        } else if let Some(known) = nearest(text, FUNCTIONS.iter().copied().chain(["sum", "if"])) {
+        } else if let Some(known) =
+            nearest(text, FUNCTIONS.iter().copied().chain(["sum", "list", "if"]))
+        {
             format!("did you mean `{known}`?")
         } else {
             format!("functions are {}", FUNCTIONS.join(", "))

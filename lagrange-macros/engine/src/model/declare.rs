@@ -196,7 +196,7 @@ impl Elaboration<'_> {
                 return true;
             }
             ItemKind::Attitude(attitude) => return self.enter_body(attitude),
-            ItemKind::Coordinates(_) | ItemKind::Lagrangian(_) => return true,
+            ItemKind::Coordinates(_) | ItemKind::Lagrangian(_) | ItemKind::Draw(_) => return true,
             ItemKind::Kinetic(energy) | ItemKind::Potential(energy) => {
                 let kind = match item {
                     ItemKind::Kinetic(_) => Kind::Kinetic,

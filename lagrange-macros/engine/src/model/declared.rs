@@ -4,6 +4,7 @@
 //! a gap by the point that it acts at, and the canonical form that the pool gives to sums and products.
 
 use super::System;
+use super::draws::drawn;
 use super::elaborate::Elaboration;
 use super::reach::Depth;
 use crate::ast::Declaration;
@@ -26,6 +27,10 @@ pub fn declared(declaration: &Declaration) -> Declared {
     let mut elaboration = Elaboration::new(declaration, &mut sink);
     elaboration.rates = Some(BTreeMap::new());
     elaboration.read_all(declaration);
+    match drawn(declaration).next() {
+        Some(_) => elaboration.draws(declaration),
+        None => elaboration.seen(),
+    }
     let rates = elaboration.rates.take().unwrap_or_default();
     Declared {
         rates: rates.into_iter().map(|(e, symbol)| (symbol, e)).collect(),

@@ -69,6 +69,7 @@ pub fn scoped(declaration: &Declaration, sink: &mut Diagnostics) -> Option<(Syst
     let before = sink.count();
     let mut elaboration = Elaboration::new(declaration, sink);
     elaboration.read_all(declaration);
+    elaboration.check_draws(declaration);
     elaboration.check_quadratic(declaration);
     elaboration.check_dropped(declaration);
     if elaboration.sink.count() == before {
@@ -254,7 +255,7 @@ impl<'a> Elaboration<'a> {
     }
 
     /// The bounds of an item's index, which may not be empty.
-    fn range(&mut self, index: &crate::ast::Index) -> Option<(i64, i64)> {
+    pub(super) fn range(&mut self, index: &crate::ast::Index) -> Option<(i64, i64)> {
         self.free_index(&index.name)?;
         let (from, to) = self.bounds(&index.range)?;
         if to <= from {

@@ -66,6 +66,9 @@ impl Elaboration<'_> {
                 self.conditional(expr, condition, then, otherwise, context)
             }
             ExprKind::SumOver(index, body) => self.sum_over(index, body, expr.extent, context),
+            ExprKind::ListOver(index, body) => self
+                .each_of(index, body, expr.extent, context)
+                .map(Value::List),
             ExprKind::List(elements) => {
                 let elements: Vec<Option<Value>> =
                     elements.iter().map(|e| self.value(e, context)).collect();

@@ -174,7 +174,7 @@ impl Elaboration<'_> {
                 .report(Code::Unusable, name, &[&name.text, &kind.text(), &hint]);
             return None;
         }
-        if !in_load && context.reach != Reach::Outputs {
+        if !in_load && !matches!(context.reach, Reach::Forces | Reach::Outputs) {
             self.sink
                 .report(Code::ForceHere, name, &[&name.text, &kind.text()]);
             return None;

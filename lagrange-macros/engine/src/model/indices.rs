@@ -102,14 +102,14 @@ impl Elaboration<'_> {
         None
     }
 
-    /// `sum(i in a..b: body)`; an empty range gives 0.
-    pub(super) fn sum_over(
+    /// `list(i in a..b: body)`: the values of a body for every value of its index, which have one shape.
+    pub(super) fn each_of(
         &mut self,
         index: &Index,
         body: &Expr,
         at: Extent,
         context: Context,
-    ) -> Option<Value> {
+    ) -> Option<Vec<Value>> {
         self.free_index(&index.name)?;
         let (from, to) = self.bounds(&index.range)?;
         let mut values = Vec::new();
@@ -125,6 +125,18 @@ impl Elaboration<'_> {
             }
             values.push(value);
         }
+        Some(values)
+    }
+
+    /// `sum(i in a..b: body)`; an empty range gives 0.
+    pub(super) fn sum_over(
+        &mut self,
+        index: &Index,
+        body: &Expr,
+        at: Extent,
+        context: Context,
+    ) -> Option<Value> {
+        let values = self.each_of(index, body, at, context)?;
         if values.is_empty() {
             return Some(Value::Scalar(self.system.pool.integer(0)));
         }

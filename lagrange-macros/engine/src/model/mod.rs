@@ -14,6 +14,7 @@ mod declare;
 mod declared;
 mod defaults;
 mod degree;
+mod draws;
 mod elaborate;
 mod energies;
 mod evaluate;
@@ -26,6 +27,7 @@ mod outputs;
 mod piecewise;
 mod reach;
 mod rows;
+mod seen;
 mod starts;
 mod structure;
 #[cfg(test)]
@@ -41,6 +43,7 @@ use proc_macro2::{Ident, Span, TokenStream};
 pub use checks::{Check, Premise, checks};
 pub use declared::{Declared, declared};
 pub use defaults::{defaults, number};
+pub use draws::{Draw, Turn};
 pub use elaborate::{Scope, scoped, system};
 pub(crate) use names::shouting;
 
@@ -88,6 +91,8 @@ pub struct System {
     pub stops: Vec<Watch>,
     /// What is logged.
     pub marks: Vec<Watch>,
+    /// What a picture shows, from the back to the front; of a system [as declared](declared) only, since no equation needs it.
+    pub draws: Vec<Draw>,
     /// How simultaneous impacts are resolved.
     pub impacts: Impacts,
     /// What the equations of its modes are written as.
@@ -123,6 +128,7 @@ impl System {
             observes: Vec::new(),
             stops: Vec::new(),
             marks: Vec::new(),
+            draws: Vec::new(),
             impacts: Impacts::default(),
             emit: Emit::default(),
             units: Units::default(),

@@ -13,6 +13,7 @@ const RESERVED: &[&str] = &[
     "t",
     "pi",
     "sum",
+    "list",
     "if",
     "gap",
     "slip",

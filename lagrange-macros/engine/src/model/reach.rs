@@ -30,6 +30,8 @@ pub(super) enum Reach {
     Motion,
     /// … and forces of contacts and constraints, but no accelerations.
     Loads,
+    /// … and those of frictions and applied forces.
+    Forces,
     /// A definition: everything without names of items; where it is used decides.
     Definition,
     /// Everything.
@@ -81,7 +83,7 @@ impl Elaboration<'_> {
                 self.sink.report(Code::AccelerationHere, at, &[text]);
                 return None;
             }
-            (Reach::Loads, Depth::Force) => return Some(()),
+            (Reach::Loads | Reach::Forces, Depth::Force) => return Some(()),
             (_, Depth::Force) => {
                 self.sink.report(Code::OutputOnly, at, &[text]);
                 return None;

@@ -258,6 +258,7 @@ fn named(name: Name, cursor: &mut Cursor, sink: &mut Diagnostics) -> Option<Expr
         let form = match name.text.as_str() {
             "if" => "if(a >= b, x, y)",
             "sum" => "sum(i in 0..n: …)",
+            "list" => "list(i in 0..n: …)",
             _ => "",
         };
         if !form.is_empty() {
@@ -279,7 +280,8 @@ fn named(name: Name, cursor: &mut Cursor, sink: &mut Diagnostics) -> Option<Expr
     }
     let kind = match name.text.as_str() {
         "if" => conditional(inside, extent, sink)?,
-        "sum" => sum_over(inside, sink)?,
+        "sum" => over(inside, sink, ExprKind::SumOver)?,
+        "list" => over(inside, sink, ExprKind::ListOver)?,
         _ => ExprKind::Call(name, expressions(inside, "an argument", sink)?),
     };
     Some(Expr { kind, extent })
@@ -309,12 +311,16 @@ fn conditional(inside: Cursor, extent: Extent, sink: &mut Diagnostics) -> Option
     ))
 }
 
-/// `sum(i in a..b: body)`
-fn sum_over(mut inside: Cursor, sink: &mut Diagnostics) -> Option<ExprKind> {
+/// `sum(i in a..b: body)` or `list(i in a..b: body)`
+fn over(
+    mut inside: Cursor,
+    sink: &mut Diagnostics,
+    kind: fn(Box<Index>, Box<Expr>) -> ExprKind,
+) -> Option<ExprKind> {
     let index = index(&mut inside, sink)?;
     inside.require(":", sink)?;
     let body = whole(&mut inside, sink)?;
-    Some(ExprKind::SumOver(Box::new(index), Box::new(body)))
+    Some(kind(Box::new(index), Box::new(body)))
 }
 
 /// `i in a..b`

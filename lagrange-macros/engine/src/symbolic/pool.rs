@@ -11,6 +11,7 @@ use super::{ExprId, Node, Rational, Symbol};
 pub const MOST_OPERANDS: usize = 1_000_000;
 
 /// All expressions of a system.
+#[derive(Clone)]
 pub struct Pool {
     pub(super) nodes: Vec<Node>,
     pub(super) facts: Vec<Facts>,

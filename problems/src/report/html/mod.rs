@@ -8,13 +8,12 @@ mod difference;
 mod equations;
 mod tables;
 
-use crate::catalogue::Scene;
 use crate::film::Film;
 use crate::report::frames::Panel;
 use crate::report::picture::palette;
-use crate::request::Request;
 use data::data;
 use lagrange_core::prelude::*;
+use lagrange_core::system::Description;
 use lagrange_engine::inspect::print::mathml::escaped;
 use std::io::{self, Write};
 
@@ -55,19 +54,18 @@ impl Shown {
     }
 }
 
-/// At how many intervals a page with so many runs shows one of them: thirty a second, as far as its size allows.
-pub fn intervals(scene: &dyn Scene, request: &Request, runs: usize) -> usize {
+/// At how many intervals a page with so many runs shows one of them, which may take so many seconds: thirty a second, as far as its
+/// size allows.
+pub fn intervals(description: &Description, duration: f64, runs: usize) -> usize {
     const PER_SECOND: f64 = 30.0;
     /// Numbers that a page may carry; each takes about eight bytes.
     const NUMBERS: usize = 70_000;
     /// Numbers for one run, at most.
     const MOST: usize = 50_000;
-    let description = scene.description();
     let per_sample = 10 + 6 * description.coordinates.len() + 3 * description.rows.len();
     let most = NUMBERS / runs.max(1);
     let most = (most.min(MOST) / per_sample).clamp(150, 3000);
-    let until = request.until.unwrap_or(scene.until());
-    ((PER_SECOND * until) as usize).clamp(most.min(900), most)
+    ((PER_SECOND * duration) as usize).clamp(most.min(900), most)
 }
 
 /// Writes the page; it plays at this speed, or at one that suits. `command` is what made it, told at its end.

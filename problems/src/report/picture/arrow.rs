@@ -3,8 +3,8 @@
 use super::frame::{Frame, Newtons};
 use super::impulse::{self, Rows};
 use super::{Column, hundredths};
+use crate::drawing;
 use crate::film::Film;
-use crate::outcome::forces;
 use crate::report::significant;
 use serde::Serialize;
 
@@ -36,20 +36,19 @@ pub(super) fn arrows(film: &Film, frame: &Frame) -> Vec<Arrow> {
         frame,
         &impulse::forces(&film.outcome),
         &frame.newtons,
-        0.0,
+        false,
     );
     let impulses = of(
         film,
         frame,
         &impulse::impulses(&film.outcome),
         &frame.blows,
-        1.0,
+        true,
     )
     .into_iter();
     let ever = impulses.filter(|arrow| arrow.size != Column::Constant(0.0));
     let named = ever.map(|arrow| Arrow {
         name: format!("impulse of {}", arrow.name),
-        impulse: true,
         ..arrow
     });
     forces.into_iter().chain(named).collect()
@@ -58,32 +57,28 @@ pub(super) fn arrows(film: &Film, frame: &Frame) -> Vec<Arrow> {
 /// A number of an arrow, from where it acts, m, and its components, N or Ns.
 type Number<'n> = &'n dyn Fn([f64; 2], [f64; 2]) -> f64;
 
-/// An arrow for each force of the drawing; `back` is the part of it that is before the place where it acts.
-fn of(film: &Film, frame: &Frame, acting: &Rows, newtons: &Newtons, back: f64) -> Vec<Arrow> {
-    if acting.is_empty() {
-        return Vec::new();
-    }
-    let rows = forces(film.outcome.description);
-    let Some(first) = film.drawings.first() else {
+/// An arrow for each force of the drawing, or each impulse.
+fn of(film: &Film, frame: &Frame, acting: &Rows, newtons: &Newtons, impulse: bool) -> Vec<Arrow> {
+    let Some(first) = film.drawings.first().filter(|_| !acting.is_empty()) else {
         return Vec::new();
     };
-    let arrow = |(i, arrow): (usize, &crate::drawing::Arrow)| {
-        let force = rows.iter().find(|force| force.name == arrow.force)?;
-        let row = film.outcome.includes(force.source).then_some(force.row)?;
+    // The part of it that is before the place where it acts.
+    let back = if impulse { 1.0 } else { 0.0 };
+    let arrow = |(i, arrow): (usize, &drawing::Arrow<2>)| {
         let samples = film.drawings.iter().zip(acting);
         let pushes: Vec<([f64; 2], [f64; 2])> = samples
             .map(|(drawing, acting)| {
                 let arrow = &drawing.arrows[i];
-                (arrow.at, arrow.along.map(|c| c * acting[row]))
+                (arrow.at, arrow.sum(acting, impulse))
             })
             .collect();
         let over = |number: Number| {
             let numbers = pushes.iter().map(|(at, force)| number(*at, *force));
             Column::of(numbers.map(hundredths))
         };
-        Some(Arrow {
-            name: arrow.force.to_owned(),
-            impulse: false,
+        Arrow {
+            name: arrow.name.to_owned(),
+            impulse,
             size: Column::of(pushes.iter().map(|(_, [x, y])| significant(x.hypot(*y)))),
             numbers: [
                 over(&|at, force| frame.x(at[0] - back * newtons.arrow(force)[0])),
@@ -91,9 +86,9 @@ fn of(film: &Film, frame: &Frame, acting: &Rows, newtons: &Newtons, back: f64) -
                 over(&|_, force| frame.scale * newtons.arrow(force)[0]),
                 over(&|_, force| -frame.scale * newtons.arrow(force)[1]),
             ],
-        })
+        }
     };
-    first.arrows.iter().enumerate().filter_map(arrow).collect()
+    first.arrows.iter().enumerate().map(arrow).collect()
 }
 
 /// The outline of an arrow from one point to another; nothing if it is too short to be seen.

@@ -4,7 +4,7 @@ use super::impulse::{self, Rows};
 use super::{Column, WIDTH};
 use crate::drawing::{Shape, union};
 use crate::film::Film;
-use crate::outcome::{Outcome, forces};
+use crate::outcome::Outcome;
 
 /// Part of the picture that the strongest force takes.
 const LONGEST: f64 = 0.2;
@@ -93,13 +93,14 @@ impl Frame {
             .into_iter()
             .filter(|x| x.is_finite())
             .fold(0.0, f64::max);
-        let all = |rows: fn(&Outcome) -> Rows| -> Vec<[f64; 4]> {
+        let all = |rows: fn(&Outcome) -> Rows, impulse: bool| -> Vec<[f64; 4]> {
             films
                 .clone()
-                .flat_map(|film| pushes(film, &rows(&film.outcome)))
+                .flat_map(|film| pushes(film, &rows(&film.outcome), impulse))
                 .collect()
         };
-        let (forces, impulses) = (all(impulse::forces), all(impulse::impulses));
+        let forces = all(impulse::forces, false);
+        let impulses = all(impulse::impulses, true);
         let sizes = |pushes: &[[f64; 4]]| -> Vec<f64> {
             pushes.iter().map(|[_, _, x, y]| x.hypot(*y)).collect()
         };
@@ -163,17 +164,13 @@ impl Frame {
 }
 
 /// Places of all arrows at all samples and what acts there: x and y, m, and the components, N or Ns.
-fn pushes(film: &Film, acting: &Rows) -> Vec<[f64; 4]> {
-    let rows = forces(film.outcome.description);
+fn pushes(film: &Film, acting: &Rows, impulse: bool) -> Vec<[f64; 4]> {
     let samples = film.drawings.iter().zip(acting);
     let pushes = samples.flat_map(|(drawing, acting)| {
-        let push = |arrow: &crate::drawing::Arrow| {
-            let row = rows.iter().find(|force| force.name == arrow.force)?.row;
-            let force = acting[row];
-            let [x, y] = arrow.at;
-            Some([x, y, arrow.along[0] * force, arrow.along[1] * force])
-        };
-        drawing.arrows.iter().filter_map(push).collect::<Vec<_>>()
+        drawing.arrows.iter().map(move |arrow| {
+            let ([x, y], [fx, fy]) = (arrow.at, arrow.sum(acting, impulse));
+            [x, y, fx, fy]
+        })
     });
     pushes.collect()
 }

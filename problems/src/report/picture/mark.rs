@@ -68,7 +68,10 @@ pub(super) fn marks(drawings: &[Drawing], frame: &Frame) -> Vec<Mark> {
             });
         };
         let points = |shape: &Shape| match shape {
-            Shape::Fixed(points) | Shape::Block(points) | Shape::Rod(points) => points
+            Shape::Fixed(points)
+            | Shape::Block(points)
+            | Shape::Rod(points)
+            | Shape::Rope(points) => points
                 .iter()
                 .flat_map(|[x, y]| [frame.x(*x), frame.y(*y)])
                 .collect(),
@@ -97,6 +100,7 @@ pub(super) fn marks(drawings: &[Drawing], frame: &Frame) -> Vec<Mark> {
             Shape::Fixed(_) => add("ground", Form::Polygon, &points),
             Shape::Block(_) => add("body", Form::Polygon, &points),
             Shape::Rod(_) => add("rod", Form::Polyline, &points),
+            Shape::Rope(_) => add("rope", Form::Polyline, &points),
             Shape::Shell(..) => add("ground", Form::Circle, &circle),
             Shape::Bowl(..) => add("hollow", Form::Circle, &circle),
             Shape::Mass(_) => add("point", Form::Circle, &circle),
@@ -106,7 +110,7 @@ pub(super) fn marks(drawings: &[Drawing], frame: &Frame) -> Vec<Mark> {
                     Shape::Disc([x, y], r, angle) => vec![
                         frame.x(*x),
                         frame.y(*y),
-                        angle.to_degrees() - 90.0,
+                        -angle.to_degrees() - 90.0,
                         r * frame.scale,
                     ],
                     _ => Vec::new(),

@@ -6,10 +6,11 @@ use super::Column;
 use super::arrow::is_false;
 use super::frame::{Newtons, largest};
 use super::impulse::{self, Rows};
+use crate::drawing::Arrow;
 use crate::film::Film;
-use crate::outcome::{Outcome, forces};
+use crate::outcome::Outcome;
 use crate::report::significant;
-use crate::space::{Push, Solid, Space, UnitQuaternion, Vector};
+use crate::space::{Solid, Space, UnitQuaternion, Vector};
 use serde::Serialize;
 
 /// A scene in space over time.
@@ -236,52 +237,31 @@ impl Kind {
 
 /// What acts in a film, where and how strong at every sample.
 fn all_thrusts(film: &Film, kind: Kind) -> Vec<(Vector, Vector)> {
-    let count = film.spaces.first().map_or(0, |space| space.pushes.len());
+    let count = film.spaces.first().map_or(0, |space| space.arrows.len());
     let acting = kind.rows(&film.outcome);
-    (0..count)
-        .filter_map(|i| thrusts(film, kind, &acting, i))
-        .flatten()
-        .collect()
+    let thrusts = (0..count).flat_map(|i| thrusts(film, kind, &acting, i));
+    thrusts.collect()
 }
 
-/// The push number `i` over time; nothing if it has been left out of the run.
-fn thrusts(film: &Film, kind: Kind, acting: &Rows, i: usize) -> Option<Vec<(Vector, Vector)>> {
-    let rows = rows(&film.outcome, &film.spaces.first()?.pushes[i])?;
+/// The arrow number `i` over time.
+fn thrusts(film: &Film, kind: Kind, acting: &Rows, i: usize) -> Vec<(Vector, Vector)> {
     let samples = film.spaces.iter().zip(acting);
     let thrust = samples.map(|(space, acting)| {
-        let push = &space.pushes[i];
-        let parts = push.parts.iter().zip(&rows);
-        let applied = match kind {
-            Kind::Force => push.applied,
-            Kind::Impulse => Vector::zeros(),
-        };
-        let sum = parts.fold(applied, |sum, ((_, along), row)| sum + along * acting[*row]);
-        (push.at, sum)
+        let arrow = &space.arrows[i];
+        let sum = arrow.sum(acting, kind == Kind::Impulse);
+        (arrow.at.into(), sum.into())
     });
-    Some(thrust.collect())
+    thrust.collect()
 }
 
-/// Rows of the multipliers that a push is made of; nothing if it does not take part.
-fn rows(outcome: &Outcome, push: &Push) -> Option<Vec<usize>> {
-    if outcome.left_out().contains(&push.name) {
-        return None;
-    }
-    let known = forces(outcome.description);
-    let row = |(name, _): &(&str, Vector)| {
-        let force = known.iter().find(|force| force.name == *name)?;
-        outcome.includes(force.source).then_some(force.row)
-    };
-    push.parts.iter().map(row).collect()
-}
-
-/// An arrow for each push; of impulses, for those that there ever are.
+/// An arrow for each force; of impulses, for those that there ever are.
 fn arrows(film: &Film, kind: Kind, newtons: &Newtons, size: f64) -> Vec<Thrust> {
     let Some(first) = film.spaces.first() else {
         return Vec::new();
     };
     let acting = kind.rows(&film.outcome);
-    let arrow = |(i, push): (usize, &Push)| {
-        let thrusts = thrusts(film, kind, &acting, i)?;
+    let arrow = |(i, arrow): (usize, &Arrow<3>)| {
+        let thrusts = thrusts(film, kind, &acting, i);
         if kind == Kind::Impulse && thrusts.iter().all(|(_, impulse)| impulse.norm() == 0.0) {
             return None;
         }
@@ -294,15 +274,15 @@ fn arrows(film: &Film, kind: Kind, newtons: &Newtons, size: f64) -> Vec<Thrust> 
         let along = (0..3).map(|k| over(&|(_, force)| newtons.arrow((*force).into())[k]));
         Some(Thrust {
             name: match kind {
-                Kind::Force => push.name.to_owned(),
-                Kind::Impulse => format!("impulse of {}", push.name),
+                Kind::Force => arrow.name.to_owned(),
+                Kind::Impulse => format!("impulse of {}", arrow.name),
             },
             impulse: kind == Kind::Impulse,
             size: Column::of(thrusts.iter().map(|(_, force)| significant(force.norm()))),
             numbers: at.chain(along).collect(),
         })
     };
-    first.pushes.iter().enumerate().filter_map(arrow).collect()
+    first.arrows.iter().enumerate().filter_map(arrow).collect()
 }
 
 #[cfg(test)]
@@ -328,7 +308,7 @@ mod tests {
         assert_eq!(columns(&super::turns(fixed.iter())), []);
         let back = Solid::Ball(
             1.0,
-            Pose::at(0.0, 0.0, 0.0).turned(Vector::z(), 4.0 * quarter),
+            Pose::at(0.0, 0.0, 0.0).turned(4.0 * quarter * Vector::z()),
         );
         let still = Solid::Ball(1.0, Pose::at(0.0, 0.0, 0.0));
         // A whole turn is −1, the same attitude as 1.

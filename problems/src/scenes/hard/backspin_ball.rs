@@ -1,7 +1,5 @@
 //! A ball with backspin slides, turns round and rolls back.
 
-use crate::drawing::Drawing;
-use crate::scenes::alike;
 use lagrange_core::prelude::*;
 
 /// A solid ball is set down on the floor with a speed forward and a spin backward.
@@ -22,6 +20,11 @@ use lagrange_core::prelude::*;
     contact(floor: y >= radius),
     friction(grip on floor: slip = der(x) - radius * der(phi), static = mu),
     start(struck: y = radius, der(x) = speed, der(phi) = -spin),
+    draw(floor: 0),
+    draw(path: (x, y)),
+    draw(disc: (x, y), radius = radius, angle = -phi),
+    draw(arrow: floor * (0, 1) at (x, y - radius)),
+    draw(arrow: grip * (1, 0) at (x, y - radius)),
 )]
 pub struct BackspinBall<T = f64> {
     /// Mass, kg.
@@ -54,12 +57,5 @@ impl Default for BackspinBall {
             speed: 1.0,
             spin: 150.0,
         }
-    }
-}
-
-impl BackspinBall {
-    /// The floor, the ball and the path of its centre.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        alike::ball_on_floor(self.radius, [q[0], q[1]], q[2])
     }
 }

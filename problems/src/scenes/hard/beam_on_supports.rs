@@ -1,6 +1,5 @@
 //! A beam on three supports: nobody knows what each of them carries, and yet it is certain when it tips.
 
-use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// A heavy beam lies on three supports; a load rolls along it and beyond the last support.
@@ -24,6 +23,11 @@ use lagrange_core::prelude::*;
     force(load: (0, -weight) at (place * cos(theta), y + place * sin(theta))),
     start(resting: y = 0),
     stop(tipped: theta <= -1/10),
+    draw(ground[k in 0..3]: ((k - 1) * span, 0)
+        to ((k - 1) * span + length/50, -length/20) to ((k - 1) * span - length/50, -length/20)),
+    draw(rod: (0, y) - length/2 * (cos(theta), sin(theta)) to (0, y) + length/2 * (cos(theta), sin(theta))),
+    draw(mass: (0, y) + place * (cos(theta), sin(theta))),
+    draw(arrow[k in 0..3]: support[k] * (-sin(theta), cos(theta)) at ((k - 1) * span, 0)),
 )]
 pub struct BeamOnSupports<T = f64> {
     /// Mass, kg.
@@ -50,25 +54,5 @@ impl Default for BeamOnSupports {
             weight: 25.0,
             speed: 0.5,
         }
-    }
-}
-
-impl BeamOnSupports {
-    /// The supports, the beam and the load that moves along it.
-    pub fn drawing(&self, t: f64, q: &[f64]) -> Drawing {
-        let (sin, cos) = q[1].sin_cos();
-        let at = |place: f64| [place * cos, q[0] + place * sin];
-        let half = self.length / 2.0;
-        let support = |k: f64| Shape::support([k * self.span, 0.0], 0.05 * self.length);
-        Drawing::of([
-            support(-1.0),
-            support(0.0),
-            support(1.0),
-            Shape::Rod(vec![at(-half), at(half)]),
-            Shape::Mass(at(self.speed * t)),
-        ])
-        .force("support[0]", [self.span, 0.0], [-sin, cos])
-        .force("support[1]", [0.0, 0.0], [-sin, cos])
-        .force("support[2]", [-self.span, 0.0], [-sin, cos])
     }
 }

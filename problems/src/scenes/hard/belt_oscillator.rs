@@ -1,6 +1,5 @@
 //! A block on a moving belt, held by a spring: it sticks and slips for ever.
 
-use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// A block rides on a belt until its spring is stronger than static friction, slides back, and is caught again.
@@ -22,6 +21,13 @@ use lagrange_core::prelude::*;
     contact(belt: n >= 0),
     friction(grip on belt: slip = der(s) - speed, static = mu_static, kinetic = mu_kinetic),
     start(riding: der(s) = speed),
+    // The block is as large as a third of what friction can stretch.
+    define(edge = 3/10 * mu_static * mass * gravity / stiffness),
+    draw(floor: 0),
+    draw(spring: (-10*edge, n + edge/2) to (s, n + edge/2)),
+    draw(box: (s + edge/2, n + edge/2), size = (edge, edge)),
+    draw(arrow: belt * (0, 1) at (s + edge/2, n)),
+    draw(arrow: grip * (1, 0) at (s + edge/2, n)),
 )]
 pub struct BeltOscillator<T = f64> {
     /// Mass, kg.
@@ -54,26 +60,5 @@ impl Default for BeltOscillator {
             mu_static: 0.5,
             mu_kinetic: 0.3,
         }
-    }
-}
-
-impl BeltOscillator {
-    /// The belt, the spring and the block, as large as a third of what friction can stretch.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        let (s, n) = (q[0], q[1]);
-        let size = 0.3 * self.mu_static * self.mass * self.gravity / self.stiffness;
-        let middle = n + size / 2.0;
-        Drawing::of([
-            Shape::Floor(0.0),
-            Shape::Spring([-10.0 * size, middle], [s, middle]),
-            Shape::Block(vec![
-                [s, n],
-                [s + size, n],
-                [s + size, n + size],
-                [s, n + size],
-            ]),
-        ])
-        .force("belt", [s + size / 2.0, n], [0.0, 1.0])
-        .force("grip", [s + size / 2.0, n], [1.0, 0.0])
     }
 }

@@ -1,6 +1,5 @@
 //! A ball that bounces infinitely often in finite time.
 
-use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// A ball falls, bounces ever lower, and comes to rest.
@@ -21,6 +20,9 @@ use lagrange_core::prelude::*;
     potential = mass * gravity * y,
     contact(floor: y >= 0, restitution = bounce),
     start(dropped: y = height),
+    draw(floor: 0),
+    draw(mass: (0, y)),
+    draw(arrow: floor * (0, 1) at (0, y)),
 )]
 pub struct BouncingBall<T = f64> {
     /// Mass, kg.
@@ -45,13 +47,5 @@ impl Default for BouncingBall {
             bounce: 0.9,
             height: 1.0,
         }
-    }
-}
-
-impl BouncingBall {
-    /// The floor and the ball.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        let ball = [0.0, q[0]];
-        Drawing::of([Shape::Floor(0.0), Shape::Mass(ball)]).force("floor", ball, [0.0, 1.0])
     }
 }

@@ -1,6 +1,5 @@
 //! A mass on a spring with dry friction swings a few times and stops, not at the middle.
 
-use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// A block on a rough floor is pulled by a spring.
@@ -19,6 +18,12 @@ use lagrange_core::prelude::*;
     contact(floor: y >= 0),
     friction(grip on floor: slip = der(x), static = mu_static, kinetic = mu_kinetic),
     start(stretched: x = amplitude),
+    // The block is a tenth of the first swing wide.
+    draw(floor: 0),
+    draw(spring: (-2*amplitude, y + amplitude/10) to (x - amplitude/10, y + amplitude/10)),
+    draw(box: (x, y + amplitude/10), size = (amplitude/5, amplitude/5)),
+    draw(arrow: floor * (0, 1) at (x, y)),
+    draw(arrow: grip * (1, 0) at (x, y)),
 )]
 pub struct CoulombOscillator<T = f64> {
     /// Mass, kg.
@@ -51,25 +56,5 @@ impl Default for CoulombOscillator {
             mu_kinetic: 0.2,
             amplitude: 2.0,
         }
-    }
-}
-
-impl CoulombOscillator {
-    /// The floor, the spring and the block, a tenth of the first swing wide.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        let (x, y) = (q[0], q[1]);
-        let half = 0.1 * self.amplitude;
-        Drawing::of([
-            Shape::Floor(0.0),
-            Shape::Spring([-2.0 * self.amplitude, y + half], [x - half, y + half]),
-            Shape::Block(vec![
-                [x - half, y],
-                [x + half, y],
-                [x + half, y + 2.0 * half],
-                [x - half, y + 2.0 * half],
-            ]),
-        ])
-        .force("floor", [x, y], [0.0, 1.0])
-        .force("grip", [x, y], [1.0, 0.0])
     }
 }

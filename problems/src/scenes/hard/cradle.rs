@@ -1,7 +1,5 @@
 //! Newton's cradle: one ball hits two that touch.
 
-use crate::drawing::Drawing;
-use crate::scenes::alike;
 use lagrange_core::prelude::*;
 
 /// Three equal balls on a line, the second and third touching, struck by the first.
@@ -18,6 +16,7 @@ use lagrange_core::prelude::*;
     kinetic = sum(k in 0..3: mass/2 * der(x[k])^2),
     contact(pair[k in 0..2]: x[k+1] - x[k] >= 2 * radius, restitution = bounce),
     start(struck: x[0] = -4 * radius, x[1] = 0, x[2] = 2 * radius, der(x[0]) = speed),
+    draw(disc[k in 0..3]: (x[k], 0), radius = radius),
 )]
 pub struct Cradle<T = f64> {
     /// Mass of each ball, kg.
@@ -42,12 +41,5 @@ impl Default for Cradle {
             bounce: 1.0,
             speed: 1.0,
         }
-    }
-}
-
-impl Cradle {
-    /// The balls.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        alike::balls(self.radius, q)
     }
 }

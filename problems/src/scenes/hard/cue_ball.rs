@@ -1,6 +1,5 @@
 //! A billiard ball with side spin: its path bends, then it rolls.
 
-use crate::space::{Pose, Solid, Space, Vector};
 use lagrange_core::prelude::*;
 
 /// A ball slides on a level table with any spin.
@@ -18,6 +17,11 @@ use lagrange_core::prelude::*;
     friction(grip on cloth:
         slip = (der(x) - radius * der(beta), der(y) + radius * der(alpha)), static = mu, kinetic = mu),
     start(struck: z = radius, der(x) = speed, der(alpha) = spin, der(beta) = follow),
+    draw(floor: 0),
+    draw(sphere: (x, y, z), radius = radius, rolled = (alpha, beta, 0)),
+    draw(path: (x, y, z - radius)),
+    draw(arrow: cloth * (0, 0, 1) at (x, y, z - radius)),
+    draw(arrow: (grip[0], grip[1], 0) at (x, y, z - radius)),
 )]
 pub struct CueBall<T = f64> {
     /// Mass, kg.
@@ -54,24 +58,5 @@ impl Default for CueBall {
             spin: -60.0,
             follow: -20.0,
         }
-    }
-}
-
-impl CueBall {
-    /// The ball on the cloth and its path.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Space {
-        let ball = Vector::new(q[0], q[1], q[2]);
-        let touching = ball - self.radius * Vector::z();
-        Space::of([
-            Solid::Ground(Pose::at(0.0, 0.0, 0.0)),
-            Solid::RolledBall(self.radius, ball, Vector::new(q[3], q[4], 0.0)),
-            Solid::Trace(touching),
-        ])
-        .force("cloth", touching, [("cloth", Vector::z())])
-        .force(
-            "grip",
-            touching,
-            [("grip[0]", Vector::x()), ("grip[1]", Vector::y())],
-        )
     }
 }

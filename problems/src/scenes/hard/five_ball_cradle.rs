@@ -1,7 +1,5 @@
 //! The cradle as one sees it: blows are passed on, one after the other.
 
-use crate::drawing::Drawing;
-use crate::scenes::alike;
 use lagrange_core::prelude::*;
 
 /// Five equal balls on a line; one, two or three of them strike the others, which touch.
@@ -25,6 +23,7 @@ use lagrange_core::prelude::*;
         der(x[0]) = speed, der(x[1]) = speed),
     start(three: x[0] = -8 * radius, x[1] = -6 * radius, x[2] = -4 * radius, x[4] = 2 * radius,
         der(x[0]) = speed, der(x[1]) = speed, der(x[2]) = speed),
+    draw(disc[k in 0..5]: (x[k], 0), radius = radius),
 )]
 pub struct FiveBallCradle<T = f64> {
     /// Mass of each ball, kg.
@@ -49,12 +48,5 @@ impl Default for FiveBallCradle {
             bounce: 1.0,
             speed: 1.0,
         }
-    }
-}
-
-impl FiveBallCradle {
-    /// The balls.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        alike::balls(self.radius, q)
     }
 }

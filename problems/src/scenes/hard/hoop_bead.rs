@@ -1,6 +1,5 @@
 //! A bead on a wire hoop with friction: the wire pulls, then pushes.
 
-use crate::drawing::{Drawing, Shape, from_bottom};
 use lagrange_core::prelude::*;
 
 /// A bead slides on an upright wire hoop. Its friction is μ|N|, and N changes its sign where the bead would leave a groove.
@@ -20,6 +19,10 @@ use lagrange_core::prelude::*;
     constraint(wire: r == radius),
     friction(rub on wire: slip = radius * der(theta), static = mu, kinetic = mu),
     start(kicked: r = radius, der(theta) = rate),
+    draw(bowl: (0, 0), radius = radius),
+    draw(mass: r * (sin(theta), -cos(theta))),
+    draw(arrow: wire * (sin(theta), -cos(theta)) at r * (sin(theta), -cos(theta))),
+    draw(arrow: rub * (cos(theta), sin(theta)) at r * (sin(theta), -cos(theta))),
 )]
 pub struct HoopBead<T = f64> {
     /// Mass, kg.
@@ -48,16 +51,5 @@ impl Default for HoopBead {
             mu: 0.2,
             rate: 7.0,
         }
-    }
-}
-
-impl HoopBead {
-    /// The hoop and the bead.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        let (sin, cos) = q[1].sin_cos();
-        let bead = from_bottom([0.0; 2], q[0], q[1]);
-        Drawing::of([Shape::Bowl([0.0; 2], self.radius), Shape::Mass(bead)])
-            .force("wire", bead, [sin, -cos])
-            .force("rub", bead, [cos, sin])
     }
 }

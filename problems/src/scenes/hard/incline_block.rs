@@ -1,6 +1,5 @@
 //! A block slides sideways on an incline: its slip turns downhill and stops on the way, or never.
 
-use crate::space::{Pose, Solid, Space, Vector};
 use lagrange_core::prelude::*;
 
 /// A block is pushed across an incline; the friction turns with the slip.
@@ -22,6 +21,18 @@ use lagrange_core::prelude::*;
     contact(plane: z >= 0),
     friction(grip on plane: slip = (der(x), der(y)), static = mu, kinetic = mu),
     start(pushed: der(x) = speed),
+    // Places on the plane, and a block that is seen beside the way that it goes, which is of the order of v₀²/g.
+    define(
+        across = [0, cos(slope), -sin(slope)],
+        up = [0, sin(slope), cos(slope)],
+        place = [x, 0, 0] + y * across + z * up,
+        edge = speed^2 / (10 * gravity),
+    ),
+    draw(floor: 0, turn = (-slope, 0, 0)),
+    draw(box: place + 3/10 * edge * up, size = (edge, edge, 3/5 * edge), turn = (-slope, 0, 0)),
+    draw(path: place),
+    draw(arrow: plane * up at place),
+    draw(arrow: (grip[0], 0, 0) + grip[1] * across at place),
 )]
 pub struct InclineBlock<T = f64> {
     /// Mass, kg.
@@ -50,34 +61,5 @@ impl Default for InclineBlock {
             mu: 2.0 * 0.3_f64.tan(),
             speed: 1.5,
         }
-    }
-}
-
-impl InclineBlock {
-    /// The block on the incline and its path.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Space {
-        let plane = Pose::at(0.0, 0.0, 0.0).turned(Vector::x(), -self.slope);
-        let (along, across, up) = (
-            plane.turn * Vector::x(),
-            plane.turn * Vector::y(),
-            plane.turn * Vector::z(),
-        );
-        // Large enough to be seen beside the way that it goes, which is of the order of v₀²/g.
-        let edge = 0.1 * self.speed * self.speed / self.gravity;
-        let touching = plane.moved(q[0], q[1], q[2]);
-        Space::of([
-            Solid::Ground(plane),
-            Solid::Box(
-                [edge, edge, 0.6 * edge],
-                touching.moved(0.0, 0.0, 0.3 * edge),
-            ),
-            Solid::Trace(touching.at),
-        ])
-        .force("plane", touching.at, [("plane", up)])
-        .force(
-            "grip",
-            touching.at,
-            [("grip[0]", along), ("grip[1]", across)],
-        )
     }
 }

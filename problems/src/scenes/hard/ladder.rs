@@ -1,6 +1,5 @@
 //! A ladder slides down a wall: where does it leave it?
 
-use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// A uniform ladder slides from rest, without friction, along a wall and a floor.
@@ -27,6 +26,11 @@ use lagrange_core::prelude::*;
         y = length/2 * sin(start_angle),
         theta = start_angle),
     stop(flat: theta <= 0),
+    draw(floor: 0),
+    draw(ground: (-length/20, 0) to (0, 0) to (0, 11/10*length) to (-length/20, 11/10*length)),
+    draw(rod: (x - length/2 * cos(theta), y + length/2 * sin(theta)) to (x + length/2 * cos(theta), y - length/2 * sin(theta))),
+    draw(arrow: wall * (1, 0) at (x - length/2 * cos(theta), y + length/2 * sin(theta))),
+    draw(arrow: floor * (0, 1) at (x + length/2 * cos(theta), y - length/2 * sin(theta))),
 )]
 pub struct Ladder<T = f64> {
     /// Mass, kg.
@@ -51,30 +55,5 @@ impl Default for Ladder {
             gravity: 9.81,
             start_angle: 1.2,
         }
-    }
-}
-
-impl Ladder {
-    /// The wall, the floor and the ladder.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        let (x, y, theta) = (q[0], q[1], q[2]);
-        let half = [
-            self.length / 2.0 * theta.cos(),
-            self.length / 2.0 * theta.sin(),
-        ];
-        let (top, foot) = ([x - half[0], y + half[1]], [x + half[0], y - half[1]]);
-        let wall = -0.05 * self.length;
-        Drawing::of([
-            Shape::Floor(0.0),
-            Shape::Fixed(vec![
-                [wall, 0.0],
-                [0.0, 0.0],
-                [0.0, 1.1 * self.length],
-                [wall, 1.1 * self.length],
-            ]),
-            Shape::Rod(vec![top, foot]),
-        ])
-        .force("wall", top, [1.0, 0.0])
-        .force("floor", foot, [0.0, 1.0])
     }
 }

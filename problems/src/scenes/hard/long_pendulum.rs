@@ -1,6 +1,5 @@
 //! A pendulum in Cartesian coordinates, for a hundred thousand periods.
 
-use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// A mass on a rod: the rod is a condition on x and y, not a coordinate.
@@ -17,6 +16,11 @@ use lagrange_core::prelude::*;
     potential = mass * gravity * y,
     constraint(rod: x^2 + y^2 == length^2),
     start(raised: x = length * sin(start_angle), y = -length * cos(start_angle)),
+    draw(rod: (0, 0) to (x, y)),
+    draw(pivot: (0, 0)),
+    draw(mass: (x, y)),
+    // The gradient of x² + y².
+    draw(arrow: 2*rod * (x, y) at (x, y)),
 )]
 pub struct LongPendulum<T = f64> {
     /// Mass, kg.
@@ -41,19 +45,5 @@ impl Default for LongPendulum {
             gravity: 9.81,
             start_angle: 1.0,
         }
-    }
-}
-
-impl LongPendulum {
-    /// The rod and the mass.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        let mass = [q[0], q[1]];
-        Drawing::of([
-            Shape::Rod(vec![[0.0; 2], mass]),
-            Shape::Pivot([0.0; 2]),
-            Shape::Mass(mass),
-        ])
-        // The gradient of x² + y².
-        .force("rod", mass, [2.0 * q[0], 2.0 * q[1]])
     }
 }

@@ -1,6 +1,5 @@
 //! Painlevé's rod: rigid friction with one answer, with two, and with none.
 
-use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// A rod slides with its tip on a rough floor, leaning away from the direction it slides in: chalk pushed over a board.
@@ -26,6 +25,10 @@ use lagrange_core::prelude::*;
         der(theta) = rate, der(y) = half * cos(start_angle) * rate,
         der(x) = -speed - half * sin(start_angle) * rate),
     stop(flat: theta <= 0),
+    draw(floor: 0),
+    draw(rod: (x, y) - half * (cos(theta), sin(theta)) to (x, y) + half * (cos(theta), sin(theta))),
+    draw(arrow: tip * (0, 1) at (x, y) - half * (cos(theta), sin(theta))),
+    draw(arrow: grip * (1, 0) at (x, y) - half * (cos(theta), sin(theta))),
 )]
 pub struct PainleveRod<T = f64> {
     /// Mass, kg.
@@ -62,17 +65,5 @@ impl Default for PainleveRod {
             rate: 0.0,
             speed: 1.0,
         }
-    }
-}
-
-impl PainleveRod {
-    /// The floor and the rod.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        let (sin, cos) = q[2].sin_cos();
-        let tip = [q[0] - self.half * cos, q[1] - self.half * sin];
-        let top = [q[0] + self.half * cos, q[1] + self.half * sin];
-        Drawing::of([Shape::Floor(0.0), Shape::Rod(vec![tip, top])])
-            .force("tip", tip, [0.0, 1.0])
-            .force("grip", tip, [1.0, 0.0])
     }
 }

@@ -1,6 +1,5 @@
 //! A beam on three parallel cranks, one of them too many, turns through its dead positions.
 
-use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// A heavy beam on three equal parallel cranks: a locomotive's coupling rod.
@@ -18,6 +17,9 @@ use lagrange_core::prelude::*;
     constraint(crank[k in 0..3]:
         (x + (k - 1) * span * (cos(psi) - 1))^2 + (y + (k - 1) * span * sin(psi))^2 == length^2),
     start(spun: y = -length, der(x) = speed),
+    draw(rod[k in 0..3]: ((k - 1) * span, 0) to (x, y) + (k - 1) * span * (cos(psi), sin(psi))),
+    draw(rod: (x, y) - span * (cos(psi), sin(psi)) to (x, y) + span * (cos(psi), sin(psi))),
+    draw(mass: (x, y)),
 )]
 pub struct Parallelogram<T = f64> {
     /// Mass of the beam, kg.
@@ -50,22 +52,5 @@ impl Default for Parallelogram {
             gravity: 9.81,
             speed: 4.0,
         }
-    }
-}
-
-impl Parallelogram {
-    /// The three cranks and the bar that they carry.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        let (sin, cos) = q[2].sin_cos();
-        let joint = |k: f64| [q[0] + k * self.span * cos, q[1] + k * self.span * sin];
-        let crank = |k: f64| Shape::Rod(vec![[k * self.span, 0.0], joint(k)]);
-        let bar = Shape::Rod(vec![joint(-1.0), joint(1.0)]);
-        Drawing::of([
-            crank(-1.0),
-            crank(0.0),
-            crank(1.0),
-            bar,
-            Shape::Mass(joint(0.0)),
-        ])
     }
 }

@@ -1,6 +1,5 @@
 //! A free particle in polar coordinates passes close to their origin.
 
-use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// Nothing acts on a particle; it moves straight past the origin at a tiny distance d.
@@ -20,6 +19,9 @@ use lagrange_core::prelude::*;
         der(phi) = -speed * distance / (lead^2 + distance^2)),
     start(origin: r = 0, der(r) = speed),
     observe(x, y),
+    draw(shell: (0, 0), radius = lead/100),
+    draw(path: (x, y)),
+    draw(mass: (x, y)),
 )]
 pub struct PolarParticle<T = f64> {
     /// Mass, kg.
@@ -44,17 +46,5 @@ impl Default for PolarParticle {
             distance: 1e-6,
             lead: 1.0,
         }
-    }
-}
-
-impl PolarParticle {
-    /// The origin, the particle and its path.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        let particle = [q[0] * q[1].cos(), q[0] * q[1].sin()];
-        Drawing::of([
-            Shape::Shell([0.0; 2], 0.01 * self.lead),
-            Shape::Trace(particle),
-            Shape::Mass(particle),
-        ])
     }
 }

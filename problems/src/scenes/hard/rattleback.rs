@@ -1,6 +1,5 @@
 //! A rattleback: spun the wrong way it begins to rattle, stops, and turns back.
 
-use crate::space::{Pose, Solid, Space, Vector};
 use lagrange_core::prelude::*;
 
 /// The lower half of an ellipsoid rolls without slipping on a plane, its axes of inertia skewed to those of its shape.
@@ -30,6 +29,11 @@ use lagrange_core::prelude::*;
     constraint(rolling_y: der(y) + turning[1] == 0),
     start(spun: z = c - height, q[0] = 1, der(q[3]) = spin/2, der(q[1]) = rock/2,
         der(y) = -rock * (c - height)),
+    draw(floor: 0),
+    draw(half_ellipsoid: (x, y, z) + height * body.axes[2], size = (a, b, c), attitude = body),
+    draw(path: (x, y, z) + arm),
+    draw(arrow: floor * (0, 0, 1) at (x, y, z) + arm),
+    draw(arrow: (rolling_x, rolling_y, 0) at (x, y, z) + arm, name = rolling),
 )]
 pub struct Rattleback<T = f64> {
     /// Mass, kg.
@@ -78,32 +82,5 @@ impl Default for Rattleback {
             spin: -5.0,
             rock: 1.0,
         }
-    }
-}
-
-impl Rattleback {
-    /// The body on the floor, with the forces at the point of contact.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Space {
-        let body = Pose::at(q[0], q[1], q[2]).attitude(&q[3..]);
-        let centre = body.moved(0.0, 0.0, self.height);
-        let axes = [self.a, self.b, self.c];
-        let up = body.turn.inverse() * Vector::z();
-        let support = Vector::from(axes).component_mul(&up).norm();
-        let arm = Vector::from(axes)
-            .map(|edge| edge * edge)
-            .component_mul(&up)
-            / -support;
-        let touching = centre.place(arm[0], arm[1], arm[2]);
-        Space::of([
-            Solid::Ground(Pose::at(0.0, 0.0, 0.0)),
-            Solid::HalfEllipsoid(axes, centre),
-            Solid::Trace(touching),
-        ])
-        .force("floor", touching, [("floor", Vector::z())])
-        .force(
-            "rolling",
-            touching,
-            [("rolling_x", Vector::x()), ("rolling_y", Vector::y())],
-        )
     }
 }

@@ -1,6 +1,5 @@
 //! A block rocks from corner to corner, ever faster, until it stands.
 
-use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// A slender block rocks on its two lower corners, which do not slip.
@@ -30,6 +29,12 @@ use lagrange_core::prelude::*;
     friction(left_grip on left: slip = der(left_x), static = mu),
     friction(right_grip on right: slip = der(right_x), static = mu),
     start(rocking: y = half_height, der(x) = -half_height * rate, der(y) = half_width * rate, der(theta) = rate),
+    draw(floor: 0),
+    draw(box: (x, y), size = (2*half_width, 2*half_height), angle = theta),
+    draw(arrow: left * (0, 1) at (left_x, left_y)),
+    draw(arrow: left_grip * (1, 0) at (left_x, left_y)),
+    draw(arrow: right * (0, 1) at (right_x, right_y)),
+    draw(arrow: right_grip * (1, 0) at (right_x, right_y)),
 )]
 pub struct RockingBlock<T = f64> {
     /// Mass, kg.
@@ -62,28 +67,5 @@ impl Default for RockingBlock {
             mu: 5.0,
             rate: 0.3,
         }
-    }
-}
-
-impl RockingBlock {
-    /// The floor and the block.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        let (sin, cos) = q[2].sin_cos();
-        let corner = |a: f64, b: f64| {
-            let (across, up) = (a * self.half_width, b * self.half_height);
-            [
-                q[0] + across * cos - up * sin,
-                q[1] + across * sin + up * cos,
-            ]
-        };
-        let (left, right) = (corner(-1.0, -1.0), corner(1.0, -1.0));
-        Drawing::of([
-            Shape::Floor(0.0),
-            Shape::Block(vec![left, right, corner(1.0, 1.0), corner(-1.0, 1.0)]),
-        ])
-        .force("left", left, [0.0, 1.0])
-        .force("left_grip", left, [1.0, 0.0])
-        .force("right", right, [0.0, 1.0])
-        .force("right_grip", right, [1.0, 0.0])
     }
 }

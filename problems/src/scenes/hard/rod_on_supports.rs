@@ -1,6 +1,5 @@
 //! A rod on two supports is pulled until it slides, and tips over the one ahead.
 
-use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// A rod lies on two edges; a force that grows with time pulls it along.
@@ -26,6 +25,14 @@ use lagrange_core::prelude::*;
     force(pull: x = rate * t),
     start(resting: x = 0),
     stop(tipped: theta <= -1/10),
+    draw(ground: (-back, 0) to (-back + 3/125*length, -3/50*length) to (-back - 3/125*length, -3/50*length)),
+    draw(ground: (front, 0) to (front + 3/125*length, -3/50*length) to (front - 3/125*length, -3/50*length)),
+    draw(rod: (x, y) - length/2 * (cos(theta), sin(theta)) to (x, y) + length/2 * (cos(theta), sin(theta))),
+    draw(mass: (x, y)),
+    draw(arrow: left * (-sin(theta), cos(theta)) at (-back, 0)),
+    draw(arrow: left_grip * (cos(theta), sin(theta)) at (-back, 0)),
+    draw(arrow: right * (-sin(theta), cos(theta)) at (front, 0)),
+    draw(arrow: right_grip * (cos(theta), sin(theta)) at (front, 0)),
 )]
 pub struct RodOnSupports<T = f64> {
     /// Mass, kg.
@@ -58,25 +65,5 @@ impl Default for RodOnSupports {
             mu_static: 0.4,
             mu_kinetic: 0.3,
         }
-    }
-}
-
-impl RodOnSupports {
-    /// The supports and the rod.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        let (sin, cos) = q[2].sin_cos();
-        let half = self.length / 2.0;
-        let end = |side: f64| [q[0] + side * half * cos, q[1] + side * half * sin];
-        let (left, right) = ([-self.back, 0.0], [self.front, 0.0]);
-        Drawing::of([
-            Shape::support(left, 0.06 * self.length),
-            Shape::support(right, 0.06 * self.length),
-            Shape::Rod(vec![end(-1.0), end(1.0)]),
-            Shape::Mass([q[0], q[1]]),
-        ])
-        .force("left", left, [-sin, cos])
-        .force("left_grip", left, [cos, sin])
-        .force("right", right, [-sin, cos])
-        .force("right_grip", right, [cos, sin])
     }
 }

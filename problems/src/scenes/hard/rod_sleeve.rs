@@ -1,6 +1,5 @@
 //! A sleeve on a turning rod: slip and normal force vanish together.
 
-use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// A sleeve slides on a rod that turns at a constant rate in a level plane.
@@ -16,6 +15,11 @@ use lagrange_core::prelude::*;
     friction(rub on rod: slip = der(x) * cos(rate * t) + der(y) * sin(rate * t), static = mu, kinetic = mu),
     start(inwards: x = distance, der(x) = -speed, der(y) = rate * distance),
     observe(r = x * cos(rate * t) + y * sin(rate * t)),
+    draw(path: (x, y)),
+    draw(rod: -3/2*distance * (cos(rate*t), sin(rate*t)) to 3/2*distance * (cos(rate*t), sin(rate*t))),
+    draw(mass: (x, y)),
+    draw(arrow: rod * (-sin(rate*t), cos(rate*t)) at (x, y)),
+    draw(arrow: rub * (cos(rate*t), sin(rate*t)) at (x, y)),
 )]
 pub struct RodSleeve<T = f64> {
     /// Mass, kg.
@@ -44,21 +48,5 @@ impl Default for RodSleeve {
             distance: 0.5,
             speed: 0.8,
         }
-    }
-}
-
-impl RodSleeve {
-    /// The rod, the sleeve and its path, seen from above.
-    pub fn drawing(&self, t: f64, q: &[f64]) -> Drawing {
-        let (sin, cos) = (self.rate * t).sin_cos();
-        let sleeve = [q[0], q[1]];
-        let end = 1.5 * self.distance;
-        Drawing::of([
-            Shape::Trace(sleeve),
-            Shape::Rod(vec![[-end * cos, -end * sin], [end * cos, end * sin]]),
-            Shape::Mass(sleeve),
-        ])
-        .force("rod", sleeve, [-sin, cos])
-        .force("rub", sleeve, [cos, sin])
     }
 }

@@ -1,6 +1,5 @@
 //! A thin disk rolls on the floor, leans over almost flat, and comes up again.
 
-use crate::space::{Pose, Solid, Space, Vector};
 use lagrange_core::prelude::*;
 
 /// A uniform thin disk rolls without slipping on a horizontal plane.
@@ -34,6 +33,10 @@ use lagrange_core::prelude::*;
     constraint(rolling_y: der(y) == -radius * sin(phi) * der(psi)),
     start(leaning:
         theta = start_angle, der(phi) = turn, der(psi) = spin, der(x) = -radius * spin),
+    draw(floor: 0),
+    draw(disc: (cx, cy, cz), radius = radius, turn = ((0, 0, phi), (theta, 0, 0), (0, 0, psi))),
+    draw(path: (x, y, 0)),
+    draw(arrow: (rolling_x, rolling_y, 0) at (x, y, 0), name = rolling),
 )]
 pub struct RollingDisk<T = f64> {
     /// Mass, kg.
@@ -66,28 +69,5 @@ impl Default for RollingDisk {
             turn: 1.0,
             spin: 2.0,
         }
-    }
-}
-
-impl RollingDisk {
-    /// The disk on the floor and the path of its point of contact.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Space {
-        let [x, y, phi, theta, psi] = [q[0], q[1], q[2], q[3], q[4]];
-        let touching = Pose::at(x, y, 0.0)
-            .turned(Vector::z(), phi)
-            .turned(Vector::x(), theta);
-        let disk = touching
-            .moved(0.0, self.radius, 0.0)
-            .turned(Vector::z(), psi);
-        Space::of([
-            Solid::Ground(Pose::at(0.0, 0.0, 0.0)),
-            Solid::Disc(self.radius, 0.05 * self.radius, disk),
-            Solid::Trace(touching.at),
-        ])
-        .force(
-            "rolling",
-            touching.at,
-            [("rolling_x", Vector::x()), ("rolling_y", Vector::y())],
-        )
     }
 }

@@ -1,6 +1,5 @@
 //! A sled on three runners, one too many, slides and comes to rest.
 
-use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// A block with three points that touch the floor in a row slides and is stopped by friction.
@@ -23,6 +22,15 @@ use lagrange_core::prelude::*;
     friction(grip[k in 0..3] on point[k]:
         slip = der(x + (k - 1) * span * cos(theta) + height * sin(theta)), static = mu),
     start(sliding: y = height, der(x) = speed),
+    draw(floor: 0),
+    draw(polygon: (x - span * cos(theta) + height * sin(theta), y - span * sin(theta) - height * cos(theta))
+        to (x + span * cos(theta) + height * sin(theta), y + span * sin(theta) - height * cos(theta))
+        to (x, y) + span * (cos(theta), sin(theta)) to (x, y) - span * (cos(theta), sin(theta))),
+    draw(mass: (x, y)),
+    draw(arrow[k in 0..3]: point[k] * (0, 1)
+        at (x, y) + (k - 1) * span * (cos(theta), sin(theta)) + height * (sin(theta), -cos(theta))),
+    draw(arrow[k in 0..3]: grip[k] * (1, 0)
+        at (x, y) + (k - 1) * span * (cos(theta), sin(theta)) + height * (sin(theta), -cos(theta))),
 )]
 pub struct Sled<T = f64> {
     /// Mass, kg.
@@ -52,31 +60,5 @@ impl Default for Sled {
             mu: 0.5,
             speed: 2.0,
         }
-    }
-}
-
-impl Sled {
-    /// The floor and the sled.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        let (sin, cos) = q[2].sin_cos();
-        let at =
-            |along: f64, up: f64| [q[0] + along * cos - up * sin, q[1] + along * sin + up * cos];
-        let point = |k: f64| at(k * self.span, -self.height);
-        Drawing::of([
-            Shape::Floor(0.0),
-            Shape::Block(vec![
-                point(-1.0),
-                point(1.0),
-                at(self.span, 0.0),
-                at(-self.span, 0.0),
-            ]),
-            Shape::Mass([q[0], q[1]]),
-        ])
-        .force("point[0]", point(-1.0), [0.0, 1.0])
-        .force("grip[0]", point(-1.0), [1.0, 0.0])
-        .force("point[1]", point(0.0), [0.0, 1.0])
-        .force("grip[1]", point(0.0), [1.0, 0.0])
-        .force("point[2]", point(1.0), [0.0, 1.0])
-        .force("grip[2]", point(1.0), [1.0, 0.0])
     }
 }

@@ -1,6 +1,5 @@
 //! A slider-crank runs through its dead centres; with equal crank and rod, also through its branching point.
 
-use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// A crank with a flywheel drives a slider through a massless rod.
@@ -17,6 +16,11 @@ use lagrange_core::prelude::*;
     kinetic = inertia/2 * der(theta)^2 + mass/2 * der(x)^2,
     constraint(rod: (x - crank * cos(theta))^2 + (crank * sin(theta))^2 == rod_length^2),
     start(spun: x = crank + rod_length, der(theta) = rate),
+    draw(bowl: (0, 0), radius = crank),
+    draw(box: (x, 0), size = (2/5*crank, 2/5*crank)),
+    draw(rod: (0, 0) to crank * (cos(theta), sin(theta)) to (x, 0)),
+    draw(pivot: (0, 0)),
+    draw(mass: crank * (cos(theta), sin(theta))),
 )]
 pub struct SliderCrank<T = f64> {
     /// Moment of inertia of crank and flywheel, kg m².
@@ -45,26 +49,5 @@ impl Default for SliderCrank {
             rod_length: 0.25,
             rate: 20.0,
         }
-    }
-}
-
-impl SliderCrank {
-    /// The crank, the rod and the slider.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        let (sin, cos) = q[0].sin_cos();
-        let pin = [self.crank * cos, self.crank * sin];
-        let (x, size) = (q[1], 0.2 * self.crank);
-        Drawing::of([
-            Shape::Bowl([0.0; 2], self.crank),
-            Shape::Block(vec![
-                [x - size, -size],
-                [x + size, -size],
-                [x + size, size],
-                [x - size, size],
-            ]),
-            Shape::Rod(vec![[0.0; 2], pin, [x, 0.0]]),
-            Shape::Pivot([0.0; 2]),
-            Shape::Mass(pin),
-        ])
     }
 }

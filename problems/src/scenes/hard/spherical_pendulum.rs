@@ -1,6 +1,5 @@
 //! A spherical pendulum passes its pole, where its coordinates fail.
 
-use crate::space::{Pose, Solid, Space, Vector};
 use lagrange_core::prelude::*;
 
 /// A pendulum on a sphere, by θ from the bottom and the azimuth φ, swings past the bottom at a tiny distance.
@@ -20,6 +19,11 @@ use lagrange_core::prelude::*;
         der(phi) = sin(nearest) / sin(amplitude) * sqrt(2 * gravity / length * (cos(nearest) - cos(amplitude))
             / (sin(amplitude)^2 - sin(nearest)^2))),
     start(pole: theta = 0, der(theta) = 1),
+    draw(floor: -23/20*length),
+    draw(pivot: (0, 0, 0)),
+    draw(rod: (0, 0, 0) to length * (sin(theta)*cos(phi), sin(theta)*sin(phi), -cos(theta))),
+    draw(mass: length * (sin(theta)*cos(phi), sin(theta)*sin(phi), -cos(theta))),
+    draw(path: length * (sin(theta)*cos(phi), sin(theta)*sin(phi), -cos(theta))),
 )]
 pub struct SphericalPendulum<T = f64> {
     /// Mass, kg.
@@ -48,20 +52,5 @@ impl Default for SphericalPendulum {
             amplitude: 1.0,
             nearest: 1e-6,
         }
-    }
-}
-
-impl SphericalPendulum {
-    /// The rod, the mass and its path, over the ground.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Space {
-        let ((sin, cos), (across, along)) = (q[0].sin_cos(), q[1].sin_cos());
-        let mass = self.length * Vector::new(sin * along, sin * across, -cos);
-        Space::of([
-            Solid::Ground(Pose::at(0.0, 0.0, -1.15 * self.length)),
-            Solid::Pivot(Vector::zeros()),
-            Solid::Rod(vec![Vector::zeros(), mass]),
-            Solid::Mass(mass),
-            Solid::Trace(mass),
-        ])
     }
 }

@@ -1,7 +1,5 @@
 //! A pendulum on a very stiff spring: two time scales ten thousand apart.
 
-use crate::drawing::Drawing;
-use crate::scenes::alike;
 use lagrange_core::prelude::*;
 
 /// A mass swings on a spring so stiff that it hardly stretches, and rings at √(k/m).
@@ -16,6 +14,10 @@ use lagrange_core::prelude::*;
     potential(weight: -mass * gravity * r * cos(theta)),
     potential(spring: stiffness/2 * (r - length)^2),
     start(held: r = length, theta = start_angle),
+    draw(path: r * (sin(theta), -cos(theta))),
+    draw(spring: (0, 0) to r * (sin(theta), -cos(theta))),
+    draw(pivot: (0, 0)),
+    draw(mass: r * (sin(theta), -cos(theta))),
 )]
 pub struct SpringPendulum<T = f64> {
     /// Mass, kg.
@@ -44,12 +46,5 @@ impl Default for SpringPendulum {
             stiffness: 1e8,
             start_angle: 1.0,
         }
-    }
-}
-
-impl SpringPendulum {
-    /// The spring, the mass and its path.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        alike::mass_on_spring(q[0], q[1])
     }
 }

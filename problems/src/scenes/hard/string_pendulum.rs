@@ -1,6 +1,5 @@
 //! A pendulum on a string goes slack, flies, and is caught.
 
-use crate::drawing::{Drawing, Shape};
 use lagrange_core::prelude::*;
 
 /// A mass on an inextensible string is kicked so that it rises above the support, but not all the way.
@@ -21,6 +20,11 @@ use lagrange_core::prelude::*;
     potential = mass * gravity * y,
     contact(string: sqrt(x^2 + y^2) <= length),
     start(kicked: y = -length, der(x) = speed),
+    draw(path: (x, y)),
+    draw(rope: (0, 0) to (x, y)),
+    draw(pivot: (0, 0)),
+    draw(mass: (x, y)),
+    draw(arrow: -string / sqrt(x^2 + y^2) * (x, y) at (x, y)),
 )]
 pub struct StringPendulum<T = f64> {
     /// Mass, kg.
@@ -45,20 +49,5 @@ impl Default for StringPendulum {
             gravity: 9.81,
             speed: 5.5,
         }
-    }
-}
-
-impl StringPendulum {
-    /// The string, drawn straight also where it is slack, the mass and its path.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        let mass = [q[0], q[1]];
-        let distance = q[0].hypot(q[1]).max(f64::MIN_POSITIVE);
-        Drawing::of([
-            Shape::Trace(mass),
-            Shape::Rod(vec![[0.0; 2], mass]),
-            Shape::Pivot([0.0; 2]),
-            Shape::Mass(mass),
-        ])
-        .force("string", mass, [-q[0] / distance, -q[1] / distance])
     }
 }

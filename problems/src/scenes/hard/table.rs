@@ -1,6 +1,5 @@
 //! A table on four legs is pushed until it slides.
 
-use crate::space::{Pose, Solid, Space, Vector};
 use lagrange_core::prelude::*;
 
 /// A table stands on four legs on a rough floor; a force that grows with time pushes it.
@@ -36,6 +35,33 @@ use lagrange_core::prelude::*;
         der(x - a * cos(psi) + b * sin(psi)), der(y - a * sin(psi) - b * cos(psi)))),
     force(push: (rate * t * cos(direction), rate * t * sin(direction)) at (x, y)),
     start(standing: x = 0),
+    // Directions of the table, and what is large enough to be seen.
+    define(
+        forward = [cos(psi) * cos(pitch), sin(psi) * cos(pitch), sin(pitch)],
+        left = [-cos(psi) * sin(roll) * sin(pitch) - sin(psi) * cos(roll),
+            -sin(psi) * sin(roll) * sin(pitch) + cos(psi) * cos(roll), sin(roll) * cos(pitch)],
+        up = cross(forward, left),
+        centre = [x, y, z],
+        foot = [centre + a * forward + b * left, centre + a * forward - b * left,
+            centre - a * forward + b * left, centre - a * forward - b * left],
+        high = 3/5 * length,
+        thick = length/25,
+    ),
+    draw(floor: 0),
+    draw(path: centre),
+    draw(box: centre + (high + thick/2) * up, size = (length + 2*thick, width + 2*thick, thick),
+        turn = ((0, 0, psi), (0, -pitch, 0), (roll, 0, 0))),
+    draw(box[k in 0..4]: foot[k] + high/2 * up, size = (thick, thick, high),
+        turn = ((0, 0, psi), (0, -pitch, 0), (roll, 0, 0))),
+    draw(arrow: push * (cos(direction), sin(direction), 0) at centre),
+    draw(arrow: fore_left * (0, 0, 1) at foot[0]),
+    draw(arrow: (grip_fore_left[0], grip_fore_left[1], 0) at foot[0]),
+    draw(arrow: fore_right * (0, 0, 1) at foot[1]),
+    draw(arrow: (grip_fore_right[0], grip_fore_right[1], 0) at foot[1]),
+    draw(arrow: rear_left * (0, 0, 1) at foot[2]),
+    draw(arrow: (grip_rear_left[0], grip_rear_left[1], 0) at foot[2]),
+    draw(arrow: rear_right * (0, 0, 1) at foot[3]),
+    draw(arrow: (grip_rear_right[0], grip_rear_right[1], 0) at foot[3]),
 )]
 pub struct Table<T = f64> {
     /// Mass, kg.
@@ -71,63 +97,5 @@ impl Default for Table {
             rate: 20.0,
             direction: 0.6,
         }
-    }
-}
-
-impl Table {
-    /// A table top on four legs, with the forces at their feet.
-    pub fn drawing(&self, t: f64, q: &[f64]) -> Space {
-        let foot = Pose::at(q[0], q[1], q[3])
-            .turned(Vector::z(), q[2])
-            .turned(Vector::y(), -q[4])
-            .turned(Vector::x(), q[5]);
-        let (height, thick) = (0.6 * self.length, 0.04 * self.length);
-        let corners = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
-        let corner = corners.map(|[along, across]| {
-            foot.moved(along * self.length / 2.0, across * self.width / 2.0, 0.0)
-        });
-        let leg =
-            |pose: Pose| Solid::Box([thick, thick, height], pose.moved(0.0, 0.0, height / 2.0));
-        let top = [self.length + 2.0 * thick, self.width + 2.0 * thick, thick];
-        let push = self.rate * t * Vector::new(self.direction.cos(), self.direction.sin(), 0.0);
-        let legs = corner.map(leg);
-        let table = [
-            Solid::Ground(Pose::at(0.0, 0.0, 0.0)),
-            Solid::Trace(foot.at),
-            Solid::Box(top, foot.moved(0.0, 0.0, height + thick / 2.0)),
-        ];
-        let names = [
-            (
-                "fore_left",
-                "grip_fore_left",
-                ["grip_fore_left[0]", "grip_fore_left[1]"],
-            ),
-            (
-                "fore_right",
-                "grip_fore_right",
-                ["grip_fore_right[0]", "grip_fore_right[1]"],
-            ),
-            (
-                "rear_left",
-                "grip_rear_left",
-                ["grip_rear_left[0]", "grip_rear_left[1]"],
-            ),
-            (
-                "rear_right",
-                "grip_rear_right",
-                ["grip_rear_right[0]", "grip_rear_right[1]"],
-            ),
-        ];
-        let drawing = Space::of(table.into_iter().chain(legs)).applied("push", foot.at, push);
-        names
-            .into_iter()
-            .zip(corner)
-            .fold(drawing, |drawing, ((foot, grip, [x, y]), pose)| {
-                drawing.force(foot, pose.at, [(foot, Vector::z())]).force(
-                    grip,
-                    pose.at,
-                    [(x, Vector::x()), (y, Vector::y())],
-                )
-            })
     }
 }

@@ -1,7 +1,5 @@
 //! A thrown ball bounces, grips the floor in one of its bounces, and rolls away.
 
-use crate::drawing::Drawing;
-use crate::scenes::alike;
 use lagrange_core::prelude::*;
 
 /// A solid ball with friction is thrown sideways, without spin, from a height.
@@ -20,6 +18,11 @@ use lagrange_core::prelude::*;
     contact(floor: y >= radius, restitution = bounce),
     friction(grip on floor: slip = der(x) - radius * der(phi), static = mu),
     start(thrown: y = radius + height, der(x) = speed),
+    draw(floor: 0),
+    draw(path: (x, y)),
+    draw(disc: (x, y), radius = radius, angle = -phi),
+    draw(arrow: floor * (0, 1) at (x, y - radius)),
+    draw(arrow: grip * (1, 0) at (x, y - radius)),
 )]
 pub struct ThrownBall<T = f64> {
     /// Mass, kg.
@@ -56,12 +59,5 @@ impl Default for ThrownBall {
             height: 1.0,
             speed: 4.0,
         }
-    }
-}
-
-impl ThrownBall {
-    /// The floor, the ball and the path of its centre.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        alike::ball_on_floor(self.radius, [q[0], q[1]], q[2])
     }
 }

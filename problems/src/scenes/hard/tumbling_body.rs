@@ -1,6 +1,5 @@
 //! A free rigid body turns about the ends of its middle axis, and keeps flipping over.
 
-use crate::space::{Pose, Solid, Space};
 use lagrange_core::prelude::*;
 
 /// A rigid body with three different moments of inertia, free in space, its attitude by a unit quaternion.
@@ -16,6 +15,14 @@ use lagrange_core::prelude::*;
     kinetic = sum(k in 0..3: inertia[k]/2 * body.body_rate[k]^2),
     start(spun: q[0] = 1, der(q[1]) = nudge/2, der(q[2]) = rate/2),
     observe(rate_of_body = body.body_rate),
+    // The box that has these moments of inertia, a little thicker, so that a plate is seen from the side.
+    define(
+        whole = inertia[0] + inertia[1] + inertia[2],
+        edge = list(k in 0..3: sqrt((6 * (whole - 2*inertia[k]) + whole/625) / mass)),
+    ),
+    draw(box: (0, 0, 0), size = edge, attitude = body),
+    draw(rod[k in 0..2]: (2*k - 1) * edge[1]/2 * body.axes[1] to (2*k - 1) * 3/5*edge[1] * body.axes[1]),
+    draw(path: edge[0]/2 * body.axes[0] + edge[1]/2 * body.axes[1] + edge[2]/2 * body.axes[2]),
 )]
 pub struct TumblingBody<T = f64> {
     /// Principal moments of inertia, kg m², ascending.
@@ -27,6 +34,9 @@ pub struct TumblingBody<T = f64> {
     /// Rate about the first axis at the start, rad/s.
     #[lagrange(unit = "rad/s")]
     pub nudge: T,
+    /// Mass, kg; it says only how large the body is drawn.
+    #[lagrange(unit = "kg", symbol = "m")]
+    pub mass: T,
 }
 
 impl Default for TumblingBody {
@@ -35,32 +45,7 @@ impl Default for TumblingBody {
             inertia: [1.0, 2.0, 3.0],
             rate: 2.0,
             nudge: 0.01,
+            mass: 1.0,
         }
-    }
-}
-
-impl TumblingBody {
-    /// The box of mass 1 that has these moments of inertia, the ends of its middle axis, and the path of a corner.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Space {
-        let body = Pose::at(0.0, 0.0, 0.0).attitude(q);
-        let sum: f64 = self.inertia.iter().sum();
-        // Iₖ is a twelfth of the squares of the other two edges.
-        let edges = self
-            .inertia
-            .map(|i| (6.0 * (sum - 2.0 * i)).max(0.0).sqrt());
-        // A plate, whose largest moment is the sum of the others, would not be seen from its side.
-        let thin = 0.02 * edges.into_iter().fold(0.0, f64::max);
-        let edges = edges.map(|edge| edge.max(thin));
-        let [x, y, z] = edges.map(|edge| edge / 2.0);
-        let stub = |side: f64| {
-            let ends = [1.0, 1.2].map(|part| body.place(0.0, side * part * y, 0.0));
-            Solid::Rod(ends.into())
-        };
-        Space::of([
-            Solid::Box(edges, body),
-            stub(-1.0),
-            stub(1.0),
-            Solid::Trace(body.place(x, y, z)),
-        ])
     }
 }

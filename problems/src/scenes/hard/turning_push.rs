@@ -1,6 +1,5 @@
 //! A puck is pushed off by a force that turns: where its slip begins, and how.
 
-use crate::space::{Pose, Solid, Space, Vector};
 use lagrange_core::prelude::*;
 
 /// A puck rests on a table until a growing, turning force is stronger than friction; its slip begins in a direction that is part
@@ -26,6 +25,14 @@ use lagrange_core::prelude::*;
     friction(grip on table: slip = (der(x), der(y)), static = mu_static, kinetic = mu_kinetic),
     force(push: (forward * c - sideways * s, forward * s + sideways * c, 0) at (x, y, z)),
     start(lying: x = 0),
+    // The puck is seen beside the way that it goes.
+    define(wide = mu_kinetic * gravity * begin^2 / 20),
+    draw(floor: 0),
+    draw(disc: (x, y, z + wide/4), radius = wide, height = wide/2),
+    draw(path: (x, y, z)),
+    draw(arrow: push),
+    draw(arrow: table * (0, 0, 1) at (x, y, z)),
+    draw(arrow: (grip[0], grip[1], 0) at (x, y, z)),
 )]
 pub struct TurningPush<T = f64> {
     /// Mass, kg.
@@ -66,32 +73,5 @@ impl Default for TurningPush {
             mu_static: 0.3,
             mu_kinetic: 0.3,
         }
-    }
-}
-
-impl TurningPush {
-    /// The puck on the table, its path, and what pushes it.
-    pub fn drawing(&self, t: f64, q: &[f64]) -> Space {
-        let puck = Pose::at(q[0], q[1], q[2]);
-        // Large enough to be seen beside the way that it goes in a second.
-        let radius = 0.05 * (self.jump + self.growth);
-        let height = 0.5 * radius;
-        let since = t - self.begin;
-        let rho = self.jump * since + self.growth * since * since / 2.0;
-        let forward = self.jump + self.growth * since + self.mu_kinetic * self.gravity;
-        let turned = puck.turned(Vector::z(), self.turn * since);
-        let push = turned.turn * Vector::new(forward, rho * self.turn, 0.0) * self.mass;
-        Space::of([
-            Solid::Ground(Pose::at(0.0, 0.0, 0.0)),
-            Solid::Disc(radius, height, puck.moved(0.0, 0.0, height / 2.0)),
-            Solid::Trace(puck.at),
-        ])
-        .applied("push", puck.at, push)
-        .force("table", puck.at, [("table", Vector::z())])
-        .force(
-            "grip",
-            puck.at,
-            [("grip[0]", Vector::x()), ("grip[1]", Vector::y())],
-        )
     }
 }

@@ -1,6 +1,5 @@
 //! A ball rolls on a turning table, on a circle that is not the table's.
 
-use crate::space::{Pose, Solid, Space, Vector};
 use lagrange_core::prelude::*;
 
 /// A solid ball rolls without slipping on a table that turns at a constant rate.
@@ -21,6 +20,14 @@ use lagrange_core::prelude::*;
     start(put:
         x = start_x, q[0] = 1, der(y) = start_speed,
         der(q[1]) = (rate * start_x - start_speed) / (2 * radius)),
+    // The table is larger than the circle that the ball runs on.
+    draw(floor: -radius),
+    draw(disc: (0, 0, -radius/4),
+        radius = abs(start_x) + 7 * abs(start_speed) / sqrt(rate^2 + (start_speed/start_x)^2),
+        height = radius/2, turn = (0, 0, rate * t)),
+    draw(sphere: (x, y, radius), radius = radius, attitude = ball),
+    draw(path: (x, y, 0)),
+    draw(arrow: (rolling_x, rolling_y, 0) at (x, y, 0), name = rolling),
 )]
 pub struct Turntable<T = f64> {
     /// Mass of the ball, kg.
@@ -49,29 +56,5 @@ impl Default for Turntable {
             start_x: 0.5,
             start_speed: 0.4,
         }
-    }
-}
-
-impl Turntable {
-    /// The table, which turns, and on it the ball and its path.
-    pub fn drawing(&self, t: f64, q: &[f64]) -> Space {
-        // The path is a circle of radius 7 v/(2 Ω).
-        let path = 3.5 * self.start_speed / self.rate.abs().max(0.1);
-        let table = self.start_x.abs() + 2.0 * path.abs();
-        let thick = 0.5 * self.radius;
-        let turned = Pose::at(0.0, 0.0, -thick / 2.0).turned(Vector::z(), self.rate * t);
-        let ball = Pose::at(q[0], q[1], self.radius).attitude(&q[2..]);
-        let touching = Vector::new(q[0], q[1], 0.0);
-        Space::of([
-            Solid::Ground(Pose::at(0.0, 0.0, -2.0 * thick)),
-            Solid::Disc(table, thick, turned),
-            Solid::Ball(self.radius, ball),
-            Solid::Trace(touching),
-        ])
-        .force(
-            "rolling",
-            touching,
-            [("rolling_x", Vector::x()), ("rolling_y", Vector::y())],
-        )
     }
 }

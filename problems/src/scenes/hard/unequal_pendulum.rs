@@ -1,6 +1,5 @@
 //! A double pendulum whose masses differ by eight powers of ten.
 
-use crate::drawing::{Drawing, Shape, from_bottom};
 use lagrange_core::prelude::*;
 
 /// A double pendulum with a heavy and a light mass.
@@ -20,6 +19,10 @@ use lagrange_core::prelude::*;
     kinetic   = sum(k in 0..2: mass[k]/2 * (der(x[k])^2 + der(y[k])^2)),
     potential = sum(k in 0..2: mass[k] * gravity * y[k]),
     start(raised: theta[0] = start_angle, theta[1] = lower_angle),
+    draw(path: (x[1], y[1])),
+    draw(rod: (0, 0) to list(k in 0..2: (x[k], y[k]))),
+    draw(pivot: (0, 0)),
+    draw(mass[k in 0..2]: (x[k], y[k])),
 )]
 pub struct UnequalPendulum<T = f64> {
     /// The masses, upper and lower, kg.
@@ -48,20 +51,5 @@ impl Default for UnequalPendulum {
             start_angle: 1.0,
             lower_angle: 0.5,
         }
-    }
-}
-
-impl UnequalPendulum {
-    /// The rods, the masses and the path of the lower one.
-    pub fn drawing(&self, _t: f64, q: &[f64]) -> Drawing {
-        let upper = from_bottom([0.0; 2], self.length[0], q[0]);
-        let lower = from_bottom(upper, self.length[1], q[1]);
-        Drawing::of([
-            Shape::Trace(lower),
-            Shape::Rod(vec![[0.0; 2], upper, lower]),
-            Shape::Pivot([0.0; 2]),
-            Shape::Mass(upper),
-            Shape::Mass(lower),
-        ])
     }
 }

@@ -145,6 +145,7 @@ impl Checker<'_, '_> {
                 self.each(&watch.head, |this, _| this.trigger(&watch.trigger))
             }
             (8, ItemKind::Check(check)) => self.check(check),
+            (8, ItemKind::Draw(draw)) => self.indexed(draw.index.as_ref(), |this| this.draw(draw)),
             _ => Some(()),
         }
     }
@@ -174,11 +175,20 @@ impl Checker<'_, '_> {
     /// Both sides of a claim and of its premises.
     fn check(&mut self, check: &ast::Check) -> Option<()> {
         let index = check.head.as_ref().and_then(|head| head.index.as_ref());
+        self.indexed(index, |this| this.claim(check))
+    }
+
+    /// Runs `body` for every value of an index, if there is one.
+    fn indexed(
+        &mut self,
+        index: Option<&ast::Index>,
+        mut body: impl FnMut(&mut Self) -> Option<()>,
+    ) -> Option<()> {
         let Some(index) = index else {
-            return self.claim(check);
+            return body(self);
         };
         let (from, to) = self.elaboration.bounds(&index.range)?;
-        (from..to).try_for_each(|k| self.with_index(&index.name, k, |this| this.claim(check)))
+        (from..to).try_for_each(|k| self.with_index(&index.name, k, |this| body(this)))
     }
 
     fn claim(&mut self, check: &ast::Check) -> Option<()> {

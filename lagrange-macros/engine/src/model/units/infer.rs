@@ -70,6 +70,7 @@ impl Checker<'_, '_> {
                 self.terms(&[then, otherwise], hint)
             }
             ExprKind::SumOver(index, body) => self.sum_over(index, body, hint),
+            ExprKind::ListOver(index, body) => self.each_of(index, body, hint).map(Shape::List),
             ExprKind::List(elements) => {
                 let shapes: Vec<Option<Shape>> = elements
                     .iter()
@@ -169,12 +170,21 @@ impl Checker<'_, '_> {
         Some(Shape::One(Dimension::ONE.into()))
     }
 
-    fn sum_over(&mut self, index: &Index, body: &Expr, hint: Option<&Quantity>) -> Option<Shape> {
+    /// The units of a body for every value of its index.
+    fn each_of(
+        &mut self,
+        index: &Index,
+        body: &Expr,
+        hint: Option<&Quantity>,
+    ) -> Option<Vec<Shape>> {
         let (from, to) = self.elaboration.bounds(&index.range)?;
-        let mut shapes = Vec::new();
-        for k in from..to {
-            shapes.push(self.with_index(&index.name, k, |this| this.shape(body, hint))?);
-        }
+        (from..to)
+            .map(|k| self.with_index(&index.name, k, |this| this.shape(body, hint)))
+            .collect()
+    }
+
+    fn sum_over(&mut self, index: &Index, body: &Expr, hint: Option<&Quantity>) -> Option<Shape> {
+        let shapes = self.each_of(index, body, hint)?;
         if shapes.is_empty() {
             return Some(Shape::One(self.unknowns.fresh("0")));
         }

@@ -14,6 +14,7 @@ mod calls;
 mod check;
 mod contacts;
 mod dimension;
+mod draws;
 mod grammar;
 mod infer;
 mod names;

@@ -114,7 +114,9 @@ fn names_in<'a>(expr: &'a Expr, names: &mut Vec<&'a str>) {
         ExprKind::Product(factors) => factors
             .iter()
             .for_each(|(_, factor)| names_in(factor, names)),
-        ExprKind::Negative(inner) | ExprKind::SumOver(_, inner) => names_in(inner, names),
+        ExprKind::Negative(inner) | ExprKind::SumOver(_, inner) | ExprKind::ListOver(_, inner) => {
+            names_in(inner, names)
+        }
         ExprKind::Member(inner, _) | ExprKind::Element(inner, _) => names_in(inner, names),
         ExprKind::Power(base, exponent) => [base, exponent]
             .into_iter()

@@ -2,6 +2,7 @@
 
 mod check;
 mod contact;
+mod draw;
 mod force;
 mod output;
 mod parameter;
@@ -33,6 +34,7 @@ const KEYWORDS: &[&str] = &[
     "observe",
     "stop",
     "mark",
+    "draw",
     "attitude",
     "impacts",
     "emit",
@@ -160,6 +162,7 @@ fn grouped(
         "start" => "a start: `rest: x = 1`",
         "observe" => "an output: `height = y`",
         "stop" | "mark" => "a condition: `ground: y <= 0`",
+        "draw" => "a form and where it is: `mass: (x, y)`",
         "check" => "an equation, as in `check(floor == m*g when closed(floor))`",
         _ => "a body and its coordinates: `body: q`",
     };
@@ -181,6 +184,7 @@ fn grouped(
         "start" => start::start(parts, sink),
         "observe" => output::observe(parts, sink),
         "check" => check::check(parts, sink),
+        "draw" => draw::draw(parts, sink),
         "stop" | "mark" => output::watch(&keyword.text, parts, sink),
         _ => attitude(parts.first_mut()?, sink),
     }

@@ -1,0 +1,84 @@
+//! Results in words: an event, an instant, a whole run.
+
+use super::{Event, EventKind, Instant, Record, Trajectory};
+use crate::arithmetic::Scalar;
+use crate::system::System;
+use core::fmt::{Display, Formatter, Result};
+
+/// The event as a sentence, `t = 2.461759150 s: grip starts to slip`.
+impl<T: Scalar> Display for Event<T> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        let name = self.subject.name(self.owner.0);
+        let what = match self.kind {
+            EventKind::Lost => "lets go",
+            EventKind::Closed => "closes and holds",
+            EventKind::Impact => "is hit",
+            EventKind::Accumulates { .. } => "has bounced infinitely often",
+            EventKind::Slips => "starts to slip",
+            EventKind::Sticks => "sticks",
+            EventKind::Reverses => "reverses its slip",
+            EventKind::Branches => "changes branch",
+            EventKind::Ambiguous => "could go on otherwise",
+            EventKind::Stop => "ends the run",
+            EventKind::Mark => "is reached",
+        };
+        write!(f, "t = {:.9} s: {name} {what}", self.time.value())
+    }
+}
+
+impl Display for EventKind {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        f.write_str(self.word())
+    }
+}
+
+/// The time, the mode, and positions, velocities, forces and outputs by name.
+impl<T: Scalar> Display for Instant<T> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        let d = self.owner.0;
+        write!(f, "t = {:.9} s", self.time.value())?;
+        if !(d.contacts.is_empty() && d.frictions.is_empty()) {
+            write!(f, ": {}", self.mode.display(d))?;
+        }
+        for (coordinate, q) in d.coordinates.iter().zip(&self.q) {
+            write!(f, ", {} = {}", coordinate.name, q.value())?;
+        }
+        for (coordinate, v) in d.coordinates.iter().zip(&self.v) {
+            write!(f, ", der({}) = {}", coordinate.name, v.value())?;
+        }
+        let constraints = d.constraints.iter().map(|c| (c.name, c.row, 1));
+        let contacts = d.contacts.iter().map(|c| (c.name, c.row, 1));
+        let frictions = d.frictions.iter().map(|c| (c.name, c.row, c.components));
+        for (name, row, components) in constraints.chain(contacts).chain(frictions) {
+            for (k, force) in self.forces[row..row + components].iter().enumerate() {
+                match components {
+                    1 => write!(f, ", force({name}) = {}", force.value())?,
+                    _ => write!(f, ", force({name}[{k}]) = {}", force.value())?,
+                }
+            }
+        }
+        for (observe, value) in d.observes.iter().zip(&self.observes) {
+            write!(f, ", {} = {}", observe.name, value.value())?;
+        }
+        Ok(())
+    }
+}
+
+/// What happened, a line for each event, from the first instant to the last.
+impl<T: Scalar> Display for Record<T> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        let name = self.description().name;
+        writeln!(f, "t = {:.9} s: {name} starts", self.first_time())?;
+        for event in self.events() {
+            writeln!(f, "{event}")?;
+        }
+        let steps = self.work().steps;
+        write!(f, "t = {:.9} s: end, after {steps} steps", self.last_time())
+    }
+}
+
+impl<S: System> Display for Trajectory<S> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        Display::fmt(&**self, f)
+    }
+}
