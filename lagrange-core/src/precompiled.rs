@@ -51,7 +51,7 @@ impl<T: Runnable, const N: usize> Runnable for Dual<T, N> {}
 pub struct Functions<T: Scalar> {
     pub(crate) run: fn(Erased<T>, &Settings) -> Run<T>,
     pub(crate) execute: Execute<T>,
-    pub(crate) launch: Execute<T>,
+    pub(crate) launch: Launch<T>,
     pub(crate) go_on: fn(&mut Together<T>, &mut [Member<'_, T>]),
     pub(crate) land: fn(&mut Run<T>, &mut Record<T>),
     pub(crate) set_system: fn(&mut Run<T>, Erased<T>),
@@ -63,7 +63,15 @@ pub struct Functions<T: Scalar> {
     pub(crate) dynamics: fn(Erased<T>, &Effects) -> Dynamics<T>,
 }
 
-type Execute<T> = fn(&mut Run<T>, &State<T>, Range<f64>, &mut Record<T>) -> Result<(), Error>;
+type Launch<T> = fn(&mut Run<T>, &State<T>, Range<f64>, &mut Record<T>) -> Result<(), Error>;
+type Execute<T> = fn(
+    &mut Run<T>,
+    &State<T>,
+    Range<f64>,
+    &mut Record<T>,
+    usize,
+    &mut dyn FnMut(&Record<T>),
+) -> Result<(), Error>;
 type Book<T> = fn(&Record<T>, Option<&[f64]>) -> Result<Vec<Ledger>, Error>;
 type Consistent<T> = fn(&mut Run<T>, f64, &State<T>, &State<T>, &Held) -> Result<State<T>, Error>;
 

@@ -5,7 +5,7 @@ use crate::accuracy::{self, Accuracy, Course, Study};
 use crate::closed_form::ClosedForm;
 use crate::cost::{self, Costs};
 use crate::film::Film;
-use crate::outcome::Outcome;
+use crate::outcome::{self, Outcome};
 use crate::request::{Refusal, Request};
 #[cfg(feature = "scenes")]
 use crate::scenes::{hard::*, *};
@@ -84,6 +84,8 @@ pub static HARD: &[&dyn Scene] = &[
     &Entry::<UnequalPendulum>::new("unequal-pendulum", 5.0),
     &Entry::<TumblingBody>::new("tumbling-body", 30.0),
     &Entry::<LongPendulum>::new("long-pendulum", 10.0),
+    &Entry::<OverdampedOscillator>::new("overdamped-oscillator", 10.0),
+    &Entry::<GardenSwing>::new("garden-swing", 10.0),
 ];
 
 /// Stages of [`Progress`](crate::progress::Progress) that a run advances by: the run itself and the energy book; a film: one
@@ -225,6 +227,9 @@ impl<S> Entry<S> {
     }
 }
 
+/// Bytes of a motion that are kept at a time.
+const PIECE: usize = 32 << 20;
+
 impl<S: System<Scalar = f64>> Entry<S> {
     /// The system with its default parameters.
     fn prototype(&self) -> S {
@@ -256,6 +261,42 @@ impl<S: System<Scalar = f64>> Entry<S> {
             Err(stopped) => (*stopped.trajectory, Some(stopped.error)),
         })
     }
+
+    /// The run as asked for, of whose motion so many bytes are kept at a time.
+    fn run_in_pieces(&self, request: &Request, bytes: usize) -> Result<Outcome, Refusal> {
+        let system = self.system(request)?;
+        let simulation = request.simulation(&system)?;
+        let start = request.start(&system, &simulation)?;
+        let until = request.until.unwrap_or(self.until);
+        let told = |piece: &Record<f64>, failure, request: &Request| {
+            let times = outcome::within(piece, until, request.samples);
+            Outcome::sampled(self.name, piece, failure, request, &times)
+        };
+        let unseen = Request {
+            progress: None,
+            ..request.clone()
+        };
+        let mut whole: Option<Outcome> = None;
+        let mut runner = simulation.runner();
+        let run = || {
+            runner.run_in_pieces(&start, 0.0..until, bytes, |piece| {
+                let next = told(piece, None, &unseen);
+                match &mut whole {
+                    Some(whole) => whole.join(next),
+                    None => whole = Some(next),
+                }
+            })
+        };
+        let failure = request.stage(until, run).err();
+        let last = runner.trajectory();
+        Ok(match whole {
+            None => Outcome::new(self.name, last, failure, request),
+            Some(mut whole) => {
+                whole.join(told(last, failure, request));
+                whole
+            }
+        })
+    }
 }
 
 impl<S: System<Scalar = f64>> Scene for Entry<S> {
@@ -283,9 +324,7 @@ impl<S: System<Scalar = f64>> Scene for Entry<S> {
     }
 
     fn run(&self, request: &Request) -> Result<Outcome, Refusal> {
-        let system = self.system(request)?;
-        let (trajectory, failure) = self.trajectory(&system, request)?;
-        Ok(Outcome::new(self.name, &trajectory, failure, request))
+        self.run_in_pieces(request, PIECE)
     }
 
     fn film(&self, request: &Request) -> Result<Film, Refusal> {
@@ -343,4 +382,43 @@ pub fn find(name: &str) -> Result<&'static dyn Scene, Refusal> {
     scenes()
         .find(|scene| scene.name() == name)
         .ok_or_else(|| Refusal::unknown("scene", name, scenes().map(|scene| scene.name())))
+}
+
+#[cfg(all(test, feature = "scenes"))]
+mod tests {
+    use super::{BeltOscillator, Entry, Outcome, Request};
+
+    #[test]
+    fn pieces_make_the_same_run() {
+        let belt = Entry::<BeltOscillator>::new("belt", 20.0);
+        let request = Request {
+            samples: 50,
+            ledger: true,
+            ..Request::default()
+        };
+        let run = |bytes| belt.run_in_pieces(&request, bytes).expect("a run");
+        let (whole, joined): (Outcome, Outcome) = (run(usize::MAX), run(3000));
+        assert_eq!(joined.events.len(), whole.events.len());
+        assert_eq!(joined.phases, whole.phases);
+        assert_eq!(joined.work, whole.work);
+        assert_eq!(joined.samples.len(), whole.samples.len());
+        for (a, b) in joined.samples.iter().zip(&whole.samples) {
+            assert!((a.time - b.time).abs() < 1e-12 && a.phase == b.phase);
+            assert!((a.state.q[0] - b.state.q[0]).abs() < 1e-12);
+        }
+        let books = [&joined, &whole].map(|run| {
+            let ledgers = run.ledgers.iter().chain(&run.event_ledgers);
+            ledgers.chain(&run.ledger).collect::<Vec<_>>()
+        });
+        assert_eq!(books[0].len(), books[1].len());
+        for (a, b) in books[0].iter().zip(&books[1]) {
+            for (a, b) in a.work.iter().zip(&b.work) {
+                assert_eq!((a.name, a.kind), (b.name, b.kind));
+                assert!((a.work - b.work).abs() < 1e-9, "{a:?} {b:?}");
+            }
+        }
+        let certificates = [&joined, &whole].map(|run| run.certificate.clone().expect("one"));
+        assert_eq!(certificates[0].steps, certificates[1].steps);
+        assert!(certificates.iter().all(|c| c.holds()));
+    }
 }

@@ -63,7 +63,7 @@ impl Default for Request {
             until: None,
             end_after: Vec::new(),
             tolerance: 1e-9,
-            method: Method::Taylor,
+            method: Method::Auto,
             project: false,
             impacts: None,
             equations: Equations::Emitted,

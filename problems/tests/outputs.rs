@@ -192,7 +192,7 @@ fn a_parquet_file_says_what_was_run() {
     assert_eq!(what["without"], serde_json::json!(["floor"]));
     assert_eq!(
         (&what["method"], &what["tolerance"]),
-        (&Value::from("taylor"), &Value::from(1e-10))
+        (&Value::from("auto"), &Value::from(1e-10))
     );
     assert_eq!(what["version"], env!("CARGO_PKG_VERSION"));
 }

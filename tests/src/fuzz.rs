@@ -20,7 +20,7 @@ const PATIENCE: u64 = 20;
 
 /// Methods that choose their steps.
 pub const METHODS: [Method; 5] = [
-    Method::Taylor,
+    Method::Auto,
     Method::DormandPrince853,
     Method::DormandPrince54,
     Method::Verner98,

@@ -179,6 +179,13 @@ impl<T: Scalar> Compiled<T> {
     /// Undoes [`Self::refuse_functions`]: one motion must not depend on those before it.
     pub(super) fn restart(&mut self) {
         self.refused = false;
+        self.solver.hold_rows_aside(false);
+    }
+
+    /// Whether a row that acts is held aside.
+    pub(super) fn holds_aside(&self, row: usize) -> bool {
+        let kept = self.plan.kept.iter().position(|&kept| kept == row);
+        kept.is_some_and(|i| self.solver.holds_aside(i))
     }
 
     /// Accelerations by the functions of the mode. False if a pivot is not safe, or there are none.

@@ -56,6 +56,21 @@ impl<T: Scalar> Dynamics<T> {
             && (compiled.plan.has_dependent_rows() || compiled.solver.has_rows_aside())
     }
 
+    /// Whether rows whose coefficients change with the state were dependent at the last evaluation by the solver.
+    pub(crate) fn has_rows_aside(&self) -> bool {
+        !self.by_functions && self.compiled().solver.has_rows_aside()
+    }
+
+    /// Whether this row is one of those that [`Self::hold_rows_aside`] holds.
+    pub(crate) fn holds_aside(&self, row: usize) -> bool {
+        self.compiled().holds_aside(row)
+    }
+
+    /// Whether the rows that were found dependent in the last evaluation are not looked at until this is said again.
+    pub(crate) fn hold_rows_aside(&mut self, yes: bool) {
+        self.modes[self.current].solver.hold_rows_aside(yes);
+    }
+
     /// The forces of all rows at the last [`Self::value`], where they are not determined those of least norm; and whether
     /// each is determined (rows that do not act are). One-sided contacts and friction may not allow these: see
     /// [`Instant::forces`](crate::trajectory::Instant::forces).

@@ -8,7 +8,7 @@
 //! The rows are those that act in the mode; dependent ones follow from the others. Reference: Eich 1993, Convergence results
 //! for a coordinate projection method applied to mechanical systems with algebraic constraints, SIAM J. Numer. Anal. 30.
 
-use super::{Compiled, Dynamics, EvaluationError};
+use super::{Dynamics, EvaluationError};
 use crate::arithmetic::{Scalar, epsilon};
 use crate::linear::Inertia;
 use crate::system::{Place, Row};
@@ -331,14 +331,13 @@ impl<T: Scalar> Dynamics<T> {
         let d = self.description();
         let n = d.coordinates.len();
         let is_held = |j: usize| held.get(j).copied().unwrap_or(false);
-        let Compiled {
-            acting, constants, ..
-        } = &self.modes[self.current];
-        let rows = acting
-            .iter()
-            .filter(|&&row| Self::residual_place(&d.rows[row], level).is_some())
-            .count();
-        let size = n + rows;
+        let compiled = &self.modes[self.current];
+        let constants = &compiled.constants;
+        // Rows that are held aside follow from the others.
+        let rows = compiled.acting.iter().copied();
+        let rows = rows.filter(|&row| !compiled.holds_aside(row));
+        let rows = rows.filter_map(|row| Some((row, Self::residual_place(&d.rows[row], level)?)));
+        let size = n + rows.clone().count();
         for without_inertia in [false, true] {
             self.projection.right.clear();
             self.projection.right.resize(size, T::zero());
@@ -365,10 +364,7 @@ impl<T: Scalar> Dynamics<T> {
                 }
             }
             let mut index = n;
-            for &row in acting {
-                let Some(place) = Self::residual_place(&d.rows[row], level) else {
-                    continue;
-                };
+            for (row, place) in rows.clone() {
                 for &(j, place) in d.rows[row].jacobian {
                     if !is_held(j) {
                         let value = place.read(constants, &self.nodes);

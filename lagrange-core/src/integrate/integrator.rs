@@ -16,7 +16,7 @@ pub enum Integrator<T> {
 }
 
 impl<T: Scalar> Integrator<T> {
-    /// `method` for `coordinates` coordinates. `None` for the Taylor method, which needs series and not accelerations.
+    /// `method` for `coordinates` coordinates. `None` for Taylor series, and for what begins with them: they need more than accelerations.
     pub fn new(method: Method, coordinates: usize) -> Option<Self> {
         match method {
             Method::Radau5 => Some(Self::Radau(Box::new(Radau::new(coordinates)))),

@@ -11,8 +11,10 @@ use core::str::FromStr;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum Method {
-    /// Taylor series of the whole constrained system, order from the tolerance. `taylor`
+    /// Taylor series, and Radau IIA where stability bounds their steps and not accuracy. `auto`
     #[default]
+    Auto,
+    /// Taylor series of the whole constrained system, order from the tolerance. `taylor`
     Taylor,
     /// Dormand–Prince 8(5,3). `dop853`
     DormandPrince853,
@@ -35,7 +37,8 @@ pub enum Method {
 }
 
 /// Names of the methods that choose their steps, in the order in which help texts list them.
-const NAMES: [(&str, Method); 5] = [
+const NAMES: [(&str, Method); 6] = [
+    ("auto", Method::Auto),
     ("taylor", Method::Taylor),
     ("dop853", Method::DormandPrince853),
     ("dopri5", Method::DormandPrince54),
@@ -57,6 +60,7 @@ impl fmt::Display for Method {
         match self {
             Self::RungeKutta4 { step } => write!(f, "rk4:{step}"),
             Self::Gauss6 { step } => write!(f, "gauss6:{step}"),
+            Self::Auto => f.write_str("auto"),
             Self::Taylor => f.write_str("taylor"),
             Self::DormandPrince853 => f.write_str("dop853"),
             Self::DormandPrince54 => f.write_str("dopri5"),

@@ -55,6 +55,11 @@ impl<T: Scalar> Lu<T> {
 
     /// Factors the row-major `matrix`; stops at the rank. Pivots are found in the whole remaining block.
     pub(crate) fn factor(&mut self, size: usize, matrix: impl Iterator<Item = T>) {
+        self.factor_to(negligible::<T>(), size, matrix);
+    }
+
+    /// [`Self::factor`] where pivots up to `least` are dependence.
+    pub(super) fn factor_to(&mut self, least: f64, size: usize, matrix: impl Iterator<Item = T>) {
         self.size = size;
         self.factors.clear();
         self.factors.extend(matrix);
@@ -76,7 +81,7 @@ impl<T: Scalar> Lu<T> {
                 }
             }
             // A NaN never wins the comparison; it shows in the solution.
-            if largest <= negligible::<T>() {
+            if largest <= least {
                 self.rank = step;
                 return;
             }

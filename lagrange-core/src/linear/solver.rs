@@ -5,7 +5,7 @@
 //! each row of A to about 1. Pivots are then comparable with 1 whatever the units.
 
 use super::direct::{Direct, dot};
-use super::lu::Lu;
+use super::lu::{Lu, negligible};
 use crate::arithmetic::{Scalar, epsilon};
 
 /// A dependent row may miss its acceleration bias by this fraction of the largest term (1e-7 in double precision); rounding
@@ -13,6 +13,9 @@ use crate::arithmetic::{Scalar, epsilon};
 fn consistent<T: Scalar>() -> f64 {
     6.0 * epsilon::<T>().sqrt()
 }
+
+/// So many times the compliance of all others is more than a scaled row can have beside them: half of the digits.
+const LIGHT: f64 = 1e7;
 
 /// Accelerations of this size are none.
 const SQUARE_OF_ROUNDING: f64 = 1e-20;
@@ -43,6 +46,8 @@ enum Factors {
     #[default]
     Direct,
     Complete,
+    /// The same, with the rows set aside that were held.
+    Held,
 }
 
 /// A factored system; the memory is reused.
@@ -57,6 +62,8 @@ pub(crate) struct Solver<T> {
     lu: Lu<T>,
     /// Rows set aside because they depend on the others.
     aside: Vec<bool>,
+    /// Whether they stay aside, wherever the matrix is next.
+    holds: bool,
     work: Vec<T>,
 }
 
@@ -95,8 +102,30 @@ impl<T: Scalar> Solver<T> {
         self.aside.contains(&true)
     }
 
+    /// Whether the rows that are aside now stay aside until this is said again.
+    ///
+    /// Rows that depend on others do so on the constraints only. A small way from them, at the end of a step, they seem to be independent,
+    /// and their forces would be those that bring the state back at once.
+    pub(crate) fn hold_rows_aside(&mut self, yes: bool) {
+        self.holds = yes && self.has_rows_aside();
+    }
+
+    /// Whether row `i` of the system is held aside.
+    pub(crate) fn holds_aside(&self, i: usize) -> bool {
+        self.holds && self.aside[i]
+    }
+
     /// Factors the matrix.
     pub(crate) fn factor(&mut self, inertia: Inertia) -> Result<(), SolveError> {
+        if self.holds && self.aside.len() == self.size - self.coordinates {
+            self.equilibrate();
+            self.factor_kept();
+            if self.lu.rank() == self.size {
+                self.factors = Factors::Held;
+                return Ok(());
+            }
+        }
+        self.holds = false;
         self.aside.clear();
         let leading = match inertia {
             Inertia::Symmetric => self.coordinates,
@@ -134,7 +163,7 @@ impl<T: Scalar> Solver<T> {
             let largest = (0..size)
                 .map(|i| self.matrix[i * size + j].value().abs())
                 .fold(0.0, f64::max);
-            self.scale.push(if inertia > 0.0 {
+            self.scale.push(if inertia > 0.0 && !self.is_light(j) {
                 inverse_root(inertia)
             } else {
                 inverse_root(largest * largest)
@@ -145,6 +174,22 @@ impl<T: Scalar> Solver<T> {
             let largest = scaled.fold(0.0, f64::max);
             self.scale.push(inverse_root(largest * largest));
         }
+    }
+
+    /// Whether a row gets nearly all of its compliance Σ aₖ²/mₖ from coordinate `j`: scaled by such an inertia the others would vanish
+    /// beside it. The scalar part of a unit quaternion has hardly any inertia close to the attitude in which it is 1.
+    fn is_light(&self, j: usize) -> bool {
+        let (n, size) = (self.coordinates, self.size);
+        let compliance = |row: &[T], k: usize| {
+            let inertia = self.matrix[k * size + k].value().abs();
+            row[k].value() * row[k].value() / inertia
+        };
+        let mut rows = self.matrix[n * size..].chunks_exact(size);
+        rows.any(|row| {
+            let others = (0..n).filter(|&k| k != j && !row[k].is_zero());
+            let others: f64 = others.map(|k| compliance(row, k)).sum();
+            others > 0.0 && compliance(row, j) > LIGHT * others
+        })
     }
 
     /// LU of the scaled matrix, rows set aside replaced by λ = 0.
@@ -165,7 +210,8 @@ impl<T: Scalar> Solver<T> {
         );
     }
 
-    /// Chooses an independent subset of the rows of A: elimination with complete pivoting.
+    /// Chooses an independent subset of the rows of A: elimination with complete pivoting. A row that differs from a combination of
+    /// others by δ adds a pivot of δ² to the whole matrix.
     fn set_dependent_rows_aside(&mut self) {
         let (n, size) = (self.coordinates, self.size);
         let rows = size - n;
@@ -179,7 +225,8 @@ impl<T: Scalar> Solver<T> {
                 T::zero()
             }
         };
-        self.lu.factor(
+        self.lu.factor_to(
+            negligible::<T>().sqrt(),
             wide,
             (0..wide)
                 .flat_map(|i| (0..wide).map(move |j| (i, j)))
@@ -197,7 +244,7 @@ impl<T: Scalar> Solver<T> {
     pub(crate) fn solve(&mut self, b: &mut [T]) {
         match self.factors {
             Factors::Direct => self.direct.solve(b),
-            Factors::Complete => self.solve_complete(b),
+            Factors::Complete | Factors::Held => self.solve_complete(b),
         }
     }
 
@@ -231,11 +278,15 @@ impl<T: Scalar> Solver<T> {
         }
     }
 
-    /// Whether the rows set aside agree with the solution `x` of the right-hand side `b`.
+    /// Whether the rows set aside agree with the solution `x` of the right-hand side `b`. Those that are held need not, away from the
+    /// constraints.
     ///
     /// What is to agree may be all rounding (the centripetal terms of a rod that lies still), so that it is compared with the
     /// acceleration that the forcing f could give the row, √(Σaⱼ²/mⱼ · Σfⱼ²/mⱼ), too.
     pub(crate) fn check_rows_aside(&self, x: &[T], b: &[T]) -> Result<(), SolveError> {
+        if self.factors == Factors::Held {
+            return Ok(());
+        }
         let (n, size) = (self.coordinates, self.size);
         let weighted = |j: usize, number: T| {
             let inertia = self.matrix[j * size + j].value();

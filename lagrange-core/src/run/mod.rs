@@ -13,6 +13,7 @@ mod samples;
 mod shares;
 mod singular;
 mod stepping;
+mod stiffness;
 mod switch;
 #[cfg(test)]
 mod tests;
@@ -44,6 +45,7 @@ use log::Before;
 use rest::Rest;
 use singular::Rank;
 use stepping::Stepper;
+use stiffness::Stiffness;
 
 /// This many events without any progress in time are a livelock.
 const MOST_EVENTS_AT_ONCE: usize = 40;
@@ -72,6 +74,7 @@ pub(crate) struct Run<T: Scalar> {
     settings: Settings,
     dynamics: Dynamics<T>,
     stepper: Stepper<T>,
+    stiffness: Stiffness<T>,
     tolerance: Tolerance,
     /// Order of Taylor series.
     order: usize,
@@ -133,6 +136,10 @@ pub(crate) struct Run<T: Scalar> {
     /// Modes of the switches since time last advanced.
     stuck: Pool<Mode>,
     finished: bool,
+    /// Events after which the run is to end, but for those that earlier pieces of the record have,
+    awaited: Vec<Awaited>,
+    /// and how many events these have.
+    events_before: usize,
     /// What earlier runs cost.
     work_before: crate::dynamics::Work,
     trajectory: Record<T>,
@@ -154,6 +161,7 @@ impl<T: Scalar> Run<T> {
             settings: settings.clone(),
             dynamics: Dynamics::of(system.clone(), &settings.effects),
             stepper: Stepper::new(settings.method, n),
+            stiffness: Stiffness::new(settings.method),
             tolerance,
             order: crate::integrate::taylor::order(tolerance),
             t: zero,
@@ -198,6 +206,8 @@ impl<T: Scalar> Run<T> {
             distance: 1.0,
             stuck: Pool::default(),
             finished: false,
+            awaited: Vec::new(),
+            events_before: 0,
             work_before: crate::dynamics::Work::default(),
             trajectory: Record {
                 monitor: settings.monitor.clone(),
@@ -248,19 +258,45 @@ impl<T: Scalar> Run<T> {
         &self.trajectory
     }
 
-    /// Runs from `start` over `span`; the trajectory is written `into` a record.
+    /// Runs from `start` over `span`; the trajectory is written `into` a record. Once that has more than so many `bytes` it is given to
+    /// `take`, and goes on with the motion from there; the last piece stays.
     pub(crate) fn execute(
         &mut self,
         start: &State<T>,
         span: Range<f64>,
         into: &mut Record<T>,
+        bytes: usize,
+        take: &mut dyn FnMut(&Record<T>),
     ) -> Result<(), Error> {
         let mut outcome = self.launch(start, span, into);
         while outcome.is_ok() && self.goes_on() {
             outcome = self.advance();
+            if outcome.is_ok() && self.trajectory.bytes() > bytes && self.may_cut() {
+                self.close();
+                take(&self.trajectory);
+                self.begin_piece();
+            }
         }
         self.land(into);
         outcome
+    }
+
+    /// Whether the motion can be told from here on by itself: nothing has happened at this instant, and nothing that began earlier is
+    /// under way but the mode.
+    fn may_cut(&self) -> bool {
+        self.goes_on() && self.stuck.is_empty() && !self.below.contains(&true)
+    }
+
+    /// Goes on with an empty record.
+    fn begin_piece(&mut self) {
+        let events = &self.trajectory.events;
+        self.awaited
+            .retain(|awaited| !events.iter().any(|e| awaited.is(e)));
+        self.events_before += events.len();
+        let work = self.trajectory.work;
+        self.trajectory.begin(self.t, &self.state, &self.mode);
+        self.trajectory.work = work;
+        self.stiffness.since = self.stiffness.since.map(|_| self.t.value());
     }
 
     /// Begins a run whose trajectory is written `into` a record; [`Self::land`] gives it back.
@@ -281,6 +317,7 @@ impl<T: Scalar> Run<T> {
         self.settings
             .check(&**self.dynamics.system(), start, &span)?;
         self.stepper.restart();
+        self.stiffness.restart(&mut self.stepper);
         self.stop_below
             .iter_mut()
             .for_each(|terms| terms.fill(false));
@@ -295,6 +332,8 @@ impl<T: Scalar> Run<T> {
         self.curves.joints.clear();
         self.sharing.clear();
         self.finished = false;
+        self.awaited.clone_from(&self.settings.last_events);
+        self.events_before = 0;
         self.settle_start()
     }
 
@@ -361,6 +400,7 @@ impl<T: Scalar> Run<T> {
                 return Err(Error::Interrupted { time });
             }
         }
+        self.watch_stiffness();
         let hit = self.accepted_step()?;
         let end = hit.end();
         let exact = self.exact_end(&hit);
@@ -386,8 +426,9 @@ impl<T: Scalar> Run<T> {
             self.stuck.clear();
             self.forget_zeros();
             let steps = self.trajectory.work.steps;
-            let stays = matches!(self.stepper, Stepper::Taylor(_)) && !self.drifts;
-            let near = self.distance < NEAR;
+            let stays = self.stepper.is_taylor() && !self.drifts;
+            // What is left of a residual makes rows seem independent that are not.
+            let near = self.distance < NEAR || self.dynamics.has_rows_aside();
             let projects = near || !stays || steps.is_multiple_of(STEPS_OF_ROUNDING);
             if projects && !self.is_undecided() {
                 self.project(near)?;
@@ -400,7 +441,7 @@ impl<T: Scalar> Run<T> {
             Hit::Nothing | Hit::Turned(_) => {
                 if self.slips_come_to_rest(end) {
                     self.count_switch()?;
-                    self.stepper.restart();
+                    self.leave_stiffness();
                     self.switch()?;
                 }
             }
@@ -412,7 +453,7 @@ impl<T: Scalar> Run<T> {
             }
             Hit::Guards(_) => {
                 self.count_switch()?;
-                self.stepper.restart();
+                self.leave_stiffness();
                 self.switch()?;
             }
         }
@@ -439,13 +480,13 @@ impl<T: Scalar> Run<T> {
     /// Whether everything has happened that the run is to end after.
     fn has_seen_all(&self) -> bool {
         let happened = |awaited: &Awaited| self.trajectory.events.iter().any(|e| awaited.is(e));
-        let last = &self.settings.last_events;
-        !last.is_empty() && last.iter().all(happened)
+        !self.settings.last_events.is_empty() && self.awaited.iter().all(happened)
     }
 
     /// Counts a switch; too many at one time, or in all, end the run.
     fn count_switch(&mut self) -> Result<(), Error> {
-        if self.trajectory.events.len() >= self.settings.max_events {
+        let events = self.events_before + self.trajectory.events.len();
+        if events >= self.settings.max_events {
             return Err(self.limit("events", self.settings.max_events));
         }
         self.stuck.push(&self.mode);
@@ -596,8 +637,10 @@ impl<T: Scalar> Run<T> {
     /// At least the leading coefficients at the present state.
     fn begin_series(&mut self) -> Result<(), EvaluationError> {
         if self.series == Progress::None {
+            self.dynamics.hold_rows_aside(false);
             let State { q, v } = &self.state;
             let rest = self.dynamics.begin_series(self.t, q, v, self.order)?;
+            self.dynamics.hold_rows_aside(!self.is_undecided());
             self.series = if rest {
                 Progress::Begun
             } else {
@@ -621,6 +664,7 @@ impl<T: Scalar> Run<T> {
 
     /// Completes the trajectory.
     fn close(&mut self) {
+        self.note_stiffness();
         self.trajectory.last_time = self.t;
         self.trajectory.last.clone_from(&self.state);
         let work = self.dynamics.work();

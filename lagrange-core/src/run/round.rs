@@ -1,6 +1,6 @@
 //! Runs side by side: each makes one step, and their Taylor series are expanded together.
 
-use super::{Progress, Run, Stepper};
+use super::{Progress, Run};
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, Lanes, Packets, Start};
 use crate::error::Error;
@@ -63,7 +63,7 @@ pub(crate) fn go_on<T: Scalar>(together: &mut Together<T>, members: &mut [Member
 impl<T: Scalar> Run<T> {
     /// Whether the coming step begins with a series of which nothing is there.
     fn begins_step(&self) -> bool {
-        let taylor = matches!(self.stepper, Stepper::Taylor(_)) && self.goes_on();
+        let taylor = self.stepper.is_taylor() && self.goes_on();
         taylor && self.series == Progress::None
     }
 
@@ -81,7 +81,7 @@ impl<T: Scalar> Run<T> {
 
     /// Whether the coming step begins with a series that is begun, but not complete.
     fn awaits_series(&mut self) -> bool {
-        let taylor = matches!(self.stepper, Stepper::Taylor(_)) && self.goes_on();
+        let taylor = self.stepper.is_taylor() && self.goes_on();
         // A series that cannot begin is an error of the step.
         taylor && self.begin_series().is_ok() && self.series == Progress::Begun
     }

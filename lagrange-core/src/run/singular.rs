@@ -41,6 +41,9 @@ const DOUBTFUL: f64 = 0.4;
 /// A pivot below this share of the first has always been zero: its row depends on others everywhere.
 const DEPENDENT: f64 = 1e-10;
 
+/// Pivots are compared with earlier ones until an inertia has grown by this factor.
+const HEAVIER: f64 = 2.0;
+
 /// Watches the rank of the constraints along a run.
 #[derive(Clone, Debug)]
 pub(super) struct Rank {
@@ -50,8 +53,10 @@ pub(super) struct Rank {
     pivots: Vec<f64>,
     /// Largest value of each pivot so far.
     largest: Vec<f64>,
-    /// Largest diagonal elements of the mass matrix so far.
+    /// Largest diagonal elements of the mass matrix so far,
     masses: Vec<f64>,
+    /// and what they were when `largest` was begun.
+    lighter: Vec<f64>,
     scaled: Vec<f64>,
 }
 
@@ -80,6 +85,7 @@ impl Rank {
             pivots: vec![0.0; m],
             largest: vec![0.0; m],
             masses: vec![0.0; n],
+            lighter: vec![0.0; n],
             scaled: vec![0.0; m * n],
             rows,
         }
@@ -94,6 +100,7 @@ impl Rank {
     pub(super) fn restart(&mut self) {
         self.largest.fill(0.0);
         self.masses.fill(0.0);
+        self.lighter.fill(0.0);
     }
 
     /// Distance of the state that `dynamics` has evaluated from a loss of rank, 1 at the farthest so far.
@@ -126,11 +133,19 @@ impl Rank {
                 self.masses[i] = self.masses[i].max(mass);
             }
         }
+        // Pivots that were large because there was hardly any inertia say nothing: a quaternion that was nearly 1.
+        let mut pairs = self.masses.iter().zip(&self.lighter);
+        if pairs.any(|(mass, lighter)| *mass > HEAVIER * lighter) {
+            self.largest.fill(0.0);
+            self.lighter.copy_from_slice(&self.masses);
+        }
         let masses = &self.masses;
         let mass = |j: usize| if masses[j] > 0.0 { masses[j] } else { 1.0 };
         self.scaled.fill(0.0);
         let m = self.rows.len();
-        for (k, &row) in self.rows.iter().enumerate() {
+        // Rows that are held aside follow from the others.
+        let rows = self.rows.iter().enumerate();
+        for (k, &row) in rows.filter(|(_, row)| !dynamics.holds_aside(**row)) {
             for &(j, place) in d.rows[row].jacobian {
                 self.scaled[k * n + j] = number(place) / mass(j).sqrt();
             }

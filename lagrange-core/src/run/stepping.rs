@@ -24,29 +24,35 @@ const KINK: f64 = 1e4;
 
 /// What makes the polynomials of a step.
 #[derive(Debug)]
-pub(super) enum Stepper<T> {
-    /// Taylor series.
-    Taylor(DefectControl),
-    /// Another method and the step that it would like to take.
-    Other(Box<Integrator<T>>, Option<f64>),
+pub(super) struct Stepper<T> {
+    /// Judges the steps of Taylor series.
+    control: DefectControl,
+    /// The method, if it is not that of Taylor series at present,
+    pub(super) other: Option<Box<Integrator<T>>>,
+    /// and the step that it would like to take.
+    pub(super) wanted: Option<f64>,
 }
 
 impl<T: Scalar> Stepper<T> {
     pub(super) fn new(method: Method, coordinates: usize) -> Self {
-        match Integrator::new(method, coordinates) {
-            None => Stepper::Taylor(DefectControl::default()),
-            Some(method) => Stepper::Other(Box::new(method), None),
+        Stepper {
+            control: DefectControl::default(),
+            other: Integrator::new(method, coordinates).map(Box::new),
+            wanted: None,
         }
+    }
+
+    /// Whether the steps are those of Taylor series.
+    pub(super) fn is_taylor(&self) -> bool {
+        self.other.is_none()
     }
 
     /// Forgets what belongs to the motion before a switch.
     pub(super) fn restart(&mut self) {
-        match self {
-            Stepper::Taylor(control) => *control = DefectControl::default(),
-            Stepper::Other(method, wanted) => {
-                method.restart();
-                *wanted = None;
-            }
+        self.control = DefectControl::default();
+        self.wanted = None;
+        if let Some(method) = &mut self.other {
+            method.restart();
         }
     }
 }
@@ -54,10 +60,17 @@ impl<T: Scalar> Stepper<T> {
 impl<T: Scalar> Run<T> {
     /// Makes a step from the present state and finds what happens first in it.
     pub(super) fn accepted_step(&mut self) -> Result<Hit, Error> {
-        match &self.stepper {
-            Stepper::Taylor(_) => self.taylor_step(),
-            Stepper::Other(..) => self.other_step(),
+        if self.stepper.is_taylor() {
+            return self.taylor_step();
         }
+        self.stepper.control = DefectControl::default();
+        let hit = self.other_step();
+        if hit.is_err() && self.settings.method == Method::Auto {
+            // What Radau cannot do may still be within reach of Taylor series.
+            self.leave_stiffness();
+            return self.taylor_step();
+        }
+        hit
     }
 
     fn taylor_step(&mut self) -> Result<Hit, Error> {
@@ -68,8 +81,6 @@ impl<T: Scalar> Run<T> {
             .min(longest);
         let mut closer = 0;
         let mut corrections = 0;
-        // Of a step that another method left to this one.
-        let mut control = DefectControl::default();
         loop {
             if self.t.value() + h <= self.t.value() {
                 return Err(self.step_too_small(h));
@@ -123,10 +134,7 @@ impl<T: Scalar> Run<T> {
                 h *= RETREAT;
                 continue;
             }
-            let control = match &mut self.stepper {
-                Stepper::Taylor(control) => control,
-                Stepper::Other(..) => &mut control,
-            };
+            let control = &mut self.stepper.control;
             // The polynomial is as good at its root however long the step: the next try ends before it.
             match control.judge(h * end, defect, self.order) {
                 Verdict::Accept => {
@@ -251,12 +259,17 @@ impl<T: Scalar> Run<T> {
             // What it begins with does not stay.
             self.series = Progress::None;
         }
+        if self.dynamics.has_rows_aside() {
+            self.dynamics.hold_rows_aside(false);
+            self.evaluate()?;
+            self.dynamics.hold_rows_aside(!self.is_undecided());
+        }
         let longest = self.end - self.t.value();
-        let Stepper::Other(method, wanted) = &mut self.stepper else {
+        let Some(method) = &mut self.stepper.other else {
             return Ok(Hit::Nothing);
         };
         let (q, v) = (&self.state.q, &self.state.v);
-        let first = match *wanted {
+        let first = match self.stepper.wanted {
             Some(h) => Ok(h),
             None => method.first_step(&mut self.dynamics, self.t, q, v, longest, self.tolerance),
         };
@@ -280,24 +293,20 @@ impl<T: Scalar> Run<T> {
             self.sample()?;
             let defect = self.interpolation_defect().map_err(|e| self.error(e))?;
             h = self.stretch(defect) * self.step.h.value();
-            if let Stepper::Other(_, wanted) = &mut self.stepper {
-                *wanted = Some(next.min(h));
-            }
+            self.stepper.wanted = Some(next.min(h));
             if defect <= 1.0 {
                 return self.hit_among_samples();
             }
             self.trajectory.work.rejected += 1;
         }
         // Where a guard has a kink no interpolation holds; where constraints lose rank no step does.
-        if let Stepper::Other(_, wanted) = &mut self.stepper {
-            *wanted = None;
-        }
+        self.stepper.wanted = None;
         self.taylor_step()
     }
 
     /// One step of a method other than Taylor's, of at most `h`; the step that it would like to take next.
     fn integrate(&mut self, h: f64) -> Result<f64, Error> {
-        let Stepper::Other(method, _) = &mut self.stepper else {
+        let Some(method) = &mut self.stepper.other else {
             return Ok(h);
         };
         let (q, v) = (&self.state.q, &self.state.v);

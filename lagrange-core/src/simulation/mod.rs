@@ -51,14 +51,14 @@ impl<S: System + fmt::Debug> core::error::Error for Failure<S> {
 }
 
 impl<'a, S: System<Scalar: Runnable>> Simulation<'a, S> {
-    /// All effects, the Taylor method, tolerance 1e-9.
+    /// All effects, [`Method::Auto`], tolerance 1e-9.
     pub fn new(scene: &'a S) -> Self {
         Self {
             scene,
             settings: Settings {
                 effects: Effects::all(),
                 tolerance: 1e-9,
-                method: Method::Taylor,
+                method: Method::Auto,
                 project_start: false,
                 equations: Equations::Emitted,
                 record: true,

@@ -8,7 +8,7 @@ use crate::run::round::Member;
 use crate::settings::Settings;
 use crate::state::Held;
 use crate::system::System;
-use crate::trajectory::{State, Trajectory};
+use crate::trajectory::{Record, State, Trajectory};
 use core::ops::Range;
 use std::sync::Arc;
 
@@ -42,9 +42,26 @@ impl<S: System<Scalar: Runnable>> Runner<S> {
         start: &State<S::Scalar>,
         span: Range<f64>,
     ) -> Result<&Trajectory<S>, Error> {
-        let execute = S::Scalar::functions().execute;
-        execute(&mut self.run, start, span, self.trajectory.record())?;
+        self.run_in_pieces(start, span, usize::MAX, |_| ())?;
         Ok(&self.trajectory)
+    }
+
+    /// The same, with a memory of the motion that does not grow with its length: about every so many `bytes` what there is of it is
+    /// given to `take`, as the trajectory of a run of its own (but its work counts from the beginning), and forgotten. The trajectory that stays
+    /// is the last piece.
+    ///
+    /// # Errors
+    /// As of [`Self::run`].
+    pub fn run_in_pieces(
+        &mut self,
+        start: &State<S::Scalar>,
+        span: Range<f64>,
+        bytes: usize,
+        mut take: impl FnMut(&Record<S::Scalar>),
+    ) -> Result<(), Error> {
+        let execute = S::Scalar::functions().execute;
+        let record = self.trajectory.record();
+        execute(&mut self.run, start, span, record, bytes, &mut take)
     }
 
     /// Begins a run without going on with it.

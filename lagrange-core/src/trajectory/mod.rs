@@ -24,7 +24,7 @@ use crate::mode::Mode;
 use crate::monitor::Monitor;
 use crate::pool::Pool;
 use crate::system::{Description, Impacts, System};
-use core::ops::Deref;
+use core::ops::{Deref, Range};
 
 /// What a run cost.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -139,6 +139,8 @@ pub struct Record<T: Scalar> {
     pub(crate) coefficients: Vec<T>,
     pub(crate) events: Pool<Event<T>>,
     pub(crate) work: Work,
+    /// When steps were bounded by stability.
+    pub(crate) stiff: Vec<Range<f64>>,
     /// Who sees how far the books have been drawn up.
     pub(crate) monitor: Option<Monitor>,
 }
@@ -160,6 +162,7 @@ impl<T: Scalar> Record<T> {
             coefficients: Vec::new(),
             events: Pool::default(),
             work: Work::default(),
+            stiff: Vec::new(),
             monitor: None,
         }
     }
@@ -176,6 +179,7 @@ impl<T: Scalar> Record<T> {
         self.coefficients.clear();
         self.events.clear();
         self.work = Work::default();
+        self.stiff.clear();
     }
 
     /// Appends a step, valid up to `end` of its length.
@@ -205,6 +209,11 @@ impl<T: Scalar> Record<T> {
             offset,
             mode,
         });
+    }
+
+    /// How much memory the motion takes.
+    pub(crate) fn bytes(&self) -> usize {
+        size_of_val(&self.coefficients[..]) + size_of_val(&self.segments[..])
     }
 
     /// Enters a mode, if it is another one.
@@ -286,6 +295,13 @@ impl<T: Scalar> Record<T> {
     /// What the run cost.
     pub fn work(&self) -> Work {
         self.work
+    }
+
+    /// When explicit steps were found to be bounded by stability, not by accuracy, s, in order: each time until the next switch, or until
+    /// accuracy bounds them again. With [`Method::Auto`] Radau has made the steps of these intervals; with another method `Auto` or
+    /// [`Method::Radau5`] would make far longer ones.
+    pub fn stiff(&self) -> &[Range<f64>] {
+        &self.stiff
     }
 
     /// The modes with their time intervals.

@@ -85,6 +85,7 @@ impl Setting {
     /// Name of the method, without a step.
     pub fn name(&self) -> &'static str {
         match self.method {
+            Method::Auto => "auto",
             Method::Taylor => "taylor",
             Method::DormandPrince853 => "dop853",
             Method::DormandPrince54 => "dopri5",

@@ -21,7 +21,7 @@ pub(super) struct Course {
     /// Tolerance of the integration, relative and absolute [default: 1e-9].
     #[arg(long, value_name = "X", value_parser = tolerance, allow_hyphen_values = true)]
     tolerance: Option<f64>,
-    /// Method of integration [default: taylor].
+    /// Method of integration [default: auto].
     #[arg(long, value_name = "M", value_parser = method)]
     method: Option<Method>,
 }

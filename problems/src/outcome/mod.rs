@@ -1,13 +1,15 @@
 //! A run as plain data: what every printer starts from, whatever the type of the scene was.
 
+mod join;
 mod sampling;
 
 use crate::request::Request;
+use core::ops::Range;
 use lagrange_core::certificate::Certificate;
 use lagrange_core::mode::{FrictionMode, Mode};
 use lagrange_core::prelude::*;
 use lagrange_core::system::Description;
-pub(crate) use sampling::equal;
+pub(crate) use sampling::{equal, within};
 
 /// Everything that happened in a run.
 pub struct Outcome {
@@ -44,6 +46,8 @@ pub struct Outcome {
     pub event_ledgers: Vec<Ledger>,
     /// Work counts.
     pub work: Work,
+    /// When steps were bounded by stability ([`Record::stiff`]).
+    pub stiff: Vec<Range<f64>>,
     /// Why the run ended early.
     pub failure: Option<Error>,
 }
@@ -195,6 +199,7 @@ impl Outcome {
             event_ledgers: ledgers(events.iter().map(|event| event.time).collect()),
             samples,
             work: trajectory.work(),
+            stiff: trajectory.stiff().to_vec(),
             failure,
         }
     }
@@ -229,6 +234,23 @@ impl Outcome {
         all.filter(|force| open(force.row))
             .map(|force| force.name)
             .collect()
+    }
+
+    /// When steps were bounded by stability, and what that means, if they were.
+    pub fn stiffness(&self) -> Option<String> {
+        let (first, last) = (self.stiff.first()?, self.stiff.last()?);
+        let when = match self.stiff.len() {
+            1 => format!("From t = {:.3e} s", first.start),
+            many => format!("{many} times from t = {:.3e} s", first.start),
+        };
+        let what = match self.method {
+            Method::Auto => "Radau has made the steps",
+            _ => "the methods auto and radau5 make far longer ones",
+        };
+        Some(format!(
+            "{when} to {:.3e} s steps were bounded by stability, not by accuracy (the system is stiff there): {what}.",
+            last.end
+        ))
     }
 
     /// The first instant, if the run began.

@@ -14,6 +14,15 @@ pub(crate) fn equal(trajectory: &Record<f64>, intervals: usize) -> Vec<f64> {
     (1..intervals).map(|k| first + k as f64 * step).collect()
 }
 
+/// The instants between so many equal intervals of the time up to `until` that a piece of a run has.
+pub(crate) fn within(piece: &Record<f64>, until: f64, intervals: usize) -> Vec<f64> {
+    let step = until / intervals.max(1) as f64;
+    let times = (1..intervals).map(|k| k as f64 * step);
+    times
+        .filter(|t| (piece.first_time()..piece.last_time()).contains(t))
+        .collect()
+}
+
 /// Both ends of every phase, and between them these times, which are in order.
 pub(super) fn samples(trajectory: &Record<f64>, times: &[f64]) -> Vec<Sample> {
     let (first, last) = (trajectory.first_time(), trajectory.last_time());

@@ -53,6 +53,9 @@ pub(super) struct Ending {
     #[serde(skip_serializing_if = "Option::is_none")]
     certificate: Option<Verdict>,
     work: Counts,
+    /// Intervals, s, in which steps were bounded by stability.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    stiff: Vec<[f64; 2]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<String>,
 }
@@ -207,6 +210,7 @@ pub(super) fn ending(outcome: &Outcome) -> Ending {
         energy: outcome.ledger.as_ref().map(energy),
         certificate: outcome.certificate.as_ref().map(verdict),
         work: counts(outcome),
+        stiff: outcome.stiff.iter().map(|s| [s.start, s.end]).collect(),
         error: outcome.failure.as_ref().map(Error::to_string),
     }
 }

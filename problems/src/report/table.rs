@@ -32,6 +32,9 @@ pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
             open.join(", ")
         )?;
     }
+    if let Some(stiffness) = outcome.stiffness() {
+        writeln!(out, "\n{stiffness}")?;
+    }
     if let Some(ledger) = &outcome.ledger {
         let unit = outcome.description.units.energy;
         writeln!(out, "\n{}", energy(ledger, unit).trim_fmt())?;

@@ -1,9 +1,9 @@
 //! Equations that are redundant, lose their gradient, or have to hold for long.
 
-use super::kit::{TOLERANCE, closure, relative, run, violation};
+use super::kit::{TOLERANCE, closure, relative, run, run_by, violation};
 use super::{Extent, Figure, Surprise};
 use crate::reference::{agm, over_a_turn};
-use crate::scenes::hard::{LongPendulum, Parallelogram, SliderCrank};
+use crate::scenes::hard::{GardenSwing, LongPendulum, Parallelogram, SliderCrank};
 use core::f64::consts::TAU;
 use lagrange_core::prelude::*;
 
@@ -83,6 +83,53 @@ pub fn slider_crank(_: Extent) -> Result<Vec<Figure>, Surprise> {
 }
 
 /// In pieces, so that no more than a thousand periods are kept in memory.
+/// By the default method and another, and at a loose tolerance, where the conditions are left the farthest.
+pub fn garden_swing(_: Extent) -> Result<Vec<Figure>, Surprise> {
+    const PERIODS: f64 = 5.25;
+    let scene = GardenSwing::default();
+    let GardenSwing {
+        hanger,
+        seat,
+        inertia,
+        length,
+        gravity,
+        start_angle,
+        ..
+    } = scene;
+    let moment = 2.0 * inertia + (0.5 * hanger + seat) * length * length;
+    let rate = ((hanger + seat) * gravity * length / moment).sqrt();
+    let period = TAU / (rate * agm(1.0, (0.5 * start_angle).cos()));
+    // At the lowest point the phase shows best: ω = 2 ω₀ sin ½θ₀ (Abramowitz & Stegun 17.1).
+    let fastest = 2.0 * rate * (0.5 * start_angle).sin();
+    let mut figures = Vec::new();
+    for (method, tolerance, bound) in [
+        (Method::Auto, TOLERANCE, 1e-10),
+        (Method::Auto, 1e-6, 1e-5),
+        (Method::DormandPrince853, 1e-9, 1e-7),
+    ] {
+        let asked = (method, tolerance);
+        let trajectory = run_by(&scene, asked, GardenSwing::DRAWN, PERIODS * period)?;
+        let end = trajectory.final_state();
+        let late = 2.0 * end.q[2].atan2(end.q[0]) / fastest;
+        figures.push(Figure::new(
+            format!("{method}, {tolerance:e}: period"),
+            late.abs() / (PERIODS * period),
+            bound,
+        ));
+        figures.push(Figure::new(
+            format!("{method}, {tolerance:e}: the seat turns, rad"),
+            2.0 * end.q[5..8].iter().map(|x| x.abs()).fold(0.0, f64::max),
+            1e-12,
+        ));
+        figures.push(Figure::new(
+            format!("{method}, {tolerance:e}: conditions"),
+            violation(&trajectory)?,
+            tolerance,
+        ));
+    }
+    Ok(figures)
+}
+
 pub fn long_pendulum(extent: Extent) -> Result<Vec<Figure>, Surprise> {
     const PIECE: u32 = 1000;
     let pieces = match extent {

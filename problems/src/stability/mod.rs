@@ -229,6 +229,12 @@ pub static CASES: &[Case] = &[
         measure: constraints::slider_crank,
     },
     Case {
+        name: "garden-swing",
+        scene: "garden-swing",
+        trouble: "redundant conditions: steps fall to nothing",
+        measure: constraints::garden_swing,
+    },
+    Case {
         name: "long-pendulum",
         scene: "long-pendulum",
         trouble: "conditions and energy drift",
@@ -281,6 +287,12 @@ pub static CASES: &[Case] = &[
         scene: "unequal-pendulum",
         trouble: "masses 1 : 1e8: digits lost in the mass matrix",
         measure: scales::unequal_pendulum,
+    },
+    Case {
+        name: "overdamped-oscillator",
+        scene: "overdamped-oscillator",
+        trouble: "rates 1 : 1e6: millions of steps",
+        measure: scales::overdamped_oscillator,
     },
     Case {
         name: "catch-by-all-methods",

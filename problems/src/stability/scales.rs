@@ -1,9 +1,10 @@
 //! Scales eight powers of ten apart.
 
-use super::kit::{closure, distance, relative, run};
+use super::kit::{TOLERANCE, closure, distance, relative, run, run_by};
 use super::{Extent, Figure, Surprise};
 use crate::reference::extrapolate;
-use crate::scenes::hard::{SpringPendulum, UnequalPendulum};
+use crate::scenes::hard::{OverdampedOscillator, SpringPendulum, UnequalPendulum};
+use lagrange_core::prelude::*;
 
 pub fn spring_pendulum(_: Extent) -> Result<Vec<Figure>, Surprise> {
     let scene = SpringPendulum::default();
@@ -89,6 +90,54 @@ pub fn unequal_pendulum(_: Extent) -> Result<Vec<Figure>, Surprise> {
             format!("{what}: ledger"),
             closure(&trajectory)?,
             1e-11,
+        ));
+    }
+    Ok(figures)
+}
+
+/// Two decays; at the default method and some tolerances.
+pub fn overdamped_oscillator(_: Extent) -> Result<Vec<Figure>, Surprise> {
+    let scene = OverdampedOscillator {
+        fast: 1e6,
+        ..OverdampedOscillator::default()
+    };
+    let OverdampedOscillator {
+        slow,
+        fast,
+        displacement,
+        ..
+    } = scene;
+    let exact = |t: f64| {
+        let [creep, leap] = [slow, fast].map(|rate| (-rate * t).exp());
+        let size = displacement / (fast - slow);
+        [
+            size * (fast * creep - slow * leap),
+            size * slow * fast * (leap - creep),
+        ]
+    };
+    let mut figures = Vec::new();
+    for tolerance in [1e-6, 1e-9, TOLERANCE] {
+        let asked = (Method::Auto, tolerance);
+        let trajectory = run_by(&scene, asked, OverdampedOscillator::DRAWN, 10.0)?;
+        let mut sampler = trajectory.sampler();
+        let mut worst: f64 = 0.0;
+        for t in [3e-6, 1e-4, 0.1, 1.0, 3.0] {
+            let now = sampler.at(t)?;
+            let [x, v] = exact(t);
+            worst = worst.max(distance(now.q[0], x)).max(distance(now.v[0], v));
+        }
+        figures.push(Figure::new(
+            format!("{tolerance:e}: x, m, and its rate, m/s"),
+            worst,
+            10.0 * tolerance,
+        ));
+        // Explicit steps are of some 6/fast.
+        let steps = trajectory.work().steps as f64;
+        let explicit = 10.0 * fast / 6.0;
+        figures.push(Figure::new(
+            format!("{tolerance:e}: steps over those of an explicit method"),
+            steps / explicit,
+            2e-3,
         ));
     }
     Ok(figures)

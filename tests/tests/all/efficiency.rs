@@ -61,9 +61,9 @@ fn work_on_the_cartesian_pendulum_does_not_grow() {
         &expect![[r#"
             method        steps  rejected  evaluations  series  factorizations  projections
             taylor           85         0           87      85              76           75
-            dop853          167         6         3193       1             192          117
-            dopri5          734         0         7164       1             828          554
-            verner98        119         0         2783       1              51           42
+            dop853          167         6         3193       3             192          117
+            dopri5          734         0         7164      12             828          554
+            verner98        119         0         2783       2              51           42
             radau5         3077         0        30988       1             207            2
             rk4:0.005      2000         0        17886       1            2015         1884
             gauss6:0.01    1001         0        19096       1               0            0

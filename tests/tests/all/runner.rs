@@ -1,7 +1,9 @@
 //! A runner gives what single runs give, run after run; without recording the events stay.
 
 use lagrange_core::prelude::*;
-use lagrange_problems::scenes::hard::{CueBall, HoopBead, InclineBlock, TurningPush};
+use lagrange_problems::scenes::hard::{
+    BeltOscillator, CueBall, HoopBead, InclineBlock, TurningPush,
+};
 use lagrange_problems::scenes::*;
 
 /// Runs a scene from its first start in a new simulation.
@@ -129,4 +131,26 @@ fn loose_tolerances_find_the_same_events() {
     check(&RollingSphere::default());
     check(&RollingSlippingSphere::default());
     check(&MassOnWheel::default());
+}
+
+#[test]
+fn pieces_follow_each_other() {
+    let scene = BeltOscillator::default();
+    let simulation = Simulation::new(&scene);
+    let whole = simulation.run(start(&scene), 0.0..20.0).expect("a run");
+    let mut runner = simulation.runner();
+    let (mut pieces, mut events, mut last) = (0, 0, 0.0);
+    let taken = runner.run_in_pieces(&start(&scene), 0.0..20.0, 3000, |piece| {
+        assert_eq!(piece.first_time(), last);
+        assert!(piece.verify(pieces).expect("recorded").holds());
+        (pieces, last) = (pieces + 1, piece.last_time());
+        events += piece.events().len();
+    });
+    taken.expect("a run");
+    let end = runner.trajectory();
+    assert_eq!(end.first_time(), last);
+    assert_eq!(events + end.events().len(), whole.events().len());
+    assert_eq!(end.final_state(), whole.final_state());
+    assert_eq!(end.work(), whole.work());
+    assert!(pieces > 5, "{pieces} pieces");
 }

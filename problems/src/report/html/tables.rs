@@ -198,6 +198,9 @@ fn accuracy(run: &Shown) -> String {
         "projections onto constraints",
         work.projections.to_string(),
     ));
+    if let Some(stiffness) = outcome.stiffness() {
+        rows.push(line("stiffness", stiffness));
+    }
     let left_out = outcome.left_out();
     if !left_out.is_empty() {
         rows.push(line("left out", escaped(&left_out.join(", "))));

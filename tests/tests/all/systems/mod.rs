@@ -41,6 +41,7 @@ mod shared_loads;
 mod skate;
 mod sling;
 mod slips;
+mod stiff;
 mod striking_rod;
 mod turntable;
 mod wire;

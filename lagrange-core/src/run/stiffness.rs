@@ -1,0 +1,173 @@
+//! Steps that are bounded by stability: a fast motion has long been damped away, what is left is smooth, and yet explicit steps stay
+//! short.
+//!
+//! A step of length h multiplies what is left of a component with rate λ by a polynomial in h λ, which is small up to some |h λ| only (for
+//! Taylor series of order p about p/e). Codes estimate |h λ| from their stages and compare it with that bound (Hairer & Wanner,
+//! Solving Ordinary Differential Equations II (1996), section IV.2). Whether a change of the method pays shows more directly: a step of Radau
+//! that is many times longer keeps the tolerance. Where accuracy bounds the steps none of order 5 does, since Taylor series are of
+//! higher order. Such a step is tried only after many steps without a switch, and counts only where the motion is damped.
+
+use super::Run;
+use super::stepping::Stepper;
+use crate::arithmetic::Scalar;
+use crate::dynamics::EvaluationError;
+use crate::integrate::{Acceleration, Integrator, Method, taylor};
+use crate::trajectory::State;
+
+/// So many steps lie between two looks; after a trial in vain, as many as there were before.
+const LOOK: usize = 64;
+/// Radau makes the steps where it can make them this much longer,
+const LONGER: f64 = 20.0;
+/// if the rates at which the motion is damped add up to this over such a step: a stiff spring without a damper keeps its motion, even if
+/// that is far below the tolerance.
+const DAMPED: f64 = 1.0;
+/// and no more once its own, which cost more, are not this much longer.
+const WORTH: f64 = 4.0;
+
+/// What is known about the stiffness of a run.
+#[derive(Debug)]
+pub(super) struct Stiffness<T> {
+    method: Method,
+    /// Steps since the last switch or change of the method,
+    steps: usize,
+    /// and at how many the next look is due.
+    due: usize,
+    /// When the steps were found to be bounded by stability, unless they no longer are.
+    pub(super) since: Option<f64>,
+    /// Radau, once it was needed, while it does not make the steps.
+    radau: Option<Box<Integrator<T>>>,
+}
+
+impl<T: Scalar> Stiffness<T> {
+    pub(super) fn new(method: Method) -> Self {
+        Stiffness {
+            method,
+            steps: 0,
+            due: LOOK,
+            since: None,
+            radau: None,
+        }
+    }
+
+    /// Begins to watch anew, with the method that was asked for.
+    pub(super) fn restart(&mut self, stepper: &mut Stepper<T>) {
+        (self.steps, self.due, self.since) = (0, LOOK, None);
+        if self.method == Method::Auto {
+            self.radau = stepper.other.take().or(self.radau.take());
+        }
+    }
+
+    /// Whether the method is one whose steps stability can bound: explicit, and of lengths of its own.
+    fn watches(&self) -> bool {
+        match self.method {
+            Method::Auto
+            | Method::Taylor
+            | Method::DormandPrince853
+            | Method::DormandPrince54
+            | Method::Verner98 => true,
+            Method::Radau5 | Method::RungeKutta4 { .. } | Method::Gauss6 { .. } => false,
+        }
+    }
+}
+
+impl<T: Scalar> Run<T> {
+    /// Looks from time to time whether stability bounds the steps, and chooses by that what makes them.
+    pub(super) fn watch_stiffness(&mut self) {
+        self.stiffness.steps += 1;
+        if self.stiffness.steps < self.stiffness.due || !self.stiffness.watches() {
+            return;
+        }
+        self.stiffness.due += LOOK;
+        let changes = self.stiffness.method == Method::Auto;
+        if self.stiffness.since.is_none() {
+            let Some(h) = self.smooth_for() else {
+                return;
+            };
+            if !self.goes_far(LONGER * h) {
+                self.stiffness.due = 2 * self.stiffness.steps;
+                return;
+            }
+            self.stiffness.since = Some(self.t.value());
+            if changes {
+                self.stepper.other = self.stiffness.radau.take();
+                self.stepper.wanted = Some(LONGER * h);
+            }
+        } else if changes
+            && let Some(h) = self.stepper.wanted
+            && self.expand().is_ok()
+        {
+            let series = taylor::step_size(&self.dynamics, self.order, self.tolerance);
+            if series.is_some_and(|series| WORTH * series > h) {
+                self.leave_stiffness();
+            }
+        }
+    }
+
+    /// The motion is another one from here on, or its steps are no longer bounded by stability: the method that was asked for goes on,
+    /// without a memory.
+    pub(super) fn leave_stiffness(&mut self) {
+        self.note_stiffness();
+        self.stepper.restart();
+        self.stiffness.restart(&mut self.stepper);
+    }
+
+    /// Writes down since when the steps have been bounded by stability, if they are.
+    pub(super) fn note_stiffness(&mut self) {
+        if let Some(since) = self.stiffness.since {
+            self.trajectory.stiff.push(since..self.t.value());
+        }
+    }
+
+    /// Length of the explicit step from the present state, if nothing shows that accuracy bounds it: terms of low order of Taylor
+    /// series are then far above the allowed error, as those of high order reach it only at the end of the step.
+    fn smooth_for(&mut self) -> Option<f64> {
+        const LOW: usize = 3;
+        self.expand().ok()?;
+        let (dynamics, tolerance) = (&self.dynamics, self.tolerance);
+        let h = if self.stepper.is_taylor() {
+            taylor::step_size(dynamics, self.order, tolerance)
+        } else {
+            self.stepper.wanted
+        };
+        h.filter(|h| {
+            let most = h.powi(-(LOW as i32)) / tolerance.strictness().sqrt();
+            (0..self.state.q.len()).all(|i| {
+                let rows = [dynamics.position_series(i), dynamics.velocity_series(i)];
+                rows.into_iter().all(|row| {
+                    let allowed = tolerance.scale(row[0].value().abs());
+                    row[LOW].value().abs() <= most * allowed
+                })
+            })
+        })
+    }
+
+    /// Whether Radau makes a step of this length from the present state at once.
+    fn goes_far(&mut self, h: f64) -> bool {
+        if h > self.end - self.t.value() {
+            return false;
+        }
+        let n = self.state.q.len();
+        let new = || Integrator::new(Method::Radau5, n).map(Box::new);
+        self.stiffness.radau = self.stiffness.radau.take().or_else(new);
+        let Some(radau) = &mut self.stiffness.radau else {
+            return false;
+        };
+        radau.restart();
+        let (q, v) = (&self.state.q, &self.state.v);
+        let (dynamics, step) = (&mut self.dynamics, &mut self.step);
+        let outcome = radau.step(dynamics, self.t, q, v, h, self.tolerance, step);
+        // The trial has left other values in their place.
+        (self.series, self.valued) = (super::Progress::None, false);
+        outcome.is_ok_and(|accepted| accepted.rejected == 0)
+            && self.damping().is_ok_and(|rate| rate * h >= DAMPED)
+    }
+
+    /// −tr ∂v̇/∂v at the present state, 1/s: the rate at which volumes of states shrink.
+    fn damping(&mut self) -> Result<f64, EvaluationError> {
+        let n = self.state.q.len();
+        let [mut by_q, mut by_v] = [0, 1].map(|_| vec![0.0; n * n]);
+        let State { q, v } = &self.state;
+        Acceleration::jacobian(&mut self.dynamics, self.t, q, v, &mut by_q, &mut by_v)?;
+        Ok(-by_v.iter().step_by(n + 1).sum::<f64>())
+    }
+}

@@ -1,0 +1,149 @@
+//! Steps that are bounded by stability are noticed, and by default made by another method.
+
+use super::state;
+use lagrange_core::arithmetic::Dual;
+use lagrange_core::prelude::*;
+use lagrange_problems::catalogue::{HARD, SCENES};
+use lagrange_problems::request::Request;
+use lagrange_tests::agree;
+
+/// A mass in a damper, driven by a spring, in front of a wall.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = mass/2 * der(x)^2,
+    potential = stiffness/2 * (x - sin(t))^2,
+    dissipation(damper: damping/2 * der(x)^2),
+    contact(wall: x <= place, restitution = 0.5),
+)]
+struct Coupler<T = f64> {
+    mass: T,
+    stiffness: T,
+    damping: T,
+    place: T,
+}
+
+const COUPLER: Coupler = Coupler {
+    mass: 1e-2,
+    stiffness: 1e6,
+    damping: 2e3,
+    place: 2.0,
+};
+
+/// The motion once both decays are over, m ẍ + c ẋ + k x = k sin t, and its rate.
+fn steady(scene: &Coupler, t: f64) -> [f64; 2] {
+    let (k, c) = (scene.stiffness, scene.damping);
+    let p = k - scene.mass;
+    let size = k / (p * p + c * c);
+    let (sin, cos) = t.sin_cos();
+    [size * (p * sin - c * cos), size * (p * cos + c * sin)]
+}
+
+fn run(method: Method, tolerance: f64, until: f64) -> Trajectory<Coupler> {
+    let simulation = Simulation::new(&COUPLER)
+        .method(method)
+        .tolerance(tolerance);
+    let outcome = simulation.run(state(&[0.5], &[0.0]), 0.0..until);
+    outcome.expect("a run")
+}
+
+#[test]
+fn a_stiff_coupler_follows_its_drive() {
+    for tolerance in [1e-3, 1e-6, 1e-9, 1e-12] {
+        let trajectory = run(Method::Auto, tolerance, 10.0);
+        let [x, v] = steady(&COUPLER, 10.0);
+        let end = trajectory.final_state();
+        let error = (end.q[0] - x).abs().max((end.v[0] - v).abs());
+        assert!(error < 10.0 * tolerance, "{tolerance:e}: {error:e}");
+        let [stiff] = trajectory.stiff() else {
+            panic!("{:?}", trajectory.stiff())
+        };
+        assert!(stiff.start < 0.2 && stiff.end == 10.0, "{stiff:?}");
+        let certificate = trajectory.verify(1).expect("recorded");
+        assert!(certificate.holds(), "{certificate}");
+    }
+}
+
+#[test]
+fn sensitivities_pass_through_the_change_of_method() {
+    let number = Dual::<f64, 1>::constant;
+    let scene = Coupler {
+        mass: number(COUPLER.mass),
+        stiffness: number(COUPLER.stiffness),
+        damping: Dual::variable(COUPLER.damping, 0),
+        place: number(COUPLER.place),
+    };
+    let start = State {
+        q: vec![number(0.5)],
+        v: vec![number(0.0)],
+    };
+    let outcome = Simulation::new(&scene).run(start, 0.0..3.0);
+    let trajectory = outcome.expect("a run");
+    assert_eq!(trajectory.stiff().len(), 1);
+    let at = |damping: f64| steady(&Coupler { damping, ..COUPLER }, 3.0)[0];
+    let c = COUPLER.damping;
+    let slope = (at(1.01 * c) - at(0.99 * c)) / (0.02 * c);
+    let found = trajectory.final_state().q[0].derivative[0];
+    agree("dx/dc", found, slope, 1e-4);
+}
+
+#[test]
+fn explicit_methods_say_that_stability_bounds_their_steps() {
+    for method in [
+        Method::Taylor,
+        Method::DormandPrince853,
+        Method::DormandPrince54,
+        Method::Verner98,
+    ] {
+        let trajectory = run(method, 1e-6, 1.0);
+        assert_eq!(trajectory.stiff().len(), 1, "{method}");
+        let few = run(Method::Auto, 1e-6, 1.0).work().steps;
+        assert!(trajectory.work().steps > 4 * few, "{method}");
+    }
+    assert!(run(Method::Radau5, 1e-6, 1.0).stiff().is_empty());
+}
+
+#[test]
+fn an_impact_begins_anew_with_taylor_series() {
+    let scene = Coupler {
+        place: 0.9,
+        ..COUPLER
+    };
+    let hit = |method: Method| {
+        let simulation = Simulation::new(&scene).method(method).tolerance(1e-10);
+        let outcome = simulation.run(state(&[0.5], &[0.0]), 0.0..6.0);
+        outcome.unwrap_or_else(|failure| panic!("{method}: {failure}"))
+    };
+    let (auto, taylor) = (hit(Method::Auto), hit(Method::Taylor));
+    assert!(auto.stiff().len() > 1, "{:?}", auto.stiff());
+    assert_eq!(auto.events().len(), taylor.events().len());
+    for (a, b) in auto.events().iter().zip(taylor.events()) {
+        assert_eq!(a.kind.word(), b.kind.word());
+        assert!((a.time - b.time).abs() < 1e-8, "{} {}", a.time, b.time);
+    }
+    for stiff in auto.stiff() {
+        let events = auto.events().iter();
+        let within = events.filter(|e| stiff.start < e.time && e.time < stiff.end);
+        assert_eq!(within.count(), 0, "{stiff:?}");
+    }
+}
+
+#[test]
+fn only_one_scene_of_the_catalogue_is_stiff() {
+    for scene in SCENES.iter().chain(HARD) {
+        for tolerance in [1e-3, 1e-9] {
+            let request = Request {
+                tolerance,
+                ..Request::default()
+            };
+            let outcome = scene.run(&request).expect("a request");
+            let stiff = scene.name() == "overdamped-oscillator";
+            assert_eq!(
+                !outcome.stiff.is_empty(),
+                stiff,
+                "{} {tolerance:e}",
+                scene.name()
+            );
+        }
+    }
+}
