@@ -156,6 +156,15 @@ pub enum Error {
         /// The limit.
         limit: usize,
     },
+    /// The error that was asked for cannot be had.
+    Inexact {
+        /// What was asked for.
+        asked: f64,
+        /// What can be had; infinite if nothing is certain about the end.
+        possible: f64,
+        /// Why, and what would help.
+        reason: String,
+    },
     /// It was stopped from outside ([`Monitor::stop`](crate::Monitor::stop)).
     Interrupted {
         /// Time, s.
@@ -308,6 +317,17 @@ impl fmt::Display for Error {
                     f,
                     "t = {time}: more than {limit} {what}; raise the limit if this is intended"
                 )
+            }
+            Error::Inexact {
+                asked,
+                possible,
+                reason,
+            } => {
+                write!(f, "an error of {asked:e} cannot be had")?;
+                if possible.is_finite() {
+                    write!(f, ", one of {possible:.0e} can")?;
+                }
+                write!(f, ": {reason}")
             }
             Error::Interrupted { time } => write!(f, "interrupted at t = {time}"),
             Error::OutsideTrajectory { time, first, last } => {

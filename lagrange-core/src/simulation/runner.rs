@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::precompiled::Runnable;
 use crate::run::Run;
 use crate::run::round::Member;
-use crate::settings::Settings;
+use crate::settings::{Goal, Settings};
 use crate::state::Held;
 use crate::system::System;
 use crate::trajectory::{State, Trajectory};
@@ -14,13 +14,15 @@ use std::sync::Arc;
 
 /// Runs one system again and again: what a run works with is made once, and the trajectory is written into the same memory.
 /// From the second run on nothing is allocated, unless a run meets a mode or needs an amount of recording that none before
-/// did, or has forces that the motion leaves open.
+/// did, or has forces that the motion leaves open. Where an error or an estimate is asked for, further runs have memory of their
+/// own.
 ///
 /// Made by [`Simulation::runner`](crate::Simulation::runner).
 #[derive(Debug)]
 pub struct Runner<S: System> {
     run: Run<S::Scalar>,
-    trajectory: Trajectory<S>,
+    pub(super) trajectory: Trajectory<S>,
+    pub(super) settings: Settings,
 }
 
 impl<S: System<Scalar: Runnable>> Runner<S> {
@@ -28,6 +30,7 @@ impl<S: System<Scalar: Runnable>> Runner<S> {
         let run = (S::Scalar::functions().run)(erased(scene), settings);
         Self {
             trajectory: Trajectory::new(scene, run.record().clone()),
+            settings: settings.clone(),
             run,
         }
     }
@@ -42,9 +45,22 @@ impl<S: System<Scalar: Runnable>> Runner<S> {
         start: &State<S::Scalar>,
         span: Range<f64>,
     ) -> Result<&Trajectory<S>, Error> {
-        let execute = S::Scalar::functions().execute;
-        execute(&mut self.run, start, span, self.trajectory.record())?;
+        match self.settings.goal {
+            Goal::Tolerance => self.run_once(start, span),
+            Goal::Estimate => self.run_twice(start, span),
+            Goal::Error(error) => self.run_within(error, start, span),
+        }?;
         Ok(&self.trajectory)
+    }
+
+    /// One run as the tolerance has it.
+    pub(super) fn run_once(
+        &mut self,
+        start: &State<S::Scalar>,
+        span: Range<f64>,
+    ) -> Result<(), Error> {
+        let execute = S::Scalar::functions().execute;
+        execute(&mut self.run, start, span, self.trajectory.record())
     }
 
     /// Begins a run without going on with it.

@@ -1,12 +1,14 @@
 //! The result of a run: the motion as polynomials in time, the modes, the events, the work done.
 
 mod by_handle;
+mod estimate;
 mod event;
 mod ledger;
 mod sampler;
 
 pub use crate::handle::Subject;
 pub use crate::state::{Starts, State};
+pub use estimate::{Difference, Estimate, Parting, Summary};
 pub(crate) use event::Around;
 pub use event::{Event, EventKind};
 pub use ledger::{Energies, Entry, Ledger};
@@ -138,6 +140,7 @@ pub struct Record<T: Scalar> {
     pub(crate) coefficients: Vec<T>,
     pub(crate) events: Pool<Event<T>>,
     pub(crate) work: Work,
+    pub(crate) estimate: Option<Estimate>,
     /// Who sees how far the books have been drawn up.
     pub(crate) monitor: Option<Monitor>,
 }
@@ -159,6 +162,7 @@ impl<T: Scalar> Record<T> {
             coefficients: Vec::new(),
             events: Pool::default(),
             work: Work::default(),
+            estimate: None,
             monitor: None,
         }
     }
@@ -175,6 +179,7 @@ impl<T: Scalar> Record<T> {
         self.coefficients.clear();
         self.events.clear();
         self.work = Work::default();
+        self.estimate = None;
     }
 
     /// Appends a step, valid up to `end` of its length.
@@ -270,6 +275,17 @@ impl<T: Scalar> Record<T> {
     /// What happened, in order.
     pub fn events(&self) -> &[Event<T>] {
         &self.events
+    }
+
+    /// How far off the run is, if that was asked for ([`Simulation::estimate`](crate::Simulation::estimate),
+    /// [`Simulation::error`](crate::Simulation::error)).
+    pub fn estimate(&self) -> Option<&Estimate> {
+        self.estimate.as_ref()
+    }
+
+    /// Tolerance and method of the run; with [`Simulation::error`](crate::Simulation::error) those that were found.
+    pub fn setting(&self) -> (Method, f64) {
+        (self.asked.method, self.asked.tolerance)
     }
 
     /// What the run cost.
