@@ -324,7 +324,7 @@ impl fmt::Display for Error {
                 reason,
             } => {
                 write!(f, "an error of {asked:e} cannot be had")?;
-                if possible.is_finite() {
+                if *possible < 0.1 {
                     write!(f, ", one of {possible:.0e} can")?;
                 }
                 write!(f, ": {reason}")

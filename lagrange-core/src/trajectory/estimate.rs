@@ -41,7 +41,7 @@ pub struct Difference {
     pub state_error: f64,
     /// The coordinate (`theta`) or velocity (`der(theta)`) that has it.
     pub coordinate: String,
-    /// Largest error of the time of an event, or of the end; `None` where nothing happens and the ends are the same.
+    /// Largest error of the time of an event, or of the end; `None` where nothing happens.
     pub event_error: Option<f64>,
     /// From where on the runs cannot be compared.
     pub parting: Option<Parting>,
@@ -233,14 +233,19 @@ impl fmt::Display for Estimate {
                 parting.time, parting.here, parting.there
             );
         }
+        let figure = |error: f64| match error < 1e-15 {
+            true => "less than 1e-15".to_owned(),
+            false => format!("about {error:.1e}"),
+        };
+        let state = figure(difference.state_error);
         write!(
             f,
-            "Error: about {:.1e} in the final state (`{}`)",
-            difference.state_error, difference.coordinate
+            "Error: {state} in the final state (`{}`)",
+            difference.coordinate
         )?;
         if let Some(error) = difference.event_error {
-            write!(f, ", {error:.1e} in the times of events")?;
+            write!(f, ", {} in the times of events", figure(error))?;
         }
-        write!(f, "; so far apart is a run {other}.")
+        write!(f, ", the difference from a run {other}.")
     }
 }

@@ -23,6 +23,8 @@ pub struct Outcome {
     pub method: Method,
     /// Its tolerance, relative and absolute.
     pub tolerance: f64,
+    /// How far off it is, if that was asked for.
+    pub estimate: Option<Estimate>,
     /// Event log.
     pub events: Vec<Event<f64>>,
     /// Modes in order of time.
@@ -167,6 +169,7 @@ impl Outcome {
     ) -> Self {
         let description = trajectory.description();
         let samples = sampling::samples(trajectory, times);
+        let (method, tolerance) = trajectory.setting();
         let events = trajectory.events();
         let ledgers = |times: Vec<f64>| match request.ledger {
             true => trajectory.ledgers(&times).unwrap_or_default(),
@@ -178,8 +181,9 @@ impl Outcome {
             parameters: (0..description.parameters.len())
                 .map(|i| trajectory.parameter(i))
                 .collect(),
-            method: request.method,
-            tolerance: request.tolerance,
+            method,
+            tolerance,
+            estimate: trajectory.estimate().cloned(),
             effects: trajectory.effects().clone(),
             events: events.to_vec(),
             phases: trajectory.phases(),
