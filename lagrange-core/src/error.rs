@@ -22,9 +22,9 @@ pub enum Error {
     Domain {
         /// Time, s.
         time: f64,
-        /// The coordinate, contact or friction.
+        /// The coordinate, contact, friction or field.
         item: &'static str,
-        /// What the number is: `inertia`, `restitution`, `static friction`, `kinetic friction`.
+        /// What the number is: `value` (of a field), `inertia`, `restitution`, `static friction`, `kinetic friction`.
         what: &'static str,
         /// The number.
         value: f64,

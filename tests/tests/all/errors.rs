@@ -366,3 +366,61 @@ fn steps_that_lose_the_motion_are_named_as_such() {
         );
     }
 }
+
+/// Two disks on a shaft.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(a: "rad", b: "rad"),
+    kinetic   = sum(k in 0..2: density * radius[k]^4) * der(a)^2 / 4 + rotor/2 * der(b)^2,
+    potential = spring/2 * (a - b)^2,
+    start(turned: a = 1, der(b) = 1),
+)]
+struct Disks {
+    density: f64,
+    #[lagrange(domain = "positive")]
+    radius: [f64; 2],
+    #[lagrange(unit = "kg m^2", domain = "nonnegative")]
+    rotor: f64,
+    spring: f64,
+}
+
+#[test]
+fn a_field_outside_its_domain_is_refused_by_name() {
+    let disks = |inner: f64, rotor: f64| Disks {
+        density: 1.0,
+        radius: [1.0, inner],
+        rotor,
+        spring: 3.0,
+    };
+    let run = |scene: &Disks| {
+        let run = Simulation::new(scene).run(scene.at(Disks::TURNED), 0.0..1.0);
+        run.map(drop).map_err(|failure| failure.error)
+    };
+    assert_eq!(run(&disks(0.5, 2.0)), Ok(()));
+    // Every power of it is even: the motion would be that of 0.5.
+    for (scene, name, wrong) in [
+        (disks(-0.5, 2.0), "radius[1]", -0.5),
+        (disks(0.0, 2.0), "radius[1]", 0.0),
+        (disks(0.5, -2.0), "rotor", -2.0),
+    ] {
+        let error = run(&scene).expect_err("outside its domain");
+        let Error::Domain { item, value, .. } = error else {
+            panic!("{error}");
+        };
+        assert_eq!((item, value), (name, wrong));
+        let start = scene.at(Disks::TURNED);
+        let held = Held {
+            positions: vec![true; 2],
+            velocities: vec![true; 2],
+        };
+        let moved = Simulation::new(&scene).consistent(0.0, &start, &start, &held);
+        assert!(matches!(moved, Err(Error::Domain { .. })));
+    }
+    // Nothing turns then: it is legal, but cannot be solved.
+    assert!(matches!(run(&disks(0.5, 0.0)), Err(Error::Singular { .. })));
+    let error = run(&disks(-0.5, 2.0)).expect_err("outside its domain");
+    assert_eq!(
+        error.to_string(),
+        "t = 0: `radius[1]`: value = -0.5; it must be positive"
+    );
+}
