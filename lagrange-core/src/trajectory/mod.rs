@@ -7,6 +7,7 @@ mod ledger;
 mod sampler;
 
 pub use crate::handle::Subject;
+pub use crate::modes::impact::OtherImpact;
 pub use crate::state::{Starts, State};
 pub use estimate::{Difference, Estimate, Parting, Summary};
 pub(crate) use event::Around;
