@@ -302,16 +302,14 @@ fn impacts_that_accumulate_are_compared_as_one_instant() {
     // Both corners bounce in turn; which of them ends it, and after how many impacts, depends on the tolerance.
     let report = json(
         "rocking-block",
-        &[
-            "--methods",
-            "taylor,verner98",
-            "--tolerances",
-            "1e-6,1e-12",
-        ],
+        &["--methods", "taylor,verner98", "--tolerances", "1e-6,1e-12"],
     );
     assert!(number(&report["reference"], "floor") < 1e-11);
     for row in rows(&report) {
-        assert!(number(row, "error") < 30.0 * number(row, "tolerance"), "{row}");
+        assert!(
+            number(row, "error") < 30.0 * number(row, "tolerance"),
+            "{row}"
+        );
     }
 }
 
@@ -348,7 +346,10 @@ fn a_run_tells_its_error() {
         assert!(error <= 1e-12 * event(k), "{error:e}");
     }
     let story = says(&["run", "rolling-sphere", "--estimate"]);
-    assert!(story.contains("Error: about ") && story.contains("±"), "{story}");
+    assert!(
+        story.contains("Error: about ") && story.contains("±"),
+        "{story}"
+    );
     assert!(!says(&["run", "rolling-sphere"]).contains("Error:"));
 }
 
@@ -362,5 +363,9 @@ fn an_error_that_cannot_be_had_is_told() {
     assert!(text(&output.stdout).contains("Error: about "));
     let both = ["run", "kepler", "--error", "1e-9", "--tolerance", "1e-9"];
     refuses(&both, 2, "cannot be used with");
-    refuses(&["run", "kepler", "--error", "1"], 2, "between 1e-15 and 0.1");
+    refuses(
+        &["run", "kepler", "--error", "1"],
+        2,
+        "between 1e-15 and 0.1",
+    );
 }

@@ -214,6 +214,8 @@ fn an_error_is_asked_for_and_kept() {
     assert_eq!((again.error, again.estimate), (Some(1e-7), false));
     let file = read("scene = \"kepler\"\nestimate = true\n").expect("a scene file");
     assert!(file.request.estimate && file.request.error.is_none());
-    let mistakes = read("scene = \"kepler\"\nerror = 1\n").map(drop).expect_err("too large");
+    let mistakes = read("scene = \"kepler\"\nerror = 1\n")
+        .map(drop)
+        .expect_err("too large");
     assert!(mistakes.to_string().contains("between 1e-15 and 0.1"));
 }
