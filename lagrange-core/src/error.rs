@@ -22,9 +22,9 @@ pub enum Error {
     Domain {
         /// Time, s.
         time: f64,
-        /// The coordinate, contact or friction.
+        /// The coordinate, contact, friction or field.
         item: &'static str,
-        /// What the number is: `inertia`, `restitution`, `static friction`, `kinetic friction`.
+        /// What the number is: `value` (of a field), `inertia`, `restitution`, `static friction`, `kinetic friction`.
         what: &'static str,
         /// The number.
         value: f64,
@@ -155,6 +155,15 @@ pub enum Error {
         what: &'static str,
         /// The limit.
         limit: usize,
+    },
+    /// The error that was asked for cannot be had.
+    Inexact {
+        /// What was asked for.
+        asked: f64,
+        /// What can be had; infinite if nothing is certain about the end.
+        possible: f64,
+        /// Why, and what would help.
+        reason: String,
     },
     /// It was stopped from outside ([`Monitor::stop`](crate::Monitor::stop)).
     Interrupted {
@@ -308,6 +317,17 @@ impl fmt::Display for Error {
                     f,
                     "t = {time}: more than {limit} {what}; raise the limit if this is intended"
                 )
+            }
+            Error::Inexact {
+                asked,
+                possible,
+                reason,
+            } => {
+                write!(f, "an error of {asked:e} cannot be had")?;
+                if *possible < 0.1 {
+                    write!(f, ", one of {possible:.0e} can")?;
+                }
+                write!(f, ": {reason}")
             }
             Error::Interrupted { time } => write!(f, "interrupted at t = {time}"),
             Error::OutsideTrajectory { time, first, last } => {

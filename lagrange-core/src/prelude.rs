@@ -12,6 +12,6 @@ pub use crate::mode::{FrictionMode, Mode};
 pub use crate::simulation::{Awaited, Ensemble, Equations, Failure, Held, Runner, Simulation};
 pub use crate::system::{Derived, Description, Impacts, System};
 pub use crate::trajectory::{
-    Energies, Entry, Event, EventKind, Instant, Ledger, Phase, Record, Sampler, Starts, State,
-    Subject, Trajectory, Work,
+    Energies, Entry, Estimate, Event, EventKind, Instant, Ledger, Phase, Record, Sampler, Starts,
+    State, Subject, Trajectory, Work,
 };

@@ -8,10 +8,22 @@ use crate::monitor::Monitor;
 use crate::system::Impacts;
 use crate::trajectory::{Event, EventKind};
 
+/// How exact a run is to be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Goal {
+    /// As the tolerance has it.
+    Tolerance,
+    /// The same, with an estimate of the error.
+    Estimate,
+    /// Within this error.
+    Error(f64),
+}
+
 /// Everything about a run but the system.
 #[derive(Clone, Debug)]
 pub(crate) struct Settings {
     pub effects: Effects,
+    pub goal: Goal,
     pub tolerance: f64,
     pub method: Method,
     pub project_start: bool,

@@ -217,6 +217,40 @@ pub struct Parameter {
     pub unit: &'static str,
     /// TeX symbol as declared, or empty.
     pub tex: &'static str,
+    /// What its value may be.
+    pub domain: Domain,
+}
+
+/// What the value of a parameter may be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Domain {
+    /// Any finite number.
+    Any,
+    /// Above 0.
+    Positive,
+    /// 0 or above.
+    NonNegative,
+}
+
+impl Domain {
+    /// Whether a number is in it.
+    pub fn contains(self, value: f64) -> bool {
+        match self {
+            Domain::Any => true,
+            Domain::Positive => value > 0.0,
+            Domain::NonNegative => value >= 0.0,
+        }
+    }
+}
+
+impl fmt::Display for Domain {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Domain::Any => "finite",
+            Domain::Positive => "positive",
+            Domain::NonNegative => "at least 0",
+        })
+    }
 }
 
 /// A generalized coordinate.

@@ -16,6 +16,9 @@ pub const MOST_SAMPLES: usize = 1_000_000;
 /// Tolerances that an integration can have.
 pub const TOLERANCES: RangeInclusive<f64> = 1e-17..=0.1;
 
+/// Errors that can be asked for instead.
+pub const ERRORS: RangeInclusive<f64> = 1e-15..=0.1;
+
 /// A run of a scene as asked for. Names are those of the declaration.
 #[derive(Clone, Debug)]
 pub struct Request {
@@ -33,6 +36,10 @@ pub struct Request {
     pub end_after: Vec<String>,
     /// Relative and absolute tolerance of the integration.
     pub tolerance: f64,
+    /// Error that the final state and the times of events are to have at most, whatever the tolerance.
+    pub error: Option<f64>,
+    /// Whether a second run is to tell how far off the first is.
+    pub estimate: bool,
     /// Method of integration.
     pub method: Method,
     /// Whether a start off a constraint is moved onto it.
@@ -63,6 +70,8 @@ impl Default for Request {
             until: None,
             end_after: Vec::new(),
             tolerance: 1e-9,
+            error: None,
+            estimate: false,
             method: Method::Auto,
             project: false,
             impacts: None,
@@ -207,6 +216,10 @@ impl Request {
             .effects(self.effects(system.description())?)
             .project_start(self.project)
             .equations(self.equations);
+        let simulation = match self.error {
+            Some(error) => simulation.error(error),
+            None => simulation.estimate(self.estimate),
+        };
         let mut simulation = match self.impacts {
             Some(impacts) => simulation.impacts(impacts),
             None => simulation,

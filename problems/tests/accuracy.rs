@@ -296,3 +296,76 @@ fn requests_without_sense_are_refused_in_one_line() {
         "no reference to measure errors against: taylor at 1e-16: t = 0 (tip closed",
     );
 }
+
+#[test]
+fn impacts_that_accumulate_are_compared_as_one_instant() {
+    // Both corners bounce in turn; which of them ends it, and after how many impacts, depends on the tolerance.
+    let report = json(
+        "rocking-block",
+        &["--methods", "taylor,verner98", "--tolerances", "1e-6,1e-12"],
+    );
+    assert!(number(&report["reference"], "floor") < 1e-11);
+    for row in rows(&report) {
+        assert!(
+            number(row, "error") < 30.0 * number(row, "tolerance"),
+            "{row}"
+        );
+    }
+}
+
+#[test]
+fn a_run_tells_its_error() {
+    let run = |arguments: &[&str]| -> Value {
+        let all = [&["run", "rolling-sphere", "--format", "json"], arguments].concat();
+        serde_json::from_str(&says(&all)).expect("output is JSON")
+    };
+    // The closed form, by `accuracy`: its reference.
+    let exact = json(
+        "rolling-sphere",
+        &["--methods", "taylor", "--tolerances", "1e-6"],
+    );
+    let event = |k: usize| number(&exact["reference"]["events"][k], "time");
+    for arguments in [
+        &["--tolerance", "1e-6", "--estimate"][..],
+        &["--tolerance", "1e-6", "--method", "dopri5", "--estimate"],
+    ] {
+        let found = run(arguments);
+        let told = found["estimate"]["events"].as_array().expect("a list");
+        assert_eq!(told.len(), 2);
+        for (k, told) in told.iter().enumerate() {
+            let error = (number(&found["events"][k], "time") - event(k)).abs();
+            let ratio = told.as_f64().expect("a number") / error;
+            assert!((0.3..10.0).contains(&ratio), "{arguments:?}: {ratio}");
+        }
+        assert!(number(&found["estimate"]["state"], "theta") > 0.0);
+        assert_eq!(number(&found["estimate"], "tolerance"), 1e-8);
+    }
+    let found = run(&["--error", "1e-12"]);
+    for k in 0..2 {
+        let error = (number(&found["events"][k], "time") - event(k)).abs();
+        assert!(error <= 1e-12 * event(k), "{error:e}");
+    }
+    let story = says(&["run", "rolling-sphere", "--estimate"]);
+    assert!(
+        story.contains("Error: about ") && story.contains("±"),
+        "{story}"
+    );
+    assert!(!says(&["run", "rolling-sphere"]).contains("Error:"));
+}
+
+#[test]
+fn an_error_that_cannot_be_had_is_told() {
+    let chaos = ["run", "double-pendulum", "--until", "60", "--error", "1e-9"];
+    let output = lagrange(&chaos);
+    let said = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(said.contains("an error of 1e-9 cannot be had"), "{said}");
+    assert!(text(&output.stdout).contains("Error: about "));
+    let both = ["run", "kepler", "--error", "1e-9", "--tolerance", "1e-9"];
+    refuses(&both, 2, "cannot be used with");
+    refuses(
+        &["run", "kepler", "--error", "1"],
+        2,
+        "between 1e-15 and 0.1",
+    );
+}

@@ -50,34 +50,57 @@ pub struct Report {
     pub verdict: Verdict,
 }
 
-/// Makes run `number`.
-pub fn run(number: u64) -> Report {
-    const FAMILIES: [fn(Random) -> Report; 14] = [
-        trial::<Chain>,
-        trial::<Rod>,
-        trial::<Balls>,
-        trial::<Blocks>,
-        trial::<FourBar>,
-        trial::<Bead>,
-        trial::<Shaken>,
-        trial::<Feeder>,
-        trial::<Puck>,
-        trial::<Body>,
-        trial::<Charge>,
-        trial::<Beam>,
-        trial::<CartPole>,
-        trial::<Cranks>,
-    ];
-    let mut random = Random::new(number.wrapping_mul(0x2545_f491_4f6c_dd1d));
-    let family = random.bits() as usize % FAMILIES.len();
-    let report = FAMILIES[family](random);
-    Report {
-        run: format!("{number}: {}", report.run),
-        ..report
-    }
+/// A run, drawn at random.
+#[derive(Clone, Debug)]
+pub struct Trial<F> {
+    /// The system.
+    pub scene: F,
+    /// Where it begins.
+    pub start: State<f64>,
+    /// Method.
+    pub method: Method,
+    /// Tolerance.
+    pub tolerance: f64,
+    /// What takes part.
+    pub effects: Effects,
+    /// Last time, s.
+    pub until: f64,
 }
 
-fn trial<F: Family>(mut random: Random) -> Report {
+/// What is asked of random runs.
+pub trait Question {
+    /// What is to be known.
+    type Answer;
+
+    /// The answer for one run.
+    fn ask<F: Family>(trial: &Trial<F>) -> Self::Answer;
+}
+
+/// Draws run `number` and asks; with everything that is needed to repeat it.
+pub fn ask<Q: Question>(number: u64) -> (String, Q::Answer) {
+    let families: [fn(Random) -> (String, Q::Answer); 14] = [
+        draw::<Q, Chain>,
+        draw::<Q, Rod>,
+        draw::<Q, Balls>,
+        draw::<Q, Blocks>,
+        draw::<Q, FourBar>,
+        draw::<Q, Bead>,
+        draw::<Q, Shaken>,
+        draw::<Q, Feeder>,
+        draw::<Q, Puck>,
+        draw::<Q, Body>,
+        draw::<Q, Charge>,
+        draw::<Q, Beam>,
+        draw::<Q, CartPole>,
+        draw::<Q, Cranks>,
+    ];
+    let mut random = Random::new(number.wrapping_mul(0x2545_f491_4f6c_dd1d));
+    let family = random.bits() as usize % families.len();
+    let (run, answer) = families[family](random);
+    (format!("{number}: {run}"), answer)
+}
+
+fn draw<Q: Question, F: Family>(mut random: Random) -> (String, Q::Answer) {
     let (scene, start) = F::draw(&mut random);
     let method = METHODS[random.bits() as usize % METHODS.len()];
     let tolerance = TOLERANCES[random.bits() as usize % TOLERANCES.len()];
@@ -95,16 +118,47 @@ fn trial<F: Family>(mut random: Random) -> Report {
         "{}, {method} {tolerance:e}, until {until}, without {left_out:?}\n  {scene:?}\n  {start:?}",
         F::NAME
     );
-    let simulation = Simulation::new(&scene)
-        .method(method)
-        .tolerance(tolerance)
-        .effects(effects)
-        .project_start(true)
-        .max_steps(20_000);
-    let verdict = patiently(|| match simulation.run(start, 0.0..until) {
-        Ok(trajectory) => judge(&trajectory, None),
-        Err(failure) => judge(&failure.trajectory, Some(&failure.error)),
-    });
+    let trial = Trial {
+        scene,
+        start,
+        method,
+        tolerance,
+        effects,
+        until,
+    };
+    (run, Q::ask(&trial))
+}
+
+impl<F: Family> Trial<F> {
+    /// How it is run.
+    pub fn simulation(&self) -> Simulation<'_, F> {
+        Simulation::new(&self.scene)
+            .method(self.method)
+            .tolerance(self.tolerance)
+            .effects(self.effects.clone())
+            .project_start(true)
+            .max_steps(20_000)
+    }
+}
+
+/// Whether a run holds what its declaration says.
+struct Certified;
+
+impl Question for Certified {
+    type Answer = Verdict;
+
+    fn ask<F: Family>(trial: &Trial<F>) -> Verdict {
+        let (start, span) = (trial.start.clone(), 0.0..trial.until);
+        patiently(|| match trial.simulation().run(start, span) {
+            Ok(trajectory) => judge(&trajectory, None),
+            Err(failure) => judge(&failure.trajectory, Some(&failure.error)),
+        })
+    }
+}
+
+/// Makes run `number`.
+pub fn run(number: u64) -> Report {
+    let (run, verdict) = ask::<Certified>(number);
     Report { run, verdict }
 }
 

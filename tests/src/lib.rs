@@ -3,6 +3,7 @@
 //! Nothing here computes as the library does: what it is compared with is written again from the textbook.
 
 pub mod equations;
+pub mod exactness;
 pub mod families;
 pub mod fuzz;
 pub mod modes;

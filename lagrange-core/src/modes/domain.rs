@@ -40,6 +40,28 @@ pub fn check<T: Scalar>(dynamics: &Dynamics<T>, t: f64, form: &mut Vec<f64>) -> 
     check_inertia(dynamics, t, form)
 }
 
+/// Looks at the values of parameters, which the motion is not needed for.
+///
+/// # Errors
+/// [`Error::Domain`]: the first that is not what its field says.
+pub fn check_parameters<T: Scalar>(dynamics: &Dynamics<T>, t: f64) -> Result<(), Error> {
+    let parameters = dynamics.description().parameters.iter();
+    for (i, parameter) in parameters.enumerate() {
+        let value = dynamics.system().parameter(i).value();
+        if !parameter.domain.contains(value) {
+            return Err(Error::Domain {
+                time: t,
+                item: parameter.name,
+                what: "value",
+                value,
+                expected: parameter.domain.to_string(),
+                fields: Vec::new(),
+            });
+        }
+    }
+    Ok(())
+}
+
 /// Looks at the restitution of contact `c` in the state that `dynamics` holds.
 ///
 /// # Errors

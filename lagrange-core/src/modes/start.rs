@@ -19,6 +19,7 @@ pub fn begin<T: Scalar>(
     project: bool,
     survey: &mut Survey,
 ) -> Result<(), Error> {
+    domain::check_parameters(dynamics, t.value())?;
     survey.look(dynamics, t, state, tolerance);
     domain::check(dynamics, t.value(), &mut survey.form)?;
     if !project {
@@ -44,6 +45,7 @@ pub fn consistent<T: Scalar>(
     wanted: &State<T>,
     held: &Held,
 ) -> Result<State<T>, Error> {
+    domain::check_parameters(dynamics, time)?;
     let t = T::from_f64(time);
     let mut found = Survey::new(dynamics.description());
     found.look(dynamics, t, reference, tolerance);

@@ -37,6 +37,8 @@ pub(super) struct Impacts<T> {
     interval: f64,
     /// Ratio of the last two intervals.
     ratio: f64,
+    /// How long all further ones were to last, as judged at the last one.
+    left: f64,
     /// The last three times, the latest first.
     times: [T; 3],
     /// How many of the last intervals were below the resolution of time.
@@ -52,6 +54,7 @@ impl<T: Scalar> Default for Impacts<T> {
             last: 0.0,
             interval: 0.0,
             ratio: 0.0,
+            left: f64::INFINITY,
             times: [T::zero(); 3],
             unresolved: 0,
             intervals: [0.0; REMEMBERED],
@@ -64,11 +67,12 @@ impl<T: Scalar> Impacts<T> {
     pub(super) fn restart(&mut self) {
         (self.count, self.unresolved) = (0, 0);
         (self.last, self.interval, self.ratio) = (0.0, 0.0, 0.0);
+        self.left = f64::INFINITY;
         self.times = [T::zero(); 3];
     }
 
-    /// Books an impact; returns how long all further ones will last, if they shrink geometrically.
-    fn book(&mut self, time: T) -> Option<T> {
+    /// Books an impact; returns how long all further ones will last, if they shrink geometrically, and how uncertain that is.
+    fn book(&mut self, time: T) -> Option<(T, f64)> {
         let [last, earlier, _] = self.times;
         self.times = [time, last, earlier];
         let time = time.value();
@@ -90,10 +94,15 @@ impl<T: Scalar> Impacts<T> {
         };
         if steady && self.count >= FEWEST {
             let ratio = self.mean_ratio();
-            return Some(self.with_derivatives(interval * ratio / (1.0 - ratio)));
+            let left = interval * ratio / (1.0 - ratio);
+            // Judged one impact ago, the same end was as far away and this interval.
+            let uncertain = (left + interval - self.left).abs();
+            self.left = left;
+            return Some((self.with_derivatives(left), uncertain));
         }
+        self.left = f64::INFINITY;
         // No law in them, but time no longer tells them apart.
-        (self.unresolved >= FEWEST).then_some(T::zero())
+        (self.unresolved >= FEWEST).then_some((T::zero(), 0.0))
     }
 
     /// What is left, with the derivatives that the last impacts give it.
@@ -202,8 +211,10 @@ impl<T: Scalar> Run<T> {
     /// After an impact of contact `c`: closes it if the impacts to come are below the tolerance. Returns the number of
     /// impacts that led here, and how long the others last.
     fn accumulate(&mut self, c: usize, known: &mut Known) -> Option<(usize, T)> {
-        let remaining = self.impacts[c].book(self.t)?;
-        if !self.is_over(remaining.value()) {
+        let (remaining, uncertain) = self.impacts[c].book(self.t)?;
+        let certain = uncertain <= self.settings.tolerance * self.t.value().abs().max(1.0)
+            || remaining.value() <= RESOLUTION * self.t.value().abs();
+        if !(certain && self.is_over(remaining.value())) {
             return None;
         }
         // Contacts that take part in the same cycle close with it.

@@ -37,6 +37,8 @@ impl<T: Scalar> Run<T> {
             event.write(self.t, Subject::Contact(c), EventKind::Impact, around);
             event.restitution_lowered = outcome.lowered;
             event.impulses_undetermined = outcome.undetermined;
+            event.ambiguous = outcome.ambiguous;
+            event.other_impacts.clone_from(&outcome.others);
         }
     }
 

@@ -5,7 +5,7 @@ use crate::dynamics::{Lanes, Packets};
 use crate::error::Error;
 use crate::precompiled::Runnable;
 use crate::run::round::Together;
-use crate::settings::Settings;
+use crate::settings::{Goal, Settings};
 use crate::system::System;
 use crate::trajectory::{State, Trajectory};
 use core::ops::Range;
@@ -98,6 +98,12 @@ impl<S: System<Scalar: Runnable>> Ensemble<S> {
                     let Some(start) = prepare(index, runner) else {
                         continue;
                     };
+                    if self.settings.goal != Goal::Tolerance {
+                        // A run is then several, one after the other.
+                        let outcome = runner.run(&start, span.clone()).map(drop);
+                        take(index, outcome, runner.trajectory());
+                        continue;
+                    }
                     match runner.launch(&start, span.clone()) {
                         Ok(()) if runner.goes_on() => *under_way = Some(index),
                         outcome => take(index, outcome, runner.land()),

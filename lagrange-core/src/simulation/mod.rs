@@ -1,6 +1,7 @@
 //! A run: the system, what takes part in it, how exact it is to be.
 
 mod ensemble;
+mod refine;
 mod runner;
 
 pub use crate::dynamics::Equations;
@@ -16,7 +17,7 @@ use crate::error::Error;
 use crate::integrate::Method;
 use crate::monitor::Monitor;
 use crate::precompiled::Runnable;
-use crate::settings::Settings;
+use crate::settings::{Goal, Settings};
 use crate::system::{Impacts, System};
 use crate::trajectory::{State, Trajectory};
 use core::fmt;
@@ -57,6 +58,7 @@ impl<'a, S: System<Scalar: Runnable>> Simulation<'a, S> {
             scene,
             settings: Settings {
                 effects: Effects::all(),
+                goal: Goal::Tolerance,
                 tolerance: 1e-9,
                 method: Method::Auto,
                 project_start: false,
@@ -75,6 +77,29 @@ impl<'a, S: System<Scalar: Runnable>> Simulation<'a, S> {
     #[must_use]
     pub fn tolerance(mut self, tolerance: f64) -> Self {
         self.settings.tolerance = tolerance;
+        self
+    }
+
+    /// Instead of a tolerance: the final state and the times of all events are to be within this error, relative for numbers
+    /// above 1 and absolute (in their own units) below; from 1e-15 to 0.1.
+    ///
+    /// The run is made at tighter and tighter tolerances (shorter and shorter fixed steps) until two in a row differ by a quarter of
+    /// the error. The result is the tighter one; [`Record::estimate`](crate::trajectory::Record::estimate) has the difference.
+    /// Where runs do not agree so well however tight they are, the run ends with [`Error::Inexact`].
+    #[must_use]
+    pub fn error(mut self, error: f64) -> Self {
+        self.settings.goal = Goal::Error(error);
+        self
+    }
+
+    /// Whether the run is made a second time, at a hundredth of the tolerance, to see how far off it is:
+    /// [`Record::estimate`](crate::trajectory::Record::estimate).
+    #[must_use]
+    pub fn estimate(mut self, yes: bool) -> Self {
+        self.settings.goal = match yes {
+            true => Goal::Estimate,
+            false => Goal::Tolerance,
+        };
         self
     }
 

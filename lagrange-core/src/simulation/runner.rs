@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::precompiled::Runnable;
 use crate::run::Run;
 use crate::run::round::Member;
-use crate::settings::Settings;
+use crate::settings::{Goal, Settings};
 use crate::state::Held;
 use crate::system::System;
 use crate::trajectory::{Record, State, Trajectory};
@@ -14,13 +14,15 @@ use std::sync::Arc;
 
 /// Runs one system again and again: what a run works with is made once, and the trajectory is written into the same memory.
 /// From the second run on nothing is allocated, unless a run meets a mode or needs an amount of recording that none before
-/// did, or has forces that the motion leaves open.
+/// did, or has forces that the motion leaves open. Where an error or an estimate is asked for, further runs have memory of their
+/// own.
 ///
 /// Made by [`Simulation::runner`](crate::Simulation::runner).
 #[derive(Debug)]
 pub struct Runner<S: System> {
     run: Run<S::Scalar>,
-    trajectory: Trajectory<S>,
+    pub(super) trajectory: Trajectory<S>,
+    pub(super) settings: Settings,
 }
 
 impl<S: System<Scalar: Runnable>> Runner<S> {
@@ -28,6 +30,7 @@ impl<S: System<Scalar: Runnable>> Runner<S> {
         let run = (S::Scalar::functions().run)(erased(scene), settings);
         Self {
             trajectory: Trajectory::new(scene, run.record().clone()),
+            settings: settings.clone(),
             run,
         }
     }
@@ -42,13 +45,17 @@ impl<S: System<Scalar: Runnable>> Runner<S> {
         start: &State<S::Scalar>,
         span: Range<f64>,
     ) -> Result<&Trajectory<S>, Error> {
-        self.run_in_pieces(start, span, usize::MAX, |_| ())?;
+        match self.settings.goal {
+            Goal::Tolerance => self.run_once(start, span),
+            Goal::Estimate => self.run_twice(start, span),
+            Goal::Error(error) => self.run_within(error, start, span),
+        }?;
         Ok(&self.trajectory)
     }
 
     /// The same, with a memory of the motion that does not grow with its length: about every so many `bytes` what there is of it is
     /// given to `take`, as the trajectory of a run of its own (but its work counts from the beginning), and forgotten. The trajectory that stays
-    /// is the last piece.
+    /// is the last piece. A run whose error is asked for is one piece.
     ///
     /// # Errors
     /// As of [`Self::run`].
@@ -59,9 +66,31 @@ impl<S: System<Scalar: Runnable>> Runner<S> {
         bytes: usize,
         mut take: impl FnMut(&Record<S::Scalar>),
     ) -> Result<(), Error> {
+        match self.settings.goal {
+            Goal::Tolerance => self.execute(start, span, bytes, &mut take),
+            Goal::Estimate | Goal::Error(_) => self.run(start, span).map(|_| ()),
+        }
+    }
+
+    /// One run as the tolerance has it.
+    pub(super) fn run_once(
+        &mut self,
+        start: &State<S::Scalar>,
+        span: Range<f64>,
+    ) -> Result<(), Error> {
+        self.execute(start, span, usize::MAX, &mut |_| ())
+    }
+
+    fn execute(
+        &mut self,
+        start: &State<S::Scalar>,
+        span: Range<f64>,
+        bytes: usize,
+        take: &mut dyn FnMut(&Record<S::Scalar>),
+    ) -> Result<(), Error> {
         let execute = S::Scalar::functions().execute;
         let record = self.trajectory.record();
-        execute(&mut self.run, start, span, record, bytes, &mut take)
+        execute(&mut self.run, start, span, record, bytes, take)
     }
 
     /// Begins a run without going on with it.

@@ -3,6 +3,7 @@
 use super::by_handle::Owner;
 use crate::handle::Subject;
 use crate::mode::Mode;
+use crate::modes::impact::OtherImpact;
 use crate::state::State;
 use crate::system::Description;
 
@@ -90,8 +91,11 @@ pub struct Event<T> {
     pub restitution_lowered: bool,
     /// Whether rows that depend on each other leave impulses of this impact undetermined; those given are of least norm.
     pub impulses_undetermined: bool,
-    /// Whether more than one mode could continue the motion.
+    /// Whether more than one mode could continue the motion, or more than one impact satisfies the law.
     pub ambiguous: bool,
+    /// At an ambiguous impact: the others. They are not known of impacts in turn and of Poisson's law, nor of contacts so many
+    /// that not all combinations are tried.
+    pub other_impacts: Vec<OtherImpact<T>>,
 }
 
 /// What an event says beside its subject, kind and instant.
@@ -132,6 +136,7 @@ impl<T: crate::arithmetic::Scalar> Event<T> {
             restitution_lowered: false,
             impulses_undetermined: false,
             ambiguous: false,
+            other_impacts: Vec::new(),
         }
     }
 
@@ -157,5 +162,6 @@ impl<T: crate::arithmetic::Scalar> Event<T> {
         self.restitution_lowered = false;
         self.impulses_undetermined = false;
         self.ambiguous = false;
+        self.other_impacts.clear();
     }
 }

@@ -2,12 +2,15 @@
 
 mod by_handle;
 mod display;
+mod estimate;
 mod event;
 mod ledger;
 mod sampler;
 
 pub use crate::handle::Subject;
+pub use crate::modes::impact::OtherImpact;
 pub use crate::state::{Starts, State};
+pub use estimate::{Difference, Estimate, Parting, Summary};
 pub(crate) use event::Around;
 pub use event::{Event, EventKind};
 pub use ledger::{Energies, Entry, Ledger};
@@ -141,6 +144,7 @@ pub struct Record<T: Scalar> {
     pub(crate) work: Work,
     /// When steps were bounded by stability.
     pub(crate) stiff: Vec<Range<f64>>,
+    pub(crate) estimate: Option<Estimate>,
     /// Who sees how far the books have been drawn up.
     pub(crate) monitor: Option<Monitor>,
 }
@@ -163,6 +167,7 @@ impl<T: Scalar> Record<T> {
             events: Pool::default(),
             work: Work::default(),
             stiff: Vec::new(),
+            estimate: None,
             monitor: None,
         }
     }
@@ -180,6 +185,7 @@ impl<T: Scalar> Record<T> {
         self.events.clear();
         self.work = Work::default();
         self.stiff.clear();
+        self.estimate = None;
     }
 
     /// Appends a step, valid up to `end` of its length.
@@ -252,12 +258,12 @@ impl<T: Scalar> Record<T> {
         &self.effects
     }
 
-    /// Relative and absolute tolerance that was asked for.
+    /// Relative and absolute tolerance that was asked for; with [`Simulation::error`](crate::Simulation::error) the one that was found.
     pub fn tolerance(&self) -> f64 {
         self.asked.tolerance
     }
 
-    /// Method of integration that was asked for.
+    /// Method of integration that was asked for; where it has steps of fixed length, with the length that was found.
     pub fn method(&self) -> Method {
         self.asked.method
     }
@@ -290,6 +296,12 @@ impl<T: Scalar> Record<T> {
     /// What happened, in order.
     pub fn events(&self) -> &[Event<T>] {
         &self.events
+    }
+
+    /// How far off the run is, if that was asked for ([`Simulation::estimate`](crate::Simulation::estimate),
+    /// [`Simulation::error`](crate::Simulation::error)).
+    pub fn estimate(&self) -> Option<&Estimate> {
+        self.estimate.as_ref()
     }
 
     /// What the run cost.

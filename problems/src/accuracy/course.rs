@@ -27,6 +27,7 @@ impl<S: System<Scalar = f64>> Course<'_, S> {
     fn simulation(&self, setting: Setting) -> Simulation<'_, S> {
         self.simulation
             .clone()
+            .estimate(false)
             .method(setting.method)
             .tolerance(setting.tolerance)
             .max_steps(self.max_steps)
@@ -59,40 +60,6 @@ impl<S: System<Scalar = f64>> Course<'_, S> {
         (0..self.system.description().parameters.len())
             .map(|i| self.system.parameter(i))
             .collect()
-    }
-}
-
-/// What is compared of two runs.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Finish {
-    /// Events in order: `rim lost` and its time.
-    pub events: Vec<(String, f64)>,
-    /// Time of the end, s.
-    pub time: f64,
-    /// State at the end.
-    pub state: State<f64>,
-}
-
-/// Of impacts that accumulate only the accumulation: how many are followed one by one depends on the tolerance.
-pub(super) fn finish(trajectory: &Record<f64>) -> Finish {
-    let mut events: Vec<&Event<f64>> = Vec::new();
-    for event in trajectory.events() {
-        if matches!(event.kind, EventKind::Accumulates { .. }) {
-            let leads = |e: &&Event<f64>| e.kind == EventKind::Impact && e.subject == event.subject;
-            while events.last().is_some_and(leads) {
-                events.pop();
-            }
-        }
-        events.push(event);
-    }
-    let label = |event: &Event<f64>| {
-        let item = event.subject.name(trajectory.description());
-        (format!("{item} {}", event.kind), event.time)
-    };
-    Finish {
-        events: events.into_iter().map(label).collect(),
-        time: trajectory.last_time(),
-        state: trajectory.final_state().clone(),
     }
 }
 

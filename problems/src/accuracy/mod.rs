@@ -23,6 +23,7 @@ use crate::closed_form::ClosedForm;
 use crate::request::{Refusal, Request};
 use lagrange_core::prelude::*;
 use lagrange_core::system::Description;
+use lagrange_core::trajectory::{Difference, Summary};
 
 /// What is to be measured.
 #[derive(Clone, Debug)]
@@ -133,8 +134,11 @@ fn judge<S: System<Scalar = f64>>(
     reference: &Reference,
 ) -> Result<Measured, String> {
     let trajectory = course.run(setting).map_err(|error| error.to_string())?;
-    let finish = course::finish(&trajectory);
-    let (state_error, event_error) = reference.errors(&finish)?;
+    let Difference {
+        state_error,
+        event_error,
+        ..
+    } = reference.errors(&Summary::of(&trajectory))?;
     Ok(Measured {
         state_error,
         event_error,

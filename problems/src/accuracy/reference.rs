@@ -4,10 +4,13 @@
 //! floor, no error of a run can be told.
 
 use super::Setting;
-use super::course::{Course, Finish, finish};
+use super::course::Course;
 use crate::closed_form::ClosedForm;
 use crate::request::Refusal;
+use crate::sweep::event;
 use lagrange_core::prelude::*;
+use lagrange_core::system::Description;
+use lagrange_core::trajectory::{Difference, Summary};
 
 /// The tightest run: Taylor series, at the first of these tolerances that gets to the end.
 const TIGHTEST: [Setting; 4] = [taylor(1e-16), taylor(1e-15), taylor(1e-14), taylor(1e-13)];
@@ -48,7 +51,7 @@ const SAME: f64 = 1e-3;
 const RADIUS_PER_STEP: f64 = 7.389_056_098_930_65;
 
 /// What happens, exactly as far as known.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Reference {
     /// What it is: `taylor at 1e-16`, or the name of a closed form.
     pub by: String,
@@ -58,71 +61,34 @@ pub struct Reference {
     pub difference: f64,
     /// Below this an error cannot be told.
     pub floor: f64,
-    /// Events in order of time: item and kind (`rim lost`), time in s.
-    pub events: Vec<(String, f64)>,
-    /// Time of the end, s.
-    pub time: f64,
-    /// State at the end.
-    pub state: State<f64>,
+    /// Events and state at the end.
+    pub truth: Summary,
 }
 
 impl Reference {
-    /// Errors of the final state and of the times of the events, if there are any.
+    /// How far a run is off, by its final state and the times of its events.
     ///
     /// # Errors
     /// Something else happened.
-    pub(super) fn errors(&self, found: &Finish) -> Result<(f64, Option<f64>), String> {
-        let labels = |events: &[(String, f64)]| -> Vec<String> {
-            events.iter().map(|(label, _)| label.clone()).collect()
-        };
-        let (happened, expected) = (labels(&found.events), labels(&self.events));
-        if happened != expected {
-            return Err(format!(
-                "other events: {} instead of {}",
-                list(&happened),
-                list(&expected)
-            ));
+    pub(super) fn errors(&self, found: &Summary) -> Result<Difference, String> {
+        let difference = found.compare(&self.truth);
+        match &difference.parting {
+            None => Ok(difference),
+            Some(parting) => Err(format!(
+                "other events: {} instead of {} at t = {}",
+                parting.here, parting.there, parting.time
+            )),
         }
-        let values =
-            |state: &State<f64>| -> Vec<f64> { state.q.iter().chain(&state.v).copied().collect() };
-        let state = largest(&values(&found.state), &values(&self.state)).unwrap_or(0.0);
-        let times = |events: &[(String, f64)]| -> Vec<f64> { events.iter().map(|e| e.1).collect() };
-        Ok((state, largest(&times(&found.events), &times(&self.events))))
     }
 
-    fn difference(&self, found: &Finish) -> Result<f64, String> {
-        let (state, events) = self.errors(found)?;
-        Ok(state.max(events.unwrap_or(0.0)))
+    /// The largest error, if it is one between two accounts of the same motion.
+    fn agreement(&self, found: &Summary) -> Result<f64, String> {
+        let difference = self.errors(found)?.error();
+        match difference < SAME {
+            true => Ok(difference),
+            false => Err(format!("ends elsewhere, by {difference:.1e}")),
+        }
     }
-}
-
-/// The difference, if it is one between two accounts of the same motion.
-fn agreement(difference: f64) -> Result<f64, String> {
-    match difference < SAME {
-        true => Ok(difference),
-        false => Err(format!("ends elsewhere, by {difference:.1e}")),
-    }
-}
-
-/// `rim impact ×3, rim closed`
-fn list(labels: &[String]) -> String {
-    let runs = labels.chunk_by(|a, b| a == b).map(|run| match run {
-        [one] => one.clone(),
-        many => format!("{} ×{}", many[0], many.len()),
-    });
-    let runs: Vec<String> = runs.collect();
-    match runs.is_empty() {
-        true => "nothing".to_owned(),
-        false => runs.join(", "),
-    }
-}
-
-/// max |found − wanted| / max(1, |wanted|)
-fn largest(found: &[f64], wanted: &[f64]) -> Option<f64> {
-    let pairs = found.iter().zip(wanted);
-    pairs
-        .map(|(found, wanted)| (found - wanted).abs() / wanted.abs().max(1.0))
-        .reduce(f64::max)
 }
 
 /// The reference of a run, and the time scale of its motion, s.
@@ -133,9 +99,9 @@ pub(super) fn reference<S: System<Scalar = f64>>(
     let (setting, tightest) = tightest(course)?;
     let steps = tightest.work().steps.max(1);
     let scale = RADIUS_PER_STEP * (tightest.last_time() - tightest.first_time()) / steps as f64;
-    let finish = finish(&tightest);
+    let summary = Summary::of(&tightest);
     let reference = match closed_form {
-        Some(known) => from_closed_form(known, setting, &finish),
+        Some(known) => from_closed_form(known, setting, &summary),
         None => {
             // A check that gets stuck in ever smaller steps is of no use, and takes long.
             let patient = Course {
@@ -144,7 +110,7 @@ pub(super) fn reference<S: System<Scalar = f64>>(
                 max_steps: (10_000 + 100 * steps).min(course.max_steps),
                 ..*course
             };
-            from_runs(&patient, setting, finish)
+            from_runs(&patient, setting, summary)
         }
     };
     Ok((reference?, scale))
@@ -173,24 +139,32 @@ fn refusal(setting: Setting, reason: String) -> Refusal {
 fn from_closed_form(
     known: ClosedForm,
     checked_by: Setting,
-    run: &Finish,
+    run: &Summary,
 ) -> Result<Reference, Refusal> {
-    let events = known.events.into_iter();
     let reference = Reference {
         by: format!("the closed form ({})", known.by),
         checked_by: checked_by.to_string(),
         difference: 0.0,
         floor: known.rounding,
-        events: events
-            .map(|(label, time)| (label.to_owned(), time))
-            .collect(),
-        time: known.time,
-        state: known.state,
+        truth: summary(known, run.description)?,
     };
-    let difference = reference.difference(run).and_then(agreement);
+    let difference = reference.agreement(run);
     Ok(Reference {
         difference: difference.map_err(|reason| refusal(checked_by, reason))?,
         ..reference
+    })
+}
+
+fn summary(known: ClosedForm, description: &'static Description) -> Result<Summary, Refusal> {
+    let happening = |(label, time): (&str, f64)| {
+        event(label, description).map(|(subject, kind)| (subject, kind, time))
+    };
+    let events = known.events.into_iter().map(happening);
+    Ok(Summary {
+        description,
+        events: events.collect::<Result<_, _>>()?,
+        time: known.time,
+        state: known.state,
     })
 }
 
@@ -198,24 +172,21 @@ fn from_closed_form(
 fn from_runs<S: System<Scalar = f64>>(
     course: &Course<S>,
     by: Setting,
-    tightest: Finish,
+    tightest: Summary,
 ) -> Result<Reference, Refusal> {
     let reference = Reference {
         by: by.to_string(),
         checked_by: String::new(),
         difference: f64::INFINITY,
         floor: f64::INFINITY,
-        events: tightest.events,
-        time: tightest.time,
-        state: tightest.state,
+        truth: tightest,
     };
     let mut refused = None;
     for group in CHECKS {
         let mut best: Option<(Setting, f64)> = None;
         for &setting in group {
             let run = course.run(setting).map_err(|error| error.to_string());
-            let difference = run.and_then(|run| reference.difference(&finish(&run)));
-            match difference.and_then(agreement) {
+            match run.and_then(|run| reference.agreement(&Summary::of(&run))) {
                 Ok(difference) if best.is_none_or(|(_, least)| difference < least) => {
                     best = Some((setting, difference));
                 }
@@ -233,16 +204,4 @@ fn from_runs<S: System<Scalar = f64>>(
         }
     }
     Err(refused.unwrap_or_else(|| refusal(by, "nothing to check it by".to_owned())))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::list;
-
-    #[test]
-    fn events_in_a_row_are_counted() {
-        let labels = ["a hit", "a hit", "b lost", "a hit"].map(str::to_owned);
-        assert_eq!(list(&labels), "a hit ×2, b lost, a hit");
-        assert_eq!(list(&[]), "nothing");
-    }
 }

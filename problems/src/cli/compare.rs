@@ -46,7 +46,9 @@ impl Comparison {
                 Change::Start(name, value) => instead(&mut request.start, name, value),
                 Change::From(start) => request.from = Some(start),
                 Change::Until(time) => request.until = Some(time),
-                Change::Tolerance(tolerance) => request.tolerance = tolerance,
+                Change::Tolerance(tolerance) => {
+                    (request.tolerance, request.error) = (tolerance, None);
+                }
                 Change::Method(method) => request.method = method,
             }
         }

@@ -1,7 +1,7 @@
 //! Which run of a scene is meant: arguments that several commands share, and the request that they make.
 
 use super::Trouble;
-use super::values::{named, positive, tolerance};
+use super::values::{error, named, positive, tolerance};
 use clap::Args;
 use lagrange_core::prelude::{Impacts, Method};
 use lagrange_problems::file::{ENDING, find};
@@ -21,6 +21,13 @@ pub(super) struct Course {
     /// Tolerance of the integration, relative and absolute [default: 1e-9].
     #[arg(long, value_name = "X", value_parser = tolerance, allow_hyphen_values = true)]
     tolerance: Option<f64>,
+    /// Error that the final state and the times of all events are to keep, relative above 1 and absolute below; tightens the
+    /// tolerance until two runs agree.
+    #[arg(long, value_name = "X", value_parser = error, allow_hyphen_values = true, conflicts_with = "tolerance")]
+    error: Option<f64>,
+    /// Run again at a hundredth of the tolerance, and tell how far off the first run is.
+    #[arg(long, conflicts_with = "error")]
+    estimate: bool,
     /// Method of integration [default: auto].
     #[arg(long, value_name = "M", value_parser = method)]
     method: Option<Method>,
@@ -67,6 +74,11 @@ impl Course {
         let file = self.motion.of(name)?;
         let request = Request {
             tolerance: self.tolerance.unwrap_or(file.request.tolerance),
+            error: match self.tolerance {
+                Some(_) => None,
+                None => self.error.or(file.request.error),
+            },
+            estimate: self.estimate || file.request.estimate,
             method: self.method.unwrap_or(file.request.method),
             ..file.request
         };

@@ -2,7 +2,7 @@
 
 use lagrange_problems::count::count;
 use lagrange_problems::report::export::Still;
-use lagrange_problems::request::{MOST_SAMPLES, TOLERANCES};
+use lagrange_problems::request::{ERRORS, MOST_SAMPLES, TOLERANCES};
 use std::path::PathBuf;
 
 /// `name=value` with a finite value.
@@ -59,6 +59,14 @@ pub(super) fn tolerance(text: &str) -> Result<f64, String> {
     match positive(text)? {
         tolerance if TOLERANCES.contains(&tolerance) => Ok(tolerance),
         _ => Err("a tolerance is between 1e-17 and 0.1".to_owned()),
+    }
+}
+
+/// An error that a run is to keep.
+pub(super) fn error(text: &str) -> Result<f64, String> {
+    match positive(text)? {
+        error if ERRORS.contains(&error) => Ok(error),
+        _ => Err("an error is between 1e-15 and 0.1".to_owned()),
     }
 }
 

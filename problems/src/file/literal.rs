@@ -178,7 +178,7 @@ structs! {
         name documentation parameters coordinates needs constants motion report mass inertia forcing rows couplings kinetic potential
         constraints contacts frictions forces dissipations branches energy momenta observes stops marks starts units impacts
     }
-    Parameter { name documentation unit tex }
+    Parameter { name documentation unit tex domain }
     Coordinate { name unit cyclic }
     Encoded { words numbers values outputs }
     Row { jacobian bias position velocity needs }
@@ -212,6 +212,7 @@ variants! {
     Normal { ; Contact Constraint Given }
     Condition { ; Closed Open Sticks Slips }
     Impacts { Together InTurn }
+    Domain { Any Positive NonNegative }
     Worked { ; Coordinate Point Speed }
     Turn { None; Angle Attitude About Rolled }
     Form {

@@ -342,3 +342,40 @@ fn bombs_do_not_go_off() {
     ));
     survives(&" ".repeat(2 << 20));
 }
+
+#[test]
+fn what_a_parameter_may_be_is_kept_by_the_file_and_the_struct() {
+    let text = "parameters(mass: \"kg\" positive = 1, drag nonnegative = 0.5), coordinates(x),
+        kinetic = mass/2 * der(x)^2, dissipation(air: drag/2 * der(x)^2), start(moving: der(x) = 1)";
+    let declared = scene("falling.lagrange", text).expect("a scene");
+    for (name, value) in [("mass", 0.0), ("mass", -1.0), ("drag", -0.5)] {
+        let request = Request {
+            parameters: vec![(name.to_owned(), value)],
+            ..Request::default()
+        };
+        let outcome = declared.run(&request).expect("a request");
+        let error = outcome.failure.expect("outside its domain").to_string();
+        assert!(
+            error.contains(name) && error.contains("it must be"),
+            "{error}"
+        );
+    }
+    assert!(
+        declared
+            .run(&Request::default())
+            .is_ok_and(|run| run.failure.is_none())
+    );
+    let rust = super::rust("falling.lagrange", text).expect("a struct");
+    assert!(
+        rust.contains("#[lagrange(unit = \"kg\", domain = \"positive\")]"),
+        "{rust}"
+    );
+    assert!(
+        rust.contains("#[lagrange(domain = \"nonnegative\")]"),
+        "{rust}"
+    );
+    let wrong = scene("falling.lagrange", &text.replace("nonnegative", "small"));
+    assert!(
+        wrong.is_err_and(|refused| refused.to_string().contains("`positive` or `nonnegative`"))
+    );
+}

@@ -25,6 +25,8 @@ pub struct Outcome {
     pub method: Method,
     /// Its tolerance, relative and absolute.
     pub tolerance: f64,
+    /// How far off it is, if that was asked for.
+    pub estimate: Option<Estimate>,
     /// Event log.
     pub events: Vec<Event<f64>>,
     /// Modes in order of time.
@@ -184,6 +186,7 @@ impl Outcome {
                 .collect(),
             method: trajectory.method(),
             tolerance: trajectory.tolerance(),
+            estimate: trajectory.estimate().cloned(),
             effects: trajectory.effects().clone(),
             events: events.to_vec(),
             phases: trajectory.phases(),

@@ -52,6 +52,8 @@ pub(super) struct Ending {
     energy: Option<Energy>,
     #[serde(skip_serializing_if = "Option::is_none")]
     certificate: Option<Verdict>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    estimate: Option<Errors>,
     work: Counts,
     /// Intervals, s, in which steps were bounded by stability.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -143,6 +145,23 @@ struct Parts {
     total: f64,
 }
 
+/// How far off the run is, judged by another one.
+#[derive(Serialize)]
+struct Errors {
+    /// The other run.
+    method: String,
+    tolerance: f64,
+    /// Largest errors, relative above 1 and absolute below; none where the runs part.
+    state_error: Option<f64>,
+    event_error: Option<f64>,
+    /// Of the final state.
+    state: Numbers,
+    /// Of the time of each event, s.
+    events: Vec<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    parting: Option<String>,
+}
+
 #[derive(Serialize)]
 struct Counts {
     steps: usize,
@@ -206,9 +225,14 @@ pub(super) fn header(outcome: &Outcome) -> Header {
 
 /// What it came to.
 pub(super) fn ending(outcome: &Outcome) -> Ending {
+    let description = outcome.description;
     Ending {
         energy: outcome.ledger.as_ref().map(energy),
         certificate: outcome.certificate.as_ref().map(verdict),
+        estimate: outcome
+            .estimate
+            .as_ref()
+            .map(|estimate| errors(description, estimate)),
         work: counts(outcome),
         stiff: outcome.stiff.iter().map(|s| [s.start, s.end]).collect(),
         error: outcome.failure.as_ref().map(Error::to_string),
@@ -346,6 +370,22 @@ fn energy(ledger: &Ledger) -> Energy {
             .collect(),
         scale: ledger.scale,
         closure: ledger.closure,
+    }
+}
+
+fn errors(description: &Description, estimate: &Estimate) -> Errors {
+    let difference = &estimate.difference;
+    Errors {
+        method: estimate.method.to_string(),
+        tolerance: estimate.tolerance,
+        state_error: difference
+            .state_error
+            .is_finite()
+            .then_some(difference.state_error),
+        event_error: difference.event_error,
+        state: state(description, &difference.state),
+        events: difference.events.clone(),
+        parting: difference.parting.as_ref().map(ToString::to_string),
     }
 }
 

@@ -8,6 +8,7 @@ use crate::outcome::{Force, Outcome, forces};
 use comfy_table::{
     CellAlignment, ColumnConstraint, ContentArrangement, LineStyle, Table, TableStyle, Width,
 };
+use core::iter::repeat;
 use lagrange_core::mode::Mode;
 use lagrange_core::prelude::*;
 use lagrange_core::trajectory::Entry;
@@ -46,6 +47,9 @@ pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
             if unit.is_empty() { "" } else { " " }
         )?;
     }
+    if let Some(estimate) = &outcome.estimate {
+        writeln!(out, "{estimate}")?;
+    }
     if let Some(certificate) = &outcome.certificate {
         writeln!(out, "{certificate}")?;
     }
@@ -55,6 +59,8 @@ pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
 /// One line of the story, before it is laid out.
 struct Line {
     time: f64,
+    /// How far off the time is, s.
+    error: Option<f64>,
     event: String,
     q: Vec<f64>,
     /// Force or impulse per force, above and below; `None` where it does not act.
@@ -74,6 +80,7 @@ fn entries(outcome: &Outcome, items: &[Force]) -> Vec<Line> {
     };
     let instant = |sample: &crate::outcome::Sample, event: &str| Line {
         time: sample.time,
+        error: None,
         event: event.to_owned(),
         q: sample.state.q.clone(),
         upper: acting(&sample.forces, &sample.mode),
@@ -90,6 +97,7 @@ fn entries(outcome: &Outcome, items: &[Force]) -> Vec<Line> {
         let impulse = event.kind == EventKind::Impact;
         Line {
             time: event.time,
+            error: None,
             event: format!("{} {}", event.subject.name(description), event.kind),
             q: event.state.q.clone(),
             upper: match impulse {
@@ -116,7 +124,21 @@ fn entries(outcome: &Outcome, items: &[Force]) -> Vec<Line> {
         .map(|first| instant(first, "start"))
         .into_iter()
         .collect();
-    lines.extend(outcome.events.iter().map(happening));
+    let errors = outcome
+        .estimate
+        .iter()
+        .flat_map(|estimate| &estimate.difference.events);
+    let errors = errors.map(|error| Some(*error)).chain(repeat(None));
+    lines.extend(
+        outcome
+            .events
+            .iter()
+            .zip(errors)
+            .map(|(event, error)| Line {
+                error,
+                ..happening(event)
+            }),
+    );
     let stopped = outcome
         .events
         .last()
@@ -153,7 +175,13 @@ fn story(outcome: &Outcome) -> Table {
     };
 
     let mut table = page();
-    let mut header = vec!["t\ns".to_owned(), "event".to_owned()];
+    let estimated = lines.iter().any(|line| line.error.is_some());
+    let mut header = vec!["t\ns".to_owned()];
+    if estimated {
+        header.push("±\ns".to_owned());
+    }
+    let texts = header.len();
+    header.push("event".to_owned());
     header.extend(shown.iter().map(|&i| {
         let unit = if angles.contains(&i) {
             "°"
@@ -185,7 +213,17 @@ fn story(outcome: &Outcome) -> Table {
         })
         .collect();
     for line in &lines {
-        let mut row = vec![time(line.time), line.event.clone()];
+        let mut row = vec![time(line.time)];
+        if estimated {
+            row.push(
+                line.error
+                    .map_or(String::new(), |error| match error < 1e-15 {
+                        true => "<1e-15".to_owned(),
+                        false => format!("{error:.0e}"),
+                    }),
+            );
+        }
+        row.push(line.event.clone());
         row.extend(
             shown
                 .iter()
@@ -211,14 +249,14 @@ fn story(outcome: &Outcome) -> Table {
         row.push(line.mode.clone());
         table.add_row(row);
     }
-    let numbers = 2 + shown.len() + items.len();
+    let numbers = texts + 1 + shown.len() + items.len();
     for (index, column) in table.column_iter_mut().enumerate() {
         column.set_padding((1, 0));
-        if index == 0 || (2..numbers).contains(&index) {
+        if index != texts && index < numbers {
             column.set_cell_alignment(CellAlignment::Right);
             column.set_constraint(ColumnConstraint::ContentWidth);
         }
-        if index == 1 {
+        if index == texts {
             column.set_constraint(ColumnConstraint::LowerBoundary(Width::Fixed(10)));
         }
         if index == numbers {

@@ -86,11 +86,13 @@ impl fmt::Display for Mistake {
 impl core::error::Error for Mistake {}
 
 /// The keys of a scene file, outside and inside of its table `outputs`.
-const KEYS: [&str; 11] = [
+const KEYS: [&str; 13] = [
     "scene",
     "until",
     "end_after",
     "tolerance",
+    "error",
+    "estimate",
     "method",
     "project",
     "impacts",

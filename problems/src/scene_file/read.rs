@@ -8,7 +8,8 @@ use crate::report::RunFormat;
 use crate::report::export::Still;
 use crate::report::plot::Show;
 use crate::request::{
-    MOST_SAMPLES, Refusal, Request, TOLERANCES, find_effect, find_parameter, find_start, find_state,
+    ERRORS, MOST_SAMPLES, Refusal, Request, TOLERANCES, find_effect, find_parameter, find_start,
+    find_state,
 };
 use crate::sweep::event;
 use clap::ValueEnum;
@@ -72,6 +73,8 @@ fn contents(document: &DeTable) -> (Option<SceneFile>, Vec<Wrong>) {
         match key.get_ref().as_ref() {
             "until" => request.until = reader.take(value, positive),
             "tolerance" => request.tolerance = reader.take(value, tolerance).unwrap_or(1e-9),
+            "error" => request.error = reader.take(value, error),
+            "estimate" => request.estimate = reader.take(value, flag).unwrap_or_default(),
             "method" => request.method = reader.take(value, method).unwrap_or(request.method),
             "impacts" => request.impacts = reader.take(value, impacts),
             "project" => request.project = reader.take(value, flag).unwrap_or_default(),
@@ -207,6 +210,16 @@ fn tolerance(value: &Value) -> Result<f64, Wrong> {
         tolerance if TOLERANCES.contains(&tolerance) => Ok(tolerance),
         _ => {
             let reason = "a tolerance is between 1e-17 and 0.1";
+            Err((value.span().start, reason.to_owned()))
+        }
+    }
+}
+
+fn error(value: &Value) -> Result<f64, Wrong> {
+    match positive(value)? {
+        error if ERRORS.contains(&error) => Ok(error),
+        _ => {
+            let reason = "an error is between 1e-15 and 0.1";
             Err((value.span().start, reason.to_owned()))
         }
     }

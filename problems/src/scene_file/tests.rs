@@ -204,3 +204,18 @@ fn mistakes_are_told_at_their_place() {
         assert!(found.contains(expected), "{found}\nis not\n{expected}");
     }
 }
+
+#[test]
+fn an_error_is_asked_for_and_kept() {
+    let file = read("scene = \"kepler\"\nerror = 1e-7\n").expect("a scene file");
+    assert_eq!(file.request.error, Some(1e-7));
+    let text = write(file.scene, &file.request, &file.outputs).expect("TOML");
+    let again = read(&text).expect("a scene file").request;
+    assert_eq!((again.error, again.estimate), (Some(1e-7), false));
+    let file = read("scene = \"kepler\"\nestimate = true\n").expect("a scene file");
+    assert!(file.request.estimate && file.request.error.is_none());
+    let mistakes = read("scene = \"kepler\"\nerror = 1\n")
+        .map(drop)
+        .expect_err("too large");
+    assert!(mistakes.to_string().contains("between 1e-15 and 0.1"));
+}

@@ -15,6 +15,10 @@ struct Record<'a> {
     #[serde(skip_serializing_if = "is_empty")]
     end_after: &'a [String],
     tolerance: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error: Option<f64>,
+    #[serde(skip_serializing_if = "is_false")]
+    estimate: bool,
     method: String,
     #[serde(skip_serializing_if = "is_false")]
     project: bool,
@@ -83,6 +87,8 @@ pub fn write(
         until: request.until.unwrap_or(scene.until()),
         end_after: &request.end_after,
         tolerance: request.tolerance,
+        error: request.error,
+        estimate: request.estimate,
         method: request.method.to_string(),
         project: request.project,
         impacts: request.impacts.map(|impacts| impacts.to_string()),

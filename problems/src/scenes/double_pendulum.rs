@@ -30,16 +30,16 @@ use lagrange_core::prelude::*;
 )]
 pub struct DoublePendulum<T = f64> {
     /// The mass between the rods, kg.
-    #[lagrange(unit = "kg", symbol = "m_1")]
+    #[lagrange(unit = "kg", domain = "positive", symbol = "m_1")]
     pub upper_mass: T,
     /// The mass at the end, kg.
-    #[lagrange(unit = "kg", symbol = "m_2")]
+    #[lagrange(unit = "kg", domain = "positive", symbol = "m_2")]
     pub lower_mass: T,
     /// Length of the upper rod, m.
-    #[lagrange(unit = "m", symbol = "l_1")]
+    #[lagrange(unit = "m", domain = "positive", symbol = "l_1")]
     pub upper_length: T,
     /// Length of the lower rod, m.
-    #[lagrange(unit = "m", symbol = "l_2")]
+    #[lagrange(unit = "m", domain = "positive", symbol = "l_2")]
     pub lower_length: T,
     /// Gravitational acceleration, m/s².
     #[lagrange(unit = "m/s^2", symbol = "g")]

@@ -26,10 +26,10 @@ use lagrange_core::prelude::*;
 )]
 pub struct FiveLinkChain<T = f64> {
     /// Mass at the end of each link, kg.
-    #[lagrange(unit = "kg", symbol = "m")]
+    #[lagrange(unit = "kg", domain = "positive", symbol = "m")]
     pub mass: T,
     /// Length of each link, m.
-    #[lagrange(unit = "m", symbol = "l")]
+    #[lagrange(unit = "m", domain = "positive", symbol = "l")]
     pub length: T,
     /// Gravitational acceleration, m/s².
     #[lagrange(unit = "m/s^2", symbol = "g")]

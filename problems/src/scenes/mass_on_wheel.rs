@@ -48,16 +48,16 @@ use lagrange_core::prelude::*;
 )]
 pub struct MassOnWheel<T = f64> {
     /// Mass of the wheel, kg.
-    #[lagrange(unit = "kg", symbol = "M")]
+    #[lagrange(unit = "kg", domain = "positive", symbol = "M")]
     pub wheel: T,
     /// Moment of inertia of the wheel about its centre, kg m²; ½ M R² for a disc.
-    #[lagrange(unit = "kg m^2", symbol = "I")]
+    #[lagrange(unit = "kg m^2", domain = "positive", symbol = "I")]
     pub inertia: T,
     /// The small mass, kg.
-    #[lagrange(unit = "kg", symbol = "m")]
+    #[lagrange(unit = "kg", domain = "positive", symbol = "m")]
     pub mass: T,
     /// Radius of the wheel, m.
-    #[lagrange(unit = "m", symbol = "R")]
+    #[lagrange(unit = "m", domain = "positive", symbol = "R")]
     pub radius: T,
     /// Gravitational acceleration, m/s².
     #[lagrange(unit = "m/s^2", symbol = "g")]

@@ -48,13 +48,13 @@ use lagrange_core::prelude::*;
 )]
 pub struct RollingSphere<T = f64> {
     /// Mass of the sphere, kg.
-    #[lagrange(unit = "kg", symbol = "m")]
+    #[lagrange(unit = "kg", domain = "positive", symbol = "m")]
     pub mass: T,
     /// Radius of the shell, m.
-    #[lagrange(unit = "m", symbol = "R")]
+    #[lagrange(unit = "m", domain = "positive", symbol = "R")]
     pub radius: T,
     /// Radius of the sphere, m.
-    #[lagrange(unit = "m", symbol = "a")]
+    #[lagrange(unit = "m", domain = "positive", symbol = "a")]
     pub sphere_radius: T,
     /// Gravitational acceleration, m/s².
     #[lagrange(unit = "m/s^2", symbol = "g")]

@@ -1,12 +1,14 @@
-//! Random runs held to their certificates.
+//! Random runs held to their certificates, and to the errors that they claim.
 //!
 //! ```console
 //! $ cargo run --release -p lagrange-tests --bin fuzz -- 10000            # runs 0 … 9999
 //! $ cargo run --release -p lagrange-tests --bin fuzz -- 1 --from 4711    # one of them again
 //! $ cargo run --release -p lagrange-tests --bin fuzz -- catalogue        # all scenes, methods and tolerances
+//! $ cargo run --release -p lagrange-tests --bin fuzz -- errors 1000      # estimated and true errors
 //! ```
 
 use lagrange_problems::catalogue::scenes;
+use lagrange_tests::exactness::{Estimated, Exact};
 use lagrange_tests::fuzz::{self, METHODS, Report, TOLERANCES, Verdict};
 use std::process::ExitCode;
 use std::sync::Mutex;
@@ -33,6 +35,12 @@ fn main() -> ExitCode {
             };
             return all(scenes.len() * methods * tolerances, run);
         }
+        ["errors", count] => {
+            return match count.parse() {
+                Ok(count) => errors(count),
+                Err(_) => ExitCode::from(2),
+            };
+        }
         [count] => numbers(count, "0"),
         [count, "--from", from] => numbers(count, from),
         _ => None,
@@ -40,36 +48,75 @@ fn main() -> ExitCode {
     match asked {
         Some((count, from)) => all(count, |k| fuzz::run(from + k as u64)),
         None => {
-            eprintln!("fuzz COUNT [--from NUMBER] | fuzz catalogue");
+            eprintln!("fuzz COUNT [--from NUMBER] | fuzz catalogue | fuzz errors COUNT");
             ExitCode::from(2)
         }
     }
 }
 
-/// Makes all runs on all processors, and tells those that fall short.
+/// Makes all runs, and tells those that fall short.
 fn all(count: usize, run: impl Fn(usize) -> Report + Sync) -> ExitCode {
+    let mut counts = [0; 3];
+    each(count, run, |report| match report.verdict {
+        Verdict::Certified => counts[0] += 1,
+        Verdict::Refused(reason) => {
+            counts[1] += 1;
+            println!("refused {}\n  {reason}", report.run);
+        }
+        Verdict::Short(reason) => {
+            counts[2] += 1;
+            println!("SHORT {}\n  {reason}", report.run);
+        }
+    });
+    let [certified, refused, short] = counts;
+    println!("{count} runs: {certified} certified, {refused} refused, {short} fell short.");
+    ExitCode::from(u8::from(short > 0))
+}
+
+/// Compares estimated with true errors, and tells estimates that are wrong and errors that are not met.
+fn errors(count: usize) -> ExitCode {
+    let ([mut right, mut wrong, mut unresolved, mut refused], mut missed) = ([0; 4], 0);
+    let mut met = 0;
+    let run = |k: usize| fuzz::ask::<Exact>(k as u64);
+    each(count, run, |(run, found)| {
+        match found.estimate {
+            Estimated::Refused => refused += 1,
+            Estimated::Unresolved => unresolved += 1,
+            Estimated::Known(told, error) if (0.3..=10.0).contains(&(told / error)) => right += 1,
+            Estimated::Known(told, error) => {
+                wrong += 1;
+                println!("WRONG {run}\n  estimated {told:.1e} instead of {error:.1e}");
+            }
+        }
+        match found.error {
+            Estimated::Known(asked, error) if error > asked => {
+                missed += 1;
+                println!("MISSED {run}\n  asked {asked:.1e}, got {error:.1e}");
+            }
+            Estimated::Refused => {}
+            _ => met += 1,
+        }
+    });
+    println!(
+        "{count} runs. Estimates: {right} within 0.3 to 10 of the true error, {wrong} not, {unresolved} below what can be told, \
+         {refused} refused. Errors asked for: {met} met, {missed} missed."
+    );
+    ExitCode::from(u8::from(missed > 0 || 20 * wrong > right))
+}
+
+/// Makes all runs on all processors, and takes what comes of them.
+fn each<R>(count: usize, run: impl Fn(usize) -> R + Sync, take: impl FnMut(R) + Send) {
     // What panics is told with what it ran.
     std::panic::set_hook(Box::new(|_| {}));
-    let (next, told) = (AtomicUsize::new(0), Mutex::new([0; 3]));
+    let (next, take) = (AtomicUsize::new(0), Mutex::new(take));
     let work = || {
         loop {
             let k = next.fetch_add(1, Ordering::Relaxed);
             if k >= count {
                 return;
             }
-            let report = run(k);
-            let mut counts = told.lock().unwrap_or_else(|broken| broken.into_inner());
-            match report.verdict {
-                Verdict::Certified => counts[0] += 1,
-                Verdict::Refused(reason) => {
-                    counts[1] += 1;
-                    println!("refused {}\n  {reason}", report.run);
-                }
-                Verdict::Short(reason) => {
-                    counts[2] += 1;
-                    println!("SHORT {}\n  {reason}", report.run);
-                }
-            }
+            let done = run(k);
+            take.lock().unwrap_or_else(|broken| broken.into_inner())(done);
         }
     };
     thread::scope(|scope| {
@@ -77,7 +124,4 @@ fn all(count: usize, run: impl Fn(usize) -> Report + Sync) -> ExitCode {
             scope.spawn(work);
         }
     });
-    let [certified, refused, short] = told.into_inner().unwrap_or_default();
-    println!("{count} runs: {certified} certified, {refused} refused, {short} fell short.");
-    ExitCode::from(u8::from(short > 0))
 }

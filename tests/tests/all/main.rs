@@ -8,6 +8,7 @@ mod diagnostics;
 mod effects;
 mod efficiency;
 mod errors;
+mod exactness;
 mod fallbacks;
 mod handles;
 mod hostile;

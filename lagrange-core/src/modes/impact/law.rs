@@ -34,6 +34,8 @@ pub(super) struct Law<T> {
     pub undetermined: bool,
     /// Whether the restitution was lowered.
     pub lowered: bool,
+    /// Whether other impacts satisfy the law as well.
+    pub ambiguous: bool,
 }
 
 impl<T: Scalar> Law<T> {
@@ -84,7 +86,7 @@ impl<T: Scalar> Law<T> {
         let touches = c.touches.len();
         let taking = |k: &usize| self.phase.within[*k];
         let newton = (0..touches).filter(taking).all(|k| !c.touches[k].poisson);
-        self.undetermined = false;
+        (self.undetermined, self.ambiguous) = (false, false);
         self.impulses.clear();
         self.impulses.resize(c.size, T::zero());
         self.phase.rates.clear();
@@ -102,7 +104,15 @@ impl<T: Scalar> Law<T> {
         if !self.add_phase(c) {
             return false;
         }
-        self.phase.rates.copy_from_slice(&self.after);
+        for (rate, (after, noise)) in
+            (self.phase.rates.iter_mut()).zip(self.after.iter().zip(&self.noise))
+        {
+            // What rounding has left of a rate would be restored as an approach that no impulse can end.
+            *rate = match after.value().abs() <= *noise {
+                true => *after - T::from_f64(after.value()),
+                false => *after,
+            };
+        }
         for (k, touch) in c.touches.iter().enumerate() {
             self.phase.struck[k] = self.impulses[touch.row].value() > 0.0;
             if touch.poisson {
@@ -125,6 +135,7 @@ impl<T: Scalar> Law<T> {
         self.after.clone_from(&found.after);
         self.noise.clone_from(&found.noise);
         self.undetermined |= found.undetermined;
+        self.ambiguous |= !self.search.others.is_empty();
         true
     }
 

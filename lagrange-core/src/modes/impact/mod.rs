@@ -36,6 +36,15 @@ use turn::{MOST_IMPACTS, Stuck, Turns};
 /// An impact may miss its energy balance by this share, and no more.
 const GAIN: f64 = 1e-9;
 
+/// An impact that satisfies the law as well as the one that was chosen.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OtherImpact<T> {
+    /// Velocities just after.
+    pub v_after: Vec<T>,
+    /// Impulse of every row.
+    pub impulses: Vec<T>,
+}
+
 /// What an impact does.
 #[derive(Clone, Debug, Default)]
 pub struct Impact<T> {
@@ -53,6 +62,10 @@ pub struct Impact<T> {
     pub lowered: bool,
     /// Whether dependent rows leave some impulses undetermined; those given are of least norm.
     pub undetermined: bool,
+    /// Whether other impacts satisfy the law as well.
+    pub ambiguous: bool,
+    /// Those of them that are known as a whole.
+    pub others: Vec<OtherImpact<T>>,
 }
 
 /// Solves impacts; the memory is reused.
@@ -175,18 +188,21 @@ impl<T: Scalar> Collider<T> {
                 turns.rates.clone_from(&law.after);
                 turns.noise.clone_from(&law.noise);
                 (turns.undetermined, turns.lowered) = (law.undetermined, law.lowered);
+                turns.ambiguous = law.ambiguous;
                 Ok(())
             }
         }
     }
 
     fn write_outcome(&mut self, d: &Description, v: &[T]) {
+        self.write_others(d, v);
         let Self {
             outcome,
             collision: c,
             turns,
             ..
         } = self;
+        outcome.ambiguous = turns.ambiguous;
         outcome.lowered = turns.lowered;
         outcome.undetermined = turns.undetermined;
         outcome.impulses.clear();
@@ -209,6 +225,25 @@ impl<T: Scalar> Collider<T> {
         for rub in &c.rubs {
             let slip = length(&turns.rates[rub.row..rub.row + rub.components]);
             outcome.sticks[rub.friction] = slip <= turns.noise[rub.row];
+        }
+    }
+
+    /// Other impacts that satisfy the law, where it has one phase.
+    fn write_others(&mut self, d: &Description, v: &[T]) {
+        self.outcome.others.clear();
+        let whole = self.collision.touches.iter().all(|touch| !touch.poisson);
+        if !(whole && self.turns.ambiguous) {
+            return;
+        }
+        let mut out = Impact::default();
+        for other in &self.law.search.others {
+            out.impulses.clear();
+            out.impulses.resize(d.rows.len(), T::zero());
+            self.gathering.apply(&other.impulses, v, &mut out);
+            self.outcome.others.push(OtherImpact {
+                v_after: out.v.clone(),
+                impulses: out.impulses.clone(),
+            });
         }
     }
 

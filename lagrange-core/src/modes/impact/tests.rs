@@ -362,3 +362,109 @@ fn a_ball_that_is_squeezed_comes_to_rest_or_is_an_error() {
     let (mut law, mut turns) = (Law::<f64>::default(), Turns::<f64>::default());
     assert!(matches!(turns.solve(&c, &mut law), Err(Stuck::Endless(_))));
 }
+
+/// A rod of mass 1 whose foot rests on a rough floor (first contact) and whose other end strikes a rough wall, in the plane.
+/// Rows: normals, then slips.
+fn wedged_rod(random: &mut Random, poisson: bool) -> Collision<f64> {
+    let (inertia, mu) = (random.between(0.05, 0.5), random.between(0.3, 2.0));
+    let angle = random.between(0.2, 1.4);
+    let (along, up) = (angle.cos(), angle.sin());
+    // From the centre to the foot, and to the other end.
+    let (foot, end) = ([-along, -up], [along, up]);
+    let row = |[x, y]: [f64; 2], [dx, dy]: [f64; 2]| [dx, dy, x * dy - y * dx];
+    let wall = random.between(-0.5, 0.5);
+    let normal = [-f64::cos(wall), f64::sin(wall)];
+    let rows = [
+        row(foot, [0.0, 1.0]),
+        row(end, normal),
+        row(foot, [1.0, 0.0]),
+        row(end, [normal[1], -normal[0]]),
+    ];
+    // It turns about its foot, towards the wall.
+    let spin = -1.0;
+    let v = [foot[1] * spin, -foot[0] * spin, spin];
+    let mut c = Collision {
+        size: 4,
+        ..Collision::default()
+    };
+    for a in rows {
+        let speed: f64 = a.iter().zip(v).map(|(a, v)| a * v).sum();
+        c.rates.push(if speed.abs() < 1e-14 { 0.0 } else { speed });
+        c.terms.push(1.0);
+        for b in rows {
+            c.response
+                .push(a[0] * b[0] + a[1] * b[1] + a[2] * b[2] / inertia);
+        }
+    }
+    for k in 0..2 {
+        c.touches.push(Touch {
+            contact: k,
+            row: k,
+            restitution: if poisson { 0.5 } else { 0.0 },
+            poisson,
+        });
+        c.rubs.push(Rub {
+            friction: k,
+            row: 2 + k,
+            components: 1,
+            bearer: Bearer::Touch(k),
+            factor: 1.0,
+            stick: mu,
+            slide: mu,
+        });
+    }
+    c
+}
+
+#[test]
+fn of_several_impacts_the_one_with_the_least_jump_is_taken() {
+    let mut random = Random(3);
+    let mut several = 0;
+    for _ in 0..2000 {
+        let c = wedged_rod(&mut random, false);
+        let mut law = Law::default();
+        law.phase.within = vec![true; 2];
+        assert!(law.solve(&c, &c.rates));
+        let found = law.search.pattern.clone();
+        let jump = |impulses: &[f64]| -> f64 {
+            let product = |i: usize| (0..4).map(|j| c.g(i, j) * impulses[j]).sum::<f64>();
+            (0..4).map(|i| impulses[i] * product(i)).sum()
+        };
+        assert_eq!(law.ambiguous, !law.search.others.is_empty());
+        several += usize::from(law.ambiguous);
+        for other in core::iter::once(&found).chain(&law.search.others) {
+            assert!(jump(&found.impulses) <= jump(&other.impulses) * (1.0 + 1e-9));
+            // Each satisfies the law, as it is written in the chapter.
+            for k in 0..2 {
+                let (normal, friction) = (other.impulses[k], other.impulses[2 + k]);
+                let rate = |i: usize| {
+                    c.rates[i] + (0..4).map(|j| c.g(i, j) * other.impulses[j]).sum::<f64>()
+                };
+                let (gap, slip, mu) = (rate(k), rate(2 + k), c.rubs[k].stick);
+                assert!(normal > -1e-9 && gap > -1e-9 && (normal * gap).abs() < 1e-8);
+                assert!(friction.abs() <= mu * normal + 1e-8);
+                assert!(slip.abs() < 1e-9 || (friction + slip.signum() * mu * normal).abs() < 1e-8);
+            }
+        }
+    }
+    assert!(several > 20, "{several} of 2000");
+}
+
+#[test]
+fn restitution_does_not_begin_from_rounding() {
+    let mut random = Random(5);
+    for number in 0..2000 {
+        let c = wedged_rod(&mut random, true);
+        let mut law = Law::default();
+        law.phase.within = vec![true; 2];
+        assert!(law.solve(&c, &c.rates), "{number}: {c:?}");
+        let noise = 1e-9
+            * c.rates
+                .iter()
+                .fold(1.0_f64, |size, rate| size.max(rate.abs()));
+        assert!(
+            law.after[..2].iter().all(|rate| *rate >= -noise),
+            "{number}"
+        );
+    }
+}

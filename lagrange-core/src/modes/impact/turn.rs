@@ -29,6 +29,7 @@ pub(super) struct Turns<T> {
     pub noise: Vec<f64>,
     pub undetermined: bool,
     pub lowered: bool,
+    pub ambiguous: bool,
     /// Number of impacts.
     pub count: usize,
     /// Largest rate so far.
@@ -43,7 +44,7 @@ impl<T: Scalar> Turns<T> {
         self.impulses.resize(c.size, T::zero());
         self.spans.clear();
         self.spans.resize(c.size, 0.0);
-        (self.undetermined, self.lowered, self.count) = (false, false, 0);
+        (self.undetermined, self.lowered, self.ambiguous, self.count) = (false, false, false, 0);
         law.phase.within.clear();
         law.phase.within.resize(c.touches.len(), false);
         let mut at_rest = 0;
@@ -70,6 +71,7 @@ impl<T: Scalar> Turns<T> {
             self.count += 1;
             self.undetermined |= law.undetermined;
             self.lowered |= law.lowered;
+            self.ambiguous |= law.ambiguous;
             self.rates.copy_from_slice(&law.after);
             for (sum, &impulse) in self.impulses.iter_mut().zip(&law.impulses) {
                 *sum += impulse;

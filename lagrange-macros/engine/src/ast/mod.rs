@@ -52,6 +52,31 @@ pub struct Field {
     pub unit: Option<Unit>,
     /// `symbol = "…"`, or empty.
     pub letter: String,
+    /// `domain = "…"`
+    pub domain: Option<Domain>,
+}
+
+/// What the value of a field may be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Domain {
+    /// Above 0.
+    Positive,
+    /// 0 or above.
+    NonNegative,
+}
+
+impl Domain {
+    /// All, with the words for them.
+    pub const ALL: [(&'static str, Domain); 2] = [
+        ("positive", Domain::Positive),
+        ("nonnegative", Domain::NonNegative),
+    ];
+
+    /// The word for it.
+    pub fn word(self) -> &'static str {
+        let found = Domain::ALL.iter().find(|(_, domain)| *domain == self);
+        found.map_or("", |(word, _)| word)
+    }
 }
 
 /// A unit as written.

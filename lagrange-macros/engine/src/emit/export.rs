@@ -1,6 +1,6 @@
 //! A declaration in a file → the text of a Rust file that declares the same on a struct.
 
-use crate::ast::Field;
+use crate::ast::{Domain, Field};
 use crate::parse::File;
 use core::fmt::Write;
 
@@ -68,10 +68,12 @@ fn fields(file: &File, scalar: &str) -> String {
 /// `#[lagrange(unit = "kg")] pub mass: T,`
 fn one(field: &Field, scalar: &str) -> String {
     let unit = field.unit.as_ref().map_or("", |unit| &unit.text);
+    let domain = field.domain.map_or("", Domain::word);
     let said = [
         ("unit", unit),
-        ("tex", &field.tex),
-        ("symbol", &field.letter),
+        ("domain", domain),
+        ("tex", field.tex.as_str()),
+        ("symbol", field.letter.as_str()),
     ];
     let said: Vec<String> = said
         .iter()

@@ -70,6 +70,7 @@ impl Elaboration<'_> {
                 unit: String::new(),
                 tex: field.tex.clone(),
                 letter: field.letter.clone(),
+                domain: field.domain,
             });
             Value::Scalar(self.system.pool.leaf(symbol))
         };

@@ -35,7 +35,7 @@ pub(crate) mod tests;
 mod units;
 mod value;
 
-use crate::ast::{Emit, Impacts};
+use crate::ast::{Domain, Emit, Impacts};
 use crate::diagnostics::Extent;
 use crate::symbolic::{ExprId, Pool, Symbol};
 use proc_macro2::{Ident, Span, TokenStream};
@@ -197,6 +197,8 @@ pub struct Parameter {
     pub tex: String,
     /// `#[lagrange(symbol = …)]`, or empty: how printers name it.
     pub letter: String,
+    /// `#[lagrange(domain = …)]`
+    pub domain: Option<Domain>,
 }
 
 /// A generalized coordinate.

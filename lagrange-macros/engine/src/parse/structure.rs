@@ -2,7 +2,7 @@
 
 use super::cursor::Cursor;
 use super::item;
-use crate::ast::{Declaration, Field, Name, Unit};
+use crate::ast::{Declaration, Domain, Field, Name, Unit};
 use crate::diagnostics::{Code, Diagnostics, Extent};
 use proc_macro2::{Ident, TokenStream};
 use syn::spanned::Spanned;
@@ -104,6 +104,7 @@ pub(super) fn described(
         tex: String::new(),
         unit: None,
         letter: String::new(),
+        domain: None,
     };
     for attribute in attributes.iter().filter(|a| a.path().is_ident("lagrange")) {
         for mut part in parts(attribute, "unit = \"kg\"", sink) {
@@ -135,13 +136,14 @@ fn length(length: &Expr) -> Option<usize> {
 
 /// `unit = "kg"`
 fn field_attribute(part: &mut Cursor, field: &mut Field, sink: &mut Diagnostics) -> Option<()> {
-    let keys = ["tex", "unit", "symbol"];
+    let keys = ["tex", "unit", "symbol", "domain"];
     let key = item::key(part, "a field", &keys, sink)?;
     let extent = part.here();
     let text = item::text(part, sink)?;
     let given = match key.text.as_str() {
         "tex" => !field.tex.is_empty(),
         "unit" => field.unit.is_some(),
+        "domain" => field.domain.is_some(),
         _ => !field.letter.is_empty(),
     };
     if given {
@@ -150,9 +152,24 @@ fn field_attribute(part: &mut Cursor, field: &mut Field, sink: &mut Diagnostics)
     match key.text.as_str() {
         "tex" => field.tex = text,
         "unit" => field.unit = Some(Unit { text, extent }),
+        "domain" => field.domain = Some(domain(&text, extent, sink)?),
         _ => field.letter = text,
     }
     super::relation::leftover(part, sink)
+}
+
+/// `positive` or `nonnegative`.
+pub(super) fn domain(text: &str, extent: Extent, sink: &mut Diagnostics) -> Option<Domain> {
+    let known = Domain::ALL.iter().find(|(word, _)| *word == text);
+    if known.is_none() {
+        let found = format!("`{text}`");
+        sink.report(
+            Code::Expected,
+            extent,
+            &[&"`positive` or `nonnegative`", &found],
+        );
+    }
+    known.map(|(_, domain)| *domain)
 }
 
 /// All items of all attributes, and `crate = path`.

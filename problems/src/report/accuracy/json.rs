@@ -86,9 +86,10 @@ fn report(accuracy: &Accuracy, target: Option<f64>) -> Report {
     let names = accuracy.description.parameters.iter();
     let names = names.map(|p| p.name.to_owned());
     let known = &accuracy.reference;
-    let happening = |(event, time): &(String, f64)| Happening {
-        event: event.clone(),
-        time: *time,
+    let truth = &known.truth;
+    let happening = |index: usize| Happening {
+        event: truth.words(index),
+        time: truth.events[index].2,
     };
     let of_row = |row: &Row| {
         let result = match &row.result {
@@ -115,9 +116,9 @@ fn report(accuracy: &Accuracy, target: Option<f64>) -> Report {
             checked_by: known.checked_by.clone(),
             difference: known.difference,
             floor: known.floor,
-            events: known.events.iter().map(happening).collect(),
-            time: known.time,
-            state: state(accuracy.description, &known.state),
+            events: (0..truth.events.len()).map(happening).collect(),
+            time: truth.time,
+            state: state(accuracy.description, &truth.state),
         },
         rows: accuracy.rows.iter().map(of_row).collect(),
         target: target.map(answer),

@@ -165,6 +165,9 @@ fn accuracy(run: &Shown) -> String {
             format!("{:e}", outcome.tolerance),
         ),
     ];
+    if let Some(estimate) = &outcome.estimate {
+        rows.push(line("off by", escaped(&estimate.to_string())));
+    }
     if let Some(drift) = run.film.drift {
         rows.push(line(
             "what must hold is off by at most",

@@ -20,10 +20,10 @@ use lagrange_core::prelude::*;
 )]
 pub struct Cradle<T = f64> {
     /// Mass of each ball, kg.
-    #[lagrange(unit = "kg", symbol = "m")]
+    #[lagrange(unit = "kg", domain = "positive", symbol = "m")]
     pub mass: T,
     /// Radius of each ball, m.
-    #[lagrange(unit = "m", symbol = "R")]
+    #[lagrange(unit = "m", domain = "positive", symbol = "R")]
     pub radius: T,
     /// Restitution e.
     #[lagrange(unit = "1", symbol = "e")]

@@ -25,10 +25,10 @@ use lagrange_core::prelude::*;
 )]
 pub struct CueBall<T = f64> {
     /// Mass, kg.
-    #[lagrange(unit = "kg", symbol = "m")]
+    #[lagrange(unit = "kg", domain = "positive", symbol = "m")]
     pub mass: T,
     /// Radius, m.
-    #[lagrange(unit = "m", symbol = "R")]
+    #[lagrange(unit = "m", domain = "positive", symbol = "R")]
     pub radius: T,
     /// Gravitational acceleration, m/s².
     #[lagrange(unit = "m/s^2", symbol = "g")]

@@ -26,13 +26,13 @@ use lagrange_core::prelude::*;
 )]
 pub struct HoopBead<T = f64> {
     /// Mass, kg.
-    #[lagrange(unit = "kg", symbol = "m")]
+    #[lagrange(unit = "kg", domain = "positive", symbol = "m")]
     pub mass: T,
     /// Gravitational acceleration, m/s².
     #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// Radius of the hoop, m.
-    #[lagrange(unit = "m", symbol = "R")]
+    #[lagrange(unit = "m", domain = "positive", symbol = "R")]
     pub radius: T,
     /// Coefficient of friction.
     #[lagrange(unit = "1", symbol = "mu")]

@@ -32,10 +32,10 @@ use lagrange_core::prelude::*;
 )]
 pub struct PainleveRod<T = f64> {
     /// Mass, kg.
-    #[lagrange(unit = "kg", symbol = "m")]
+    #[lagrange(unit = "kg", domain = "positive", symbol = "m")]
     pub mass: T,
     /// Half the length, m.
-    #[lagrange(unit = "m")]
+    #[lagrange(unit = "m", domain = "positive")]
     pub half: T,
     /// Gravitational acceleration, m/s².
     #[lagrange(unit = "m/s^2", symbol = "g")]

@@ -23,16 +23,16 @@ use lagrange_core::prelude::*;
 )]
 pub struct Parallelogram<T = f64> {
     /// Mass of the beam, kg.
-    #[lagrange(unit = "kg", symbol = "m")]
+    #[lagrange(unit = "kg", domain = "positive", symbol = "m")]
     pub mass: T,
     /// Moment of inertia of the beam about its middle, kg m².
-    #[lagrange(unit = "kg m^2", symbol = "I")]
+    #[lagrange(unit = "kg m^2", domain = "positive", symbol = "I")]
     pub inertia: T,
     /// Distance of neighbouring cranks, m.
     #[lagrange(unit = "m")]
     pub span: T,
     /// Length of the cranks, m.
-    #[lagrange(unit = "m", symbol = "l")]
+    #[lagrange(unit = "m", domain = "positive", symbol = "l")]
     pub length: T,
     /// Gravitational acceleration, m/s².
     #[lagrange(unit = "m/s^2", symbol = "g")]

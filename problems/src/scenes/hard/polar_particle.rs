@@ -25,7 +25,7 @@ use lagrange_core::prelude::*;
 )]
 pub struct PolarParticle<T = f64> {
     /// Mass, kg.
-    #[lagrange(unit = "kg", symbol = "m")]
+    #[lagrange(unit = "kg", domain = "positive", symbol = "m")]
     pub mass: T,
     /// Speed, m/s.
     #[lagrange(unit = "m/s")]

@@ -37,13 +37,13 @@ use lagrange_core::prelude::*;
 )]
 pub struct Rattleback<T = f64> {
     /// Mass, kg.
-    #[lagrange(unit = "kg", symbol = "m")]
+    #[lagrange(unit = "kg", domain = "positive", symbol = "m")]
     pub mass: T,
     /// Moments of inertia about the ellipsoid's axes, kg m².
-    #[lagrange(unit = "kg m^2", symbol = "I")]
+    #[lagrange(unit = "kg m^2", domain = "positive", symbol = "I")]
     pub inertia: [T; 3],
     /// Product of inertia I₁₂, kg m².
-    #[lagrange(unit = "kg m^2")]
+    #[lagrange(unit = "kg m^2", domain = "positive")]
     pub skew: T,
     /// Semi-axis along, m.
     #[lagrange(unit = "m")]

@@ -38,16 +38,16 @@ use lagrange_core::prelude::*;
 )]
 pub struct RockingBlock<T = f64> {
     /// Mass, kg.
-    #[lagrange(unit = "kg", symbol = "m")]
+    #[lagrange(unit = "kg", domain = "positive", symbol = "m")]
     pub mass: T,
     /// Gravitational acceleration, m/s².
     #[lagrange(unit = "m/s^2", symbol = "g")]
     pub gravity: T,
     /// Half the width, m.
-    #[lagrange(unit = "m", symbol = "b")]
+    #[lagrange(unit = "m", domain = "positive", symbol = "b")]
     pub half_width: T,
     /// Half the height, m.
-    #[lagrange(unit = "m", symbol = "h")]
+    #[lagrange(unit = "m", domain = "positive", symbol = "h")]
     pub half_height: T,
     /// Coefficient of friction, static and kinetic: large enough never to slip.
     #[lagrange(unit = "1")]

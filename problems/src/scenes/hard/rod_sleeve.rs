@@ -23,7 +23,7 @@ use lagrange_core::prelude::*;
 )]
 pub struct RodSleeve<T = f64> {
     /// Mass, kg.
-    #[lagrange(unit = "kg", symbol = "m")]
+    #[lagrange(unit = "kg", domain = "positive", symbol = "m")]
     pub mass: T,
     /// Rate ω of the rod, rad/s.
     #[lagrange(unit = "rad/s", symbol = "omega")]

@@ -24,16 +24,16 @@ use lagrange_core::prelude::*;
 )]
 pub struct SliderCrank<T = f64> {
     /// Moment of inertia of crank and flywheel, kg m².
-    #[lagrange(unit = "kg m^2", symbol = "I")]
+    #[lagrange(unit = "kg m^2", domain = "positive", symbol = "I")]
     pub inertia: T,
     /// Mass of the slider, kg.
-    #[lagrange(unit = "kg", symbol = "m")]
+    #[lagrange(unit = "kg", domain = "positive", symbol = "m")]
     pub mass: T,
     /// Length of the crank, m.
     #[lagrange(unit = "m", symbol = "r")]
     pub crank: T,
     /// Length of the rod, m.
-    #[lagrange(unit = "m", symbol = "l")]
+    #[lagrange(unit = "m", domain = "positive", symbol = "l")]
     pub rod_length: T,
     /// Rate of the crank at the start, rad/s.
     #[lagrange(unit = "rad/s", symbol = "omega")]

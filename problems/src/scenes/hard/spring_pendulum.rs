@@ -21,10 +21,10 @@ use lagrange_core::prelude::*;
 )]
 pub struct SpringPendulum<T = f64> {
     /// Mass, kg.
-    #[lagrange(unit = "kg", symbol = "m")]
+    #[lagrange(unit = "kg", domain = "positive", symbol = "m")]
     pub mass: T,
     /// Length l of the relaxed spring, m.
-    #[lagrange(unit = "m", symbol = "l")]
+    #[lagrange(unit = "m", domain = "positive", symbol = "l")]
     pub length: T,
     /// Gravitational acceleration, m/s².
     #[lagrange(unit = "m/s^2", symbol = "g")]

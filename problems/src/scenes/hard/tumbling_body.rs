@@ -26,7 +26,7 @@ use lagrange_core::prelude::*;
 )]
 pub struct TumblingBody<T = f64> {
     /// Principal moments of inertia, kg m², ascending.
-    #[lagrange(unit = "kg m^2", symbol = "I")]
+    #[lagrange(unit = "kg m^2", domain = "positive", symbol = "I")]
     pub inertia: [T; 3],
     /// Rate about the middle axis at the start, rad/s.
     #[lagrange(unit = "rad/s")]

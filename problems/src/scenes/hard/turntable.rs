@@ -31,10 +31,10 @@ use lagrange_core::prelude::*;
 )]
 pub struct Turntable<T = f64> {
     /// Mass of the ball, kg.
-    #[lagrange(unit = "kg", symbol = "m")]
+    #[lagrange(unit = "kg", domain = "positive", symbol = "m")]
     pub mass: T,
     /// Radius of the ball, m.
-    #[lagrange(unit = "m", symbol = "R")]
+    #[lagrange(unit = "m", domain = "positive", symbol = "R")]
     pub radius: T,
     /// Rate Ω of the table, rad/s.
     #[lagrange(unit = "rad/s", symbol = "Omega")]

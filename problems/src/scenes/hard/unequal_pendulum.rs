@@ -26,10 +26,10 @@ use lagrange_core::prelude::*;
 )]
 pub struct UnequalPendulum<T = f64> {
     /// The masses, upper and lower, kg.
-    #[lagrange(unit = "kg", symbol = "m")]
+    #[lagrange(unit = "kg", domain = "positive", symbol = "m")]
     pub mass: [T; 2],
     /// Lengths of the links, m.
-    #[lagrange(unit = "m", symbol = "l")]
+    #[lagrange(unit = "m", domain = "positive", symbol = "l")]
     pub length: [T; 2],
     /// Gravitational acceleration, m/s².
     #[lagrange(unit = "m/s^2", symbol = "g")]

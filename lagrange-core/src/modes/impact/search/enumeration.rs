@@ -1,9 +1,16 @@
 //! All combinations in order: contacts pressed before free, frictions sticking before sliding.
+//!
+//! A law with friction may have several solutions: what is held between two rough surfaces jams, or one of them lets go. With the
+//! same contacts pressed the first one counts, in which more sticks. Of those with other contacts pressed it is the one with
+//! the least jump of the velocities, Δvᵀ M Δv = Λᵀ G Λ.
 
 use super::Search;
 use crate::arithmetic::Scalar;
-use crate::modes::impact::collision::Collision;
-use crate::modes::impact::pattern::{Phase, Slide};
+use crate::modes::impact::collision::{Bearer, Collision, Rub};
+use crate::modes::impact::pattern::{Pattern, Phase, Slide};
+
+/// Solutions whose rates differ by less than this share of them are the same.
+const SAME: f64 = 1e-9;
 
 impl<T: Scalar> Search<T> {
     /// Number of combinations, unless it is beyond counting.
@@ -14,26 +21,50 @@ impl<T: Scalar> Search<T> {
         })
     }
 
+    /// Leaves in `pattern` the solution that counts, and the others in `others`; false if there is none.
     pub(super) fn enumerate(&mut self, c: &Collision<T>, phase: &Phase<T>) -> bool {
+        let mut least: Option<Pattern<T>> = None;
         for open in 0..1_usize << self.taking.len() {
-            self.pattern.pressed.clear();
-            self.pattern.pressed.resize(c.touches.len(), false);
-            for (bit, &k) in self.taking.iter().enumerate() {
-                self.pattern.pressed[k] = open >> bit & 1 == 0;
+            if !self.first_with(open, c, phase) {
+                continue;
             }
-            self.list_acting(c, phase);
-            self.choice.clear();
-            self.choice.resize(self.acting.len(), 0);
-            loop {
-                if self.attempt_choice(c, phase) {
+            let Some(least) = &mut least else {
+                if !self.pattern.may_jam(c) {
                     return true;
                 }
-                if !self.next_choice(c) {
-                    break;
-                }
+                least = Some(self.pattern.clone());
+                continue;
+            };
+            let known = |other: &Pattern<T>| other.moves_as(&self.pattern);
+            if known(least) || self.others.iter().any(known) {
+                continue;
+            }
+            if self.pattern.jump(phase) < least.jump(phase) {
+                core::mem::swap(least, &mut self.pattern);
+            }
+            self.others.push(self.pattern.clone());
+        }
+        least.map(|least| self.pattern = least).is_some()
+    }
+
+    /// The first solution with the contacts free that `open` has bits for.
+    fn first_with(&mut self, open: usize, c: &Collision<T>, phase: &Phase<T>) -> bool {
+        self.pattern.pressed.clear();
+        self.pattern.pressed.resize(c.touches.len(), false);
+        for (bit, &k) in self.taking.iter().enumerate() {
+            self.pattern.pressed[k] = open >> bit & 1 == 0;
+        }
+        self.list_acting(c, phase);
+        self.choice.clear();
+        self.choice.resize(self.acting.len(), 0);
+        loop {
+            if self.attempt_choice(c, phase) {
+                return true;
+            }
+            if !self.next_choice(c) {
+                return false;
             }
         }
-        false
     }
 
     fn list_acting(&mut self, c: &Collision<T>, phase: &Phase<T>) {
@@ -71,5 +102,35 @@ impl<T: Scalar> Search<T> {
             };
         }
         self.attempt(c, phase)
+    }
+}
+
+impl<T: Scalar> Pattern<T> {
+    /// Whether friction holds fast between several contacts: only then other contacts may be pressed as well.
+    fn may_jam(&self, c: &Collision<T>) -> bool {
+        let holds = |(rub, slide): (&Rub<T>, &Slide)| {
+            *slide == Slide::Stick && matches!(rub.bearer, Bearer::Touch(_))
+        };
+        self.pressed.iter().filter(|pressed| **pressed).count() > 1
+            && c.rubs.iter().zip(&self.slides).any(holds)
+    }
+
+    /// Whether another solution leaves the same rates.
+    fn moves_as(&self, other: &Pattern<T>) -> bool {
+        let size = self.after.iter().chain(&other.after);
+        let size = size.fold(0.0_f64, |size, rate| size.max(rate.value().abs()));
+        let noises = self.noise.iter().zip(&other.noise);
+        let rates = self.after.iter().zip(&other.after).zip(noises);
+        rates.into_iter().all(|((a, b), (noise, more))| {
+            (*a - *b).value().abs() <= SAME * size + 10.0 * (noise + more)
+        })
+    }
+
+    /// Λᵀ G Λ
+    fn jump(&self, phase: &Phase<T>) -> f64 {
+        let changes = self.after.iter().zip(&phase.rates);
+        let changes = changes.map(|(after, before)| (*after - *before).value());
+        let all = self.impulses.iter().zip(changes);
+        all.map(|(impulse, change)| impulse.value() * change).sum()
     }
 }

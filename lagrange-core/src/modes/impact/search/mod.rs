@@ -1,7 +1,7 @@
 //! Which combination holds: all of them in order where they are few, else Lemke's method.
 //!
-//! Few: contacts pressed before free, frictions sticking before sliding, so that of several solutions the one with most
-//! contacts and stick is taken. Many: the linear complementarity problem of Stewart & Trinkle (1996), with a cone of eight
+//! Few: contacts pressed before free, frictions sticking before sliding; of several solutions the one with the least jump of the
+//! velocities is taken. Many: the linear complementarity problem of Stewart & Trinkle (1996), with a cone of eight
 //! sides where a slip has two components, says which combination it is; that one is then solved as equations. Several
 //! frictions with two components: relaxation says which it is and where the slips are to be looked for.
 
@@ -26,6 +26,8 @@ const MOST: usize = 20_000;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Search<T> {
     pub pattern: Pattern<T>,
+    /// Other solutions.
+    pub others: Vec<Pattern<T>>,
     /// Combinations solved so far.
     pub tried: usize,
     lemke: Lemke,
@@ -41,6 +43,7 @@ pub(super) struct Search<T> {
 impl<T: Scalar> Search<T> {
     /// Finds a combination that holds and leaves it in `pattern`; false if there is none.
     pub fn find(&mut self, c: &Collision<T>, phase: &Phase<T>) -> bool {
+        self.others.clear();
         self.taking.clear();
         self.taking
             .extend((0..c.touches.len()).filter(|k| phase.within[*k]));

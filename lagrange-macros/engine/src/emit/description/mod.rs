@@ -4,7 +4,7 @@ mod items;
 
 use super::encoded::encoded;
 use super::names::{self, index};
-use crate::ast::Impacts;
+use crate::ast::{Domain, Impacts};
 use crate::derive::{Equations, NeedId, OutputId};
 use crate::model::{EnergyTerm, System, Watch};
 use crate::plan::Program;
@@ -151,7 +151,13 @@ impl Writer<'_> {
         let parameters = parameters.map(|parameter| {
             let (name, documentation) = (&parameter.name, &parameter.documentation);
             let (unit, tex) = (&parameter.unit, &parameter.tex);
-            quote!(#core::system::Parameter { name: #name, documentation: #documentation, unit: #unit, tex: #tex })
+            let domain = match parameter.domain {
+                None => quote!(Any),
+                Some(Domain::Positive) => quote!(Positive),
+                Some(Domain::NonNegative) => quote!(NonNegative),
+            };
+            let domain = quote!(#core::system::Domain::#domain);
+            quote!(#core::system::Parameter { name: #name, documentation: #documentation, unit: #unit, tex: #tex, domain: #domain })
         });
         parameters.collect()
     }

@@ -33,6 +33,7 @@ pub(crate) fn bare<'a>(
             unit: String::new(),
             tex: String::new(),
             letter: String::new(),
+            domain: None,
         })
         .collect();
     let coordinates = coordinates

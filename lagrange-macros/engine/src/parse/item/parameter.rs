@@ -1,4 +1,4 @@
-//! What only a declaration in a file has: `parameters(mass: "kg" = 1, length[3] = 0.5)` in the place of the fields of a struct, and
+//! What only a declaration in a file has: `parameters(mass: "kg" positive = 1, length[3] = 0.5)` in the place of the fields of a struct, and
 //! `until = 20`, the time at which a run ends.
 
 use super::super::cursor::Cursor;
@@ -51,7 +51,7 @@ impl Parameters {
     }
 }
 
-/// `mass = 1`, `mass: "kg" = 1`, `length[3]: "m" = [1, 2, 3]`, with attributes of a field before it.
+/// `mass = 1`, `mass: "kg" = 1`, `mass: "kg" positive = 1`, `length[3]: "m" = [1, 2, 3]`, with attributes of a field before it.
 fn parameter(part: &mut Cursor, sink: &mut Diagnostics) -> Option<(Field, Expr)> {
     let attributes = attributes(part, sink)?;
     let name = part.name("the name of a parameter", sink)?;
@@ -67,6 +67,13 @@ fn parameter(part: &mut Cursor, sink: &mut Diagnostics) -> Option<(Field, Expr)>
             sink.report(Code::RepeatedPart, colon, &[&"unit"]);
         }
         field.unit = Some(Unit { text, extent });
+    }
+    if let Some(word) = part.word() {
+        part.next();
+        if field.domain.is_some() {
+            sink.report(Code::RepeatedPart, &word, &[&"domain"]);
+        }
+        field.domain = Some(structure::domain(&word.text, (&word).into(), sink)?);
     }
     if part.is_at_end() {
         let (name, text) = (&field.name, &field.name.text);

@@ -1,0 +1,205 @@
+//! An error instead of a tolerance: a second run tells how far off the first is, and tighter ones follow until two agree.
+//!
+//! Let the second run have a hundredth of the tolerance. As long as errors fall with the tolerance, the difference of the two is
+//! the error of the first, to a percent. Unlike defects that are carried along variational equations this needs nothing but to
+//! run again: switches, impacts and accumulations are in it, and so is rounding, which the second run meets in another way.
+
+use super::Runner;
+use crate::arithmetic::{Scalar, epsilon};
+use crate::error::Error;
+use crate::integrate::Method;
+use crate::precompiled::Runnable;
+use crate::settings::{Goal, Settings};
+use crate::system::System;
+use crate::trajectory::{Difference, Estimate, State, Summary};
+use core::ops::Range;
+
+/// Error of a second run over that of the first.
+const TIGHTER: f64 = 0.01;
+
+/// In units of the last place: below this only rounding is left of an error of the Taylor method.
+const FINEST: f64 = 4.0;
+
+/// The same for the other methods, whose estimates of their errors are differences of nearly equal sums.
+const FINEST_SUM: f64 = 512.0;
+
+/// Looser than this a run within an error does not begin: it may miss what happens.
+const LOOSEST: f64 = 1e-8;
+
+/// Share of the error asked for that two runs may differ by: of the tighter one, which is the result, rounding may make as much
+/// again.
+const SHARE: f64 = 0.25;
+
+/// A tolerance a hundred times tighter lets differences fall by more than this, or they are rounding.
+const FALLS: f64 = 2.0;
+
+/// After so many differences in a row that do not fall none will.
+const PATIENCE: usize = 2;
+
+impl Settings {
+    /// The same for a plain run whose error is `factor` times as large, as far as that goes.
+    fn finer<T: Scalar>(&self, factor: f64) -> Settings {
+        let mut finer = Settings {
+            goal: Goal::Tolerance,
+            ..self.clone()
+        };
+        match &mut finer.method {
+            Method::RungeKutta4 { step } => *step *= factor.powf(1.0 / 4.0),
+            Method::Gauss6 { step } => *step *= factor.powf(1.0 / 6.0),
+            _ => {
+                let finest = self.finest::<T>().min(self.tolerance);
+                finer.tolerance = (self.tolerance * factor).max(finest);
+            }
+        }
+        finer
+    }
+
+    /// Below this tolerance only rounding is left.
+    fn finest<T: Scalar>(&self) -> f64 {
+        let units = match self.method {
+            Method::Taylor => FINEST,
+            _ => FINEST_SUM,
+        };
+        units * epsilon::<T>()
+    }
+
+    /// What the first run within an error is made with.
+    fn first<T: Scalar>(&self, error: f64) -> Settings {
+        let tolerance = TIGHTER * error.min(LOOSEST);
+        Settings {
+            goal: Goal::Tolerance,
+            tolerance: tolerance.max(self.finest::<T>() / TIGHTER),
+            ..self.clone()
+        }
+    }
+
+    /// What a run is compared with: one at a tighter tolerance, or a looser one where there is no tighter.
+    fn second<T: Scalar>(&self) -> Settings {
+        let tighter = self.finer::<T>(TIGHTER);
+        match tighter.is_as_fine_as(self) {
+            true => self.finer::<T>(10.0),
+            false => tighter,
+        }
+    }
+
+    /// How far off a run is that differs so much from one with these settings.
+    fn estimate(&self, difference: Difference) -> Estimate {
+        Estimate {
+            method: self.method,
+            tolerance: self.tolerance,
+            difference,
+        }
+    }
+
+    fn is_as_fine_as(&self, other: &Settings) -> bool {
+        (self.method, self.tolerance) == (other.method, other.tolerance)
+    }
+}
+
+impl<S: System<Scalar: Runnable>> Runner<S> {
+    /// Runs as asked, and once more to see how far off that is.
+    pub(super) fn run_twice(
+        &mut self,
+        start: &State<S::Scalar>,
+        span: Range<f64>,
+    ) -> Result<(), Error> {
+        self.run_once(start, span.clone())?;
+        let settings = self.settings.second::<S::Scalar>();
+        let (second, outcome) = self.another(&settings, start, span);
+        if let Err(error @ Error::Interrupted { .. }) = outcome {
+            return Err(error);
+        }
+        let mut difference = self.difference(&second);
+        if let Err(error) = outcome {
+            difference.ends(second.trajectory.last_time(), &error);
+        }
+        self.trajectory.record().estimate = Some(settings.estimate(difference));
+        Ok(())
+    }
+
+    /// Runs at tighter and tighter tolerances until two in a row agree to `error`; the trajectory is that of the last one.
+    pub(super) fn run_within(
+        &mut self,
+        error: f64,
+        start: &State<S::Scalar>,
+        span: Range<f64>,
+    ) -> Result<(), Error> {
+        if !(1e-15..=0.1).contains(&error) {
+            return Err(Error::Argument {
+                what: "error",
+                value: error,
+                expected: "between 1e-15 and 0.1",
+            });
+        }
+        let mut settings = self.settings.first::<S::Scalar>(error);
+        let (mut first, outcome) = self.another(&settings, start, span.clone());
+        core::mem::swap(&mut self.trajectory, &mut first.trajectory);
+        outcome?;
+        let (mut factor, mut best, mut stays) = (TIGHTER, f64::INFINITY, 0);
+        loop {
+            let inexact = |reason| Error::Inexact {
+                asked: error,
+                possible: best / SHARE,
+                reason,
+            };
+            let finer = settings.finer::<S::Scalar>(factor);
+            if finer.is_as_fine_as(&settings) || stays == PATIENCE {
+                let estimate = self.trajectory.estimate();
+                let reason = estimate.map(|estimate| reason(&estimate.difference, best));
+                return Err(inexact(reason.unwrap_or_default()));
+            }
+            let (mut next, outcome) = self.another(&finer, start, span.clone());
+            match outcome {
+                Ok(()) => {}
+                Err(error @ Error::Interrupted { .. }) => return Err(error),
+                Err(cause) => return Err(inexact(format!("the next run ends early: {cause}"))),
+            }
+            let difference = next.difference(self);
+            let apart = difference.error();
+            stays = match apart * FALLS > best {
+                true if best.is_finite() => stays + 1,
+                _ => 0,
+            };
+            best = best.min(apart);
+            core::mem::swap(&mut self.trajectory, &mut next.trajectory);
+            self.trajectory.record().estimate = Some(settings.estimate(difference));
+            if apart <= SHARE * error {
+                return Ok(());
+            }
+            factor = (SHARE * error / apart).clamp(TIGHTER * TIGHTER, TIGHTER);
+            settings = finer;
+        }
+    }
+
+    /// A plain run with other settings, in memory of its own.
+    fn another(
+        &self,
+        settings: &Settings,
+        start: &State<S::Scalar>,
+        span: Range<f64>,
+    ) -> (Self, Result<(), Error>) {
+        let mut runner = Runner::new(self.scene(), settings);
+        let outcome = runner.run_once(start, span);
+        (runner, outcome)
+    }
+
+    fn difference(&self, other: &Self) -> Difference {
+        Summary::of(&self.trajectory).compare(&Summary::of(&other.trajectory))
+    }
+}
+
+/// Why runs do not agree, and what would help.
+fn reason(difference: &Difference, best: f64) -> String {
+    if let Some(parting) = &difference.parting {
+        return format!("the last two runs part at {parting}; end before that");
+    }
+    let what = match difference.event_error {
+        Some(error) if error > difference.state_error => "the times of events differ".to_owned(),
+        _ => format!("`{}` differs", difference.coordinate),
+    };
+    let growth = (best / f64::EPSILON).max(1.0).ln();
+    format!(
+        "{what} by {best:.1e} however tight the tolerance is, from rounding that grows by e^{growth:.0}; end earlier, or ask \
+         for less"
+    )
+}

@@ -1,0 +1,251 @@
+//! How far two runs of one system are apart: at the end, and event by event.
+//!
+//! Errors of a coordinate or velocity x are |Δx| / max(1, |x|), relative where x is large and absolute, in its own unit, where it
+//! is small; errors of times are the same in seconds. Impacts that accumulate are infinitely many, and how many of them a run
+//! follows one by one depends on its tolerance: those that only one of two runs follows have the error of the instant at which
+//! they end.
+
+use super::{EventKind, Record, State};
+use crate::arithmetic::Scalar;
+use crate::error::Error;
+use crate::handle::Subject;
+use crate::integrate::Method;
+use crate::system::Description;
+use core::fmt;
+use core::iter::repeat_n;
+
+/// What happened to which item, and when, s.
+type Happening = (Subject, EventKind, f64);
+
+/// What is compared of a run.
+#[derive(Clone, Debug)]
+pub struct Summary {
+    /// Names.
+    pub description: &'static Description,
+    /// What happened to which item, and when, s; in order.
+    pub events: Vec<Happening>,
+    /// Last time, s.
+    pub time: f64,
+    /// State at the end.
+    pub state: State<f64>,
+}
+
+/// How far two runs are apart.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Difference {
+    /// |Δ| of every position and velocity at the end, each in its own unit; empty where the runs part.
+    pub state: State<f64>,
+    /// |Δt| of every event, s; up to where the runs part.
+    pub events: Vec<f64>,
+    /// Largest error of the final state; infinite where the runs part.
+    pub state_error: f64,
+    /// The coordinate (`theta`) or velocity (`der(theta)`) that has it.
+    pub coordinate: String,
+    /// Largest error of the time of an event, or of the end; `None` where nothing happens.
+    pub event_error: Option<f64>,
+    /// From where on the runs cannot be compared.
+    pub parting: Option<Parting>,
+}
+
+/// Two runs part: something else happens in each.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parting {
+    /// Time, s.
+    pub time: f64,
+    /// What happens in this run, `rim lost`, or `the end`.
+    pub here: String,
+    /// What happens in the other run.
+    pub there: String,
+}
+
+/// How far off a run is, judged by another one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Estimate {
+    /// Method of the other run, with its step if it has fixed ones.
+    pub method: Method,
+    /// Tolerance of the other run.
+    pub tolerance: f64,
+    /// How far the two are apart.
+    pub difference: Difference,
+}
+
+fn accumulates((_, kind, _): &Happening) -> bool {
+    matches!(kind, EventKind::Accumulates { .. })
+}
+
+/// |Δ| / max(1, |x|)
+fn relative(difference: f64, x: f64) -> f64 {
+    difference / x.abs().max(1.0)
+}
+
+impl Summary {
+    /// What is compared of this run.
+    pub fn of<T: Scalar>(record: &Record<T>) -> Self {
+        let values = |list: &[T]| list.iter().map(|x| x.value()).collect();
+        let events = record.events().iter();
+        Summary {
+            description: record.description(),
+            events: events
+                .map(|event| (event.subject, event.kind, event.time.value()))
+                .collect(),
+            time: record.last_time(),
+            state: State {
+                q: values(&record.final_state().q),
+                v: values(&record.final_state().v),
+            },
+        }
+    }
+
+    /// How far it is from another run of the same system.
+    pub fn compare(&self, other: &Summary) -> Difference {
+        let (events, mut event_error, parting) = self.compare_events(other);
+        let mut difference = Difference {
+            state: State::default(),
+            events,
+            state_error: f64::INFINITY,
+            coordinate: String::new(),
+            event_error: None,
+            parting,
+        };
+        if difference.parting.is_none() {
+            self.compare_states(other, &mut difference);
+            let end = relative((self.time - other.time).abs(), self.time);
+            if end > 0.0 {
+                event_error = Some(event_error.map_or(end, |error| error.max(end)));
+            }
+        }
+        Difference {
+            event_error,
+            ..difference
+        }
+    }
+
+    fn compare_states(&self, other: &Summary, difference: &mut Difference) {
+        let apart = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).collect();
+        difference.state = State {
+            q: apart(&self.state.q, &other.state.q),
+            v: apart(&self.state.v, &other.state.v),
+        };
+        let names = || self.description.coordinates.iter().map(|c| c.name);
+        let positions = names().map(str::to_owned);
+        let names = positions.chain(names().map(|name| format!("der({name})")));
+        let sizes = self.state.q.iter().chain(&self.state.v);
+        let apart = difference.state.q.iter().chain(&difference.state.v);
+        difference.state_error = 0.0;
+        for (name, (&apart, &size)) in names.zip(apart.zip(sizes)) {
+            let error = relative(apart, size);
+            if error > difference.state_error || difference.coordinate.is_empty() {
+                (difference.state_error, difference.coordinate) = (error, name);
+            }
+        }
+    }
+
+    /// |Δt| of each event, the largest error of them, and where the runs part.
+    fn compare_events(&self, other: &Summary) -> (Vec<f64>, Option<f64>, Option<Parting>) {
+        let (mut i, mut k) = (0, 0);
+        let (mut differences, mut largest): (Vec<f64>, Option<f64>) = (Vec::new(), None);
+        loop {
+            let (here, there) = (self.events.get(i), other.events.get(k));
+            let ends = |event: Option<&Happening>| event.filter(|e| accumulates(e)).map(|e| e.0);
+            let next = if let Some(contact) = ends(here).or(ends(there)) {
+                let here = self.end_of_impacts(i, contact);
+                here.zip(other.end_of_impacts(k, contact))
+            } else {
+                let same = here
+                    .zip(there)
+                    .is_some_and(|(a, b)| (a.0, a.1) == (b.0, b.1));
+                same.then_some(((i, i + 1), (k, k + 1)))
+            };
+            let Some(((event, i_next), (counterpart, k_next))) = next else {
+                let parting = (here.is_some() || there.is_some()).then(|| Parting {
+                    time: here.or(there).map_or(self.time, |event| event.2),
+                    here: self.words(i),
+                    there: other.words(k),
+                });
+                return (differences, largest, parting);
+            };
+            let time = self.events[event].2;
+            let apart = (time - other.events[counterpart].2).abs();
+            differences.extend(repeat_n(apart, i_next - i));
+            let error = relative(apart, time);
+            largest = Some(largest.map_or(error, |largest| largest.max(error)));
+            (i, k) = (i_next, k_next);
+        }
+    }
+
+    /// The end of infinitely many impacts from event `from` on, and the first event after its instant. A contact whose last
+    /// impact leaves it closed has made finitely many.
+    fn end_of_impacts(&self, from: usize, contact: Subject) -> Option<(usize, usize)> {
+        let coming = &self.events[from..];
+        let closes = |event: &Happening| (event.0, event.1) == (contact, EventKind::Closed);
+        let found = coming.iter().position(accumulates);
+        let found = found.or_else(|| coming.iter().position(closes))?;
+        let time = coming[found].2;
+        let after = coming[found..].iter().take_while(|event| event.2 == time);
+        Some((from + found, from + found + after.count()))
+    }
+
+    /// `rim lost`, or `the end`.
+    pub fn words(&self, index: usize) -> String {
+        match self.events.get(index) {
+            None => "the end".to_owned(),
+            Some((subject, kind, _)) => format!("{} {kind}", subject.name(self.description)),
+        }
+    }
+}
+
+impl Difference {
+    /// The larger of the errors of the final state and of the times; infinite where the runs part.
+    pub fn error(&self) -> f64 {
+        self.state_error.max(self.event_error.unwrap_or(0.0))
+    }
+
+    /// The other run ended early, at `time`.
+    pub(crate) fn ends(&mut self, time: f64, error: &Error) {
+        self.state_error = f64::INFINITY;
+        self.parting = Some(Parting {
+            time,
+            here: "the motion goes on".to_owned(),
+            there: error.to_string(),
+        });
+    }
+}
+
+impl fmt::Display for Parting {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Parting { time, here, there } = self;
+        write!(f, "t = {time}: {here} here, {there} there")
+    }
+}
+
+/// One line for people.
+impl fmt::Display for Estimate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let other = match self.method {
+            method @ (Method::RungeKutta4 { .. } | Method::Gauss6 { .. }) => format!("by {method}"),
+            _ => format!("at tolerance {:.0e}", self.tolerance),
+        };
+        let difference = &self.difference;
+        if let Some(parting) = &difference.parting {
+            return write!(
+                f,
+                "Error: known only until t = {:.6} s; from there on {} here, but {} in a run {other}.",
+                parting.time, parting.here, parting.there
+            );
+        }
+        let figure = |error: f64| match error < 1e-15 {
+            true => "less than 1e-15".to_owned(),
+            false => format!("about {error:.1e}"),
+        };
+        let state = figure(difference.state_error);
+        write!(
+            f,
+            "Error: {state} in the final state (`{}`)",
+            difference.coordinate
+        )?;
+        if let Some(error) = difference.event_error {
+            write!(f, ", {} in the times of events", figure(error))?;
+        }
+        write!(f, ", the difference from a run {other}.")
+    }
+}

@@ -1,0 +1,250 @@
+//! Estimates of errors against true errors, and errors that were asked for.
+
+use lagrange_core::prelude::*;
+use lagrange_core::trajectory::Summary;
+use lagrange_tests::exactness::{Estimated, Exact};
+use lagrange_tests::families::contacts::{Chain, Rod};
+use lagrange_tests::fuzz;
+
+/// A ball on a floor.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(y: "m"),
+    kinetic   = mass * der(y)^2 / 2,
+    potential = mass * gravity * y,
+    contact(floor: y >= 0, restitution = bounce),
+    start(held: y = height),
+)]
+struct Ball {
+    mass: f64,
+    gravity: f64,
+    bounce: f64,
+    height: f64,
+}
+
+/// A body on a spring: x = cos t.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2 / 2,
+    potential = x^2 / 2,
+    mark(middle: x),
+    start(pulled: x = 1),
+)]
+struct Spring {}
+
+#[test]
+fn random_runs_are_as_exact_as_they_say() {
+    let (mut right, mut wrong) = (0, Vec::new());
+    for number in 0..150 {
+        let (run, found) = fuzz::ask::<Exact>(number);
+        match found.estimate {
+            Estimated::Known(told, error) if (0.3..=10.0).contains(&(told / error)) => right += 1,
+            Estimated::Known(told, error) => wrong.push(format!("{run}: {told:e} not {error:e}")),
+            Estimated::Unresolved | Estimated::Refused => {}
+        }
+        if let Estimated::Known(asked, error) = found.error {
+            assert!(error <= asked, "{run}: {error:e} instead of {asked:e}");
+        }
+    }
+    assert!(
+        right > 80 && 20 * wrong.len() <= right,
+        "{right} right, {wrong:#?}"
+    );
+}
+
+#[test]
+fn an_error_that_is_asked_for_holds_against_the_closed_form() {
+    for method in [
+        "taylor",
+        "dop853",
+        "dopri5",
+        "verner98",
+        "radau5",
+        "rk4:0.1",
+        "gauss6:0.1",
+    ] {
+        let method: Method = method.parse().expect("a method");
+        for error in [1e-5, 1e-9] {
+            let scene = Spring {};
+            let simulation = Simulation::new(&scene).method(method).error(error);
+            let run = simulation
+                .run(scene.at(Spring::PULLED), 0.0..20.0)
+                .expect("runs");
+            let (q, v) = (&run.final_state().q, &run.final_state().v);
+            let (sin, cos) = 20.0_f64.sin_cos();
+            assert!(
+                (q[0] - cos).abs() <= error && (v[0] + sin).abs() <= error,
+                "{method}"
+            );
+            for (k, event) in run.events().iter().enumerate() {
+                let exact = core::f64::consts::PI * (k as f64 + 0.5);
+                assert!(
+                    (event.time - exact).abs() <= error * exact.max(1.0),
+                    "{method}"
+                );
+            }
+            assert_eq!(run.events().len(), 6);
+            let estimate = run.estimate().expect("was asked for");
+            assert!(estimate.difference.error() <= error);
+            assert_eq!(estimate.difference.events.len(), 6);
+        }
+    }
+}
+
+#[test]
+fn an_estimate_is_the_error() {
+    let scene = Spring {};
+    for method in [
+        "taylor",
+        "dop853",
+        "dopri5",
+        "verner98",
+        "radau5",
+        "rk4:0.01",
+        "gauss6:0.1",
+    ] {
+        let simulation = Simulation::new(&scene).method(method.parse().expect("a method"));
+        let simulation = simulation.tolerance(1e-7).estimate(true);
+        let run = simulation
+            .run(scene.at(Spring::PULLED), 0.0..20.0)
+            .expect("runs");
+        let told = &run.estimate().expect("was asked for").difference;
+        let (sin, cos) = 20.0_f64.sin_cos();
+        let (q, v) = (&run.final_state().q, &run.final_state().v);
+        let error = (q[0] - cos).abs().max((v[0] + sin).abs());
+        let ratio = told.state_error / error;
+        assert!((0.5..2.0).contains(&ratio), "{method}: {ratio}");
+    }
+}
+
+#[test]
+fn bounces_that_accumulate_are_one_instant() {
+    let (mass, gravity, height) = (1.0, 9.81, 1.0);
+    for bounce in [0.3, 0.8, 0.95] {
+        let ball = Ball {
+            mass,
+            gravity,
+            bounce,
+            height,
+        };
+        let simulation = Simulation::new(&ball).error(1e-11);
+        let run = simulation
+            .run(ball.at(Ball::HELD), 0.0..40.0)
+            .expect("runs");
+        let rest = (2.0 * height / gravity).sqrt() * (1.0 + bounce) / (1.0 - bounce);
+        let events = run.events();
+        let end = events
+            .iter()
+            .find(|e| matches!(e.kind, EventKind::Accumulates { .. }));
+        let end = end.expect("it comes to rest").time;
+        assert!(
+            (end - rest).abs() <= 1e-11 * rest,
+            "{end} instead of {rest}"
+        );
+    }
+}
+
+/// Drawn by fuzzing: the impacts of both ends shrink in no steady ratio.
+#[test]
+fn the_end_of_impacts_of_two_contacts_is_as_certain_as_the_tolerance() {
+    let rod = Rod {
+        mass: 1.4446785851216672,
+        inertia: 0.1486972346011478,
+        half: 0.7568671519467056,
+        bounce: 0.31810121579451317,
+        mu: 0.2705045456966014,
+    };
+    let start = State {
+        q: vec![0.0, 1.5121702896212803, 0.007209059984908173],
+        v: vec![0.9513935142789203, 1.535229717053836, 0.38942938452651443],
+    };
+    let run = |tolerance: f64| {
+        let simulation = Simulation::new(&rod).tolerance(tolerance);
+        Summary::of(&simulation.run(start.clone(), 0.0..2.0).expect("runs"))
+    };
+    let truth = run(1e-15);
+    for tolerance in [1e-6, 1e-8, 1e-10, 1e-12] {
+        let found = run(tolerance);
+        let difference = found.compare(&truth);
+        assert_eq!(difference.parting, None);
+        assert_eq!(difference.events.len(), found.events.len());
+        assert!(
+            difference.error() <= 5.0 * tolerance,
+            "{tolerance}: {}",
+            difference.error()
+        );
+    }
+}
+
+#[test]
+fn chaos_says_what_can_be_had() {
+    let chain = Chain {
+        mass: [1.0, 0.7, 0.4],
+        length: [1.0, 0.8, 0.6],
+        depth: 100.0,
+        bounce: 0.0,
+        mu: 0.0,
+    };
+    let start = State {
+        q: vec![2.0, 2.5, 1.5],
+        v: vec![0.0; 3],
+    };
+    let failure = Simulation::new(&chain)
+        .error(1e-9)
+        .run(start.clone(), 0.0..60.0)
+        .expect_err("rounding grows by more than that");
+    let Error::Inexact {
+        asked, possible, ..
+    } = failure.error
+    else {
+        panic!("{failure}");
+    };
+    assert!(asked == 1e-9 && possible > 1e-9);
+    // There is the motion, and how far off it is.
+    assert_eq!(failure.trajectory.last_time(), 60.0);
+    assert!(failure.trajectory.estimate().is_some());
+    // Earlier it can be had.
+    let run = Simulation::new(&chain).error(1e-9).run(start, 0.0..4.0);
+    assert!(run.is_ok_and(|run| run.estimate().is_some()));
+}
+
+#[test]
+fn runners_and_ensembles_keep_the_error_too() {
+    let scene = Spring {};
+    let simulation = Simulation::new(&scene).error(1e-12);
+    let mut runner = simulation.runner();
+    let start = scene.at(Spring::PULLED);
+    let mut ends = Vec::new();
+    for _ in 0..2 {
+        let run = runner.run(&start, 0.0..3.0).expect("runs");
+        ends.push(run.final_state().clone());
+    }
+    simulation.ensemble().run(
+        3,
+        0.0..3.0,
+        |_, _| Some(start.clone()),
+        |_, outcome, run| {
+            outcome.expect("runs");
+            ends.push(run.final_state().clone());
+        },
+    );
+    assert_eq!(ends.len(), 5);
+    assert!(ends.iter().all(|end| *end == ends[0]));
+    assert!((ends[0].q[0] - 3.0_f64.cos()).abs() < 1e-12);
+}
+
+#[test]
+fn an_error_out_of_reach_of_numbers_is_refused() {
+    let scene = Spring {};
+    for error in [0.0, -1.0, f64::NAN, 1e-16, 0.2] {
+        let run = Simulation::new(&scene)
+            .error(error)
+            .run(scene.at(Spring::PULLED), 0.0..1.0);
+        let failure = run.expect_err("no error to ask for");
+        assert!(
+            matches!(failure.error, Error::Argument { what: "error", .. }),
+            "{failure}"
+        );
+    }
+}
