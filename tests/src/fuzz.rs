@@ -76,9 +76,12 @@ pub trait Question {
     fn ask<F: Family>(trial: &Trial<F>) -> Self::Answer;
 }
 
+/// Draws a run of one family and asks; what it was, and the answer.
+type Draw<A> = fn(Random) -> (String, A);
+
 /// Draws run `number` and asks; with everything that is needed to repeat it.
 pub fn ask<Q: Question>(number: u64) -> (String, Q::Answer) {
-    let families: [fn(Random) -> (String, Q::Answer); 14] = [
+    let families: [Draw<Q::Answer>; 14] = [
         draw::<Q, Chain>,
         draw::<Q, Rod>,
         draw::<Q, Balls>,

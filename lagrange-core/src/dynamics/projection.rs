@@ -363,8 +363,7 @@ impl<T: Scalar> Dynamics<T> {
                         T::from_f64(if typical > 0.0 { 1e-3 * typical } else { 1.0 });
                 }
             }
-            let mut index = n;
-            for (row, place) in rows.clone() {
+            for (index, (row, place)) in (n..).zip(rows.clone()) {
                 for &(j, place) in d.rows[row].jacobian {
                     if !is_held(j) {
                         let value = place.read(constants, &self.nodes);
@@ -373,7 +372,6 @@ impl<T: Scalar> Dynamics<T> {
                     }
                 }
                 self.projection.right[index] = -place.read(constants, &self.nodes);
-                index += 1;
             }
             self.work.factorizations += 1;
             if self.projector.factor(Inertia::Symmetric).is_ok() {
