@@ -250,6 +250,7 @@ impl<T: Scalar> Run<T> {
         held: &Held,
     ) -> Result<State<T>, Error> {
         let tolerance = self.settings.tolerance;
+        self.dynamics.restart();
         start::consistent(&mut self.dynamics, time, tolerance, reference, wanted, held)
     }
 

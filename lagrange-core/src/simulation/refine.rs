@@ -57,7 +57,7 @@ impl Settings {
     /// Below this tolerance only rounding is left.
     fn finest<T: Scalar>(&self) -> f64 {
         let units = match self.method {
-            Method::Taylor => FINEST,
+            Method::Auto | Method::Taylor => FINEST,
             _ => FINEST_SUM,
         };
         units * epsilon::<T>()

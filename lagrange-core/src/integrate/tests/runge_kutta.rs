@@ -243,7 +243,7 @@ fn methods_have_names() {
     let message = |text: &str| text.parse::<Method>().expect_err(text).to_string();
     assert_eq!(
         message("euler"),
-        "no method is called `euler`; there are taylor, dop853, dopri5, verner98, radau5, rk4:STEP, gauss6:STEP"
+        "no method is called `euler`; there are auto, taylor, dop853, dopri5, verner98, radau5, rk4:STEP, gauss6:STEP"
     );
     assert_eq!(
         message("rk4"),

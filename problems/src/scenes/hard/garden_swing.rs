@@ -42,23 +42,28 @@ use lagrange_core::prelude::*;
         a[0] = -span/2 - length/2 * sin(start_angle), a[2] = -length/2 * cos(start_angle),
         b[0] = -length * sin(start_angle), b[2] = -length * cos(start_angle),
         c[0] = span/2 - length/2 * sin(start_angle), c[2] = -length/2 * cos(start_angle)),
+    draw(rod: (-span/2, 0, 0) to left_end),
+    draw(rod: (span/2, 0, 0) to right_end),
+    draw(box: b, size = [span, span/3, span/20], attitude = bench),
+    draw(pivot: (-span/2, 0, 0)),
+    draw(pivot: (span/2, 0, 0)),
     emit = data,
 )]
 pub struct GardenSwing<T = f64> {
     /// Mass of a hanger, kg.
-    #[lagrange(unit = "kg")]
+    #[lagrange(unit = "kg", domain = "positive")]
     pub hanger: T,
     /// Mass of the seat, kg.
-    #[lagrange(unit = "kg")]
+    #[lagrange(unit = "kg", domain = "positive")]
     pub seat: T,
     /// Moment of inertia of each body about any axis through its middle, kg m².
-    #[lagrange(unit = "kg m^2", symbol = "I")]
+    #[lagrange(unit = "kg m^2", domain = "positive", symbol = "I")]
     pub inertia: T,
     /// Length of the hangers, m.
-    #[lagrange(unit = "m", symbol = "l")]
+    #[lagrange(unit = "m", domain = "positive", symbol = "l")]
     pub length: T,
     /// Distance of the hangers, m.
-    #[lagrange(unit = "m")]
+    #[lagrange(unit = "m", domain = "positive")]
     pub span: T,
     /// Gravitational acceleration, m/s².
     #[lagrange(unit = "m/s^2", symbol = "g")]

@@ -16,10 +16,13 @@ use lagrange_core::prelude::*;
     potential = mass/2 * slow * fast * x^2,
     dissipation(damper: mass/2 * (slow + fast) * der(x)^2),
     start(drawn: x = displacement),
+    draw(floor: 0),
+    draw(spring: (-2*displacement, displacement/10) to (x - displacement/10, displacement/10)),
+    draw(box: (x, displacement/10), size = (displacement/5, displacement/5)),
 )]
 pub struct OverdampedOscillator<T = f64> {
     /// Mass, kg.
-    #[lagrange(unit = "kg", symbol = "m")]
+    #[lagrange(unit = "kg", domain = "positive", symbol = "m")]
     pub mass: T,
     /// The slow rate of decay, 1/s.
     #[lagrange(unit = "1/s")]

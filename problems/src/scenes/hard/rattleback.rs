@@ -43,7 +43,7 @@ pub struct Rattleback<T = f64> {
     #[lagrange(unit = "kg m^2", domain = "positive", symbol = "I")]
     pub inertia: [T; 3],
     /// Product of inertia I₁₂, kg m².
-    #[lagrange(unit = "kg m^2", domain = "positive")]
+    #[lagrange(unit = "kg m^2")]
     pub skew: T,
     /// Semi-axis along, m.
     #[lagrange(unit = "m")]

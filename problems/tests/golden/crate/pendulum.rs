@@ -28,6 +28,12 @@ use lagrange_core::prelude::*;
     // What is written beside the coordinates.
     observe(x, y),
 
+    // What a picture shows (`lagrange report FILE`), from the back to the front.
+    draw(path: (x, y)),
+    draw(rod: (0, 0) to (x, y)),
+    draw(pivot: (0, 0)),
+    draw(mass: (x, y)),
+
     // What is logged whenever it happens.
     mark(lowest: theta),
 )]

@@ -171,7 +171,9 @@ fn equations_of_motion_balance() {
             scene.value(work.pool(), e)
         };
         let structure = &scene.program.equations.structure;
-        for (i, equation) in motion.iter().enumerate() {
+        // Of many equations a few are shown.
+        let shown = Work::shown(scene.program.equations.system.coordinates.len());
+        for (i, equation) in shown.into_iter().zip(&motion) {
             let mut balance = -value(structure.forcing[i]);
             for &(row, column, entry) in &structure.mass {
                 let coordinates = &scene.program.equations.system.coordinates;
