@@ -10,7 +10,7 @@
 //! hand is refused; the core then looks for better ones.
 
 use crate::program::{Held, Place};
-pub use crate::program::{Row, STRIDE};
+pub use crate::program::{ROW, Row, STRIDE};
 
 /// 1/k; of 0, 0.
 pub const INVERSES: [f64; STRIDE] = {

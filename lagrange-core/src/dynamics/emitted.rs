@@ -3,7 +3,7 @@
 use crate::arithmetic::{Pack, Scalar, epsilon};
 use crate::effects::{Effects, Item};
 use crate::equations::{
-    Arguments, FrictionState, ModeStructure, Refused, Row, STRIDE, SeriesFn, ValueFn,
+    Arguments, FrictionState, ModeStructure, ROW, Refused, Row, SeriesFn, ValueFn,
 };
 use crate::erased::ErasedSystem;
 use crate::mode::{Direction, FrictionMode, Mode};
@@ -88,7 +88,7 @@ impl<T: Scalar> Emitted<T> {
             constants: vec![zero; structure.constants],
             signs,
             admitted: false,
-            rows: vec![[zero; STRIDE]; structure.rows],
+            rows: vec![[zero; ROW]; structure.rows],
             order: 0,
             read,
             values: vec![zero; structure.rows],

@@ -3,7 +3,7 @@
 use super::Dynamics;
 use super::emitted::Emitted;
 use crate::arithmetic::{Pack, Scalar};
-use crate::equations::{Row, STRIDE, SeriesFn};
+use crate::equations::{ROW, Row, SeriesFn};
 use crate::system::Held;
 
 /// Motions side by side.
@@ -91,7 +91,7 @@ impl<T: Scalar> Lanes<T> {
         let mode = group[0].0;
         let zero = Pack([T::default(); LANES]);
         let rows = &mut self.rows[mode];
-        rows.resize(lanes[0].dynamics.rows_of(mode), [zero; STRIDE]);
+        rows.resize(lanes[0].dynamics.rows_of(mode), [zero; ROW]);
         let state = (time, &self.positions[..], &self.velocities[..]);
         let series = self.series[mode];
         // What one of them cannot do, each finds out alone.

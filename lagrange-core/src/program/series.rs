@@ -23,10 +23,12 @@ use crate::arithmetic::{Number, Pack, Scalar};
 const NO_ROW: u32 = u32::MAX;
 
 /// Coefficients 0, 1, … of one series.
-pub type Row<N> = [N; STRIDE];
+pub type Row<N> = [N; ROW];
 
-/// Length of a [`Row`], a power of two: the highest order is 28, and velocities are known to one order more.
+/// Coefficients of a [`Row`] at most, a power of two: the highest order is 28, and velocities are known to one order more.
 pub const STRIDE: usize = 32;
+/// Places of a [`Row`]. Rows that lie a power of two apart share few lines of the cache: a chain of five links took a third longer.
+pub const ROW: usize = STRIDE + 1;
 
 /// Highest order of a series.
 pub const MAX_ORDER: usize = 28;
@@ -173,7 +175,7 @@ impl<T: Number> Series<T> {
         }
         series.keep(Register::ZERO);
         wanted.iter().for_each(|&register| series.keep(register));
-        series.history = vec![[T::of(0.0); STRIDE]; series.kept.len()];
+        series.history = vec![[T::of(0.0); ROW]; series.kept.len()];
         series.sums = vec![T::of(0.0); series.products.len() * LANES];
         series
     }
