@@ -68,22 +68,19 @@ impl<T: Scalar> Lanes<T> {
     fn run(&mut self, group: &[(usize, usize)], starts: &mut [Start<'_, T>], order: usize) {
         let lanes: [&Start<'_, T>; LANES] =
             core::array::from_fn(|lane| &starts[group[lane.min(group.len() - 1)].1]);
-        let Some((_, held)) = lanes[0].dynamics.functions_of_series() else {
+        let functions = lanes.map(|start| start.dynamics.functions_of_series());
+        let Some((_, held)) = functions[0] else {
             return;
         };
-        let alike = lanes.iter().all(|start| {
-            let other = start.dynamics.functions_of_series();
-            other.is_some_and(|(_, other)| {
-                *other.needs == *held.needs && other.branches == held.branches
-            })
-        });
+        let alike = functions
+            .iter()
+            .flatten()
+            .all(|(_, other)| *other.needs == *held.needs && other.branches == held.branches);
         if !alike {
             return;
         }
-        let constants = lanes.map(|start| match start.dynamics.functions_of_series() {
-            Some((emitted, _)) => emitted.constants(),
-            None => &[],
-        });
+        let constants =
+            functions.map(|one| one.map_or(&[][..], |(emitted, _)| emitted.constants()));
         side_by_side(&mut self.constants, constants);
         side_by_side(&mut self.positions, lanes.map(|start| start.q));
         side_by_side(&mut self.velocities, lanes.map(|start| start.v));
