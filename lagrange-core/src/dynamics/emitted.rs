@@ -28,7 +28,7 @@ pub(super) struct Emitted<T: Scalar> {
     order: usize,
     /// Rows that are read: state, forces, what guards are made of.
     read: Vec<usize>,
-    /// The same rows at the last value that was asked for all of them.
+    /// Coefficient 0 of the rows that are read, at the last value that was asked for them.
     values: Vec<T>,
     /// By node: its row.
     motion_rows: Vec<u32>,

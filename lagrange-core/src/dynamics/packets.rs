@@ -5,12 +5,10 @@
 
 use super::Dynamics;
 use super::interpreted::{Extent, Shape};
+use super::lanes::LANES;
 use crate::arithmetic::{Pack, Scalar};
 use crate::program::Series;
 use std::sync::Arc;
-
-/// Motions in a packet.
-const LANES: usize = 4;
 
 type Lanes<T> = Pack<T, LANES>;
 

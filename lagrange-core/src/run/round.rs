@@ -63,8 +63,7 @@ pub(crate) fn go_on<T: Scalar>(together: &mut Together<T>, members: &mut [Member
 impl<T: Scalar> Run<T> {
     /// Whether the coming step begins with a series of which nothing is there.
     fn begins_step(&self) -> bool {
-        let taylor = self.stepper.is_taylor() && self.goes_on();
-        taylor && self.series == Progress::None
+        self.steps_by_series() && self.series == Progress::None
     }
 
     /// The motion at the start of the coming step.
@@ -81,8 +80,12 @@ impl<T: Scalar> Run<T> {
 
     /// Whether the coming step begins with a series that is begun, but not complete.
     fn awaits_series(&mut self) -> bool {
-        let taylor = self.stepper.is_taylor() && self.goes_on();
         // A series that cannot begin is an error of the step.
-        taylor && self.begin_series().is_ok() && self.series == Progress::Begun
+        self.steps_by_series() && self.begin_series().is_ok() && self.series == Progress::Begun
+    }
+
+    /// Whether there is a coming step, and a series makes it.
+    fn steps_by_series(&self) -> bool {
+        self.stepper.is_taylor() && self.goes_on()
     }
 }
