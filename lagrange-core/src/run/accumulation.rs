@@ -199,7 +199,7 @@ impl<T: Scalar> Run<T> {
             if !(outcome.struck[c] && known.arriving[c]) {
                 continue;
             }
-            self.train.book(self.t.value(), c);
+            self.switcher.train.book(self.now.t.value(), c);
             let ended = self.accumulate(c, known);
             if let Some((count, remaining)) = ended.or_else(|| self.die_out(known)) {
                 self.close_contacts(c, count, remaining, known)?;
@@ -211,18 +211,18 @@ impl<T: Scalar> Run<T> {
     /// After an impact of contact `c`: closes it if the impacts to come are below the tolerance. Returns the number of
     /// impacts that led here, and how long the others last.
     fn accumulate(&mut self, c: usize, known: &mut Known) -> Option<(usize, T)> {
-        let (remaining, uncertain) = self.impacts[c].book(self.t)?;
-        let certain = uncertain <= self.settings.tolerance * self.t.value().abs().max(1.0)
-            || remaining.value() <= RESOLUTION * self.t.value().abs();
+        let (remaining, uncertain) = self.switcher.impacts[c].book(self.now.t)?;
+        let certain = uncertain <= self.settings.tolerance * self.now.t.value().abs().max(1.0)
+            || remaining.value() <= RESOLUTION * self.now.t.value().abs();
         if !(certain && self.is_over(remaining.value())) {
             return None;
         }
         // Contacts that take part in the same cycle close with it.
         let mut count = 0;
-        for other in 0..self.impacts.len() {
-            let impacts = &self.impacts[other];
-            let recent =
-                impacts.count >= FEWEST && self.t.value() - impacts.last <= 2.0 * impacts.interval;
+        for other in 0..self.switcher.impacts.len() {
+            let impacts = &self.switcher.impacts[other];
+            let recent = impacts.count >= FEWEST
+                && self.now.t.value() - impacts.last <= 2.0 * impacts.interval;
             if other == c || recent && self.vanishes(other) {
                 count += impacts.count;
                 self.end(other, known);
@@ -233,17 +233,17 @@ impl<T: Scalar> Run<T> {
 
     /// The same for contacts that are hit without a law in it.
     fn die_out(&mut self, known: &mut Known) -> Option<(usize, T)> {
-        let remaining = self.train.remaining()?;
-        if remaining > ESTIMATED * self.t.value().abs() || !self.is_over(remaining) {
+        let remaining = self.switcher.train.remaining()?;
+        if remaining > ESTIMATED * self.now.t.value().abs() || !self.is_over(remaining) {
             return None;
         }
-        for c in 0..self.impacts.len() {
-            if self.train.has(c) && self.vanishes(c) {
+        for c in 0..self.switcher.impacts.len() {
+            if self.switcher.train.has(c) && self.vanishes(c) {
                 self.end(c, known);
             }
         }
-        let count = self.train.count;
-        self.train.restart();
+        let count = self.switcher.train.count;
+        self.switcher.train.restart();
         Some((count, T::from_f64(remaining)))
     }
 
@@ -253,8 +253,8 @@ impl<T: Scalar> Run<T> {
         let moves =
             |(q, v): (&T, &T)| v.value().abs() * remaining > tolerance * q.value().abs().max(1.0);
         // Below the resolution of time nothing can be told apart.
-        let resolved = remaining > RESOLUTION * self.t.value().abs();
-        !(resolved && self.state.q.iter().zip(&self.state.v).any(moves))
+        let resolved = remaining > RESOLUTION * self.now.t.value().abs();
+        !(resolved && self.now.state.q.iter().zip(&self.now.state.v).any(moves))
     }
 
     /// Whether the gap of contact `c` is below the tolerance.
@@ -267,7 +267,7 @@ impl<T: Scalar> Run<T> {
     /// Contact `c` bounces no more.
     fn end(&mut self, c: usize, known: &mut Known) {
         (known.touching[c], known.parting[c]) = (true, false);
-        self.impacts[c] = Impacts::default();
+        self.switcher.impacts[c] = Impacts::default();
     }
 
     /// Makes all impacts that are left in the time `remaining`, and logs it.
@@ -282,47 +282,47 @@ impl<T: Scalar> Run<T> {
         known: &mut Known,
     ) -> Result<(), Error> {
         let d = self.description();
-        let mut near = core::mem::take(&mut self.near);
+        let mut near = core::mem::take(&mut self.switcher.near);
         near.clear();
         near.extend((0..d.contacts.len()).filter(|&c| known.touching[c]));
         let rubs =
             |f: &usize| matches!(d.frictions[*f].normal, Normal::Contact(c) if near.contains(&c));
         let rubbing = || (0..d.frictions.len()).filter(rubs);
-        self.scratch_mode.clone_from(&self.mode);
+        self.switcher.scratch_mode.clone_from(&self.now.mode);
         near.iter()
-            .for_each(|&c| self.scratch_mode.contacts[c] = false);
-        rubbing().for_each(|f| self.scratch_mode.frictions[f] = FrictionMode::Inactive);
-        self.dynamics.set_mode(&self.scratch_mode);
+            .for_each(|&c| self.switcher.scratch_mode.contacts[c] = false);
+        rubbing().for_each(|f| self.switcher.scratch_mode.frictions[f] = FrictionMode::Inactive);
+        self.dynamics.set_mode(&self.switcher.scratch_mode);
         self.evaluate_all_rows()?;
         let half = T::from_f64(0.5) * remaining;
-        let State { q, v } = &mut self.state;
+        let State { q, v } = &mut self.now.state;
         let motion = self.dynamics.acceleration().iter();
         for ((q, v), &acceleration) in q.iter_mut().zip(v).zip(motion) {
             let change = remaining * acceleration;
             *q += remaining * *v + half * change;
             *v += change;
         }
-        self.t += remaining;
+        self.now.t += remaining;
         self.evaluate_all_rows()?;
-        let time = self.t.value();
-        (self.collider).bring_to_rest(&self.dynamics, time, &self.state.v, &near)?;
-        let rest = core::mem::take(&mut self.collider.rest);
-        let State { q, v } = &mut self.state;
+        let time = self.now.t.value();
+        (self.switcher.collider).bring_to_rest(&self.dynamics, time, &self.now.state.v, &near)?;
+        let rest = core::mem::take(&mut self.switcher.collider.rest);
+        let State { q, v } = &mut self.now.state;
         for ((q, v), &after) in q.iter_mut().zip(v).zip(&rest.v) {
             *q += half * (after - *v);
             *v = after;
         }
         near.iter()
-            .for_each(|&c| self.scratch_mode.contacts[c] = true);
-        self.dynamics.set_mode(&self.scratch_mode);
+            .for_each(|&c| self.switcher.scratch_mode.contacts[c] = true);
+        self.dynamics.set_mode(&self.switcher.scratch_mode);
         self.project(true)?;
         self.evaluate_all_rows()?;
         rubbing().for_each(|f| known.resting[f] = rest.sticks[f] || self.slip_vanishes(f));
-        (self.near, self.collider.rest) = (near, rest);
-        let state = core::mem::take(&mut self.state);
+        (self.switcher.near, self.switcher.collider.rest) = (near, rest);
+        let state = core::mem::take(&mut self.now.state);
         let kind = EventKind::Accumulates { impacts: count };
-        self.log_watch(Subject::Contact(c), kind, self.t, &state);
-        self.state = state;
+        self.log_watch(Subject::Contact(c), kind, self.now.t, &state);
+        self.now.state = state;
         Ok(())
     }
 }

@@ -27,25 +27,32 @@ impl<T: Scalar> Run<T> {
 
     /// A number that is outside its domain at the present state.
     fn domain_left(&mut self) -> Option<Error> {
-        self.dynamics.set_mode(&self.mode);
+        self.dynamics.set_mode(&self.now.mode);
         self.evaluate_all_rows().ok()?;
-        domain::check(&self.dynamics, self.t.value(), &mut self.survey.form).err()
+        domain::check(
+            &self.dynamics,
+            self.now.t.value(),
+            &mut self.switcher.survey.form,
+        )
+        .err()
     }
 
     /// Whether the method's steps are fixed, and the last one has lost the motion.
     fn steps_too_long(&mut self) -> Option<Error> {
-        if self.step.h.is_zero() {
+        if self.stepper.step.h.is_zero() {
             return None;
         }
-        let accepted = self.trajectory.segments.last();
+        let accepted = self.recorder.trajectory.segments.last();
         let mode = match accepted {
-            Some(segment) if self.step.t != self.t => &self.trajectory.modes[segment.mode],
-            _ => &self.mode,
+            Some(segment) if self.stepper.step.t != self.now.t => {
+                &self.recorder.trajectory.modes[segment.mode]
+            }
+            _ => &self.now.mode,
         };
         self.dynamics.set_mode(mode);
         let mode = mode.display(self.description()).to_string();
         let step = self.loses_motion()?;
-        let time = self.step.t.value();
+        let time = self.stepper.step.t.value();
         Some(Error::StepTooLarge { time, step, mode })
     }
 
@@ -56,19 +63,22 @@ impl<T: Scalar> Run<T> {
             return None;
         };
         let half = T::from_f64(0.5);
-        let State { q, v } = &mut self.scratch;
-        self.step.state_into(half, q, v);
-        let valued = self.dynamics.value(self.step.time(half), q, v);
+        let State { q, v } = &mut self.stepper.scratch;
+        self.stepper.step.state_into(half, q, v);
+        let valued = self.dynamics.value(self.stepper.step.time(half), q, v);
         let (mut defect, mut size) = (0.0_f64, 0.0_f64);
         for (i, asked) in self.dynamics.acceleration().iter().enumerate() {
-            let (asked, has) = (asked.value(), self.step.acceleration(i, half).value());
+            let (asked, has) = (
+                asked.value(),
+                self.stepper.step.acceleration(i, half).value(),
+            );
             defect = defect.max((asked - has).abs());
             size = size.max(asked.abs()).max(has.abs());
         }
         let speed = v
             .iter()
             .fold(1.0_f64, |speed, v| speed.max(v.value().abs()));
-        let shows = defect * self.step.h.value() > SHOWS * speed;
+        let shows = defect * self.stepper.step.h.value() > SHOWS * speed;
         let follows = valued.is_ok() && !(defect > LOST * size && shows) && defect.is_finite();
         (!follows).then_some(step)
     }

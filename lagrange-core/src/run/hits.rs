@@ -1,13 +1,16 @@
 //! What ends a step early: the earliest root among the guards of the mode and the stops.
 
 use super::Run;
+use super::curves::Curves;
 use super::region::is_edge_in_flight;
+use super::rest::Rest;
 use crate::arithmetic::Scalar;
 use crate::events::{Direction, Root, RootList, deflate, first_root, roots};
 use crate::integrate::polynomial_sum as sum;
 use crate::mode::{FrictionMode, Mode};
 use crate::modes::guard::{Guard, LENGTH};
-use crate::system::{Condition, Watch};
+use crate::settings::Settings;
+use crate::system::{Condition, Description, Watch};
 
 /// Coefficients this much smaller than all together cannot be told from 0: some degrees times rounding.
 const RESOLUTION: f64 = 1e-13;
@@ -37,54 +40,107 @@ impl Hit {
     }
 }
 
+/// What finds the first thing that happens in a step, and what it knows of steps before.
+#[derive(Debug)]
+pub(super) struct Locator<T> {
+    pub(super) curves: Curves,
+    /// Guards whose leading coefficients vanish at the start of the coming step.
+    pub(super) zeros: Vec<(Guard, usize)>,
+    /// Forces that are at their limit, with their sizes.
+    pub(super) at_limit: Vec<(Guard, f64)>,
+    /// Falling guards found in the present step: (guard, part of the step, half width).
+    falls: Vec<(Guard, f64, f64)>,
+    pub(super) fallen: Vec<Guard>,
+    /// Slips of two components that come to rest with it.
+    pub(super) rests: Vec<Rest>,
+    /// The mode with those at rest.
+    pub(super) resting: Mode,
+    /// Velocities a little before that.
+    pub(super) earlier: Vec<T>,
+    /// Per stop, which of its terms are below zero,
+    pub(super) stop_below: Vec<Vec<bool>>,
+    /// and per mark.
+    pub(super) mark_below: Vec<Vec<bool>>,
+    pub(super) marks: Vec<(usize, f64)>,
+}
+
+impl<T: Scalar> Locator<T> {
+    pub(super) fn new(d: &Description, settings: &Settings, mode: &Mode) -> Self {
+        let nowhere = |watches: &[Watch]| {
+            let terms = watches.iter().map(|watch| watch.terms.len());
+            terms.map(|terms| vec![false; terms]).collect()
+        };
+        Locator {
+            curves: Curves::new(d, &settings.effects),
+            zeros: Vec::new(),
+            at_limit: Vec::new(),
+            falls: Vec::new(),
+            fallen: Vec::new(),
+            rests: Vec::new(),
+            resting: mode.clone(),
+            earlier: vec![T::default(); d.coordinates.len()],
+            stop_below: nowhere(d.stops),
+            mark_below: nowhere(d.marks),
+            marks: Vec::new(),
+        }
+    }
+
+    /// Forgets what belongs to another motion.
+    pub(super) fn restart(&mut self) {
+        let watches = self.stop_below.iter_mut().chain(&mut self.mark_below);
+        watches.for_each(|terms| terms.fill(false));
+        self.curves.joints.clear();
+    }
+}
+
 impl<T: Scalar> Run<T> {
     /// Whether nothing can happen within the step because all guards, stops and marks keep their sign by far: a bound that most
     /// steps satisfy.
     #[inline(never)]
     pub(super) fn nothing_happens(&mut self) -> bool {
-        let mode = &self.mode;
+        let mode = &self.now.mode;
         let matters = |guard| !is_edge_in_flight(guard, mode);
-        let guards_stay = self.curves.look(&self.zeros, matters);
+        let guards_stay = self.locator.curves.look(&self.locator.zeros, matters);
         let d = self.description();
         let stays = |&i: &usize| {
-            let below = &self.stop_below[i];
+            let below = &self.locator.stop_below[i];
             let mut terms = below.iter().enumerate();
-            !holds(&d.stops[i], &self.mode)
-                || terms.all(|(k, &below)| self.curves.stop_stays(i, k, below))
+            !holds(&d.stops[i], &self.now.mode)
+                || terms.all(|(k, &below)| self.locator.curves.stop_stays(i, k, below))
         };
-        guards_stay && self.curves.stops.iter().all(stays)
+        guards_stay && self.locator.curves.stops.iter().all(stays)
     }
 
     /// Finds what happens first within the step.
     pub(super) fn first_hit(&mut self) -> Hit {
-        self.falls.clear();
+        self.locator.falls.clear();
         let mut first = f64::INFINITY;
-        let mut falls = core::mem::take(&mut self.falls);
-        for (guard, curve) in self.curves.in_question() {
+        let mut falls = core::mem::take(&mut self.locator.falls);
+        for (guard, curve) in self.locator.curves.in_question() {
             if let Some((s, width)) = self.fall(guard, curve) {
                 falls.push((guard, s, width));
                 first = first.min(s + width);
             }
         }
-        self.falls = falls;
+        self.locator.falls = falls;
         // Roots whose enclosures overlap with that of the earliest cannot be told apart from it, nor can those at a
         // distance that time does not resolve.
-        let h = self.step.h.value();
-        first += 8.0 * f64::EPSILON * (self.t.value() / h).abs().max(1.0);
-        self.fallen.clear();
+        let h = self.stepper.step.h.value();
+        first += 8.0 * f64::EPSILON * (self.now.t.value() / h).abs().max(1.0);
+        self.locator.fallen.clear();
         let mut at = f64::INFINITY;
-        for &(guard, s, width) in &self.falls {
+        for &(guard, s, width) in &self.locator.falls {
             if s - width <= first {
-                self.fallen.push(guard);
+                self.locator.fallen.push(guard);
                 at = at.min(s);
             }
         }
-        let guards = if self.fallen.is_empty() {
-            self.rests.clear();
+        let guards = if self.locator.fallen.is_empty() {
+            self.locator.rests.clear();
             Hit::Nothing
         } else {
             self.tell_rest_from_turn(at);
-            if self.fallen.is_empty() {
+            if self.locator.fallen.is_empty() {
                 Hit::Turned(at)
             } else {
                 Hit::Guards(at)
@@ -99,7 +155,7 @@ impl<T: Scalar> Run<T> {
 
     /// Where a guard of the mode falls through zero: (part of the step, half width of the enclosure).
     fn fall(&self, guard: Guard, curve: &[f64]) -> Option<(f64, f64)> {
-        if is_edge_in_flight(guard, &self.mode) {
+        if is_edge_in_flight(guard, &self.now.mode) {
             return None;
         }
         let curve = self.judged(guard, curve)?;
@@ -123,12 +179,12 @@ impl<T: Scalar> Run<T> {
 
     /// What of a guard's curve is judged: without leading coefficients that are known to vanish. Nothing if all do.
     pub(super) fn judged<'c>(&self, guard: Guard, curve: &'c [f64]) -> Option<&'c [f64]> {
-        let zeros = self.zeros.iter().find(|(g, _)| *g == guard);
+        let zeros = self.locator.zeros.iter().find(|(g, _)| *g == guard);
         let known = zeros.map_or(0, |(_, order)| *order);
         if known >= LENGTH {
             return None;
         }
-        if let Some((_, size)) = self.at_limit.iter().find(|(g, _)| *g == guard) {
+        if let Some((_, size)) = self.locator.at_limit.iter().find(|(g, _)| *g == guard) {
             // At its limit a force begins at zero, whatever rounding makes of it.
             let change: f64 = curve.iter().map(|c| c.abs()).sum();
             return (change > CLEAR * size).then(|| deflate(curve, 1));
@@ -154,8 +210,8 @@ impl<T: Scalar> Run<T> {
 
     /// Whether the step is so long that rounding hides how a guard begins that falls in it.
     pub(super) fn hides_a_start(&self) -> bool {
-        self.curves.in_question().any(|(guard, curve)| {
-            if is_edge_in_flight(guard, &self.mode) || !self.within_region(guard, 0.0) {
+        self.locator.curves.in_question().any(|(guard, curve)| {
+            if is_edge_in_flight(guard, &self.now.mode) || !self.within_region(guard, 0.0) {
                 return false;
             }
             let curve = self.judged(guard, curve);
@@ -166,11 +222,11 @@ impl<T: Scalar> Run<T> {
     /// The earliest stop up to part `end` of the step.
     fn first_stop(&self, end: f64) -> Option<(usize, f64)> {
         let d = self.description();
-        let curves = &self.curves;
+        let curves = &self.locator.curves;
         let mut best: Option<(usize, f64)> = None;
         for &i in &curves.stops {
-            let (watch, mode) = (&d.stops[i], &self.mode);
-            let below = &self.stop_below;
+            let (watch, mode) = (&d.stops[i], &self.now.mode);
+            let below = &self.locator.stop_below;
             let first = becomes_true(
                 watch,
                 mode,
@@ -191,14 +247,14 @@ impl<T: Scalar> Run<T> {
     /// Marks up to part `end` of the step, in order.
     pub(super) fn marks_until(&self, end: f64, list: &mut Vec<(usize, f64)>) {
         let d = self.description();
-        let curves = &self.curves;
+        let curves = &self.locator.curves;
         list.clear();
         for &i in &curves.marks {
             let watch = &d.marks[i];
             if watch.zeros {
                 let mut all = RootList::new();
                 roots(curves.mark_term(i, 0), &mut all);
-                let below = self.mark_below[i][0];
+                let below = self.locator.mark_below[i][0];
                 let start = curves.mark_term(i, 0)[0];
                 if (below && start > 0.0) || (!below && start < 0.0) {
                     list.push((i, 0.0));
@@ -206,14 +262,14 @@ impl<T: Scalar> Run<T> {
                 let places = all.iter().map(|root| self.place(Guard::Mark(i, 0), root).0);
                 list.extend(
                     places
-                        .filter(|s| *s <= end && holds(watch, &self.mode))
+                        .filter(|s| *s <= end && holds(watch, &self.now.mode))
                         .map(|s| (i, s)),
                 );
             } else {
-                let below = &self.mark_below;
+                let below = &self.locator.mark_below;
                 let first = becomes_true(
                     watch,
-                    &self.mode,
+                    &self.now.mode,
                     end,
                     |k| curves.mark_term(i, k),
                     |k| below[i][k],
@@ -228,16 +284,16 @@ impl<T: Scalar> Run<T> {
     /// Remembers on which side the terms of stops and marks are at part `end` of the step.
     pub(super) fn remember_sides(&mut self, end: f64) {
         let d = self.description();
-        let curves = &self.curves;
+        let curves = &self.locator.curves;
         let below = |curve: &[f64]| value(curve, end) < 0.0;
         for &i in &curves.stops {
             for k in 0..d.stops[i].terms.len() {
-                self.stop_below[i][k] = below(curves.stop_term(i, k));
+                self.locator.stop_below[i][k] = below(curves.stop_term(i, k));
             }
         }
         for &i in &curves.marks {
             for k in 0..d.marks[i].terms.len() {
-                self.mark_below[i][k] = below(curves.mark_term(i, k));
+                self.locator.mark_below[i][k] = below(curves.mark_term(i, k));
             }
         }
     }

@@ -31,23 +31,24 @@ impl<T: Scalar> Run<T> {
         if T::DERIVATIVES == 0 || end == 0.0 {
             return T::from_f64(end);
         }
-        let h = self.step.h.value();
+        let h = self.stepper.step.h.value();
         let (guard, slope) = match *hit {
             // At the last instant the time itself has no derivatives.
             Hit::Nothing | Hit::Turned(_) => {
                 if end < 1.0
-                    || (self.end - self.t.value() - h).abs() > 1e-15 * self.end.abs().max(h)
+                    || (self.end - self.now.t.value() - h).abs() > 1e-15 * self.end.abs().max(h)
                 {
                     return T::from_f64(end);
                 }
-                let s = T::one() - derivatives(self.step.t + self.step.h) / self.step.h;
+                let s = T::one()
+                    - derivatives(self.stepper.step.t + self.stepper.step.h) / self.stepper.step.h;
                 return self.settle_end(s, end);
             }
             Hit::Guards(_) => {
-                if let Some(rest) = self.rests.first() {
+                if let Some(rest) = self.locator.rests.first() {
                     (Guard::Slip(rest.friction), rest.slope * h)
-                } else if let Some(&guard) = self.fallen.first()
-                    && let Some(curve) = self.curves.of(guard)
+                } else if let Some(&guard) = self.locator.fallen.first()
+                    && let Some(curve) = self.locator.curves.of(guard)
                 {
                     (guard, slope(curve, end))
                 } else {
@@ -56,7 +57,7 @@ impl<T: Scalar> Run<T> {
             }
             Hit::Stop(i, _) => {
                 let terms = 0..self.description().stops[i].terms.len();
-                match nearest(terms, end, |k| self.curves.stop_term(i, k)) {
+                match nearest(terms, end, |k| self.locator.curves.stop_term(i, k)) {
                     Some((k, slope)) => (Guard::Stop(i, k), slope),
                     None => return T::from_f64(end),
                 }
@@ -87,7 +88,7 @@ impl<T: Scalar> Run<T> {
             return T::from_f64(s);
         }
         let terms = 0..self.description().marks[mark].terms.len();
-        match nearest(terms, s, |k| self.curves.mark_term(mark, k)) {
+        match nearest(terms, s, |k| self.locator.curves.mark_term(mark, k)) {
             Some((k, slope)) => self.root(Guard::Mark(mark, k), slope, s),
             None => T::from_f64(s),
         }
@@ -95,11 +96,11 @@ impl<T: Scalar> Run<T> {
 
     /// A guard at part `s` of the step.
     fn exact_guard(&mut self, guard: Guard, s: T) -> Option<T> {
-        let (q, v) = (&mut self.scratch.q, &mut self.scratch.v);
-        self.step.state_into(s, q, v);
-        let time = self.step.time(s);
+        let (q, v) = (&mut self.stepper.scratch.q, &mut self.stepper.scratch.v);
+        self.stepper.step.state_into(s, q, v);
+        let time = self.stepper.step.time(s);
         if let Guard::Slip(f) = guard
-            && let Some(rest) = self.rests.iter().find(|rest| rest.friction == f)
+            && let Some(rest) = self.locator.rests.iter().find(|rest| rest.friction == f)
         {
             self.dynamics.tape(time, q, v);
             return Some(slip(f, rest.along.map(T::from_f64), &self.dynamics));
@@ -110,8 +111,8 @@ impl<T: Scalar> Run<T> {
         }
         Some(exact(
             guard,
-            &self.curves.joints,
-            &self.mode,
+            &self.locator.curves.joints,
+            &self.now.mode,
             &self.dynamics,
         ))
     }
@@ -119,9 +120,13 @@ impl<T: Scalar> Run<T> {
     /// The state at part `s` of the step, in `scratch`, evaluated; at `located` if that cannot be.
     fn settle_end(&mut self, s: T, located: f64) -> T {
         for s in [s, T::from_f64(located)] {
-            let (q, v) = (&mut self.scratch.q, &mut self.scratch.v);
-            self.step.state_into(s, q, v);
-            if !self.rests.is_empty() || self.dynamics.value_along(self.step.time(s), q, v).is_ok()
+            let (q, v) = (&mut self.stepper.scratch.q, &mut self.stepper.scratch.v);
+            self.stepper.step.state_into(s, q, v);
+            if !self.locator.rests.is_empty()
+                || self
+                    .dynamics
+                    .value_along(self.stepper.step.time(s), q, v)
+                    .is_ok()
             {
                 return s;
             }

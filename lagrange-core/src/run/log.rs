@@ -1,11 +1,67 @@
-//! The event log: one entry per item that changed.
+//! What is written down of a run; the event log: one entry per item that changed.
 
 use super::Run;
 use crate::arithmetic::Scalar;
+use crate::dynamics;
+use crate::erased::Erased;
 use crate::mode::{FrictionMode, Mode};
 use crate::modes::decide::Known;
 use crate::modes::impact::Impact;
-use crate::trajectory::{Around, Event, EventKind, State, Subject};
+use crate::settings::{Awaited, Settings};
+use crate::trajectory::{Around, Asked, Event, EventKind, Record, State, Subject};
+
+/// The record of a run, and what it is still to have.
+#[derive(Debug)]
+pub(super) struct Recorder<T: Scalar> {
+    pub(super) trajectory: Record<T>,
+    pub(super) before: Before<T>,
+    pub(super) forces_after: Vec<T>,
+    pub(super) undetermined_after: Vec<bool>,
+    /// Events after which the run is to end, but for those that earlier pieces of the record have,
+    pub(super) awaited: Vec<Awaited>,
+    /// and how many events these have.
+    pub(super) events_before: usize,
+    /// What earlier runs cost.
+    pub(super) work_before: dynamics::Work,
+    pub(super) finished: bool,
+}
+
+impl<T: Scalar> Recorder<T> {
+    pub(super) fn new(
+        system: &Erased<T>,
+        settings: &Settings,
+        state: &State<T>,
+        mode: &Mode,
+    ) -> Self {
+        let d = system.description();
+        let rows = d.rows.len();
+        let asked = Asked {
+            tolerance: settings.tolerance,
+            method: settings.method,
+            impacts: settings.impacts.unwrap_or(d.impacts),
+        };
+        let mut trajectory = Record {
+            monitor: settings.monitor.clone(),
+            ..Record::new(system, &settings.effects, settings.record, asked)
+        };
+        trajectory.begin(T::default(), state, mode);
+        Recorder {
+            trajectory,
+            before: Before {
+                mode: mode.clone(),
+                state: state.clone(),
+                forces: vec![T::default(); rows],
+                undetermined: Vec::with_capacity(rows),
+            },
+            forces_after: vec![T::default(); rows],
+            undetermined_after: Vec::with_capacity(rows),
+            awaited: Vec::new(),
+            events_before: 0,
+            work_before: dynamics::Work::default(),
+            finished: false,
+        }
+    }
+}
 
 /// What was just before a switch.
 #[derive(Clone, Debug)]
@@ -18,23 +74,23 @@ pub(super) struct Before<T> {
 
 impl<T: Scalar> Run<T> {
     pub(super) fn log_impacts(&mut self, outcome: &Impact<T>, known: &Known) {
-        let before = &self.before;
+        let before = &self.recorder.before;
         let hit = |c: &usize| known.arriving[*c] && outcome.struck[*c];
         for c in (0..self.description().contacts.len()).filter(hit) {
             let d = self.description();
-            let event = self.trajectory.events.reuse(|| Event::blank(d));
+            let event = self.recorder.trajectory.events.reuse(|| Event::blank(d));
             let around = Around {
                 before: &before.mode,
                 after: &before.mode,
                 state: &before.state,
-                state_after: &self.state,
+                state_after: &self.now.state,
                 forces: &before.forces,
                 forces_after: &before.forces,
                 undetermined: &before.undetermined,
                 undetermined_after: &before.undetermined,
                 impulses: &outcome.impulses,
             };
-            event.write(self.t, Subject::Contact(c), EventKind::Impact, around);
+            event.write(self.now.t, Subject::Contact(c), EventKind::Impact, around);
             event.restitution_lowered = outcome.lowered;
             event.impulses_undetermined = outcome.undetermined;
             event.ambiguous = outcome.ambiguous;
@@ -46,23 +102,23 @@ impl<T: Scalar> Run<T> {
     pub(super) fn log_changes(&mut self, impulses: &[T], ambiguous: bool) {
         let d = self.description();
         if !self.dynamics.has_dependent_rows() {
-            write_forces(&mut self.forces_after, |row| {
+            write_forces(&mut self.recorder.forces_after, |row| {
                 let series = self.dynamics.force_series(row);
                 series.first().copied().unwrap_or_default()
             });
-            self.undetermined_after.clear();
+            self.recorder.undetermined_after.clear();
         }
-        let (before, after) = (&self.before.mode, &self.mode);
+        let (before, after) = (&self.recorder.before.mode, &self.now.mode);
         // The impacts of this instant end in the mode that has now been found.
-        for event in self.trajectory.events.iter_mut().rev() {
-            if event.kind != EventKind::Impact || event.time != self.t {
+        for event in self.recorder.trajectory.events.iter_mut().rev() {
+            if event.kind != EventKind::Impact || event.time != self.now.t {
                 break;
             }
             event.after.clone_from(after);
-            event.forces_after.clone_from(&self.forces_after);
+            event.forces_after.clone_from(&self.recorder.forces_after);
             event
                 .undetermined_after
-                .clone_from(&self.undetermined_after);
+                .clone_from(&self.recorder.undetermined_after);
         }
         let contacts =
             (0..d.contacts.len()).filter_map(|c| match (before.contacts[c], after.contacts[c]) {
@@ -87,24 +143,24 @@ impl<T: Scalar> Run<T> {
         let around = Around {
             before,
             after,
-            state: &self.before.state,
-            state_after: &self.state,
-            forces: &self.before.forces,
-            forces_after: &self.forces_after,
-            undetermined: &self.before.undetermined,
-            undetermined_after: &self.undetermined_after,
+            state: &self.recorder.before.state,
+            state_after: &self.now.state,
+            forces: &self.recorder.before.forces,
+            forces_after: &self.recorder.forces_after,
+            undetermined: &self.recorder.before.undetermined,
+            undetermined_after: &self.recorder.undetermined_after,
             impulses,
         };
         let mut told = !ambiguous;
         for (subject, kind) in contacts.chain(frictions).chain(branches) {
-            let event = self.trajectory.events.reuse(|| Event::blank(d));
-            event.write(self.t, subject, kind, around);
+            let event = self.recorder.trajectory.events.reuse(|| Event::blank(d));
+            event.write(self.now.t, subject, kind, around);
             event.ambiguous = ambiguous;
             told = true;
         }
         if !told && let Some(subject) = at_issue(after) {
-            let event = self.trajectory.events.reuse(|| Event::blank(d));
-            event.write(self.t, subject, EventKind::Ambiguous, around);
+            let event = self.recorder.trajectory.events.reuse(|| Event::blank(d));
+            event.write(self.now.t, subject, EventKind::Ambiguous, around);
             event.ambiguous = true;
         }
     }
@@ -117,12 +173,12 @@ impl<T: Scalar> Run<T> {
         time: T,
         state: &State<T>,
     ) {
-        let mut forces = core::mem::take(&mut self.forces_after);
-        let mut undetermined = core::mem::take(&mut self.undetermined_after);
+        let mut forces = core::mem::take(&mut self.recorder.forces_after);
+        let mut undetermined = core::mem::take(&mut self.recorder.undetermined_after);
         self.reported_forces(&mut forces, &mut undetermined);
         let around = Around {
-            before: &self.mode,
-            after: &self.mode,
+            before: &self.now.mode,
+            after: &self.now.mode,
             state,
             state_after: state,
             forces: &forces,
@@ -132,19 +188,22 @@ impl<T: Scalar> Run<T> {
             impulses: &[],
         };
         let d = self.description();
-        let event = self.trajectory.events.reuse(|| Event::blank(d));
+        let event = self.recorder.trajectory.events.reuse(|| Event::blank(d));
         event.write(time, subject, kind, around);
-        (self.forces_after, self.undetermined_after) = (forces, undetermined);
+        (self.recorder.forces_after, self.recorder.undetermined_after) = (forces, undetermined);
     }
 
     /// Mode, state and forces of the last value, before they change.
     pub(super) fn remember_before(&mut self) {
-        self.before.mode.clone_from(&self.mode);
-        self.before.state.clone_from(&self.state);
-        let mut forces = core::mem::take(&mut self.before.forces);
-        let mut undetermined = core::mem::take(&mut self.before.undetermined);
+        self.recorder.before.mode.clone_from(&self.now.mode);
+        self.recorder.before.state.clone_from(&self.now.state);
+        let mut forces = core::mem::take(&mut self.recorder.before.forces);
+        let mut undetermined = core::mem::take(&mut self.recorder.before.undetermined);
         self.reported_forces(&mut forces, &mut undetermined);
-        (self.before.forces, self.before.undetermined) = (forces, undetermined);
+        (
+            self.recorder.before.forces,
+            self.recorder.before.undetermined,
+        ) = (forces, undetermined);
     }
 }
 

@@ -21,7 +21,7 @@ pub(super) fn is_edge_in_flight(guard: Guard, mode: &Mode) -> bool {
 impl<T: Scalar> Run<T> {
     /// Whether a guard is the gap of a contact whose surface the motion is below.
     pub(super) fn is_below(&self, guard: Guard) -> bool {
-        matches!(guard, Guard::Gap(c) if self.below[c])
+        matches!(guard, Guard::Gap(c) if self.now.below[c])
     }
 
     /// Whether a guard's contact exists at part `s` of the step.
@@ -30,7 +30,7 @@ impl<T: Scalar> Run<T> {
             return true;
         };
         let edge = Guard::Region(c);
-        let Some(curve) = self.curves.of(edge) else {
+        let Some(curve) = self.locator.curves.of(edge) else {
             return true;
         };
         // Just after the edge has been located, the side that the motion goes to.
@@ -44,12 +44,14 @@ impl<T: Scalar> Run<T> {
         if end == 0.0 || !self.description().contacts.iter().any(limited) {
             return;
         }
-        let mut below = core::mem::take(&mut self.below);
-        for (guard, curve) in self.curves.of_mode() {
+        let mut below = core::mem::take(&mut self.now.below);
+        for (guard, curve) in self.locator.curves.of_mode() {
             let Guard::Gap(c) = guard else {
                 continue;
             };
-            if self.description().contacts[c].region.is_none() || self.fallen.contains(&guard) {
+            if self.description().contacts[c].region.is_none()
+                || self.locator.fallen.contains(&guard)
+            {
                 continue;
             }
             let gap = value(curve, end);
@@ -58,13 +60,18 @@ impl<T: Scalar> Run<T> {
             let passed = gap < -1e-9 * size || !self.within_region(guard, end);
             below[c] = gap < 0.0 && (below[c] || passed);
         }
-        self.below = below;
+        self.now.below = below;
     }
 
     /// At an edge the next surface may begin without a step: closes contacts whose gaps vanish where their regions begin.
     pub(super) fn hand_over(&mut self) {
         let d = self.description();
-        if !self.fallen.iter().any(|g| matches!(g, Guard::Region(_))) {
+        if !self
+            .locator
+            .fallen
+            .iter()
+            .any(|g| matches!(g, Guard::Region(_)))
+        {
             return;
         }
         let small = self.settings.tolerance.max(1e-13);
@@ -72,15 +79,15 @@ impl<T: Scalar> Run<T> {
             let Some(region) = contact.region else {
                 continue;
             };
-            let left = self.fallen.contains(&Guard::Region(c)) || self.mode.contacts[c];
+            let left = self.locator.fallen.contains(&Guard::Region(c)) || self.now.mode.contacts[c];
             if left || !self.dynamics.effects().includes(d, Item::Contact(c)) {
                 continue;
             }
             let number = |place: Place| self.dynamics.motion(place).value();
             let gap = number(d.rows[contact.row].position.unwrap_or(Place::Zero));
             if gap.abs() <= small && number(region) >= -small {
-                self.survey.known.touching[c] = true;
-                self.survey.known.arriving[c] = true;
+                self.switcher.survey.known.touching[c] = true;
+                self.switcher.survey.known.arriving[c] = true;
             }
         }
     }

@@ -6,6 +6,7 @@
 //! passes near zero is followed through.
 
 use super::instant::derivatives;
+use super::stepping::Stepper;
 use super::{Progress, Run};
 use crate::arithmetic::Scalar;
 use crate::dynamics::approach;
@@ -42,7 +43,7 @@ impl<T: Scalar> Run<T> {
     /// Whether friction `f` slips with two components along itself.
     fn turns(&self, f: usize) -> bool {
         matches!(
-            self.mode.frictions[f],
+            self.now.mode.frictions[f],
             FrictionMode::Slip(Sliding {
                 direction: Direction::AlongSlip | Direction::Incipient(_),
                 ..
@@ -52,32 +53,32 @@ impl<T: Scalar> Run<T> {
 
     /// Takes the slips that have only turned out of the fallen guards; the others are listed in `rests`.
     pub(super) fn tell_rest_from_turn(&mut self, end: f64) {
-        self.rests.clear();
-        let mut fallen = core::mem::take(&mut self.fallen);
+        self.locator.rests.clear();
+        let mut fallen = core::mem::take(&mut self.locator.fallen);
         fallen.retain(|&guard| match guard {
             Guard::Slip(f) if self.turns(f) => {
                 let rest = self.rest(f, end, LEFT);
-                self.rests.extend(rest);
+                self.locator.rests.extend(rest);
                 rest.is_some()
             }
             _ => true,
         });
-        self.fallen = fallen;
+        self.locator.fallen = fallen;
         self.rest_together(end);
     }
 
     /// Other slips that come to rest with those in `rests`, to within what the others leave of them.
     fn rest_together(&mut self, end: f64) {
-        if self.rests.is_empty() {
+        if self.locator.rests.is_empty() {
             return;
         }
         for f in 0..self.description().frictions.len() {
             if self.turns(f)
-                && !self.fallen.contains(&Guard::Slip(f))
+                && !self.locator.fallen.contains(&Guard::Slip(f))
                 && let Some(rest) = self.rest(f, end, LEFT_TOGETHER)
             {
-                self.rests.push(rest);
-                self.fallen.push(Guard::Slip(f));
+                self.locator.rests.push(rest);
+                self.locator.fallen.push(Guard::Slip(f));
             }
         }
     }
@@ -85,57 +86,61 @@ impl<T: Scalar> Run<T> {
     /// After a step up to part `end` in which nothing was hit: whether slips come to rest now. The state then is that at rest,
     /// and the guards of the slips are the fallen ones.
     pub(super) fn slips_come_to_rest(&mut self, end: f64) -> bool {
-        self.rests.clear();
+        self.locator.rests.clear();
         if end == 0.0 {
             return false;
         }
-        self.fallen.clear();
+        self.locator.fallen.clear();
         for f in 0..self.description().frictions.len() {
             if self.turns(f)
                 && let Some(rest) = self.rest(f, end, LEFT)
             {
-                self.rests.push(rest);
-                self.fallen.push(Guard::Slip(f));
+                self.locator.rests.push(rest);
+                self.locator.fallen.push(Guard::Slip(f));
             }
         }
-        if self.rests.is_empty() {
+        if self.locator.rests.is_empty() {
             return false;
         }
-        let left = self.rests.iter().fold(0.0_f64, |m, rest| m.max(rest.left));
+        let left = self
+            .locator
+            .rests
+            .iter()
+            .fold(0.0_f64, |m, rest| m.max(rest.left));
         self.rest_together(end);
-        let left = left.min(self.end - self.t.value()).max(0.0);
+        let left = left.min(self.end - self.now.t.value()).max(0.0);
         let time = T::from_f64(left);
         let half = T::from_f64(0.5 * left);
         // From the difference over the last part of the step to that over what is left.
-        let back = (1.0 - JUST_BEFORE) * end * self.step.h.value();
+        let back = (1.0 - JUST_BEFORE) * end * self.stepper.step.h.value();
         let share = T::from_f64(left / back);
-        let State { q, v } = &mut self.state;
-        for ((q, v), &earlier) in q.iter_mut().zip(v).zip(&self.earlier) {
+        let State { q, v } = &mut self.now.state;
+        for ((q, v), &earlier) in q.iter_mut().zip(v).zip(&self.locator.earlier) {
             let change = share * (*v - earlier);
             *q += time * *v + half * change;
             *v += change;
         }
-        self.t += time;
+        self.now.t += time;
         self.exact_rest(T::from_f64(back));
-        (self.valued, self.series) = (false, Progress::None);
+        (self.now.valued, self.now.series) = (false, Progress::None);
         true
     }
 
     /// Gives the instant of rest its derivatives; `earlier` has the velocities `back` seconds before the last step's end.
     fn exact_rest(&mut self, back: T) {
-        let Some(&rest) = self.rests.first() else {
+        let Some(&rest) = self.locator.rests.first() else {
             return;
         };
-        let State { q, v } = &mut self.state;
+        let State { q, v } = &mut self.now.state;
         for _ in 0..T::DERIVATIVES {
-            self.dynamics.tape(self.t, q, v);
+            self.dynamics.tape(self.now.t, q, v);
             let slip = exact::slip(rest.friction, rest.along.map(T::from_f64), &self.dynamics);
             let later = -derivatives(slip) / T::from_f64(rest.slope);
-            for ((q, v), &earlier) in q.iter_mut().zip(&mut *v).zip(&self.earlier) {
+            for ((q, v), &earlier) in q.iter_mut().zip(&mut *v).zip(&self.locator.earlier) {
                 *q += later * *v;
                 *v += later * (*v - earlier) / back;
             }
-            self.t += later;
+            self.now.t += later;
         }
     }
 
@@ -144,10 +149,12 @@ impl<T: Scalar> Run<T> {
     fn rest(&mut self, f: usize, end: f64, allowed: f64) -> Option<Rest> {
         let mut slips = [[0.0; 2]; 2];
         for (slip, s) in slips.iter_mut().zip([JUST_BEFORE * end, end]) {
-            self.earlier.copy_from_slice(&self.scratch.v);
+            self.locator
+                .earlier
+                .copy_from_slice(&self.stepper.scratch.v);
             self.state_at_end(s);
-            let State { q, v } = &self.scratch;
-            let time = self.step.time(T::from_f64(s));
+            let State { q, v } = &self.stepper.scratch;
+            let time = self.stepper.step.time(T::from_f64(s));
             self.dynamics.tape(time, q, v);
             *slip = self.dynamics.slip(f).map(|s| s.value());
         }
@@ -155,7 +162,7 @@ impl<T: Scalar> Run<T> {
         let change = [now[0] - before[0], now[1] - before[1]];
         let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
         let (speed, fall) = (dot(now, now).sqrt(), dot(change, change).sqrt());
-        let rounding = 1e-15 * self.dynamics.slip_size(f, &self.scratch.v);
+        let rounding = 1e-15 * self.dynamics.slip_size(f, &self.stepper.scratch.v);
         if !(fall > 0.0) || (speed > rounding && dot(now, change) > 0.0) {
             return None;
         }
@@ -165,22 +172,28 @@ impl<T: Scalar> Run<T> {
             let (now, before) = (now.value(), before.value());
             (now - before).abs() * parts > allowed * now.abs().max(1.0)
         };
-        if speed > rounding && self.scratch.v.iter().zip(&self.earlier).any(changes) {
+        if speed > rounding
+            && self
+                .stepper
+                .scratch
+                .v
+                .iter()
+                .zip(&self.locator.earlier)
+                .any(changes)
+        {
             return None;
         }
         let Self {
-            step,
-            dynamics,
-            scratch,
-            ..
+            dynamics, stepper, ..
         } = self;
+        let Stepper { step, scratch, .. } = stepper;
         let along = approach(|part| {
             let s = T::from_f64(part * end);
             step.state_into(s, &mut scratch.q, &mut scratch.v);
             dynamics.tape(step.time(s), &scratch.q, &scratch.v);
             dynamics.slip(f).map(|s| s.value())
         })?;
-        let interval = (1.0 - JUST_BEFORE) * end * self.step.h.value();
+        let interval = (1.0 - JUST_BEFORE) * end * self.stepper.step.h.value();
         Some(Rest {
             friction: f,
             along,
@@ -191,36 +204,36 @@ impl<T: Scalar> Run<T> {
 
     /// The state at rest exactly, and the forces just before, in the directions that the slips had.
     pub(super) fn come_to_rest(&mut self) -> Result<(), Error> {
-        self.resting.clone_from(&self.mode);
-        for rest in &self.rests {
-            self.resting.frictions[rest.friction] = FrictionMode::Stick;
+        self.locator.resting.clone_from(&self.now.mode);
+        for rest in &self.locator.rests {
+            self.locator.resting.frictions[rest.friction] = FrictionMode::Stick;
         }
-        self.dynamics.set_mode(&self.resting);
+        self.dynamics.set_mode(&self.locator.resting);
         self.project(true)?;
         self.rest_of_necessity();
-        self.resting.clone_from(&self.mode);
-        for rest in &self.rests {
+        self.locator.resting.clone_from(&self.now.mode);
+        for rest in &self.locator.rests {
             let last = Direction::Incipient(rest.along);
-            self.resting.turn(rest.friction, last);
+            self.locator.resting.turn(rest.friction, last);
         }
-        self.dynamics.set_mode(&self.resting);
-        self.rests.clear();
+        self.dynamics.set_mode(&self.locator.resting);
+        self.locator.rests.clear();
         self.evaluate()
     }
 
     /// Slips that have vanished with those that were brought to rest: a body with two points at rest is at rest.
     fn rest_of_necessity(&mut self) {
-        let State { q, v } = &self.state;
-        self.dynamics.set_extra_needs(&self.survey.needs);
-        self.dynamics.tape(self.t, q, v);
+        let State { q, v } = &self.now.state;
+        self.dynamics.set_extra_needs(&self.switcher.survey.needs);
+        self.dynamics.tape(self.now.t, q, v);
         for f in 0..self.description().frictions.len() {
-            if !self.turns(f) || self.fallen.contains(&Guard::Slip(f)) {
+            if !self.turns(f) || self.locator.fallen.contains(&Guard::Slip(f)) {
                 continue;
             }
             let slip = self.dynamics.slip(f).map(|s| s.value());
             if slip[0].hypot(slip[1]) <= NOTHING * self.dynamics.slip_size(f, v) {
-                self.fallen.push(Guard::Slip(f));
-                self.rests.push(Rest {
+                self.locator.fallen.push(Guard::Slip(f));
+                self.locator.rests.push(Rest {
                     friction: f,
                     along: self.dynamics.heading(f).map(|x| x.value()),
                     left: 0.0,
@@ -233,34 +246,34 @@ impl<T: Scalar> Run<T> {
 
     /// After the first step of slips that begin: from here on they go along themselves.
     pub(super) fn slips_have_begun(&mut self) {
-        if !self.mode.has_incipient_slip() {
+        if !self.now.mode.has_incipient_slip() {
             return;
         }
-        for f in 0..self.mode.frictions.len() {
+        for f in 0..self.now.mode.frictions.len() {
             if self.turns(f) {
-                self.mode.turn(f, Direction::AlongSlip);
+                self.now.mode.turn(f, Direction::AlongSlip);
             }
         }
-        self.dynamics.set_mode(&self.mode);
-        self.trajectory.enter(&self.mode);
-        (self.valued, self.series) = (false, Progress::None);
+        self.dynamics.set_mode(&self.now.mode);
+        self.recorder.trajectory.enter(&self.now.mode);
+        (self.now.valued, self.now.series) = (false, Progress::None);
         self.hold_guards();
     }
 
     /// Whether the slip of a friction with two components vanishes at the start of a step of length `h`, or may in it:
     /// such a step is left to Taylor series.
     pub(super) fn slip_may_vanish(&mut self, h: f64) -> bool {
-        if !(0..self.mode.frictions.len()).any(|f| self.turns(f)) {
+        if !(0..self.now.mode.frictions.len()).any(|f| self.turns(f)) {
             return false;
         }
-        if self.mode.has_incipient_slip() {
+        if self.now.mode.has_incipient_slip() {
             return true;
         }
-        let State { q, v } = &self.state;
-        if self.dynamics.value(self.t, q, v).is_err() {
+        let State { q, v } = &self.now.state;
+        if self.dynamics.value(self.now.t, q, v).is_err() {
             return true;
         }
-        (0..self.mode.frictions.len()).any(|f| {
+        (0..self.now.mode.frictions.len()).any(|f| {
             let row = self.description().frictions[f].row;
             let falls = |row: usize| {
                 let terms = self.description().rows[row].jacobian.iter();

@@ -25,7 +25,7 @@ pub(crate) fn go_on<T: Scalar>(together: &mut Together<T>, members: &mut [Member
     let Together { lanes, packets } = together;
     let order = match members {
         [] => return,
-        [first, ..] => first.run.order,
+        [first, ..] => first.run.stepper.order,
     };
     loop {
         let at_start = |member: &Member<'_, T>| member.run.begins_step();
@@ -36,12 +36,12 @@ pub(crate) fn go_on<T: Scalar>(together: &mut Together<T>, members: &mut [Member
         let expanded: Vec<bool> = starts.iter().map(|start| start.expanded).collect();
         let begins = members.iter_mut().filter(|m| at_start(m));
         for (member, _) in begins.zip(expanded).filter(|(_, expanded)| *expanded) {
-            member.run.series = Progress::Complete;
+            member.run.now.series = Progress::Complete;
         }
         let mut waiting: Vec<&mut Dynamics<T>> = Vec::with_capacity(members.len());
         for Member { run, .. } in &mut *members {
             if run.awaits_series() {
-                run.series = Progress::Complete;
+                run.now.series = Progress::Complete;
                 waiting.push(&mut run.dynamics);
             }
         }
@@ -63,15 +63,15 @@ pub(crate) fn go_on<T: Scalar>(together: &mut Together<T>, members: &mut [Member
 impl<T: Scalar> Run<T> {
     /// Whether the coming step begins with a series of which nothing is there.
     fn begins_step(&self) -> bool {
-        self.steps_by_series() && self.series == Progress::None
+        self.steps_by_series() && self.now.series == Progress::None
     }
 
     /// The motion at the start of the coming step.
     fn start_of_step(&mut self) -> Start<'_, T> {
-        let State { q, v } = &self.state;
+        let State { q, v } = &self.now.state;
         Start {
             dynamics: &mut self.dynamics,
-            t: self.t,
+            t: self.now.t,
             q,
             v,
             expanded: false,
@@ -81,7 +81,7 @@ impl<T: Scalar> Run<T> {
     /// Whether the coming step begins with a series that is begun, but not complete.
     fn awaits_series(&mut self) -> bool {
         // A series that cannot begin is an error of the step.
-        self.steps_by_series() && self.begin_series().is_ok() && self.series == Progress::Begun
+        self.steps_by_series() && self.begin_series().is_ok() && self.now.series == Progress::Begun
     }
 
     /// Whether there is a coming step, and a series makes it.

@@ -31,14 +31,15 @@ pub(super) struct SampledRoot {
 impl<T: Scalar> Run<T> {
     /// How far the interpolated guards are off between their samples, in units of what is allowed.
     pub(super) fn interpolation_defect(&mut self) -> Result<f64, EvaluationError> {
-        if self.curves.get(0).is_none() {
+        if self.locator.curves.get(0).is_none() {
             return Ok(0.0);
         }
         let mut worst = 0.0_f64;
-        for s in self.curves.between_samples() {
+        for s in self.locator.curves.between_samples() {
             self.evaluate_end(s)?;
-            let (curves, tolerance) = (&self.curves, self.tolerance.relative);
-            let defect = curves.interpolation_defect(&mut self.dynamics, &self.mode, s, tolerance);
+            let (curves, tolerance) = (&self.locator.curves, self.stepper.tolerance.relative);
+            let defect =
+                curves.interpolation_defect(&mut self.dynamics, &self.now.mode, s, tolerance);
             // Not the larger of a number and a NaN, which would be the number.
             worst = if defect <= worst { worst } else { defect };
         }
@@ -48,7 +49,7 @@ impl<T: Scalar> Run<T> {
     /// By which factor a step with this defect of its guards may be longer, or has to be shorter.
     pub(super) fn stretch(&self, defect: f64) -> f64 {
         let [least, most] = FACTORS;
-        let degree = self.curves.get(0).map_or(1, |(_, c)| c.len());
+        let degree = self.locator.curves.get(0).map_or(1, |(_, c)| c.len());
         let factor = (AIM / defect).powf(1.0 / degree as f64);
         if factor.is_nan() {
             least
@@ -59,15 +60,15 @@ impl<T: Scalar> Run<T> {
 
     /// Finds where the guards vanish on the dense output, next to the roots of their interpolations.
     pub(super) fn sharpen_roots(&mut self) {
-        self.curves.roots.clear();
+        self.locator.curves.roots.clear();
         let mut all = RootList::new();
         let mut index = 0;
-        while let Some((guard, curve)) = self.curves.get(index) {
+        while let Some((guard, curve)) = self.locator.curves.get(index) {
             roots(self.judged(guard, curve).unwrap_or_default(), &mut all);
             for root in all.iter() {
                 let exact = self.sharpened(index, root);
                 let width = exact.map_or(0.5 * root.width, |s| 2.0 * f64::EPSILON * s);
-                self.curves.roots.push(SampledRoot {
+                self.locator.curves.roots.push(SampledRoot {
                     guard,
                     interpolated: root.s,
                     exact: exact.unwrap_or(root.s),
@@ -86,7 +87,7 @@ impl<T: Scalar> Run<T> {
         if root.grazing {
             return None;
         }
-        let (guard, curve) = self.curves.get(index)?;
+        let (guard, curve) = self.locator.curves.get(index)?;
         let known = curve.len() - self.judged(guard, curve)?.len();
         let rate = slope(curve, root.s).abs();
         let side = match root.direction {
@@ -97,7 +98,12 @@ impl<T: Scalar> Run<T> {
         let guard_at = |run: &mut Self, s: f64| -> Option<f64> {
             run.evaluate_end(s).ok()?;
             run.dynamics.report_value();
-            Some(side * run.curves.value(index, &run.mode, &run.dynamics))
+            Some(
+                side * run
+                    .locator
+                    .curves
+                    .value(index, &run.now.mode, &run.dynamics),
+            )
         };
         let first = guard_at(self, root.s)?;
         let mut reach = (2.0 * first / rate).abs().max(4.0 * f64::EPSILON * root.s);
@@ -147,6 +153,7 @@ impl<T: Scalar> Run<T> {
     /// Where a root of a guard's polynomial is, and half its width: of what was sampled, on the dense output.
     pub(super) fn place(&self, guard: Guard, root: &Root) -> (f64, f64) {
         let of_guard = self
+            .locator
             .curves
             .roots
             .iter()

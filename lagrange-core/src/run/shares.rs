@@ -29,35 +29,30 @@ const NEARBY: f64 = 0.5;
 impl<T: Scalar> Run<T> {
     /// Looks at the forces at the last value of the dynamics, in the mode of the run.
     pub(super) fn look_at_shares(&mut self) {
-        let was_open = self.sharing.has_open();
-        self.sharing.look(&self.dynamics);
-        if was_open || self.sharing.has_open() {
+        let was_open = self.switcher.sharing.has_open();
+        self.switcher.sharing.look(&self.dynamics);
+        if was_open || self.switcher.sharing.has_open() {
             self.list_guards();
         }
     }
 
     /// After a switch: guards, and the forces to be logged.
     pub(super) fn note_shares(&mut self) {
-        let mut forces = core::mem::take(&mut self.forces_after);
-        let mut undetermined = core::mem::take(&mut self.undetermined_after);
+        let mut forces = core::mem::take(&mut self.recorder.forces_after);
+        let mut undetermined = core::mem::take(&mut self.recorder.undetermined_after);
         self.reported_forces(&mut forces, &mut undetermined);
-        (self.forces_after, self.undetermined_after) = (forces, undetermined);
+        (self.recorder.forces_after, self.recorder.undetermined_after) = (forces, undetermined);
         self.list_guards();
     }
 
     /// The guards that decide.
     fn list_guards(&mut self) {
-        let watched = self.table.of(&self.dynamics);
-        let Self {
-            curves,
-            sharing,
-            mode,
-            dynamics,
-            ..
-        } = self;
+        let watched = self.switcher.table.of(&self.dynamics);
+        let sharing = &self.switcher.sharing;
         let single = watched.guards.iter().copied();
         let single = single.filter(|&guard| !sharing.is_open(guard));
-        curves.arm(single, mode, dynamics);
+        let curves = &mut self.locator.curves;
+        curves.arm(single, &self.now.mode, &self.dynamics);
     }
 
     /// At part `looked` of a step, its end or just before it, which the dynamics have evaluated, after `corrections` others:
@@ -69,28 +64,34 @@ impl<T: Scalar> Run<T> {
         looked: f64,
         corrections: &mut usize,
     ) -> bool {
-        if !self.dynamics.has_dependent_rows() && !self.sharing.has_open() {
+        if !self.dynamics.has_dependent_rows() && !self.switcher.sharing.has_open() {
             return false;
         }
         self.look_at_shares();
         if *corrections == MOST_CORRECTIONS {
             return false;
         }
-        let critical = self.sharing.critical(BORDER);
+        let critical = self.switcher.sharing.critical(BORDER);
         let value = critical.as_ref().map(|joint| self.joint_value(joint));
-        if self.sharing.has_open() && self.finds_joints_within(looked) {
+        if self.switcher.sharing.has_open() && self.finds_joints_within(looked) {
             *corrections += 1;
             return true;
         }
-        let fallen = self.fallen.iter().find_map(|guard| match (hit, guard) {
-            (Hit::Guards(_), Guard::Joint(k)) => Some(*k),
-            _ => None,
-        });
+        let fallen = self
+            .locator
+            .fallen
+            .iter()
+            .find_map(|guard| match (hit, guard) {
+                (Hit::Guards(_), Guard::Joint(k)) => Some(*k),
+                _ => None,
+            });
         match (fallen, critical, value) {
-            (None, Some(joint), Some(value)) if value < -ROOT => self.curves.joints.push(joint),
+            (None, Some(joint), Some(value)) if value < -ROOT => {
+                self.locator.curves.joints.push(joint)
+            }
             (Some(_), Some(_), Some(value)) if value.abs() <= ROOT => return false,
-            (Some(k), Some(joint), Some(_)) => self.curves.joints[k] = joint,
-            (Some(k), ..) => _ = self.curves.joints.remove(k),
+            (Some(k), Some(joint), Some(_)) => self.locator.curves.joints[k] = joint,
+            (Some(k), ..) => _ = self.locator.curves.joints.remove(k),
             _ => return false,
         }
         *corrections += 1;
@@ -106,20 +107,20 @@ impl<T: Scalar> Run<T> {
             if self.evaluate_end(part * end).is_err() {
                 continue;
             }
-            self.sharing.look(&self.dynamics);
-            let Some(joint) = self.sharing.critical(NEARBY) else {
+            self.switcher.sharing.look(&self.dynamics);
+            let Some(joint) = self.switcher.sharing.critical(NEARBY) else {
                 continue;
             };
-            let mut known = self.curves.joints.iter();
+            let mut known = self.locator.curves.joints.iter();
             match known.position(|known| known.is_like(&joint)) {
                 None => {
-                    self.curves.joints.push(joint);
+                    self.locator.curves.joints.push(joint);
                     found = true;
                 }
                 Some(k) => {
                     let falls = self.joint_value(&joint) < -ROOT;
-                    found |= falls && self.joint_value(&self.curves.joints[k]) >= -ROOT;
-                    self.curves.joints[k] = joint;
+                    found |= falls && self.joint_value(&self.locator.curves.joints[k]) >= -ROOT;
+                    self.locator.curves.joints[k] = joint;
                 }
             }
         }
@@ -133,7 +134,7 @@ impl<T: Scalar> Run<T> {
     /// are determined).
     pub(super) fn reported_forces(&mut self, forces: &mut Vec<T>, undetermined: &mut Vec<bool>) {
         if self.dynamics.has_dependent_rows() {
-            *forces = self.sharing.report(&self.dynamics, undetermined);
+            *forces = self.switcher.sharing.report(&self.dynamics, undetermined);
         } else {
             undetermined.clear();
             forces.clear();
@@ -158,6 +159,6 @@ impl<T: Scalar> Run<T> {
     fn joint_value(&self, joint: &Joint) -> f64 {
         let joints = core::slice::from_ref(joint);
         let reading = Reading::Values(&self.dynamics);
-        sharing::value(Guard::Joint(0), joints, &self.mode, &reading)
+        sharing::value(Guard::Joint(0), joints, &self.now.mode, &reading)
     }
 }

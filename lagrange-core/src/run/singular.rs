@@ -190,7 +190,7 @@ impl Rank {
 impl<T: Scalar> Run<T> {
     /// Whether a step that ends at this distance from a loss of rank ends too close to it.
     pub(super) fn ends_close(&self, distance: f64) -> bool {
-        distance < CLOSE && distance < NEARER * self.distance
+        distance < CLOSE && distance < NEARER * self.now.distance
     }
 
     /// Whether the step at hand begins near a loss of rank, ends near one or passes it: only Taylor series leap over it, other
@@ -199,7 +199,7 @@ impl<T: Scalar> Run<T> {
         if !self.rank.watches() {
             return false;
         }
-        self.distance < DOUBTFUL
+        self.now.distance < DOUBTFUL
             || [0.5, 1.0].into_iter().any(|s| {
                 self.evaluate_end(s).is_err() || self.rank.distance(&self.dynamics) < DOUBTFUL
             })
@@ -212,33 +212,34 @@ impl<T: Scalar> Run<T> {
     /// is good enough, or if the mode would have to be decided close to the loss of rank; else the step is made up to the first hit
     /// in it or the end of the run, and its end evaluated.
     pub(super) fn leap(&mut self, h: f64) -> Option<Hit> {
-        let mut least = if self.distance < CLOSE {
+        let mut least = if self.now.distance < CLOSE {
             BEARABLE
         } else {
             GOOD
         };
         let mut best = None;
         for leap in LEAPS {
-            for degree in LEAST_DEGREE..=self.order {
+            for degree in LEAST_DEGREE..=self.stepper.order {
                 if let Some((defect, distance)) = self.beyond(leap * h, degree)
                     && defect < least
-                    && distance >= NEARER * NEARER * self.distance
+                    && distance >= NEARER * NEARER * self.now.distance
                 {
                     (least, best) = (defect, Some((leap * h, degree)));
                 }
             }
         }
         let (h, degree) = best?;
-        self.write_polynomial(h.min(self.end - self.t.value()), degree);
-        self.curves
-            .take_series(&self.dynamics, &self.mode, &self.powers);
+        self.write_polynomial(h.min(self.end - self.now.t.value()), degree);
+        self.locator
+            .curves
+            .take_series(&self.dynamics, &self.now.mode, &self.stepper.powers);
         let hit = self.first_hit();
         let distance = self.distance_at(hit.end());
         let decides = matches!(hit, Hit::Guards(_));
         if hit.end() == 0.0 || decides && distance < UNDECIDED {
             return None;
         }
-        self.distance = distance;
+        self.now.distance = distance;
         if distance < UNDECIDED {
             // Forces are known a little before only.
             let parts = [0.99, 0.9, 0.7, 0.4];
@@ -252,7 +253,7 @@ impl<T: Scalar> Run<T> {
 
     /// Whether constraints are about to lose their rank at the present state: their forces are those of another instant.
     pub(super) fn is_undecided(&self) -> bool {
-        self.distance < UNDECIDED
+        self.now.distance < UNDECIDED
     }
 
     /// Distance from a loss of rank at part `s` of the step at hand; 0 where the equations cannot be solved.
@@ -269,7 +270,12 @@ impl<T: Scalar> Run<T> {
         self.write_polynomial(h, degree);
         self.evaluate_end(1.0).ok()?;
         let acceleration = self.dynamics.acceleration();
-        let defect = taylor::defect(&self.step, 1.0, acceleration, self.tolerance);
+        let defect = taylor::defect(
+            &self.stepper.step,
+            1.0,
+            acceleration,
+            self.stepper.tolerance,
+        );
         Some((defect, self.rank.distance(&self.dynamics)))
     }
 }

@@ -3,13 +3,15 @@
 use super::hits::Hit;
 use super::rest::JUST_BEFORE;
 use super::singular::{MOST_RETREATS, RETREAT};
+use super::stiffness::Stiffness;
 use super::{Progress, Run};
 use crate::arithmetic::Scalar;
 use crate::dynamics::EvaluationError;
 use crate::error::Error;
 use crate::integrate::taylor::{self, DefectControl, Verdict};
-use crate::integrate::{Integrator, Method, StepError, onto_step};
+use crate::integrate::{Integrator, Method, StepError, StepPolynomial, Tolerance, onto_step};
 use crate::modes::guard::Guard;
+use crate::settings::Settings;
 use crate::trajectory::State;
 
 /// Where rounding hides how a guard begins, the step is made shorter by this.
@@ -22,23 +24,44 @@ const MOST_TRIES: usize = 10;
 /// Steps of so many times the resolution of time are left to Taylor series.
 const KINK: f64 = 1e4;
 
-/// What makes the polynomials of a step.
+/// What makes the polynomials of a step, and the step at hand.
 #[derive(Debug)]
 pub(super) struct Stepper<T> {
+    pub(super) tolerance: Tolerance,
+    /// Order of Taylor series.
+    pub(super) order: usize,
     /// Judges the steps of Taylor series.
     control: DefectControl,
     /// The method, if it is not that of Taylor series at present,
     pub(super) other: Option<Box<Integrator<T>>>,
     /// and the step that it would like to take.
     pub(super) wanted: Option<f64>,
+    pub(super) stiffness: Stiffness<T>,
+    pub(super) step: StepPolynomial<T>,
+    /// Of the length of the step.
+    pub(super) powers: Vec<f64>,
+    /// State where the step ends.
+    pub(super) scratch: State<T>,
+    /// Σ k vₖ of the polynomials of the velocities.
+    pub(super) slopes: Vec<f64>,
 }
 
 impl<T: Scalar> Stepper<T> {
-    pub(super) fn new(method: Method, coordinates: usize) -> Self {
+    /// Room for the steps of states like this one.
+    pub(super) fn new(settings: &Settings, state: &State<T>) -> Self {
+        let tolerance = Tolerance::both(settings.tolerance);
+        let n = state.q.len();
         Stepper {
+            tolerance,
+            order: taylor::order(tolerance),
             control: DefectControl::default(),
-            other: Integrator::new(method, coordinates).map(Box::new),
+            other: Integrator::new(settings.method, n).map(Box::new),
             wanted: None,
+            stiffness: Stiffness::new(settings.method),
+            step: StepPolynomial::new(n, 1),
+            powers: Vec::new(),
+            scratch: state.clone(),
+            slopes: vec![0.0; n],
         }
     }
 
@@ -47,13 +70,14 @@ impl<T: Scalar> Stepper<T> {
         self.other.is_none()
     }
 
-    /// Forgets what belongs to the motion before a switch.
+    /// Forgets what belongs to another motion; the method is the one that was asked for.
     pub(super) fn restart(&mut self) {
         self.control = DefectControl::default();
         self.wanted = None;
         if let Some(method) = &mut self.other {
             method.restart();
         }
+        self.stiffness.restart(&mut self.other);
     }
 }
 
@@ -75,25 +99,27 @@ impl<T: Scalar> Run<T> {
 
     fn taylor_step(&mut self) -> Result<Hit, Error> {
         self.expand()?;
-        let longest = self.end - self.t.value();
-        let mut h = taylor::step_size(&self.dynamics, self.order, self.tolerance)
+        let longest = self.end - self.now.t.value();
+        let mut h = taylor::step_size(&self.dynamics, self.stepper.order, self.stepper.tolerance)
             .ok_or_else(|| self.not_finite("a Taylor coefficient"))?
             .min(longest);
         let mut closer = 0;
         let mut corrections = 0;
         loop {
-            if self.t.value() + h <= self.t.value() {
+            if self.now.t.value() + h <= self.now.t.value() {
                 return Err(self.step_too_small(h));
             }
-            self.write_polynomial(h, self.order);
-            self.curves
-                .take_series(&self.dynamics, &self.mode, &self.powers);
+            self.write_polynomial(h, self.stepper.order);
+            self.locator
+                .curves
+                .take_series(&self.dynamics, &self.now.mode, &self.stepper.powers);
             let shorter = CLOSER_LOOK * h;
-            let resolved = self.t.value() + shorter > self.t.value() && shorter > CLOSEST * longest;
+            let resolved =
+                self.now.t.value() + shorter > self.now.t.value() && shorter > CLOSEST * longest;
             let whole = self.nothing_happens();
             let hit = if whole {
-                self.fallen.clear();
-                self.rests.clear();
+                self.locator.fallen.clear();
+                self.locator.rests.clear();
                 Hit::Nothing
             } else if resolved && self.hides_a_start() {
                 h = shorter;
@@ -106,7 +132,7 @@ impl<T: Scalar> Run<T> {
                 return Ok(hit);
             }
             // Evaluated here, the end of the step also serves the event log. A slip that vanishes there has no direction.
-            let looked = if self.rests.is_empty() {
+            let looked = if self.locator.rests.is_empty() {
                 end
             } else {
                 JUST_BEFORE * end
@@ -130,25 +156,25 @@ impl<T: Scalar> Run<T> {
                     return Ok(hit);
                 }
                 closer += 1;
-                self.trajectory.work.rejected += 1;
+                self.recorder.trajectory.work.rejected += 1;
                 h *= RETREAT;
                 continue;
             }
             let control = &mut self.stepper.control;
             // The polynomial is as good at its root however long the step: the next try ends before it.
-            match control.judge(h * end, defect, self.order) {
+            match control.judge(h * end, defect, self.stepper.order) {
                 Verdict::Accept => {
                     if self.corrects_joints(&hit, looked, &mut corrections) {
                         continue;
                     }
-                    self.distance = distance;
+                    self.now.distance = distance;
                     if looked != end {
                         self.state_at_end(end);
                     }
                     return Ok(hit);
                 }
                 Verdict::Redo { h: smaller } => {
-                    self.trajectory.work.rejected += 1;
+                    self.recorder.trajectory.work.rejected += 1;
                     if motion <= 1.0 && smaller <= self.resolution() {
                         return self.pass_break();
                     }
@@ -160,7 +186,7 @@ impl<T: Scalar> Run<T> {
 
     /// Shorter steps do not advance time clearly.
     fn resolution(&self) -> f64 {
-        2.0 * f64::EPSILON * self.t.value().abs().max(self.end.abs())
+        2.0 * f64::EPSILON * self.now.t.value().abs().max(self.end.abs())
     }
 
     /// Passes an instant at which a guard breaks off (the cut of `atan2`, a kink) by the step at hand, the shortest that time
@@ -170,44 +196,55 @@ impl<T: Scalar> Run<T> {
     /// Beyond the break a guard is no number, or a gap or the guard of a branch has jumped below zero.
     fn pass_break(&mut self) -> Result<Hit, Error> {
         self.evaluate_end(1.0).map_err(|e| self.error(e))?;
-        let (curves, dynamics) = (&mut self.curves, &mut self.dynamics);
-        if let Some((guard, before, after)) = curves.hold(dynamics, &self.mode) {
+        let (curves, dynamics) = (&mut self.locator.curves, &mut self.dynamics);
+        if let Some((guard, before, after)) = curves.hold(dynamics, &self.now.mode) {
             let d = self.description();
             let item = guard.name(d).unwrap_or(d.name);
             return Err(if after.is_nan() {
                 self.not_finite(&format!("the guard of `{item}`"))
             } else {
                 Error::Discontinuous {
-                    time: self.t.value(),
+                    time: self.now.t.value(),
                     item,
                     before,
                     after,
                 }
             });
         }
-        self.fallen.clear();
-        self.rests.clear();
-        self.distance = self.rank.distance(&self.dynamics);
+        self.locator.fallen.clear();
+        self.locator.rests.clear();
+        self.now.distance = self.rank.distance(&self.dynamics);
         Ok(Hit::Nothing)
     }
 
     /// How far the motion is off at part `looked` of the step, the end of it if it is a `whole` one, in units of what is allowed.
     fn motion_defect(&self, whole: bool, looked: f64) -> f64 {
-        let (step, accelerations) = (&self.step, self.dynamics.acceleration());
+        let (step, accelerations) = (&self.stepper.step, self.dynamics.acceleration());
         if whole {
-            taylor::defect_at_end(step, &self.slopes, accelerations, self.tolerance)
+            taylor::defect_at_end(
+                step,
+                &self.stepper.slopes,
+                accelerations,
+                self.stepper.tolerance,
+            )
         } else {
-            taylor::defect(step, looked, accelerations, self.tolerance)
+            taylor::defect(step, looked, accelerations, self.stepper.tolerance)
         }
     }
 
     /// The same of the guards.
     fn guard_defect(&mut self, hit: &Hit, looked: f64) -> f64 {
-        let (curves, fallen) = (&self.curves, &self.fallen);
+        let (curves, fallen) = (&self.locator.curves, &self.locator.fallen);
         let stops = matches!(hit, Hit::Stop(..));
         let located = |g| fallen.contains(&g) || stops && matches!(g, Guard::Stop(..));
-        let tolerance = self.tolerance.relative;
-        curves.defect(&mut self.dynamics, &self.mode, looked, tolerance, located)
+        let tolerance = self.stepper.tolerance.relative;
+        curves.defect(
+            &mut self.dynamics,
+            &self.now.mode,
+            looked,
+            tolerance,
+            located,
+        )
     }
 
     /// The state at part `end` of the step, in `scratch`, and the equations of motion there.
@@ -218,60 +255,72 @@ impl<T: Scalar> Run<T> {
 
     /// The equations of motion for the state in `scratch`, that at part `end` of the step.
     fn evaluate_scratch(&mut self, end: f64) -> Result<(), EvaluationError> {
-        let State { q, v } = &self.scratch;
-        let time = self.step.time(T::from_f64(end));
+        let State { q, v } = &self.stepper.scratch;
+        let time = self.stepper.step.time(T::from_f64(end));
         self.dynamics.value_along(time, q, v)
     }
 
     /// The state at part `end` of the step, in `scratch`.
     pub(super) fn state_at_end(&mut self, end: f64) {
-        let State { q, v } = &mut self.scratch;
-        self.step.state_into(T::from_f64(end), q, v);
+        let State { q, v } = &mut self.stepper.scratch;
+        self.stepper.step.state_into(T::from_f64(end), q, v);
     }
 
     /// Scales the series, up to `degree`, onto a step of length `h`; the state at its end is left in `scratch`, the changes of
     /// the velocities per step there in `slopes`.
     #[inline(never)]
     pub(super) fn write_polynomial(&mut self, h: f64, degree: usize) {
-        self.step.set_degree(degree);
-        self.step.t = self.t;
-        self.step.h = T::from_f64(h);
+        self.stepper.step.set_degree(degree);
+        self.stepper.step.t = self.now.t;
+        self.stepper.step.h = T::from_f64(h);
         let mut power = 1.0;
-        self.powers.resize(degree + 1, 0.0);
-        for entry in &mut self.powers {
+        self.stepper.powers.resize(degree + 1, 0.0);
+        for entry in &mut self.stepper.powers {
             *entry = power;
             power *= h;
         }
         let width = degree + 1;
-        let rows = self.step.q.chunks_exact_mut(width);
-        for (i, (q, v)) in rows.zip(self.step.v.chunks_exact_mut(width)).enumerate() {
+        let rows = self.stepper.step.q.chunks_exact_mut(width);
+        for (i, (q, v)) in rows
+            .zip(self.stepper.step.v.chunks_exact_mut(width))
+            .enumerate()
+        {
             let (position, velocity) = (
                 self.dynamics.position_series(i),
                 self.dynamics.velocity_series(i),
             );
-            (self.scratch.q[i], _) = onto_step::<T, false>(q, position, &self.powers);
-            (self.scratch.v[i], self.slopes[i]) = onto_step::<T, true>(v, velocity, &self.powers);
+            (self.stepper.scratch.q[i], _) =
+                onto_step::<T, false>(q, position, &self.stepper.powers);
+            (self.stepper.scratch.v[i], self.stepper.slopes[i]) =
+                onto_step::<T, true>(v, velocity, &self.stepper.powers);
         }
     }
 
     fn other_step(&mut self) -> Result<Hit, Error> {
-        if self.series == Progress::Begun {
+        if self.now.series == Progress::Begun {
             // What it begins with does not stay.
-            self.series = Progress::None;
+            self.now.series = Progress::None;
         }
         if self.dynamics.has_rows_aside() {
             self.dynamics.hold_rows_aside(false);
             self.evaluate()?;
             self.dynamics.hold_rows_aside(!self.is_undecided());
         }
-        let longest = self.end - self.t.value();
+        let longest = self.end - self.now.t.value();
         let Some(method) = &mut self.stepper.other else {
             return Ok(Hit::Nothing);
         };
-        let (q, v) = (&self.state.q, &self.state.v);
+        let (q, v) = (&self.now.state.q, &self.now.state.v);
         let first = match self.stepper.wanted {
             Some(h) => Ok(h),
-            None => method.first_step(&mut self.dynamics, self.t, q, v, longest, self.tolerance),
+            None => method.first_step(
+                &mut self.dynamics,
+                self.now.t,
+                q,
+                v,
+                longest,
+                self.stepper.tolerance,
+            ),
         };
         if let Ok(h) = first
             && self.slip_may_vanish(h)
@@ -280,7 +329,7 @@ impl<T: Scalar> Run<T> {
         }
         let mut h = first.map_err(|e| self.no_step(e))?.min(longest);
         for _ in 0..MOST_TRIES {
-            if h <= KINK * self.resolution() && self.curves.get(0).is_some() {
+            if h <= KINK * self.resolution() && self.locator.curves.get(0).is_some() {
                 break;
             }
             let next = self.integrate(h)?;
@@ -292,12 +341,12 @@ impl<T: Scalar> Run<T> {
             }
             self.sample()?;
             let defect = self.interpolation_defect().map_err(|e| self.error(e))?;
-            h = self.stretch(defect) * self.step.h.value();
+            h = self.stretch(defect) * self.stepper.step.h.value();
             self.stepper.wanted = Some(next.min(h));
             if defect <= 1.0 {
                 return self.hit_among_samples();
             }
-            self.trajectory.work.rejected += 1;
+            self.recorder.trajectory.work.rejected += 1;
         }
         // Where a guard has a kink no interpolation holds; where constraints lose rank no step does.
         self.stepper.wanted = None;
@@ -309,11 +358,11 @@ impl<T: Scalar> Run<T> {
         let Some(method) = &mut self.stepper.other else {
             return Ok(h);
         };
-        let (q, v) = (&self.state.q, &self.state.v);
-        let (dynamics, step) = (&mut self.dynamics, &mut self.step);
-        match method.step(dynamics, self.t, q, v, h, self.tolerance, step) {
+        let (q, v) = (&self.now.state.q, &self.now.state.v);
+        let (dynamics, step) = (&mut self.dynamics, &mut self.stepper.step);
+        match method.step(dynamics, self.now.t, q, v, h, self.stepper.tolerance, step) {
             Ok(accepted) => {
-                self.trajectory.work.rejected += accepted.rejected;
+                self.recorder.trajectory.work.rejected += accepted.rejected;
                 Ok(accepted.h_next)
             }
             Err(error) => Err(self.no_step(error)),
@@ -330,17 +379,17 @@ impl<T: Scalar> Run<T> {
 
     fn step_too_large(&self, step: f64) -> Error {
         Error::StepTooLarge {
-            time: self.t.value(),
+            time: self.now.t.value(),
             step,
-            mode: self.mode.display(self.description()).to_string(),
+            mode: self.now.mode.display(self.description()).to_string(),
         }
     }
 
     /// Samples the guards along the step.
     fn sample(&mut self) -> Result<(), Error> {
-        let State { q, v } = &mut self.scratch;
-        let (curves, dynamics) = (&mut self.curves, &mut self.dynamics);
-        let sampled = curves.sample(dynamics, &self.mode, &self.step, q, v);
+        let State { q, v } = &mut self.stepper.scratch;
+        let (curves, dynamics) = (&mut self.locator.curves, &mut self.dynamics);
+        let sampled = curves.sample(dynamics, &self.now.mode, &self.stepper.step, q, v);
         sampled.map_err(|e| self.error(e))
     }
 
@@ -355,7 +404,7 @@ impl<T: Scalar> Run<T> {
                 return self.taylor_step();
             }
             self.evaluate_end(hit.end()).map_err(|e| self.error(e))?;
-            self.distance = self.rank.distance(&self.dynamics);
+            self.now.distance = self.rank.distance(&self.dynamics);
             if !self.corrects_joints(&hit, hit.end(), &mut corrections) {
                 return Ok(hit);
             }
@@ -364,18 +413,18 @@ impl<T: Scalar> Run<T> {
     }
 
     fn step_too_small(&self, step: f64) -> Error {
-        let mode = self.mode.display(self.description()).to_string();
+        let mode = self.now.mode.display(self.description()).to_string();
         Error::StepTooSmall {
-            time: self.t.value(),
+            time: self.now.t.value(),
             step,
             mode,
         }
     }
 
     fn not_finite(&self, what: &str) -> Error {
-        let mode = self.mode.display(self.description()).to_string();
+        let mode = self.now.mode.display(self.description()).to_string();
         Error::NotFinite {
-            time: self.t.value(),
+            time: self.now.t.value(),
             mode,
             what: what.to_owned(),
         }
@@ -385,17 +434,17 @@ impl<T: Scalar> Run<T> {
     pub(super) fn project(&mut self, always: bool) -> Result<(), Error> {
         let tolerance = 1e-2 * self.settings.tolerance.max(1e-14);
         let outcome = self.dynamics.project(
-            self.t,
-            &mut self.state.q,
-            &mut self.state.v,
+            self.now.t,
+            &mut self.now.state.q,
+            &mut self.now.state.v,
             if always { 0.0 } else { tolerance },
         );
         match outcome {
             Ok(changed) => {
-                self.trajectory.work.projections += usize::from(changed);
-                self.valued &= !changed;
+                self.recorder.trajectory.work.projections += usize::from(changed);
+                self.now.valued &= !changed;
                 if changed {
-                    self.series = Progress::None;
+                    self.now.series = Progress::None;
                 }
                 Ok(())
             }

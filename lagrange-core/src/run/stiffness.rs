@@ -8,7 +8,6 @@
 //! higher order. Such a step is tried only after many steps without a switch, and counts only where the motion is damped.
 
 use super::Run;
-use super::stepping::Stepper;
 use crate::arithmetic::Scalar;
 use crate::dynamics::EvaluationError;
 use crate::integrate::{Acceleration, Integrator, Method, taylor};
@@ -50,10 +49,10 @@ impl<T: Scalar> Stiffness<T> {
     }
 
     /// Begins to watch anew, with the method that was asked for.
-    pub(super) fn restart(&mut self, stepper: &mut Stepper<T>) {
+    pub(super) fn restart(&mut self, present: &mut Option<Box<Integrator<T>>>) {
         (self.steps, self.due, self.since) = (0, LOOK, None);
         if self.method == Method::Auto {
-            self.radau = stepper.other.take().or(self.radau.take());
+            self.radau = present.take().or(self.radau.take());
         }
     }
 
@@ -73,30 +72,33 @@ impl<T: Scalar> Stiffness<T> {
 impl<T: Scalar> Run<T> {
     /// Looks from time to time whether stability bounds the steps, and chooses by that what makes them.
     pub(super) fn watch_stiffness(&mut self) {
-        self.stiffness.steps += 1;
-        if self.stiffness.steps < self.stiffness.due || !self.stiffness.watches() {
+        self.stepper.stiffness.steps += 1;
+        if self.stepper.stiffness.steps < self.stepper.stiffness.due
+            || !self.stepper.stiffness.watches()
+        {
             return;
         }
-        self.stiffness.due += LOOK;
-        let changes = self.stiffness.method == Method::Auto;
-        if self.stiffness.since.is_none() {
+        self.stepper.stiffness.due += LOOK;
+        let changes = self.stepper.stiffness.method == Method::Auto;
+        if self.stepper.stiffness.since.is_none() {
             let Some(h) = self.smooth_for() else {
                 return;
             };
             if !self.goes_far(LONGER * h) {
-                self.stiffness.due = 2 * self.stiffness.steps;
+                self.stepper.stiffness.due = 2 * self.stepper.stiffness.steps;
                 return;
             }
-            self.stiffness.since = Some(self.t.value());
+            self.stepper.stiffness.since = Some(self.now.t.value());
             if changes {
-                self.stepper.other = self.stiffness.radau.take();
+                self.stepper.other = self.stepper.stiffness.radau.take();
                 self.stepper.wanted = Some(LONGER * h);
             }
         } else if changes
             && let Some(h) = self.stepper.wanted
             && self.expand().is_ok()
         {
-            let series = taylor::step_size(&self.dynamics, self.order, self.tolerance);
+            let series =
+                taylor::step_size(&self.dynamics, self.stepper.order, self.stepper.tolerance);
             if series.is_some_and(|series| WORTH * series > h) {
                 self.leave_stiffness();
             }
@@ -108,13 +110,15 @@ impl<T: Scalar> Run<T> {
     pub(super) fn leave_stiffness(&mut self) {
         self.note_stiffness();
         self.stepper.restart();
-        self.stiffness.restart(&mut self.stepper);
     }
 
     /// Writes down since when the steps have been bounded by stability, if they are.
     pub(super) fn note_stiffness(&mut self) {
-        if let Some(since) = self.stiffness.since {
-            self.trajectory.stiff.push(since..self.t.value());
+        if let Some(since) = self.stepper.stiffness.since {
+            self.recorder
+                .trajectory
+                .stiff
+                .push(since..self.now.t.value());
         }
     }
 
@@ -123,15 +127,15 @@ impl<T: Scalar> Run<T> {
     fn smooth_for(&mut self) -> Option<f64> {
         const LOW: usize = 3;
         self.expand().ok()?;
-        let (dynamics, tolerance) = (&self.dynamics, self.tolerance);
+        let (dynamics, tolerance) = (&self.dynamics, self.stepper.tolerance);
         let h = if self.stepper.is_taylor() {
-            taylor::step_size(dynamics, self.order, tolerance)
+            taylor::step_size(dynamics, self.stepper.order, tolerance)
         } else {
             self.stepper.wanted
         };
         h.filter(|h| {
             let most = h.powi(-(LOW as i32)) / tolerance.strictness().sqrt();
-            (0..self.state.q.len()).all(|i| {
+            (0..self.now.state.q.len()).all(|i| {
                 let rows = [dynamics.position_series(i), dynamics.velocity_series(i)];
                 rows.into_iter().all(|row| {
                     let allowed = tolerance.scale(row[0].value().abs());
@@ -143,31 +147,31 @@ impl<T: Scalar> Run<T> {
 
     /// Whether Radau makes a step of this length from the present state at once.
     fn goes_far(&mut self, h: f64) -> bool {
-        if h > self.end - self.t.value() {
+        if h > self.end - self.now.t.value() {
             return false;
         }
-        let n = self.state.q.len();
+        let n = self.now.state.q.len();
         let new = || Integrator::new(Method::Radau5, n).map(Box::new);
-        self.stiffness.radau = self.stiffness.radau.take().or_else(new);
-        let Some(radau) = &mut self.stiffness.radau else {
+        self.stepper.stiffness.radau = self.stepper.stiffness.radau.take().or_else(new);
+        let Some(radau) = &mut self.stepper.stiffness.radau else {
             return false;
         };
         radau.restart();
-        let (q, v) = (&self.state.q, &self.state.v);
-        let (dynamics, step) = (&mut self.dynamics, &mut self.step);
-        let outcome = radau.step(dynamics, self.t, q, v, h, self.tolerance, step);
+        let (q, v) = (&self.now.state.q, &self.now.state.v);
+        let (dynamics, step) = (&mut self.dynamics, &mut self.stepper.step);
+        let outcome = radau.step(dynamics, self.now.t, q, v, h, self.stepper.tolerance, step);
         // The trial has left other values in their place.
-        (self.series, self.valued) = (super::Progress::None, false);
+        (self.now.series, self.now.valued) = (super::Progress::None, false);
         outcome.is_ok_and(|accepted| accepted.rejected == 0)
             && self.damping().is_ok_and(|rate| rate * h >= DAMPED)
     }
 
     /// −tr ∂v̇/∂v at the present state, 1/s: the rate at which volumes of states shrink.
     fn damping(&mut self) -> Result<f64, EvaluationError> {
-        let n = self.state.q.len();
+        let n = self.now.state.q.len();
         let [mut by_q, mut by_v] = [0, 1].map(|_| vec![0.0; n * n]);
-        let State { q, v } = &self.state;
-        Acceleration::jacobian(&mut self.dynamics, self.t, q, v, &mut by_q, &mut by_v)?;
+        let State { q, v } = &self.now.state;
+        Acceleration::jacobian(&mut self.dynamics, self.now.t, q, v, &mut by_q, &mut by_v)?;
         Ok(-by_v.iter().step_by(n + 1).sum::<f64>())
     }
 }

@@ -1,36 +1,89 @@
 //! A switch: forces just before, impact if something is hit, the next mode, the log.
 
+use super::accumulation::{Impacts, Train};
 use super::{Progress, Run};
 use crate::arithmetic::Scalar;
 use crate::effects::Item;
 use crate::error::Error;
-use crate::mode::FrictionMode;
-use crate::modes::decide::{Juncture, Known, Moment};
+use crate::mode::{FrictionMode, Mode};
+use crate::modes::decide::{Decider, Juncture, Known, Moment};
 use crate::modes::domain;
 use crate::modes::guard::Guard;
-use crate::modes::impact::Impact;
-use crate::system::Normal;
+use crate::modes::impact::{Collider, Impact};
+use crate::modes::sharing::Sharing;
+use crate::modes::survey::Survey;
+use crate::modes::table::Table;
+use crate::pool::Pool;
+use crate::system::{Description, Normal};
+
+/// What decides how the motion goes on.
+#[derive(Debug)]
+pub(super) struct Switcher<T> {
+    pub(super) survey: Survey,
+    pub(super) collider: Collider<T>,
+    /// Contacts whose gap vanishes at an impact.
+    pub(super) near: Vec<usize>,
+    /// Per contact: its impacts so far.
+    pub(super) impacts: Vec<Impacts<T>>,
+    /// All impacts so far.
+    pub(super) train: Train,
+    /// The mode of a flight through impacts that accumulate.
+    pub(super) scratch_mode: Mode,
+    pub(super) decider: Decider<T>,
+    pub(super) table: Table,
+    /// Of undetermined forces at the present state.
+    pub(super) sharing: Sharing<T>,
+    /// Modes of the switches since time last advanced.
+    pub(super) stuck: Pool<Mode>,
+}
+
+impl<T: Scalar> Switcher<T> {
+    pub(super) fn new(d: &'static Description, mode: &Mode) -> Self {
+        let contacts = d.contacts.len();
+        Switcher {
+            survey: Survey::new(d),
+            collider: Collider::default(),
+            near: Vec::with_capacity(contacts),
+            impacts: vec![Impacts::default(); contacts],
+            train: Train::default(),
+            scratch_mode: mode.clone(),
+            decider: Decider::new(d),
+            table: Table::default(),
+            sharing: Sharing::default(),
+            stuck: Pool::default(),
+        }
+    }
+
+    /// Forgets what belongs to another motion.
+    pub(super) fn restart(&mut self) {
+        self.impacts.iter_mut().for_each(Impacts::restart);
+        self.train.restart();
+        self.sharing.clear();
+        self.stuck.clear();
+    }
+}
 
 impl<T: Scalar> Run<T> {
-    /// Leaves the present mode because the guards in `self.fallen` fell through zero.
+    /// Leaves the present mode because the guards in `self.locator.fallen` fell through zero.
     pub(super) fn switch(&mut self) -> Result<(), Error> {
         let d = self.description();
-        if !self.rests.is_empty() {
+        if !self.locator.rests.is_empty() {
             self.come_to_rest()?;
         }
-        if !self.valued {
+        if !self.now.valued {
             self.evaluate()?;
         }
-        let known = &mut self.survey.known;
+        let known = &mut self.switcher.survey.known;
         known.clear(d);
-        known.residue = self
-            .decider
-            .residue(&mut self.dynamics, &self.mode, &self.fallen);
-        known.touching.copy_from_slice(&self.mode.contacts);
-        for (resting, friction) in known.resting.iter_mut().zip(&self.mode.frictions) {
+        known.residue =
+            self.switcher
+                .decider
+                .residue(&mut self.dynamics, &self.now.mode, &self.locator.fallen);
+        known.touching.copy_from_slice(&self.now.mode.contacts);
+        for (resting, friction) in known.resting.iter_mut().zip(&self.now.mode.frictions) {
             *resting = friction.rests();
         }
-        for &guard in &self.fallen {
+        for &guard in &self.locator.fallen {
             match guard {
                 Guard::Gap(c) => (known.touching[c], known.arriving[c]) = (true, true),
                 Guard::Slip(f) => known.resting[f] = true,
@@ -40,30 +93,33 @@ impl<T: Scalar> Run<T> {
             }
         }
         self.hand_over();
-        let known = &mut self.survey.known;
-        known.located.extend_from_slice(&self.fallen);
-        for guard in &self.fallen {
+        let known = &mut self.switcher.survey.known;
+        known.located.extend_from_slice(&self.locator.fallen);
+        for guard in &self.locator.fallen {
             if let Guard::Joint(k) = *guard {
-                let parts = self.curves.joints[k].parts.iter().map(|part| part.guard);
-                self.survey.known.located.extend(parts);
-                let residue = self.joint_residue(&self.curves.joints[k]);
-                let known = &mut self.survey.known;
+                let parts = self.locator.curves.joints[k]
+                    .parts
+                    .iter()
+                    .map(|part| part.guard);
+                self.switcher.survey.known.located.extend(parts);
+                let residue = self.joint_residue(&self.locator.curves.joints[k]);
+                let known = &mut self.switcher.survey.known;
                 known.residue = known.residue.max(residue);
             }
         }
         self.settle()
     }
 
-    /// Impact if needed, then the next mode; logs what changed. `self.survey.known` says what vanishes at this instant.
+    /// Impact if needed, then the next mode; logs what changed. `self.switcher.survey.known` says what vanishes at this instant.
     pub(super) fn settle(&mut self) -> Result<(), Error> {
-        let mut known = core::mem::take(&mut self.survey.known);
+        let mut known = core::mem::take(&mut self.switcher.survey.known);
         let outcome = self.settle_knowing(&mut known);
-        self.survey.known = known;
+        self.switcher.survey.known = known;
         outcome
     }
 
     fn settle_knowing(&mut self, known: &mut Known) -> Result<(), Error> {
-        if !self.valued {
+        if !self.now.valued {
             self.evaluate()?;
         }
         self.remember_before();
@@ -73,45 +129,52 @@ impl<T: Scalar> Run<T> {
         }
         let here = Juncture {
             moment: Moment {
-                t: self.t,
-                q: &self.state.q,
-                v: &self.state.v,
-                order: self.order,
+                t: self.now.t,
+                q: &self.now.state.q,
+                v: &self.now.state.v,
+                order: self.stepper.order,
                 tolerance: self.settings.tolerance,
             },
-            present: &self.mode,
+            present: &self.now.mode,
             known,
         };
-        self.decider
-            .decide(&mut self.dynamics, &mut self.table, here)?;
-        self.zeros.clone_from(&self.decider.decision.zeros);
-        let edges = self.fallen.iter().filter(|g| matches!(g, Guard::Region(_)));
-        self.zeros.extend(edges.map(|&edge| (edge, 1)));
+        self.switcher
+            .decider
+            .decide(&mut self.dynamics, &mut self.switcher.table, here)?;
+        self.locator
+            .zeros
+            .clone_from(&self.switcher.decider.decision.zeros);
+        let edges = self
+            .locator
+            .fallen
+            .iter()
+            .filter(|g| matches!(g, Guard::Region(_)));
+        self.locator.zeros.extend(edges.map(|&edge| (edge, 1)));
         self.set_mode_decided();
-        if self.decider.decision.expanded {
-            self.series = Progress::Complete;
+        if self.switcher.decider.decision.expanded {
+            self.now.series = Progress::Complete;
         }
         if hit || self.rows_have_joined() {
             self.project(true)?;
         }
         self.begin_series().map_err(|e| self.error(e))?;
         if self.dynamics.has_dependent_rows() {
-            let valued = self.valued;
+            let valued = self.now.valued;
             self.evaluate_all_rows()?;
-            self.decider.decision.ambiguous |= self.dynamics.leaves_motion_open();
+            self.switcher.decider.decision.ambiguous |= self.dynamics.leaves_motion_open();
             self.ask_for_guards();
-            self.series = Progress::None;
+            self.now.series = Progress::None;
             self.expand()?;
             self.evaluate()?;
-            self.valued = valued;
+            self.now.valued = valued;
             self.note_shares();
         } else {
-            self.sharing.clear();
+            self.switcher.sharing.clear();
         }
-        let outcome = core::mem::take(&mut self.collider.outcome);
+        let outcome = core::mem::take(&mut self.switcher.collider.outcome);
         let impulses = if hit { &outcome.impulses[..] } else { &[] };
-        self.log_changes(impulses, self.decider.decision.ambiguous);
-        self.collider.outcome = outcome;
+        self.log_changes(impulses, self.switcher.decider.decision.ambiguous);
+        self.switcher.collider.outcome = outcome;
         self.stops_of_the_mode()
     }
 
@@ -119,7 +182,7 @@ impl<T: Scalar> Run<T> {
     fn hit(&mut self, known: &mut Known) -> Result<bool, Error> {
         let d = self.description();
         self.evaluate_all_rows()?;
-        for c in (0..d.contacts.len()).filter(|&c| !self.mode.contacts[c]) {
+        for c in (0..d.contacts.len()).filter(|&c| !self.now.mode.contacts[c]) {
             // A gap that rounding has left below zero may be growing.
             let (rate, size) = self.rate(d.contacts[c].row);
             if known.arriving[c] && rate > 1e-12 * size {
@@ -131,33 +194,37 @@ impl<T: Scalar> Run<T> {
             return Ok(false);
         }
         // What has just parted may be pushed back.
-        let mut near = core::mem::take(&mut self.near);
+        let mut near = core::mem::take(&mut self.switcher.near);
         near.clear();
         near.extend((0..d.contacts.len()).filter(|&c| known.touching[c] || known.parting[c]));
         let impacts = self.settings.impacts.unwrap_or(d.impacts);
-        let time = self.t.value();
+        let time = self.now.t.value();
         let mut solved =
             (near.iter()).try_for_each(|&c| domain::check_restitution(&self.dynamics, time, c));
         if solved.is_ok() {
-            solved = self
-                .collider
-                .solve(&self.dynamics, time, &self.state.v, &near, impacts);
+            solved = self.switcher.collider.solve(
+                &self.dynamics,
+                time,
+                &self.now.state.v,
+                &near,
+                impacts,
+            );
         }
-        self.near = near;
+        self.switcher.near = near;
         solved?;
-        let outcome = core::mem::take(&mut self.collider.outcome);
-        self.state.v.copy_from_slice(&outcome.v);
+        let outcome = core::mem::take(&mut self.switcher.collider.outcome);
+        self.now.state.v.copy_from_slice(&outcome.v);
         self.log_impacts(&outcome, known);
         self.after_impact(&outcome, known);
         let closed = self.close_accumulated(&outcome, known);
-        self.collider.outcome = outcome;
+        self.switcher.collider.outcome = outcome;
         closed?;
         Ok(true)
     }
 
     /// Whether the switch has brought rows that the state need not satisfy to rounding.
     fn rows_have_joined(&self) -> bool {
-        let (before, after) = (&self.before.mode, &self.mode);
+        let (before, after) = (&self.recorder.before.mode, &self.now.mode);
         let mut contacts = before.contacts.iter().zip(&after.contacts);
         let mut frictions = before.frictions.iter().zip(&after.frictions);
         contacts.any(|(before, after)| !before & after)
@@ -175,13 +242,13 @@ impl<T: Scalar> Run<T> {
     /// What is known after an impact; `dynamics` still holds the state before.
     fn after_impact(&self, outcome: &Impact<T>, known: &mut Known) {
         let d = self.description();
-        for &c in &self.near {
+        for &c in &self.switcher.near {
             known.touching[c] = outcome.stays[c];
             known.parting[c] = !outcome.stays[c];
         }
         for (f, friction) in d.frictions.iter().enumerate() {
             known.resting[f] = match friction.normal {
-                Normal::Contact(c) if !self.near.contains(&c) => known.resting[f],
+                Normal::Contact(c) if !self.switcher.near.contains(&c) => known.resting[f],
                 Normal::Contact(_) | Normal::Constraint(_) => outcome.sticks[f],
                 // No impulse acts there, but the impact may have begun or ended its slip.
                 Normal::Given(_) => self.rests_after(outcome, f),
@@ -199,7 +266,7 @@ impl<T: Scalar> Run<T> {
             let (mut slip, mut size) = self.rate(row);
             let jacobian = self.description().rows[row].jacobian.iter();
             for &(j, place) in jacobian {
-                let jump = (outcome.v[j] - self.before.state.v[j]).value();
+                let jump = (outcome.v[j] - self.recorder.before.state.v[j]).value();
                 let part = self.dynamics.motion(place).value() * jump;
                 slip += part;
                 size += part.abs();
@@ -218,7 +285,7 @@ impl<T: Scalar> Run<T> {
             };
             closes
                 && !known.resting[f]
-                && run.mode.frictions[f] == FrictionMode::Inactive
+                && run.now.mode.frictions[f] == FrictionMode::Inactive
                 && run.dynamics.effects().includes(d, Item::Friction(f))
         };
         if !(0..d.frictions.len()).any(|f| wakes(self, known, f)) {
@@ -247,7 +314,7 @@ impl<T: Scalar> Run<T> {
     pub(super) fn rate(&self, row: usize) -> (f64, f64) {
         let row = &self.description().rows[row];
         let number = |place| self.dynamics.motion(place).value();
-        let size = |j: usize| self.state.v[j].value().abs() + 1e-2;
+        let size = |j: usize| self.now.state.v[j].value().abs() + 1e-2;
         let terms = row.jacobian.iter();
         let sizes = terms.map(|&(j, place)| number(place).abs() * size(j));
         (number(row.velocity), sizes.sum())
