@@ -9,8 +9,8 @@
 //! The linear system of the mode is solved on the way, by pivots chosen at build time. A pivot that is not safe for the numbers at
 //! hand is refused; the core then looks for better ones.
 
-use crate::program::{Held, Place};
 pub use crate::program::{ROW, Row, STRIDE};
+use crate::program::{Selection, ValueRef};
 
 /// 1/k; of 0, 0.
 pub const INVERSES: [f64; STRIDE] = {
@@ -44,7 +44,7 @@ pub struct ModeStructure {
     /// Number of constants.
     pub constants: usize,
     /// Coordinates that stand still, and where among the constants.
-    pub pins: &'static [(usize, Place)],
+    pub pins: &'static [(usize, ValueRef)],
     /// Number of rows of a series: q, v, λ, zero, then others.
     pub rows: usize,
     /// Outputs of the motion tape whose series are given: (node, row).
@@ -59,17 +59,17 @@ pub type Arguments<'a, N> = (N, &'a [N], &'a [N]);
 /// Accelerations from constants, needs that are held, and a state; if asked for, also the first coefficients of the rows of
 /// [`ModeStructure::rows`] that are forces or that guards read. Those of q and v, and what the mode keeps at zero, are left as they
 /// are. False if a pivot is not safe.
-pub type ValueFn<N> = fn(&[N], &Held, Arguments<'_, N>, &mut [N], Option<&mut [N]>) -> bool;
+pub type ValueFn<N> = fn(&[N], &Selection, Arguments<'_, N>, &mut [N], Option<&mut [N]>) -> bool;
 
 /// Coefficients 0…order, at most 28, of the rows of [`ModeStructure::rows`], from constants, needs that are held, the order and a
 /// state.
 pub type SeriesFn<N> =
-    fn(&[N], &Held, usize, Arguments<'_, N>, &mut [Row<N>]) -> Result<(), Refused>;
+    fn(&[N], &Selection, usize, Arguments<'_, N>, &mut [Row<N>]) -> Result<(), Refused>;
 
 /// The arguments of a [`SeriesFn`] as one.
 pub type SeriesArguments<'a, N> = (
     &'a [N],
-    &'a Held<'a>,
+    &'a Selection<'a>,
     usize,
     Arguments<'a, N>,
     &'a mut [Row<N>],

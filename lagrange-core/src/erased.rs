@@ -6,7 +6,7 @@
 use crate::arithmetic::Scalar;
 use crate::declaration::Declaration;
 use crate::equations::{ModeStructure, SeriesFn, ValueFn};
-use crate::system::{Description, Held, System};
+use crate::system::{Description, Selection, System};
 use core::fmt;
 use std::sync::Arc;
 
@@ -31,7 +31,7 @@ pub(crate) trait ErasedSystem<T: Scalar>: Send + Sync {
     fn mode_series(&self) -> &'static [SeriesFn<T>];
 
     /// Their constants; false if the parameters do not allow the pivots that were chosen at build time.
-    fn mode_constants(&self, mode: usize, held: &Held, signs: &[T], c: &mut [T]) -> bool;
+    fn mode_constants(&self, mode: usize, held: &Selection, signs: &[T], c: &mut [T]) -> bool;
 }
 
 impl<T: Scalar> fmt::Debug for dyn ErasedSystem<T> {
@@ -71,7 +71,7 @@ impl<S: System> ErasedSystem<S::Scalar> for S {
     fn mode_constants(
         &self,
         mode: usize,
-        held: &Held,
+        held: &Selection,
         signs: &[S::Scalar],
         c: &mut [S::Scalar],
     ) -> bool {

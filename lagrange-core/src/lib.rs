@@ -78,4 +78,4 @@ pub use error::Error;
 pub use lagrange_macros::Lagrangian;
 pub use monitor::Monitor;
 pub use precompiled::Runnable;
-pub use simulation::{Awaited, Ensemble, Equations, Failure, Held, Runner, Simulation};
+pub use simulation::{Awaited, Ensemble, Equations, Failure, FixedComponents, Runner, Simulation};

@@ -10,9 +10,9 @@ use crate::effects::Effects;
 use crate::erased::Erased;
 use crate::error::Error;
 use crate::run::Run;
-use crate::run::round::{Member, Together, go_on};
+use crate::run::lockstep::{Member, Together, go_on};
 use crate::settings::Settings;
-use crate::state::{Held, State};
+use crate::state::{FixedComponents, State};
 use crate::system::System;
 use crate::trajectory::{Instant, Ledger, Record, Sampler};
 use core::fmt;
@@ -73,7 +73,8 @@ type Execute<T> = fn(
     &mut dyn FnMut(&Record<T>),
 ) -> Result<(), Error>;
 type Book<T> = fn(&Record<T>, Option<&[f64]>) -> Result<Vec<Ledger>, Error>;
-type Consistent<T> = fn(&mut Run<T>, f64, &State<T>, &State<T>, &Held) -> Result<State<T>, Error>;
+type Consistent<T> =
+    fn(&mut Run<T>, f64, &State<T>, &State<T>, &FixedComponents) -> Result<State<T>, Error>;
 
 impl<T: Scalar> Functions<T> {
     /// The functions themselves.

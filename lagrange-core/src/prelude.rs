@@ -9,7 +9,9 @@ pub use crate::error::Error;
 pub use crate::handle::*;
 pub use crate::integrate::Method;
 pub use crate::mode::{FrictionMode, Mode};
-pub use crate::simulation::{Awaited, Ensemble, Equations, Failure, Held, Runner, Simulation};
+pub use crate::simulation::{
+    Awaited, Ensemble, Equations, Failure, FixedComponents, Runner, Simulation,
+};
 pub use crate::system::{Derived, Description, Impacts, System};
 pub use crate::trajectory::{
     Energies, Entry, Estimate, Event, EventKind, Instant, Ledger, Phase, Record, Sampler, Starts,

@@ -46,7 +46,7 @@ impl<S: System> Starts for S {}
 
 /// Which values a consistent state must keep exactly.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Held {
+pub struct FixedComponents {
     /// Per coordinate: keep its position.
     pub positions: Vec<bool>,
     /// Per coordinate: keep its velocity.

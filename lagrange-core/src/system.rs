@@ -6,14 +6,14 @@
 //! M(q,t) v̇ = f(q,v,t) + Σᵢ (aᵢᵀ + couplings) λᵢ        aᵢ v̇ + γᵢ = 0
 //! ```
 //!
-//! Every number is an *output* of a tape or a parameter-only *constant*; a [`Place`] says which.
+//! Every number is an *output* of a tape or a parameter-only *constant*; a [`ValueRef`] says which.
 
 use crate::arithmetic::{Number, Scalar};
 use crate::declaration::Declaration;
 use crate::derivation::Derivation;
 use crate::equations::{ModeStructure, SeriesFn, ValueFn};
 use crate::program::Encoded;
-pub use crate::program::{Held, Needs, Place};
+pub use crate::program::{Needs, Selection, ValueRef};
 use core::fmt;
 use core::str::FromStr;
 
@@ -54,7 +54,7 @@ pub trait System: Clone + Send + Sync + 'static {
     fn mode_constants(
         &self,
         mode: usize,
-        held: &Held,
+        held: &Selection,
         signs: &[Self::Scalar],
         c: &mut [Self::Scalar],
     ) -> bool {
@@ -103,12 +103,12 @@ pub struct Description {
     /// What is read after they are solved, from (t, q…, v…, v̇…, λ… one per row, 0 for rows that do not act).
     pub report: Encoded,
     /// Lower triangle of the mass matrix, structural zeros left out: (row, column ≤ row, where). Motion.
-    pub mass: &'static [(usize, usize, Place)],
+    pub mass: &'static [(usize, usize, ValueRef)],
     /// Parameters that the mass matrix contains, if it is that of a kinetic energy, which must be positive; `None` for a
     /// Lagrangian, whose part of second order in the velocities may have any sign.
     pub inertia: Option<&'static [usize]>,
     /// f, one per coordinate. Motion.
-    pub forcing: &'static [Place],
+    pub forcing: &'static [ValueRef],
     /// All rows: constraints first, then contacts, then the slip components of frictions. Motion.
     pub rows: &'static [Row],
     /// Forces proportional to a row's multiplier, beside aᵀλ: `Q[coordinate] += place · λ[row]`. Motion.
@@ -268,13 +268,13 @@ pub struct Coordinate {
 #[derive(Debug)]
 pub struct Row {
     /// aᵢ: (coordinate, where), structural zeros left out. Need [`RowNeeds::jacobian`].
-    pub jacobian: &'static [(usize, Place)],
+    pub jacobian: &'static [(usize, ValueRef)],
     /// γᵢ. Need [`RowNeeds::bias`].
-    pub bias: Place,
+    pub bias: ValueRef,
     /// g(q,t), for rows of position level (constraints, contacts). Need [`RowNeeds::position`].
-    pub position: Option<Place>,
+    pub position: Option<ValueRef>,
     /// aᵢ v + bᵢ: the rate of g, or the velocity-level residual, or the slip. Need [`RowNeeds::velocity`].
-    pub velocity: Place,
+    pub velocity: ValueRef,
     /// What to hold to have each of these.
     pub needs: RowNeeds,
 }
@@ -300,7 +300,7 @@ pub struct Coupling {
     /// Row whose multiplier scales it.
     pub row: usize,
     /// The factor.
-    pub factor: Place,
+    pub factor: ValueRef,
     /// Need of the force item that it belongs to.
     pub need: usize,
 }
@@ -335,7 +335,7 @@ pub struct Contact {
     /// Index into the rows.
     pub row: usize,
     /// |∂gap/∂p| where `at` is declared: N = λ · factor. None: 1. Motion, need `rows[row].needs.jacobian`.
-    pub normal_factor: Option<Place>,
+    pub normal_factor: Option<ValueRef>,
     /// Law of impact. Motion, need `restitution_need`.
     pub restitution: Restitution,
     /// Need of the restitution.
@@ -343,16 +343,16 @@ pub struct Contact {
     /// Parameters that it contains.
     pub restitution_parameters: &'static [usize],
     /// ≥ 0 where the contact exists. Motion, need `rows[row].needs.position`.
-    pub region: Option<Place>,
+    pub region: Option<ValueRef>,
 }
 
 /// Law of impact.
 #[derive(Clone, Copy, Debug)]
 pub enum Restitution {
     /// v⁺ = −e v⁻.
-    Newton(Place),
+    Newton(ValueRef),
     /// Impulse of restitution = e · impulse of compression.
-    Poisson(Place),
+    Poisson(ValueRef),
 }
 
 /// Coulomb friction.
@@ -367,9 +367,9 @@ pub struct Friction {
     /// Where the normal force comes from.
     pub normal: Normal,
     /// μs. Motion, need `coefficients_need`.
-    pub static_coefficient: Place,
+    pub static_coefficient: ValueRef,
     /// μk. Motion, need `coefficients_need`.
-    pub kinetic_coefficient: Place,
+    pub kinetic_coefficient: ValueRef,
     /// Need of the coefficients (and of a given normal force).
     pub coefficients_need: usize,
     /// Parameters that μs contains.
@@ -386,7 +386,7 @@ pub enum Normal {
     /// |λ| of this constraint.
     Constraint(usize),
     /// An expression (`normal = …`; 1 for `limit = …`, whose limits are the coefficients).
-    Given(Place),
+    Given(ValueRef),
 }
 
 /// An applied force or a dissipation.
@@ -397,9 +397,9 @@ pub struct Load {
     /// Need of its contribution to the forcing.
     pub need: usize,
     /// Its value (for a dissipation R itself; for a vector force its magnitude). Report, need `report_need`.
-    pub value: Place,
+    pub value: ValueRef,
     /// Q · v, W. Report, need `report_need`.
-    pub power: Place,
+    pub power: ValueRef,
     /// Need of value and power.
     pub report_need: usize,
 }
@@ -408,7 +408,7 @@ pub struct Load {
 #[derive(Debug)]
 pub struct Branch {
     /// `then` while ≥ 0. Motion if [`Self::after_solve`] is false, else report.
-    pub guard: Place,
+    pub guard: ValueRef,
     /// Need of the guard.
     pub need: usize,
     /// Whether the guard uses accelerations or forces, so only outputs of the report can use the branch.
@@ -426,13 +426,13 @@ pub struct Branch {
 #[derive(Debug)]
 pub struct Energy {
     /// T as declared.
-    pub kinetic: Place,
+    pub kinetic: ValueRef,
     /// V as declared.
-    pub potential: Place,
+    pub potential: ValueRef,
     /// v·∂L/∂v − L.
-    pub jacobi: Place,
+    pub jacobi: ValueRef,
     /// −∂L/∂t: the rate of the Jacobi integral that explicit time causes.
-    pub time_power: Place,
+    pub time_power: ValueRef,
     /// Need of the unnamed energies' part of all of them.
     pub need: usize,
 }
@@ -441,7 +441,7 @@ pub struct Energy {
 #[derive(Debug)]
 pub struct Momenta {
     /// ∂L/∂v, one per coordinate. Report.
-    pub places: &'static [Place],
+    pub places: &'static [ValueRef],
     /// Need of the unnamed energies' part of all of them.
     pub need: usize,
 }
@@ -452,7 +452,7 @@ pub struct Observe {
     /// Name.
     pub name: &'static str,
     /// Where. Report.
-    pub place: Place,
+    pub place: ValueRef,
     /// Its need.
     pub need: usize,
     /// Unit as declared or inferred; empty for a plain number and where nothing is known.
@@ -465,7 +465,7 @@ pub struct Watch {
     /// Name.
     pub name: &'static str,
     /// Guards; report.
-    pub terms: &'static [Place],
+    pub terms: &'static [ValueRef],
     /// Conditions on the mode.
     pub conditions: &'static [Condition],
     /// Its need.

@@ -1,7 +1,7 @@
 //! All scenes that the program knows. A new scene is one line in `SCENES` or, with a case of `stability`, in `HARD`. A
 //! [`Program`](crate::Program) of one's own has its own instead.
 
-use crate::accuracy::{self, Accuracy, Course, Study};
+use crate::accuracy::{self, Accuracy, Motion, Study};
 use crate::closed_form::ClosedForm;
 use crate::cost::{self, Costs};
 use crate::film::Film;
@@ -366,14 +366,14 @@ impl<S: System<Scalar = f64>> Scene for Entry<S> {
             .closed_form
             .filter(|_| whole)
             .and_then(|known| known(&system, &start, until));
-        let course = Course {
+        let motion = Motion {
             system: &system,
             simulation,
             start,
             until,
             max_steps: 400_000,
         };
-        accuracy::measure(self.name, &course, study, closed_form)
+        accuracy::measure(self.name, &motion, study, closed_form)
     }
 }
 

@@ -328,7 +328,7 @@ impl Start {
     pub(crate) fn state<S: System<Scalar = f64>>(
         &self,
         system: &S,
-        consistent: impl FnOnce(&State<f64>, &State<f64>, &Held) -> Result<State<f64>, Error>,
+        consistent: impl FnOnce(&State<f64>, &State<f64>, &FixedComponents) -> Result<State<f64>, Error>,
     ) -> Result<State<f64>, Error> {
         let n = system.description().coordinates.len();
         let mut reference = State {
@@ -342,7 +342,7 @@ impl Start {
             return Ok(reference);
         }
         let mut wanted = reference.clone();
-        let mut held = Held {
+        let mut held = FixedComponents {
             positions: vec![false; n],
             velocities: vec![false; n],
         };

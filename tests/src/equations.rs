@@ -1,9 +1,9 @@
 //! The equations of motion of a system in one mode at one state, as dense matrices.
 
-use lagrange_core::dynamics::{Dynamics, NeedSet};
+use lagrange_core::dynamics::{Dynamics, OutputMask};
 use lagrange_core::effects::Effects;
 use lagrange_core::mode::Mode;
-use lagrange_core::system::{Place, System};
+use lagrange_core::system::{System, ValueRef};
 
 /// What the derived equations say at one state.
 #[derive(Clone, Debug)]
@@ -36,7 +36,7 @@ impl Equations {
         let n = d.coordinates.len();
         let mut dynamics = Dynamics::new(scene, &Effects::all());
         dynamics.set_mode(mode);
-        let mut needs = NeedSet::new(d);
+        let mut needs = OutputMask::new(d);
         for row in d.rows {
             let wanted = row.needs;
             [
@@ -50,13 +50,13 @@ impl Equations {
         }
         dynamics.set_extra_needs(&needs);
         dynamics.value(0.0, q, v).expect("the equations of motion");
-        let number = |place: Place| dynamics.motion(place);
+        let number = |place: ValueRef| dynamics.motion(place);
         let mut mass = vec![vec![0.0; n]; n];
         for &(i, j, place) in d.mass {
             mass[i][j] = number(place);
             mass[j][i] = number(place);
         }
-        let dense = |row: &[(usize, Place)]| {
+        let dense = |row: &[(usize, ValueRef)]| {
             let mut a = vec![0.0; n];
             row.iter().for_each(|&(j, place)| a[j] = number(place));
             a
@@ -69,7 +69,7 @@ impl Equations {
             position: d
                 .rows
                 .iter()
-                .map(|row| number(row.position.unwrap_or(Place::Zero)))
+                .map(|row| number(row.position.unwrap_or(ValueRef::Zero)))
                 .collect(),
             velocity: d.rows.iter().map(|row| number(row.velocity)).collect(),
             acceleration: dynamics.acceleration().to_vec(),

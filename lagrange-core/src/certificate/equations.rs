@@ -353,7 +353,7 @@ impl Equations {
     }
 
     /// Remembers the sizes of the forces that balance at the state taken.
-    pub fn survey(&mut self, at: Situation<'_>) {
+    pub fn status(&mut self, at: Situation<'_>) {
         self.take(at);
         self.balance(at.forces);
         for (largest, size) in self.largest.iter_mut().zip(&self.size) {

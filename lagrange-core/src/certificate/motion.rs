@@ -134,12 +134,12 @@ pub(super) fn numbers<T: Scalar>(state: &State<T>) -> State<f64> {
 
 impl<T: Scalar> Examination<'_, T> {
     /// The sizes of forces in the run; what is reported at a chosen instant of each step that is looked at, if it can be evaluated.
-    fn survey(&mut self, chosen: &[Option<f64>]) -> Vec<Option<Numbers>> {
+    fn status(&mut self, chosen: &[Option<f64>]) -> Vec<Option<Numbers>> {
         let mut sampler = Sampler::new(self.record);
         let mut look = |(k, s): (usize, &Option<f64>)| {
             let now = sampler.inside(k, T::from_f64((*s)?)).ok()?;
             let now = Numbers::of(&now);
-            self.equations.survey(now.situation());
+            self.equations.status(now.situation());
             Some(now)
         };
         chosen.iter().enumerate().map(&mut look).collect()
@@ -147,7 +147,7 @@ impl<T: Scalar> Examination<'_, T> {
 
     fn steps(&mut self, chosen: &[Option<f64>]) {
         let record = self.record;
-        let reported = self.survey(chosen);
+        let reported = self.status(chosen);
         for (k, (segment, now)) in record.segments.iter().zip(&reported).enumerate() {
             let (t, h, end) = (segment.t.value(), segment.h.value(), segment.end.value());
             let begin = self.state_at(k, 0.0);

@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::handle::{ContactId, FrictionId};
 use crate::mode::{FrictionMode, Mode, Sliding};
 use crate::modes::guard;
-use crate::modes::sharing::Sharing;
+use crate::modes::redundant::RedundantForces;
 use crate::system::{Normal, System};
 use crate::trajectory::{Instant, State, instant, report_everything};
 
@@ -159,7 +159,7 @@ impl<'a, S: System<Scalar = f64>> Checks<'a, S> {
         let mut mode = self.mode.clone();
         let outcome = self.settle(&mut dynamics, &state, &mut mode);
         outcome.map_err(|e| Error::from_evaluation(e, 0.0, &mode, d))?;
-        let now = instant(&mut dynamics, &mut Sharing::default(), 0.0, &state);
+        let now = instant(&mut dynamics, &mut RedundantForces::default(), 0.0, &state);
         Ok((scene, now))
     }
 

@@ -1,4 +1,4 @@
-//! Known formulas match, wrong ones are told with the worst state.
+//! SwitchFacts formulas match, wrong ones are told with the worst state.
 
 use super::Checks;
 use crate::assert_matches;

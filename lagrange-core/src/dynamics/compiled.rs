@@ -4,14 +4,14 @@
 use super::constants::Constants;
 use super::emitted::Emitted;
 use super::interpreted::Interpreted;
-use super::needs::{self, NeedSet};
+use super::output_mask::{self, OutputMask};
 use crate::arithmetic::Scalar;
 use crate::effects::Effects;
 use crate::equations::Arguments;
 use crate::erased::ErasedSystem;
-use crate::linear::{Plan, Solver, acting};
+use crate::linear::{KktPattern, Solver, acting};
 use crate::mode::Mode;
-use crate::system::{Description, Held};
+use crate::system::{Description, Selection};
 
 /// Interpreted equations kept per mode: what is asked for beside the motion changes between stepping and switching, and numbers vanish
 /// for some parameters and not for others.
@@ -22,11 +22,11 @@ const MOST_INTERPRETED: usize = 12;
 pub(super) struct Compiled<T: Scalar> {
     pub mode: Mode,
     /// Of the equations of motion.
-    pub motion_needs: NeedSet,
+    pub motion_needs: OutputMask,
     /// Inertia, Jacobians and residuals of the rows that act.
-    pub row_needs: NeedSet,
+    pub row_needs: OutputMask,
     /// Of the constants.
-    constant_needs: NeedSet,
+    constant_needs: OutputMask,
     /// Rows that act, ascending.
     pub acting: Vec<usize>,
     /// What computes the system's constants.
@@ -34,11 +34,11 @@ pub(super) struct Compiled<T: Scalar> {
     /// The system's own, then the plan's.
     pub constants: Vec<T>,
     /// How the linear system is solved where no functions do it.
-    pub plan: Plan<T>,
+    pub pattern: KktPattern<T>,
     /// Whether the plan is that of the present parameters.
     planned: bool,
     /// The plan for the parameters before.
-    spare: Plan<T>,
+    spare: KktPattern<T>,
     pub solver: Solver<T>,
     /// Whether the solver holds the factors of this plan.
     pub factored: bool,
@@ -60,11 +60,11 @@ pub(super) struct Compiled<T: Scalar> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Asked<'a> {
     /// Everything that is held of the motion.
-    pub held: &'a NeedSet,
+    pub held: &'a OutputMask,
     /// Of this, what is asked for beside the motion.
-    pub extra: &'a NeedSet,
+    pub extra: &'a OutputMask,
     /// What is held of the report; none if nothing is asked of it.
-    pub report: Option<&'a NeedSet>,
+    pub report: Option<&'a OutputMask>,
     /// How much of the equations it is.
     pub part: Part,
 }
@@ -81,19 +81,19 @@ pub(super) enum Part {
 impl<T: Scalar> Compiled<T> {
     pub(super) fn new(system: &dyn ErasedSystem<T>, effects: &Effects, mode: &Mode) -> Self {
         let d = system.description();
-        let mut motion_needs = NeedSet::new(d);
-        let mut row_needs = NeedSet::new(d);
-        let mut held = NeedSet::new(d);
-        needs::of_motion(d, effects, mode, &mut motion_needs);
-        needs::of_rows(d, effects, mode, &mut row_needs);
-        needs::of_effects(d, effects, &mut held);
+        let mut motion_needs = OutputMask::new(d);
+        let mut row_needs = OutputMask::new(d);
+        let mut held = OutputMask::new(d);
+        output_mask::of_motion(d, effects, mode, &mut motion_needs);
+        output_mask::of_rows(d, effects, mode, &mut row_needs);
+        output_mask::of_effects(d, effects, &mut held);
         let mut compiled = Self {
             mode: mode.clone(),
             motion_needs,
             row_needs,
             own: Constants::load(
                 system,
-                &Held {
+                &Selection {
                     needs: &held,
                     branches: &mode.branches,
                 },
@@ -101,9 +101,9 @@ impl<T: Scalar> Compiled<T> {
             constant_needs: held,
             acting: acting(d, effects, mode).collect(),
             constants: Vec::new(),
-            plan: Plan::default(),
+            pattern: KktPattern::default(),
             planned: false,
-            spare: Plan::default(),
+            spare: KktPattern::default(),
             solver: Solver::default(),
             factored: false,
             outdated: false,
@@ -119,7 +119,7 @@ impl<T: Scalar> Compiled<T> {
 
     /// Numbers of a system, and the plan if it is needed for sure.
     fn set_numbers(&mut self, system: &dyn ErasedSystem<T>, effects: &Effects) {
-        let held = Held {
+        let held = Selection {
             needs: &self.constant_needs,
             branches: &self.mode.branches,
         };
@@ -140,11 +140,13 @@ impl<T: Scalar> Compiled<T> {
         }
         self.planned = true;
         self.factored = false;
-        core::mem::swap(&mut self.plan, &mut self.spare);
-        self.plan.set(d, effects, &self.mode, &mut self.constants);
-        if !self.plan.is_like(&self.spare) {
+        core::mem::swap(&mut self.pattern, &mut self.spare);
+        self.pattern
+            .set(d, effects, &self.mode, &mut self.constants);
+        if !self.pattern.is_like(&self.spare) {
             self.interpreted.list.clear();
-            self.solver.reserve(self.plan.free(), self.plan.kept.len());
+            self.solver
+                .reserve(self.pattern.free(), self.pattern.kept.len());
         }
     }
 
@@ -184,7 +186,7 @@ impl<T: Scalar> Compiled<T> {
 
     /// Whether a row that acts is held aside.
     pub(super) fn holds_aside(&self, row: usize) -> bool {
-        let kept = self.plan.kept.iter().position(|&kept| kept == row);
+        let kept = self.pattern.kept.iter().position(|&kept| kept == row);
         kept.is_some_and(|i| self.solver.holds_aside(i))
     }
 
@@ -200,12 +202,12 @@ impl<T: Scalar> Compiled<T> {
     pub(super) fn value(
         &mut self,
         d: &Description,
-        needs: Option<&NeedSet>,
+        needs: Option<&OutputMask>,
         state: Arguments<T>,
         accelerations: &mut [T],
         forces: &mut [T],
     ) -> bool {
-        let held = Held {
+        let held = Selection {
             needs: needs.unwrap_or(&self.motion_needs),
             branches: &self.mode.branches,
         };
@@ -219,9 +221,12 @@ impl<T: Scalar> Compiled<T> {
 
     /// The functions of the mode, with what they are told for these needs.
     #[inline]
-    pub(super) fn emitted<'a>(&'a self, needs: &'a NeedSet) -> Option<(&'a Emitted<T>, Held<'a>)> {
+    pub(super) fn emitted<'a>(
+        &'a self,
+        needs: &'a OutputMask,
+    ) -> Option<(&'a Emitted<T>, Selection<'a>)> {
         let branches = &self.mode.branches;
-        let held = Held { needs, branches };
+        let held = Selection { needs, branches };
         self.emitted.as_ref().map(|emitted| (emitted, held))
     }
 
@@ -229,10 +234,10 @@ impl<T: Scalar> Compiled<T> {
     #[inline]
     pub(super) fn emitted_mut<'a>(
         &'a mut self,
-        needs: &'a NeedSet,
-    ) -> Option<(&'a mut Emitted<T>, Held<'a>)> {
+        needs: &'a OutputMask,
+    ) -> Option<(&'a mut Emitted<T>, Selection<'a>)> {
         let branches = &self.mode.branches;
-        let held = Held { needs, branches };
+        let held = Selection { needs, branches };
         self.emitted.as_mut().map(|emitted| (emitted, held))
     }
 
@@ -244,9 +249,9 @@ impl<T: Scalar> Compiled<T> {
 
     /// The parts that an evaluation by the interpreter works with.
     #[inline]
-    pub(super) fn parts(&mut self) -> (&Plan<T>, &mut Solver<T>, &mut Interpreted<T>) {
+    pub(super) fn parts(&mut self) -> (&KktPattern<T>, &mut Solver<T>, &mut Interpreted<T>) {
         let Loaded { list, in_use } = &mut self.interpreted;
-        (&self.plan, &mut self.solver, &mut list[*in_use])
+        (&self.pattern, &mut self.solver, &mut list[*in_use])
     }
 
     /// The outputs in use.
@@ -274,7 +279,7 @@ impl<T: Scalar> Compiled<T> {
             let mut rows = core::mem::take(&mut self.rows);
             rows.retain_mut(|rows| rows.renew(system, self, numbers));
             if rows.is_empty() {
-                let no_series = NeedSet::new(system.description());
+                let no_series = OutputMask::new(system.description());
                 let asked = Asked {
                     held: &self.row_needs,
                     extra: &no_series,

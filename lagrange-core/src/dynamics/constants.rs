@@ -3,7 +3,7 @@
 use crate::arithmetic::Scalar;
 use crate::erased::ErasedSystem;
 use crate::program::{Builder, Numbers, Program, Register, room};
-use crate::system::Held;
+use crate::system::Selection;
 
 /// The program of the constants, loaded for the effects of a scene and the branches of a mode.
 ///
@@ -17,7 +17,7 @@ pub(super) struct Constants<T> {
 
 impl<T: Scalar> Constants<T> {
     /// The constants for what is held.
-    pub(super) fn load(system: &dyn ErasedSystem<T>, held: &Held) -> Self {
+    pub(super) fn load(system: &dyn ErasedSystem<T>, held: &Selection) -> Self {
         let d = system.description();
         let parameters = d.parameters.len();
         let first = 1 + parameters + d.constants.numbers.len();

@@ -7,7 +7,7 @@ use crate::equations::{
 };
 use crate::erased::ErasedSystem;
 use crate::mode::{Direction, FrictionMode, Mode};
-use crate::system::{Description, Held, Place};
+use crate::system::{Description, Selection, ValueRef};
 
 /// A series that is always zero.
 const NO_ROW: u32 = u32::MAX;
@@ -98,7 +98,7 @@ impl<T: Scalar> Emitted<T> {
     }
 
     /// Takes the numbers of a system's parameters.
-    pub(super) fn renew(&mut self, system: &dyn ErasedSystem<T>, held: &Held) {
+    pub(super) fn renew(&mut self, system: &dyn ErasedSystem<T>, held: &Selection) {
         self.admitted = system.mode_constants(self.index, held, &self.signs, &mut self.constants);
     }
 
@@ -113,8 +113,8 @@ impl<T: Scalar> Emitted<T> {
         let mut pins = self.structure.pins.iter();
         pins.all(|&(j, place)| {
             let at = match place {
-                Place::Constant(i) => self.constants[i],
-                Place::Zero | Place::Node(_) => T::default(),
+                ValueRef::Constant(i) => self.constants[i],
+                ValueRef::Zero | ValueRef::Node(_) => T::default(),
             };
             let allowed = 16.0 * epsilon::<T>() * at.value().abs().max(1.0);
             v[j].is_zero() && (q[j] - at).value().abs() <= allowed
@@ -123,7 +123,12 @@ impl<T: Scalar> Emitted<T> {
 
     /// Accelerations. False if a pivot is not safe.
     #[inline]
-    pub(super) fn accelerations(&self, held: &Held, state: Arguments<T>, out: &mut [T]) -> bool {
+    pub(super) fn accelerations(
+        &self,
+        held: &Selection,
+        state: Arguments<T>,
+        out: &mut [T],
+    ) -> bool {
         (self.value)(&self.constants, held, state, out, None)
     }
 
@@ -131,7 +136,7 @@ impl<T: Scalar> Emitted<T> {
     #[inline]
     pub(super) fn value(
         &mut self,
-        held: &Held,
+        held: &Selection,
         state: Arguments<T>,
         accelerations: &mut [T],
     ) -> bool {
@@ -167,7 +172,7 @@ impl<T: Scalar> Emitted<T> {
     #[inline]
     pub(super) fn series(
         &mut self,
-        held: &Held,
+        held: &Selection,
         order: usize,
         state: Arguments<T>,
     ) -> Result<(), Refused> {

@@ -11,12 +11,12 @@
 
 use super::Operations;
 use super::compiled::{Asked, Compiled, Part};
-use super::needs::NeedSet;
+use super::output_mask::OutputMask;
 use crate::arithmetic::{Number, Scalar};
 use crate::erased::ErasedSystem;
-use crate::linear::Plan;
+use crate::linear::KktPattern;
 use crate::program::{Builder, Numbers, Op, Program, Register, Series, room};
-use crate::system::{Description, Held, Place};
+use crate::system::{Description, Selection, ValueRef};
 use core::ops::Range;
 use std::sync::Arc;
 
@@ -57,7 +57,7 @@ pub(super) struct Shape {
     /// Outputs of the motion program that are held: (node, register).
     held_nodes: Vec<(usize, Register)>,
     /// Directions given from outside: (friction, components, their rates).
-    pub headings: Vec<(usize, [Register; 2], [Register; 2])>,
+    pub slip_directions: Vec<(usize, [Register; 2], [Register; 2])>,
     /// Whose series are kept.
     wanted: Vec<Register>,
     /// Where the numbers are.
@@ -112,9 +112,9 @@ impl Shape {
 /// The interpreted equations of a mode, for what is asked.
 #[derive(Clone, Debug)]
 pub(super) struct Interpreted<T> {
-    held: NeedSet,
-    extra: NeedSet,
-    report: Option<NeedSet>,
+    held: OutputMask,
+    extra: OutputMask,
+    report: Option<OutputMask>,
     part: Part,
     /// Shared with other motions that do the same with other numbers.
     pub shape: Arc<Shape>,
@@ -289,13 +289,13 @@ fn collect<T: Scalar>(
     let exact = d.motion.numbers.iter().chain(d.report.numbers);
     numbers.extend(exact.map(|&number| T::from_f64(number)));
     if part == Part::Solution {
-        compiled.plan.collect(numbers);
+        compiled.pattern.collect(numbers);
     }
 }
 
 /// Loads the programs and writes the solution between them if it is asked for, for these numbers.
 fn shape<T: Scalar>(d: &Description, compiled: &Compiled<T>, asked: &Asked, values: &[T]) -> Shape {
-    let Compiled { mode, plan, .. } = compiled;
+    let Compiled { mode, pattern, .. } = compiled;
     let constants = compiled.constants(asked.part);
     let n = d.coordinates.len();
     let inputs: Vec<Register> = (1..2 + 3 * n + d.rows.len()).map(Register::new).collect();
@@ -310,7 +310,7 @@ fn shape<T: Scalar>(d: &Description, compiled: &Compiled<T>, asked: &Asked, valu
         ..of_motion
     };
     let of_plan = of_report.exact + d.report.numbers.len();
-    let held = |needs| Held {
+    let held = |needs| Selection {
         needs,
         branches: &mode.branches,
     };
@@ -326,28 +326,29 @@ fn shape<T: Scalar>(d: &Description, compiled: &Compiled<T>, asked: &Asked, valu
     let mut nodes: Vec<Register> = outputs.collect();
     builder.cut();
     let solution = (asked.part == Part::Solution).then(|| {
-        plan.program
+        pattern
+            .program
             .load(&mut builder, of_motion.constants, of_plan, &mut nodes);
-        let headings = plan.headings.iter().map(|heading| {
-            let components = heading.nodes.map(|node| nodes[node]);
+        let slip_directions = pattern.slip_directions.iter().map(|slip_direction| {
+            let components = slip_direction.nodes.map(|node| nodes[node]);
             let rates = [builder.fresh(), builder.fresh()];
-            (heading.friction, components, rates)
+            (slip_direction.friction, components, rates)
         });
-        let headings: Vec<_> = headings.collect();
+        let slip_directions: Vec<_> = slip_directions.collect();
         let mut solution = Solution {
             builder: &mut builder,
-            plan,
+            pattern,
             nodes: &nodes,
             inputs: &inputs,
             n,
-            first: of_plan + plan.program.numbers().count(),
+            first: of_plan + pattern.program.numbers().count(),
             constants: of_motion.constants,
         };
         let right = solution.right_hand_sides();
         let unknowns = solution.unknowns();
         solution.builder.cut();
         solution.forces(&unknowns, &right);
-        (headings, right, unknowns)
+        (slip_directions, right, unknowns)
     });
     if solution.is_none() {
         builder.cut();
@@ -370,7 +371,7 @@ fn shape<T: Scalar>(d: &Description, compiled: &Compiled<T>, asked: &Asked, valu
         registers: room(used),
         ..Shape::default()
     };
-    let Some((headings, right, unknowns)) = solution else {
+    let Some((slip_directions, right, unknowns)) = solution else {
         let nodes = outputs.held_nodes.iter().map(|(_, register)| *register);
         let wanted = nodes.chain(outputs.report_nodes.iter().copied());
         return Shape {
@@ -382,44 +383,44 @@ fn shape<T: Scalar>(d: &Description, compiled: &Compiled<T>, asked: &Asked, valu
     // What is kept of a series: accelerations are in the velocities.
     let mut wanted = [&inputs[1..1 + 2 * n], &inputs[1 + 3 * n..]].concat();
     asked_places(d, asked.extra, &mut |place| {
-        if let Place::Node(node) = place {
+        if let ValueRef::Node(node) = place {
             wanted.push(nodes[node]);
         }
     });
     wanted.extend_from_slice(report_nodes);
-    for &(friction, ..) in &headings {
+    for &(friction, ..) in &slip_directions {
         for row in d.frictions[friction].row..d.frictions[friction].row + 2 {
-            if let Place::Node(node) = d.rows[row].velocity {
+            if let ValueRef::Node(node) = d.rows[row].velocity {
                 wanted.push(nodes[node]);
             }
         }
     }
     // What the solution needs.
-    let matrix = plan.entries.iter().map(|e| Place::Node(e.node));
+    let matrix = pattern.entries.iter().map(|e| ValueRef::Node(e.node));
     let system = matrix
-        .chain(plan.cancelling())
+        .chain(pattern.cancelling())
         .filter_map(|place| match place {
-            Place::Node(node) => Some(nodes[node]),
-            Place::Zero | Place::Constant(_) => None,
+            ValueRef::Node(node) => Some(nodes[node]),
+            ValueRef::Zero | ValueRef::Constant(_) => None,
         });
     let system: Vec<Register> = system.chain(right.iter().copied()).collect();
     let accelerations = inputs[1 + 2 * n..1 + 3 * n].iter().chain(&system).copied();
-    let changes = (1..1 + n).chain((1 + n..1 + 2 * n).filter(|i| !plan.is_pinned(i - 1 - n)));
+    let changes = (1..1 + n).chain((1 + n..1 + 2 * n).filter(|i| !pattern.is_pinned(i - 1 - n)));
     let changes = changes.map(|i| (inputs[i], inputs[i + n]));
-    let turns = headings
+    let turns = slip_directions
         .iter()
         .flat_map(|&(_, u, rates)| u.into_iter().zip(rates));
-    let elements = plan.entries.iter().filter(|e| !nodes[e.node].is_zero());
+    let elements = pattern.entries.iter().filter(|e| !nodes[e.node].is_zero());
     let elements = elements.map(|e| (e.row, nodes[e.node], unknowns[e.column]));
     Shape {
         series: everything.needed(wanted.iter().copied().chain(accelerations.clone()), used),
         accelerations: everything.needed(accelerations, used),
         everything,
         integrals: changes.chain(turns).collect(),
-        right: right[..plan.size()].to_vec(),
+        right: right[..pattern.size()].to_vec(),
         elements: elements.collect(),
         unknowns,
-        headings,
+        slip_directions,
         wanted,
         ..outputs
     }
@@ -428,7 +429,7 @@ fn shape<T: Scalar>(d: &Description, compiled: &Compiled<T>, asked: &Asked, valu
 /// What a mode adds to the program of its motion.
 struct Solution<'a, T> {
     builder: &'a mut Builder,
-    plan: &'a Plan<T>,
+    pattern: &'a KktPattern<T>,
     nodes: &'a [Register],
     inputs: &'a [Register],
     /// Number of coordinates.
@@ -442,13 +443,13 @@ struct Solution<'a, T> {
 impl<T: Scalar> Solution<'_, T> {
     /// Right-hand sides of the equations and of the forces of eliminated rows.
     fn right_hand_sides(&mut self) -> Vec<Register> {
-        let plan = self.plan;
-        let constant_loads = self.first + plan.constant_of_forces().len();
-        let factors = constant_loads + plan.constant_load.len();
-        let constants = plan.constant_load.iter().enumerate();
+        let pattern = self.pattern;
+        let constant_loads = self.first + pattern.constant_of_forces().len();
+        let factors = constant_loads + pattern.constant_load.len();
+        let constants = pattern.constant_load.iter().enumerate();
         constants
             .map(|(row, constant)| {
-                let loads = plan.loads.iter().zip(factors..);
+                let loads = pattern.loads.iter().zip(factors..);
                 let loads = loads.filter(|(load, _)| load.row == row);
                 let terms = loads.map(|(load, at)| (Register::new(at), self.nodes[load.node]));
                 let sum = self.builder.sum(terms);
@@ -463,20 +464,21 @@ impl<T: Scalar> Solution<'_, T> {
 
     /// Where the unknowns go: accelerations of free coordinates to where they are read.
     fn unknowns(&mut self) -> Vec<Register> {
-        let free = self.plan.elimination.free.iter();
+        let free = self.pattern.elimination.free.iter();
         let mut unknowns: Vec<_> = free.map(|&j| self.inputs[1 + 2 * self.n + j]).collect();
-        unknowns.resize_with(self.plan.size(), || self.builder.fresh());
+        unknowns.resize_with(self.pattern.size(), || self.builder.fresh());
         unknowns
     }
 
     /// Accelerations and forces from the unknowns, to where the report reads them.
     fn forces(&mut self, unknowns: &[Register], right: &[Register]) {
-        let (plan, nodes) = (self.plan, self.nodes);
-        let mut factor = self.first + plan.constant_of_forces().len() + plan.constant_load.len();
-        factor += plan.loads.len();
+        let (pattern, nodes) = (self.pattern, self.nodes);
+        let mut factor =
+            self.first + pattern.constant_of_forces().len() + pattern.constant_load.len();
+        factor += pattern.loads.len();
         for j in 0..self.n {
-            let parts = plan.elimination.right.row(j);
-            if !plan.elimination.free.contains(&j) {
+            let parts = pattern.elimination.right.row(j);
+            if !pattern.elimination.free.contains(&j) {
                 let terms = parts.iter().zip(factor..);
                 let terms = terms.map(|(&(column, _), at)| (Register::new(at), unknowns[column]));
                 let sum = self.builder.sum(terms);
@@ -485,19 +487,23 @@ impl<T: Scalar> Solution<'_, T> {
             factor += parts.len();
         }
         let force = |row: usize| self.inputs[1 + 3 * self.n + row];
-        for (&row, &unknown) in plan.kept.iter().zip(&unknowns[plan.free()..]) {
+        for (&row, &unknown) in pattern.kept.iter().zip(&unknowns[pattern.free()..]) {
             let negative = self.builder.push(Op::Neg, unknown, Register::ZERO);
             self.builder.copy(force(row), negative);
         }
-        let size = plan.size();
-        for (index, &row) in plan.eliminated.iter().enumerate() {
-            let elements = &plan.constant_of_forces()[index * size..(index + 1) * size];
+        let size = pattern.size();
+        for (index, &row) in pattern.eliminated.iter().enumerate() {
+            let elements = &pattern.constant_of_forces()[index * size..(index + 1) * size];
             let places = self.first + index * size..;
             let terms = elements.iter().zip(places).zip(unknowns);
             let terms = terms.filter(|((element, _), _)| !element.is_zero());
             let terms = terms.map(|((_, at), &unknown)| (Register::new(at), unknown));
             let mut sum = self.builder.sum(terms);
-            for entry in plan.force_entries.iter().filter(|e| e.row == size + index) {
+            for entry in pattern
+                .force_entries
+                .iter()
+                .filter(|e| e.row == size + index)
+            {
                 let element = nodes[entry.node];
                 let product = self.builder.push(Op::Mul, element, unknowns[entry.column]);
                 sum = self.builder.push(Op::Add, sum, product);
@@ -505,15 +511,17 @@ impl<T: Scalar> Solution<'_, T> {
             let value = self.builder.push(Op::Sub, sum, right[size + index]);
             self.builder.copy(force(row), value);
         }
-        for slide in &plan.slides {
+        for slide in &pattern.slides {
             let factor = match slide.factor {
-                Place::Zero => Register::ZERO,
-                Place::Constant(at) => Register::new(self.constants + at),
-                Place::Node(node) => nodes[node],
+                ValueRef::Zero => Register::ZERO,
+                ValueRef::Constant(at) => Register::new(self.constants + at),
+                ValueRef::Node(node) => nodes[node],
             };
             let value = match (slide.factor, slide.source) {
                 (_, None) => factor,
-                (Place::Node(_), Some(source)) => self.builder.push(Op::Mul, factor, force(source)),
+                (ValueRef::Node(_), Some(source)) => {
+                    self.builder.push(Op::Mul, factor, force(source))
+                }
                 (_, Some(source)) => self.builder.push(Op::Scale, factor, force(source)),
             };
             self.builder.copy(force(slide.row), value);
@@ -522,7 +530,7 @@ impl<T: Scalar> Solution<'_, T> {
 }
 
 /// The outputs of the motion program that a set of needs asks for.
-fn asked_places(d: &Description, needs: &NeedSet, take: &mut dyn FnMut(Place)) {
+fn asked_places(d: &Description, needs: &OutputMask, take: &mut dyn FnMut(ValueRef)) {
     for row in d.rows {
         if needs.contains(row.needs.jacobian) {
             row.jacobian.iter().for_each(|&(_, place)| take(place));

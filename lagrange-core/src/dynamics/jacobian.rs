@@ -42,7 +42,7 @@ impl<T: Scalar> Dynamics<T> {
                 if let Some(unknown) = self.right.iter().position(|x| !x.value().is_finite()) {
                     outcome = outcome.and(Err(self.not_finite(unknown)));
                 }
-                let elimination = &self.compiled().plan.elimination;
+                let elimination = &self.compiled().pattern.elimination;
                 for (j, element) in columns[(first + lane) * n..].iter_mut().take(n).enumerate() {
                     *element = elimination.acceleration(j, &self.right);
                 }
@@ -80,12 +80,12 @@ impl<T: Scalar> Dynamics<T> {
             lanes,
             ..
         } = self;
-        let (plan, _, interpreted) = modes[*current].parts();
+        let (pattern, _, interpreted) = modes[*current].parts();
         let shape = &interpreted.shape;
         let sides = shape.right.iter();
         right.clear();
         right.extend(sides.map(|register| lanes[register.index()].derivative[lane]));
-        for entry in &plan.entries {
+        for entry in &pattern.entries {
             let element = lanes[shape.nodes[entry.node].index()];
             right[entry.row] -= element.derivative[lane] * known[entry.column];
         }

@@ -4,7 +4,7 @@ use super::Dynamics;
 use super::emitted::Emitted;
 use crate::arithmetic::{Pack, Scalar};
 use crate::equations::{ROW, Row, SeriesFn};
-use crate::system::Held;
+use crate::system::Selection;
 
 /// Motions side by side.
 pub(crate) const LANES: usize = 4;
@@ -118,7 +118,7 @@ impl<T: Scalar> Dynamics<T> {
     }
 
     /// The functions of the mode, and what they are told for a series.
-    fn functions_of_series(&self) -> Option<(&Emitted<T>, Held<'_>)> {
+    fn functions_of_series(&self) -> Option<(&Emitted<T>, Selection<'_>)> {
         self.compiled().emitted(&self.series_held)
     }
 

@@ -53,7 +53,7 @@ impl<T: Scalar> Dynamics<T> {
         let compiled = self.compiled();
         // The pivots of functions are safe.
         !self.by_functions
-            && (compiled.plan.has_dependent_rows() || compiled.solver.has_rows_aside())
+            && (compiled.pattern.has_dependent_rows() || compiled.solver.has_rows_aside())
     }
 
     /// Whether rows whose coefficients change with the state were dependent at the last evaluation by the solver.
@@ -81,7 +81,7 @@ impl<T: Scalar> Dynamics<T> {
             determined[row] = freedom.is_determined(i);
         }
         let forces = self.forces_of_acting(&acting_forces);
-        for slide in &self.compiled().plan.slides {
+        for slide in &self.compiled().pattern.slides {
             if let Some(source) = slide.source {
                 determined[slide.row] = determined[source];
             }
@@ -93,10 +93,10 @@ impl<T: Scalar> Dynamics<T> {
     pub(crate) fn least_norm_of_acting(&self) -> (Vec<T>, Freedom) {
         let n = self.description().coordinates.len();
         let acting = self.acting_rows();
-        let plan = &self.compiled().plan;
+        let pattern = &self.compiled().pattern;
         let nodes = self.program_nodes();
         let mut columns = vec![T::default(); n * acting.len()];
-        for (index, coordinate, place) in plan.columns() {
+        for (index, coordinate, place) in pattern.columns() {
             columns[index * n + coordinate] += place.read(&self.compiled().constants, &nodes);
         }
         let mut forces: Vec<T> = acting.iter().map(|&row| self.force(row)).collect();
@@ -112,7 +112,7 @@ impl<T: Scalar> Dynamics<T> {
         for (&row, &force) in self.acting_rows().iter().zip(acting_forces) {
             forces[row] = force;
         }
-        for slide in &self.compiled().plan.slides {
+        for slide in &self.compiled().pattern.slides {
             if let Some(source) = slide.source {
                 forces[slide.row] =
                     slide.factor.read(&self.compiled().constants, &nodes) * forces[source];
@@ -161,8 +161,8 @@ impl<T: Scalar> Dynamics<T> {
         };
         let shape = &interpreted.shape;
         let mut registers = interpreted.registers.clone();
-        for &(friction, components, _) in &shape.headings {
-            for (register, along) in components.into_iter().zip(self.heading(friction)) {
+        for &(friction, components, _) in &shape.slip_directions {
+            for (register, along) in components.into_iter().zip(self.slip_direction(friction)) {
                 registers[register.index()] = along;
             }
         }

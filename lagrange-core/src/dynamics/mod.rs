@@ -8,33 +8,33 @@ mod compiled;
 mod constants;
 mod emitted;
 mod error;
-mod heading;
 mod interpreted;
 mod jacobian;
 mod lanes;
 mod matrices;
-mod needs;
+mod output_mask;
 mod packets;
 mod projection;
 mod series;
+mod slip_direction;
 mod stepping;
 #[cfg(test)]
 pub(crate) mod tests;
 mod values;
 
 pub use error::{EvaluationError, row_name};
-pub(crate) use heading::{approach, solve_small};
 pub(crate) use lanes::{Lanes, Start};
-pub use needs::{NeedSet, add_branch_guards, add_guards};
+pub use output_mask::{OutputMask, add_branch_guards, add_guards};
 pub(crate) use packets::Packets;
 pub use projection::Residual;
+pub(crate) use slip_direction::{approach, solve_small};
 
 use crate::arithmetic::Scalar;
 use crate::effects::Effects;
 use crate::erased::Erased;
 use crate::linear::{SolveError, Solver};
 use crate::mode::Mode;
-use crate::system::{Description, Place};
+use crate::system::{Description, ValueRef};
 use compiled::{Asked, Compiled, Part};
 use emitted::Emitted;
 
@@ -89,20 +89,20 @@ pub struct Dynamics<T: Scalar> {
     /// Index of the mode to forget next.
     oldest: usize,
     /// The equations of motion of this mode and what was asked for beside.
-    held: NeedSet,
-    extra: NeedSet,
+    held: OutputMask,
+    extra: OutputMask,
     /// Whether nothing else is read of this than what guards read.
     guards_alone: bool,
     /// Whether the outputs at the last value are those that the functions of the mode have given.
     given: bool,
-    report_needs: NeedSet,
+    report_needs: OutputMask,
     /// What is held of the report: the effects' own needs and what was asked for.
-    report_held: NeedSet,
+    report_held: OutputMask,
     reports: bool,
     /// What is held of the functions of a mode for a series.
-    series_held: NeedSet,
+    series_held: OutputMask,
     /// Of the named energies.
-    energies: NeedSet,
+    energies: OutputMask,
     /// Which interpreted equations are in use; none if they are those for other needs, or of another mode.
     selected: Option<Part>,
     /// Whether the last evaluation was by the functions of the mode.
@@ -119,7 +119,7 @@ pub struct Dynamics<T: Scalar> {
     right: Vec<T>,
     solution: Vec<T>,
     /// Directions of slips with two components.
-    headings: heading::Headings<T>,
+    slip_directions: slip_direction::SlipDirections<T>,
     projector: Solver<T>,
     projection: projection::Scratch<T>,
     /// Columns of a Jacobian, for a stepper that wants rows.
@@ -144,15 +144,15 @@ impl<T: Scalar> Dynamics<T> {
             current: 0,
             numbers: Vec::new(),
             oldest: 0,
-            held: NeedSet::new(d),
-            extra: NeedSet::new(d),
+            held: OutputMask::new(d),
+            extra: OutputMask::new(d),
             guards_alone: false,
             given: false,
-            report_needs: NeedSet::new(d),
-            report_held: NeedSet::new(d),
+            report_needs: OutputMask::new(d),
+            report_held: OutputMask::new(d),
             reports: false,
-            series_held: NeedSet::new(d),
-            energies: needs::of_energies(d),
+            series_held: OutputMask::new(d),
+            energies: output_mask::of_energies(d),
             selected: None,
             by_functions: false,
             series_by_functions: false,
@@ -162,7 +162,7 @@ impl<T: Scalar> Dynamics<T> {
             report_nodes: vec![zero; d.report.outputs],
             right: Vec::with_capacity(n + rows),
             solution: Vec::with_capacity(n + rows),
-            headings: heading::Headings::new(d.frictions.len()),
+            slip_directions: slip_direction::SlipDirections::new(d.frictions.len()),
             projector,
             projection: projection::Scratch::new(n, rows),
             columns: Vec::new(),
@@ -200,12 +200,12 @@ impl<T: Scalar> Dynamics<T> {
     }
 
     /// What the equations of motion of this mode need.
-    pub fn motion_needs(&self) -> &NeedSet {
+    pub fn motion_needs(&self) -> &OutputMask {
         &self.compiled().motion_needs
     }
 
     /// What was asked of the report.
-    pub fn report_needs(&self) -> &NeedSet {
+    pub fn report_needs(&self) -> &OutputMask {
         &self.report_needs
     }
 
@@ -265,7 +265,7 @@ impl<T: Scalar> Dynamics<T> {
     /// are no functions; they are kept. What was asked for beside the motion stays asked for.
     pub fn set_mode(&mut self, mode: &Mode) {
         for (f, along) in mode.incipient() {
-            self.set_heading(f, along.map(T::from_f64));
+            self.set_slip_direction(f, along.map(T::from_f64));
         }
         if *self.mode() == *mode {
             return;
@@ -296,7 +296,7 @@ impl<T: Scalar> Dynamics<T> {
     /// Forgets what could make a motion depend on those before it.
     pub(crate) fn restart(&mut self) {
         self.modes.iter_mut().for_each(Compiled::restart);
-        self.headings.restart();
+        self.slip_directions.restart();
     }
 
     /// Makes a mode ready; returns its place.
@@ -409,18 +409,18 @@ impl<T: Scalar> Dynamics<T> {
     }
 
     fn solve_error(&self, error: SolveError) -> EvaluationError {
-        let plan = &self.compiled().plan;
-        let free = plan.free();
+        let pattern = &self.compiled().pattern;
+        let free = pattern.free();
         match error {
             SolveError::NotFinite { equation } => self.not_finite(equation),
             SolveError::Undetermined { unknown } if unknown < free => EvaluationError::NoInertia {
-                coordinate: plan.elimination.free[unknown],
+                coordinate: pattern.elimination.free[unknown],
             },
             SolveError::Undetermined { unknown } => EvaluationError::Undetermined {
-                row: plan.kept[unknown - free],
+                row: pattern.kept[unknown - free],
             },
             SolveError::Inconsistent { row, residual } => EvaluationError::Inconsistent {
-                row: plan.kept[row],
+                row: pattern.kept[row],
                 residual,
             },
         }
@@ -428,28 +428,28 @@ impl<T: Scalar> Dynamics<T> {
 
     /// The acceleration or force that is not finite, given a solution with such a number.
     fn not_finite(&self, unknown: usize) -> EvaluationError {
-        let plan = &self.compiled().plan;
-        let free = plan.free();
+        let pattern = &self.compiled().pattern;
+        let free = pattern.free();
         if unknown < free {
             EvaluationError::NotFiniteAcceleration {
-                coordinate: plan.elimination.free[unknown],
+                coordinate: pattern.elimination.free[unknown],
             }
         } else {
             EvaluationError::NotFiniteForce {
-                row: plan.kept[unknown - free],
+                row: pattern.kept[unknown - free],
             }
         }
     }
 
     /// A number of the motion program at the last [`Self::value`]. Its need must have been held.
     #[inline]
-    pub fn motion(&self, place: Place) -> T {
+    pub fn motion(&self, place: ValueRef) -> T {
         place.read(&self.compiled().constants, &self.nodes)
     }
 
     /// A number of the report at the last [`Self::report_value`]. Its need must have been held.
     #[inline]
-    pub fn report(&self, place: Place) -> T {
+    pub fn report(&self, place: ValueRef) -> T {
         place.read(&self.compiled().constants, &self.report_nodes)
     }
 

@@ -11,7 +11,7 @@
 use super::{Dynamics, EvaluationError};
 use crate::arithmetic::{Scalar, epsilon};
 use crate::linear::Inertia;
-use crate::system::{Place, Row};
+use crate::system::{Row, ValueRef};
 
 /// Residuals are rounding below this share of the terms that they cancel from.
 fn rounding<T: Scalar>() -> f64 {
@@ -145,7 +145,7 @@ impl<T: Scalar> Dynamics<T> {
     fn settle_pinned(&self, q: &mut [T], v: &mut [T], threshold: f64) {
         for &row in self.acting_rows() {
             let row = &self.description().rows[row];
-            if let [(j, factor @ Place::Constant(_))] = *row.jacobian
+            if let [(j, factor @ ValueRef::Constant(_))] = *row.jacobian
                 && self.is_constantly_zero(row.bias)
             {
                 if let Some(position) = row.position {
@@ -162,8 +162,8 @@ impl<T: Scalar> Dynamics<T> {
         }
     }
 
-    fn is_constantly_zero(&self, place: Place) -> bool {
-        !matches!(place, Place::Node(_)) && self.motion(place).is_zero()
+    fn is_constantly_zero(&self, place: ValueRef) -> bool {
+        !matches!(place, ValueRef::Node(_)) && self.motion(place).is_zero()
     }
 
     /// Moves positions, then velocities, with some of them held: `held_positions[j]` keeps qⱼ, `held_velocities[j]` keeps vⱼ
@@ -290,7 +290,7 @@ impl<T: Scalar> Dynamics<T> {
         accept::<T>(residual)
     }
 
-    fn residual_place(row: &Row, level: Level) -> Option<Place> {
+    fn residual_place(row: &Row, level: Level) -> Option<ValueRef> {
         match level {
             Level::Position => row.position,
             Level::Velocity => Some(row.velocity),

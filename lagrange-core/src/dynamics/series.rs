@@ -14,7 +14,7 @@ use super::{Dynamics, EvaluationError};
 use crate::arithmetic::{Pack, Scalar};
 use crate::equations::Refused;
 use crate::program::{MAX_ORDER, Series};
-use crate::system::Place;
+use crate::system::ValueRef;
 use std::sync::Arc;
 
 impl<T: Scalar> Dynamics<T> {
@@ -55,7 +55,7 @@ impl<T: Scalar> Dynamics<T> {
             }
         }
         self.run(t, q, v, Extent::Series, true)?;
-        if self.compiled().plan.headings.is_empty() {
+        if self.compiled().pattern.slip_directions.is_empty() {
             self.start_series(order)?;
             Ok(true)
         } else {
@@ -67,7 +67,7 @@ impl<T: Scalar> Dynamics<T> {
     /// The second half of [`Self::series`].
     pub(crate) fn end_series(&mut self, order: usize) {
         self.expand(order.min(MAX_ORDER));
-        self.take_headings_of_series();
+        self.take_slip_directions_of_series();
     }
 
     /// What the interpreter does.
@@ -99,7 +99,7 @@ impl<T: Scalar> Dynamics<T> {
         if let (_, _, Some(series)) = interpreted.parts() {
             series.take_lane(pack, lane, order);
         }
-        self.take_headings_of_series();
+        self.take_slip_directions_of_series();
     }
 
     /// Coefficients 1…`order` of everything.
@@ -108,15 +108,18 @@ impl<T: Scalar> Dynamics<T> {
             modes,
             current,
             right,
-            headings,
+            slip_directions,
             ..
         } = self;
         let (_, solver, interpreted) = modes[*current].parts();
         let (shape, registers, Some(series)) = interpreted.parts() else {
             return;
         };
-        for &(friction, _, rates) in &shape.headings {
-            for (rate, u) in rates.into_iter().zip(headings.coefficient(friction, 1)) {
+        for &(friction, _, rates) in &shape.slip_directions {
+            for (rate, u) in rates
+                .into_iter()
+                .zip(slip_directions.coefficient(friction, 1))
+            {
                 registers[rate.index()] = u;
             }
         }
@@ -132,8 +135,8 @@ impl<T: Scalar> Dynamics<T> {
                     now[register.index()] = x;
                 }
                 let next = T::from_f64((k + 1) as f64);
-                for &(friction, _, rates) in &shape.headings {
-                    let turn = headings.coefficient(friction, k + 1);
+                for &(friction, _, rates) in &shape.slip_directions {
+                    let turn = slip_directions.coefficient(friction, k + 1);
                     for (rate, u) in rates.into_iter().zip(turn) {
                         now[rate.index()] = next * u;
                     }
@@ -187,33 +190,33 @@ impl<T: Scalar> Dynamics<T> {
 
     /// Coefficients of a number of the motion program that depends on the state. Its need must have been asked for by
     /// [`Self::set_extra_needs`]; of other numbers, zeros.
-    pub fn motion_series(&self, place: Place) -> &[T] {
+    pub fn motion_series(&self, place: ValueRef) -> &[T] {
         if let Some(emitted) = self.in_use() {
             return match place {
-                Place::Node(node) => emitted.motion_series(self.description, node),
-                Place::Zero | Place::Constant(_) => emitted.zero_series(self.description),
+                ValueRef::Node(node) => emitted.motion_series(self.description, node),
+                ValueRef::Zero | ValueRef::Constant(_) => emitted.zero_series(self.description),
             };
         }
         let interpreted = self.compiled().interpreted();
         interpreted.map_or(&[], |interpreted| match place {
-            Place::Node(node) => interpreted.node_series(node),
-            Place::Zero | Place::Constant(_) => interpreted.zero_series(),
+            ValueRef::Node(node) => interpreted.node_series(node),
+            ValueRef::Zero | ValueRef::Constant(_) => interpreted.zero_series(),
         })
     }
 
     /// Coefficients of a term of a stop or a mark that depends on the state. Its need must have been asked for by
     /// [`Self::set_report_needs`]; of other numbers, zeros: emitted functions give series of what guards read.
-    pub fn report_series(&self, place: Place) -> &[T] {
+    pub fn report_series(&self, place: ValueRef) -> &[T] {
         if let Some(emitted) = self.in_use() {
             return match place {
-                Place::Node(node) => emitted.report_series(self.description, node),
-                Place::Zero | Place::Constant(_) => emitted.zero_series(self.description),
+                ValueRef::Node(node) => emitted.report_series(self.description, node),
+                ValueRef::Zero | ValueRef::Constant(_) => emitted.zero_series(self.description),
             };
         }
         let interpreted = self.compiled().interpreted();
         interpreted.map_or(&[], |interpreted| match place {
-            Place::Node(node) => interpreted.report_series(node),
-            Place::Zero | Place::Constant(_) => interpreted.zero_series(),
+            ValueRef::Node(node) => interpreted.report_series(node),
+            ValueRef::Zero | ValueRef::Constant(_) => interpreted.zero_series(),
         })
     }
 }

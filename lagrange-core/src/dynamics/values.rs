@@ -5,7 +5,7 @@ use super::interpreted::{Extent, FORCES, Interpreted, MOTION, REPORT, SYSTEM};
 use super::{Dynamics, EvaluationError};
 use crate::arithmetic::{Scalar, epsilon};
 use crate::linear::{Inertia, SolveError};
-use crate::system::Place;
+use crate::system::ValueRef;
 
 impl<T: Scalar> Dynamics<T> {
     /// Accelerations and forces at (t, q, v): then read [`Self::acceleration`], [`Self::force`], [`Self::motion`].
@@ -103,8 +103,11 @@ impl<T: Scalar> Dynamics<T> {
         self.select(Part::Solution);
         let (_, _, interpreted) = self.modes[self.current].parts();
         interpreted.place(t, q, v);
-        for &(friction, components, _) in &interpreted.shape.headings {
-            for (register, along) in components.into_iter().zip(self.headings.of(friction)) {
+        for &(friction, components, _) in &interpreted.shape.slip_directions {
+            for (register, along) in components
+                .into_iter()
+                .zip(self.slip_directions.of(friction))
+            {
                 interpreted.registers[register.index()] = along;
             }
         }
@@ -146,13 +149,13 @@ impl<T: Scalar> Dynamics<T> {
             solution,
             ..
         } = self;
-        let (plan, solver, interpreted) = modes[*current].parts();
+        let (pattern, solver, interpreted) = modes[*current].parts();
         solution.clear();
-        solution.extend_from_slice(&right[..plan.size()]);
+        solution.extend_from_slice(&right[..pattern.size()]);
         solver.solve(solution);
         let outcome = solver.check_rows_aside(solution, right);
-        if outcome.is_ok() && refined && plan.size() > plan.free() {
-            solver.refine(solution, &mut right[..plan.size()]);
+        if outcome.is_ok() && refined && pattern.size() > pattern.free() {
+            solver.refine(solution, &mut right[..pattern.size()]);
         }
         for (register, &x) in interpreted.shape.unknowns.iter().zip(&*solution) {
             interpreted.registers[register.index()] = x;
@@ -175,7 +178,7 @@ impl<T: Scalar> Dynamics<T> {
     /// Factors the system whose changing numbers are in the registers.
     pub(super) fn factor(&mut self) -> Result<(), EvaluationError> {
         let compiled = &mut self.modes[self.current];
-        if compiled.factored && compiled.plan.entries.is_empty() {
+        if compiled.factored && compiled.pattern.entries.is_empty() {
             return Ok(());
         }
         compiled.factored = false;
@@ -308,27 +311,27 @@ pub(super) fn is_finite<T: Scalar>(numbers: &[T]) -> bool {
 /// Factors the linear system of a mode.
 fn factor<T: Scalar>(compiled: &mut Compiled<T>) -> Result<(), SolveError> {
     let constants = core::mem::take(&mut compiled.constants);
-    let (plan, solver, interpreted) = compiled.parts();
+    let (pattern, solver, interpreted) = compiled.parts();
     let number = |node: usize| interpreted.registers[interpreted.shape.nodes[node].index()];
-    let (free, size) = (plan.free(), plan.size());
-    let matrix = solver.begin(free, size, &plan.constant[..size * size]);
-    for entry in &plan.entries {
+    let (free, size) = (pattern.free(), pattern.size());
+    let matrix = solver.begin(free, size, &pattern.constant[..size * size]);
+    for entry in &pattern.entries {
         matrix[entry.row * size + entry.column] += number(entry.node);
     }
     // A kept row that follows from the eliminated ones leaves rounding behind: that is a zero.
-    let read = |place: Place| match place {
-        Place::Zero => T::default(),
-        Place::Constant(i) => constants[i],
-        Place::Node(i) => number(i),
+    let read = |place: ValueRef| match place {
+        ValueRef::Zero => T::default(),
+        ValueRef::Constant(i) => constants[i],
+        ValueRef::Node(i) => number(i),
     };
     let rounding = 512.0 * epsilon::<T>();
-    for (row, terms) in plan.cancelled(read) {
+    for (row, terms) in pattern.cancelled(read) {
         let row = &mut matrix[row * size..row * size + free];
         if row.iter().all(|x| x.value().abs() <= rounding * terms) {
             row.fill(T::default());
         }
     }
-    let inertia = if plan.elimination.symmetric {
+    let inertia = if pattern.elimination.symmetric {
         Inertia::Symmetric
     } else {
         Inertia::General

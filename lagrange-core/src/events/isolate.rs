@@ -10,8 +10,8 @@
 use core::ops::ControlFlow::{self, Break, Continue};
 
 use super::bernstein::{Coefficients, MAX_DEGREE, from_powers, split, variations};
-use super::glance::{Glance, glance};
 use super::refine::{Powers, extremum, noise_factor, root};
+use super::root_filter::{RootFilter, root_filter};
 use super::{Direction, Root, RootList};
 
 /// Halving stops here: what has not been told apart is one multiple root.
@@ -59,16 +59,16 @@ fn visit_roots<F>(c: &[f64], from: f64, visit: &mut F) -> ControlFlow<()>
 where
     F: FnMut(Root) -> ControlFlow<()>,
 {
-    let size = match glance(c) {
-        Glance::NoRoots => return Continue(()),
-        Glance::Monotone { size } => {
+    let size = match root_filter(c) {
+        RootFilter::NoRoots => return Continue(()),
+        RootFilter::Monotone { size } => {
             return match monotone_root(c, size) {
                 Some(root) => visit(root),
                 None => Continue(()),
             };
         }
-        Glance::Unclear { size } if size.is_finite() => size,
-        Glance::Unclear { .. } => return Continue(()),
+        RootFilter::Unclear { size } if size.is_finite() => size,
+        RootFilter::Unclear { .. } => return Continue(()),
     };
     // Coefficients that cannot be seen in any value only cost time.
     let negligible = f64::EPSILON * f64::EPSILON * size;

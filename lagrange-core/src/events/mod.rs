@@ -8,15 +8,15 @@
 //! before, so the caller [`deflate`]s guards known to be zero there, and treats one that starts negative as an event at s = 0.
 
 mod bernstein;
-mod glance;
 mod isolate;
 mod refine;
+mod root_filter;
 #[cfg(test)]
 mod tests;
 
 pub use bernstein::MAX_DEGREE;
-pub use glance::keeps_its_sign;
 pub use isolate::{deflate, first_root, roots};
+pub use root_filter::keeps_its_sign;
 
 /// Which way a guard passes zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

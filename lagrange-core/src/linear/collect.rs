@@ -1,11 +1,11 @@
 //! The system of a mode before anything is eliminated: which rows act, their columns, the loads.
 
-use super::plan::{Heading, Slide};
+use super::pattern::{Slide, SlipDirection};
 use super::program::Program;
 use crate::arithmetic::Scalar;
 use crate::effects::{Effects, Item};
 use crate::mode::{Direction, FrictionMode, Mode};
-use crate::system::{Description, Normal, Place};
+use crate::system::{Description, Normal, ValueRef};
 
 /// Added to the square of a slip before its root is taken: nothing beside any slip there is.
 const LEAST_SQUARE: f64 = 1e-300;
@@ -24,19 +24,19 @@ pub(crate) enum Source {
 pub(crate) struct ColumnElement {
     pub index: usize,
     pub coordinate: usize,
-    pub place: Place,
+    pub place: ValueRef,
     pub source: Source,
 }
 
 /// The pieces of the system of one mode.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Collected {
+pub(crate) struct KktTerms {
     /// Description rows that act, ascending.
     pub acting: Vec<usize>,
     /// Generalized forces of the multipliers.
     pub columns: Vec<ColumnElement>,
     /// (coordinate, place): f and what friction of a given normal force adds.
-    pub loads: Vec<(usize, Place)>,
+    pub loads: Vec<(usize, ValueRef)>,
 }
 
 /// Whether a row of a description acts in a mode as an equation.
@@ -80,7 +80,7 @@ pub(crate) fn acting<'a>(
     (0..description.rows.len()).filter(|&row| acts(description, effects, mode, row))
 }
 
-impl Collected {
+impl KktTerms {
     /// Collects the pieces of a mode; products are made by `program`.
     #[expect(
         clippy::too_many_arguments,
@@ -94,14 +94,14 @@ impl Collected {
         constants: &mut Vec<T>,
         program: &mut Program<T>,
         slides: &mut Vec<Slide>,
-        headings: &mut Vec<Heading>,
+        slip_directions: &mut Vec<SlipDirection>,
     ) {
         self.acting.clear();
         self.acting.extend(acting(description, effects, mode));
         self.columns.clear();
         self.loads.clear();
         slides.clear();
-        headings.clear();
+        slip_directions.clear();
         self.loads
             .extend(description.forcing.iter().copied().enumerate());
         for (index, &row) in self.acting.iter().enumerate() {
@@ -121,7 +121,7 @@ impl Collected {
             constants,
             program,
             slides,
-            headings,
+            slip_directions,
         );
         for &Slide {
             row,
@@ -164,7 +164,7 @@ impl Collected {
         constants: &mut Vec<T>,
         program: &mut Program<T>,
         slides: &mut Vec<Slide>,
-        headings: &mut Vec<Heading>,
+        slip_directions: &mut Vec<SlipDirection>,
     ) {
         for (i, friction) in description.frictions.iter().enumerate() {
             let FrictionMode::Slip(sliding) = mode.frictions[i] else {
@@ -195,7 +195,7 @@ impl Collected {
             }
             let slip = |component: usize| description.rows[friction.row + component].velocity;
             if sliding.direction == Direction::AlongSlip {
-                let mut square = Place::Zero;
+                let mut square = ValueRef::Zero;
                 for component in 0..friction.components {
                     let s2 = program.mul(constants, slip(component), slip(component));
                     square = program.add(constants, square, s2);
@@ -207,9 +207,9 @@ impl Collected {
                 strength = program.mul(constants, strength, inverse);
             }
             strength = program.scale(constants, -T::one(), strength);
-            let mut heading = Heading {
+            let mut slip_direction = SlipDirection {
                 friction: i,
-                ..Heading::default()
+                ..SlipDirection::default()
             };
             for component in 0..friction.components {
                 let row = friction.row + component;
@@ -220,8 +220,8 @@ impl Collected {
                     Direction::AlongSlip => program.mul(constants, strength, slip(component)),
                     Direction::Incipient(_) => {
                         let node = program.given();
-                        heading.nodes[component] = node;
-                        program.mul(constants, strength, Place::Node(node))
+                        slip_direction.nodes[component] = node;
+                        program.mul(constants, strength, ValueRef::Node(node))
                     }
                 };
                 slides.push(Slide {
@@ -231,14 +231,14 @@ impl Collected {
                 });
             }
             if let Direction::Incipient(_) = sliding.direction {
-                headings.push(heading);
+                slip_directions.push(slip_direction);
             }
         }
     }
 
     /// The generalized force `force` · λ[source] (or just `force`) on a coordinate.
-    fn push_force(&mut self, coordinate: usize, force: Place, source: Option<usize>) {
-        if force == Place::Zero {
+    fn push_force(&mut self, coordinate: usize, force: ValueRef, source: Option<usize>) {
+        if force == ValueRef::Zero {
             return;
         }
         match source {
@@ -265,14 +265,14 @@ impl Collected {
     ) -> bool {
         let row = &description.rows[self.acting[index]];
         let unbiased = match row.bias {
-            Place::Zero => true,
-            Place::Constant(i) => constants[i].is_zero(),
-            Place::Node(_) => false,
+            ValueRef::Zero => true,
+            ValueRef::Constant(i) => constants[i].is_zero(),
+            ValueRef::Node(_) => false,
         };
-        let constant = |place: Place| match place {
-            Place::Zero => true,
-            Place::Constant(i) => constants[i].value().is_finite(),
-            Place::Node(_) => false,
+        let constant = |place: ValueRef| match place {
+            ValueRef::Zero => true,
+            ValueRef::Constant(i) => constants[i].value().is_finite(),
+            ValueRef::Node(_) => false,
         };
         unbiased
             && row.jacobian.iter().all(|&(_, place)| constant(place))

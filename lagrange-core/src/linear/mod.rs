@@ -17,7 +17,7 @@ mod eliminate;
 mod least_norm;
 mod lemke;
 mod lu;
-mod plan;
+mod pattern;
 mod program;
 mod solver;
 #[cfg(test)]
@@ -27,5 +27,5 @@ pub(crate) use collect::{acting, acts};
 pub(crate) use consistent::{Equilibrated, SeveralSides};
 pub(crate) use least_norm::{Freedom, least_norm};
 pub(crate) use lemke::{Lemke, Outcome as LemkeOutcome};
-pub(crate) use plan::Plan;
+pub(crate) use pattern::KktPattern;
 pub(crate) use solver::{Inertia, SolveError, Solver};

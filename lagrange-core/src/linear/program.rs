@@ -4,7 +4,7 @@
 
 use crate::arithmetic::Scalar;
 use crate::program::{Builder, Op as Run, Register};
-use crate::system::Place;
+use crate::system::ValueRef;
 
 /// An operation; nodes are indices into the outputs of the motion program followed by the results of this one.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,38 +72,38 @@ impl<T: Scalar> Program<T> {
             && terms.all(|(x, y)| x.1 == y.1)
     }
 
-    fn push(&mut self, op: Op) -> Place {
+    fn push(&mut self, op: Op) -> ValueRef {
         self.ops.push(op);
-        Place::Node(self.first + self.ops.len() - 1)
+        ValueRef::Node(self.first + self.ops.len() - 1)
     }
 
     /// A new constant.
-    pub(crate) fn constant(constants: &mut Vec<T>, value: T) -> Place {
+    pub(crate) fn constant(constants: &mut Vec<T>, value: T) -> ValueRef {
         if value.is_zero() {
-            return Place::Zero;
+            return ValueRef::Zero;
         }
         constants.push(value);
-        Place::Constant(constants.len() - 1)
+        ValueRef::Constant(constants.len() - 1)
     }
 
     /// x y
-    pub(crate) fn mul(&mut self, constants: &mut Vec<T>, x: Place, y: Place) -> Place {
+    pub(crate) fn mul(&mut self, constants: &mut Vec<T>, x: ValueRef, y: ValueRef) -> ValueRef {
         match (x, y) {
-            (Place::Zero, _) | (_, Place::Zero) => Place::Zero,
-            (Place::Constant(x), Place::Constant(y)) => {
+            (ValueRef::Zero, _) | (_, ValueRef::Zero) => ValueRef::Zero,
+            (ValueRef::Constant(x), ValueRef::Constant(y)) => {
                 Self::constant(constants, constants[x] * constants[y])
             }
-            (Place::Constant(constant), Place::Node(x))
-            | (Place::Node(x), Place::Constant(constant)) => {
+            (ValueRef::Constant(constant), ValueRef::Node(x))
+            | (ValueRef::Node(x), ValueRef::Constant(constant)) => {
                 if constants[constant].is_zero() {
-                    Place::Zero
+                    ValueRef::Zero
                 } else if constants[constant] == T::one() {
-                    Place::Node(x)
+                    ValueRef::Node(x)
                 } else {
                     self.push(Op::Scale { constant, x })
                 }
             }
-            (Place::Node(x), Place::Node(y)) => self.push(Op::Mul { x, y }),
+            (ValueRef::Node(x), ValueRef::Node(y)) => self.push(Op::Mul { x, y }),
         }
     }
 
@@ -114,30 +114,32 @@ impl<T: Scalar> Program<T> {
     }
 
     /// c x
-    pub(crate) fn scale(&mut self, constants: &mut Vec<T>, c: T, x: Place) -> Place {
+    pub(crate) fn scale(&mut self, constants: &mut Vec<T>, c: T, x: ValueRef) -> ValueRef {
         let c = Self::constant(constants, c);
         self.mul(constants, c, x)
     }
 
     /// x + y
-    pub(crate) fn add(&mut self, constants: &mut Vec<T>, x: Place, y: Place) -> Place {
+    pub(crate) fn add(&mut self, constants: &mut Vec<T>, x: ValueRef, y: ValueRef) -> ValueRef {
         match (x, y) {
-            (Place::Zero, z) | (z, Place::Zero) => z,
-            (Place::Constant(x), Place::Constant(y)) => {
+            (ValueRef::Zero, z) | (z, ValueRef::Zero) => z,
+            (ValueRef::Constant(x), ValueRef::Constant(y)) => {
                 Self::constant(constants, constants[x] + constants[y])
             }
-            (Place::Constant(constant), Place::Node(x))
-            | (Place::Node(x), Place::Constant(constant)) => self.push(Op::Offset { constant, x }),
-            (Place::Node(x), Place::Node(y)) => self.push(Op::Add { x, y }),
+            (ValueRef::Constant(constant), ValueRef::Node(x))
+            | (ValueRef::Node(x), ValueRef::Constant(constant)) => {
+                self.push(Op::Offset { constant, x })
+            }
+            (ValueRef::Node(x), ValueRef::Node(y)) => self.push(Op::Add { x, y }),
         }
     }
 
     /// 1 / √x; of a zero, zero.
-    pub(crate) fn inverse_root(&mut self, constants: &mut Vec<T>, x: Place) -> Place {
+    pub(crate) fn inverse_root(&mut self, constants: &mut Vec<T>, x: ValueRef) -> ValueRef {
         match x {
-            Place::Zero => Place::Zero,
-            Place::Constant(x) => Self::constant(constants, T::one() / constants[x].sqrt()),
-            Place::Node(x) => {
+            ValueRef::Zero => ValueRef::Zero,
+            ValueRef::Constant(x) => Self::constant(constants, T::one() / constants[x].sqrt()),
+            ValueRef::Node(x) => {
                 constants.push(T::one());
                 self.push(Op::Sqrt { x });
                 self.push(Op::Ratio {

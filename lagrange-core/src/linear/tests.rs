@@ -1,6 +1,6 @@
 //! Random systems: the planned solution against the whole system written out and solved by nalgebra.
 
-use super::{Inertia, Plan, Solver};
+use super::{Inertia, KktPattern, Solver};
 use crate::effects::Effects;
 use crate::mode::{Direction, FrictionMode, Mode, Sliding};
 use crate::program::{Builder as Loader, Encoded, Register, room};
@@ -37,11 +37,11 @@ struct Builder {
 }
 
 impl Builder {
-    fn place(&mut self, value: f64, constant: bool) -> Place {
-        let (list, place): (_, fn(usize) -> Place) = if constant {
-            (&mut self.constants, Place::Constant)
+    fn place(&mut self, value: f64, constant: bool) -> ValueRef {
+        let (list, place): (_, fn(usize) -> ValueRef) = if constant {
+            (&mut self.constants, ValueRef::Constant)
         } else {
-            (&mut self.nodes, Place::Node)
+            (&mut self.nodes, ValueRef::Node)
         };
         list.push(value);
         place(list.len() - 1)
@@ -60,12 +60,12 @@ impl Builder {
                 })
                 .collect()
         });
-        let jacobian: Vec<(usize, Place)> = elements
+        let jacobian: Vec<(usize, ValueRef)> = elements
             .iter()
             .map(|&(j, a)| (j, self.place(a, constant)))
             .collect();
         let bias = if constant {
-            Place::Zero
+            ValueRef::Zero
         } else {
             let x = self.random.number();
             self.place(x, false)
@@ -104,11 +104,11 @@ fn random_system(seed: u64) -> (Description, Builder) {
             mass.push((i, j, b.place(m[(i, j)], constant)));
         }
     }
-    let forcing: Vec<Place> = (0..n)
+    let forcing: Vec<ValueRef> = (0..n)
         .map(|_| {
             let (x, constant) = (b.random.number(), b.random.one_in(3));
             if b.random.one_in(5) {
-                Place::Zero
+                ValueRef::Zero
             } else {
                 b.place(x, constant)
             }
@@ -128,7 +128,7 @@ fn random_system(seed: u64) -> (Description, Builder) {
         name: "contact",
         row,
         normal_factor: None,
-        restitution: Restitution::Newton(Place::Zero),
+        restitution: Restitution::Newton(ValueRef::Zero),
         restitution_need: 0,
         restitution_parameters: &[],
         region: None,
@@ -161,7 +161,7 @@ fn random_system(seed: u64) -> (Description, Builder) {
             row: first,
             components,
             normal,
-            static_coefficient: Place::Zero,
+            static_coefficient: ValueRef::Zero,
             kinetic_coefficient: b.place(0.2, constant),
             coefficients_need: 0,
             static_parameters: &[],
@@ -209,10 +209,10 @@ fn random_system(seed: u64) -> (Description, Builder) {
         dissipations: &[],
         branches: &[],
         energy: Energy {
-            kinetic: Place::Zero,
-            potential: Place::Zero,
-            jacobi: Place::Zero,
-            time_power: Place::Zero,
+            kinetic: ValueRef::Zero,
+            potential: ValueRef::Zero,
+            jacobi: ValueRef::Zero,
+            time_power: ValueRef::Zero,
             need: 0,
         },
         momenta: Momenta {
@@ -268,7 +268,7 @@ fn random_mode(d: &Description, random: &mut Random) -> Mode {
 fn by_definition(
     d: &Description,
     mode: &Mode,
-    read: &dyn Fn(Place) -> f64,
+    read: &dyn Fn(ValueRef) -> f64,
 ) -> Option<(DVector<f64>, f64)> {
     let (n, rows) = (d.coordinates.len(), d.rows.len());
     let size = n + rows;
@@ -346,20 +346,26 @@ fn by_definition(
 }
 
 /// The nodes of a description, then those of the plan.
-fn plan_nodes(plan: &Plan<f64>, mode: &Mode, constants: &[f64], nodes: &[f64]) -> Vec<f64> {
-    let factors: Vec<f64> = plan.program.numbers().collect();
+fn plan_nodes(
+    pattern: &KktPattern<f64>,
+    mode: &Mode,
+    constants: &[f64],
+    nodes: &[f64],
+) -> Vec<f64> {
+    let factors: Vec<f64> = pattern.program.numbers().collect();
     let numbers = [&[0.0], nodes, constants, &factors].concat();
     let mut loader = Loader::new(numbers.len());
     let mut registers: Vec<Register> = (1..=nodes.len()).map(Register::new).collect();
     let first = 1 + nodes.len();
-    plan.program
+    pattern
+        .program
         .load(&mut loader, first, first + constants.len(), &mut registers);
     let (program, used) = loader.finish();
     let mut values = numbers;
     values.resize(room(used), f64::NAN);
-    for (heading, (f, along)) in plan.headings.iter().zip(mode.incipient()) {
-        assert_eq!(heading.friction, f);
-        for (node, x) in heading.nodes.into_iter().zip(along) {
+    for (slip_direction, (f, along)) in pattern.slip_directions.iter().zip(mode.incipient()) {
+        assert_eq!(slip_direction.friction, f);
+        for (node, x) in slip_direction.nodes.into_iter().zip(along) {
             values[registers[node].index()] = x;
         }
     }
@@ -374,47 +380,47 @@ fn plan_nodes(plan: &Plan<f64>, mode: &Mode, constants: &[f64], nodes: &[f64]) -
 fn by_plan(d: &Description, mode: &Mode, b: &Builder) -> Option<Vec<f64>> {
     let (n, rows) = (d.coordinates.len(), d.rows.len());
     let mut constants = b.constants.clone();
-    let mut plan = Plan::default();
-    plan.set(d, &Effects::all(), mode, &mut constants);
-    let nodes = plan_nodes(&plan, mode, &constants, &b.nodes);
-    let (free, size) = (plan.free(), plan.size());
+    let mut pattern = KktPattern::default();
+    pattern.set(d, &Effects::all(), mode, &mut constants);
+    let nodes = plan_nodes(&pattern, mode, &constants, &b.nodes);
+    let (free, size) = (pattern.free(), pattern.size());
     let mut solver = Solver::default();
-    let matrix = solver.begin(free, size, &plan.constant[..size * size]);
-    for e in &plan.entries {
+    let matrix = solver.begin(free, size, &pattern.constant[..size * size]);
+    for e in &pattern.entries {
         matrix[e.row * size + e.column] += nodes[e.node];
     }
-    let inertia = if plan.elimination.symmetric {
+    let inertia = if pattern.elimination.symmetric {
         Inertia::Symmetric
     } else {
         Inertia::General
     };
     solver.factor(inertia).ok()?;
-    let mut right = plan.constant_load.clone();
-    for load in &plan.loads {
+    let mut right = pattern.constant_load.clone();
+    for load in &pattern.loads {
         right[load.row] += load.factor * nodes[load.node];
     }
     let mut w = right[..size].to_vec();
     solver.solve(&mut w);
     let mut x: Vec<f64> = (0..n)
-        .map(|j| plan.elimination.acceleration(j, &w))
+        .map(|j| pattern.elimination.acceleration(j, &w))
         .collect();
     x.resize(n + rows, 0.0);
-    for (&row, force) in plan.kept.iter().zip(&w[free..]) {
+    for (&row, force) in pattern.kept.iter().zip(&w[free..]) {
         x[n + row] = -force;
     }
-    for (i, &row) in plan.eliminated.iter().enumerate() {
-        let elements = &plan.constant[(size + i) * size..(size + i + 1) * size];
+    for (i, &row) in pattern.eliminated.iter().enumerate() {
+        let elements = &pattern.constant[(size + i) * size..(size + i + 1) * size];
         let part: f64 = elements.iter().zip(&w).map(|(k, x)| k * x).sum();
         x[n + row] = part - right[size + i];
     }
-    for e in &plan.force_entries {
-        x[n + plan.eliminated[e.row - size]] += nodes[e.node] * w[e.column];
+    for e in &pattern.force_entries {
+        x[n + pattern.eliminated[e.row - size]] += nodes[e.node] * w[e.column];
     }
-    for slide in &plan.slides {
+    for slide in &pattern.slides {
         let factor = match slide.factor {
-            Place::Zero => 0.0,
-            Place::Constant(i) => constants[i],
-            Place::Node(i) => nodes[i],
+            ValueRef::Zero => 0.0,
+            ValueRef::Constant(i) => constants[i],
+            ValueRef::Node(i) => nodes[i],
         };
         x[n + slide.row] = slide.source.map_or(factor, |source| factor * x[n + source]);
     }
@@ -429,9 +435,9 @@ fn planned_solutions_agree_with_the_whole_system() {
         for _ in 0..4 {
             let mode = random_mode(&d, &mut b.random);
             let read = |place| match place {
-                Place::Zero => 0.0,
-                Place::Constant(i) => b.constants[i],
-                Place::Node(i) => b.nodes[i],
+                ValueRef::Zero => 0.0,
+                ValueRef::Constant(i) => b.constants[i],
+                ValueRef::Node(i) => b.nodes[i],
             };
             let Some((expected, condition)) = by_definition(&d, &mode, &read) else {
                 continue;
@@ -449,11 +455,11 @@ fn planned_solutions_agree_with_the_whole_system() {
                     "seed {seed}, {mode:?}: unknown {i} is off by {error:e}"
                 );
             }
-            let mut plan = Plan::default();
-            plan.set(&d, &Effects::all(), &mode, &mut b.constants.clone());
+            let mut pattern = KktPattern::default();
+            pattern.set(&d, &Effects::all(), &mode, &mut b.constants.clone());
             compared += 1;
-            eliminated += usize::from(!plan.eliminated.is_empty());
-            oblique += usize::from(!plan.elimination.symmetric);
+            eliminated += usize::from(!pattern.eliminated.is_empty());
+            oblique += usize::from(!pattern.elimination.symmetric);
         }
     }
     // The draw has met what it is for.

@@ -8,7 +8,7 @@ use crate::dynamics::Dynamics;
 use crate::effects::Item;
 use crate::error::Error;
 use crate::mode::FrictionMode;
-use crate::system::{Place, Restitution};
+use crate::system::{Restitution, ValueRef};
 
 /// Coefficients given by different formulas may differ by this share and still be meant as equal.
 const ROUNDING: f64 = 1e-9;
@@ -139,7 +139,7 @@ fn check_inertia<T: Scalar>(
         return Ok(());
     };
     let n = d.coordinates.len();
-    let number = |place: Place| dynamics.motion(place).value();
+    let number = |place: ValueRef| dynamics.motion(place).value();
     form.clear();
     form.resize(n * n, 0.0);
     let mut size = 0.0_f64;
@@ -166,7 +166,7 @@ fn check_inertia<T: Scalar>(
     let Some((coordinate, value)) = negative_pivot(form, n) else {
         return Ok(());
     };
-    let own = |&&(i, j, place): &&(usize, usize, Place)| i == j && number(place) < 0.0;
+    let own = |&&(i, j, place): &&(usize, usize, ValueRef)| i == j && number(place) < 0.0;
     let (coordinate, value) = match d.mass.iter().find(own) {
         Some(&(i, _, place)) => (i, number(place)),
         None => (coordinate, value),
@@ -209,8 +209,8 @@ fn negative_pivot(a: &mut [f64], n: usize) -> Option<(usize, f64)> {
 }
 
 /// Whether a number depends on parameters only.
-fn is_fixed(place: Place) -> bool {
-    !matches!(place, Place::Node(_))
+fn is_fixed(place: ValueRef) -> bool {
+    !matches!(place, ValueRef::Node(_))
 }
 
 /// Names and values of parameters.

@@ -1,17 +1,22 @@
 //! A guard as a number of the run's own scalar: what located the root is a double, its derivatives come from here.
 
 use super::guard::Guard;
-use super::sharing::Joint;
+use super::redundant::CompositeGuard;
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
 use crate::mode::{Direction, FrictionMode, Mode};
-use crate::system::{Normal, Place};
+use crate::system::{Normal, ValueRef};
 
-/// A guard at the last value of `dynamics`, as [`super::sharing::value`] with all derivatives that its parts carry. Stops,
+/// A guard at the last value of `dynamics`, as [`super::redundant::value`] with all derivatives that its parts carry. Stops,
 /// marks and branches of forces read the report tape.
-pub fn exact<T: Scalar>(guard: Guard, joints: &[Joint], mode: &Mode, dynamics: &Dynamics<T>) -> T {
+pub fn exact<T: Scalar>(
+    guard: Guard,
+    composites: &[CompositeGuard],
+    mode: &Mode,
+    dynamics: &Dynamics<T>,
+) -> T {
     let d = dynamics.description();
-    let motion = |place: Option<Place>| dynamics.motion(place.unwrap_or(Place::Zero));
+    let motion = |place: Option<ValueRef>| dynamics.motion(place.unwrap_or(ValueRef::Zero));
     let force = |f: usize, k: usize| dynamics.force(d.frictions[f].row + k);
     match guard {
         Guard::Gap(c) => motion(d.rows[d.contacts[c].row].position),
@@ -28,13 +33,13 @@ pub fn exact<T: Scalar>(guard: Guard, joints: &[Joint], mode: &Mode, dynamics: &
             let along = match mode.frictions[f] {
                 FrictionMode::Slip(sliding) => match sliding.direction {
                     Direction::Fixed(along) => along.map(T::from_f64),
-                    Direction::AlongSlip | Direction::Incipient(_) => dynamics.heading(f),
+                    Direction::AlongSlip | Direction::Incipient(_) => dynamics.slip_direction(f),
                 },
                 _ => [T::zero(); 2],
             };
             slip(f, along, dynamics)
         }
-        Guard::Bearing(f) => normal(f, mode, dynamics),
+        Guard::NormalForceSign(f) => normal(f, mode, dynamics),
         Guard::Branch(b) => {
             let branch = &d.branches[b];
             let value = if branch.after_solve {
@@ -46,7 +51,7 @@ pub fn exact<T: Scalar>(guard: Guard, joints: &[Joint], mode: &Mode, dynamics: &
         }
         Guard::Stop(i, k) => dynamics.report(d.stops[i].terms[k]),
         Guard::Mark(i, k) => dynamics.report(d.marks[i].terms[k]),
-        Guard::Joint(index) => joints[index].parts.iter().fold(T::zero(), |sum, part| {
+        Guard::Composite(index) => composites[index].parts.iter().fold(T::zero(), |sum, part| {
             let value = match part.guard {
                 Guard::StickCone(f) => {
                     let along = part.along.into_iter().enumerate();

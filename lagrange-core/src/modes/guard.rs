@@ -12,12 +12,12 @@
 //! N = λ·|∂g/∂p|. A guard is read from a [`Reading`] as Taylor coefficients; a plain value is a series of length one.
 
 use crate::arithmetic::Scalar;
-use crate::dynamics::{Dynamics, NeedSet};
+use crate::dynamics::{Dynamics, OutputMask};
 use crate::effects::Item;
 use crate::integrate::polynomial_sum;
 use crate::mode::{Direction, FrictionMode, Mode, Sliding};
 use crate::modes::reading::{Reading, Terms};
-use crate::system::{Description, Friction, Normal, Place};
+use crate::system::{Description, Friction, Normal, ValueRef};
 
 /// Longest series of a guard.
 pub const LENGTH: usize = 48;
@@ -40,15 +40,15 @@ pub enum Guard {
     /// Slip of a sliding friction, along its direction (of two components, that at the start of the step).
     Slip(usize),
     /// Multiplier of the constraint that carries a friction, times its held sign.
-    Bearing(usize),
+    NormalForceSign(usize),
     /// Guard of a branch, times its held side.
     Branch(usize),
     /// Term of a stop: becomes true when it rises through zero.
     Stop(usize, usize),
     /// Term of a mark.
     Mark(usize, usize),
-    /// A sum of guards of undetermined forces: index into a list of [`Joint`](crate::modes::sharing::Joint)s.
-    Joint(usize),
+    /// A sum of guards of undetermined forces: index into a list of [`CompositeGuard`](crate::modes::redundant::CompositeGuard)s.
+    Composite(usize),
 }
 
 impl Guard {
@@ -60,12 +60,12 @@ impl Guard {
                 | Guard::StickUpper(_)
                 | Guard::StickLower(_)
                 | Guard::StickCone(_)
-                | Guard::Bearing(_)
-                | Guard::Joint(_)
+                | Guard::NormalForceSign(_)
+                | Guard::Composite(_)
         )
     }
 
-    /// The name of the item whose guard it is; a joint guard has several.
+    /// The name of the item whose guard it is; a composite guard has several.
     pub fn name(self, d: &'static Description) -> Option<&'static str> {
         match self {
             Guard::Gap(c) | Guard::Normal(c) | Guard::Region(c) => Some(d.contacts[c].name),
@@ -73,11 +73,11 @@ impl Guard {
             | Guard::StickLower(f)
             | Guard::StickCone(f)
             | Guard::Slip(f)
-            | Guard::Bearing(f) => Some(d.frictions[f].name),
+            | Guard::NormalForceSign(f) => Some(d.frictions[f].name),
             Guard::Branch(b) => Some(d.branches[b].text),
             Guard::Stop(i, _) => Some(d.stops[i].name),
             Guard::Mark(i, _) => Some(d.marks[i].name),
-            Guard::Joint(_) => None,
+            Guard::Composite(_) => None,
         }
     }
 }
@@ -108,7 +108,7 @@ fn numbers<T: Scalar>(terms: Terms<T>) -> [f64; LENGTH] {
 pub fn guards_of_mode<T: Scalar>(
     mode: &Mode,
     dynamics: &Dynamics<T>,
-    needs: &NeedSet,
+    needs: &OutputMask,
     out: &mut Vec<Guard>,
 ) {
     let d = dynamics.description();
@@ -132,7 +132,7 @@ pub fn guards_of_mode<T: Scalar>(
             FrictionMode::Slip(_) => {
                 out.push(Guard::Slip(f));
                 if let Normal::Constraint(_) = friction.normal {
-                    out.push(Guard::Bearing(f));
+                    out.push(Guard::NormalForceSign(f));
                 }
             }
         }
@@ -157,9 +157,9 @@ pub fn stick_guards(f: usize, friction: &Friction) -> impl Iterator<Item = Guard
 #[derive(Clone, Copy, Debug)]
 enum Source {
     /// A number of the motion tape.
-    Motion(Place),
+    Motion(ValueRef),
     /// A number of the report tape.
-    Report(Place),
+    Report(ValueRef),
     /// The force of a row.
     Force(usize),
 }
@@ -186,7 +186,8 @@ impl Linear {
     /// `None` for guards with products of readings in them, or with a direction that turns.
     pub fn of<T: Scalar>(guard: Guard, mode: &Mode, dynamics: &Dynamics<T>) -> Option<Self> {
         let d = dynamics.description();
-        let motion = |place: Option<Place>| (1.0, Source::Motion(place.unwrap_or(Place::Zero)));
+        let motion =
+            |place: Option<ValueRef>| (1.0, Source::Motion(place.unwrap_or(ValueRef::Zero)));
         let first = match guard {
             Guard::Gap(c) => motion(d.rows[d.contacts[c].row].position),
             Guard::Normal(c) => (1.0, Source::Force(d.contacts[c].row)),
@@ -210,7 +211,7 @@ impl Linear {
             }
             Guard::Stop(i, k) => (1.0, Source::Report(d.stops[i].terms[k])),
             Guard::Mark(i, k) => (1.0, Source::Report(d.marks[i].terms[k])),
-            Guard::StickCone(_) | Guard::Bearing(_) | Guard::Joint(_) => return None,
+            Guard::StickCone(_) | Guard::NormalForceSign(_) | Guard::Composite(_) => return None,
         };
         let second = match guard {
             Guard::StickUpper(f) => Some((-1.0, Source::Force(d.frictions[f].row))),
@@ -358,7 +359,7 @@ fn of_products<T: Scalar>(guard: Guard, mode: &Mode, reading: &Reading<'_, T>, o
             add(out, (1.0, reading.force(d.frictions[f].row)));
         }
         Guard::StickCone(f) => stick_cone(f, mode, reading, out),
-        Guard::Bearing(f) => normal_force(f, mode, reading, out),
+        Guard::NormalForceSign(f) => normal_force(f, mode, reading, out),
         Guard::Slip(f) => {
             let friction = &d.frictions[f];
             let rows = &d.rows[friction.row..friction.row + friction.components];
@@ -367,14 +368,14 @@ fn of_products<T: Scalar>(guard: Guard, mode: &Mode, reading: &Reading<'_, T>, o
                     direction: Direction::Fixed(along),
                     ..
                 }) => along,
-                FrictionMode::Slip(_) => reading.heading(f).map(|x| x.value()),
+                FrictionMode::Slip(_) => reading.slip_direction(f).map(|x| x.value()),
                 _ => return,
             };
             for (row, along) in rows.iter().zip(along) {
                 add(out, (along, reading.motion(row.velocity)));
             }
         }
-        // The others are linear; the parts of a joint guard are known to `sharing` only.
+        // The others are linear; the parts of a composite guard are known to `redundant` only.
         _ => {}
     }
 }
@@ -384,7 +385,7 @@ fn linear_limit<T: Scalar>(f: usize, dynamics: &Dynamics<T>) -> Option<(f64, Sou
     let d = dynamics.description();
     let friction = &d.frictions[f];
     match (friction.normal, friction.static_coefficient) {
-        (_, Place::Node(_)) => None,
+        (_, ValueRef::Node(_)) => None,
         (Normal::Contact(c), coefficient) if d.contacts[c].normal_factor.is_none() => {
             let coefficient = dynamics.motion(coefficient).value();
             Some((coefficient, Source::Force(d.contacts[c].row)))
@@ -465,7 +466,7 @@ pub fn normal_force<T: Scalar>(f: usize, mode: &Mode, reading: &Reading<'_, T>, 
 }
 
 /// `needs` and everything about every row: Jacobian, residuals, coefficients, restitution, branch guards.
-pub fn all_row_needs(d: &Description, needs: &NeedSet) -> NeedSet {
+pub fn all_row_needs(d: &Description, needs: &OutputMask) -> OutputMask {
     let mut all = needs.clone();
     for row in d.rows {
         for need in [row.needs.jacobian, row.needs.position, row.needs.velocity] {

@@ -2,7 +2,7 @@
 
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
-use crate::system::{Description, Place};
+use crate::system::{Description, ValueRef};
 
 /// What a [`Dynamics`] has evaluated last: numbers, or Taylor coefficients.
 #[derive(Debug)]
@@ -54,9 +54,9 @@ impl<'a, T: Scalar> Reading<'a, T> {
 
     /// A number of the motion tape.
     #[inline]
-    pub fn motion(&self, place: Place) -> Terms<'a, T> {
+    pub fn motion(&self, place: ValueRef) -> Terms<'a, T> {
         match (self, place) {
-            (Reading::Series(dynamics), Place::Node(_)) => {
+            (Reading::Series(dynamics), ValueRef::Node(_)) => {
                 Terms::Many(dynamics.motion_series(place))
             }
             (Reading::Values(dynamics) | Reading::Series(dynamics), _) => {
@@ -67,9 +67,9 @@ impl<'a, T: Scalar> Reading<'a, T> {
 
     /// A number of the report tape.
     #[inline]
-    pub fn report(&self, place: Place) -> Terms<'a, T> {
+    pub fn report(&self, place: ValueRef) -> Terms<'a, T> {
         match (self, place) {
-            (Reading::Series(dynamics), Place::Node(_)) => {
+            (Reading::Series(dynamics), ValueRef::Node(_)) => {
                 Terms::Many(dynamics.report_series(place))
             }
             (Reading::Values(dynamics) | Reading::Series(dynamics), _) => {
@@ -79,9 +79,9 @@ impl<'a, T: Scalar> Reading<'a, T> {
     }
 
     /// Where the slip of friction `f` with two components points at the start of the step.
-    pub fn heading(&self, f: usize) -> [T; 2] {
+    pub fn slip_direction(&self, f: usize) -> [T; 2] {
         let (Reading::Values(dynamics) | Reading::Series(dynamics)) = self;
-        dynamics.heading(f)
+        dynamics.slip_direction(f)
     }
 
     /// The force of a row.

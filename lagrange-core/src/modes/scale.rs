@@ -7,7 +7,7 @@
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
 use crate::modes::guard::Guard;
-use crate::system::{Normal, Place};
+use crate::system::{Normal, ValueRef};
 
 /// What all guards of a state share.
 #[derive(Clone, Debug, Default)]
@@ -22,7 +22,7 @@ impl Sizes {
     /// Takes mass and forcing from the last value.
     pub fn take<T: Scalar>(&mut self, dynamics: &Dynamics<T>) {
         let d = dynamics.description();
-        let number = |place: Place| dynamics.motion(place).value();
+        let number = |place: ValueRef| dynamics.motion(place).value();
         self.mobility.clear();
         self.mobility.resize(d.coordinates.len(), 0.0);
         for &(i, j, place) in d.mass {
@@ -53,10 +53,10 @@ impl Sizes {
             }
             Guard::StickUpper(f) | Guard::StickLower(f) => self.limit(f, dynamics),
             Guard::StickCone(f) => self.limit(f, dynamics).powi(2),
-            Guard::Bearing(f) => self.normal(f, dynamics),
+            Guard::NormalForceSign(f) => self.normal(f, dynamics),
             Guard::Region(_) | Guard::Branch(_) | Guard::Stop(..) | Guard::Mark(..) => 0.0,
             // It is relative already.
-            Guard::Joint(_) => 1.0,
+            Guard::Composite(_) => 1.0,
         }
     }
 
@@ -93,7 +93,7 @@ impl Sizes {
         }
     }
 
-    fn friction<T: Scalar>(&self, f: usize, coefficient: Place, dynamics: &Dynamics<T>) -> f64 {
+    fn friction<T: Scalar>(&self, f: usize, coefficient: ValueRef, dynamics: &Dynamics<T>) -> f64 {
         dynamics.motion(coefficient).value().abs() * self.normal(f, dynamics)
     }
 

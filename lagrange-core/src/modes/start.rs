@@ -1,13 +1,13 @@
 //! The beginning of a run: states that satisfy the constraints.
 
-use super::{domain, survey::Survey};
+use super::{domain, status::ConstraintStatus};
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
 use crate::error::Error;
-use crate::state::{Held, State};
+use crate::state::{FixedComponents, State};
 
 /// Looks at a start: leaves `dynamics` in the mode with every touching contact closed and every vanishing slip at
-/// rest, and says in `survey` what is known.
+/// rest, and says in `status` what is known.
 ///
 /// # Errors
 /// [`Error::Domain`] for a number without meaning, [`Error::Start`] where a constraint is violated (unless `project`) or a contact is penetrated.
@@ -17,21 +17,21 @@ pub fn begin<T: Scalar>(
     state: &mut State<T>,
     tolerance: f64,
     project: bool,
-    survey: &mut Survey,
+    status: &mut ConstraintStatus,
 ) -> Result<(), Error> {
     domain::check_parameters(dynamics, t.value())?;
-    survey.look(dynamics, t, state, tolerance);
-    domain::check(dynamics, t.value(), &mut survey.form)?;
+    status.look(dynamics, t, state, tolerance);
+    domain::check(dynamics, t.value(), &mut status.form)?;
     if !project {
-        survey.refuse_violations(dynamics.description(), tolerance)?;
+        status.refuse_violations(dynamics.description(), tolerance)?;
     }
-    dynamics.set_mode(&survey.mode);
+    dynamics.set_mode(&status.mode);
     let moved = dynamics.project(t, &mut state.q, &mut state.v, 0.0);
     let moved = moved
-        .map_err(|e| Error::from_evaluation(e, t.value(), &survey.mode, dynamics.description()))?;
+        .map_err(|e| Error::from_evaluation(e, t.value(), &status.mode, dynamics.description()))?;
     if moved {
-        survey.look(dynamics, t, state, tolerance);
-        dynamics.set_mode(&survey.mode);
+        status.look(dynamics, t, state, tolerance);
+        dynamics.set_mode(&status.mode);
     }
     Ok(())
 }
@@ -43,11 +43,11 @@ pub fn consistent<T: Scalar>(
     tolerance: f64,
     reference: &State<T>,
     wanted: &State<T>,
-    held: &Held,
+    held: &FixedComponents,
 ) -> Result<State<T>, Error> {
     domain::check_parameters(dynamics, time)?;
     let t = T::from_f64(time);
-    let mut found = Survey::new(dynamics.description());
+    let mut found = ConstraintStatus::new(dynamics.description());
     found.look(dynamics, t, reference, tolerance);
     dynamics.set_mode(&found.mode);
     let mut state = wanted.clone();

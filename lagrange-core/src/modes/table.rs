@@ -1,11 +1,11 @@
 //! What a run knows of every mode that it has met: the guards, and what they ask of the tapes.
 
 use crate::arithmetic::Scalar;
-use crate::dynamics::{Dynamics, NeedSet, add_guards};
+use crate::dynamics::{Dynamics, OutputMask, add_guards};
 use crate::effects::Item;
 use crate::mode::Mode;
 use crate::modes::guard::{self, Guard};
-use crate::system::{Place, Row};
+use crate::system::{Row, ValueRef};
 
 /// One mode as a run sees it.
 #[derive(Clone, Debug)]
@@ -14,9 +14,9 @@ pub struct Watched {
     /// Its guards, without those of stops and marks.
     pub guards: Vec<Guard>,
     /// Needs of the motion, the guards and the report.
-    pub needs: NeedSet,
+    pub needs: OutputMask,
     /// All needs and what the accelerations of all gaps and slips are made of, as far as it changes.
-    pub deciding: NeedSet,
+    pub deciding: OutputMask,
     /// Whether a step can leave the rows that act by more than rounding: one of them is not linear with constant coefficients.
     pub drifts: bool,
 }
@@ -63,14 +63,14 @@ fn watched<T: Scalar>(dynamics: &Dynamics<T>) -> Watched {
         if !is_constant(row) {
             deciding.insert(row.needs.jacobian);
         }
-        if matches!(row.bias, Place::Node(_)) {
+        if matches!(row.bias, ValueRef::Node(_)) {
             deciding.insert(row.needs.bias);
         }
     }
     let acting = dynamics.acting_rows().iter().map(|&row| &d.rows[row]);
     let drifts = acting
         .into_iter()
-        .any(|row| !is_constant(row) || row.bias != Place::Zero);
+        .any(|row| !is_constant(row) || row.bias != ValueRef::Zero);
     Watched {
         mode: mode.clone(),
         guards,
@@ -82,5 +82,5 @@ fn watched<T: Scalar>(dynamics: &Dynamics<T>) -> Watched {
 
 fn is_constant(row: &Row) -> bool {
     let places = row.jacobian.iter().map(|(_, place)| place);
-    !places.into_iter().any(|p| matches!(p, Place::Node(_)))
+    !places.into_iter().any(|p| matches!(p, ValueRef::Node(_)))
 }

@@ -4,7 +4,7 @@
 
 use super::encoded::{Coefficient, Encoded, Word};
 use super::instruction::{Instruction, Op, Program, Register};
-use super::selection::Held;
+use super::selection::Selection;
 
 /// Where the numbers are that a program reads: each list in registers that follow one another.
 #[derive(Clone, Copy, Debug)]
@@ -143,7 +143,7 @@ impl Builder {
     pub(crate) fn load(
         &mut self,
         encoded: &Encoded,
-        held: &Held,
+        held: &Selection,
         numbers: Numbers,
         inputs: &[Register],
     ) -> Vec<Option<Register>> {

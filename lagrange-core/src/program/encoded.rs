@@ -11,7 +11,7 @@
 //! they are computed, the inputs first. A coefficient is a number by place · 4 + kind: a constant (0), a parameter (1), an exact
 //! number of the table (2).
 
-use super::{Builder, Held, Numbers, Op, Register, room};
+use super::{Builder, Numbers, Op, Register, Selection, room};
 use crate::arithmetic::Scalar;
 
 /// A program as data.
@@ -75,7 +75,7 @@ impl Encoded {
     /// Its outputs for what is held, from constants, parameters and inputs; none where nothing that is held asks for it.
     pub fn evaluate<T: Scalar>(
         &self,
-        held: &Held,
+        held: &Selection,
         constants: &[T],
         parameters: &[T],
         inputs: &[T],
@@ -104,7 +104,7 @@ impl Encoded {
 
     /// Reads the blocks that one of the needs held asks for: to `take` go the words, each with the number of the value that it
     /// computes, if it does.
-    pub(crate) fn read(&self, held: &Held, mut take: impl FnMut(usize, Word)) {
+    pub(crate) fn read(&self, held: &Selection, mut take: impl FnMut(usize, Word)) {
         let (words, _) = self.words.as_chunks::<4>();
         let mut words = words.iter().map(|word| u32::from_le_bytes(*word));
         while let Some(count) = words.next() {

@@ -4,7 +4,7 @@ use crate::arithmetic::Scalar;
 
 /// Where a number of the description is found after a program has run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum ValueRef {
     /// Structurally zero: never computed, never multiplied.
     Zero,
     /// Depends on parameters only: index into the constants.
@@ -13,14 +13,14 @@ pub enum Place {
     Node(usize),
 }
 
-impl Place {
+impl ValueRef {
     /// The number there, given the constants and the outputs.
     #[inline]
     pub(crate) fn read<T: Scalar>(self, constants: &[T], outputs: &[T]) -> T {
         match self {
-            Place::Zero => T::zero(),
-            Place::Constant(index) => constants[index],
-            Place::Node(index) => outputs[index],
+            ValueRef::Zero => T::zero(),
+            ValueRef::Constant(index) => constants[index],
+            ValueRef::Node(index) => outputs[index],
         }
     }
 }
@@ -30,14 +30,14 @@ pub type Needs = [u64];
 
 /// What of a program runs.
 #[derive(Clone, Copy, Debug)]
-pub struct Held<'a> {
+pub struct Selection<'a> {
     /// The needs to be met; a block runs only if one of its needs is here.
     pub needs: &'a Needs,
     /// Bit `i`: piecewise branch `i` is on its `then` side (its guard is ≥ 0).
     pub branches: &'a [u64],
 }
 
-impl Held<'_> {
+impl Selection<'_> {
     /// Whether branch `index` is on its `then` side.
     #[inline(always)]
     pub fn branch(&self, index: usize) -> bool {

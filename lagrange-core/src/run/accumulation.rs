@@ -13,9 +13,9 @@ use super::instant::derivatives;
 use crate::arithmetic::Scalar;
 use crate::error::Error;
 use crate::mode::FrictionMode;
-use crate::modes::decide::Known;
+use crate::modes::decide::SwitchFacts;
 use crate::modes::impact::Impact;
-use crate::system::{Normal, Place};
+use crate::system::{Normal, ValueRef};
 use crate::trajectory::{EventKind, State, Subject};
 
 /// Shrinking is believed after this many intervals.
@@ -188,21 +188,21 @@ impl<T: Scalar> Run<T> {
     pub(super) fn close_accumulated(
         &mut self,
         outcome: &Impact<T>,
-        known: &mut Known,
+        facts: &mut SwitchFacts,
     ) -> Result<(), Error> {
         // A plastic impact after which nothing parts is no bounce; on a rocking block the corner that is hit stays and
         // the other one parts.
-        if !known.parting.contains(&true) {
+        if !facts.parting.contains(&true) {
             return Ok(());
         }
         for c in 0..self.description().contacts.len() {
-            if !(outcome.struck[c] && known.arriving[c]) {
+            if !(outcome.struck[c] && facts.arriving[c]) {
                 continue;
             }
             self.switcher.train.book(self.now.t.value(), c);
-            let ended = self.accumulate(c, known);
-            if let Some((count, remaining)) = ended.or_else(|| self.die_out(known)) {
-                self.close_contacts(c, count, remaining, known)?;
+            let ended = self.accumulate(c, facts);
+            if let Some((count, remaining)) = ended.or_else(|| self.die_out(facts)) {
+                self.close_contacts(c, count, remaining, facts)?;
             }
         }
         Ok(())
@@ -210,7 +210,7 @@ impl<T: Scalar> Run<T> {
 
     /// After an impact of contact `c`: closes it if the impacts to come are below the tolerance. Returns the number of
     /// impacts that led here, and how long the others last.
-    fn accumulate(&mut self, c: usize, known: &mut Known) -> Option<(usize, T)> {
+    fn accumulate(&mut self, c: usize, facts: &mut SwitchFacts) -> Option<(usize, T)> {
         let (remaining, uncertain) = self.switcher.impacts[c].book(self.now.t)?;
         let certain = uncertain <= self.settings.tolerance * self.now.t.value().abs().max(1.0)
             || remaining.value() <= RESOLUTION * self.now.t.value().abs();
@@ -225,21 +225,21 @@ impl<T: Scalar> Run<T> {
                 && self.now.t.value() - impacts.last <= 2.0 * impacts.interval;
             if other == c || recent && self.vanishes(other) {
                 count += impacts.count;
-                self.end(other, known);
+                self.end(other, facts);
             }
         }
         Some((count, remaining))
     }
 
     /// The same for contacts that are hit without a law in it.
-    fn die_out(&mut self, known: &mut Known) -> Option<(usize, T)> {
+    fn die_out(&mut self, facts: &mut SwitchFacts) -> Option<(usize, T)> {
         let remaining = self.switcher.train.remaining()?;
         if remaining > ESTIMATED * self.now.t.value().abs() || !self.is_over(remaining) {
             return None;
         }
         for c in 0..self.switcher.impacts.len() {
             if self.switcher.train.has(c) && self.vanishes(c) {
-                self.end(c, known);
+                self.end(c, facts);
             }
         }
         let count = self.switcher.train.count;
@@ -260,13 +260,13 @@ impl<T: Scalar> Run<T> {
     /// Whether the gap of contact `c` is below the tolerance.
     fn vanishes(&self, c: usize) -> bool {
         let row = &self.description().rows[self.description().contacts[c].row];
-        let gap = self.dynamics.motion(row.position.unwrap_or(Place::Zero));
+        let gap = self.dynamics.motion(row.position.unwrap_or(ValueRef::Zero));
         gap.value().abs() <= self.settings.tolerance
     }
 
     /// Contact `c` bounces no more.
-    fn end(&mut self, c: usize, known: &mut Known) {
-        (known.touching[c], known.parting[c]) = (true, false);
+    fn end(&mut self, c: usize, facts: &mut SwitchFacts) {
+        (facts.touching[c], facts.parting[c]) = (true, false);
         self.switcher.impacts[c] = Impacts::default();
     }
 
@@ -279,12 +279,12 @@ impl<T: Scalar> Run<T> {
         c: usize,
         count: usize,
         remaining: T,
-        known: &mut Known,
+        facts: &mut SwitchFacts,
     ) -> Result<(), Error> {
         let d = self.description();
         let mut near = core::mem::take(&mut self.switcher.near);
         near.clear();
-        near.extend((0..d.contacts.len()).filter(|&c| known.touching[c]));
+        near.extend((0..d.contacts.len()).filter(|&c| facts.touching[c]));
         let rubs =
             |f: &usize| matches!(d.frictions[*f].normal, Normal::Contact(c) if near.contains(&c));
         let rubbing = || (0..d.frictions.len()).filter(rubs);
@@ -317,7 +317,7 @@ impl<T: Scalar> Run<T> {
         self.dynamics.set_mode(&self.switcher.scratch_mode);
         self.project(true)?;
         self.evaluate_all_rows()?;
-        rubbing().for_each(|f| known.resting[f] = rest.sticks[f] || self.slip_vanishes(f));
+        rubbing().for_each(|f| facts.resting[f] = rest.sticks[f] || self.slip_vanishes(f));
         (self.switcher.near, self.switcher.collider.rest) = (near, rest);
         let state = core::mem::take(&mut self.now.state);
         let kind = EventKind::Accumulates { impacts: count };

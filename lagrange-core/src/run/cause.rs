@@ -32,7 +32,7 @@ impl<T: Scalar> Run<T> {
         domain::check(
             &self.dynamics,
             self.now.t.value(),
-            &mut self.switcher.survey.form,
+            &mut self.switcher.status.form,
         )
         .err()
     }

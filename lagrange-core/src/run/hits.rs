@@ -1,7 +1,7 @@
 //! What ends a step early: the earliest root among the guards of the mode and the stops.
 
 use super::Run;
-use super::curves::Curves;
+use super::guard_polynomials::GuardPolynomials;
 use super::region::is_edge_in_flight;
 use super::rest::Rest;
 use crate::arithmetic::Scalar;
@@ -43,7 +43,7 @@ impl Hit {
 /// What finds the first thing that happens in a step, and what it knows of steps before.
 #[derive(Debug)]
 pub(super) struct Locator<T> {
-    pub(super) curves: Curves,
+    pub(super) polynomials: GuardPolynomials,
     /// Guards whose leading coefficients vanish at the start of the coming step.
     pub(super) zeros: Vec<(Guard, usize)>,
     /// Forces that are at their limit, with their sizes.
@@ -71,7 +71,7 @@ impl<T: Scalar> Locator<T> {
             terms.map(|terms| vec![false; terms]).collect()
         };
         Locator {
-            curves: Curves::new(d, &settings.effects),
+            polynomials: GuardPolynomials::new(d, &settings.effects),
             zeros: Vec::new(),
             at_limit: Vec::new(),
             falls: Vec::new(),
@@ -89,7 +89,7 @@ impl<T: Scalar> Locator<T> {
     pub(super) fn restart(&mut self) {
         let watches = self.stop_below.iter_mut().chain(&mut self.mark_below);
         watches.for_each(|terms| terms.fill(false));
-        self.curves.joints.clear();
+        self.polynomials.composites.clear();
     }
 }
 
@@ -100,15 +100,15 @@ impl<T: Scalar> Run<T> {
     pub(super) fn nothing_happens(&mut self) -> bool {
         let mode = &self.now.mode;
         let matters = |guard| !is_edge_in_flight(guard, mode);
-        let guards_stay = self.locator.curves.look(&self.locator.zeros, matters);
+        let guards_stay = self.locator.polynomials.look(&self.locator.zeros, matters);
         let d = self.description();
         let stays = |&i: &usize| {
             let below = &self.locator.stop_below[i];
             let mut terms = below.iter().enumerate();
             !holds(&d.stops[i], &self.now.mode)
-                || terms.all(|(k, &below)| self.locator.curves.stop_stays(i, k, below))
+                || terms.all(|(k, &below)| self.locator.polynomials.stop_stays(i, k, below))
         };
-        guards_stay && self.locator.curves.stops.iter().all(stays)
+        guards_stay && self.locator.polynomials.stops.iter().all(stays)
     }
 
     /// Finds what happens first within the step.
@@ -116,7 +116,7 @@ impl<T: Scalar> Run<T> {
         self.locator.falls.clear();
         let mut first = f64::INFINITY;
         let mut falls = core::mem::take(&mut self.locator.falls);
-        for (guard, curve) in self.locator.curves.in_question() {
+        for (guard, curve) in self.locator.polynomials.in_question() {
             if let Some((s, width)) = self.fall(guard, curve) {
                 falls.push((guard, s, width));
                 first = first.min(s + width);
@@ -210,19 +210,22 @@ impl<T: Scalar> Run<T> {
 
     /// Whether the step is so long that rounding hides how a guard begins that falls in it.
     pub(super) fn hides_a_start(&self) -> bool {
-        self.locator.curves.in_question().any(|(guard, curve)| {
-            if is_edge_in_flight(guard, &self.now.mode) || !self.within_region(guard, 0.0) {
-                return false;
-            }
-            let curve = self.judged(guard, curve);
-            curve.is_some_and(|curve| hides_its_start(guard, curve))
-        })
+        self.locator
+            .polynomials
+            .in_question()
+            .any(|(guard, curve)| {
+                if is_edge_in_flight(guard, &self.now.mode) || !self.within_region(guard, 0.0) {
+                    return false;
+                }
+                let curve = self.judged(guard, curve);
+                curve.is_some_and(|curve| hides_its_start(guard, curve))
+            })
     }
 
     /// The earliest stop up to part `end` of the step.
     fn first_stop(&self, end: f64) -> Option<(usize, f64)> {
         let d = self.description();
-        let curves = &self.locator.curves;
+        let curves = &self.locator.polynomials;
         let mut best: Option<(usize, f64)> = None;
         for &i in &curves.stops {
             let (watch, mode) = (&d.stops[i], &self.now.mode);
@@ -247,7 +250,7 @@ impl<T: Scalar> Run<T> {
     /// Marks up to part `end` of the step, in order.
     pub(super) fn marks_until(&self, end: f64, list: &mut Vec<(usize, f64)>) {
         let d = self.description();
-        let curves = &self.locator.curves;
+        let curves = &self.locator.polynomials;
         list.clear();
         for &i in &curves.marks {
             let watch = &d.marks[i];
@@ -284,7 +287,7 @@ impl<T: Scalar> Run<T> {
     /// Remembers on which side the terms of stops and marks are at part `end` of the step.
     pub(super) fn remember_sides(&mut self, end: f64) {
         let d = self.description();
-        let curves = &self.locator.curves;
+        let curves = &self.locator.polynomials;
         let below = |curve: &[f64]| value(curve, end) < 0.0;
         for &i in &curves.stops {
             for k in 0..d.stops[i].terms.len() {

@@ -48,7 +48,7 @@ impl<T: Scalar> Run<T> {
                 if let Some(rest) = self.locator.rests.first() {
                     (Guard::Slip(rest.friction), rest.slope * h)
                 } else if let Some(&guard) = self.locator.fallen.first()
-                    && let Some(curve) = self.locator.curves.of(guard)
+                    && let Some(curve) = self.locator.polynomials.of(guard)
                 {
                     (guard, slope(curve, end))
                 } else {
@@ -57,7 +57,7 @@ impl<T: Scalar> Run<T> {
             }
             Hit::Stop(i, _) => {
                 let terms = 0..self.description().stops[i].terms.len();
-                match nearest(terms, end, |k| self.locator.curves.stop_term(i, k)) {
+                match nearest(terms, end, |k| self.locator.polynomials.stop_term(i, k)) {
                     Some((k, slope)) => (Guard::Stop(i, k), slope),
                     None => return T::from_f64(end),
                 }
@@ -88,7 +88,7 @@ impl<T: Scalar> Run<T> {
             return T::from_f64(s);
         }
         let terms = 0..self.description().marks[mark].terms.len();
-        match nearest(terms, s, |k| self.locator.curves.mark_term(mark, k)) {
+        match nearest(terms, s, |k| self.locator.polynomials.mark_term(mark, k)) {
             Some((k, slope)) => self.root(Guard::Mark(mark, k), slope, s),
             None => T::from_f64(s),
         }
@@ -111,7 +111,7 @@ impl<T: Scalar> Run<T> {
         }
         Some(exact(
             guard,
-            &self.locator.curves.joints,
+            &self.locator.polynomials.composites,
             &self.now.mode,
             &self.dynamics,
         ))

@@ -5,7 +5,7 @@ use crate::arithmetic::Scalar;
 use crate::dynamics;
 use crate::erased::Erased;
 use crate::mode::{FrictionMode, Mode};
-use crate::modes::decide::Known;
+use crate::modes::decide::SwitchFacts;
 use crate::modes::impact::Impact;
 use crate::settings::{Awaited, Settings};
 use crate::trajectory::{Around, Asked, Event, EventKind, Record, State, Subject};
@@ -73,9 +73,9 @@ pub(super) struct Before<T> {
 }
 
 impl<T: Scalar> Run<T> {
-    pub(super) fn log_impacts(&mut self, outcome: &Impact<T>, known: &Known) {
+    pub(super) fn log_impacts(&mut self, outcome: &Impact<T>, facts: &SwitchFacts) {
         let before = &self.recorder.before;
-        let hit = |c: &usize| known.arriving[*c] && outcome.struck[*c];
+        let hit = |c: &usize| facts.arriving[*c] && outcome.struck[*c];
         for c in (0..self.description().contacts.len()).filter(hit) {
             let d = self.description();
             let event = self.recorder.trajectory.events.reuse(|| Event::blank(d));

@@ -2,22 +2,22 @@
 
 mod accumulation;
 mod cause;
-mod curves;
+mod guard_polynomials;
 mod hits;
 mod instant;
+pub(crate) mod lockstep;
 mod log;
+mod redundant;
 mod region;
 mod rest;
-pub(crate) mod round;
 mod samples;
-mod shares;
 mod singular;
 mod stepping;
 mod stiffness;
 mod switch;
 
 use crate::arithmetic::Scalar;
-use crate::dynamics::{Dynamics, EvaluationError, NeedSet};
+use crate::dynamics::{Dynamics, EvaluationError, OutputMask};
 use crate::erased::Erased;
 use crate::error::Error;
 use crate::mode::Mode;
@@ -25,7 +25,7 @@ use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
 use crate::modes::start;
 use crate::settings::{Awaited, Settings};
-use crate::state::Held;
+use crate::state::FixedComponents;
 use crate::system::{Description, Watch};
 use crate::trajectory::{EventKind, Record, State, Subject, Work};
 use core::ops::Range;
@@ -141,7 +141,7 @@ impl<T: Scalar> Run<T> {
         time: f64,
         reference: &State<T>,
         wanted: &State<T>,
-        held: &Held,
+        held: &FixedComponents,
     ) -> Result<State<T>, Error> {
         let tolerance = self.settings.tolerance;
         self.dynamics.restart();
@@ -232,16 +232,16 @@ impl<T: Scalar> Run<T> {
             &mut self.now.state,
             self.settings.tolerance,
             self.settings.project_start,
-            &mut self.switcher.survey,
+            &mut self.switcher.status,
         )?;
         self.recorder.trajectory.start.clone_from(&self.now.state);
         (self.now.series, self.now.valued) = (Progress::None, false);
-        self.now.mode.clone_from(&self.switcher.survey.mode);
+        self.now.mode.clone_from(&self.switcher.status.mode);
         self.recorder.trajectory.modes.clear();
         self.recorder.trajectory.modes.push(&self.now.mode);
         self.hold_guards();
         self.now.below.fill(false);
-        for &c in &self.switcher.survey.below {
+        for &c in &self.switcher.status.below {
             self.now.below[c] = true;
         }
         self.settle()?;
@@ -351,7 +351,7 @@ impl<T: Scalar> Run<T> {
     /// What began at zero with the last step is an ordinary guard in the next, but for a force that is still at its limit to
     /// rounding: a block that is just held.
     fn forget_zeros(&mut self) {
-        let is_single = |guard: &Guard| guard.is_force() && !matches!(guard, Guard::Joint(_));
+        let is_single = |guard: &Guard| guard.is_force() && !matches!(guard, Guard::Composite(_));
         let zeros = self.locator.zeros.drain(..);
         let stay = zeros.filter(|(guard, order)| *order >= guard::LENGTH && is_single(guard));
         let mut held = core::mem::take(&mut self.locator.at_limit);
@@ -412,7 +412,7 @@ impl<T: Scalar> Run<T> {
     }
 
     fn log_marks(&mut self, end: f64) {
-        if self.locator.curves.marks.is_empty() {
+        if self.locator.polynomials.marks.is_empty() {
             return;
         }
         let mut marks = core::mem::take(&mut self.locator.marks);
@@ -434,16 +434,16 @@ impl<T: Scalar> Run<T> {
     /// Stops whose conditions the switch has just made true.
     fn stops_of_the_mode(&mut self) -> Result<(), Error> {
         let d = self.description();
-        for at in 0..self.locator.curves.stops.len() {
-            let i = self.locator.curves.stops[at];
+        for at in 0..self.locator.polynomials.stops.len() {
+            let i = self.locator.polynomials.stops[at];
             if self.has_become_true(&d.stops[i], |k| Guard::Stop(i, k)) {
                 self.evaluate()?;
                 self.finish(i);
                 return Ok(());
             }
         }
-        for at in 0..self.locator.curves.marks.len() {
-            let i = self.locator.curves.marks[at];
+        for at in 0..self.locator.polynomials.marks.len() {
+            let i = self.locator.polynomials.marks[at];
             if self.has_become_true(&d.marks[i], |k| Guard::Mark(i, k)) {
                 self.evaluate()?;
                 let state = core::mem::take(&mut self.now.state);
@@ -472,9 +472,9 @@ impl<T: Scalar> Run<T> {
             .clone_from(&self.switcher.decider.decision.mode);
         self.recorder.trajectory.enter(&self.now.mode);
         self.locator
-            .curves
-            .joints
-            .clone_from(&self.switcher.decider.decision.joints);
+            .polynomials
+            .composites
+            .clone_from(&self.switcher.decider.decision.composites);
         (self.now.series, self.now.valued) = (Progress::None, false);
         self.hold_guards();
     }
@@ -486,7 +486,7 @@ impl<T: Scalar> Run<T> {
         self.now.drifts = watched.drifts;
         let guards = watched.guards.iter().copied();
         self.locator
-            .curves
+            .polynomials
             .arm(guards, &self.now.mode, &self.dynamics);
     }
 
@@ -503,11 +503,11 @@ impl<T: Scalar> Run<T> {
     /// Asks for the stops and marks that take part.
     fn watch(&mut self) {
         let d = self.description();
-        let mut needs = NeedSet::new(d);
-        for &i in &self.locator.curves.stops {
+        let mut needs = OutputMask::new(d);
+        for &i in &self.locator.polynomials.stops {
             needs.insert(d.stops[i].need);
         }
-        for &i in &self.locator.curves.marks {
+        for &i in &self.locator.polynomials.marks {
             needs.insert(d.marks[i].need);
         }
         self.dynamics.set_report_needs(&needs);
@@ -515,7 +515,7 @@ impl<T: Scalar> Run<T> {
 
     /// Values at the present state in the present mode, with every row's Jacobian and rate.
     fn evaluate_all_rows(&mut self) -> Result<(), Error> {
-        self.dynamics.set_extra_needs(&self.switcher.survey.needs);
+        self.dynamics.set_extra_needs(&self.switcher.status.needs);
         self.evaluate()?;
         self.now.valued = false;
         Ok(())

@@ -11,7 +11,7 @@ use crate::arithmetic::Scalar;
 use crate::effects::Item;
 use crate::mode::Mode;
 use crate::modes::guard::Guard;
-use crate::system::{Contact, Place};
+use crate::system::{Contact, ValueRef};
 
 /// Whether a guard is the edge of a contact that is open in a mode.
 pub(super) fn is_edge_in_flight(guard: Guard, mode: &Mode) -> bool {
@@ -30,7 +30,7 @@ impl<T: Scalar> Run<T> {
             return true;
         };
         let edge = Guard::Region(c);
-        let Some(curve) = self.locator.curves.of(edge) else {
+        let Some(curve) = self.locator.polynomials.of(edge) else {
             return true;
         };
         // Just after the edge has been located, the side that the motion goes to.
@@ -45,7 +45,7 @@ impl<T: Scalar> Run<T> {
             return;
         }
         let mut below = core::mem::take(&mut self.now.below);
-        for (guard, curve) in self.locator.curves.of_mode() {
+        for (guard, curve) in self.locator.polynomials.of_mode() {
             let Guard::Gap(c) = guard else {
                 continue;
             };
@@ -83,11 +83,11 @@ impl<T: Scalar> Run<T> {
             if left || !self.dynamics.effects().includes(d, Item::Contact(c)) {
                 continue;
             }
-            let number = |place: Place| self.dynamics.motion(place).value();
-            let gap = number(d.rows[contact.row].position.unwrap_or(Place::Zero));
+            let number = |place: ValueRef| self.dynamics.motion(place).value();
+            let gap = number(d.rows[contact.row].position.unwrap_or(ValueRef::Zero));
             if gap.abs() <= small && number(region) >= -small {
-                self.switcher.survey.known.touching[c] = true;
-                self.switcher.survey.known.arriving[c] = true;
+                self.switcher.status.facts.touching[c] = true;
+                self.switcher.status.facts.arriving[c] = true;
             }
         }
     }

@@ -224,7 +224,7 @@ impl<T: Scalar> Run<T> {
     /// Slips that have vanished with those that were brought to rest: a body with two points at rest is at rest.
     fn rest_of_necessity(&mut self) {
         let State { q, v } = &self.now.state;
-        self.dynamics.set_extra_needs(&self.switcher.survey.needs);
+        self.dynamics.set_extra_needs(&self.switcher.status.needs);
         self.dynamics.tape(self.now.t, q, v);
         for f in 0..self.description().frictions.len() {
             if !self.turns(f) || self.locator.fallen.contains(&Guard::Slip(f)) {
@@ -235,7 +235,7 @@ impl<T: Scalar> Run<T> {
                 self.locator.fallen.push(Guard::Slip(f));
                 self.locator.rests.push(Rest {
                     friction: f,
-                    along: self.dynamics.heading(f).map(|x| x.value()),
+                    along: self.dynamics.slip_direction(f).map(|x| x.value()),
                     left: 0.0,
                     slope: 0.0,
                 });

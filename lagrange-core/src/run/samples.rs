@@ -31,13 +31,13 @@ pub(super) struct SampledRoot {
 impl<T: Scalar> Run<T> {
     /// How far the interpolated guards are off between their samples, in units of what is allowed.
     pub(super) fn interpolation_defect(&mut self) -> Result<f64, EvaluationError> {
-        if self.locator.curves.get(0).is_none() {
+        if self.locator.polynomials.get(0).is_none() {
             return Ok(0.0);
         }
         let mut worst = 0.0_f64;
-        for s in self.locator.curves.between_samples() {
+        for s in self.locator.polynomials.between_samples() {
             self.evaluate_end(s)?;
-            let (curves, tolerance) = (&self.locator.curves, self.stepper.tolerance.relative);
+            let (curves, tolerance) = (&self.locator.polynomials, self.stepper.tolerance.relative);
             let defect =
                 curves.interpolation_defect(&mut self.dynamics, &self.now.mode, s, tolerance);
             // Not the larger of a number and a NaN, which would be the number.
@@ -49,7 +49,7 @@ impl<T: Scalar> Run<T> {
     /// By which factor a step with this defect of its guards may be longer, or has to be shorter.
     pub(super) fn stretch(&self, defect: f64) -> f64 {
         let [least, most] = FACTORS;
-        let degree = self.locator.curves.get(0).map_or(1, |(_, c)| c.len());
+        let degree = self.locator.polynomials.get(0).map_or(1, |(_, c)| c.len());
         let factor = (AIM / defect).powf(1.0 / degree as f64);
         if factor.is_nan() {
             least
@@ -60,15 +60,15 @@ impl<T: Scalar> Run<T> {
 
     /// Finds where the guards vanish on the dense output, next to the roots of their interpolations.
     pub(super) fn sharpen_roots(&mut self) {
-        self.locator.curves.roots.clear();
+        self.locator.polynomials.roots.clear();
         let mut all = RootList::new();
         let mut index = 0;
-        while let Some((guard, curve)) = self.locator.curves.get(index) {
+        while let Some((guard, curve)) = self.locator.polynomials.get(index) {
             roots(self.judged(guard, curve).unwrap_or_default(), &mut all);
             for root in all.iter() {
                 let exact = self.sharpened(index, root);
                 let width = exact.map_or(0.5 * root.width, |s| 2.0 * f64::EPSILON * s);
-                self.locator.curves.roots.push(SampledRoot {
+                self.locator.polynomials.roots.push(SampledRoot {
                     guard,
                     interpolated: root.s,
                     exact: exact.unwrap_or(root.s),
@@ -87,7 +87,7 @@ impl<T: Scalar> Run<T> {
         if root.grazing {
             return None;
         }
-        let (guard, curve) = self.locator.curves.get(index)?;
+        let (guard, curve) = self.locator.polynomials.get(index)?;
         let known = curve.len() - self.judged(guard, curve)?.len();
         let rate = slope(curve, root.s).abs();
         let side = match root.direction {
@@ -101,7 +101,7 @@ impl<T: Scalar> Run<T> {
             Some(
                 side * run
                     .locator
-                    .curves
+                    .polynomials
                     .value(index, &run.now.mode, &run.dynamics),
             )
         };
@@ -154,7 +154,7 @@ impl<T: Scalar> Run<T> {
     pub(super) fn place(&self, guard: Guard, root: &Root) -> (f64, f64) {
         let of_guard = self
             .locator
-            .curves
+            .polynomials
             .roots
             .iter()
             .filter(|known| known.guard == guard);

@@ -14,7 +14,7 @@ use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
 use crate::effects::{Effects, Item};
 use crate::integrate::taylor;
-use crate::system::{Description, Place};
+use crate::system::{Description, ValueRef};
 
 /// A step may come nearer to a loss of rank, or to its other side, by this factor.
 const NEARER: f64 = 0.35;
@@ -68,7 +68,7 @@ impl Rank {
             let jacobian = d.rows[row].jacobian.iter();
             jacobian
                 .clone()
-                .any(|(_, place)| matches!(place, Place::Node(_)))
+                .any(|(_, place)| matches!(place, ValueRef::Node(_)))
         };
         let constraints = d.constraints.iter().enumerate();
         let acting = constraints.filter(|(i, constraint)| {
@@ -126,7 +126,7 @@ impl Rank {
     fn fill<T: Scalar>(&mut self, dynamics: &Dynamics<T>) {
         let d = dynamics.description();
         let n = d.coordinates.len();
-        let number = |place: Place| dynamics.motion(place).value();
+        let number = |place: ValueRef| dynamics.motion(place).value();
         for &(i, j, place) in d.mass {
             let mass = number(place);
             if i == j {
@@ -231,7 +231,7 @@ impl<T: Scalar> Run<T> {
         let (h, degree) = best?;
         self.write_polynomial(h.min(self.end - self.now.t.value()), degree);
         self.locator
-            .curves
+            .polynomials
             .take_series(&self.dynamics, &self.now.mode, &self.stepper.powers);
         let hit = self.first_hit();
         let distance = self.distance_at(hit.end());

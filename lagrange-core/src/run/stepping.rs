@@ -110,9 +110,11 @@ impl<T: Scalar> Run<T> {
                 return Err(self.step_too_small(h));
             }
             self.write_polynomial(h, self.stepper.order);
-            self.locator
-                .curves
-                .take_series(&self.dynamics, &self.now.mode, &self.stepper.powers);
+            self.locator.polynomials.take_series(
+                &self.dynamics,
+                &self.now.mode,
+                &self.stepper.powers,
+            );
             let shorter = CLOSER_LOOK * h;
             let resolved =
                 self.now.t.value() + shorter > self.now.t.value() && shorter > CLOSEST * longest;
@@ -164,7 +166,7 @@ impl<T: Scalar> Run<T> {
             // The polynomial is as good at its root however long the step: the next try ends before it.
             match control.judge(h * end, defect, self.stepper.order) {
                 Verdict::Accept => {
-                    if self.corrects_joints(&hit, looked, &mut corrections) {
+                    if self.corrects_composites(&hit, looked, &mut corrections) {
                         continue;
                     }
                     self.now.distance = distance;
@@ -196,7 +198,7 @@ impl<T: Scalar> Run<T> {
     /// Beyond the break a guard is no number, or a gap or the guard of a branch has jumped below zero.
     fn pass_break(&mut self) -> Result<Hit, Error> {
         self.evaluate_end(1.0).map_err(|e| self.error(e))?;
-        let (curves, dynamics) = (&mut self.locator.curves, &mut self.dynamics);
+        let (curves, dynamics) = (&mut self.locator.polynomials, &mut self.dynamics);
         if let Some((guard, before, after)) = curves.hold(dynamics, &self.now.mode) {
             let d = self.description();
             let item = guard.name(d).unwrap_or(d.name);
@@ -234,7 +236,7 @@ impl<T: Scalar> Run<T> {
 
     /// The same of the guards.
     fn guard_defect(&mut self, hit: &Hit, looked: f64) -> f64 {
-        let (curves, fallen) = (&self.locator.curves, &self.locator.fallen);
+        let (curves, fallen) = (&self.locator.polynomials, &self.locator.fallen);
         let stops = matches!(hit, Hit::Stop(..));
         let located = |g| fallen.contains(&g) || stops && matches!(g, Guard::Stop(..));
         let tolerance = self.stepper.tolerance.relative;
@@ -329,7 +331,7 @@ impl<T: Scalar> Run<T> {
         }
         let mut h = first.map_err(|e| self.no_step(e))?.min(longest);
         for _ in 0..MOST_TRIES {
-            if h <= KINK * self.resolution() && self.locator.curves.get(0).is_some() {
+            if h <= KINK * self.resolution() && self.locator.polynomials.get(0).is_some() {
                 break;
             }
             let next = self.integrate(h)?;
@@ -388,7 +390,7 @@ impl<T: Scalar> Run<T> {
     /// Samples the guards along the step.
     fn sample(&mut self) -> Result<(), Error> {
         let State { q, v } = &mut self.stepper.scratch;
-        let (curves, dynamics) = (&mut self.locator.curves, &mut self.dynamics);
+        let (curves, dynamics) = (&mut self.locator.polynomials, &mut self.dynamics);
         let sampled = curves.sample(dynamics, &self.now.mode, &self.stepper.step, q, v);
         sampled.map_err(|e| self.error(e))
     }
@@ -405,7 +407,7 @@ impl<T: Scalar> Run<T> {
             }
             self.evaluate_end(hit.end()).map_err(|e| self.error(e))?;
             self.now.distance = self.rank.distance(&self.dynamics);
-            if !self.corrects_joints(&hit, hit.end(), &mut corrections) {
+            if !self.corrects_composites(&hit, hit.end(), &mut corrections) {
                 return Ok(hit);
             }
             self.sample()?;

@@ -6,12 +6,12 @@ use crate::arithmetic::Scalar;
 use crate::effects::Item;
 use crate::error::Error;
 use crate::mode::{FrictionMode, Mode};
-use crate::modes::decide::{Decider, Juncture, Known, Moment};
+use crate::modes::decide::{Decider, EvaluationPoint, SwitchContext, SwitchFacts};
 use crate::modes::domain;
 use crate::modes::guard::Guard;
 use crate::modes::impact::{Collider, Impact};
-use crate::modes::sharing::Sharing;
-use crate::modes::survey::Survey;
+use crate::modes::redundant::RedundantForces;
+use crate::modes::status::ConstraintStatus;
 use crate::modes::table::Table;
 use crate::pool::Pool;
 use crate::system::{Description, Normal};
@@ -19,7 +19,7 @@ use crate::system::{Description, Normal};
 /// What decides how the motion goes on.
 #[derive(Debug)]
 pub(super) struct Switcher<T> {
-    pub(super) survey: Survey,
+    pub(super) status: ConstraintStatus,
     pub(super) collider: Collider<T>,
     /// Contacts whose gap vanishes at an impact.
     pub(super) near: Vec<usize>,
@@ -32,7 +32,7 @@ pub(super) struct Switcher<T> {
     pub(super) decider: Decider<T>,
     pub(super) table: Table,
     /// Of undetermined forces at the present state.
-    pub(super) sharing: Sharing<T>,
+    pub(super) redundant: RedundantForces<T>,
     /// Modes of the switches since time last advanced.
     pub(super) stuck: Pool<Mode>,
 }
@@ -41,7 +41,7 @@ impl<T: Scalar> Switcher<T> {
     pub(super) fn new(d: &'static Description, mode: &Mode) -> Self {
         let contacts = d.contacts.len();
         Switcher {
-            survey: Survey::new(d),
+            status: ConstraintStatus::new(d),
             collider: Collider::default(),
             near: Vec::with_capacity(contacts),
             impacts: vec![Impacts::default(); contacts],
@@ -49,7 +49,7 @@ impl<T: Scalar> Switcher<T> {
             scratch_mode: mode.clone(),
             decider: Decider::new(d),
             table: Table::default(),
-            sharing: Sharing::default(),
+            redundant: RedundantForces::default(),
             stuck: Pool::default(),
         }
     }
@@ -58,7 +58,7 @@ impl<T: Scalar> Switcher<T> {
     pub(super) fn restart(&mut self) {
         self.impacts.iter_mut().for_each(Impacts::restart);
         self.train.restart();
-        self.sharing.clear();
+        self.redundant.clear();
         self.stuck.clear();
     }
 }
@@ -73,62 +73,62 @@ impl<T: Scalar> Run<T> {
         if !self.now.valued {
             self.evaluate()?;
         }
-        let known = &mut self.switcher.survey.known;
-        known.clear(d);
-        known.residue =
+        let facts = &mut self.switcher.status.facts;
+        facts.clear(d);
+        facts.residue =
             self.switcher
                 .decider
                 .residue(&mut self.dynamics, &self.now.mode, &self.locator.fallen);
-        known.touching.copy_from_slice(&self.now.mode.contacts);
-        for (resting, friction) in known.resting.iter_mut().zip(&self.now.mode.frictions) {
+        facts.touching.copy_from_slice(&self.now.mode.contacts);
+        for (resting, friction) in facts.resting.iter_mut().zip(&self.now.mode.frictions) {
             *resting = friction.rests();
         }
         for &guard in &self.locator.fallen {
             match guard {
-                Guard::Gap(c) => (known.touching[c], known.arriving[c]) = (true, true),
-                Guard::Slip(f) => known.resting[f] = true,
-                Guard::Branch(b) => known.balanced[b] = true,
-                Guard::Region(c) => known.touching[c] = false,
+                Guard::Gap(c) => (facts.touching[c], facts.arriving[c]) = (true, true),
+                Guard::Slip(f) => facts.resting[f] = true,
+                Guard::Branch(b) => facts.balanced[b] = true,
+                Guard::Region(c) => facts.touching[c] = false,
                 _ => {}
             }
         }
         self.hand_over();
-        let known = &mut self.switcher.survey.known;
-        known.located.extend_from_slice(&self.locator.fallen);
+        let facts = &mut self.switcher.status.facts;
+        facts.located.extend_from_slice(&self.locator.fallen);
         for guard in &self.locator.fallen {
-            if let Guard::Joint(k) = *guard {
-                let parts = self.locator.curves.joints[k]
+            if let Guard::Composite(k) = *guard {
+                let parts = self.locator.polynomials.composites[k]
                     .parts
                     .iter()
                     .map(|part| part.guard);
-                self.switcher.survey.known.located.extend(parts);
-                let residue = self.joint_residue(&self.locator.curves.joints[k]);
-                let known = &mut self.switcher.survey.known;
-                known.residue = known.residue.max(residue);
+                self.switcher.status.facts.located.extend(parts);
+                let residue = self.composite_residue(&self.locator.polynomials.composites[k]);
+                let facts = &mut self.switcher.status.facts;
+                facts.residue = facts.residue.max(residue);
             }
         }
         self.settle()
     }
 
-    /// Impact if needed, then the next mode; logs what changed. `self.switcher.survey.known` says what vanishes at this instant.
+    /// Impact if needed, then the next mode; logs what changed. `self.switcher.status.facts` says what vanishes at this instant.
     pub(super) fn settle(&mut self) -> Result<(), Error> {
-        let mut known = core::mem::take(&mut self.switcher.survey.known);
-        let outcome = self.settle_knowing(&mut known);
-        self.switcher.survey.known = known;
+        let mut facts = core::mem::take(&mut self.switcher.status.facts);
+        let outcome = self.settle_knowing(&mut facts);
+        self.switcher.status.facts = facts;
         outcome
     }
 
-    fn settle_knowing(&mut self, known: &mut Known) -> Result<(), Error> {
+    fn settle_knowing(&mut self, facts: &mut SwitchFacts) -> Result<(), Error> {
         if !self.now.valued {
             self.evaluate()?;
         }
         self.remember_before();
-        let hit = known.arriving.contains(&true) && self.hit(known)?;
+        let hit = facts.arriving.contains(&true) && self.hit(facts)?;
         if !hit {
-            self.rest_where_slip_vanishes(known)?;
+            self.rest_where_slip_vanishes(facts)?;
         }
-        let here = Juncture {
-            moment: Moment {
+        let here = SwitchContext {
+            moment: EvaluationPoint {
                 t: self.now.t,
                 q: &self.now.state.q,
                 v: &self.now.state.v,
@@ -136,7 +136,7 @@ impl<T: Scalar> Run<T> {
                 tolerance: self.settings.tolerance,
             },
             present: &self.now.mode,
-            known,
+            facts,
         };
         self.switcher
             .decider
@@ -167,9 +167,9 @@ impl<T: Scalar> Run<T> {
             self.expand()?;
             self.evaluate()?;
             self.now.valued = valued;
-            self.note_shares();
+            self.note_redundant_forces();
         } else {
-            self.switcher.sharing.clear();
+            self.switcher.redundant.clear();
         }
         let outcome = core::mem::take(&mut self.switcher.collider.outcome);
         let impulses = if hit { &outcome.impulses[..] } else { &[] };
@@ -179,24 +179,24 @@ impl<T: Scalar> Run<T> {
     }
 
     /// The impact of the contacts whose gaps close, if there is one.
-    fn hit(&mut self, known: &mut Known) -> Result<bool, Error> {
+    fn hit(&mut self, facts: &mut SwitchFacts) -> Result<bool, Error> {
         let d = self.description();
         self.evaluate_all_rows()?;
         for c in (0..d.contacts.len()).filter(|&c| !self.now.mode.contacts[c]) {
             // A gap that rounding has left below zero may be growing.
             let (rate, size) = self.rate(d.contacts[c].row);
-            if known.arriving[c] && rate > 1e-12 * size {
-                (known.touching[c], known.arriving[c], known.parting[c]) = (false, false, true);
-                known.located.retain(|guard| *guard != Guard::Gap(c));
+            if facts.arriving[c] && rate > 1e-12 * size {
+                (facts.touching[c], facts.arriving[c], facts.parting[c]) = (false, false, true);
+                facts.located.retain(|guard| *guard != Guard::Gap(c));
             }
         }
-        if !(0..d.contacts.len()).any(|c| known.arriving[c] && self.approaching(c)) {
+        if !(0..d.contacts.len()).any(|c| facts.arriving[c] && self.approaching(c)) {
             return Ok(false);
         }
         // What has just parted may be pushed back.
         let mut near = core::mem::take(&mut self.switcher.near);
         near.clear();
-        near.extend((0..d.contacts.len()).filter(|&c| known.touching[c] || known.parting[c]));
+        near.extend((0..d.contacts.len()).filter(|&c| facts.touching[c] || facts.parting[c]));
         let impacts = self.settings.impacts.unwrap_or(d.impacts);
         let time = self.now.t.value();
         let mut solved =
@@ -214,9 +214,9 @@ impl<T: Scalar> Run<T> {
         solved?;
         let outcome = core::mem::take(&mut self.switcher.collider.outcome);
         self.now.state.v.copy_from_slice(&outcome.v);
-        self.log_impacts(&outcome, known);
-        self.after_impact(&outcome, known);
-        let closed = self.close_accumulated(&outcome, known);
+        self.log_impacts(&outcome, facts);
+        self.after_impact(&outcome, facts);
+        let closed = self.close_accumulated(&outcome, facts);
         self.switcher.collider.outcome = outcome;
         closed?;
         Ok(true)
@@ -240,23 +240,23 @@ impl<T: Scalar> Run<T> {
     }
 
     /// What is known after an impact; `dynamics` still holds the state before.
-    fn after_impact(&self, outcome: &Impact<T>, known: &mut Known) {
+    fn after_impact(&self, outcome: &Impact<T>, facts: &mut SwitchFacts) {
         let d = self.description();
         for &c in &self.switcher.near {
-            known.touching[c] = outcome.stays[c];
-            known.parting[c] = !outcome.stays[c];
+            facts.touching[c] = outcome.stays[c];
+            facts.parting[c] = !outcome.stays[c];
         }
         for (f, friction) in d.frictions.iter().enumerate() {
-            known.resting[f] = match friction.normal {
-                Normal::Contact(c) if !self.switcher.near.contains(&c) => known.resting[f],
+            facts.resting[f] = match friction.normal {
+                Normal::Contact(c) if !self.switcher.near.contains(&c) => facts.resting[f],
                 Normal::Contact(_) | Normal::Constraint(_) => outcome.sticks[f],
                 // No impulse acts there, but the impact may have begun or ended its slip.
                 Normal::Given(_) => self.rests_after(outcome, f),
             };
         }
         // Velocities have jumped: what was located for the old ones says nothing about the new.
-        known.jumped = true;
-        known.located.clear();
+        facts.jumped = true;
+        facts.located.clear();
     }
 
     /// Whether the slip of friction `f` vanishes after an impact.
@@ -276,25 +276,25 @@ impl<T: Scalar> Run<T> {
     }
 
     /// A contact that closes without impact carries frictions whose slip nobody has looked at.
-    fn rest_where_slip_vanishes(&mut self, known: &mut Known) -> Result<(), Error> {
+    fn rest_where_slip_vanishes(&mut self, facts: &mut SwitchFacts) -> Result<(), Error> {
         let d = self.description();
-        let wakes = |run: &Self, known: &Known, f: usize| {
+        let wakes = |run: &Self, facts: &SwitchFacts, f: usize| {
             let closes = match d.frictions[f].normal {
-                Normal::Contact(c) => known.touching[c],
+                Normal::Contact(c) => facts.touching[c],
                 Normal::Constraint(_) | Normal::Given(_) => true,
             };
             closes
-                && !known.resting[f]
+                && !facts.resting[f]
                 && run.now.mode.frictions[f] == FrictionMode::Inactive
                 && run.dynamics.effects().includes(d, Item::Friction(f))
         };
-        if !(0..d.frictions.len()).any(|f| wakes(self, known, f)) {
+        if !(0..d.frictions.len()).any(|f| wakes(self, facts, f)) {
             return Ok(());
         }
         self.evaluate_all_rows()?;
         for f in 0..d.frictions.len() {
-            if wakes(self, known, f) {
-                known.resting[f] = self.slip_vanishes(f);
+            if wakes(self, facts, f) {
+                facts.resting[f] = self.slip_vanishes(f);
             }
         }
         Ok(())

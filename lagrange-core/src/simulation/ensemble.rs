@@ -4,7 +4,7 @@ use super::Runner;
 use crate::dynamics::{Lanes, Packets};
 use crate::error::Error;
 use crate::precompiled::Runnable;
-use crate::run::round::Together;
+use crate::run::lockstep::Together;
 use crate::settings::{Goal, Settings};
 use crate::system::System;
 use crate::trajectory::{State, Trajectory};
@@ -12,7 +12,7 @@ use core::ops::Range;
 
 /// Runs under way at a time: as many as a packet takes. More would find more company in their mode, but all that they work with would
 /// no longer stay in the cache, which costs more.
-const BERTHS: usize = 4;
+const MAX_IN_FLIGHT: usize = 4;
 
 /// Runs many motions of one system, with other parameters or from other states, several at a time. The Taylor series of those in
 /// the same mode share the instructions of the processor (SIMD), each in a lane of its own. A motion comes out, bit for bit, as it
@@ -84,7 +84,7 @@ impl<S: System<Scalar: Runnable>> Ensemble<S> {
         mut prepare: impl FnMut(usize, &mut Runner<S>) -> Option<State<S::Scalar>>,
         mut take: impl FnMut(usize, Result<(), Error>, &Trajectory<S>),
     ) {
-        while self.runners.len() < count.min(BERTHS) {
+        while self.runners.len() < count.min(MAX_IN_FLIGHT) {
             self.runners.push(Runner::new(&self.scene, &self.settings));
         }
         let mut coming = 0..count;

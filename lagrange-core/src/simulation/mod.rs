@@ -6,7 +6,7 @@ mod runner;
 
 pub use crate::dynamics::Equations;
 pub use crate::settings::Awaited;
-pub use crate::state::Held;
+pub use crate::state::FixedComponents;
 pub use ensemble::Ensemble;
 pub use runner::Runner;
 
@@ -217,7 +217,7 @@ impl<'a, S: System<Scalar: Runnable>> Simulation<'a, S> {
         time: f64,
         reference: &State<S::Scalar>,
         wanted: &State<S::Scalar>,
-        held: &Held,
+        held: &FixedComponents,
     ) -> Result<State<S::Scalar>, Error> {
         self.runner().consistent(time, reference, wanted, held)
     }

@@ -4,9 +4,9 @@ use crate::erased::Erased;
 use crate::error::Error;
 use crate::precompiled::Runnable;
 use crate::run::Run;
-use crate::run::round::Member;
+use crate::run::lockstep::Member;
 use crate::settings::{Goal, Settings};
-use crate::state::Held;
+use crate::state::FixedComponents;
 use crate::system::System;
 use crate::trajectory::{Record, State, Trajectory};
 use core::ops::Range;
@@ -130,7 +130,7 @@ impl<S: System<Scalar: Runnable>> Runner<S> {
         time: f64,
         reference: &State<S::Scalar>,
         wanted: &State<S::Scalar>,
-        held: &Held,
+        held: &FixedComponents,
     ) -> Result<State<S::Scalar>, Error> {
         (S::Scalar::functions().consistent)(&mut self.run, time, reference, wanted, held)
     }

@@ -3,12 +3,12 @@
 use super::by_handle::Owner;
 use super::{Record, Segment, State};
 use crate::arithmetic::Scalar;
-use crate::dynamics::{Dynamics, NeedSet, approach};
+use crate::dynamics::{Dynamics, OutputMask, approach};
 use crate::error::Error;
 use crate::mode::{Direction, Mode};
 use crate::modes::guard;
-use crate::modes::sharing::Sharing;
-use crate::system::{Normal, Place};
+use crate::modes::redundant::RedundantForces;
+use crate::system::{Normal, ValueRef};
 
 /// Everything known at one time.
 #[derive(Clone, Debug)]
@@ -52,7 +52,7 @@ pub struct Instant<T> {
 pub struct Sampler<'a, T: Scalar> {
     trajectory: &'a Record<T>,
     dynamics: Dynamics<T>,
-    sharing: Sharing<T>,
+    redundant: RedundantForces<T>,
     mode: Option<usize>,
     /// Whether slips have been given directions for the present state.
     headed: bool,
@@ -66,7 +66,7 @@ impl<'a, T: Scalar> Sampler<'a, T> {
         Self {
             trajectory,
             dynamics,
-            sharing: Sharing::default(),
+            redundant: RedundantForces::default(),
             mode: None,
             headed: false,
             state: trajectory.start.clone(),
@@ -129,7 +129,7 @@ impl<'a, T: Scalar> Sampler<'a, T> {
             self.mode = Some(mode);
             self.dynamics.set_mode(&self.trajectory.modes[mode]);
             let d = self.trajectory.description();
-            let needs = guard::all_row_needs(d, &NeedSet::new(d));
+            let needs = guard::all_row_needs(d, &OutputMask::new(d));
             self.dynamics.set_extra_needs(&needs);
         }
     }
@@ -182,7 +182,7 @@ impl<'a, T: Scalar> Sampler<'a, T> {
         } else {
             dynamics.value_along(t, &state.q, &state.v)
         };
-        let outcome = outcome.map(|()| instant(dynamics, &mut self.sharing, t, state));
+        let outcome = outcome.map(|()| instant(dynamics, &mut self.redundant, t, state));
         outcome.map_err(|e| Error::from_evaluation(e, t.value(), &self.trajectory.modes[mode], d))
     }
 
@@ -215,7 +215,7 @@ impl<'a, T: Scalar> Sampler<'a, T> {
 /// Asks the report tape for all that an [`Instant`] holds.
 pub(crate) fn report_everything<T: Scalar>(dynamics: &mut Dynamics<T>) {
     let d = dynamics.description();
-    let mut needs = NeedSet::new(d);
+    let mut needs = OutputMask::new(d);
     needs.insert(d.energy.need);
     let loads = d.forces.iter().chain(d.dissipations).map(|l| l.report_need);
     loads
@@ -227,19 +227,19 @@ pub(crate) fn report_everything<T: Scalar>(dynamics: &mut Dynamics<T>) {
 /// Everything about a state in the present mode; all numbers of the rows and the report must have been asked for.
 pub(crate) fn instant<T: Scalar>(
     dynamics: &mut Dynamics<T>,
-    sharing: &mut Sharing<T>,
+    redundant: &mut RedundantForces<T>,
     t: T,
     state: &State<T>,
 ) -> Instant<T> {
     let d = dynamics.description();
     let mut undetermined = Vec::new();
-    let forces = sharing.report(dynamics, &mut undetermined);
+    let forces = redundant.report(dynamics, &mut undetermined);
     dynamics.replace_forces(&forces);
     dynamics.report_value();
     let contacts = d
         .contacts
         .iter()
-        .map(|c| d.rows[c.row].position.unwrap_or(Place::Zero));
+        .map(|c| d.rows[c.row].position.unwrap_or(ValueRef::Zero));
     let frictions = d.frictions.iter().flat_map(|f| f.row..f.row + f.components);
     let limits = (0..d.frictions.len()).map(|f| limit(dynamics, f, &forces));
     let limits = limits.collect();

@@ -3,18 +3,20 @@
 //! Every step is done exactly as the emitted code does it in the value reading, in the same order, so emitted code
 //! run on f64 must agree to the last bit.
 
-use crate::plan::{Coefficient, Mode, Operation, Place, Program, Start, StartTarget, Tape, Value};
+use crate::plan::{
+    Coefficient, Mode, Operation, Program, Start, StartTarget, Tape, Value, ValueRef,
+};
 
-/// What a tape is told beside its inputs; as `lagrange_core::system::Held`.
+/// What a tape is told beside its inputs; as `lagrange_core::system::Selection`.
 #[derive(Clone, Copy, Debug)]
-pub struct Held<'a> {
+pub struct Selection<'a> {
     /// Words of the need mask.
     pub needs: &'a [u64],
     /// Words of the branches that are on their `then` side.
     pub branches: &'a [u64],
 }
 
-impl Held<'_> {
+impl Selection<'_> {
     fn branch(&self, index: usize) -> bool {
         self.branches
             .get(index / 64)
@@ -38,17 +40,17 @@ impl Machine<'_> {
     }
 
     /// The constants; NaN where nothing that is held asks for one.
-    pub fn constants(&self, held: &Held) -> Vec<f64> {
+    pub fn constants(&self, held: &Selection) -> Vec<f64> {
         self.run(&self.program.constants, held, &[], &self.parameters)
     }
 
     /// Outputs of the tape before the solve for x = (t, q…, v…); NaN where nothing that is held asks for one.
-    pub fn motion(&self, held: &Held, x: &[f64]) -> Vec<f64> {
+    pub fn motion(&self, held: &Selection, x: &[f64]) -> Vec<f64> {
         self.run(&self.program.motion, held, &self.constants(held), x)
     }
 
     /// Outputs of the tape after the solve for x = (t, q…, v…, v̇…, λ…).
-    pub fn report(&self, held: &Held, x: &[f64]) -> Vec<f64> {
+    pub fn report(&self, held: &Selection, x: &[f64]) -> Vec<f64> {
         self.run(&self.program.report, held, &self.constants(held), x)
     }
 
@@ -62,22 +64,22 @@ impl Machine<'_> {
     }
 
     /// The number at a place, given the constants and the outputs of its stage.
-    pub fn number(place: Place, constants: &[f64], outputs: &[f64]) -> f64 {
+    pub fn number(place: ValueRef, constants: &[f64], outputs: &[f64]) -> f64 {
         match place {
-            Place::Zero => 0.0,
-            Place::Constant(index) => constants[index],
-            Place::Node(index) => outputs[index],
+            ValueRef::Zero => 0.0,
+            ValueRef::Constant(index) => constants[index],
+            ValueRef::Node(index) => outputs[index],
         }
     }
 
-    fn run(&self, tape: &Tape, held: &Held, constants: &[f64], inputs: &[f64]) -> Vec<f64> {
+    fn run(&self, tape: &Tape, held: &Selection, constants: &[f64], inputs: &[f64]) -> Vec<f64> {
         run(tape, held, &self.parameters, constants, inputs)
     }
 }
 
 /// Positions and velocities of a start at time t, for parameters in order of declaration.
 pub fn start(start: &Start, parameters: &[f64], t: f64, q: &mut [f64], v: &mut [f64]) {
-    let always = Held {
+    let always = Selection {
         needs: &[1],
         branches: &[],
     };
@@ -95,7 +97,7 @@ pub fn start(start: &Start, parameters: &[f64], t: f64, q: &mut [f64], v: &mut [
 
 fn run(
     tape: &Tape,
-    held: &Held,
+    held: &Selection,
     parameters: &[f64],
     constants: &[f64],
     inputs: &[f64],
@@ -139,7 +141,7 @@ fn apply(
     operation: Operation,
     x: &dyn Fn(Value) -> f64,
     number: &dyn Fn(Coefficient) -> f64,
-    held: &Held,
+    held: &Selection,
 ) -> (f64, f64) {
     let single = |value| (value, f64::NAN);
     match operation {

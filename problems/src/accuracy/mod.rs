@@ -7,8 +7,8 @@
 //! An error is the largest |found − reference| / max(1, |reference|) of what it is about: the final state, or the times
 //! of the events. All settings are timed in turn, again and again, so that whatever else the machine does falls on all.
 
-mod course;
 mod family;
+mod motion;
 mod reference;
 mod timing;
 
@@ -16,7 +16,7 @@ pub use family::{Family, ParseFamilyError, Setting};
 pub use reference::Reference;
 pub use timing::Timing;
 
-pub(crate) use course::Course;
+pub(crate) use motion::Motion;
 use timing::Timed;
 
 use crate::closed_form::ClosedForm;
@@ -97,19 +97,19 @@ const FIRST: usize = 30;
 /// Nothing to measure against: no run gets to the end, or two do not agree about what happens.
 pub(crate) fn measure<S: System<Scalar = f64>>(
     scene: &'static str,
-    course: &Course<S>,
+    motion: &Motion<S>,
     study: &Study,
     closed_form: Option<ClosedForm>,
 ) -> Result<Accuracy, Refusal> {
-    let (reference, scale) = reference::reference(course, closed_form)?;
+    let (reference, scale) = reference::reference(motion, closed_form)?;
     let settings = family::settings(&study.methods, &study.tolerances, scale);
     let progress = study.request.progress.clone().unwrap_or_default();
     let rounds = timing::rounds(study.repeat);
     progress.expect(settings.len() * (FIRST + rounds - 1));
     let mut rows = Vec::new();
     for setting in settings {
-        let result = judge(course, setting, &reference);
-        let mut row = Timed::new(Row { setting, result }, course.clock(setting));
+        let result = judge(motion, setting, &reference);
+        let mut row = Timed::new(Row { setting, result }, motion.clock(setting));
         row.round();
         if progress.is_stopped() {
             break;
@@ -120,8 +120,8 @@ pub(crate) fn measure<S: System<Scalar = f64>>(
     timing::rest(&mut rows, study.repeat, &progress);
     Ok(Accuracy {
         scene,
-        description: course.system.description(),
-        parameters: course.parameters(),
+        description: motion.system.description(),
+        parameters: motion.parameters(),
         reference,
         rows: rows.into_iter().map(Timed::done).collect(),
     })
@@ -129,11 +129,11 @@ pub(crate) fn measure<S: System<Scalar = f64>>(
 
 /// Everything about a setting but its time.
 fn judge<S: System<Scalar = f64>>(
-    course: &Course<S>,
+    motion: &Motion<S>,
     setting: Setting,
     reference: &Reference,
 ) -> Result<Measured, String> {
-    let trajectory = course.run(setting).map_err(|error| error.to_string())?;
+    let trajectory = motion.run(setting).map_err(|error| error.to_string())?;
     let Difference {
         state_error,
         event_error,
@@ -142,8 +142,8 @@ fn judge<S: System<Scalar = f64>>(
     Ok(Measured {
         state_error,
         event_error,
-        energy_drift: course::energy_drift(&trajectory),
-        constraint_drift: course::constraint_drift(&trajectory),
+        energy_drift: motion::energy_drift(&trajectory),
+        constraint_drift: motion::constraint_drift(&trajectory),
         work: trajectory.work(),
         time: Timing::default(),
     })

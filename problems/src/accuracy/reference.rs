@@ -4,7 +4,7 @@
 //! floor, no error of a run can be told.
 
 use super::Setting;
-use super::course::Course;
+use super::motion::Motion;
 use crate::closed_form::ClosedForm;
 use crate::request::Refusal;
 use crate::sweep::event;
@@ -93,10 +93,10 @@ impl Reference {
 
 /// The reference of a run, and the time scale of its motion, s.
 pub(super) fn reference<S: System<Scalar = f64>>(
-    course: &Course<S>,
+    motion: &Motion<S>,
     closed_form: Option<ClosedForm>,
 ) -> Result<(Reference, f64), Refusal> {
-    let (setting, tightest) = tightest(course)?;
+    let (setting, tightest) = tightest(motion)?;
     let steps = tightest.work().steps.max(1);
     let scale = RADIUS_PER_STEP * (tightest.last_time() - tightest.first_time()) / steps as f64;
     let summary = Summary::of(&tightest);
@@ -104,11 +104,11 @@ pub(super) fn reference<S: System<Scalar = f64>>(
         Some(known) => from_closed_form(known, setting, &summary),
         None => {
             // A check that gets stuck in ever smaller steps is of no use, and takes long.
-            let patient = Course {
-                start: course.start.clone(),
-                simulation: course.simulation.clone(),
-                max_steps: (10_000 + 100 * steps).min(course.max_steps),
-                ..*course
+            let patient = Motion {
+                start: motion.start.clone(),
+                simulation: motion.simulation.clone(),
+                max_steps: (10_000 + 100 * steps).min(motion.max_steps),
+                ..*motion
             };
             from_runs(&patient, setting, summary)
         }
@@ -117,11 +117,11 @@ pub(super) fn reference<S: System<Scalar = f64>>(
 }
 
 fn tightest<S: System<Scalar = f64>>(
-    course: &Course<S>,
+    motion: &Motion<S>,
 ) -> Result<(Setting, Trajectory<S>), Refusal> {
     let mut refused = None;
     for setting in TIGHTEST {
-        match course.run(setting) {
+        match motion.run(setting) {
             Ok(run) => return Ok((setting, run)),
             Err(error) => refused = refused.or(Some(refusal(setting, error.to_string()))),
         }
@@ -170,7 +170,7 @@ fn summary(known: ClosedForm, description: &'static Description) -> Result<Summa
 
 /// The tightest run, with the check that agrees best.
 fn from_runs<S: System<Scalar = f64>>(
-    course: &Course<S>,
+    motion: &Motion<S>,
     by: Setting,
     tightest: Summary,
 ) -> Result<Reference, Refusal> {
@@ -185,7 +185,7 @@ fn from_runs<S: System<Scalar = f64>>(
     for group in CHECKS {
         let mut best: Option<(Setting, f64)> = None;
         for &setting in group {
-            let run = course.run(setting).map_err(|error| error.to_string());
+            let run = motion.run(setting).map_err(|error| error.to_string());
             match run.and_then(|run| reference.agreement(&Summary::of(&run))) {
                 Ok(difference) if best.is_none_or(|(_, least)| difference < least) => {
                     best = Some((setting, difference));

@@ -1,8 +1,8 @@
 //! `lagrange accuracy`: what accuracy costs in a scene, method by method.
 
 use super::Trouble;
-use super::course::Motion;
 use super::output::{Output, draw, ready};
+use super::run_args::Motion;
 use super::terminal::{keep_what_is_done, patiently};
 use super::values::{picture, positive, tolerances};
 use clap::Args;

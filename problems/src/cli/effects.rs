@@ -1,8 +1,8 @@
 //! `lagrange effects`: what each effect of a scene costs.
 
 use super::Trouble;
-use super::course::Course;
 use super::output::{Output, ready};
+use super::run_args::RunArgs;
 use super::terminal::patiently;
 use clap::Args;
 use lagrange_problems::cost::Costs;
@@ -22,14 +22,14 @@ pub(super) struct Effects {
     /// The scene, a declaration (….lagrange) or a scene file (….toml); `lagrange list` shows the scenes.
     scene: String,
     #[command(flatten)]
-    course: Course,
+    run: RunArgs,
     #[command(flatten)]
     output: Output,
 }
 
 impl Effects {
     pub(super) fn execute(self) -> Result<(), Trouble> {
-        let file = self.course.of(&self.scene)?;
+        let file = self.run.of(&self.scene)?;
         ready(self.output.path(), std::slice::from_ref(&self.scene))?;
         let progress = Progress::default();
         let request = Request {

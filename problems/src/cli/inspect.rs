@@ -1,8 +1,8 @@
 //! `lagrange inspect`: what was derived from a scene's declaration.
 
 use super::Trouble;
-use super::course::scene;
 use super::output::{ready, to_file};
+use super::run_args::scene;
 use clap::{Args, ValueEnum};
 use lagrange_engine::inspect::{Derivation, print};
 use lagrange_problems::names::nearest;

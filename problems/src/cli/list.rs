@@ -1,6 +1,6 @@
 //! `lagrange list`: what there is to run.
 
-use super::course::scene;
+use super::run_args::scene;
 use super::{Trouble, print};
 use clap::Args;
 use lagrange_problems::catalogue::{Scene, scenes};

@@ -7,7 +7,6 @@ mod accuracy;
 mod compare;
 mod complaint;
 mod completions;
-mod course;
 mod effects;
 mod export;
 mod inspect;
@@ -18,6 +17,7 @@ mod output;
 mod report;
 mod results;
 mod run;
+mod run_args;
 #[cfg(feature = "scenes")]
 mod stability;
 mod sweep;

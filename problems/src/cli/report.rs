@@ -2,8 +2,8 @@
 
 use super::Trouble;
 use super::compare::Comparison;
-use super::course::Course;
 use super::output::{ready, to_file, unwritten};
+use super::run_args::RunArgs;
 use super::terminal::{keep_what_is_done, patiently};
 use super::values::positive;
 use super::watch::watched;
@@ -39,7 +39,7 @@ pub(super) struct Report {
     #[arg(required = true, value_name = "SCENE")]
     scenes: Vec<String>,
     #[command(flatten)]
-    course: Course,
+    run: RunArgs,
     /// Beside each scene, the same with something changed: without:ITEM, with:ITEM, set:NAME=VALUE, start:NAME=VALUE,
     /// from:START, until:T, tolerance:X, method:M, or several of them with commas between. May be repeated.
     #[arg(long, help_heading = RESULTS, value_name = "CHANGE", allow_hyphen_values = true)]
@@ -239,7 +239,7 @@ impl Report {
         comparison: Option<&Comparison>,
         progress: &Progress,
     ) -> Result<Shown, Trouble> {
-        let file = self.course.of(name)?;
+        let file = self.run.of(name)?;
         let request = match comparison {
             Some(comparison) => comparison.of(file.request),
             None => file.request,

@@ -2,8 +2,8 @@
 
 use super::Trouble;
 use super::compare::Comparison;
-use super::course::Course;
 use super::output::{draw, ready, to_file};
+use super::run_args::RunArgs;
 use super::terminal::{keep_what_is_done, patiently};
 use super::values::{intervals, picture};
 use super::watch::watched;
@@ -38,7 +38,7 @@ pub(super) struct Run {
     /// The scene, a declaration (….lagrange) or a scene file (….toml); `lagrange list` shows the scenes.
     scene: String,
     #[command(flatten)]
-    course: Course,
+    run: RunArgs,
     #[command(flatten)]
     results: Results,
     /// Run again whenever the file of the scene changes, until Ctrl-C.
@@ -86,7 +86,7 @@ impl Run {
     }
 
     fn once(&self) -> Result<(), Trouble> {
-        let file = self.course.of(&self.scene)?;
+        let file = self.run.of(&self.scene)?;
         let scene = file.scene;
         let outputs = self.results.or(file.outputs);
         let destinations = destinations(&outputs)?;

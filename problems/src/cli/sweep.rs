@@ -1,7 +1,7 @@
 //! `lagrange sweep`: many runs of one scene, on all cores.
 
-use super::course::Course;
 use super::results::{Results, beside, verdict};
+use super::run_args::RunArgs;
 use super::{Trouble, terminal};
 use clap::Args;
 use indicatif::ProgressBar;
@@ -44,7 +44,7 @@ pub(super) struct Sweeps {
     #[arg(long, value_name = "WHAT", required = true)]
     observe: Vec<String>,
     #[command(flatten)]
-    course: Course,
+    run: RunArgs,
     #[command(flatten)]
     results: Results,
     /// Cores to use [default: all; under mpirun, one per process].
@@ -58,7 +58,7 @@ pub(super) struct Sweeps {
 impl Sweeps {
     pub(super) fn execute(self) -> Result<(), Trouble> {
         self.results.check()?;
-        let file = self.course.of(&self.scene)?;
+        let file = self.run.of(&self.scene)?;
         let points = Points {
             axes: self.vary.clone(),
             sampling: match self.sample {

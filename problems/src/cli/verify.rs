@@ -1,8 +1,8 @@
 //! `lagrange verify`: a run checked against its declaration.
 
 use super::Trouble;
-use super::course::Course;
 use super::output::{Output, ready};
+use super::run_args::RunArgs;
 use super::terminal::{keep_what_is_done, patiently};
 use clap::Args;
 use lagrange_problems::catalogue::RUN_STAGES;
@@ -27,7 +27,7 @@ pub(super) struct Verify {
     /// The scene, a declaration (….lagrange) or a scene file (….toml); `lagrange list` shows the scenes.
     scene: String,
     #[command(flatten)]
-    course: Course,
+    run: RunArgs,
     /// Seed of the instants that are looked at.
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
@@ -37,7 +37,7 @@ pub(super) struct Verify {
 
 impl Verify {
     pub(super) fn execute(self) -> Result<(), Trouble> {
-        let file = self.course.of(&self.scene)?;
+        let file = self.run.of(&self.scene)?;
         ready(self.output.path(), std::slice::from_ref(&self.scene))?;
         let progress = Progress::default();
         progress.expect(RUN_STAGES);

@@ -207,7 +207,7 @@ structs! {
 }
 
 variants! {
-    Place { Zero; Constant Node }
+    ValueRef { Zero; Constant Node }
     Restitution { ; Newton Poisson }
     Normal { ; Contact Constraint Given }
     Condition { ; Closed Open Sticks Slips }

@@ -2,7 +2,7 @@
 
 use super::Sample;
 use core::iter;
-use lagrange_core::dynamics::{Dynamics, NeedSet};
+use lagrange_core::dynamics::{Dynamics, OutputMask};
 use lagrange_core::mode::{FrictionMode, Mode};
 use lagrange_core::prelude::*;
 use lagrange_core::system::{Friction, Normal};
@@ -141,7 +141,7 @@ struct Limits {
 impl Limits {
     fn new(mut dynamics: Dynamics<f64>) -> Self {
         let description = dynamics.description();
-        let mut needs = NeedSet::new(description);
+        let mut needs = OutputMask::new(description);
         for friction in description.frictions {
             needs.insert(friction.coefficients_need);
         }

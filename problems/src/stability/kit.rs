@@ -1,9 +1,9 @@
 //! Short ways to run a scene and to look at what it did.
 
 use core::fmt;
-use lagrange_core::dynamics::NeedSet;
+use lagrange_core::dynamics::OutputMask;
 use lagrange_core::prelude::*;
-use lagrange_core::system::Place;
+use lagrange_core::system::ValueRef;
 
 /// Why a case could not be measured.
 #[derive(Clone, Debug, PartialEq)]
@@ -144,7 +144,7 @@ pub fn closure(trajectory: &Record<f64>) -> Result<f64, Surprise> {
 /// unit of the scene.
 pub fn violation(trajectory: &Record<f64>) -> Result<f64, Surprise> {
     let d = trajectory.description();
-    let mut needs = NeedSet::new(d);
+    let mut needs = OutputMask::new(d);
     for row in d.rows {
         needs.insert(row.needs.position);
     }
@@ -155,7 +155,7 @@ pub fn violation(trajectory: &Record<f64>) -> Result<f64, Surprise> {
     for t in trajectory.step_times().chain([trajectory.last_time()]) {
         let now = sampler.at(t)?;
         dynamics.tape(t, &now.q, &now.v);
-        let position = |row: usize| dynamics.motion(d.rows[row].position.unwrap_or(Place::Zero));
+        let position = |row: usize| dynamics.motion(d.rows[row].position.unwrap_or(ValueRef::Zero));
         let equations = d.constraints.iter().map(|c| position(c.row).abs());
         let contacts = d.contacts.iter().zip(&now.mode.contacts);
         let gaps = contacts.map(|(c, closed)| {

@@ -417,7 +417,7 @@ fn a_field_outside_its_domain_is_refused_by_name() {
         };
         assert_eq!((item, value), (name, wrong));
         let start = scene.at(Disks::TURNED);
-        let held = Held {
+        let held = FixedComponents {
             positions: vec![true; 2],
             velocities: vec![true; 2],
         };

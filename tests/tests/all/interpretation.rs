@@ -2,7 +2,7 @@
 //! scene's source is read again through the pipeline, in process, and both are run on the same numbers, with any set of needs.
 
 use lagrange_core::arithmetic::Dual;
-use lagrange_core::system::{Derived, Held};
+use lagrange_core::system::{Derived, Selection};
 use lagrange_engine::interpret::{self, Machine};
 use lagrange_engine::plan::Program;
 use lagrange_problems::scenes::*;
@@ -33,7 +33,7 @@ fn program(source: &str, name: &str) -> Program {
 /// Constants, motion and report of the core's interpreter; NaN where nothing that is held asks for a number.
 fn interpreted_by_core<S: Derived<Scalar = f64>>(
     scene: &S,
-    held: &Held,
+    held: &Selection,
     x: &[f64],
 ) -> [Vec<f64>; 3] {
     let d = S::DESCRIPTION;
@@ -85,11 +85,11 @@ pub fn check<S: Derived<Scalar = f64> + Default>(source: &str) {
         let branches: Vec<u64> = (0..d.branches.len().div_ceil(64))
             .map(|_| random.bits())
             .collect();
-        let held = Held {
+        let held = Selection {
             needs: &needs,
             branches: &branches,
         };
-        let interpreted = interpret::Held {
+        let interpreted = interpret::Selection {
             needs: &needs,
             branches: &branches,
         };
@@ -151,11 +151,11 @@ pub fn check_derivatives<S: Derived<Scalar = f64> + Default>(source: &str) {
     let machine = Machine::new(&program, &parameters);
     let needs = vec![u64::MAX; d.needs.div_ceil(64)];
     let branches = vec![u64::MAX; d.branches.len().div_ceil(64)];
-    let held = Held {
+    let held = Selection {
         needs: &needs,
         branches: &branches,
     };
-    let interpreted = interpret::Held {
+    let interpreted = interpret::Selection {
         needs: &needs,
         branches: &branches,
     };

@@ -178,11 +178,11 @@ fn follow(dynamics: &mut Dynamics<f64>, v: [f64; 4]) {
 #[test]
 fn series_follow_the_motion() {
     let mut dynamics = Dynamics::new(&Wheel::<f64>::example(), &Effects::all());
-    let mut report = NeedSet::new(WHEEL);
+    let mut report = OutputMask::new(WHEEL);
     report.insert(WHEEL.observes[0].need);
     report.insert(WHEEL.energy.need);
     dynamics.set_report_needs(&report);
-    let mut needs = NeedSet::new(WHEEL);
+    let mut needs = OutputMask::new(WHEEL);
     for row in WHEEL.rows {
         needs.insert(row.needs.position);
         needs.insert(row.needs.velocity);
@@ -204,7 +204,7 @@ fn needs_asked_for_later_are_met() {
     let mut dynamics = Dynamics::new(&Wheel::<f64>::example(), &Effects::all());
     dynamics.series(0.4, &Q, &V, 8).expect("analytic");
     let slip = &WHEEL.rows[GRIP];
-    let mut needs = NeedSet::new(WHEEL);
+    let mut needs = OutputMask::new(WHEEL);
     needs.insert(slip.needs.velocity);
     dynamics.set_extra_needs(&needs);
     dynamics.series(0.4, &Q, &V, 8).expect("analytic");

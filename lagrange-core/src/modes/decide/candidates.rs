@@ -1,8 +1,8 @@
 //! The modes that the known facts allow: each choice of contacts, frictions and branches.
 
-use super::{Juncture, sticks};
+use super::{SwitchContext, sticks};
 use crate::arithmetic::Scalar;
-use crate::dynamics::{Dynamics, NeedSet};
+use crate::dynamics::{Dynamics, OutputMask};
 use crate::effects::Item;
 use crate::mode::{Direction, FrictionMode, Mode, Sliding};
 use crate::modes::guard::Guard;
@@ -22,7 +22,7 @@ const MOST_LISTS: usize = 8;
 /// The candidates for situations met before.
 #[derive(Clone, Debug, Default)]
 pub struct Listings {
-    known: Vec<Candidates>,
+    facts: Vec<Candidates>,
     /// Index of the list to be written over next.
     oldest: usize,
 }
@@ -44,7 +44,7 @@ impl Candidates {
     }
 
     /// Puts the modes in order.
-    fn sort(&mut self, here: Juncture<'_, impl Copy>) {
+    fn sort(&mut self, here: SwitchContext<'_, impl Copy>) {
         self.order.clear();
         let ranks = self.modes.iter().map(|mode| rank(mode, here));
         self.order.extend(ranks.zip(0..));
@@ -56,48 +56,51 @@ impl Candidates {
 #[derive(Clone, Debug)]
 struct Facts {
     present: Mode,
-    /// As in [`Known`](super::Known).
+    /// As in [`SwitchFacts`](super::SwitchFacts).
     touching: Vec<bool>,
     resting: Vec<bool>,
     balanced: Vec<bool>,
 }
 
 impl Facts {
-    fn of(here: Juncture<'_, impl Copy>) -> Self {
-        let Juncture { present, known, .. } = here;
+    fn of(here: SwitchContext<'_, impl Copy>) -> Self {
+        let SwitchContext { present, facts, .. } = here;
         Self {
             present: present.clone(),
-            touching: known.touching.clone(),
-            resting: known.resting.clone(),
-            balanced: known.balanced.clone(),
+            touching: facts.touching.clone(),
+            resting: facts.resting.clone(),
+            balanced: facts.balanced.clone(),
         }
     }
 
-    fn are(&self, here: Juncture<'_, impl Copy>) -> bool {
-        let Juncture { present, known, .. } = here;
-        self.touching == known.touching
-            && self.resting == known.resting
-            && self.balanced == known.balanced
+    fn are(&self, here: SwitchContext<'_, impl Copy>) -> bool {
+        let SwitchContext { present, facts, .. } = here;
+        self.touching == facts.touching
+            && self.resting == facts.resting
+            && self.balanced == facts.balanced
             && self.present == *present
     }
 }
 
 /// What is preferred has the lower rank: closed contacts, frictions that hold, the present mode, few changes.
-fn rank(mode: &Mode, here: Juncture<'_, impl Copy>) -> u128 {
+fn rank(mode: &Mode, here: SwitchContext<'_, impl Copy>) -> u128 {
     /// Bits of each criterion.
     const BITS: u32 = 24;
-    let Juncture { present, known, .. } = here;
+    let SwitchContext { present, facts, .. } = here;
     let closed = mode.contacts.iter().filter(|c| **c).count();
     // Frictions that could together hold no longer go together, if they can.
-    let joint = known.located.iter().any(|g| matches!(g, Guard::Joint(_)));
+    let composite = facts
+        .located
+        .iter()
+        .any(|g| matches!(g, Guard::Composite(_)));
     let holds = |guard: &&Guard| match **guard {
         Guard::StickUpper(f) | Guard::StickLower(f) | Guard::StickCone(f) => {
             mode.frictions[f] == FrictionMode::Stick
         }
         _ => false,
     };
-    let left_behind = match joint {
-        true => known.located.iter().filter(holds).count(),
+    let left_behind = match composite {
+        true => facts.located.iter().filter(holds).count(),
         false => 0,
     };
     let changes = changes(mode, present);
@@ -119,21 +122,21 @@ impl Listings {
     pub fn list<T: Scalar>(
         &mut self,
         dynamics: &mut Dynamics<T>,
-        here: Juncture<'_, T>,
-        rows: &NeedSet,
+        here: SwitchContext<'_, T>,
+        rows: &OutputMask,
         scratch: &mut Mode,
     ) -> Option<&Candidates> {
         let looked = look_at_slips(dynamics, here, rows);
-        let joint = |guard: &Guard| matches!(guard, Guard::Joint(_));
-        let follows = !looked && !here.known.located.iter().any(joint);
+        let composite = |guard: &Guard| matches!(guard, Guard::Composite(_));
+        let follows = !looked && !here.facts.located.iter().any(composite);
         let same = |list: &Candidates| list.facts.as_ref().is_some_and(|facts| facts.are(here));
-        let found = self.known.iter().position(same).filter(|_| follows);
+        let found = self.facts.iter().position(same).filter(|_| follows);
         let index = found.unwrap_or_else(|| {
-            if self.known.len() < MOST_LISTS {
-                self.known.push(Candidates::default());
+            if self.facts.len() < MOST_LISTS {
+                self.facts.push(Candidates::default());
             }
-            self.oldest = (self.oldest + 1) % self.known.len();
-            let list = &mut self.known[self.oldest];
+            self.oldest = (self.oldest + 1) % self.facts.len();
+            let list = &mut self.facts[self.oldest];
             list.facts = None;
             list.modes.clear();
             let mut listing = Listing {
@@ -148,7 +151,7 @@ impl Listings {
             }
             self.oldest
         });
-        let list = &self.known[index];
+        let list = &self.facts[index];
         (list.modes.len() <= MOST_CANDIDATES).then_some(list)
     }
 }
@@ -156,19 +159,19 @@ impl Listings {
 /// Evaluates the slips whose direction is not known, if there are any.
 pub fn look_at_slips<T: Scalar>(
     dynamics: &mut Dynamics<T>,
-    here: Juncture<'_, T>,
-    rows: &NeedSet,
+    here: SwitchContext<'_, T>,
+    rows: &OutputMask,
 ) -> bool {
     let d = dynamics.description();
-    let Juncture { moment, known, .. } = here;
+    let SwitchContext { moment, facts, .. } = here;
     let slides_unknown = |f: usize| {
         let closes = match d.frictions[f].normal {
-            Normal::Contact(c) => known.touching[c],
+            Normal::Contact(c) => facts.touching[c],
             Normal::Constraint(_) | Normal::Given(_) => true,
         };
         closes
             && d.frictions[f].components == 1
-            && !known.resting[f]
+            && !facts.resting[f]
             && dynamics.effects().includes(d, Item::Friction(f))
             && slip_sign(f, here).is_none()
     };
@@ -181,12 +184,12 @@ pub fn look_at_slips<T: Scalar>(
 }
 
 /// The way friction `f` has been sliding, if nothing has changed that.
-fn slip_sign<T>(f: usize, here: Juncture<'_, T>) -> Option<f64> {
+fn slip_sign<T>(f: usize, here: SwitchContext<'_, T>) -> Option<f64> {
     match here.present.frictions[f] {
         FrictionMode::Slip(Sliding {
             direction: Direction::Fixed([sign, 0.0]),
             ..
-        }) if !here.known.jumped => Some(sign),
+        }) if !here.facts.jumped => Some(sign),
         _ => None,
     }
 }
@@ -194,7 +197,7 @@ fn slip_sign<T>(f: usize, here: Juncture<'_, T>) -> Option<f64> {
 /// What the items of a mode may do at an instant.
 pub struct Choices<'a, T: Scalar> {
     pub dynamics: &'a Dynamics<T>,
-    pub here: Juncture<'a, T>,
+    pub here: SwitchContext<'a, T>,
 }
 
 impl<T: Scalar> Choices<'_, T> {
@@ -216,7 +219,7 @@ impl<T: Scalar> Choices<'_, T> {
             &[1.0]
         };
         if friction.components > 1 {
-            let direction = if self.here.known.resting[f] {
+            let direction = if self.here.facts.resting[f] {
                 put(FrictionMode::Stick);
                 // Where to is found when the candidate is examined.
                 Direction::Incipient([0.0; 2])
@@ -230,7 +233,7 @@ impl<T: Scalar> Choices<'_, T> {
                 };
                 put(FrictionMode::Slip(sliding));
             }
-        } else if self.here.known.resting[f] {
+        } else if self.here.facts.resting[f] {
             put(FrictionMode::Stick);
             for &bearing in bearings {
                 put(slide(1.0, bearing));
@@ -263,7 +266,7 @@ impl<T: Scalar> Listing<'_, T> {
         if self.out.len() > MOST_CANDIDATES {
             return;
         }
-        if self.choices.here.known.touching[c] {
+        if self.choices.here.facts.touching[c] {
             mode.contacts[c] = true;
             self.contacts(mode, c + 1);
         }
@@ -300,7 +303,7 @@ impl<T: Scalar> Listing<'_, T> {
             return self.out.push(mode);
         }
         self.branches(mode, b + 1);
-        if self.choices.here.known.balanced[b] {
+        if self.choices.here.facts.balanced[b] {
             let side = mode.branch(b);
             mode.set_branch(b, !side);
             self.branches(mode, b + 1);

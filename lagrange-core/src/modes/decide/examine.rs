@@ -1,26 +1,26 @@
 //! Whether one candidate mode is feasible: its guards just after the instant.
 
 use super::questions::{concerns, leading, list_questions, unit_of_order};
-use super::{Decider, Juncture, Moment};
+use super::{Decider, EvaluationPoint, SwitchContext};
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError};
 use crate::integrate::{Tolerance, taylor};
 use crate::mode::Mode;
 use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
-use crate::modes::sharing::{self, Joint};
+use crate::modes::redundant::{self, CompositeGuard};
 use crate::modes::table::Table;
 
 /// Order of the series that are looked at first. Leading coefficients beyond it vanish rarely.
 const LOW_ORDER: usize = 4;
 
-/// A joint guard above this (relative) is not about to fall.
+/// A composite guard above this (relative) is not about to fall.
 const BORDER: f64 = 1e-3;
 
 /// How far ahead guards at their border are looked at, in parts of the step.
 const AHEAD: f64 = 1e-2;
 
-/// So many joint guards at most begin at their border.
+/// So many composite guards at most begin at their border.
 const MOST_JOINTS: usize = 20;
 
 /// What a guard does just after the instant, with the number of leading coefficients that vanish.
@@ -34,7 +34,7 @@ enum Leading {
 /// What happens after the moment, by a series of the order `order`, over times up to about `h`.
 struct Ahead<'a, T: Scalar> {
     dynamics: &'a Dynamics<T>,
-    here: Juncture<'a, T>,
+    here: SwitchContext<'a, T>,
     order: usize,
     h: f64,
 }
@@ -54,11 +54,11 @@ impl<T: Scalar> Decider<T> {
         &mut self,
         dynamics: &mut Dynamics<T>,
         table: &mut Table,
-        here: Juncture<'_, T>,
+        here: SwitchContext<'_, T>,
         mode: &Mode,
     ) -> Result<bool, EvaluationError> {
-        let Juncture { moment, known, .. } = here;
-        let Moment { t, q, v, .. } = moment;
+        let SwitchContext { moment, facts, .. } = here;
+        let EvaluationPoint { t, q, v, .. } = moment;
         self.posed.clone_from(mode);
         self.forks = false;
         if mode.has_incipient_slip() && !self.find_directions(dynamics, table, moment)? {
@@ -76,14 +76,14 @@ impl<T: Scalar> Decider<T> {
         list_questions(
             dynamics.description(),
             mode,
-            known,
+            facts,
             &watched.deciding,
             &mut self.questions,
         );
         // Most candidates are refused, and many accepted, by their values already.
         dynamics.value(t, q, v)?;
         // The inertia and what drives are the same in all modes, but for branches.
-        if !self.sized || known.balanced.contains(&true) {
+        if !self.sized || facts.balanced.contains(&true) {
             dynamics.complete_outputs();
             self.sizes.take(dynamics);
             self.sized = true;
@@ -105,35 +105,35 @@ impl<T: Scalar> Decider<T> {
         Ok(true)
     }
 
-    /// Puts joint guards in the place of those of undetermined forces.
+    /// Puts composite guards in the place of those of undetermined forces.
     fn share(&mut self, dynamics: &Dynamics<T>) {
-        self.sharing.look(dynamics);
-        self.joints.clear();
+        self.redundant.look(dynamics);
+        self.composites.clear();
         let Self {
-            sharing,
-            joints,
+            redundant,
+            composites,
             questions,
             ..
         } = self;
-        if !sharing.has_open() {
+        if !redundant.has_open() {
             return;
         }
-        questions.retain(|&(guard, _)| !sharing.is_open(guard));
-        if let Some(joint) = sharing.critical(BORDER) {
-            joints.push(joint);
-            questions.push((Guard::Joint(0), 0));
+        questions.retain(|&(guard, _)| !redundant.is_open(guard));
+        if let Some(composite) = redundant.critical(BORDER) {
+            composites.push(composite);
+            questions.push((Guard::Composite(0), 0));
         }
     }
 
     /// Answers the questions that values answer: what remains is asked of the series.
-    fn ask_values(&mut self, dynamics: &Dynamics<T>, here: Juncture<'_, T>) {
-        let known = here.known;
+    fn ask_values(&mut self, dynamics: &Dynamics<T>, here: SwitchContext<'_, T>) {
+        let facts = here.facts;
         let Self {
             sizes,
             questions,
             zeros,
             violated,
-            joints,
+            composites,
             posed: mode,
             ..
         } = self;
@@ -145,23 +145,23 @@ impl<T: Scalar> Decider<T> {
                 zeros.push((guard, 1));
                 return false;
             }
-            let Some(value) = leading(guard, order_known, joints, mode, dynamics) else {
+            let Some(value) = leading(guard, order_known, composites, mode, dynamics) else {
                 return true;
             };
-            let noise = if concerns(guard, joints, known) {
+            let noise = if concerns(guard, composites, facts) {
                 1e3 * here.blur()
             } else {
                 1e-6
             };
             let size = sizes.of(guard, dynamics);
-            let incomparable = matches!(guard, Guard::Bearing(_)) && size <= value.abs();
-            if incomparable && concerns(guard, joints, known) {
+            let incomparable = matches!(guard, Guard::NormalForceSign(_)) && size <= value.abs();
+            if incomparable && concerns(guard, composites, facts) {
                 // All forces may vanish at this instant.
                 return true;
             }
             let clear = noise.max(1e-6) * size;
             if value < -clear {
-                blame(guard, joints, violated);
+                blame(guard, composites, violated);
             }
             let settled = clear > 0.0 && value > clear;
             if settled && order_known > 0 {
@@ -176,10 +176,10 @@ impl<T: Scalar> Decider<T> {
     fn judge(
         &mut self,
         dynamics: &Dynamics<T>,
-        here: Juncture<'_, T>,
+        here: SwitchContext<'_, T>,
         order: usize,
     ) -> Option<bool> {
-        let Juncture { moment, known, .. } = here;
+        let SwitchContext { moment, facts, .. } = here;
         let last = order == moment.order;
         // A low order's last coefficient is small enough at the same step for a loose tolerance only.
         let allowed = Tolerance::both(if last { moment.tolerance } else { 1e-3 });
@@ -197,7 +197,7 @@ impl<T: Scalar> Decider<T> {
             let mut series = [0.0; guard::LENGTH];
             let series = &mut series[..=order];
             match self.just_after(guard, order_known, ahead, series) {
-                Leading::Falls => blame(guard, &self.joints, &mut self.violated),
+                Leading::Falls => blame(guard, &self.composites, &mut self.violated),
                 Leading::Rises(0) => {}
                 Leading::Rises(k) => self.zeros.push((guard, k)),
                 Leading::Stays if !last => unclear = true,
@@ -208,14 +208,14 @@ impl<T: Scalar> Decider<T> {
                     self.violated.push(guard);
                 }
                 Leading::Stays => {
-                    let blurred = concerns(guard, &self.joints, known);
+                    let blurred = concerns(guard, &self.composites, facts);
                     if order_known > 0 || series.iter().all(|c| *c <= 0.0) || blurred {
                         self.zeros.push((guard, guard::LENGTH));
                     }
                 }
             }
         }
-        if self.violated.is_empty() && !unclear && !self.joints.is_empty() {
+        if self.violated.is_empty() && !unclear && !self.composites.is_empty() {
             self.look_ahead(ahead);
         }
         self.questions = questions;
@@ -225,28 +225,32 @@ impl<T: Scalar> Decider<T> {
         Some(self.violated.is_empty())
     }
 
-    /// At the border several joint guards may vanish together: a little later those that fall show.
+    /// At the border several composite guards may vanish together: a little later those that fall show.
     fn look_ahead(&mut self, ahead: Ahead<'_, T>) {
         let mut series = [0.0; guard::LENGTH];
         let series = &mut series[..=ahead.order];
         let (reading, later) = (Reading::Series(ahead.dynamics), AHEAD * ahead.h);
         for _ in 0..MOST_JOINTS {
-            let found = self.sharing.critical_at(|guard, along| {
-                sharing::side(guard, along, &self.posed, &reading, series);
+            let found = self.redundant.critical_at(|guard, along| {
+                redundant::side(guard, along, &self.posed, &reading, series);
                 crate::integrate::horner(series, later)
             });
-            let Some(joint) = found else {
+            let Some(composite) = found else {
                 return;
             };
-            let index = self.joints.len();
-            self.joints.push(joint);
-            match self.just_after(Guard::Joint(index), 0, ahead, series) {
+            let index = self.composites.len();
+            self.composites.push(composite);
+            match self.just_after(Guard::Composite(index), 0, ahead, series) {
                 Leading::Falls => {
-                    return blame(Guard::Joint(index), &self.joints, &mut self.violated);
+                    return blame(
+                        Guard::Composite(index),
+                        &self.composites,
+                        &mut self.violated,
+                    );
                 }
                 Leading::Rises(0) => {}
-                Leading::Rises(k) => self.zeros.push((Guard::Joint(index), k)),
-                Leading::Stays => return self.zeros.push((Guard::Joint(index), guard::LENGTH)),
+                Leading::Rises(k) => self.zeros.push((Guard::Composite(index), k)),
+                Leading::Stays => return self.zeros.push((Guard::Composite(index), guard::LENGTH)),
             }
         }
     }
@@ -270,11 +274,18 @@ impl<T: Scalar> Decider<T> {
             *entry = power;
             power *= h;
         }
-        sharing::series(guard, &self.joints, &self.posed, &reading, &powers, series);
+        redundant::series(
+            guard,
+            &self.composites,
+            &self.posed,
+            &reading,
+            &powers,
+            series,
+        );
         series[..order_known].fill(0.0);
         let size = series.iter().fold(0.0_f64, |size, c| size.max(c.abs()));
         // The residue of a located root, and what follows from it, has the size of the integration error.
-        let (relative, absolute) = if concerns(guard, &self.joints, here.known) {
+        let (relative, absolute) = if concerns(guard, &self.composites, here.facts) {
             ((100.0 * tolerance).clamp(1e-11, 1e-3), here.blur())
         } else {
             (1e-13, 1e-14)
@@ -301,10 +312,10 @@ fn is_held<T: Scalar>(guard: Guard, dynamics: &Dynamics<T>) -> bool {
     rows.all(|row| dynamics.follows(row))
 }
 
-/// Books what forbids a mode: of a joint guard, its parts.
-fn blame(guard: Guard, joints: &[Joint], violated: &mut Vec<Guard>) {
+/// Books what forbids a mode: of a composite guard, its parts.
+fn blame(guard: Guard, composites: &[CompositeGuard], violated: &mut Vec<Guard>) {
     match guard {
-        Guard::Joint(index) => violated.extend(joints[index].parts.iter().map(|p| p.guard)),
+        Guard::Composite(index) => violated.extend(composites[index].parts.iter().map(|p| p.guard)),
         single => violated.push(single),
     }
 }

@@ -16,13 +16,13 @@
 //! Signs at the instant are not the last word (both members of a pair may vanish): the guess is where pivoting begins.
 
 use super::candidates::{Choices, slide};
-use super::{Decider, Juncture, Known};
+use super::{Decider, SwitchContext, SwitchFacts};
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
 use crate::effects::Item;
 use crate::linear::{Lemke, LemkeOutcome, SeveralSides};
 use crate::mode::{Direction, FrictionMode, Mode, Sliding};
-use crate::system::{Normal, Place};
+use crate::system::{Normal, ValueRef};
 
 /// A contact or friction that may change, and the generalized force of its unit force.
 struct Candidate {
@@ -45,17 +45,17 @@ impl<T: Scalar> Decider<T> {
     pub(super) fn guess(
         &mut self,
         dynamics: &mut Dynamics<T>,
-        here: Juncture<'_, T>,
+        here: SwitchContext<'_, T>,
         mode: &mut Mode,
     ) {
-        let Juncture { moment, known, .. } = here;
+        let SwitchContext { moment, facts, .. } = here;
         let d = dynamics.description();
         dynamics.set_mode(mode);
         dynamics.set_extra_needs(&self.everything);
         dynamics.tape(moment.t, moment.q, moment.v);
-        let (candidates, resting) = list(dynamics, mode, known);
+        let (candidates, resting) = list(dynamics, mode, facts);
         let contacts: Vec<usize> = (0..d.contacts.len())
-            .filter(|&c| known.touching[c])
+            .filter(|&c| facts.touching[c])
             .collect();
         let Some((g, b)) = responses(dynamics, mode, &candidates) else {
             return;
@@ -90,13 +90,13 @@ impl<T: Scalar> Decider<T> {
 fn list<T: Scalar>(
     dynamics: &Dynamics<T>,
     mode: &Mode,
-    known: &Known,
+    facts: &SwitchFacts,
 ) -> (Vec<Candidate>, Vec<Resting>) {
     let d = dynamics.description();
-    let number = |place: Place| dynamics.motion(place).value();
+    let number = |place: ValueRef| dynamics.motion(place).value();
     let factor = |c: usize| d.contacts[c].normal_factor.map_or(1.0, number);
     let touching: Vec<usize> = (0..d.contacts.len())
-        .filter(|&c| known.touching[c])
+        .filter(|&c| facts.touching[c])
         .collect();
     let index = |c: usize| touching.binary_search(&c).ok();
     let mut candidates: Vec<Candidate> = touching
@@ -167,7 +167,7 @@ fn responses<T: Scalar>(
     candidates: &[Candidate],
 ) -> Option<(Vec<f64>, Vec<f64>)> {
     let d = dynamics.description();
-    let number = |place: Place| dynamics.motion(place).value();
+    let number = |place: ValueRef| dynamics.motion(place).value();
     let n = d.coordinates.len();
     let holds = |i: &usize| {
         dynamics.effects().includes(d, Item::Constraint(*i))

@@ -4,11 +4,11 @@
 //! ṡ × u still changes its sign there.
 
 use super::questions::row_acceleration;
-use super::{Decider, Moment};
+use super::{Decider, EvaluationPoint};
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError, solve_small};
 use crate::mode::{Direction, FrictionMode};
-use crate::modes::sharing::Sharing;
+use crate::modes::redundant::RedundantForces;
 use crate::modes::table::Table;
 use core::f64::consts::TAU;
 
@@ -46,7 +46,7 @@ impl<T: Scalar> Decider<T> {
         &mut self,
         dynamics: &mut Dynamics<T>,
         table: &mut Table,
-        moment: Moment<'_, T>,
+        moment: EvaluationPoint<'_, T>,
     ) -> Result<bool, EvaluationError> {
         let frictions = &mut self.beginning.frictions;
         frictions.clear();
@@ -74,10 +74,10 @@ impl<T: Scalar> Decider<T> {
     fn against_sticking(
         &mut self,
         dynamics: &mut Dynamics<T>,
-        moment: Moment<'_, T>,
+        moment: EvaluationPoint<'_, T>,
         shared: bool,
     ) {
-        let Moment { t, q, v, .. } = moment;
+        let EvaluationPoint { t, q, v, .. } = moment;
         let sticking = &mut self.decision.mode;
         sticking.clone_from(&self.posed);
         let Beginning {
@@ -87,9 +87,9 @@ impl<T: Scalar> Decider<T> {
             sticking.frictions[f] = FrictionMode::Stick;
         }
         dynamics.set_mode(sticking);
-        let known = dynamics.value(t, q, v).is_ok();
-        let shared = known && shared && dynamics.has_dependent_rows();
-        let least = shared.then(|| Sharing::default().report(dynamics, &mut Vec::new()));
+        let facts = dynamics.value(t, q, v).is_ok();
+        let shared = facts && shared && dynamics.has_dependent_rows();
+        let least = shared.then(|| RedundantForces::default().report(dynamics, &mut Vec::new()));
         let force = |row: usize| match &least {
             Some(forces) => forces[row].value(),
             None => dynamics.force(row).value(),
@@ -98,7 +98,7 @@ impl<T: Scalar> Decider<T> {
             let row = dynamics.description().frictions[f].row;
             let [x, y] = [row, row + 1].map(force);
             let angle = (-y).atan2(-x);
-            if known && angle.is_finite() {
+            if facts && angle.is_finite() {
                 angle
             } else {
                 0.0
@@ -123,7 +123,7 @@ impl<T: Scalar> Decider<T> {
     fn look_around(
         &mut self,
         dynamics: &mut Dynamics<T>,
-        moment: Moment<'_, T>,
+        moment: EvaluationPoint<'_, T>,
     ) -> Result<bool, EvaluationError> {
         let (f, guess) = (self.beginning.frictions[0], self.beginning.angles[0]);
         let mut turn = |angle: f64| turn_of(dynamics, moment, f, angle);
@@ -163,11 +163,11 @@ impl Beginning {
     fn turn<T: Scalar>(
         &mut self,
         dynamics: &mut Dynamics<T>,
-        moment: Moment<'_, T>,
+        moment: EvaluationPoint<'_, T>,
     ) -> Result<(), EvaluationError> {
         for (&f, angle) in self.frictions.iter().zip(&self.angles) {
             let (y, x) = angle.sin_cos();
-            dynamics.set_heading(f, [x, y].map(T::from_f64));
+            dynamics.set_slip_direction(f, [x, y].map(T::from_f64));
         }
         dynamics.value(moment.t, moment.q, moment.v)?;
         let across = |&f: &usize| frame_of(dynamics, f).across;
@@ -180,7 +180,7 @@ impl Beginning {
     fn settle<T: Scalar>(
         &mut self,
         dynamics: &mut Dynamics<T>,
-        moment: Moment<'_, T>,
+        moment: EvaluationPoint<'_, T>,
     ) -> Result<bool, EvaluationError> {
         /// Step of the differences.
         const SMALL: f64 = 1e-6;
@@ -228,20 +228,20 @@ impl Beginning {
 /// ṡ of friction `f` if it begins to slip at an angle.
 fn turn_of<T: Scalar>(
     dynamics: &mut Dynamics<T>,
-    moment: Moment<'_, T>,
+    moment: EvaluationPoint<'_, T>,
     f: usize,
     angle: f64,
 ) -> Result<Turn, EvaluationError> {
     let (y, x) = angle.sin_cos();
-    dynamics.set_heading(f, [x, y].map(T::from_f64));
+    dynamics.set_slip_direction(f, [x, y].map(T::from_f64));
     dynamics.value(moment.t, moment.q, moment.v)?;
     Ok(frame_of(dynamics, f))
 }
 
-/// ṡ of friction `f` in the frame of its heading, at the last value.
+/// ṡ of friction `f` in the frame of its slip direction, at the last value.
 fn frame_of<T: Scalar>(dynamics: &Dynamics<T>, f: usize) -> Turn {
     let row = dynamics.description().frictions[f].row;
-    let [x, y] = dynamics.heading(f).map(|x| x.value());
+    let [x, y] = dynamics.slip_direction(f).map(|x| x.value());
     let [a, b] = [row, row + 1].map(|row| row_acceleration(row, dynamics));
     Turn {
         along: a * x + b * y,

@@ -10,25 +10,25 @@
 
 mod candidates;
 mod examine;
+mod facts;
 mod guess;
 mod incipient;
-mod known;
 mod pivot;
 mod questions;
 
 use crate::arithmetic::Scalar;
-use crate::dynamics::{Dynamics, EvaluationError, NeedSet};
+use crate::dynamics::{Dynamics, EvaluationError, OutputMask};
 use crate::error::Error;
 use crate::mode::{FrictionMode, Mode};
 use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
+use crate::modes::redundant::{CompositeGuard, RedundantForces};
 use crate::modes::scale::Sizes;
-use crate::modes::sharing::{Joint, Sharing};
 use crate::modes::table::Table;
 use crate::system::Description;
 use candidates::{Candidates, Listings};
+pub use facts::{EvaluationPoint, SwitchContext, SwitchFacts};
 use incipient::Beginning;
-pub use known::{Juncture, Known, Moment};
 
 /// The mode that goes on.
 #[derive(Clone, Debug)]
@@ -39,8 +39,8 @@ pub struct Decision {
     pub zeros: Vec<(Guard, usize)>,
     /// Whether another mode with another motion was feasible too.
     pub ambiguous: bool,
-    /// Joint guards that are at their border, or near it.
-    pub joints: Vec<Joint>,
+    /// CompositeGuard guards that are at their border, or near it.
+    pub composites: Vec<CompositeGuard>,
     /// Whether the dynamics hold the series of this mode at the moment, for the needs of its guards.
     pub expanded: bool,
 }
@@ -54,8 +54,8 @@ pub struct Decider<T> {
     zeros: Vec<(Guard, usize)>,
     /// What forbids the candidate examined last.
     violated: Vec<Guard>,
-    sharing: Sharing<T>,
-    joints: Vec<Joint>,
+    redundant: RedundantForces<T>,
+    composites: Vec<CompositeGuard>,
     motion: Vec<f64>,
     sizes: Sizes,
     /// Whether they are those of the state at hand.
@@ -65,9 +65,9 @@ pub struct Decider<T> {
     /// Modes tried so far.
     tried: usize,
     /// Needs of everything about every row.
-    rows: NeedSet,
+    rows: OutputMask,
     /// These and what the motion needs in any mode.
-    everything: NeedSet,
+    everything: OutputMask,
     /// The candidate under examination, with the directions in which its slips begin.
     posed: Mode,
     /// The same of the best one.
@@ -80,7 +80,7 @@ pub struct Decider<T> {
 impl<T: Scalar> Decider<T> {
     /// Memory for a system.
     pub fn new(description: &Description) -> Self {
-        let rows = guard::all_row_needs(description, &NeedSet::new(description));
+        let rows = guard::all_row_needs(description, &OutputMask::new(description));
         let mut everything = rows.clone();
         for row in description.rows {
             everything.insert(row.needs.bias);
@@ -90,15 +90,15 @@ impl<T: Scalar> Decider<T> {
                 mode: Mode::open(description),
                 zeros: Vec::new(),
                 ambiguous: false,
-                joints: Vec::new(),
+                composites: Vec::new(),
                 expanded: false,
             },
             listings: Listings::default(),
             questions: Vec::new(),
             zeros: Vec::new(),
             violated: Vec::new(),
-            sharing: Sharing::default(),
-            joints: Vec::new(),
+            redundant: RedundantForces::default(),
+            composites: Vec::new(),
             motion: Vec::new(),
             sizes: Sizes::default(),
             sized: false,
@@ -125,7 +125,7 @@ impl<T: Scalar> Decider<T> {
         &mut self,
         dynamics: &mut Dynamics<T>,
         table: &mut Table,
-        here: Juncture<'_, T>,
+        here: SwitchContext<'_, T>,
     ) -> Result<(), Error> {
         let d = dynamics.description();
         let mut listings = core::mem::take(&mut self.listings);
@@ -146,16 +146,16 @@ impl<T: Scalar> Decider<T> {
             Ok(false) => Err(Error::NoMode {
                 time,
                 mode: here.present.display(d).to_string(),
-                item: concerned(d, here.known, here.present),
+                item: concerned(d, here.facts, here.present),
                 tried: self.tried,
             }),
             Err(error) => Err(Error::from_evaluation(error, time, dynamics.mode(), d)),
         }
     }
 
-    /// See [`Known::residue`]; `dynamics` holds the values of the moment in the mode that ends.
+    /// See [`SwitchFacts::residue`]; `dynamics` holds the values of the moment in the mode that ends.
     pub fn residue(&mut self, dynamics: &mut Dynamics<T>, mode: &Mode, located: &[Guard]) -> f64 {
-        let is_force = |guard: &&Guard| guard.is_force() && !matches!(guard, Guard::Joint(_));
+        let is_force = |guard: &&Guard| guard.is_force() && !matches!(guard, Guard::Composite(_));
         let mut forces = located.iter().filter(is_force).peekable();
         if forces.peek().is_some() {
             dynamics.complete_outputs();
@@ -186,14 +186,14 @@ impl<T: Scalar> Decider<T> {
         &mut self,
         dynamics: &mut Dynamics<T>,
         table: &mut Table,
-        here: Juncture<'_, T>,
+        here: SwitchContext<'_, T>,
         candidates: &Candidates,
     ) -> Result<bool, EvaluationError> {
         let (mut best, mut failure) = (None, None);
         // Without friction the accelerations are the only ones that Gauss's principle allows: no other mode has others.
         let idle = |mode: &Mode| mode.frictions.iter().all(|f| *f == FrictionMode::Inactive);
         let unique = dynamics.description().couplings.is_empty()
-            && !here.known.balanced.contains(&true)
+            && !here.facts.balanced.contains(&true)
             && candidates.iter().all(idle);
         for mode in candidates.iter() {
             self.tried += 1;
@@ -234,7 +234,7 @@ impl<T: Scalar> Decider<T> {
     fn keep(&mut self, dynamics: &Dynamics<T>) {
         core::mem::swap(&mut self.best, &mut self.posed);
         core::mem::swap(&mut self.decision.zeros, &mut self.zeros);
-        self.decision.joints.clone_from(&self.joints);
+        self.decision.composites.clone_from(&self.composites);
         self.motion.clear();
         let motion = dynamics.acceleration().iter().map(|a| a.value());
         self.motion.extend(motion);
@@ -255,14 +255,14 @@ fn differ<T: Scalar>(a: &[f64], b: &[T]) -> bool {
     pairs.any(|(x, y)| (x - y.value()).abs() > 1e-9 * size)
 }
 
-fn concerned(d: &'static Description, known: &Known, present: &Mode) -> &'static str {
-    let located = known.located.iter().find_map(|g| g.name(d));
-    let resting = known
+fn concerned(d: &'static Description, facts: &SwitchFacts, present: &Mode) -> &'static str {
+    let located = facts.located.iter().find_map(|g| g.name(d));
+    let resting = facts
         .resting
         .iter()
         .position(|r| *r)
         .map(|f| d.frictions[f].name);
-    let touching = known
+    let touching = facts
         .touching
         .iter()
         .position(|r| *r)

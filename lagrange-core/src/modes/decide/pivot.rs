@@ -11,7 +11,7 @@
 //! would do as well is not asked.
 
 use super::candidates::{Choices, look_at_slips, slide};
-use super::{Decider, Juncture};
+use super::{Decider, SwitchContext};
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError};
 use crate::mode::{Direction, FrictionMode, Mode, Sliding};
@@ -31,7 +31,7 @@ impl<T: Scalar> Decider<T> {
         &mut self,
         dynamics: &mut Dynamics<T>,
         table: &mut Table,
-        here: Juncture<'_, T>,
+        here: SwitchContext<'_, T>,
     ) -> Result<bool, EvaluationError> {
         self.decision.ambiguous = false;
         look_at_slips(dynamics, here, &self.rows);
@@ -58,11 +58,11 @@ impl<T: Scalar> Decider<T> {
         &mut self,
         dynamics: &mut Dynamics<T>,
         table: &mut Table,
-        here: Juncture<'_, T>,
+        here: SwitchContext<'_, T>,
         mut mode: Mode,
     ) -> Result<bool, EvaluationError> {
-        let known = here.known;
-        let flags = [&known.touching, &known.resting, &known.balanced];
+        let facts = here.facts;
+        let flags = [&facts.touching, &facts.resting, &facts.balanced];
         let open: usize = flags
             .iter()
             .map(|list| list.iter().filter(|f| **f).count())
@@ -72,7 +72,7 @@ impl<T: Scalar> Decider<T> {
             self.tried += 1;
             self.decision.expanded = false;
             if here.ends(&mode) {
-                self.violated.clone_from(&known.located);
+                self.violated.clone_from(&facts.located);
             } else if self.examine(dynamics, table, here, &mode)? {
                 self.decision.ambiguous = self.forks;
                 self.keep(dynamics);
@@ -104,24 +104,24 @@ fn order(guard: &Guard) -> (usize, usize) {
         Guard::StickUpper(f) | Guard::StickLower(f) | Guard::StickCone(f) | Guard::Slip(f) => {
             (1, f)
         }
-        Guard::Bearing(f) => (2, f),
+        Guard::NormalForceSign(f) => (2, f),
         Guard::Branch(b) => (3, b),
-        Guard::Stop(..) | Guard::Mark(..) | Guard::Joint(_) => (4, 0),
+        Guard::Stop(..) | Guard::Mark(..) | Guard::Composite(_) => (4, 0),
     }
 }
 
 impl<T: Scalar> Choices<'_, T> {
     /// From the present mode to the nearest that is not over: what was located is exchanged, what touches is closed.
     fn begin(&self, mode: &mut Mode) {
-        let known = self.here.known;
-        for (closed, touching) in mode.contacts.iter_mut().zip(&known.touching) {
+        let facts = self.here.facts;
+        for (closed, touching) in mode.contacts.iter_mut().zip(&facts.touching) {
             *closed = *touching;
         }
         for f in 0..mode.frictions.len() {
             self.set_first(mode, f);
         }
         let ended = |guard: &&Guard| !matches!(guard, Guard::Gap(_) | Guard::Slip(_));
-        let located: Vec<Guard> = known.located.iter().filter(ended).copied().collect();
+        let located: Vec<Guard> = facts.located.iter().filter(ended).copied().collect();
         self.exchange(&located, mode);
     }
 
@@ -140,7 +140,7 @@ impl<T: Scalar> Choices<'_, T> {
                 Guard::StickLower(f) => mode.frictions[f] = slide(1.0, 1.0),
                 Guard::StickCone(f) => mode.frictions[f] = self.leaves_its_cone(f),
                 Guard::Slip(f) => mode.frictions[f] = FrictionMode::Stick,
-                Guard::Bearing(f) => {
+                Guard::NormalForceSign(f) => {
                     if let FrictionMode::Slip(sliding) = &mut mode.frictions[f] {
                         sliding.normal_sign = -sliding.normal_sign;
                     }
@@ -151,7 +151,7 @@ impl<T: Scalar> Choices<'_, T> {
                 | Guard::Stop(..)
                 | Guard::Mark(..)
                 | Guard::Region(_)
-                | Guard::Joint(_) => {}
+                | Guard::Composite(_) => {}
             }
         }
         // A contact that opens takes its friction with it, whatever that did.

@@ -1,28 +1,28 @@
 //! The questions that a candidate must answer, and what is known of the answers beforehand.
 
-use super::Known;
+use super::SwitchFacts;
 use crate::arithmetic::Scalar;
-use crate::dynamics::{Dynamics, NeedSet};
+use crate::dynamics::{Dynamics, OutputMask};
 use crate::mode::{Direction, FrictionMode, Mode, Sliding};
 use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
-use crate::modes::sharing::{self, Joint};
+use crate::modes::redundant::{self, CompositeGuard};
 use crate::system::{Description, Normal};
 
 /// The first coefficient of a guard that is not known to vanish, times its factorial, as far as values tell.
 pub(super) fn leading<T: Scalar>(
     guard: Guard,
     order_known: usize,
-    joints: &[Joint],
+    composites: &[CompositeGuard],
     mode: &Mode,
     dynamics: &Dynamics<T>,
 ) -> Option<f64> {
     let d = dynamics.description();
     let acceleration = |row: usize| row_acceleration(row, dynamics);
     match (guard, order_known) {
-        (_, 0) => Some(sharing::value(
+        (_, 0) => Some(redundant::value(
             guard,
-            joints,
+            composites,
             mode,
             &Reading::Values(dynamics),
         )),
@@ -60,17 +60,17 @@ pub(super) fn row_acceleration<T: Scalar>(row: usize, dynamics: &Dynamics<T>) ->
 pub(super) fn list_questions(
     d: &Description,
     mode: &Mode,
-    known: &Known,
-    held: &NeedSet,
+    facts: &SwitchFacts,
+    held: &OutputMask,
     list: &mut Vec<(Guard, usize)>,
 ) {
     list.clear();
     for c in 0..d.contacts.len() {
         if mode.contacts[c] {
             list.push((Guard::Normal(c), 0));
-        } else if known.touching[c] {
+        } else if facts.touching[c] {
             list.push((Guard::Gap(c), 2));
-        } else if known.parting[c] {
+        } else if facts.parting[c] {
             list.push((Guard::Gap(c), 1));
         }
     }
@@ -81,18 +81,18 @@ pub(super) fn list_questions(
                 list.extend(guard::stick_guards(f, &d.frictions[f]).map(|g| (g, 0)));
             }
             FrictionMode::Slip(_) => {
-                if known.resting[f] {
+                if facts.resting[f] {
                     list.push((Guard::Slip(f), 1));
                 }
                 if let Normal::Constraint(_) = d.frictions[f].normal {
-                    list.push((Guard::Bearing(f), 0));
+                    list.push((Guard::NormalForceSign(f), 0));
                 }
             }
         }
     }
     for b in 0..d.branches.len() {
         // What nothing in this mode uses decides nothing.
-        if known.balanced[b] && held.contains(d.branches[b].need) {
+        if facts.balanced[b] && held.contains(d.branches[b].need) {
             list.push((Guard::Branch(b), 1));
         }
     }
@@ -100,12 +100,12 @@ pub(super) fn list_questions(
 
 /// Whether a guard's leading coefficients carry the error of a located root: it is that root, or belongs to the
 /// same contact (in the mode after, gap and slip accelerations vanish with the force that was located).
-pub(super) fn concerns(guard: Guard, joints: &[Joint], known: &Known) -> bool {
-    if let Guard::Joint(index) = guard {
-        let mut parts = joints[index].parts.iter();
-        return parts.any(|part| concerns(part.guard, &[], known));
+pub(super) fn concerns(guard: Guard, composites: &[CompositeGuard], facts: &SwitchFacts) -> bool {
+    if let Guard::Composite(index) = guard {
+        let mut parts = composites[index].parts.iter();
+        return parts.any(|part| concerns(part.guard, &[], facts));
     }
-    known.located.iter().any(|root| {
+    facts.located.iter().any(|root| {
         *root == guard
             || match (*root, guard) {
                 (Guard::Normal(c), Guard::Gap(g)) | (Guard::Gap(c), Guard::Normal(g)) => c == g,
@@ -114,12 +114,12 @@ pub(super) fn concerns(guard: Guard, joints: &[Joint], known: &Known) -> bool {
                     | Guard::StickLower(f)
                     | Guard::StickCone(f)
                     | Guard::Slip(f)
-                    | Guard::Bearing(f),
+                    | Guard::NormalForceSign(f),
                     Guard::Slip(g)
                     | Guard::StickUpper(g)
                     | Guard::StickLower(g)
                     | Guard::StickCone(g)
-                    | Guard::Bearing(g),
+                    | Guard::NormalForceSign(g),
                 ) => f == g,
                 _ => false,
             }

@@ -11,7 +11,7 @@ use crate::arithmetic::Scalar;
 
 /// A contact whose gap vanishes.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Touch<T> {
+pub(super) struct ContactRow<T> {
     /// Index into the description.
     pub contact: usize,
     /// Its row here.
@@ -24,16 +24,16 @@ pub(super) struct Touch<T> {
 
 /// What presses the surfaces of a friction together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Bearer {
+pub(super) enum NormalSource {
     /// A contact, by its place among the touches.
-    Touch(usize),
+    ContactRow(usize),
     /// A constraint, by its row here.
-    Link(usize),
+    ConstraintRow(usize),
 }
 
 /// A friction that an impact can act on.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Rub<T> {
+pub(super) struct FrictionRow<T> {
     /// Index into the description.
     pub friction: usize,
     /// First of its rows here.
@@ -41,7 +41,7 @@ pub(super) struct Rub<T> {
     /// 1 or 2.
     pub components: usize,
     /// Where N comes from.
-    pub bearer: Bearer,
+    pub bearer: NormalSource,
     /// N over the impulse of the bearer.
     pub factor: T,
     /// μs.
@@ -66,9 +66,9 @@ pub(super) struct Collision<T> {
     /// `while` rows with the place of their contact among the touches.
     pub conditional: Vec<(usize, usize)>,
     /// Contacts whose gap vanishes, in order of declaration.
-    pub touches: Vec<Touch<T>>,
+    pub touches: Vec<ContactRow<T>>,
     /// Frictions on them and on constraints.
-    pub rubs: Vec<Rub<T>>,
+    pub rubs: Vec<FrictionRow<T>>,
 }
 
 impl<T: Scalar> Collision<T> {
@@ -83,10 +83,10 @@ impl<T: Scalar> Collision<T> {
     }
 
     /// Row of the bearer of a friction.
-    pub fn bearing_row(&self, rub: &Rub<T>) -> usize {
+    pub fn bearing_row(&self, rub: &FrictionRow<T>) -> usize {
         match rub.bearer {
-            Bearer::Touch(k) => self.touches[k].row,
-            Bearer::Link(row) => row,
+            NormalSource::ContactRow(k) => self.touches[k].row,
+            NormalSource::ConstraintRow(row) => row,
         }
     }
 }

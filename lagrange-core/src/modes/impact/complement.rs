@@ -7,7 +7,7 @@
 //! with friction impulses Σ β d along a few directions d and a bound σ of the slip. The bearing impulse of a friction on a
 //! constraint is taken as known.
 
-use super::collision::{Bearer, Collision};
+use super::collision::{Collision, NormalSource};
 use super::pattern::Phase;
 use crate::arithmetic::Scalar;
 use crate::linear::Equilibrated;
@@ -38,7 +38,7 @@ pub(super) enum Ray {
     /// Normal impulse of touch k beyond the least.
     Press(usize),
     /// Impulse of a friction along this direction.
-    Rub(usize, [f64; 2]),
+    FrictionRow(usize, [f64; 2]),
     /// Slip speed of a friction.
     Slip(usize),
     /// Impulse of `while` row k, forward or backward.
@@ -96,7 +96,7 @@ impl Linear {
             self.rays.push(Ray::Press(k));
         }
         for (r, rub) in c.rubs.iter().enumerate() {
-            if matches!(rub.bearer, Bearer::Touch(k) if !phase.within[k]) {
+            if matches!(rub.bearer, NormalSource::ContactRow(k) if !phase.within[k]) {
                 continue;
             }
             let sides = if rub.components == 1 { 2 } else { SIDES };
@@ -107,7 +107,7 @@ impl Linear {
                 } else {
                     [angle.cos(), angle.sin()]
                 };
-                self.rays.push(Ray::Rub(r, direction));
+                self.rays.push(Ray::FrictionRow(r, direction));
             }
             self.rays.push(Ray::Slip(r));
         }
@@ -134,7 +134,7 @@ impl Linear {
     fn rows<T: Scalar>(ray: Ray, c: &Collision<T>) -> [(usize, f64); 2] {
         match ray {
             Ray::Press(k) => [(c.touches[k].row, 1.0), (0, 0.0)],
-            Ray::Rub(r, [x, y]) => {
+            Ray::FrictionRow(r, [x, y]) => {
                 let row = c.rubs[r].row;
                 [
                     (row, x),
@@ -149,11 +149,13 @@ impl Linear {
     fn entry<T: Scalar>(&self, row: Ray, column: Ray, c: &Collision<T>) -> f64 {
         match (row, column) {
             (Ray::Slip(r), Ray::Press(k)) => match c.rubs[r].bearer {
-                Bearer::Touch(on) if on == k => self.coefficients[r] * c.rubs[r].factor.value(),
+                NormalSource::ContactRow(on) if on == k => {
+                    self.coefficients[r] * c.rubs[r].factor.value()
+                }
                 _ => 0.0,
             },
-            (Ray::Slip(r), Ray::Rub(f, _)) => -f64::from(u8::from(r == f)),
-            (Ray::Rub(f, _), Ray::Slip(r)) => f64::from(u8::from(r == f)),
+            (Ray::Slip(r), Ray::FrictionRow(f, _)) => -f64::from(u8::from(r == f)),
+            (Ray::FrictionRow(f, _), Ray::Slip(r)) => f64::from(u8::from(r == f)),
             (Ray::Held(i), Ray::Press(k)) => {
                 UNLIMITED * f64::from(u8::from(c.conditional[i].1 == k))
             }
@@ -185,8 +187,8 @@ impl Linear {
             Ray::Slip(r) => {
                 let rub = &c.rubs[r];
                 let normal = match rub.bearer {
-                    Bearer::Touch(k) => phase.least[k].value(),
-                    Bearer::Link(row) => before[row].value().abs(),
+                    NormalSource::ContactRow(k) => phase.least[k].value(),
+                    NormalSource::ConstraintRow(row) => before[row].value().abs(),
                 };
                 self.coefficients[r] * rub.factor.value() * normal
             }

@@ -1,13 +1,13 @@
 //! From the equations of motion at one state to a [`Collision`], and from its impulses back to velocities.
 
 use super::Impact;
-use super::collision::{Bearer, Collision, Rub, Touch};
+use super::collision::{Collision, ContactRow, FrictionRow, NormalSource};
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
 use crate::effects::Item;
 use crate::linear::{Equilibrated, least_norm};
 use crate::mode::FrictionMode;
-use crate::system::{Normal, Place, Restitution};
+use crate::system::{Normal, Restitution, ValueRef};
 
 /// What stands between coordinates and rows; the memory is reused.
 #[derive(Clone, Debug, Default)]
@@ -120,7 +120,7 @@ impl<T: Scalar> Gathering<T> {
                 Restitution::Newton(place) => (place, false),
                 Restitution::Poisson(place) => (place, true),
             };
-            out.touches.push(Touch {
+            out.touches.push(ContactRow {
                 contact: c,
                 row: self.rows.len(),
                 restitution: dynamics.motion(restitution),
@@ -174,13 +174,15 @@ impl<T: Scalar> Gathering<T> {
         let friction = &d.frictions[f];
         let (bearer, factor) = match friction.normal {
             Normal::Contact(c) => (
-                near.iter().position(|n| *n == c).map(Bearer::Touch),
+                near.iter()
+                    .position(|n| *n == c)
+                    .map(NormalSource::ContactRow),
                 d.contacts[c].normal_factor,
             ),
             Normal::Constraint(i) => {
                 let row = d.constraints[i].row;
                 let among = self.rows[..out.links].iter().position(|r| *r == row);
-                (among.map(Bearer::Link), None)
+                (among.map(NormalSource::ConstraintRow), None)
             }
             // A given force is finite: it does nothing in no time.
             Normal::Given(_) => (None, None),
@@ -188,12 +190,12 @@ impl<T: Scalar> Gathering<T> {
         let Some(bearer) = bearer else {
             return;
         };
-        out.rubs.push(Rub {
+        out.rubs.push(FrictionRow {
             friction: f,
             row: self.rows.len(),
             components: friction.components,
             bearer,
-            factor: factor.map_or(T::one(), |place: Place| dynamics.motion(place)),
+            factor: factor.map_or(T::one(), |place: ValueRef| dynamics.motion(place)),
             stick: dynamics.motion(friction.static_coefficient),
             slide: dynamics.motion(friction.kinetic_coefficient),
         });

@@ -3,7 +3,7 @@
 //! Projected Gauss–Seidel iteration (Jourdan, Alart & Jean 1998). It knows the round cone of a friction with two components
 //! but converges linearly: it only says which combination holds, and along which directions what slips does so.
 
-use super::collision::{Bearer, Collision};
+use super::collision::{Collision, NormalSource};
 use super::pattern::{Pattern, Phase, Slide};
 use crate::arithmetic::Scalar;
 
@@ -101,7 +101,7 @@ impl Relaxation {
     /// The greatest impulse of friction `r`.
     fn limit<T: Scalar>(&self, c: &Collision<T>, phase: &Phase<T>, r: usize) -> f64 {
         let rub = &c.rubs[r];
-        if matches!(rub.bearer, Bearer::Touch(k) if !phase.within[k]) {
+        if matches!(rub.bearer, NormalSource::ContactRow(k) if !phase.within[k]) {
             return 0.0;
         }
         self.coefficients[r] * rub.factor.value() * self.impulses[c.bearing_row(rub)].abs()
@@ -156,7 +156,7 @@ impl Relaxation {
             } else if speed <= SLIP * size {
                 Slide::Stick
             } else {
-                let against = matches!(rub.bearer, Bearer::Link(row) if self.impulses[row] < 0.0);
+                let against = matches!(rub.bearer, NormalSource::ConstraintRow(row) if self.impulses[row] < 0.0);
                 let sign = if against { -1.0 } else { 1.0 };
                 if self.coefficients[r] != rub.slide.value() {
                     self.coefficients[r] = rub.slide.value();

@@ -1,6 +1,6 @@
 //! Random impacts against what holds for every solution, and known ones against textbooks.
 
-use super::collision::{Bearer, Collision, Rub, Touch};
+use super::collision::{Collision, ContactRow, FrictionRow, NormalSource};
 use super::law::Law;
 use super::turn::{Stuck, Turns};
 
@@ -51,7 +51,7 @@ fn collision(random: &mut Random, kind: Kind) -> Collision<f64> {
         rows += 1;
     }
     for k in 0..kind.contacts {
-        c.touches.push(Touch {
+        c.touches.push(ContactRow {
             contact: k,
             row: rows,
             restitution: random.between(0.0, 1.0),
@@ -59,9 +59,9 @@ fn collision(random: &mut Random, kind: Kind) -> Collision<f64> {
         });
         rows += 1;
     }
-    let touches = (0..kind.contacts).map(Bearer::Touch);
-    let links = (0..kind.links).map(Bearer::Link);
-    let bearers: Vec<Bearer> = if kind.rough_links {
+    let touches = (0..kind.contacts).map(NormalSource::ContactRow);
+    let links = (0..kind.links).map(NormalSource::ConstraintRow);
+    let bearers: Vec<NormalSource> = if kind.rough_links {
         touches.chain(links).collect()
     } else {
         touches.collect()
@@ -76,7 +76,7 @@ fn collision(random: &mut Random, kind: Kind) -> Collision<f64> {
         } else {
             1.0
         };
-        c.rubs.push(Rub {
+        c.rubs.push(FrictionRow {
             friction: f,
             row: rows,
             components: kind.components,
@@ -207,7 +207,7 @@ fn judge(c: &Collision<f64>, law: &Law<f64>, kind: &Kind) {
         }
     }
     for rub in &c.rubs {
-        if kind.poisson && matches!(rub.bearer, Bearer::Link(_)) {
+        if kind.poisson && matches!(rub.bearer, NormalSource::ConstraintRow(_)) {
             // Its two phases may press either way.
             continue;
         }
@@ -280,7 +280,7 @@ fn row_of_balls(masses: &[f64], speeds: &[f64], e: f64) -> Collision<f64> {
         ..Collision::default()
     };
     for k in 0..contacts {
-        c.touches.push(Touch {
+        c.touches.push(ContactRow {
             contact: k,
             row: k,
             restitution: e,
@@ -397,17 +397,17 @@ fn wedged_rod(random: &mut Random, poisson: bool) -> Collision<f64> {
         }
     }
     for k in 0..2 {
-        c.touches.push(Touch {
+        c.touches.push(ContactRow {
             contact: k,
             row: k,
             restitution: if poisson { 0.5 } else { 0.0 },
             poisson,
         });
-        c.rubs.push(Rub {
+        c.rubs.push(FrictionRow {
             friction: k,
             row: 2 + k,
             components: 1,
-            bearer: Bearer::Touch(k),
+            bearer: NormalSource::ContactRow(k),
             factor: 1.0,
             stick: mu,
             slide: mu,

@@ -4,7 +4,7 @@
 //! Λₜ + μk N s⁺/|s⁺| = 0        together with all other equations of the combination
 //! ```
 
-use super::collision::{Bearer, Collision, Rub};
+use super::collision::{Collision, FrictionRow, NormalSource};
 use super::pattern::{Pattern, Phase, Slide, aim};
 use crate::arithmetic::Scalar;
 
@@ -102,7 +102,7 @@ impl<T: Scalar> Pattern<T> {
     fn linearize(
         &self,
         c: &Collision<T>,
-        rub: &Rub<T>,
+        rub: &FrictionRow<T>,
         matrix: &mut Vec<T>,
         right: &mut Vec<T>,
     ) -> bool {
@@ -115,7 +115,7 @@ impl<T: Scalar> Pattern<T> {
         let bearer = c.bearing_row(rub);
         let press = self.impulses[bearer];
         let sign = match rub.bearer {
-            Bearer::Link(_) if press.value() < 0.0 => -T::one(),
+            NormalSource::ConstraintRow(_) if press.value() < 0.0 => -T::one(),
             _ => T::one(),
         };
         let coefficient = rub.slide * rub.factor * sign;

@@ -1,11 +1,11 @@
 //! What a mode and the conditions of a check decide beforehand: branches, and the directions of slips.
 
-use super::Court;
+use super::Prover;
 use crate::model::{Check, Normal, Premise};
 use crate::modes::{Mode, Sign};
 use crate::symbolic::{ExprId, Pool, Rational};
 
-impl Court<'_> {
+impl Prover<'_> {
     /// Whether the conditions on the state exclude the direction of a slip.
     pub(super) fn contradicts(&mut self, check: &Check, mode: &Mode) -> bool {
         let mut slips = self.system.frictions.iter().zip(&mode.frictions);

@@ -82,7 +82,7 @@ pub fn verdicts(
     }
     // Checks need the pool for themselves; it is put back with more in it.
     let mut pool = std::mem::take(&mut equations.system.pool);
-    let mut court = Court {
+    let mut prover = Prover {
         system: &equations.system,
         guards: branches.iter().map(|branch| branch.guard).collect(),
         branches,
@@ -92,13 +92,13 @@ pub fn verdicts(
     };
     let mut verdicts = Vec::new();
     for check in &checks {
-        verdicts.extend(court.judge(check, sink));
+        verdicts.extend(prover.judge(check, sink));
     }
     equations.system.pool = pool;
     (equations, verdicts)
 }
 
-struct Court<'a> {
+struct Prover<'a> {
     /// The system, without its pool.
     system: &'a System,
     pool: &'a mut Pool,
@@ -109,7 +109,7 @@ struct Court<'a> {
     prepared: Vec<Prepared<'a>>,
 }
 
-impl Court<'_> {
+impl Prover<'_> {
     fn judge(&mut self, check: &Check, sink: &mut Diagnostics) -> Option<Verdict> {
         let modes = modes::all(self.system).under(&check.conditions);
         let count = modes.count();

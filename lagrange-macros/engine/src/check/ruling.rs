@@ -1,6 +1,6 @@
 //! What one mode says about a claim: exactly, on its solved surface; else at real states.
 
-use super::Court;
+use super::Prover;
 use super::exact::{Case, Finding, exact};
 use super::mechanics::Mechanics;
 use super::motion;
@@ -29,7 +29,7 @@ pub(super) struct Prepared<'a> {
     newton: Newton,
 }
 
-impl Court<'_> {
+impl Prover<'_> {
     /// What a mode says about a claim.
     pub(super) fn rule(&mut self, check: &Check, claim: ExprId, mode: &Mode) -> Ruling {
         let at = self.prepare(check, claim, mode);

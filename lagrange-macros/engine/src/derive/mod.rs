@@ -2,7 +2,7 @@
 //!
 //! Every number that the core needs is an [`Output`]: a sum of terms, each with the need that asks for it.
 //! The [`Structure`] says what the outputs mean; it mirrors `lagrange_core::system::Description` field by field,
-//! with an [`OutputId`] where the description has a `Place`.
+//! with an [`OutputId`] where the description has a `ValueRef`.
 
 mod cyclic;
 mod energy;

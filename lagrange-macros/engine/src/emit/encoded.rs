@@ -3,7 +3,7 @@
 use super::exact::Exact;
 use super::names;
 use crate::model::System;
-use crate::plan::{Coefficient, Mode, NeedSet, Operation, Tape, Value};
+use crate::plan::{Coefficient, Mode, Operation, OutputMask, Tape, Value};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
@@ -69,7 +69,7 @@ impl Writer {
         }
     }
 
-    fn needs(&mut self, needs: &NeedSet) {
+    fn needs(&mut self, needs: &OutputMask) {
         if needs.is_always() {
             return self.word(0);
         }

@@ -1,7 +1,7 @@
 //! The programs that are emitted as data, to be read: one line for each operation, blocks under what asks for them.
 
 use crate::derive::Stage;
-use crate::plan::{Coefficient, Mode, Operation, Place, Program, Tape, Value};
+use crate::plan::{Coefficient, Mode, Operation, Program, Tape, Value, ValueRef};
 use std::fmt::Write;
 
 /// Constants, motion and report as comments.
@@ -53,7 +53,7 @@ pub fn listing(program: &Program) -> String {
 fn labels(program: &Program, stage: Stage, count: usize) -> Vec<String> {
     let mut labels = vec![String::new(); count];
     for (output, place) in program.equations.outputs.iter().zip(&program.places) {
-        if let (true, Place::Node(at)) = (output.stage == stage, place) {
+        if let (true, ValueRef::Node(at)) = (output.stage == stage, place) {
             labels[*at].clone_from(&output.label);
         }
     }

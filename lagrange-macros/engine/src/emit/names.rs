@@ -1,7 +1,7 @@
 //! Names and small pieces that all emitted code shares. Locals are hygienic: no name of the user can meet them.
 
 use crate::model::{Parameter, System};
-use crate::plan::{Coefficient, NeedSet, Place, Tape, Value};
+use crate::plan::{Coefficient, OutputMask, Tape, Value, ValueRef};
 use crate::symbolic::Rational;
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
@@ -92,7 +92,7 @@ pub fn coefficient(system: &System, coefficient: Coefficient) -> TokenStream {
 }
 
 /// Whether one of these needs is held.
-pub fn condition(needs: &NeedSet) -> TokenStream {
+pub fn condition(needs: &OutputMask) -> TokenStream {
     let words = needs
         .words()
         .iter()
@@ -163,18 +163,18 @@ pub fn crossing(tape: &Tape) -> BTreeSet<Value> {
     crossing
 }
 
-/// `Place::…`
-pub fn place(system: &System, place: Place) -> TokenStream {
+/// `ValueRef::…`
+pub fn place(system: &System, place: ValueRef) -> TokenStream {
     let core = &system.core;
     match place {
-        Place::Zero => quote!(#core::system::Place::Zero),
-        Place::Constant(at) => {
+        ValueRef::Zero => quote!(#core::system::ValueRef::Zero),
+        ValueRef::Constant(at) => {
             let at = index(at);
-            quote!(#core::system::Place::Constant(#at))
+            quote!(#core::system::ValueRef::Constant(#at))
         }
-        Place::Node(at) => {
+        ValueRef::Node(at) => {
             let at = index(at);
-            quote!(#core::system::Place::Node(#at))
+            quote!(#core::system::ValueRef::Node(#at))
         }
     }
 }

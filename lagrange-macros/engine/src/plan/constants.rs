@@ -1,6 +1,6 @@
 //! Which numbers the tapes take from the constants: each a parameter-only expression, with the needs that ask for it.
 
-use super::needs::NeedSet;
+use super::needs::OutputMask;
 use super::tape::Coefficient;
 use crate::derive::NeedId;
 use crate::symbolic::{ExprId, Node, Pool, Symbol};
@@ -24,7 +24,7 @@ pub(super) struct Constants {
     index: BTreeMap<Source, usize>,
     symbols: BTreeMap<Symbol, usize>,
     /// In order of index.
-    pub sources: Vec<(Source, NeedSet)>,
+    pub sources: Vec<(Source, OutputMask)>,
 }
 
 impl Constants {
@@ -53,7 +53,7 @@ impl Constants {
         let next = self.sources.len();
         let index = *self.index.entry(source.clone()).or_insert(next);
         if index == next {
-            self.sources.push((source, NeedSet::default()));
+            self.sources.push((source, OutputMask::default()));
         }
         index
     }
@@ -99,7 +99,7 @@ impl Constants {
     }
 
     /// Notes who reads a coefficient.
-    pub fn ask(&mut self, coefficient: Coefficient, needs: &NeedSet) {
+    pub fn ask(&mut self, coefficient: Coefficient, needs: &OutputMask) {
         if let Coefficient::Constant(index) = coefficient {
             self.sources[index].1.join(needs);
         }

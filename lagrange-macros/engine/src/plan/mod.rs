@@ -19,7 +19,7 @@ mod schedule;
 mod share;
 mod tape;
 
-pub use needs::NeedSet;
+pub use needs::OutputMask;
 pub use tape::{Block, Coefficient, Mode, Operation, Step, Tape, Value, Write};
 
 use crate::derive::{Equations, OutputId, Stage};
@@ -32,9 +32,9 @@ use outputs::Target;
 use schedule::Demand;
 use std::collections::BTreeMap;
 
-/// Where a number is found after a tape has run; as `lagrange_core::system::Place`.
+/// Where a number is found after a tape has run; as `lagrange_core::system::ValueRef`.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub enum Place {
+pub enum ValueRef {
     /// Structurally zero.
     Zero,
     /// Index into the constants.
@@ -48,7 +48,7 @@ pub struct Program {
     /// What it computes.
     pub equations: Equations,
     /// Of each output of the equations.
-    pub places: Vec<Place>,
+    pub places: Vec<ValueRef>,
     /// Inputs are the parameters, outputs the constants. Scalar operations.
     pub constants: Tape,
     /// Inputs t, q, v.
@@ -80,7 +80,7 @@ pub enum StartTarget {
 
 impl Program {
     /// Where an output is found.
-    pub fn place(&self, output: OutputId) -> Place {
+    pub fn place(&self, output: OutputId) -> ValueRef {
         self.places[output.0]
     }
 
@@ -103,7 +103,7 @@ pub fn plan(mut equations: Equations) -> Program {
     let parameters: BTreeMap<Symbol, usize> =
         numbered(equations.system.parameters.iter().map(|p| p.symbol));
     let mut constants = Constants::new(parameters.clone());
-    let mut places = vec![Place::Zero; equations.outputs.len()];
+    let mut places = vec![ValueRef::Zero; equations.outputs.len()];
     let motion = stage_tape(&mut equations, Stage::Motion, &mut constants, &mut places);
     let report = stage_tape(&mut equations, Stage::Report, &mut constants, &mut places);
     let starts = starts(&mut equations.system, &parameters);
@@ -165,7 +165,7 @@ fn stage_tape(
     equations: &mut Equations,
     stage: Stage,
     constants: &mut Constants,
-    places: &mut [Place],
+    places: &mut [ValueRef],
 ) -> Tape {
     // The solve reads M and f whatever is held.
     let mass = equations.structure.mass.iter().map(|(_, _, entry)| *entry);

@@ -4,23 +4,23 @@ use crate::derive::NeedId;
 
 /// A set of needs, canonical: need 0 is always held, so a set with it is the set `{0}`.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug, Default)]
-pub struct NeedSet(Vec<u64>);
+pub struct OutputMask(Vec<u64>);
 
-impl NeedSet {
+impl OutputMask {
     /// The set that is always held.
-    pub fn always() -> NeedSet {
-        NeedSet(vec![1])
+    pub fn always() -> OutputMask {
+        OutputMask(vec![1])
     }
 
     /// The set of one need.
-    pub fn single(need: NeedId) -> NeedSet {
-        NeedSet::default().with(need)
+    pub fn single(need: NeedId) -> OutputMask {
+        OutputMask::default().with(need)
     }
 
     /// This set and one need more.
-    pub fn with(mut self, need: NeedId) -> NeedSet {
+    pub fn with(mut self, need: NeedId) -> OutputMask {
         if need.0 == 0 || self.is_always() {
-            return NeedSet::always();
+            return OutputMask::always();
         }
         let (word, bit) = (need.0 / 64, need.0 % 64);
         if self.0.len() <= word {
@@ -31,12 +31,12 @@ impl NeedSet {
     }
 
     /// Adds another set; says whether this one grew.
-    pub fn join(&mut self, other: &NeedSet) -> bool {
+    pub fn join(&mut self, other: &OutputMask) -> bool {
         if self.is_always() {
             return false;
         }
         if other.is_always() {
-            *self = NeedSet::always();
+            *self = OutputMask::always();
             return true;
         }
         if self.0.len() < other.0.len() {
@@ -82,20 +82,20 @@ mod tests {
 
     #[test]
     fn need_zero_absorbs() {
-        let mut set = NeedSet::single(NeedId(70)).with(NeedId(3));
+        let mut set = OutputMask::single(NeedId(70)).with(NeedId(3));
         assert_eq!(set.len(), 2);
-        assert!(!set.join(&NeedSet::single(NeedId(3))));
-        assert!(set.join(&NeedSet::single(NeedId(0))));
-        assert_eq!(set, NeedSet::always());
-        assert_eq!(NeedSet::always().with(NeedId(5)), NeedSet::always());
+        assert!(!set.join(&OutputMask::single(NeedId(3))));
+        assert!(set.join(&OutputMask::single(NeedId(0))));
+        assert_eq!(set, OutputMask::always());
+        assert_eq!(OutputMask::always().with(NeedId(5)), OutputMask::always());
     }
 
     #[test]
     fn runs_when_one_of_its_needs_is_held() {
-        let set = NeedSet::single(NeedId(65));
+        let set = OutputMask::single(NeedId(65));
         assert!(!set.runs(&[!0, 0]));
         assert!(!set.runs(&[!0]));
         assert!(set.runs(&[0, 2]));
-        assert!(NeedSet::always().runs(&[]));
+        assert!(OutputMask::always().runs(&[]));
     }
 }

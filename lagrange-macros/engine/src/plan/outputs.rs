@@ -1,10 +1,10 @@
 //! Outputs of the equations → what a tape must deliver, and where each output will be found.
 
-use super::Place;
+use super::ValueRef;
 use super::constants::{Constants, Source};
 use super::form::Former;
 use super::graph::NodeId;
-use super::needs::NeedSet;
+use super::needs::OutputMask;
 use super::tape::Mode;
 use crate::derive::{NeedId, Output, OutputId, Stage};
 use crate::symbolic::{ExprId, Pool, Symbol};
@@ -14,7 +14,7 @@ use std::collections::{BTreeMap, BTreeSet};
 pub(super) struct Target {
     /// What the sum starts from, a constant that is always there.
     start: Option<ExprId>,
-    terms: Vec<(NeedSet, ExprId)>,
+    terms: Vec<(OutputMask, ExprId)>,
     /// Whether it is 0 where none of the terms is asked for.
     from_zero: bool,
 }
@@ -22,7 +22,7 @@ pub(super) struct Target {
 /// A node that enters an output.
 pub(super) struct Entry {
     pub output: usize,
-    pub needs: NeedSet,
+    pub needs: OutputMask,
     pub node: NodeId,
     pub mode: Mode,
 }
@@ -32,13 +32,13 @@ impl Target {
     pub fn always(e: ExprId) -> Target {
         Target {
             start: None,
-            terms: vec![(NeedSet::always(), e)],
+            terms: vec![(OutputMask::always(), e)],
             from_zero: false,
         }
     }
 
     /// A constant that the tapes ask for.
-    pub fn of_constant((source, needs): (Source, NeedSet)) -> Target {
+    pub fn of_constant((source, needs): (Source, OutputMask)) -> Target {
         match source {
             Source::Whole(e) => Target {
                 start: None,
@@ -48,7 +48,7 @@ impl Target {
             Source::Masked(terms) => {
                 let terms = terms
                     .into_iter()
-                    .map(|(need, e)| (NeedSet::single(need), e))
+                    .map(|(need, e)| (OutputMask::single(need), e))
                     .collect();
                 Target {
                     start: None,
@@ -73,7 +73,7 @@ impl Target {
             };
             entries.push(Entry {
                 output,
-                needs: NeedSet::always(),
+                needs: OutputMask::always(),
                 node,
                 mode: Mode::Set,
             });
@@ -131,10 +131,10 @@ pub(super) fn targets(
     (stage, always_read): (Stage, &BTreeSet<OutputId>),
     inputs: &BTreeMap<Symbol, usize>,
     constants: &mut Constants,
-    places: &mut [Place],
+    places: &mut [ValueRef],
 ) -> Vec<Target> {
     let mut targets = Vec::new();
-    let mut known: BTreeMap<Terms, Place> = BTreeMap::new();
+    let mut known: BTreeMap<Terms, ValueRef> = BTreeMap::new();
     for (index, (output, place)) in outputs.iter().zip(places).enumerate() {
         if output.stage != stage {
             continue;
@@ -149,22 +149,22 @@ pub(super) fn targets(
                 return constant(constants, &fixed, terms.total);
             }
             targets.push(target(pool, constants, varying, fixed, terms.total));
-            Place::Node(targets.len() - 1)
+            ValueRef::Node(targets.len() - 1)
         });
     }
     targets
 }
 
 /// The place of an output of parameters only.
-fn constant(constants: &mut Constants, terms: &[(NeedId, ExprId)], total: bool) -> Place {
+fn constant(constants: &mut Constants, terms: &[(NeedId, ExprId)], total: bool) -> ValueRef {
     match *terms {
-        [] => Place::Zero,
+        [] => ValueRef::Zero,
         [(need, e)] if !total || need.0 == 0 => {
             let index = constants.constant(Source::Whole(e));
-            constants.sources[index].1.join(&NeedSet::single(need));
-            Place::Constant(index)
+            constants.sources[index].1.join(&OutputMask::single(need));
+            ValueRef::Constant(index)
         }
-        _ => Place::Constant(constants.constant(Source::Masked(terms.to_vec()))),
+        _ => ValueRef::Constant(constants.constant(Source::Masked(terms.to_vec()))),
     }
 }
 
@@ -177,7 +177,7 @@ fn target(
 ) -> Target {
     let terms = varying
         .into_iter()
-        .map(|(need, e)| (NeedSet::single(need), e))
+        .map(|(need, e)| (OutputMask::single(need), e))
         .collect();
     // What is fixed is where the sum starts; a masked sum of the constants program if any of it can be left out.
     let start = match fixed[..] {

@@ -1,14 +1,14 @@
 //! Operations → blocks: who needs what, in which order, in which slot.
 
 use super::lower::Lowered;
-use super::needs::NeedSet;
+use super::needs::OutputMask;
 use super::tape::{Block, Step, Tape, Value, Write};
 use std::collections::BTreeMap;
 
 /// What enters an output, when asked for.
 pub(super) struct Demand {
     /// Who asks.
-    pub needs: NeedSet,
+    pub needs: OutputMask,
     /// What enters where.
     pub write: Write,
 }
@@ -21,13 +21,13 @@ pub(super) fn schedule(
     demands: &[Demand],
 ) -> Tape {
     // Whoever needs a value needs its operands: one pass from the last operation to the first.
-    let mut asked = vec![NeedSet::default(); lowered.values];
+    let mut asked = vec![OutputMask::default(); lowered.values];
     for demand in demands {
         asked[demand.write.value.0].join(&demand.needs);
     }
-    let mut needs_of = vec![NeedSet::default(); lowered.operations.len()];
+    let mut needs_of = vec![OutputMask::default(); lowered.operations.len()];
     for (index, (first, operation)) in lowered.operations.iter().enumerate().rev() {
-        let mut needs = NeedSet::default();
+        let mut needs = OutputMask::default();
         for needed in &asked[first.0..first.0 + operation.values()] {
             needs.join(needed);
         }
@@ -38,7 +38,7 @@ pub(super) fn schedule(
     }
 
     let mut blocks: BTreeMap<Rank, Block> = BTreeMap::new();
-    let mut block = |needs: &NeedSet, fill: &mut dyn FnMut(&mut Block)| {
+    let mut block = |needs: &OutputMask, fill: &mut dyn FnMut(&mut Block)| {
         let empty = || Block {
             needs: needs.clone(),
             steps: Vec::new(),
@@ -67,9 +67,9 @@ pub(super) fn schedule(
 }
 
 /// Larger sets first, the set that always runs before all.
-type Rank = (bool, std::cmp::Reverse<usize>, NeedSet);
+type Rank = (bool, std::cmp::Reverse<usize>, OutputMask);
 
-fn rank(needs: &NeedSet) -> Rank {
+fn rank(needs: &OutputMask) -> Rank {
     (
         !needs.is_always(),
         std::cmp::Reverse(needs.len()),

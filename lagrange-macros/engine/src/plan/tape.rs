@@ -3,7 +3,7 @@
 //! The operations are those of `lagrange_core::program`, so emission is a transcription. A tape is
 //! in single assignment: value `i < inputs` is input `i`, every step defines the next value (or two).
 
-use super::needs::NeedSet;
+use super::needs::OutputMask;
 use crate::symbolic::Rational;
 
 /// A value of a tape.
@@ -206,7 +206,7 @@ pub struct Write {
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Block {
     /// Who asks.
-    pub needs: NeedSet,
+    pub needs: OutputMask,
     /// The work, in order.
     pub steps: Vec<Step>,
     /// What it delivers, after the steps.

@@ -33,7 +33,7 @@ struct Pair {
     cosine: bool,
     /// The coefficient is negative.
     negative: bool,
-    /// Place of the term.
+    /// ValueRef of the term.
     term: usize,
 }
 

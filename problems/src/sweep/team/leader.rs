@@ -1,7 +1,7 @@
 //! Rank 0: gives chunks out, keeps what comes back, and works.
 
+use super::chunk_queue::ChunkQueue;
 use super::crew::Crew;
-use super::office::Office;
 use super::post::Post;
 use super::{ASK, BYE, DONE, END, FAREWELL, GLANCE, STOP};
 use crate::sweep::{Journal, Sweep, Trouble};
@@ -22,30 +22,30 @@ pub(super) fn work(
     mut done: impl FnMut(usize),
 ) -> Result<(), Trouble> {
     let open = (0..sweep.chunks()).filter(|&chunk| !journal.has(sweep, chunk));
-    let mut office = Office::new(open);
+    let mut queue = ChunkQueue::new(open);
     let crew = Crew::new(&Arc::new(sweep.clone()), workers);
-    let mut keep = |office: &mut Office, rank, chunk: usize, rows: Vec<f64>| {
-        if office.take(rank, chunk) {
+    let mut keep = |queue: &mut ChunkQueue, rank, chunk: usize, rows: Vec<f64>| {
+        if queue.take(rank, chunk) {
             journal.put(sweep, chunk, rows)?;
             done(sweep.chunk(chunk).len());
         }
         Ok(())
     };
-    while !office.is_done() {
-        while office.hand(0) < crew.most
-            && let Some(chunk) = office.give(0)
+    while !queue.is_done() {
+        while queue.hand(0) < crew.most
+            && let Some(chunk) = queue.give(0)
         {
             crew.begin(chunk);
         }
         if let Some((chunk, rows)) = crew.finished(GLANCE) {
-            keep(&mut office, 0, chunk, rows)?;
+            keep(&mut queue, 0, chunk, rows)?;
         }
         while let Some((rank, tag, mut rows)) = post.receive() {
             if tag == DONE && !rows.is_empty() {
                 let chunk = rows.remove(0) as usize;
-                keep(&mut office, rank, chunk, rows)?;
+                keep(&mut queue, rank, chunk, rows)?;
             } else if tag == ASK {
-                post.give(rank, office.give(rank));
+                post.give(rank, queue.give(rank));
             }
         }
     }

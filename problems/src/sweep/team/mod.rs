@@ -11,10 +11,10 @@
 //! in hand, the oldest first: a rank that has died, or hangs, or is slow, is made up for without anybody having to know which it is.
 //! The same chunk done twice is the same rows.
 
+mod chunk_queue;
 mod crew;
 mod leader;
 mod member;
-mod office;
 mod post;
 
 use super::launch::Place;

@@ -43,7 +43,7 @@ impl Acceleration<f64> for Pendulum {
 impl Problem for Pendulum {
     const COORDINATES: usize = 1;
 
-    /// Known at multiples of a quarter of the period only.
+    /// SwitchFacts at multiples of a quarter of the period only.
     fn solution(&self, t: f64) -> (Vec<f64>, Vec<f64>) {
         let quarters = 4.0 * t / self.period();
         assert!(

@@ -2,13 +2,13 @@
 
 use super::{Pattern, Phase, Slide, length};
 use crate::arithmetic::Scalar;
-use crate::modes::impact::collision::{Bearer, Collision, Rub};
+use crate::modes::impact::collision::{Collision, FrictionRow, NormalSource};
 
 /// What does not hold.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::modes::impact) enum Violation {
-    Touch(usize),
-    Rub(usize),
+    ContactRow(usize),
+    FrictionRow(usize),
 }
 
 impl<T: Scalar> Pattern<T> {
@@ -31,18 +31,18 @@ impl<T: Scalar> Pattern<T> {
             } else {
                 (phase.aims[k] - self.after[i]).value()
             };
-            judge(excess, self.noise[i], Violation::Touch(k));
+            judge(excess, self.noise[i], Violation::ContactRow(k));
         }
         for (r, rub) in c.rubs.iter().enumerate() {
             if let Some((excess, noise)) = self.excess(c, rub, self.slides[r]) {
-                judge(excess, noise, Violation::Rub(r));
+                judge(excess, noise, Violation::FrictionRow(r));
             }
         }
         worst.map(|(_, what)| what)
     }
 
     /// How far a friction is beyond its law, as a rate, and what rounding leaves of that.
-    fn excess(&self, c: &Collision<T>, rub: &Rub<T>, slide: Slide) -> Option<(f64, f64)> {
+    fn excess(&self, c: &Collision<T>, rub: &FrictionRow<T>, slide: Slide) -> Option<(f64, f64)> {
         let bearer = c.bearing_row(rub);
         let press = self.impulses[bearer].value();
         let normal = rub.factor.value() * press.abs();
@@ -60,7 +60,7 @@ impl<T: Scalar> Pattern<T> {
             }
             Slide::Along(sign) => {
                 let sign = match rub.bearer {
-                    Bearer::Link(_) if press < 0.0 => -sign,
+                    NormalSource::ConstraintRow(_) if press < 0.0 => -sign,
                     _ => sign,
                 };
                 let excess = -sign * self.after[rub.row].value();
@@ -103,8 +103,9 @@ impl<T: Scalar> Pattern<T> {
 
 /// Where the friction impulse of a rub with two components points away from: its slip, times the sign of the bearing impulse
 /// on a constraint.
-fn lead<T: Scalar>(rub: &Rub<T>, impulses: &[T], after: &[T]) -> [f64; 2] {
-    let against = matches!(rub.bearer, Bearer::Link(row) if impulses[row].value() < 0.0);
+fn lead<T: Scalar>(rub: &FrictionRow<T>, impulses: &[T], after: &[T]) -> [f64; 2] {
+    let against =
+        matches!(rub.bearer, NormalSource::ConstraintRow(row) if impulses[row].value() < 0.0);
     let sign = if against { -1.0 } else { 1.0 };
     [0, 1].map(|k| sign * after[rub.row + k].value())
 }

@@ -11,7 +11,7 @@
 
 mod judgement;
 
-use super::collision::{Bearer, Collision, Rub};
+use super::collision::{Collision, FrictionRow, NormalSource};
 use crate::arithmetic::Scalar;
 use crate::linear::{Equilibrated, least_norm};
 pub(super) use judgement::Violation;
@@ -69,12 +69,12 @@ pub(super) struct Pattern<T> {
 
 impl<T: Scalar> Pattern<T> {
     /// Whether friction `rub` can have an impulse.
-    pub fn bears(&self, rub: &Rub<T>, phase: &Phase<T>) -> bool {
+    pub fn bears(&self, rub: &FrictionRow<T>, phase: &Phase<T>) -> bool {
         match rub.bearer {
-            Bearer::Touch(k) => {
+            NormalSource::ContactRow(k) => {
                 phase.within[k] && (self.pressed[k] || phase.least[k].value() > 0.0)
             }
-            Bearer::Link(_) => true,
+            NormalSource::ConstraintRow(_) => true,
         }
     }
 

@@ -6,7 +6,7 @@
 
 use super::Search;
 use crate::arithmetic::Scalar;
-use crate::modes::impact::collision::{Bearer, Collision, Rub};
+use crate::modes::impact::collision::{Collision, FrictionRow, NormalSource};
 use crate::modes::impact::pattern::{Pattern, Phase, Slide};
 
 /// Solutions whose rates differ by less than this share of them are the same.
@@ -108,8 +108,8 @@ impl<T: Scalar> Search<T> {
 impl<T: Scalar> Pattern<T> {
     /// Whether friction holds fast between several contacts: only then other contacts may be pressed as well.
     fn may_jam(&self, c: &Collision<T>) -> bool {
-        let holds = |(rub, slide): (&Rub<T>, &Slide)| {
-            *slide == Slide::Stick && matches!(rub.bearer, Bearer::Touch(_))
+        let holds = |(rub, slide): (&FrictionRow<T>, &Slide)| {
+            *slide == Slide::Stick && matches!(rub.bearer, NormalSource::ContactRow(_))
         };
         self.pressed.iter().filter(|pressed| **pressed).count() > 1
             && c.rubs.iter().zip(&self.slides).any(holds)

@@ -3,7 +3,7 @@
 use super::Search;
 use crate::arithmetic::Scalar;
 use crate::linear::LemkeOutcome;
-use crate::modes::impact::collision::{Bearer, Collision};
+use crate::modes::impact::collision::{Collision, NormalSource};
 use crate::modes::impact::complement::Ray;
 use crate::modes::impact::pattern::{Pattern, Phase, Slide, Violation, length};
 
@@ -51,7 +51,10 @@ impl<T: Scalar> Search<T> {
             if !lowered && (self.attempt_found(c, phase) || self.repair(c, phase)) {
                 return true;
             }
-            let links = c.rubs.iter().any(|r| matches!(r.bearer, Bearer::Link(_)));
+            let links = c
+                .rubs
+                .iter()
+                .any(|r| matches!(r.bearer, NormalSource::ConstraintRow(_)));
             if !lowered && !links {
                 return false;
             }
@@ -130,7 +133,10 @@ impl<T: Scalar> Search<T> {
             let row = c.touches[k].row;
             let over = p.after[row] - phase.aims[k];
             // With friction it would have to be decided what that does.
-            let rough = c.rubs.iter().any(|rub| rub.bearer == Bearer::Touch(k));
+            let rough = c
+                .rubs
+                .iter()
+                .any(|rub| rub.bearer == NormalSource::ContactRow(k));
             phase.within[k] && !p.pressed[k] && !rough && over.value() <= p.noise[row]
         };
         if !self.taking.iter().any(|&k| tight(&self.pattern, k)) {
@@ -159,8 +165,10 @@ impl<T: Scalar> Search<T> {
             }
             match self.pattern.violation(c, phase) {
                 None => return true,
-                Some(Violation::Touch(k)) => self.pattern.pressed[k] = !self.pattern.pressed[k],
-                Some(Violation::Rub(r)) => {
+                Some(Violation::ContactRow(k)) => {
+                    self.pattern.pressed[k] = !self.pattern.pressed[k]
+                }
+                Some(Violation::FrictionRow(r)) => {
                     let rub = &c.rubs[r];
                     let impulse = &self.pattern.impulses[rub.row..rub.row + rub.components];
                     let size = length(impulse);

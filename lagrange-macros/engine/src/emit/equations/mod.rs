@@ -11,7 +11,7 @@ use super::scalar;
 use crate::derive::Stage;
 use crate::modes::FrictionState;
 use crate::plan::mode::{ModeProgram, Phase};
-use crate::plan::{Place, Program};
+use crate::plan::{Program, ValueRef};
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
@@ -62,7 +62,7 @@ pub fn equations(program: &Program) -> TokenStream {
         fn mode_constants(
             &self,
             #mode: usize,
-            #held: &#core::system::Held,
+            #held: &#core::system::Selection,
             #signs: &[Self::Scalar],
             #c: &mut [Self::Scalar],
         ) -> bool {
@@ -110,7 +110,7 @@ fn structure(program: &Program, mode: &ModeProgram, plan: &products::Plan) -> To
     });
     let (mut motion, mut report) = (Vec::new(), Vec::new());
     for extra in &mode.extras {
-        let (Some(row), Place::Node(node)) =
+        let (Some(row), ValueRef::Node(node)) =
             (plan.extra_row(mode, extra), program.place(extra.output))
         else {
             continue;
@@ -154,12 +154,12 @@ fn mode_constants(program: &Program, mode: &ModeProgram) -> TokenStream {
     };
     let body = scalar::masked(program, &mode.constants, input);
     let c = local("c");
-    let place = |place: &Place| match place {
-        Place::Constant(at) => {
+    let place = |place: &ValueRef| match place {
+        ValueRef::Constant(at) => {
             let at = index(*at);
             quote!(#scalar::value(#c[#at]).abs())
         }
-        Place::Zero | Place::Node(_) => quote!(0.0),
+        ValueRef::Zero | ValueRef::Node(_) => quote!(0.0),
     };
     let tests = mode.divisors.iter().map(|(pivot, against)| {
         let pivot = place(pivot);
@@ -168,11 +168,11 @@ fn mode_constants(program: &Program, mode: &ModeProgram) -> TokenStream {
     });
     let positive = mode.positive.iter().map(|place| {
         let inertia = match place {
-            Place::Constant(at) => {
+            ValueRef::Constant(at) => {
                 let at = index(*at);
                 quote!(#scalar::value(#c[#at]))
             }
-            Place::Zero | Place::Node(_) => quote!(0.0),
+            ValueRef::Zero | ValueRef::Node(_) => quote!(0.0),
         };
         quote!(#inertia > 0.0)
     });

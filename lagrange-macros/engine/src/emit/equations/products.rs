@@ -4,7 +4,7 @@
 //! only coefficient k itself.
 
 use crate::plan::mode::{Extra, ModeProgram};
-use crate::plan::{Mode, Operation, Place, Step, Value};
+use crate::plan::{Mode, Operation, Step, Value, ValueRef};
 use std::collections::BTreeMap;
 
 /// A series that is kept.
@@ -86,9 +86,9 @@ impl Plan {
         }
         for extra in &mode.extras {
             let row = match extra.place {
-                Place::Node(output) => plan.row_of_output(output),
-                Place::Constant(at) => Row::Fixed(at),
-                Place::Zero => continue,
+                ValueRef::Node(output) => plan.row_of_output(output),
+                ValueRef::Constant(at) => Row::Fixed(at),
+                ValueRef::Zero => continue,
             };
             plan.keep(row);
         }
@@ -140,9 +140,9 @@ impl Plan {
     /// Where an extra output is kept; none if it is always zero.
     pub fn extra_row(&self, mode: &ModeProgram, extra: &Extra) -> Option<usize> {
         match extra.place {
-            Place::Node(output) => self.row(self.row_of_output(output)),
-            Place::Constant(at) => self.row(Row::Fixed(at)),
-            Place::Zero => Some(2 * mode.inputs.coordinates + mode.forces.len()),
+            ValueRef::Node(output) => self.row(self.row_of_output(output)),
+            ValueRef::Constant(at) => self.row(Row::Fixed(at)),
+            ValueRef::Zero => Some(2 * mode.inputs.coordinates + mode.forces.len()),
         }
     }
 
@@ -201,7 +201,7 @@ impl Plan {
         let mut products = Vec::new();
         for (i, row) in mode.system.matrix.iter().enumerate() {
             for (j, place) in row.iter().enumerate() {
-                if let Place::Node(output) = *place
+                if let ValueRef::Node(output) = *place
                     && self.output_varies(output)
                 {
                     let unknown = Row::Value(mode.inputs.unknown(j));

@@ -15,7 +15,7 @@ use super::value;
 use super::writer::{Writer, coefficient};
 use crate::ast::Emit;
 use crate::plan::mode::{ModeProgram, Phase};
-use crate::plan::{Block, Coefficient, Mode, Operation, Place, Program, Step, Value};
+use crate::plan::{Block, Coefficient, Mode, Operation, Program, Step, Value, ValueRef};
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 use std::collections::BTreeSet;
@@ -118,7 +118,7 @@ pub fn function(
         #[doc = #heading]
         fn #name<#number: #core::arithmetic::Number>(
             #c: &[#number],
-            #held: &#core::system::Held,
+            #held: &#core::system::Selection,
             #order: usize,
             #state: #core::equations::Arguments<#number>,
             #rows: &mut [#core::equations::Row<#number>],
@@ -170,10 +170,10 @@ impl Expansion<'_> {
         self.d(self.plan.set[&output])
     }
 
-    fn d_of_place(&self, place: Place) -> Option<TokenStream> {
+    fn d_of_place(&self, place: ValueRef) -> Option<TokenStream> {
         match place {
-            Place::Node(output) => self.d_of_output(output),
-            Place::Zero | Place::Constant(_) => None,
+            ValueRef::Node(output) => self.d_of_output(output),
+            ValueRef::Zero | ValueRef::Constant(_) => None,
         }
     }
 
@@ -212,7 +212,7 @@ impl Expansion<'_> {
             }
         });
         let right = mode.system.right.iter().map(|place| match place {
-            Place::Zero => None,
+            ValueRef::Zero => None,
             place => Some(writer.place(*place)),
         });
         let (solve, mut solution) = elimination.solve(writer, right.collect(), "");
@@ -235,7 +235,7 @@ impl Expansion<'_> {
         }
         code.extend(self.first_of(Phase::Accelerations, core));
         for (j, place) in mode.accelerations.iter().enumerate() {
-            if *place != Place::Zero {
+            if *place != ValueRef::Zero {
                 let value = writer.place(*place);
                 code.extend(self.store(n + j, quote!(1), value));
             }

@@ -9,7 +9,7 @@
 use super::super::names::local;
 use super::number;
 use super::writer::Writer;
-use crate::plan::Place;
+use crate::plan::ValueRef;
 use crate::plan::mode::LinearSystem;
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
@@ -19,7 +19,7 @@ use quote::{format_ident, quote};
 enum Element {
     Zero,
     /// As it was.
-    Whole(Place),
+    Whole(ValueRef),
     Reduced(Ident),
 }
 
@@ -48,10 +48,10 @@ fn reciprocal(p: usize) -> Ident {
 fn order(system: &LinearSystem) -> Vec<usize> {
     let size = system.matrix.len();
     let mut order: Vec<usize> = (0..size).collect();
-    let filled = |i: usize, j: usize| system.matrix[i][j] != Place::Zero;
+    let filled = |i: usize, j: usize| system.matrix[i][j] != ValueRef::Zero;
     order.sort_by_key(|&i| {
         let others = (0..size).filter(|&j| j != i && (filled(i, j) || filled(j, i)));
-        let varies = matches!(system.matrix[i][i], Place::Node(_));
+        let varies = matches!(system.matrix[i][i], ValueRef::Node(_));
         (i >= system.accelerations, others.count(), varies, i)
     });
     order
@@ -72,8 +72,8 @@ impl<'a> Elimination<'a> {
             .matrix
             .iter()
             .map(|row| {
-                let element = |place: &Place| match place {
-                    Place::Zero => Element::Zero,
+                let element = |place: &ValueRef| match place {
+                    ValueRef::Zero => Element::Zero,
                     place => Element::Whole(*place),
                 };
                 row.iter().map(element).collect()
@@ -104,7 +104,9 @@ impl<'a> Elimination<'a> {
                 continue;
             }
             let name = reciprocal(p);
-            if leading && system.symmetric && matches!(m[p][p], Element::Whole(Place::Constant(_)))
+            if leading
+                && system.symmetric
+                && matches!(m[p][p], Element::Whole(ValueRef::Constant(_)))
             {
                 // The constants have been tested.
             } else if leading && system.symmetric {
@@ -260,7 +262,7 @@ impl<'a> Elimination<'a> {
             }
             let mut sum = writer.place(*right);
             for (place, x) in row.iter().zip(solution) {
-                if *place != Place::Zero {
+                if *place != ValueRef::Zero {
                     let element = writer.place(*place);
                     sum = quote!(#number::mul_add(-#element, #x, #sum));
                 }

@@ -6,7 +6,7 @@ use super::products::Plan;
 use super::solve::Elimination;
 use super::writer::Writer;
 use crate::plan::mode::{ModeProgram, Phase};
-use crate::plan::{Block, Mode, Place, Program, Value};
+use crate::plan::{Block, Mode, Program, Value, ValueRef};
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 use std::collections::{BTreeMap, BTreeSet};
@@ -38,7 +38,7 @@ pub fn function(
     };
     let elimination = Elimination::new(&writer, &mode.system);
     let right = mode.system.right.iter().map(|place| match place {
-        Place::Zero => None,
+        ValueRef::Zero => None,
         place => Some(writer.place(*place)),
     });
     let (solve, solution) = elimination.solve(&writer, right.collect(), "");
@@ -65,7 +65,7 @@ pub fn function(
         quote!(let #name = #result;)
     });
     let kept = kept(mode, plan);
-    let store = |row: usize, place: Place| {
+    let store = |row: usize, place: ValueRef| {
         let (row, value) = (index(row), writer.place(place));
         quote!(#values[#row] = #value;)
     };
@@ -73,15 +73,15 @@ pub fn function(
         let writes = block.writes.iter();
         let single = writes.filter(|write| !writer.sums.contains(&write.output));
         let rows = single.filter_map(|write| {
-            let place = Place::Node(write.output);
+            let place = ValueRef::Node(write.output);
             Some(store(*kept.get(&place)?, place))
         });
         quote!(#(#rows)*)
     });
     let whole = kept.iter().filter(|(place, _)| match place {
-        Place::Node(output) => writer.sums.contains(output),
-        Place::Constant(_) => true,
-        Place::Zero => false,
+        ValueRef::Node(output) => writer.sums.contains(output),
+        ValueRef::Constant(_) => true,
+        ValueRef::Zero => false,
     });
     let whole = whole.map(|(place, row)| store(*row, *place));
     let (c, held) = (local("c"), local("held"));
@@ -98,7 +98,7 @@ pub fn function(
         #[doc = #heading]
         fn #name<#number: #core::arithmetic::Number>(
             #c: &[#number],
-            #held: &#core::system::Held,
+            #held: &#core::system::Selection,
             (#t, #q, #v): (#number, &[#number], &[#number]),
             #rates: &mut [#number],
             #values: ::core::option::Option<&mut [#number]>,
@@ -127,7 +127,7 @@ pub fn function(
 }
 
 /// What guards read beside the state and the forces, and in which row of a series it stands.
-fn kept(mode: &ModeProgram, plan: &Plan) -> BTreeMap<Place, usize> {
+fn kept(mode: &ModeProgram, plan: &Plan) -> BTreeMap<ValueRef, usize> {
     let others = 2 * mode.inputs.coordinates + mode.forces.len() + 1;
     let extras = mode.extras.iter();
     extras
@@ -153,11 +153,11 @@ fn blocks(writer: &Writer, phase: Phase, then: impl Fn(&Block) -> TokenStream) -
 }
 
 /// The inputs of the last phase: accelerations and forces.
-pub fn results(mode: &ModeProgram) -> Vec<(Value, Place)> {
+pub fn results(mode: &ModeProgram) -> Vec<(Value, ValueRef)> {
     let accelerations = mode.accelerations.iter().enumerate();
     let accelerations = accelerations.map(|(j, place)| (mode.inputs.acceleration(j), *place));
     let forces = mode.forces.iter().enumerate();
-    let forces = forces.map(|(r, place)| (mode.inputs.force(r), place.unwrap_or(Place::Zero)));
+    let forces = forces.map(|(r, place)| (mode.inputs.force(r), place.unwrap_or(ValueRef::Zero)));
     let read = names::read(&mode.tape);
     accelerations
         .chain(forces)

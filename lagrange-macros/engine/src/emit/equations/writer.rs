@@ -4,7 +4,7 @@ use super::super::names::{self, index, local};
 use super::number;
 use crate::model::System;
 use crate::plan::mode::ModeProgram;
-use crate::plan::{Block, Coefficient, Mode, Operation, Place, Step, Value};
+use crate::plan::{Block, Coefficient, Mode, Operation, Step, Value, ValueRef};
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 use std::collections::BTreeSet;
@@ -78,12 +78,12 @@ impl Writer<'_> {
     }
 
     /// An output of the tape, or a constant.
-    pub fn place(&self, place: Place) -> TokenStream {
+    pub fn place(&self, place: ValueRef) -> TokenStream {
         let number = number();
         match place {
-            Place::Zero => quote!(#number::of(0.0)),
-            Place::Constant(at) => coefficient(Coefficient::Constant(at)),
-            Place::Node(output) => {
+            ValueRef::Zero => quote!(#number::of(0.0)),
+            ValueRef::Constant(at) => coefficient(Coefficient::Constant(at)),
+            ValueRef::Node(output) => {
                 let name = self.output(output);
                 quote!(#name)
             }

@@ -21,7 +21,7 @@ pub(super) type Rank = (u8, usize, usize);
 
 /// Where a term stands in a sum.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Place {
+pub(super) struct ValueRef {
     forces: i64,
     rates: i64,
     mixed: bool,
@@ -30,9 +30,9 @@ pub(super) struct Place {
     ranks: Vec<(Rank, Rational)>,
 }
 
-impl Default for Place {
-    fn default() -> Place {
-        Place {
+impl Default for ValueRef {
+    fn default() -> ValueRef {
+        ValueRef {
             forces: 0,
             rates: 0,
             mixed: false,
@@ -93,8 +93,8 @@ impl Reader<'_> {
     }
 
     /// Where a term stands in a sum: what moves most comes first, squares before products, numbers last.
-    pub(super) fn place(&self, factors: &[(ExprId, Rational)]) -> Place {
-        let mut place = Place::default();
+    pub(super) fn place(&self, factors: &[(ExprId, Rational)]) -> ValueRef {
+        let mut place = ValueRef::default();
         for &(base, exponent) in factors {
             if let Node::Symbol(symbol) = self.pool.node(base)
                 && let Some(known) = self.names.symbol(*symbol)

@@ -20,7 +20,7 @@ use super::constants::Constants;
 use super::form::Fixed;
 use super::outputs::Target;
 use super::tape::{Block, Tape, Value};
-use super::{Place, outputs, tape};
+use super::{ValueRef, outputs, tape};
 use crate::ast::Emit;
 use crate::derive::{Equations, Output, OutputId, Stage};
 use crate::model::System;
@@ -45,11 +45,11 @@ pub struct LinearSystem {
     /// Whether K is symmetric among the accelerations.
     pub symmetric: bool,
     /// K, row by row.
-    pub matrix: Vec<Vec<Place>>,
+    pub matrix: Vec<Vec<ValueRef>>,
     /// b
-    pub right: Vec<Place>,
+    pub right: Vec<ValueRef>,
     /// 1/Kₚₚ where it depends on parameters only.
-    pub reciprocals: Vec<Option<Place>>,
+    pub reciprocals: Vec<Option<ValueRef>>,
     /// Unknowns that stand alone, already divided by their inertia.
     pub units: Vec<bool>,
 }
@@ -59,7 +59,7 @@ pub struct Extra {
     /// Whose number it is.
     pub output: OutputId,
     /// Where it is.
-    pub place: Place,
+    pub place: ValueRef,
 }
 
 /// The equations of one mode.
@@ -77,17 +77,17 @@ pub struct ModeProgram {
     /// The system in the middle.
     pub system: LinearSystem,
     /// v̇, one per coordinate.
-    pub accelerations: Vec<Place>,
+    pub accelerations: Vec<ValueRef>,
     /// λ, one per row; none where a row has no force.
-    pub forces: Vec<Option<Place>>,
+    pub forces: Vec<Option<ValueRef>>,
     /// Gaps, slips, coefficients, guards, terms of stops and marks.
     pub extras: Vec<Extra>,
     /// Coordinates that stand still, and where.
-    pub pins: Vec<(usize, Place)>,
+    pub pins: Vec<(usize, ValueRef)>,
     /// Constants that are divided by, and those that they must not be small against.
-    pub divisors: Vec<(Place, Vec<Place>)>,
+    pub divisors: Vec<(ValueRef, Vec<ValueRef>)>,
     /// Inertias of parameters alone, which must be positive.
-    pub positive: Vec<Place>,
+    pub positive: Vec<ValueRef>,
 }
 
 /// Where the inputs of a mode's tape begin: t, q, v, w, v̇, λ.
@@ -352,7 +352,7 @@ fn specialise(
     let numbered = numbered(&equations.system, &state, &unknowns[..size]);
     let pool = &mut equations.system.pool;
     let mut constants = Constants::new(BTreeMap::new());
-    let mut places = vec![Place::Zero; sheet.list.len()];
+    let mut places = vec![ValueRef::Zero; sheet.list.len()];
     let targets = outputs::targets(
         pool,
         &sheet.list,
@@ -387,8 +387,8 @@ fn specialise(
         &sources,
     );
     let node = |id: &OutputId| match places[id.0] {
-        Place::Node(node) => Some(node),
-        Place::Zero | Place::Constant(_) => None,
+        ValueRef::Node(node) => Some(node),
+        ValueRef::Zero | ValueRef::Constant(_) => None,
     };
     let group = |range: std::ops::Range<usize>| -> BTreeSet<usize> {
         range.filter_map(|i| node(&OutputId(i))).collect()
@@ -512,10 +512,10 @@ impl ModeProgram {
             varies[self.inputs.velocity(j).0] = false;
         }
         for (j, place) in self.accelerations.iter().enumerate() {
-            varies[self.inputs.acceleration(j).0] = matches!(place, Place::Node(_));
+            varies[self.inputs.acceleration(j).0] = matches!(place, ValueRef::Node(_));
         }
         for (r, place) in self.forces.iter().enumerate() {
-            varies[self.inputs.force(r).0] = matches!(place, Some(Place::Node(_)));
+            varies[self.inputs.force(r).0] = matches!(place, Some(ValueRef::Node(_)));
         }
         for step in self.tape.blocks.iter().flat_map(|block| &block.steps) {
             let any = step.operation.operands().iter().any(|x| varies[x.0]);

@@ -7,12 +7,12 @@ mod random;
 
 use super::*;
 use crate::derive::NeedId;
-use crate::interpret::{Held, Machine};
+use crate::interpret::{Machine, Selection};
 use random::{Dice, NEEDS, random_equations};
 use std::collections::BTreeSet;
 
 /// Compares all outputs that are asked for; returns how many.
-fn compare(program: &Program, values: &BTreeMap<Symbol, f64>, held: Held) -> usize {
+fn compare(program: &Program, values: &BTreeMap<Symbol, f64>, held: Selection) -> usize {
     let system = &program.equations.system;
     let value = |symbol: Symbol| values.get(&symbol).copied().unwrap_or(f64::NAN);
     let then = |branch: usize| held.branches[0] >> branch & 1 == 1;
@@ -85,7 +85,7 @@ fn a_plan_keeps_values_for_every_set_of_needs() {
                 compared += compare(
                     &program,
                     &values,
-                    Held {
+                    Selection {
                         needs: &[needs],
                         branches: &[branches],
                     },

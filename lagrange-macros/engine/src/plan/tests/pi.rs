@@ -1,6 +1,6 @@
 //! Multiples of π are coefficients like any number, in every kind of item, with either sign, with units and without.
 
-use super::{Dice, Held, Machine, compare};
+use super::{Dice, Machine, Selection, compare};
 use std::collections::BTreeMap;
 
 /// A pendulum with one more item; S stands for the multiple of π.
@@ -93,7 +93,7 @@ fn check(text: &str, dice: &mut Dice) {
         .collect();
     let needs = vec![!0; program.equations.needs.len().div_ceil(64)];
     for branches in [[0], [!0]] {
-        let held = Held {
+        let held = Selection {
             needs: &needs,
             branches: &branches,
         };

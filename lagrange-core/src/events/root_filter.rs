@@ -8,7 +8,7 @@ const HEAD: usize = 4;
 
 /// What is certain about a polynomial on (0, 1].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Glance {
+pub(super) enum RootFilter {
     /// It keeps one sign.
     NoRoots,
     /// It only rises or only falls; with Σ|cₖ|.
@@ -49,7 +49,7 @@ fn smaller(x: f64, y: f64) -> f64 {
 
 /// Looks at Σ cₖ sᵏ.
 #[inline]
-pub(super) fn glance(c: &[f64]) -> Glance {
+pub(super) fn root_filter(c: &[f64]) -> RootFilter {
     let mut head = [0.0; HEAD];
     let length = c.len().min(HEAD);
     head[..length].copy_from_slice(&c[..length]);
@@ -65,7 +65,7 @@ pub(super) fn glance(c: &[f64]) -> Glance {
         c0 + c1 + c2 + c3,
     ];
     if same_sign(cubic, rest + noise_factor(c.len()) * size) {
-        return Glance::NoRoots;
+        return RootFilter::NoRoots;
     }
     let rest = weighted_sum_of_sizes(tail);
     let derivative = [c1, c1 + c2, c1 + 2.0 * c2 + 3.0 * c3];
@@ -74,9 +74,9 @@ pub(super) fn glance(c: &[f64]) -> Glance {
         derivative,
         rest + noise_factor(c.len()) * c.len() as f64 * size,
     ) {
-        return Glance::Monotone { size };
+        return RootFilter::Monotone { size };
     }
-    Glance::Unclear { size }
+    RootFilter::Unclear { size }
 }
 
 /// Whether all numbers lie above `margin`, or all below −`margin`. False if any is NaN.
@@ -119,16 +119,28 @@ mod tests {
 
     #[test]
     fn decay_is_seen() {
-        assert_eq!(glance(&[1.0, -0.5, 0.2, -0.1, 0.05]), Glance::NoRoots);
+        assert_eq!(
+            root_filter(&[1.0, -0.5, 0.2, -0.1, 0.05]),
+            RootFilter::NoRoots
+        );
         // |c₀| < Σ|cₖ|, but the signs differ.
-        assert_eq!(glance(&[1.0, -1.2, 1.2, -0.3]), Glance::NoRoots);
+        assert_eq!(root_filter(&[1.0, -1.2, 1.2, -0.3]), RootFilter::NoRoots);
         assert!(matches!(
-            glance(&[1.0, -2.0, 0.2, -0.1, 0.1]),
-            Glance::Monotone { .. }
+            root_filter(&[1.0, -2.0, 0.2, -0.1, 0.1]),
+            RootFilter::Monotone { .. }
         ));
-        assert!(matches!(glance(&[0.25, -1.0, 1.0]), Glance::Unclear { .. }));
-        assert!(matches!(glance(&[f64::NAN, 1.0]), Glance::Unclear { .. }));
-        assert!(matches!(glance(&[0.0; 3]), Glance::Unclear { size: 0.0 }));
+        assert!(matches!(
+            root_filter(&[0.25, -1.0, 1.0]),
+            RootFilter::Unclear { .. }
+        ));
+        assert!(matches!(
+            root_filter(&[f64::NAN, 1.0]),
+            RootFilter::Unclear { .. }
+        ));
+        assert!(matches!(
+            root_filter(&[0.0; 3]),
+            RootFilter::Unclear { size: 0.0 }
+        ));
     }
 
     #[test]

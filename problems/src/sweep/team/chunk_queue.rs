@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, VecDeque};
 
 /// Chunks that are to be done, and those that are being done.
-pub(super) struct Office {
+pub(super) struct ChunkQueue {
     fresh: VecDeque<usize>,
     /// Given out and not back, the longest ago first.
     out: VecDeque<usize>,
@@ -11,7 +11,7 @@ pub(super) struct Office {
     hands: BTreeMap<i32, Vec<usize>>,
 }
 
-impl Office {
+impl ChunkQueue {
     /// With these chunks to do.
     pub(super) fn new(chunks: impl Iterator<Item = usize>) -> Self {
         Self {
@@ -57,27 +57,24 @@ impl Office {
 
 #[cfg(test)]
 mod tests {
-    use super::Office;
+    use super::ChunkQueue;
 
     #[test]
     fn each_chunk_is_taken_once_whoever_dies() {
-        let mut office = Office::new(0..4);
-        assert_eq!((office.give(1), office.give(2)), (Some(0), Some(1)));
-        assert_eq!((office.give(2), office.give(0)), (Some(2), Some(3)));
+        let mut queue = ChunkQueue::new(0..4);
+        assert_eq!((queue.give(1), queue.give(2)), (Some(0), Some(1)));
+        assert_eq!((queue.give(2), queue.give(0)), (Some(2), Some(3)));
         // Who has something to do gets nothing that others do.
-        assert_eq!(office.give(2), None);
-        assert!(office.take(2, 1) && office.take(2, 2));
+        assert_eq!(queue.give(2), None);
+        assert!(queue.take(2, 1) && queue.take(2, 2));
         // Rank 1 is silent.
-        assert_eq!(office.give(2), Some(0));
-        assert!(office.take(0, 3) && !office.is_done());
+        assert_eq!(queue.give(2), Some(0));
+        assert!(queue.take(0, 3) && !queue.is_done());
         // Rank 2 is silent, too.
-        assert_eq!(office.give(0), Some(0));
-        assert!(office.take(0, 0) && office.is_done());
+        assert_eq!(queue.give(0), Some(0));
+        assert!(queue.take(0, 0) && queue.is_done());
         // It was only slow.
-        assert!(!office.take(1, 0));
-        assert_eq!(
-            (office.give(1), office.hand(1), office.hand(2)),
-            (None, 0, 1)
-        );
+        assert!(!queue.take(1, 0));
+        assert_eq!((queue.give(1), queue.hand(1), queue.hand(2)), (None, 0, 1));
     }
 }

@@ -8,18 +8,18 @@ use core::ops::Deref;
 
 /// A set of needs; reads as [`crate::system::Needs`].
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct NeedSet {
+pub struct OutputMask {
     words: Vec<u64>,
 }
 
-impl Deref for NeedSet {
+impl Deref for OutputMask {
     type Target = [u64];
     fn deref(&self) -> &[u64] {
         &self.words
     }
 }
 
-impl NeedSet {
+impl OutputMask {
     /// Only need 0, which is always held.
     pub fn new(description: &Description) -> Self {
         let mut set = Self {
@@ -69,7 +69,7 @@ impl NeedSet {
 }
 
 /// The needs of the effects of a scene: everything but the contributions of what is left out.
-pub(crate) fn of_effects(description: &Description, effects: &Effects, needs: &mut NeedSet) {
+pub(crate) fn of_effects(description: &Description, effects: &Effects, needs: &mut OutputMask) {
     needs.words.fill(u64::MAX);
     let spare = needs.words.len() * 64 - description.needs.max(1);
     if let Some(last) = needs.words.last_mut() {
@@ -88,8 +88,8 @@ pub(crate) fn of_effects(description: &Description, effects: &Effects, needs: &m
 }
 
 /// The needs of the named energies, without need 0.
-pub(super) fn of_energies(description: &Description) -> NeedSet {
-    let mut needs = NeedSet::new(description);
+pub(super) fn of_energies(description: &Description) -> OutputMask {
+    let mut needs = OutputMask::new(description);
     let energies = description.kinetic.iter().chain(description.potential);
     energies.for_each(|energy| needs.insert(energy.need));
     needs.remove(0);
@@ -101,7 +101,7 @@ pub(crate) fn of_motion(
     description: &Description,
     effects: &Effects,
     mode: &Mode,
-    needs: &mut NeedSet,
+    needs: &mut OutputMask,
 ) {
     needs.clear();
     energies_and_forces(description, effects, needs);
@@ -133,7 +133,7 @@ pub(crate) fn of_rows(
     description: &Description,
     effects: &Effects,
     mode: &Mode,
-    needs: &mut NeedSet,
+    needs: &mut OutputMask,
 ) {
     needs.clear();
     for (i, effect) in description.kinetic.iter().enumerate() {
@@ -152,7 +152,7 @@ pub(crate) fn of_rows(
     }
 }
 
-fn energies_and_forces(description: &Description, effects: &Effects, needs: &mut NeedSet) {
+fn energies_and_forces(description: &Description, effects: &Effects, needs: &mut OutputMask) {
     let mut hold = |item: Item, need: usize| {
         if effects.includes(description, item) {
             needs.insert(need);
@@ -177,7 +177,12 @@ fn energies_and_forces(description: &Description, effects: &Effects, needs: &mut
 /// that anything held in `needs` uses.
 ///
 /// Pass the needs of the motion in `needs`; the guards are added.
-pub fn add_guards(description: &Description, effects: &Effects, mode: &Mode, needs: &mut NeedSet) {
+pub fn add_guards(
+    description: &Description,
+    effects: &Effects,
+    mode: &Mode,
+    needs: &mut OutputMask,
+) {
     for (i, contact) in description.contacts.iter().enumerate() {
         let asks = !mode.contacts[i] || contact.region.is_some();
         if effects.includes(description, Item::Contact(i)) && asks {
@@ -211,7 +216,7 @@ pub fn add_guards(description: &Description, effects: &Effects, mode: &Mode, nee
 }
 
 /// The guards of the branches that anything held uses, and of the branches that those guards use.
-pub fn add_branch_guards(description: &Description, needs: &mut NeedSet) {
+pub fn add_branch_guards(description: &Description, needs: &mut OutputMask) {
     loop {
         let mut grew = false;
         for branch in description.branches {

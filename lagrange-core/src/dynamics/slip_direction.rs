@@ -24,7 +24,7 @@ type Series<T> = [[T; 2]; MAX_ORDER + 2];
 
 /// The directions of frictions with two components, one for every friction.
 #[derive(Clone, Debug)]
-pub(super) struct Headings<T> {
+pub(super) struct SlipDirections<T> {
     /// Where the slip points, or begins to.
     now: Vec<[T; 2]>,
     /// How it turns, where it begins.
@@ -35,7 +35,7 @@ pub(super) struct Headings<T> {
     right: Vec<T>,
 }
 
-impl<T: Scalar> Headings<T> {
+impl<T: Scalar> SlipDirections<T> {
     pub(super) fn new(frictions: usize) -> Self {
         let zero = [T::zero(); 2];
         Self {
@@ -114,14 +114,14 @@ pub(crate) fn approach(mut slip: impl FnMut(f64) -> [f64; 2]) -> Option<[f64; 2]
 
 impl<T: Scalar> Dynamics<T> {
     /// The direction in which friction `f` of two components slips, or begins to: that at the last [`Self::series`],
-    /// [`Self::set_heading`] or [`Self::take_headings`].
-    pub fn heading(&self, f: usize) -> [T; 2] {
-        self.headings.of(f)
+    /// [`Self::set_slip_direction`] or [`Self::take_slip_directions`].
+    pub fn slip_direction(&self, f: usize) -> [T; 2] {
+        self.slip_directions.of(f)
     }
 
     /// The direction, a unit vector, in which friction `f` of two components begins to slip ([`Direction::Incipient`]).
-    pub fn set_heading(&mut self, f: usize, along: [T; 2]) {
-        self.headings.now[f] = along;
+    pub fn set_slip_direction(&mut self, f: usize, along: [T; 2]) {
+        self.slip_directions.now[f] = along;
     }
 
     /// Slip of friction `f` of two components at the last [`Self::tape`] or [`Self::value`]; its need must have been held.
@@ -131,12 +131,12 @@ impl<T: Scalar> Dynamics<T> {
     }
 
     /// [`Self::value`] at a state of a step in which slips begin: the directions are those of the slips, where they do not
-    /// vanish; afterwards the headings are those of the mode again.
+    /// vanish; afterwards the slip directions are those of the mode again.
     ///
     /// # Errors
     /// Those of [`Self::value`].
     pub fn value_along(&mut self, t: T, q: &[T], v: &[T]) -> Result<(), EvaluationError> {
-        let count = self.compiled().plan.headings.len();
+        let count = self.compiled().pattern.slip_directions.len();
         if count == 0 {
             return self.value(t, q, v);
         }
@@ -157,7 +157,7 @@ impl<T: Scalar> Dynamics<T> {
                 ..
             }) = sliding
             {
-                self.set_heading(f, along.map(T::from_f64));
+                self.set_slip_direction(f, along.map(T::from_f64));
             }
         }
         outcome
@@ -172,8 +172,8 @@ impl<T: Scalar> Dynamics<T> {
         1.0 + sizes.sum::<f64>()
     }
 
-    /// Takes the headings of all sliding frictions of two components from their slips at the last value.
-    pub fn take_headings(&mut self) {
+    /// Takes the slip directions of all sliding frictions of two components from their slips at the last value.
+    pub fn take_slip_directions(&mut self) {
         for f in 0..self.description().frictions.len() {
             if self.turns(f) {
                 self.head_along(f, self.slip(f));
@@ -182,7 +182,7 @@ impl<T: Scalar> Dynamics<T> {
     }
 
     /// The same from the series.
-    pub(super) fn take_headings_of_series(&mut self) {
+    pub(super) fn take_slip_directions_of_series(&mut self) {
         for f in 0..self.description().frictions.len() {
             if self.turns(f) {
                 self.head_along(f, self.slip_coefficient(f, 0));
@@ -205,7 +205,7 @@ impl<T: Scalar> Dynamics<T> {
     fn head_along(&mut self, f: usize, slip: [T; 2]) {
         let speed = dot(slip, slip).sqrt();
         if speed.value() > 0.0 {
-            self.headings.now[f] = slip.map(|s| s / speed);
+            self.slip_directions.now[f] = slip.map(|s| s / speed);
         }
     }
 
@@ -220,16 +220,16 @@ impl<T: Scalar> Dynamics<T> {
 
     /// Coefficients up to `order` in a mode where slips begin, from values in the registers.
     pub(super) fn expand_from_rest(&mut self, order: usize) -> Result<(), EvaluationError> {
-        let count = self.compiled().plan.headings.len();
+        let count = self.compiled().pattern.slip_directions.len();
         for i in 0..count {
             let f = self.beginning(i);
-            self.headings.series[f] = [[T::zero(); 2]; MAX_ORDER + 2];
-            self.headings.series[f][0] = self.headings.now[f];
+            self.slip_directions.series[f] = [[T::zero(); 2]; MAX_ORDER + 2];
+            self.slip_directions.series[f][0] = self.slip_directions.now[f];
         }
         for k in 1..(order + 1).min(MAX_ORDER) {
             for i in 0..count {
                 let f = self.beginning(i);
-                self.headings.keep_length(f, k);
+                self.slip_directions.keep_length(f, k);
             }
             self.start_series(k + 1)?;
             self.expand(k + 1);
@@ -244,81 +244,83 @@ impl<T: Scalar> Dynamics<T> {
         Ok(())
     }
 
-    /// The friction of heading `i` of the plan.
+    /// The friction of slip direction `i` of the plan.
     fn beginning(&self, i: usize) -> usize {
-        self.compiled().plan.headings[i].friction
+        self.compiled().pattern.slip_directions[i].friction
     }
 
     /// Coefficient k + 1 of s × u without a turn of order k, into the right-hand side.
     fn ask(&mut self, k: usize) {
-        self.headings.right.clear();
-        for i in 0..self.compiled().plan.headings.len() {
+        self.slip_directions.right.clear();
+        for i in 0..self.compiled().pattern.slip_directions.len() {
             let f = self.beginning(i);
             let mut sum = T::zero();
             for j in 1..=k + 1 {
-                let u = self.headings.coefficient(f, k + 1 - j);
+                let u = self.slip_directions.coefficient(f, k + 1 - j);
                 sum += cross(self.slip_coefficient(f, j), u);
             }
-            self.headings.right.push(-sum);
+            self.slip_directions.right.push(-sum);
         }
     }
 
     /// D, from what a turn of order 1 does to the slip of order 2.
     fn respond(&mut self) -> Result<(), EvaluationError> {
-        let count = self.compiled().plan.headings.len();
-        self.headings.response.clear();
-        self.headings.response.resize(count * count, T::zero());
+        let count = self.compiled().pattern.slip_directions.len();
+        self.slip_directions.response.clear();
+        self.slip_directions
+            .response
+            .resize(count * count, T::zero());
         let across = |dynamics: &Self, i: usize| {
             let f = dynamics.beginning(i);
-            let (along, _) = dynamics.headings.frame(f);
+            let (along, _) = dynamics.slip_directions.frame(f);
             let twice = cross(dynamics.slip_coefficient(f, 2), along);
             twice + twice
         };
         for i in 0..count {
             for j in 0..count {
-                self.headings.response[i * count + j] = -across(self, i);
+                self.slip_directions.response[i * count + j] = -across(self, i);
             }
         }
         for j in 0..count {
             let f = self.beginning(j);
-            self.headings.turn(f, 1, num_traits::one());
+            self.slip_directions.turn(f, 1, num_traits::one());
             self.start_series(2)?;
             self.expand(2);
             for i in 0..count {
                 let after = across(self, i);
-                self.headings.response[i * count + j] += after;
+                self.slip_directions.response[i * count + j] += after;
             }
-            self.headings.keep_length(f, 1);
+            self.slip_directions.keep_length(f, 1);
         }
         Ok(())
     }
 
     /// Solves for the turns of order `k`.
     fn turn_all(&mut self, k: usize) -> Result<(), EvaluationError> {
-        let count = self.compiled().plan.headings.len();
+        let count = self.compiled().pattern.slip_directions.len();
         let share = T::from_f64(1.0 / (k + 1) as f64);
         for i in 0..count {
             let f = self.beginning(i);
-            let (along, _) = self.headings.frame(f);
+            let (along, _) = self.slip_directions.frame(f);
             let growth = dot(self.slip_coefficient(f, 1), along);
-            let Headings {
+            let SlipDirections {
                 response, matrix, ..
-            } = &mut self.headings;
+            } = &mut self.slip_directions;
             if i == 0 {
                 matrix.clear();
                 matrix.extend(response.iter().map(|&x| share * x));
             }
             matrix[i * count + i] += growth;
         }
-        let Headings { matrix, right, .. } = &mut self.headings;
+        let SlipDirections { matrix, right, .. } = &mut self.slip_directions;
         if !solve_small(matrix, right) {
             let operation = Operation::SquareRoot;
             return Err(EvaluationError::NoSeries { operation });
         }
         for i in 0..count {
             let f = self.beginning(i);
-            let by = self.headings.right[i];
-            self.headings.turn(f, k, by);
+            let by = self.slip_directions.right[i];
+            self.slip_directions.turn(f, k, by);
         }
         Ok(())
     }

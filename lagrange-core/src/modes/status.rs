@@ -1,14 +1,14 @@
 //! What a state is like: which contacts touch, which frictions rest, and what constraints leave.
 
 use crate::arithmetic::Scalar;
-use crate::dynamics::{Dynamics, NeedSet};
+use crate::dynamics::{Dynamics, OutputMask};
 use crate::effects::Item;
 use crate::error::{Error, Level};
 use crate::mode::{FrictionMode, Mode, Sliding};
-use crate::modes::decide::Known;
+use crate::modes::decide::SwitchFacts;
 use crate::modes::guard;
 use crate::state::State;
-use crate::system::{Description, Normal, Place};
+use crate::system::{Description, Normal, ValueRef};
 
 /// What is accepted as zero in a start, relative to the size of the state: a start is typed or computed by a user.
 pub(super) fn slack(tolerance: f64) -> f64 {
@@ -17,11 +17,11 @@ pub(super) fn slack(tolerance: f64) -> f64 {
 
 /// What a state is like.
 #[derive(Clone, Debug)]
-pub struct Survey {
+pub struct ConstraintStatus {
     /// Every touching contact closed, every vanishing slip at rest.
     pub mode: Mode,
     /// What vanishes.
-    pub known: Known,
+    pub facts: SwitchFacts,
     /// (row, level, residual, size) of every constraint.
     residuals: Vec<(usize, Level, f64, f64)>,
     /// (contact, gap, size) of every contact.
@@ -29,21 +29,21 @@ pub struct Survey {
     /// Contacts whose gap is negative outside their region.
     pub below: Vec<usize>,
     /// Needs of everything that is looked at.
-    pub needs: NeedSet,
+    pub needs: OutputMask,
     /// Memory for the quadratic form of the kinetic energy.
     pub form: Vec<f64>,
 }
 
-impl Survey {
+impl ConstraintStatus {
     /// Memory for a system.
     pub fn new(description: &Description) -> Self {
         Self {
             mode: Mode::open(description),
-            known: Known::default(),
+            facts: SwitchFacts::default(),
             residuals: Vec::new(),
             gaps: Vec::new(),
             below: Vec::new(),
-            needs: guard::all_row_needs(description, &NeedSet::new(description)),
+            needs: guard::all_row_needs(description, &OutputMask::new(description)),
             form: Vec::new(),
         }
     }
@@ -58,14 +58,14 @@ impl Survey {
     ) {
         let d = dynamics.description();
         self.mode.clear();
-        self.known.clear(d);
+        self.facts.clear(d);
         self.residuals.clear();
         self.gaps.clear();
         self.below.clear();
         let Self {
-            mode, known, needs, ..
+            mode, facts, needs, ..
         } = self;
-        branches(dynamics, t, state, needs, mode, known);
+        branches(dynamics, t, state, needs, mode, facts);
         let view = View {
             dynamics,
             state,
@@ -116,7 +116,7 @@ impl Survey {
         let contact = &d.contacts[c];
         let View { near, extent, .. } = *view;
         let row = &d.rows[contact.row];
-        let gap = view.number(row.position.unwrap_or(Place::Zero));
+        let gap = view.number(row.position.unwrap_or(ValueRef::Zero));
         let region = contact.region.map_or(0.0, |place| view.number(place));
         if region < -near * extent {
             self.below.extend((gap < 0.0).then_some(c));
@@ -129,11 +129,11 @@ impl Survey {
         let rate = view.number(row.velocity);
         let size = view.speed(contact.row);
         if rate > near * size {
-            self.known.parting[c] = true;
+            self.facts.parting[c] = true;
         } else {
-            self.known.touching[c] = true;
-            self.known.arriving[c] = rate < -near * size;
-            self.mode.contacts[c] = !self.known.arriving[c];
+            self.facts.touching[c] = true;
+            self.facts.arriving[c] = rate < -near * size;
+            self.mode.contacts[c] = !self.facts.arriving[c];
         }
     }
 
@@ -146,7 +146,7 @@ impl Survey {
         let mut rows = friction.row..friction.row + friction.components;
         let slip = |row: usize| view.number(d.rows[row].velocity);
         if rows.all(|row| slip(row).abs() <= view.near * view.speed(row)) {
-            self.known.resting[f] = true;
+            self.facts.resting[f] = true;
             self.mode.frictions[f] = FrictionMode::Stick;
             return;
         }
@@ -189,7 +189,7 @@ struct View<'a, T: Scalar> {
 }
 
 impl<T: Scalar> View<'_, T> {
-    fn number(&self, place: Place) -> f64 {
+    fn number(&self, place: ValueRef) -> f64 {
         self.dynamics.motion(place).value()
     }
 
@@ -207,9 +207,9 @@ fn branches<T: Scalar>(
     dynamics: &mut Dynamics<T>,
     t: T,
     state: &State<T>,
-    needs: &NeedSet,
+    needs: &OutputMask,
     mode: &mut Mode,
-    known: &mut Known,
+    facts: &mut SwitchFacts,
 ) {
     let d = dynamics.description();
     let evaluate = |dynamics: &mut Dynamics<T>, mode: &Mode| {
@@ -227,7 +227,7 @@ fn branches<T: Scalar>(
             .filter(|(_, b)| !b.after_solve)
         {
             let guard = dynamics.motion(branch.guard).value();
-            known.balanced[b] = guard == 0.0;
+            facts.balanced[b] = guard == 0.0;
             if mode.branch(b) != (guard >= 0.0) {
                 mode.set_branch(b, guard >= 0.0);
                 changed = true;

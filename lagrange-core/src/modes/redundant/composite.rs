@@ -1,4 +1,4 @@
-//! Joint guards: sums of guards of undetermined forces in which all that is open cancels.
+//! CompositeGuard guards: sums of guards of undetermined forces in which all that is open cancels.
 
 use crate::arithmetic::Scalar;
 use crate::mode::Mode;
@@ -8,7 +8,7 @@ use crate::modes::reading::Reading;
 /// Factors that change nothing.
 const ONES: [f64; guard::LENGTH] = [1.0; guard::LENGTH];
 
-/// A guard as a part of a joint one.
+/// A guard as a part of a composite one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Part {
     /// The guard.
@@ -21,14 +21,14 @@ pub struct Part {
 
 /// Weighted guards whose sum is determined where they are not. The sum is relative to the terms that make it.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Joint {
+pub struct CompositeGuard {
     /// The guards, with weights that are all positive.
     pub parts: Vec<Part>,
 }
 
-impl Joint {
+impl CompositeGuard {
     /// Whether it is made of the same guards, of cones about the same side.
-    pub fn is_like(&self, other: &Joint) -> bool {
+    pub fn is_like(&self, other: &CompositeGuard) -> bool {
         /// Cosine of the angle between sides that one plane touches well enough.
         const SAME_SIDE: f64 = 0.9;
         let pairs = self.parts.iter().zip(&other.parts);
@@ -40,29 +40,34 @@ impl Joint {
     }
 }
 
-/// [`guard::series`], also of joint guards.
+/// [`guard::series`], also of composite guards.
 #[inline]
 pub fn series<T: Scalar>(
     guard: Guard,
-    joints: &[Joint],
+    composites: &[CompositeGuard],
     mode: &Mode,
     reading: &Reading<'_, T>,
     powers: &[f64],
     out: &mut [f64],
 ) {
-    let Guard::Joint(index) = guard else {
+    let Guard::Composite(index) = guard else {
         return guard::series(guard, mode, reading, powers, out);
     };
-    sum(&joints[index], mode, reading, out);
+    sum(&composites[index], mode, reading, out);
     guard::scale(out, powers);
 }
 
-/// Coefficients of a joint guard.
-fn sum<T: Scalar>(joint: &Joint, mode: &Mode, reading: &Reading<'_, T>, out: &mut [f64]) {
+/// Coefficients of a composite guard.
+fn sum<T: Scalar>(
+    composite: &CompositeGuard,
+    mode: &Mode,
+    reading: &Reading<'_, T>,
+    out: &mut [f64],
+) {
     let mut part = [0.0; guard::LENGTH];
     let part = &mut part[..out.len()];
     out.fill(0.0);
-    for each in &joint.parts {
+    for each in &composite.parts {
         side(each.guard, each.along, mode, reading, part);
         for (sum, x) in out.iter_mut().zip(&*part) {
             *sum += each.weight * x;
@@ -70,19 +75,19 @@ fn sum<T: Scalar>(joint: &Joint, mode: &Mode, reading: &Reading<'_, T>, out: &mu
     }
 }
 
-/// [`guard::value`], also of joint guards.
+/// [`guard::value`], also of composite guards.
 #[inline]
 pub fn value<T: Scalar>(
     guard: Guard,
-    joints: &[Joint],
+    composites: &[CompositeGuard],
     mode: &Mode,
     reading: &Reading<'_, T>,
 ) -> f64 {
-    let Guard::Joint(index) = guard else {
+    let Guard::Composite(index) = guard else {
         return guard::value(guard, mode, reading);
     };
     let mut value = [0.0];
-    sum(&joints[index], mode, reading, &mut value);
+    sum(&composites[index], mode, reading, &mut value);
     value[0]
 }
 

@@ -15,7 +15,7 @@ const MOST_STEPS: f64 = 1e8;
 
 /// What is to move, and how exactly it is followed.
 #[derive(Args)]
-pub(super) struct Course {
+pub(super) struct RunArgs {
     #[command(flatten)]
     motion: Motion,
     /// Tolerance of the integration, relative and absolute [default: 1e-9].
@@ -68,7 +68,7 @@ pub(super) struct Motion {
     impacts: Option<Impacts>,
 }
 
-impl Course {
+impl RunArgs {
     /// The run of the scene of this name, or of a scene file; the command line has the last word.
     pub(super) fn of(&self, name: &str) -> Result<SceneFile, Trouble> {
         let file = self.motion.of(name)?;

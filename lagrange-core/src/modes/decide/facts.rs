@@ -6,7 +6,7 @@ use crate::system::Description;
 
 /// What is known exactly at the instant.
 #[derive(Clone, Debug, Default)]
-pub struct Known {
+pub struct SwitchFacts {
     /// Per contact: gap and gap rate vanish, so that it may be closed or open.
     pub touching: Vec<bool>,
     /// Per contact: the gap has just come to vanish, so that it may be hit.
@@ -25,7 +25,7 @@ pub struct Known {
     pub residue: f64,
 }
 
-impl Known {
+impl SwitchFacts {
     /// Nothing is known.
     pub fn clear(&mut self, d: &Description) {
         for flags in [&mut self.touching, &mut self.arriving, &mut self.parting] {
@@ -44,7 +44,7 @@ impl Known {
 
 /// The instant at which a mode is looked for.
 #[derive(Clone, Copy, Debug)]
-pub struct Moment<'a, T> {
+pub struct EvaluationPoint<'a, T> {
     /// Time, s.
     pub t: T,
     /// Positions.
@@ -59,26 +59,26 @@ pub struct Moment<'a, T> {
 
 /// Where a mode ends and another is looked for.
 #[derive(Clone, Copy, Debug)]
-pub struct Juncture<'a, T> {
+pub struct SwitchContext<'a, T> {
     /// The instant.
-    pub moment: Moment<'a, T>,
+    pub moment: EvaluationPoint<'a, T>,
     /// The mode up to it.
     pub present: &'a Mode,
     /// What is known exactly.
-    pub known: &'a Known,
+    pub facts: &'a SwitchFacts,
 }
 
-impl<T> Juncture<'_, T> {
+impl<T> SwitchContext<'_, T> {
     /// How far forces located as zero, and what follows from them, are from it, relative to what they are made of.
     pub fn blur(&self) -> f64 {
         // Where all forces vanish at once a residue has nothing to be compared with.
         let tolerance = self.moment.tolerance;
-        let residue = self.known.residue.min(tolerance.max(1e-6));
+        let residue = self.facts.residue.min(tolerance.max(1e-6));
         tolerance.max(1e-14).max(4.0 * residue)
     }
 
     /// Whether a mode is over: a root of it falls through zero.
     pub fn ends(&self, mode: &Mode) -> bool {
-        mode == self.present && !self.known.located.is_empty()
+        mode == self.present && !self.facts.located.is_empty()
     }
 }

@@ -1,11 +1,11 @@
 //! What bounds undetermined forces: contacts push, sticking frictions stay in their cones.
 
-use super::Sharing;
+use super::RedundantForces;
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
 use crate::mode::FrictionMode;
 use crate::modes::guard::Guard;
-use crate::system::{Normal, Place};
+use crate::system::{Normal, ValueRef};
 
 /// A guard, or a side of a cone, that bounds undetermined forces: linear in them and relative to its size.
 #[derive(Clone, Copy, Debug)]
@@ -31,13 +31,13 @@ pub(super) struct Cone {
     pub size: f64,
 }
 
-impl<T: Scalar> Sharing<T> {
+impl<T: Scalar> RedundantForces<T> {
     /// The bounds with a part that is open.
     pub(super) fn list_bounds(&mut self, dynamics: &Dynamics<T>) {
         let d = dynamics.description();
         let acting = dynamics.acting_rows();
         let index = |row: usize| acting.binary_search(&row).ok();
-        let number = |place: Place| dynamics.motion(place).value();
+        let number = |place: ValueRef| dynamics.motion(place).value();
         let mode = dynamics.mode();
         for (c, contact) in d.contacts.iter().enumerate() {
             if let Some(i) = index(contact.row) {

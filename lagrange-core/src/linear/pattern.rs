@@ -3,13 +3,13 @@
 //! Structural zeros never appear, what depends on parameters only is summed once, constant rows are eliminated. What is
 //! left are K w = b for w = (u̇, −λ of the rows kept) and, for the rows eliminated, λ = (further rows of K) w − (of b).
 
-use super::collect::{Collected, Source};
+use super::collect::{KktTerms, Source};
 use super::eliminate::Elimination;
 use super::program::Program;
 use crate::arithmetic::Scalar;
 use crate::effects::Effects;
 use crate::mode::Mode;
-use crate::system::{Description, Place};
+use crate::system::{Description, ValueRef};
 
 /// A matrix element that changes with the state: K[row, column] += nodes[node].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,13 +31,13 @@ pub(crate) struct Load<T> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Slide {
     pub row: usize,
-    pub factor: Place,
+    pub factor: ValueRef,
     pub source: Option<usize>,
 }
 
 /// A friction whose slip begins: the direction is given from outside.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Heading {
+pub(crate) struct SlipDirection {
     pub friction: usize,
     /// Where the components of the direction are.
     pub nodes: [usize; 2],
@@ -50,12 +50,12 @@ struct Term<T> {
     /// Column of K, or the number of columns for the right-hand side.
     column: usize,
     factor: T,
-    place: Place,
+    place: ValueRef,
 }
 
 /// The linear system of a mode.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Plan<T> {
+pub(crate) struct KktPattern<T> {
     /// Rows of the system: unknown `free + i` is −λ of `kept[i]`.
     pub kept: Vec<usize>,
     /// Rows that act and were eliminated; force `i` is row `size + i` of the lists.
@@ -63,7 +63,7 @@ pub(crate) struct Plan<T> {
     /// Frictions that slide.
     pub slides: Vec<Slide>,
     /// Of these, those whose slip begins.
-    pub headings: Vec<Heading>,
+    pub slip_directions: Vec<SlipDirection>,
     /// Work after the motion program.
     pub program: Program<T>,
     /// Elements that change, in the square system: accelerations first, forces after `first_force`.
@@ -80,10 +80,10 @@ pub(crate) struct Plan<T> {
     pub constant_load: Vec<T>,
     /// Terms of kept rows that elimination may cancel, by row: (row, first, end) of `cancelling`.
     pub reduced: Vec<(usize, usize, usize)>,
-    cancelling: Vec<(T, Place)>,
+    cancelling: Vec<(T, ValueRef)>,
     /// How accelerations follow from those that are left.
     pub elimination: Elimination<T>,
-    collected: Collected,
+    collected: KktTerms,
     terms: Vec<Term<T>>,
     dependent: Vec<bool>,
     constant_rows: Vec<usize>,
@@ -91,7 +91,7 @@ pub(crate) struct Plan<T> {
     c: Vec<T>,
 }
 
-impl<T: Scalar> Plan<T> {
+impl<T: Scalar> KktPattern<T> {
     /// Number of accelerations in the system.
     pub(crate) fn free(&self) -> usize {
         self.elimination.free.len()
@@ -108,7 +108,7 @@ impl<T: Scalar> Plan<T> {
     }
 
     /// The generalized forces of unit forces: (index among the rows that act, coordinate, factor).
-    pub(crate) fn columns(&self) -> impl Iterator<Item = (usize, usize, Place)> + '_ {
+    pub(crate) fn columns(&self) -> impl Iterator<Item = (usize, usize, ValueRef)> + '_ {
         let elements = self.collected.columns.iter();
         elements.map(|element| (element.index, element.coordinate, element.place))
     }
@@ -141,7 +141,7 @@ impl<T: Scalar> Plan<T> {
             && self.kept == other.kept
             && self.eliminated == other.eliminated
             && self.slides == other.slides
-            && self.headings == other.headings
+            && self.slip_directions == other.slip_directions
             && self.entries == other.entries
             && self.first_force == other.first_force
             && self.force_entries == other.force_entries
@@ -171,7 +171,7 @@ impl<T: Scalar> Plan<T> {
             constants,
             &mut self.program,
             &mut self.slides,
-            &mut self.headings,
+            &mut self.slip_directions,
         );
         self.eliminate(description, constants);
         self.collect_terms(description);
@@ -261,7 +261,7 @@ impl<T: Scalar> Plan<T> {
         cancelling.clear();
         let minus = -T::one();
         let symmetric = elimination.symmetric;
-        let mut mass = |i: usize, j: usize, place: Place| {
+        let mut mass = |i: usize, j: usize, place: ValueRef| {
             for &(row, left) in elimination.left.row(i) {
                 for &(column, right) in elimination.right.row(j) {
                     // The upper triangle of a symmetric matrix is copied.
@@ -333,7 +333,7 @@ impl<T: Scalar> Plan<T> {
                 });
             }
         }
-        terms.retain(|term| term.place != Place::Zero);
+        terms.retain(|term| term.place != ValueRef::Zero);
         for list in [kept, eliminated] {
             list.iter_mut().for_each(|index| *index = acting[*index]);
         }
@@ -351,9 +351,9 @@ impl<T: Scalar> Plan<T> {
         self.force_entries.clear();
         self.loads.clear();
         let key = |term: &Term<T>| match term.place {
-            Place::Zero => (term.row, term.column, 0, 0),
-            Place::Constant(i) => (term.row, term.column, 1, i),
-            Place::Node(i) => (term.row, term.column, 2, i),
+            ValueRef::Zero => (term.row, term.column, 0, 0),
+            ValueRef::Constant(i) => (term.row, term.column, 1, i),
+            ValueRef::Node(i) => (term.row, term.column, 2, i),
         };
         self.terms.sort_unstable_by_key(key);
         let mut rest = &self.terms[..];
@@ -366,14 +366,14 @@ impl<T: Scalar> Plan<T> {
             for like in element.chunk_by(|x, y| x.place == y.place) {
                 let factor = like.iter().fold(T::zero(), |sum, term| sum + term.factor);
                 match like[0].place {
-                    Place::Zero => {}
-                    Place::Constant(i) => constant += factor * constants[i],
-                    Place::Node(node) if column == size => {
+                    ValueRef::Zero => {}
+                    ValueRef::Constant(i) => constant += factor * constants[i],
+                    ValueRef::Node(node) if column == size => {
                         if !factor.is_zero() {
                             self.loads.push(Load { row, factor, node });
                         }
                     }
-                    Place::Node(node) => self.program.add_term(factor, node),
+                    ValueRef::Node(node) => self.program.add_term(factor, node),
                 }
             }
             if column == size {
@@ -407,14 +407,14 @@ impl<T: Scalar> Plan<T> {
     }
 
     /// The numbers that [`Self::cancelled`] reads.
-    pub(crate) fn cancelling(&self) -> impl Iterator<Item = Place> + '_ {
+    pub(crate) fn cancelling(&self) -> impl Iterator<Item = ValueRef> + '_ {
         self.cancelling.iter().map(|&(_, place)| place)
     }
 
     /// The size of the terms of each kept row that elimination may cancel: (row, largest term).
     pub(crate) fn cancelled<'a>(
         &'a self,
-        read: impl Fn(Place) -> T + 'a,
+        read: impl Fn(ValueRef) -> T + 'a,
     ) -> impl Iterator<Item = (usize, f64)> + 'a {
         self.reduced.iter().map(move |&(row, first, end)| {
             let sizes = self.cancelling[first..end]
@@ -425,10 +425,10 @@ impl<T: Scalar> Plan<T> {
     }
 }
 
-fn number<T: Scalar>(place: Place, constants: &[T]) -> T {
+fn number<T: Scalar>(place: ValueRef, constants: &[T]) -> T {
     match place {
-        Place::Constant(i) => constants[i],
-        Place::Zero | Place::Node(_) => T::zero(),
+        ValueRef::Constant(i) => constants[i],
+        ValueRef::Zero | ValueRef::Node(_) => T::zero(),
     }
 }
 

@@ -8,11 +8,11 @@
 //! ```
 //!
 //! Where this has no solution there are weights w ≥ 0 with P Gᵀ w = 0 and wᵀ (G λ + c) < 0 (Farkas): a sum of guards in
-//! which everything open cancels, and which is negative. Such a sum is a [`Joint`] guard. It ends a mode where the guards
+//! which everything open cancels, and which is negative. Such a sum is a [`CompositeGuard`] guard. It ends a mode where the guards
 //! of single forces cannot: both frictions under a rod slip together, where μs (N₁ + N₂) − (F₁ + F₂) falls through zero.
 
 mod bounds;
-mod joint;
+mod composite;
 
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
@@ -22,11 +22,11 @@ use crate::modes::guard::Guard;
 use crate::modes::scale::Sizes;
 use crate::system::Normal;
 use bounds::{Bound, Cone};
-pub use joint::{Joint, Part, series, side, value};
+pub use composite::{CompositeGuard, Part, series, side, value};
 
 /// Undetermined forces at one state; the memory is reused.
 #[derive(Clone, Debug, Default)]
-pub struct Sharing<T> {
+pub struct RedundantForces<T> {
     least: Vec<T>,
     freedom: Freedom,
     bounds: Vec<Bound>,
@@ -49,7 +49,7 @@ const CONE: f64 = 1e-14;
 /// Cones are cut by so many sets of planes at most; they settle quadratically.
 const MOST_CUTS: usize = 40;
 
-impl<T: Scalar> Sharing<T> {
+impl<T: Scalar> RedundantForces<T> {
     /// Forgets everything: all forces are determined.
     pub fn clear(&mut self) {
         self.bounds.clear();
@@ -99,20 +99,20 @@ impl<T: Scalar> Sharing<T> {
         !self.bounds.is_empty()
     }
 
-    /// The joint guard that forbids the mode, or comes nearer to that than `margin` (relative): of all the smallest.
+    /// The composite guard that forbids the mode, or comes nearer to that than `margin` (relative): of all the smallest.
     ///
     /// Each guard found bounds the margin that all bounds together can keep; looking again at that margin finds a smaller one,
     /// or that there is none (Dinkelbach 1967, Management Science 13, 492).
-    pub fn critical(&mut self, mut margin: f64) -> Option<Joint> {
+    pub fn critical(&mut self, mut margin: f64) -> Option<CompositeGuard> {
         let mut smallest = None;
         for _ in 0..MOST_CUTS {
             if self.find_shares(margin) {
                 break;
             }
-            let Some((joint, value)) = self.certificate() else {
+            let Some((composite, value)) = self.certificate() else {
                 break;
             };
-            smallest = Some(joint);
+            smallest = Some(composite);
             // Below that the search sees its own rounding.
             if value > margin - ROUNDING {
                 break;
@@ -123,7 +123,10 @@ impl<T: Scalar> Sharing<T> {
     }
 
     /// The same for guards with other values than those looked at, and the same rows.
-    pub fn critical_at(&mut self, mut value: impl FnMut(Guard, [f64; 2]) -> f64) -> Option<Joint> {
+    pub fn critical_at(
+        &mut self,
+        mut value: impl FnMut(Guard, [f64; 2]) -> f64,
+    ) -> Option<CompositeGuard> {
         self.q.clear();
         let values = self
             .bounds
@@ -131,12 +134,12 @@ impl<T: Scalar> Sharing<T> {
             .map(|bound| value(bound.guard, bound.along) / bound.size + ROUNDING);
         self.q.extend(values);
         let forbids = self.lemke.solve(&self.matrix, &self.q) == LemkeOutcome::Ray;
-        let (joint, _) = forbids.then(|| self.certificate())??;
-        Some(joint)
+        let (composite, _) = forbids.then(|| self.certificate())??;
+        Some(composite)
     }
 
-    /// The joint guard that the last search, which has failed, ended with, and its value at the forces looked at.
-    fn certificate(&self) -> Option<(Joint, f64)> {
+    /// The composite guard that the last search, which has failed, ended with, and its value at the forces looked at.
+    fn certificate(&self) -> Option<(CompositeGuard, f64)> {
         let ray = self.lemke.ray();
         let sum: f64 = ray.iter().sum();
         if sum <= 0.0 {
@@ -146,7 +149,7 @@ impl<T: Scalar> Sharing<T> {
         let weighted = self.bounds.iter().zip(ray);
         let parts = weighted.filter(|(_, w)| **w > 1e-9 * largest);
         let value = parts.clone().map(|(bound, w)| w / sum * bound.value).sum();
-        let joint = Joint {
+        let composite = CompositeGuard {
             parts: parts
                 .map(|(bound, w)| Part {
                     guard: bound.guard,
@@ -155,7 +158,7 @@ impl<T: Scalar> Sharing<T> {
                 })
                 .collect(),
         };
-        Some((joint, value))
+        Some((composite, value))
     }
 
     /// Finds the shares of least norm that keep all bounds by `margin`, into `self.shares`; cones are cut where they are

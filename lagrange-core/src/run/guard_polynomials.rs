@@ -14,7 +14,7 @@ use crate::integrate::StepPolynomial;
 use crate::mode::Mode;
 use crate::modes::guard::{Guard, Linear, Sums};
 use crate::modes::reading::Reading;
-use crate::modes::sharing::{self, Joint};
+use crate::modes::redundant::{self, CompositeGuard};
 use crate::system::Description;
 
 /// A guard on the other side of zero than its polynomial is off by more than rounding explains: this much more is counted.
@@ -31,7 +31,7 @@ const AWAY: f64 = 1e-2;
 
 /// A guard over a step.
 #[derive(Clone, Copy, Debug)]
-struct Curve {
+struct GuardPolynomial {
     guard: Guard,
     /// What it is made of, where that does not change along the mode.
     linear: Option<Linear>,
@@ -45,11 +45,11 @@ struct Curve {
 
 /// The guards of a mode and what is watched beside, with their polynomials over a step.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Curves {
+pub(super) struct GuardPolynomials {
     /// Stops, marks, guards of the mode.
-    list: Vec<Curve>,
+    list: Vec<GuardPolynomial>,
     /// Guards of undetermined forces that have been met in this mode.
-    pub(super) joints: Vec<Joint>,
+    pub(super) composites: Vec<CompositeGuard>,
     /// One after the other, each of `width` coefficients.
     coefficients: Vec<f64>,
     width: usize,
@@ -67,10 +67,10 @@ pub(super) struct Curves {
     pub(super) roots: Vec<SampledRoot>,
 }
 
-impl Curves {
+impl GuardPolynomials {
     /// Room for the stops and marks of a system, as far as these effects have them.
     pub(super) fn new(d: &Description, effects: &Effects) -> Self {
-        let mut curves = Curves::default();
+        let mut curves = GuardPolynomials::default();
         for (i, stop) in d.stops.iter().enumerate() {
             curves.first_stop.push(curves.watches.len());
             if effects.includes(d, Item::Stop(i)) {
@@ -90,25 +90,28 @@ impl Curves {
         curves
     }
 
-    /// Watches these guards of single forces in a mode, and the joint ones, from now on.
+    /// Watches these guards of single forces in a mode, and the composite ones, from now on.
     pub(super) fn arm<T: Scalar>(
         &mut self,
         guards: impl Iterator<Item = Guard>,
         mode: &Mode,
         dynamics: &Dynamics<T>,
     ) {
-        let joints = (0..self.joints.len()).map(Guard::Joint);
+        let composites = (0..self.composites.len()).map(Guard::Composite);
         let watches = self.watches.iter().copied();
-        let curves = watches.chain(guards).chain(joints).map(|guard| Curve {
-            guard,
-            linear: Linear::of(guard, mode, dynamics),
-            sums: Sums {
-                end: 0.0,
-                rest: f64::INFINITY,
-            },
-            stays: false,
-            least: 0.0,
-        });
+        let curves = watches
+            .chain(guards)
+            .chain(composites)
+            .map(|guard| GuardPolynomial {
+                guard,
+                linear: Linear::of(guard, mode, dynamics),
+                sums: Sums {
+                    end: 0.0,
+                    rest: f64::INFINITY,
+                },
+                stays: false,
+                least: 0.0,
+            });
         self.list.clear();
         self.list.extend(curves);
     }
@@ -162,7 +165,7 @@ impl Curves {
             curve.sums = match &curve.linear {
                 Some(linear) => linear.series(&reading, powers, c),
                 None => {
-                    sharing::series(curve.guard, &self.joints, mode, &reading, powers, c);
+                    redundant::series(curve.guard, &self.composites, mode, &reading, powers, c);
                     Sums::of(c)
                 }
             };
@@ -227,7 +230,7 @@ impl Curves {
         let reading = Reading::Values(dynamics);
         match &self.list[index].linear {
             Some(linear) => linear.value(&reading),
-            None => sharing::value(self.list[index].guard, &self.joints, mode, &reading),
+            None => redundant::value(self.list[index].guard, &self.composites, mode, &reading),
         }
     }
 
@@ -326,7 +329,7 @@ impl Curves {
             step.state_into(T::from_f64(s), q, v);
             dynamics.value(step.t + step.h * T::from_f64(s), q, v)?;
             if j == 0 {
-                dynamics.take_headings();
+                dynamics.take_slip_directions();
             }
             // Stops and marks read the tape after the solve.
             dynamics.report_value();

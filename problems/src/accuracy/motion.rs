@@ -10,7 +10,7 @@ use std::time::Instant;
 const MAX_EVENTS: usize = 10_000;
 
 /// A system, and the run of it that a study is about.
-pub(crate) struct Course<'a, S: System> {
+pub(crate) struct Motion<'a, S: System> {
     /// The system.
     pub system: &'a S,
     /// State at time 0.
@@ -23,7 +23,7 @@ pub(crate) struct Course<'a, S: System> {
     pub max_steps: usize,
 }
 
-impl<S: System<Scalar = f64>> Course<'_, S> {
+impl<S: System<Scalar = f64>> Motion<'_, S> {
     fn simulation(&self, setting: Setting) -> Simulation<'_, S> {
         self.simulation
             .clone()

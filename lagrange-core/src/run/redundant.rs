@@ -1,6 +1,6 @@
 //! Undetermined forces along a run: which guards decide, and what is reported.
 //!
-//! Guards of single undetermined forces mean nothing; in their place stand joint guards, found where a step ends in a state
+//! Guards of single undetermined forces mean nothing; in their place stand composite guards, found where a step ends in a state
 //! that no admissible forces allow. The root of such a guard is the end of the mode. Where the dependence of the rows
 //! changes along the motion, the weights of the guard are taken again at its root until both agree.
 
@@ -9,18 +9,18 @@ use super::hits::Hit;
 use crate::arithmetic::Scalar;
 use crate::modes::guard::Guard;
 use crate::modes::reading::Reading;
-use crate::modes::sharing::{self, Joint};
+use crate::modes::redundant::{self, CompositeGuard};
 
-/// A joint guard above this (relative) is not about to fall.
+/// A composite guard above this (relative) is not about to fall.
 const BORDER: f64 = 1e-3;
 
-/// So far may the root of a joint guard be from the border, relative: beyond, its weights were those of another state.
+/// So far may the root of a composite guard be from the border, relative: beyond, its weights were those of another state.
 const ROOT: f64 = 1e-9;
 
-/// So often are the joint guards of one step found anew.
+/// So often are the composite guards of one step found anew.
 const MOST_CORRECTIONS: usize = 12;
 
-/// Joint guards are also looked for at these parts of a step,
+/// CompositeGuard guards are also looked for at these parts of a step,
 const WITHIN: [f64; 3] = [0.25, 0.5, 0.75];
 
 /// and watched from there on if they have come this near to zero, relative.
@@ -28,16 +28,16 @@ const NEARBY: f64 = 0.5;
 
 impl<T: Scalar> Run<T> {
     /// Looks at the forces at the last value of the dynamics, in the mode of the run.
-    pub(super) fn look_at_shares(&mut self) {
-        let was_open = self.switcher.sharing.has_open();
-        self.switcher.sharing.look(&self.dynamics);
-        if was_open || self.switcher.sharing.has_open() {
+    pub(super) fn look_at_redundant_forces(&mut self) {
+        let was_open = self.switcher.redundant.has_open();
+        self.switcher.redundant.look(&self.dynamics);
+        if was_open || self.switcher.redundant.has_open() {
             self.list_guards();
         }
     }
 
     /// After a switch: guards, and the forces to be logged.
-    pub(super) fn note_shares(&mut self) {
+    pub(super) fn note_redundant_forces(&mut self) {
         let mut forces = core::mem::take(&mut self.recorder.forces_after);
         let mut undetermined = core::mem::take(&mut self.recorder.undetermined_after);
         self.reported_forces(&mut forces, &mut undetermined);
@@ -48,32 +48,34 @@ impl<T: Scalar> Run<T> {
     /// The guards that decide.
     fn list_guards(&mut self) {
         let watched = self.switcher.table.of(&self.dynamics);
-        let sharing = &self.switcher.sharing;
+        let redundant = &self.switcher.redundant;
         let single = watched.guards.iter().copied();
-        let single = single.filter(|&guard| !sharing.is_open(guard));
-        let curves = &mut self.locator.curves;
+        let single = single.filter(|&guard| !redundant.is_open(guard));
+        let curves = &mut self.locator.polynomials;
         curves.arm(single, &self.now.mode, &self.dynamics);
     }
 
     /// At part `looked` of a step, its end or just before it, which the dynamics have evaluated, after `corrections` others:
-    /// whether joint guards must be looked at again, because that state allows no forces, because one before it does not or
+    /// whether composite guards must be looked at again, because that state allows no forces, because one before it does not or
     /// comes near to it, or because the root of one was none.
-    pub(super) fn corrects_joints(
+    pub(super) fn corrects_composites(
         &mut self,
         hit: &Hit,
         looked: f64,
         corrections: &mut usize,
     ) -> bool {
-        if !self.dynamics.has_dependent_rows() && !self.switcher.sharing.has_open() {
+        if !self.dynamics.has_dependent_rows() && !self.switcher.redundant.has_open() {
             return false;
         }
-        self.look_at_shares();
+        self.look_at_redundant_forces();
         if *corrections == MOST_CORRECTIONS {
             return false;
         }
-        let critical = self.switcher.sharing.critical(BORDER);
-        let value = critical.as_ref().map(|joint| self.joint_value(joint));
-        if self.switcher.sharing.has_open() && self.finds_joints_within(looked) {
+        let critical = self.switcher.redundant.critical(BORDER);
+        let value = critical
+            .as_ref()
+            .map(|composite| self.joint_value(composite));
+        if self.switcher.redundant.has_open() && self.finds_joints_within(looked) {
             *corrections += 1;
             return true;
         }
@@ -82,16 +84,18 @@ impl<T: Scalar> Run<T> {
             .fallen
             .iter()
             .find_map(|guard| match (hit, guard) {
-                (Hit::Guards(_), Guard::Joint(k)) => Some(*k),
+                (Hit::Guards(_), Guard::Composite(k)) => Some(*k),
                 _ => None,
             });
         match (fallen, critical, value) {
-            (None, Some(joint), Some(value)) if value < -ROOT => {
-                self.locator.curves.joints.push(joint)
+            (None, Some(composite), Some(value)) if value < -ROOT => {
+                self.locator.polynomials.composites.push(composite)
             }
             (Some(_), Some(_), Some(value)) if value.abs() <= ROOT => return false,
-            (Some(k), Some(joint), Some(_)) => self.locator.curves.joints[k] = joint,
-            (Some(k), ..) => _ = self.locator.curves.joints.remove(k),
+            (Some(k), Some(composite), Some(_)) => {
+                self.locator.polynomials.composites[k] = composite
+            }
+            (Some(k), ..) => _ = self.locator.polynomials.composites.remove(k),
             _ => return false,
         }
         *corrections += 1;
@@ -99,7 +103,7 @@ impl<T: Scalar> Run<T> {
         true
     }
 
-    /// Looks for joint guards at some instants before part `end` of the step, where `dynamics` and `scratch` end again: whether
+    /// Looks for composite guards at some instants before part `end` of the step, where `dynamics` and `scratch` end again: whether
     /// there are new ones, or known ones are below zero with weights that are new.
     fn finds_joints_within(&mut self, end: f64) -> bool {
         let mut found = false;
@@ -107,26 +111,27 @@ impl<T: Scalar> Run<T> {
             if self.evaluate_end(part * end).is_err() {
                 continue;
             }
-            self.switcher.sharing.look(&self.dynamics);
-            let Some(joint) = self.switcher.sharing.critical(NEARBY) else {
+            self.switcher.redundant.look(&self.dynamics);
+            let Some(composite) = self.switcher.redundant.critical(NEARBY) else {
                 continue;
             };
-            let mut known = self.locator.curves.joints.iter();
-            match known.position(|known| known.is_like(&joint)) {
+            let mut known = self.locator.polynomials.composites.iter();
+            match known.position(|known| known.is_like(&composite)) {
                 None => {
-                    self.locator.curves.joints.push(joint);
+                    self.locator.polynomials.composites.push(composite);
                     found = true;
                 }
                 Some(k) => {
-                    let falls = self.joint_value(&joint) < -ROOT;
-                    found |= falls && self.joint_value(&self.locator.curves.joints[k]) >= -ROOT;
-                    self.locator.curves.joints[k] = joint;
+                    let falls = self.joint_value(&composite) < -ROOT;
+                    found |=
+                        falls && self.joint_value(&self.locator.polynomials.composites[k]) >= -ROOT;
+                    self.locator.polynomials.composites[k] = composite;
                 }
             }
         }
         // What could be evaluated before.
         _ = self.evaluate_end(end);
-        self.look_at_shares();
+        self.look_at_redundant_forces();
         found
     }
 
@@ -134,7 +139,7 @@ impl<T: Scalar> Run<T> {
     /// are determined).
     pub(super) fn reported_forces(&mut self, forces: &mut Vec<T>, undetermined: &mut Vec<bool>) {
         if self.dynamics.has_dependent_rows() {
-            *forces = self.switcher.sharing.report(&self.dynamics, undetermined);
+            *forces = self.switcher.redundant.report(&self.dynamics, undetermined);
         } else {
             undetermined.clear();
             forces.clear();
@@ -150,15 +155,15 @@ impl<T: Scalar> Run<T> {
         }
     }
 
-    /// How far a joint guard is from the zero that it was located as.
-    pub(super) fn joint_residue(&self, joint: &Joint) -> f64 {
-        self.joint_value(joint).abs()
+    /// How far a composite guard is from the zero that it was located as.
+    pub(super) fn composite_residue(&self, composite: &CompositeGuard) -> f64 {
+        self.joint_value(composite).abs()
     }
 
-    /// A joint guard at the last value of the dynamics.
-    fn joint_value(&self, joint: &Joint) -> f64 {
-        let joints = core::slice::from_ref(joint);
+    /// A composite guard at the last value of the dynamics.
+    fn joint_value(&self, composite: &CompositeGuard) -> f64 {
+        let composites = core::slice::from_ref(composite);
         let reading = Reading::Values(&self.dynamics);
-        sharing::value(Guard::Joint(0), joints, &self.now.mode, &reading)
+        redundant::value(Guard::Composite(0), composites, &self.now.mode, &reading)
     }
 }
