@@ -9,6 +9,7 @@
 //! The linear system of the mode is solved on the way, by pivots chosen at build time. A pivot that is not safe for the numbers at
 //! hand is refused; the core then looks for better ones.
 
+use crate::arithmetic::Pack;
 pub use crate::program::{ROW, Row, STRIDE};
 use crate::program::{Selection, ValueRef};
 
@@ -65,6 +66,12 @@ pub type ValueFn<N> = fn(&[N], &Selection, Arguments<'_, N>, &mut [N], Option<&m
 /// state.
 pub type SeriesFn<N> =
     fn(&[N], &Selection, usize, Arguments<'_, N>, &mut [Row<N>]) -> Result<(), Refused>;
+
+/// Motions side by side, each in a lane of its own.
+pub const LANES: usize = 4;
+
+/// The same for several motions.
+pub type LaneSeriesFn<T> = SeriesFn<Pack<T, LANES>>;
 
 /// The arguments of a [`SeriesFn`] as one.
 pub type SeriesArguments<'a, N> = (

@@ -5,7 +5,8 @@
 
 use crate::arithmetic::Scalar;
 use crate::declaration::Declaration;
-use crate::equations::{ModeStructure, SeriesFn, ValueFn};
+use crate::derivation::Derivation;
+use crate::equations::{LaneSeriesFn, ModeStructure, SeriesFn, ValueFn};
 use crate::system::{Description, Selection, System};
 use core::fmt;
 use std::sync::Arc;
@@ -18,8 +19,17 @@ pub(crate) trait ErasedSystem<T: Scalar>: Send + Sync {
     /// What was declared.
     fn declaration(&self) -> &'static Declaration;
 
+    /// What was derived.
+    fn derivation(&self) -> &'static Derivation;
+
     /// Parameter `index` of the description.
     fn parameter(&self, index: usize) -> T;
+
+    /// The same system with another value of parameter `index`.
+    fn with_parameter(&self, index: usize, value: T) -> Erased<T>;
+
+    /// Start `index` at time `t`.
+    fn start(&self, index: usize, t: T, q: &mut [T], v: &mut [T]);
 
     /// The modes whose equations are emitted.
     fn structures(&self) -> &'static [ModeStructure];
@@ -43,6 +53,86 @@ impl<T: Scalar> fmt::Debug for dyn ErasedSystem<T> {
 /// A system that forgets its type.
 pub(crate) type Erased<T> = Arc<dyn ErasedSystem<T>>;
 
+/// A system whose type is forgotten. A program that knows many systems and works with this is compiled once for all of them.
+///
+/// ```
+/// use lagrange_core::prelude::*;
+/// use lagrange_core::system::AnySystem;
+///
+/// #[derive(Lagrangian, Clone, Debug)]
+/// #[lagrange(coordinates(x), kinetic = mass * der(x)^2 / 2, force(push: x = 3), start(rest: x = 0))]
+/// struct Cart<T = f64> {
+///     mass: T,
+/// }
+///
+/// let mut system = AnySystem::new(Cart { mass: 1.0 });
+/// system.set_parameter(0, 6.0);
+/// let mut start = State { q: vec![0.0], v: vec![0.0] };
+/// system.start(0, 0.0, &mut start.q, &mut start.v);
+/// let run = Simulation::new(&system).run(start, 0.0..2.0).expect("runs");
+/// assert_eq!(run.final_state().q, [1.0]);
+/// ```
+#[derive(Clone, Debug)]
+pub struct AnySystem<T: Scalar> {
+    pub(crate) system: Erased<T>,
+    lanes: &'static [LaneSeriesFn<T>],
+}
+
+impl<T: Scalar> AnySystem<T> {
+    /// Forgets the type of a system.
+    pub fn new<S: System<Scalar = T>>(system: S) -> Self {
+        let lanes = system.lane_series();
+        Self {
+            system: Arc::new(system),
+            lanes,
+        }
+    }
+
+    /// The same, for runs that are not made side by side: nothing is compiled for lanes.
+    pub(crate) fn alone<S: System<Scalar = T>>(system: S) -> Self {
+        Self {
+            system: Arc::new(system),
+            lanes: &[],
+        }
+    }
+}
+
+impl<T: Scalar> System for AnySystem<T> {
+    type Scalar = T;
+
+    fn description(&self) -> &'static Description {
+        self.system.description()
+    }
+
+    fn declaration(&self) -> &'static Declaration {
+        self.system.declaration()
+    }
+
+    fn derivation(&self) -> &'static Derivation {
+        self.system.derivation()
+    }
+
+    fn parameter(&self, index: usize) -> T {
+        self.system.parameter(index)
+    }
+
+    fn set_parameter(&mut self, index: usize, value: T) {
+        self.system = self.system.with_parameter(index, value);
+    }
+
+    fn start(&self, index: usize, t: T, q: &mut [T], v: &mut [T]) {
+        self.system.start(index, t, q, v);
+    }
+
+    fn erased(&self) -> AnySystem<T> {
+        self.clone()
+    }
+
+    fn lane_series(&self) -> &'static [LaneSeriesFn<T>] {
+        self.lanes
+    }
+}
+
 impl<S: System> ErasedSystem<S::Scalar> for S {
     fn description(&self) -> &'static Description {
         System::description(self)
@@ -52,8 +142,22 @@ impl<S: System> ErasedSystem<S::Scalar> for S {
         System::declaration(self)
     }
 
+    fn derivation(&self) -> &'static Derivation {
+        System::derivation(self)
+    }
+
     fn parameter(&self, index: usize) -> S::Scalar {
         System::parameter(self, index)
+    }
+
+    fn with_parameter(&self, index: usize, value: S::Scalar) -> Erased<S::Scalar> {
+        let mut system = self.clone();
+        system.set_parameter(index, value);
+        Arc::new(system)
+    }
+
+    fn start(&self, index: usize, t: S::Scalar, q: &mut [S::Scalar], v: &mut [S::Scalar]) {
+        System::start(self, index, t, q, v);
     }
 
     fn structures(&self) -> &'static [ModeStructure] {

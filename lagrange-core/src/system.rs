@@ -11,7 +11,8 @@
 use crate::arithmetic::{Number, Scalar};
 use crate::declaration::Declaration;
 use crate::derivation::Derivation;
-use crate::equations::{ModeStructure, SeriesFn, ValueFn};
+use crate::equations::{LaneSeriesFn, ModeStructure, SeriesFn, ValueFn};
+pub use crate::erased::AnySystem;
 use crate::program::Encoded;
 pub use crate::program::{Needs, Selection, ValueRef};
 use core::fmt;
@@ -70,6 +71,18 @@ pub trait System: Clone + Send + Sync + 'static {
     /// Taylor series of the modes, in the order of [`Self::MODES`].
     fn mode_series<N: Number>() -> &'static [SeriesFn<N>] {
         &[]
+    }
+
+    /// The system without its type, which is all that a run sees of it.
+    #[doc(hidden)]
+    fn erased(&self) -> AnySystem<Self::Scalar> {
+        AnySystem::alone(self.clone())
+    }
+
+    /// The Taylor series of the modes, of several motions side by side.
+    #[doc(hidden)]
+    fn lane_series(&self) -> &'static [LaneSeriesFn<Self::Scalar>] {
+        Self::mode_series()
     }
 }
 

@@ -11,7 +11,7 @@ use crate::request::{Refusal, Request};
 use crate::scenes::{hard::*, *};
 use crate::sweep::{self, Sweep, Worker};
 use lagrange_core::prelude::*;
-use lagrange_core::system::Description;
+use lagrange_core::system::{AnySystem, Description};
 use std::sync::OnceLock;
 
 /// Every scene, in the order of `lagrange list`.
@@ -108,7 +108,8 @@ pub fn scenes() -> impl Iterator<Item = &'static dyn Scene> {
     own.into_iter().chain(catalogue).flatten().copied()
 }
 
-/// A scene whose type has been forgotten: what the program can do with it.
+/// A scene whose type has been forgotten: a system, and what the program knows of it beside. What the program does with scenes is
+/// compiled once for all of them.
 pub trait Scene: Sync {
     /// Name on the command line.
     fn name(&self) -> &'static str;
@@ -116,57 +117,19 @@ pub trait Scene: Sync {
     /// Time at which a run ends if nothing ends it before, s.
     fn until(&self) -> f64;
 
-    /// Names, documentation and structure.
-    fn description(&self) -> &'static Description;
+    /// The system with its default parameters.
+    fn system(&self) -> AnySystem<f64>;
 
-    /// What was derived, to be read.
-    fn derivation(&self) -> &'static Derivation;
-
-    /// Default value of every parameter, in the order of the description.
-    fn defaults(&self) -> Vec<f64>;
-
-    /// Runs it. A run that fails half-way is an [`Outcome`] with a failure in it; only a request that makes no
-    /// sense, or a start that does not exist, is refused.
-    fn run(&self, request: &Request) -> Result<Outcome, Refusal>;
-
-    /// Runs it to be looked at: [`Scene::run`] with pictures.
-    ///
-    /// # Errors
-    /// As for a run.
-    fn film(&self, request: &Request) -> Result<Film, Refusal>;
-
-    /// Measures what accuracy costs.
-    ///
-    /// # Errors
-    /// The request makes no sense, the start does not exist, or there is nothing to measure errors against.
-    fn accuracy(&self, study: &Study) -> Result<Accuracy, Refusal>;
-
-    /// Measures what each effect costs.
-    ///
-    /// # Errors
-    /// The request makes no sense, the start does not exist, or the run fails.
-    fn costs(&self, request: &Request) -> Result<Costs, Refusal>;
-
-    /// What runs the points of a sweep.
-    ///
-    /// # Errors
-    /// The sweep makes no sense.
-    fn worker<'a>(&self, sweep: &'a Sweep) -> Result<Worker<'a>, Refusal>;
+    /// Where the motion of a system of this kind from a start at time 0 to a last time ends, if that is known in closed form.
+    fn closed_form(
+        &self,
+        system: &AnySystem<f64>,
+        start: &State<f64>,
+        until: f64,
+    ) -> Option<ClosedForm>;
 
     /// Named results: what they are called, and the observation that they stand for.
     fn results(&self) -> &'static [(&'static str, &'static str)];
-
-    /// The observation that a named result stands for; any other text as it is.
-    fn result<'a>(&self, text: &'a str) -> &'a str {
-        let found = self.results().iter().find(|(name, _)| *name == text);
-        found.map_or(text, |(_, observation)| *observation)
-    }
-
-    /// First sentence of the documentation.
-    fn summary(&self) -> &'static str {
-        let text = self.description().documentation.trim();
-        text.lines().next().unwrap_or_default().trim()
-    }
 }
 
 /// A scene of type `S`.
@@ -218,7 +181,7 @@ impl<S> Entry<S> {
         Self { results, ..self }
     }
 
-    /// The same with a closed form, for [`Scene::accuracy`] to measure errors against.
+    /// The same with a closed form, for [`Scene::accuracy`](trait.Scene.html#method.accuracy) to measure errors against.
     pub const fn known(self, closed_form: Solution<S>) -> Self {
         Self {
             closed_form: Some(closed_form),
@@ -227,50 +190,174 @@ impl<S> Entry<S> {
     }
 }
 
-/// Bytes of a motion that are kept at a time.
-const PIECE: usize = 32 << 20;
-
 impl<S: System<Scalar = f64>> Entry<S> {
-    /// The system with its default parameters.
     fn prototype(&self) -> S {
         match self.prototype {
             Prototype::Made(system) => system(),
             Prototype::Kept(system) => system.clone(),
         }
     }
+}
+
+impl<S: System<Scalar = f64>> Scene for Entry<S> {
+    fn name(&self) -> &'static str {
+        self.name
+    }
+
+    fn until(&self) -> f64 {
+        self.until
+    }
+
+    fn system(&self) -> AnySystem<f64> {
+        AnySystem::new(self.prototype())
+    }
+
+    fn closed_form(
+        &self,
+        system: &AnySystem<f64>,
+        start: &State<f64>,
+        until: f64,
+    ) -> Option<ClosedForm> {
+        let closed_form = self.closed_form?;
+        let mut typed = self.prototype();
+        for index in 0..system.description().parameters.len() {
+            typed.set_parameter(index, system.parameter(index));
+        }
+        closed_form(&typed, start, until)
+    }
+
+    fn results(&self) -> &'static [(&'static str, &'static str)] {
+        self.results
+    }
+}
+
+/// Bytes of a motion that are kept at a time.
+const PIECE: usize = 32 << 20;
+
+impl dyn Scene + '_ {
+    /// Names, documentation and structure.
+    pub fn description(&self) -> &'static Description {
+        self.system().description()
+    }
+
+    /// What was derived, to be read.
+    pub fn derivation(&self) -> &'static Derivation {
+        self.system().derivation()
+    }
+
+    /// First sentence of the documentation.
+    pub fn summary(&self) -> &'static str {
+        let text = self.description().documentation.trim();
+        text.lines().next().unwrap_or_default().trim()
+    }
+
+    /// Default value of every parameter, in the order of the description.
+    pub fn defaults(&self) -> Vec<f64> {
+        let system = self.system();
+        (0..system.description().parameters.len())
+            .map(|i| system.parameter(i))
+            .collect()
+    }
+
+    /// The observation that a named result stands for; any other text as it is.
+    pub fn result<'a>(&self, text: &'a str) -> &'a str {
+        let found = self.results().iter().find(|(name, _)| *name == text);
+        found.map_or(text, |(_, observation)| *observation)
+    }
+
+    /// Runs it. A run that fails half-way is an [`Outcome`] with a failure in it; only a request that makes no
+    /// sense, or a start that does not exist, is refused.
+    ///
+    /// # Errors
+    /// As said.
+    pub fn run(&self, request: &Request) -> Result<Outcome, Refusal> {
+        self.run_in_pieces(request, PIECE)
+    }
+
+    /// Runs it to be looked at: [`Self::run`] with pictures.
+    ///
+    /// # Errors
+    /// As for a run.
+    pub fn film(&self, request: &Request) -> Result<Film, Refusal> {
+        let system = self.requested(request)?;
+        let simulation = request.simulation(&system)?;
+        let start = request.start(&system, &simulation)?;
+        let until = request.until.unwrap_or(self.until());
+        let outcome = request.stage(until, || simulation.run(start, 0.0..until));
+        let (trajectory, failure) = match outcome {
+            Ok(trajectory) => (trajectory, None),
+            Err(stopped) => (*stopped.trajectory, Some(stopped.error)),
+        };
+        Ok(Film::of(self.name(), &trajectory, failure, request))
+    }
+
+    /// Measures what each effect costs.
+    ///
+    /// # Errors
+    /// The request makes no sense, the start does not exist, or the run fails.
+    pub fn costs(&self, request: &Request) -> Result<Costs, Refusal> {
+        let system = self.requested(request)?;
+        let simulation = request.simulation(&system)?;
+        let start = request.start(&system, &simulation)?;
+        let until = request.until.unwrap_or(self.until());
+        let effects = request.effects(system.description())?;
+        let progress = request.progress.clone().unwrap_or_default();
+        let run = (&start, until);
+        cost::measure(self.name(), &system, &simulation, &effects, run, &progress)
+            .map_err(Refusal::Run)
+    }
+
+    /// What runs the points of a sweep.
+    ///
+    /// # Errors
+    /// The sweep makes no sense.
+    pub fn worker<'a>(&self, sweep: &'a Sweep) -> Result<Worker<'a>, Refusal> {
+        sweep::worker(sweep, self.system(), self.until())
+    }
+
+    /// Measures what accuracy costs.
+    ///
+    /// # Errors
+    /// The request makes no sense, the start does not exist, or there is nothing to measure errors against.
+    pub fn accuracy(&self, study: &Study) -> Result<Accuracy, Refusal> {
+        let request = &study.request;
+        let system = self.requested(request)?;
+        let effects = request.effects(system.description())?;
+        let simulation = request.simulation(&system)?;
+        let start = request.start(&system, &simulation)?;
+        let until = request.until.unwrap_or(self.until());
+        // A closed form is that of the whole declaration.
+        let whole = effects.left_out().next().is_none();
+        let closed_form = match whole {
+            true => self.closed_form(&system, &start, until),
+            false => None,
+        };
+        let motion = Motion {
+            system: &system,
+            simulation,
+            start,
+            until,
+            max_steps: 400_000,
+        };
+        accuracy::measure(self.name(), &motion, study, closed_form)
+    }
 
     /// The system with the parameters of a request.
-    fn system(&self, request: &Request) -> Result<S, Refusal> {
-        let mut system = self.prototype();
+    fn requested(&self, request: &Request) -> Result<AnySystem<f64>, Refusal> {
+        let mut system = self.system();
         request.set_parameters(&mut system)?;
         Ok(system)
     }
 
-    /// The motion as asked for, and why it ended early if it did.
-    fn trajectory(
-        &self,
-        system: &S,
-        request: &Request,
-    ) -> Result<(Trajectory<S>, Option<Error>), Refusal> {
-        let simulation = request.simulation(system)?;
-        let start = request.start(system, &simulation)?;
-        let until = request.until.unwrap_or(self.until);
-        let outcome = request.stage(until, || simulation.run(start, 0.0..until));
-        Ok(match outcome {
-            Ok(trajectory) => (trajectory, None),
-            Err(stopped) => (*stopped.trajectory, Some(stopped.error)),
-        })
-    }
-
     /// The run as asked for, of whose motion so many bytes are kept at a time.
     fn run_in_pieces(&self, request: &Request, bytes: usize) -> Result<Outcome, Refusal> {
-        let system = self.system(request)?;
+        let system = self.requested(request)?;
         let simulation = request.simulation(&system)?;
         let start = request.start(&system, &simulation)?;
-        let until = request.until.unwrap_or(self.until);
+        let until = request.until.unwrap_or(self.until());
         let told = |piece: &Record<f64>, failure, request: &Request| {
             let times = outcome::within(piece, until, request.samples);
-            Outcome::sampled(self.name, piece, failure, request, &times)
+            Outcome::sampled(self.name(), piece, failure, request, &times)
         };
         let unseen = Request {
             progress: None,
@@ -290,90 +377,12 @@ impl<S: System<Scalar = f64>> Entry<S> {
         let failure = request.stage(until, run).err();
         let last = runner.trajectory();
         Ok(match whole {
-            None => Outcome::new(self.name, last, failure, request),
+            None => Outcome::new(self.name(), last, failure, request),
             Some(mut whole) => {
                 whole.join(told(last, failure, request));
                 whole
             }
         })
-    }
-}
-
-impl<S: System<Scalar = f64>> Scene for Entry<S> {
-    fn name(&self) -> &'static str {
-        self.name
-    }
-
-    fn until(&self) -> f64 {
-        self.until
-    }
-
-    fn description(&self) -> &'static Description {
-        self.prototype().description()
-    }
-
-    fn derivation(&self) -> &'static Derivation {
-        self.prototype().derivation()
-    }
-
-    fn defaults(&self) -> Vec<f64> {
-        let system = self.prototype();
-        (0..system.description().parameters.len())
-            .map(|i| system.parameter(i))
-            .collect()
-    }
-
-    fn run(&self, request: &Request) -> Result<Outcome, Refusal> {
-        self.run_in_pieces(request, PIECE)
-    }
-
-    fn film(&self, request: &Request) -> Result<Film, Refusal> {
-        let system = self.system(request)?;
-        let (trajectory, failure) = self.trajectory(&system, request)?;
-        Ok(Film::of(self.name, &trajectory, failure, request))
-    }
-
-    fn costs(&self, request: &Request) -> Result<Costs, Refusal> {
-        let system = self.system(request)?;
-        let simulation = request.simulation(&system)?;
-        let start = request.start(&system, &simulation)?;
-        let until = request.until.unwrap_or(self.until);
-        let effects = request.effects(system.description())?;
-        let progress = request.progress.clone().unwrap_or_default();
-        let run = (&start, until);
-        cost::measure(self.name, &system, &simulation, &effects, run, &progress)
-            .map_err(Refusal::Run)
-    }
-
-    fn results(&self) -> &'static [(&'static str, &'static str)] {
-        self.results
-    }
-
-    fn worker<'a>(&self, sweep: &'a Sweep) -> Result<Worker<'a>, Refusal> {
-        sweep::worker(sweep, self.prototype(), self.until)
-    }
-
-    fn accuracy(&self, study: &Study) -> Result<Accuracy, Refusal> {
-        let request = &study.request;
-        let system = self.system(request)?;
-        let effects = request.effects(system.description())?;
-        let simulation = request.simulation(&system)?;
-        let start = request.start(&system, &simulation)?;
-        let until = request.until.unwrap_or(self.until);
-        // A closed form is that of the whole declaration.
-        let whole = effects.left_out().next().is_none();
-        let closed_form = self
-            .closed_form
-            .filter(|_| whole)
-            .and_then(|known| known(&system, &start, until));
-        let motion = Motion {
-            system: &system,
-            simulation,
-            start,
-            until,
-            max_steps: 400_000,
-        };
-        accuracy::measure(self.name, &motion, study, closed_form)
     }
 }
 
@@ -386,11 +395,11 @@ pub fn find(name: &str) -> Result<&'static dyn Scene, Refusal> {
 
 #[cfg(all(test, feature = "scenes"))]
 mod tests {
-    use super::{BeltOscillator, Entry, Outcome, Request};
+    use super::{BeltOscillator, Entry, Outcome, Request, Scene};
 
     #[test]
     fn pieces_make_the_same_run() {
-        let belt = Entry::<BeltOscillator>::new("belt", 20.0);
+        let belt: &dyn Scene = &Entry::<BeltOscillator>::new("belt", 20.0);
         let request = Request {
             samples: 50,
             ledger: true,

@@ -7,7 +7,7 @@ use core::fmt;
 use core::ops::RangeInclusive;
 use lagrange_core::effects::Item;
 use lagrange_core::prelude::*;
-use lagrange_core::system::Description;
+use lagrange_core::system::{AnySystem, Description};
 use std::collections::BTreeSet;
 
 /// Most intervals that a run is sampled at: their numbers are kept in memory.
@@ -189,10 +189,7 @@ impl core::error::Error for Refusal {}
 
 impl Request {
     /// Gives a system the parameters of the request; those that it does not name stay as they are.
-    pub(crate) fn set_parameters<S: System<Scalar = f64>>(
-        &self,
-        system: &mut S,
-    ) -> Result<(), Refusal> {
+    pub(crate) fn set_parameters(&self, system: &mut AnySystem<f64>) -> Result<(), Refusal> {
         for (index, (name, value)) in self.parameters.iter().enumerate() {
             if self.parameters[..index]
                 .iter()
@@ -206,10 +203,10 @@ impl Request {
     }
 
     /// How to run `system`.
-    pub(crate) fn simulation<'a, S: System<Scalar = f64>>(
+    pub(crate) fn simulation<'a>(
         &self,
-        system: &'a S,
-    ) -> Result<Simulation<'a, S>, Refusal> {
+        system: &'a AnySystem<f64>,
+    ) -> Result<Simulation<'a, AnySystem<f64>>, Refusal> {
         let simulation = Simulation::new(system)
             .tolerance(self.tolerance)
             .method(self.method)
@@ -260,10 +257,10 @@ impl Request {
     }
 
     /// The state to start from; see [`Start::state`].
-    pub(crate) fn start<S: System<Scalar = f64>>(
+    pub(crate) fn start(
         &self,
-        system: &S,
-        simulation: &Simulation<'_, S>,
+        system: &AnySystem<f64>,
+        simulation: &Simulation<'_, AnySystem<f64>>,
     ) -> Result<State<f64>, Refusal> {
         let start = Start::new(self, system.description())?;
         start
@@ -325,9 +322,9 @@ impl Start {
     ///
     /// Values given by name are held exactly. The others begin as in the named start and are then solved so that
     /// constraints hold, contacts closed there stay closed, and slips that are zero there stay zero; `consistent` does that.
-    pub(crate) fn state<S: System<Scalar = f64>>(
+    pub(crate) fn state(
         &self,
-        system: &S,
+        system: &AnySystem<f64>,
         consistent: impl FnOnce(&State<f64>, &State<f64>, &FixedComponents) -> Result<State<f64>, Error>,
     ) -> Result<State<f64>, Error> {
         let n = system.description().coordinates.len();

@@ -3,11 +3,8 @@
 use super::Dynamics;
 use super::emitted::Emitted;
 use crate::arithmetic::{Pack, Scalar};
-use crate::equations::{ROW, Row, SeriesFn};
+use crate::equations::{LANES, LaneSeriesFn, ROW, Row};
 use crate::system::Selection;
-
-/// Motions side by side.
-pub(crate) const LANES: usize = 4;
 
 /// A motion at the start of a step.
 #[derive(Debug)]
@@ -23,7 +20,7 @@ pub(crate) struct Start<'a, T: Scalar> {
 /// The series of all modes for numbers side by side, and memory for one call of them.
 #[derive(Debug)]
 pub(crate) struct Lanes<T: 'static> {
-    series: &'static [SeriesFn<Pack<T, LANES>>],
+    series: &'static [LaneSeriesFn<T>],
     constants: Vec<Pack<T, LANES>>,
     positions: Vec<Pack<T, LANES>>,
     velocities: Vec<Pack<T, LANES>>,
@@ -35,7 +32,7 @@ pub(crate) struct Lanes<T: 'static> {
 
 impl<T: Scalar> Lanes<T> {
     /// For a system with these series.
-    pub(crate) fn new(series: &'static [SeriesFn<Pack<T, LANES>>]) -> Self {
+    pub(crate) fn new(series: &'static [LaneSeriesFn<T>]) -> Self {
         Self {
             series,
             constants: Vec::new(),

@@ -5,8 +5,8 @@
 
 use super::Dynamics;
 use super::interpreted::{Extent, Shape};
-use super::lanes::LANES;
 use crate::arithmetic::{Pack, Scalar};
+use crate::equations::LANES;
 use crate::program::Series;
 use std::sync::Arc;
 

@@ -69,7 +69,7 @@ impl<S: System<Scalar: Runnable>> Ensemble<S> {
             settings: settings.clone(),
             runners: Vec::new(),
             together: Together {
-                lanes: Lanes::new(S::mode_series()),
+                lanes: Lanes::new(scene.lane_series()),
                 packets: Packets::new(),
             },
         }

@@ -1,6 +1,5 @@
 //! Many runs of one system in the same memory.
 
-use crate::erased::Erased;
 use crate::error::Error;
 use crate::precompiled::Runnable;
 use crate::run::Run;
@@ -10,7 +9,6 @@ use crate::state::FixedComponents;
 use crate::system::System;
 use crate::trajectory::{Record, State, Trajectory};
 use core::ops::Range;
-use std::sync::Arc;
 
 /// Runs one system again and again: what a run works with is made once, and the trajectory is written into the same memory.
 /// From the second run on nothing is allocated, unless a run meets a mode or needs an amount of recording that none before
@@ -27,7 +25,7 @@ pub struct Runner<S: System> {
 
 impl<S: System<Scalar: Runnable>> Runner<S> {
     pub(crate) fn new(scene: &S, settings: &Settings) -> Self {
-        let run = (S::Scalar::functions().run)(erased(scene), settings);
+        let run = (S::Scalar::functions().run)(scene.erased().system, settings);
         Self {
             trajectory: Trajectory::new(scene, run.record().clone()),
             settings: settings.clone(),
@@ -152,14 +150,9 @@ impl<S: System<Scalar: Runnable>> Runner<S> {
 
     /// Takes another system of the same kind, as a sweep over parameters does.
     pub fn set_scene(&mut self, scene: &S) {
-        let system = erased(scene);
+        let system = scene.erased().system;
         self.trajectory.set_scene(scene);
         self.trajectory.record().system = system.clone();
         (S::Scalar::functions().set_system)(&mut self.run, system);
     }
-}
-
-/// The system without its type.
-fn erased<S: System>(scene: &S) -> Erased<S::Scalar> {
-    Arc::new(scene.clone())
 }

@@ -95,9 +95,9 @@ const FIRST: usize = 30;
 ///
 /// # Errors
 /// Nothing to measure against: no run gets to the end, or two do not agree about what happens.
-pub(crate) fn measure<S: System<Scalar = f64>>(
+pub(crate) fn measure(
     scene: &'static str,
-    motion: &Motion<S>,
+    motion: &Motion<'_>,
     study: &Study,
     closed_form: Option<ClosedForm>,
 ) -> Result<Accuracy, Refusal> {
@@ -128,11 +128,7 @@ pub(crate) fn measure<S: System<Scalar = f64>>(
 }
 
 /// Everything about a setting but its time.
-fn judge<S: System<Scalar = f64>>(
-    motion: &Motion<S>,
-    setting: Setting,
-    reference: &Reference,
-) -> Result<Measured, String> {
+fn judge(motion: &Motion<'_>, setting: Setting, reference: &Reference) -> Result<Measured, String> {
     let trajectory = motion.run(setting).map_err(|error| error.to_string())?;
     let Difference {
         state_error,

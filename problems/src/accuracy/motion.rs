@@ -4,27 +4,28 @@ use super::Setting;
 use crate::film::drift;
 use core::hint::black_box;
 use lagrange_core::prelude::*;
+use lagrange_core::system::AnySystem;
 use std::time::Instant;
 
 /// Most events of a run: what has more goes in circles.
 const MAX_EVENTS: usize = 10_000;
 
 /// A system, and the run of it that a study is about.
-pub(crate) struct Motion<'a, S: System> {
+pub(crate) struct Motion<'a> {
     /// The system.
-    pub system: &'a S,
+    pub system: &'a AnySystem<f64>,
     /// State at time 0.
     pub start: State<f64>,
     /// How it is run, but for the setting.
-    pub simulation: Simulation<'a, S>,
+    pub simulation: Simulation<'a, AnySystem<f64>>,
     /// Last time, s.
     pub until: f64,
     /// Most steps of a run: what needs more is no choice for this scene.
     pub max_steps: usize,
 }
 
-impl<S: System<Scalar = f64>> Motion<'_, S> {
-    fn simulation(&self, setting: Setting) -> Simulation<'_, S> {
+impl Motion<'_> {
+    fn simulation(&self, setting: Setting) -> Simulation<'_, AnySystem<f64>> {
         self.simulation
             .clone()
             .estimate(false)
@@ -35,7 +36,7 @@ impl<S: System<Scalar = f64>> Motion<'_, S> {
     }
 
     /// Runs it.
-    pub(super) fn run(&self, setting: Setting) -> Result<Trajectory<S>, Error> {
+    pub(super) fn run(&self, setting: Setting) -> Result<Trajectory<AnySystem<f64>>, Error> {
         self.simulation(setting)
             .run(self.start.clone(), 0.0..self.until)
             .map_err(|stopped| stopped.error)

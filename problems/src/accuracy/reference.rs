@@ -9,7 +9,7 @@ use crate::closed_form::ClosedForm;
 use crate::request::Refusal;
 use crate::sweep::event;
 use lagrange_core::prelude::*;
-use lagrange_core::system::Description;
+use lagrange_core::system::{AnySystem, Description};
 use lagrange_core::trajectory::{Difference, Summary};
 
 /// The tightest run: Taylor series, at the first of these tolerances that gets to the end.
@@ -92,8 +92,8 @@ impl Reference {
 }
 
 /// The reference of a run, and the time scale of its motion, s.
-pub(super) fn reference<S: System<Scalar = f64>>(
-    motion: &Motion<S>,
+pub(super) fn reference(
+    motion: &Motion<'_>,
     closed_form: Option<ClosedForm>,
 ) -> Result<(Reference, f64), Refusal> {
     let (setting, tightest) = tightest(motion)?;
@@ -116,9 +116,7 @@ pub(super) fn reference<S: System<Scalar = f64>>(
     Ok((reference?, scale))
 }
 
-fn tightest<S: System<Scalar = f64>>(
-    motion: &Motion<S>,
-) -> Result<(Setting, Trajectory<S>), Refusal> {
+fn tightest(motion: &Motion<'_>) -> Result<(Setting, Trajectory<AnySystem<f64>>), Refusal> {
     let mut refused = None;
     for setting in TIGHTEST {
         match motion.run(setting) {
@@ -169,11 +167,7 @@ fn summary(known: ClosedForm, description: &'static Description) -> Result<Summa
 }
 
 /// The tightest run, with the check that agrees best.
-fn from_runs<S: System<Scalar = f64>>(
-    motion: &Motion<S>,
-    by: Setting,
-    tightest: Summary,
-) -> Result<Reference, Refusal> {
+fn from_runs(motion: &Motion<'_>, by: Setting, tightest: Summary) -> Result<Reference, Refusal> {
     let reference = Reference {
         by: by.to_string(),
         checked_by: String::new(),

@@ -10,6 +10,7 @@ mod right_side;
 
 use core::hint::black_box;
 use lagrange_core::prelude::*;
+use lagrange_core::system::AnySystem;
 pub use right_side::{MOVE, Place, RightSide, places};
 use std::time::Instant;
 
@@ -68,10 +69,10 @@ pub struct Costs {
 ///
 /// # Errors
 /// The run fails.
-pub(crate) fn measure<S: System<Scalar = f64>>(
+pub(crate) fn measure(
     scene: &'static str,
-    system: &S,
-    simulation: &Simulation<'_, S>,
+    system: &AnySystem<f64>,
+    simulation: &Simulation<'_, AnySystem<f64>>,
     effects: &Effects,
     (start, until): (&State<f64>, f64),
     progress: &Progress,
@@ -104,7 +105,7 @@ pub(crate) fn measure<S: System<Scalar = f64>>(
             sides.collect()
         })
         .collect();
-    let mut runs: Vec<Result<WholeRun<'_, S>, Error>> = choices
+    let mut runs: Vec<Result<WholeRun<'_>, Error>> = choices
         .into_iter()
         .map(|chosen| WholeRun::new(simulation.clone().effects(chosen), start, until))
         .collect();
@@ -144,17 +145,17 @@ pub(crate) fn measure<S: System<Scalar = f64>>(
 }
 
 /// A run from start to end, again and again, without recording.
-struct WholeRun<'a, S: System> {
-    runner: Runner<S>,
+struct WholeRun<'a> {
+    runner: Runner<AnySystem<f64>>,
     start: &'a State<f64>,
     until: f64,
     /// Shortest time so far, s.
     best: f64,
 }
 
-impl<'a, S: System<Scalar = f64>> WholeRun<'a, S> {
+impl<'a> WholeRun<'a> {
     fn new(
-        simulation: Simulation<'_, S>,
+        simulation: Simulation<'_, AnySystem<f64>>,
         start: &'a State<f64>,
         until: f64,
     ) -> Result<Self, Error> {

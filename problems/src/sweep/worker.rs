@@ -4,6 +4,7 @@ use super::failure::code;
 use super::{Sweep, Worker};
 use crate::request::{Quantity, Refusal, Start, find_parameter, find_state};
 use lagrange_core::prelude::*;
+use lagrange_core::system::AnySystem;
 
 /// Most events of a run.
 const MOST_EVENTS: usize = 10_000;
@@ -18,9 +19,9 @@ enum Target {
 }
 
 /// Runs the points of a sweep over a system, given with its default parameters, until a time if the request names none.
-pub(crate) fn worker<S: System<Scalar = f64>>(
+pub(crate) fn worker(
     sweep: &Sweep,
-    mut system: S,
+    mut system: AnySystem<f64>,
     until: f64,
 ) -> Result<Worker<'_>, Refusal> {
     let request = &sweep.request;
