@@ -11,7 +11,7 @@ use super::instant::Reported;
 use super::watch::Watches;
 use super::{Certificate, FINEST, Findings, ROUNDINGS, Subject};
 use crate::arithmetic::Scalar;
-use crate::checks::state::Random;
+use crate::checks::state::signed;
 use crate::declaration::Declaration;
 use crate::dynamics::Dynamics;
 use crate::error::Error;
@@ -97,10 +97,10 @@ pub(super) fn against<T: Scalar>(
         scratch: record.start.clone(),
         nodes: Vec::new(),
     };
-    let mut random = Random::new(seed);
+    let mut random = fastrand::Rng::with_seed(seed);
     let segments = record.segments.iter().enumerate();
     let chosen = segments.map(|(k, segment)| {
-        let (looked, part) = (random.signed(), random.signed());
+        let (looked, part) = (signed(&mut random), signed(&mut random));
         let looked = k == 0 || looked < 2.0 * share - 1.0;
         looked.then(|| segment.end.value() * (0.5 + 0.5 * part))
     });

@@ -138,16 +138,19 @@ impl<'a, S: System<Scalar = f64>> Checks<'a, S> {
     /// The state of a number, if there is one.
     pub(super) fn draw(&self, number: usize) -> Result<(S, Instant<f64>), Error> {
         let d = self.scene.description();
-        let mut random =
-            Random(self.seed ^ (number as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
+        // A sequence of its own for every state.
+        let seed = self.seed ^ (number as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        let mut random = fastrand::Rng::with_seed(seed);
         let mut scene = self.scene.clone();
         for index in 0..d.parameters.len() {
-            let factor = 1.0 + self.variation * random.signed();
+            let factor = 1.0 + self.variation * signed(&mut random);
             scene.set_parameter(index, self.scene.parameter(index) * factor);
         }
         let mut near = |center: &[f64]| -> Vec<f64> {
             let moved = center.iter();
-            moved.map(|x| x + self.spread * random.signed()).collect()
+            moved
+                .map(|x| x + self.spread * signed(&mut random))
+                .collect()
         };
         let (mut q, mut v) = (near(&self.around.q), near(&self.around.v));
         let mut dynamics = Dynamics::new(&scene, &Effects::all());
@@ -212,23 +215,7 @@ fn sliding(dynamics: &Dynamics<f64>, f: usize) -> Sliding {
     sliding
 }
 
-/// Seeded random numbers.
-pub(crate) struct Random(u64);
-
-impl Random {
-    /// A sequence of its own for every seed.
-    pub(crate) fn new(seed: u64) -> Self {
-        Self(seed)
-    }
-
-    /// Between −1 and 1.
-    pub(crate) fn signed(&mut self) -> f64 {
-        // splitmix64 (Steele, Lea & Flood, OOPSLA 2014)
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut x = self.0;
-        x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        x ^= x >> 31;
-        (x >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
+/// Between −1 and 1.
+pub(crate) fn signed(random: &mut fastrand::Rng) -> f64 {
+    2.0 * random.f64() - 1.0
 }

@@ -1,23 +1,7 @@
 //! Roots against polynomials made from their roots.
 
 use super::*;
-
-/// SplitMix64 (Steele, Lea & Flood 2014).
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        (z ^ (z >> 31)) as f64 / 2f64.powi(64)
-    }
-
-    fn below(&mut self, n: usize) -> usize {
-        (self.unit() * n as f64) as usize
-    }
-}
+use fastrand::Rng;
 
 fn multiply(p: &[f64], q: &[f64]) -> Vec<f64> {
     let mut product = vec![0.0; p.len() + q.len() - 1];
@@ -104,18 +88,18 @@ fn directions_alternate() {
 
 #[test]
 fn random_roots_are_all_found() {
-    let mut random = Random(1);
+    let mut random = Rng::with_seed(1);
     let mut compared = 0;
     for _ in 0..4000 {
-        let inside = random.below(6);
-        let outside = random.below(6);
-        let pairs = random.below(3);
-        let mut expected: Vec<f64> = (0..inside).map(|_| random.unit()).collect();
+        let inside = random.usize(..6);
+        let outside = random.usize(..6);
+        let pairs = random.usize(..3);
+        let mut expected: Vec<f64> = (0..inside).map(|_| random.f64()).collect();
         expected.sort_by(f64::total_cmp);
         let mut c = from_roots(&expected);
         for _ in 0..outside {
-            let beyond = 1.1 + 3.0 * random.unit();
-            let r = if random.unit() < 0.5 {
+            let beyond = 1.1 + 3.0 * random.f64();
+            let r = if random.f64() < 0.5 {
                 beyond
             } else {
                 1.0 - beyond
@@ -123,7 +107,7 @@ fn random_roots_are_all_found() {
             c = multiply(&c, &[-r, 1.0]);
         }
         for _ in 0..pairs {
-            let (re, im) = (random.unit(), 0.1 + random.unit());
+            let (re, im) = (random.f64(), 0.1 + random.f64());
             c = multiply(&c, &[re * re + im * im, -2.0 * re, 1.0]);
         }
         // Nearer than rounding resolves is for the cluster tests.
@@ -156,9 +140,9 @@ fn random_roots_are_all_found() {
 #[test]
 fn quick_answers_agree_with_the_search() {
     // Shifting p up until it has no roots crosses every way to answer.
-    let mut random = Random(2);
+    let mut random = Rng::with_seed(2);
     for _ in 0..500 {
-        let mut c: Vec<f64> = (0..12).map(|_| random.unit() - 0.5).collect();
+        let mut c: Vec<f64> = (0..12).map(|_| random.f64() - 0.5).collect();
         for step in 0..40 {
             c[0] = 0.1 * step as f64;
             let samples: Vec<f64> = (1..=2000)
@@ -178,13 +162,13 @@ fn quick_answers_agree_with_the_search() {
 
 #[test]
 fn double_roots_are_touches() {
-    let mut random = Random(3);
+    let mut random = Rng::with_seed(3);
     for _ in 0..500 {
-        let r = 0.05 + 0.9 * random.unit();
-        let (re, im) = (random.unit(), 0.2 + random.unit());
+        let r = 0.05 + 0.9 * random.f64();
+        let (re, im) = (random.f64(), 0.2 + random.f64());
         let mut c = multiply(&from_roots(&[r, r]), &[re * re + im * im, -2.0 * re, 1.0]);
-        c = multiply(&c, &[2.0 + random.unit(), 1.0]);
-        let sign = if random.unit() < 0.5 { 1.0 } else { -1.0 };
+        c = multiply(&c, &[2.0 + random.f64(), 1.0]);
+        let sign = if random.f64() < 0.5 { 1.0 } else { -1.0 };
         c.iter_mut().for_each(|c| *c *= sign);
         let list = found(&c);
         // Rounded coefficients may also have two roots, or none, within the enclosure; it is 1e-7 wide.
@@ -274,10 +258,10 @@ fn roots_on_the_borders_of_subdivision_are_not_lost() {
 
 #[test]
 fn noise_has_no_roots() {
-    let mut random = Random(4);
+    let mut random = Rng::with_seed(4);
     for _ in 0..200 {
         // 1 − s + (s − 1) and its like: what remains of exact cancellation.
-        let mut c: Vec<f64> = (0..20).map(|_| 1e-17 * (random.unit() - 0.5)).collect();
+        let mut c: Vec<f64> = (0..20).map(|_| 1e-17 * (random.f64() - 0.5)).collect();
         c[0] = 1e-15;
         assert!(found(&c).is_empty());
     }
@@ -324,13 +308,13 @@ fn sine_series_over_a_period() {
 
 #[test]
 fn a_bound_keeps_the_sign_only_of_polynomials_without_roots() {
-    let mut random = Random(7);
+    let mut random = Rng::with_seed(7);
     let mut kept = 0;
     for _ in 0..20_000 {
         let mut decay = 1.0;
         let c: [f64; 14] = core::array::from_fn(|_| {
             decay *= 0.6;
-            decay * (2.0 * random.unit() - 1.0)
+            decay * (2.0 * random.f64() - 1.0)
         });
         let rest = c[2..].iter().map(|c| c.abs()).sum();
         if keeps_its_sign(&c, rest, 1e-10) {

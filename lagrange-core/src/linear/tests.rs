@@ -8,21 +8,17 @@ use crate::system::*;
 use nalgebra::{DMatrix, DVector};
 
 /// Numbers in −1…1 from a seed.
-pub(super) struct Random(pub(super) u64);
+pub(super) struct Random(fastrand::Rng);
 
 impl Random {
-    fn bits(&mut self) -> u64 {
-        // Marsaglia 2003, xorshift
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        self.0
+    pub(super) fn new(seed: u64) -> Self {
+        Self(fastrand::Rng::with_seed(seed))
     }
     pub(super) fn number(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        2.0 * self.0.f64() - 1.0
     }
     pub(super) fn below(&mut self, n: usize) -> usize {
-        (self.bits() >> 33) as usize % n
+        self.0.usize(..n)
     }
     pub(super) fn one_in(&mut self, n: usize) -> bool {
         self.below(n) == 0
@@ -89,7 +85,7 @@ impl Builder {
 /// A random description with its numbers: some rows constant, contacts with friction, a coupled force.
 fn random_system(seed: u64) -> (Description, Builder) {
     let mut b = Builder {
-        random: Random(seed),
+        random: Random::new(seed),
         constants: Vec::new(),
         nodes: Vec::new(),
     };

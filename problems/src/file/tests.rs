@@ -257,30 +257,17 @@ fn survives(text: &str) {
     }
 }
 
-/// Numbers of a linear congruential generator (Knuth 1998, MMIX).
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, bound: usize) -> usize {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 33) as usize % bound.max(1)
-    }
-}
-
 #[test]
 fn garbage_is_refused() {
-    let mut random = Random(1);
+    let mut random = fastrand::Rng::with_seed(1);
     let words: Vec<&str> = "parameters coordinates kinetic potential contact friction constraint start stop mark check until define \
         force observe x y der sum if min pi t 0 1 1/2 1e400 1e-9 0..8 ( ) [ ] { } , : = == >= <= + - * / ^ . .. ' \" # ! // \u{e9} \n"
         .split(' ')
         .collect();
     for _ in 0..1000 {
-        let count = random.below(60);
+        let count = random.usize(..60);
         let garbage: Vec<&str> = (0..count)
-            .map(|_| words[random.below(words.len())])
+            .map(|_| words[random.usize(..words.len())])
             .collect();
         survives(&garbage.join(" "));
     }
@@ -288,16 +275,16 @@ fn garbage_is_refused() {
 
 #[test]
 fn mutations_of_a_good_file_are_read_or_refused() {
-    let mut random = Random(2);
+    let mut random = fastrand::Rng::with_seed(2);
     let good: Vec<char> = TEMPLATE.chars().collect();
     for _ in 0..300 {
         let mut text = good.clone();
-        for _ in 0..1 + random.below(4) {
-            let (at, from) = (random.below(text.len()), random.below(text.len()));
-            let length = random.below(20).min(text.len() - at.max(from));
-            match random.below(3) {
+        for _ in 0..1 + random.usize(..4) {
+            let (at, from) = (random.usize(..text.len()), random.usize(..text.len()));
+            let length = random.usize(..20).min(text.len() - at.max(from));
+            match random.usize(..3) {
                 0 => drop(text.drain(at..at + length)),
-                1 => text[at] = good[random.below(good.len())],
+                1 => text[at] = good[random.usize(..good.len())],
                 _ => {
                     let copy: Vec<char> = text[from..from + length].to_vec();
                     text.splice(at..at, copy);

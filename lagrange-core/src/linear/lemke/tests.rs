@@ -81,7 +81,7 @@ fn semidefinite(random: &mut Random, n: usize) -> (DMatrix<f64>, DVector<f64>) {
 
 #[test]
 fn semidefinite_problems_are_solved_or_have_no_solution() {
-    let mut random = Random(0x5eed_1234);
+    let mut random = Random::new(0x5eed_1234);
     let (mut solved, mut rays) = (0, 0);
     for _ in 0..3000 {
         let n = 1 + random.below(6);
@@ -106,7 +106,7 @@ fn semidefinite_problems_are_solved_or_have_no_solution() {
 
 #[test]
 fn the_solution_of_a_positive_definite_problem_is_the_only_one() {
-    let mut random = Random(77);
+    let mut random = Random::new(77);
     for _ in 0..500 {
         let n = 1 + random.below(7);
         let g = DMatrix::from_fn(n, n, |_, _| random.number());
@@ -125,7 +125,7 @@ fn the_solution_of_a_positive_definite_problem_is_the_only_one() {
 /// copositive, and solvable for every approach velocity (Stewart & Trinkle 1996).
 #[test]
 fn impacts_with_friction_always_have_a_solution() {
-    let mut random = Random(4242);
+    let mut random = Random::new(4242);
     for _ in 0..400 {
         let contacts = 1 + random.below(4);
         let coordinates = 2 + random.below(4);

@@ -4,21 +4,16 @@ use super::collision::{Collision, ContactRow, FrictionRow, NormalSource};
 use super::law::Law;
 use super::turn::{Stuck, Turns};
 
-/// Seeded random numbers (splitmix64, Steele, Lea & Flood 2014).
-struct Random(u64);
+/// Seeded random numbers.
+struct Random(fastrand::Rng);
 
 impl Random {
     fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^= z >> 31;
-        low + (high - low) * (z >> 11) as f64 / (1u64 << 53) as f64
+        low + (high - low) * self.0.f64()
     }
 
     fn below(&mut self, n: usize) -> usize {
-        self.between(0.0, n as f64) as usize
+        self.0.usize(..n)
     }
 }
 
@@ -240,7 +235,7 @@ fn judge(c: &Collision<f64>, law: &Law<f64>, kind: &Kind) {
 
 #[test]
 fn random_impacts_obey_their_law() {
-    let mut random = Random(7);
+    let mut random = Random(fastrand::Rng::with_seed(7));
     let mut law = Law::<f64>::default();
     let (mut solved, mut lowered, mut unsolved) = (0, 0, 0);
     for kind in kinds() {
@@ -418,7 +413,7 @@ fn wedged_rod(random: &mut Random, poisson: bool) -> Collision<f64> {
 
 #[test]
 fn of_several_impacts_the_one_with_the_least_jump_is_taken() {
-    let mut random = Random(3);
+    let mut random = Random(fastrand::Rng::with_seed(3));
     let mut several = 0;
     for _ in 0..2000 {
         let c = wedged_rod(&mut random, false);
@@ -452,7 +447,7 @@ fn of_several_impacts_the_one_with_the_least_jump_is_taken() {
 
 #[test]
 fn restitution_does_not_begin_from_rounding() {
-    let mut random = Random(5);
+    let mut random = Random(fastrand::Rng::with_seed(5));
     for number in 0..2000 {
         let c = wedged_rod(&mut random, true);
         let mut law = Law::default();

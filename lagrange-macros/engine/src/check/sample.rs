@@ -51,15 +51,15 @@ pub(super) struct State<'a> {
 /// The state of a seed; not every seed has one.
 pub(super) fn sample<'a>(pool: &Pool, region: &Region<'a>, seed: u64) -> Result<State<'a>, Stuck> {
     let mechanics = region.mechanics;
-    let mut random = Random(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1);
+    let mut random = fastrand::Rng::with_seed(seed);
     let mut numbers = Floating {
         symbols: BTreeMap::new(),
         guards: region.guards,
     };
     for &symbol in &mechanics.parameters {
-        numbers.bind(symbol, random.two_digits(0.3, 2.5));
+        numbers.bind(symbol, two_digits(&mut random, 0.3, 2.5));
     }
-    numbers.bind(region.time, random.two_digits(0.0, 2.0));
+    numbers.bind(region.time, two_digits(&mut random, 0.0, 2.0));
     // Every other state is a small and slow one; a few are far away, where a branch may switch.
     let reach = match seed % 16 {
         5 => 20.0,
@@ -69,8 +69,8 @@ pub(super) fn sample<'a>(pool: &Pool, region: &Region<'a>, seed: u64) -> Result<
         _ => 2.0,
     };
     for &[q, v, a] in &mechanics.coordinates {
-        numbers.bind(q, random.two_digits(-reach, reach));
-        numbers.bind(v, random.two_digits(-reach, reach));
+        numbers.bind(q, two_digits(&mut random, -reach, reach));
+        numbers.bind(v, two_digits(&mut random, -reach, reach));
         numbers.bind(a, Bounded::exactly(0.0));
     }
     for row in &mechanics.rows {
@@ -228,20 +228,9 @@ fn feasible(pool: &Pool, region: &Region, numbers: &mut Floating) -> Result<bool
     Ok(true)
 }
 
-/// Random numbers for states that a person can read.
-struct Random(u64);
-
-impl Random {
-    /// Between two numbers, rounded to hundredths, and not 0.
-    fn two_digits(&mut self, from: f64, to: f64) -> Bounded {
-        // xorshift64* (Vigna, ACM Trans. Math. Softw. 42, 2016)
-        self.0 ^= self.0 >> 12;
-        self.0 ^= self.0 << 25;
-        self.0 ^= self.0 >> 27;
-        let bits = self.0.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 11;
-        let unit = bits as f64 / (1_u64 << 53) as f64;
-        let hundredths = ((from + (to - from) * unit) * 100.0).round();
-        let hundredths = if hundredths == 0.0 { 1.0 } else { hundredths };
-        Bounded::exactly(hundredths / 100.0)
-    }
+/// A random number that a person can read: between two, rounded to hundredths, and not 0.
+fn two_digits(random: &mut fastrand::Rng, from: f64, to: f64) -> Bounded {
+    let hundredths = ((from + (to - from) * random.f64()) * 100.0).round();
+    let hundredths = if hundredths == 0.0 { 1.0 } else { hundredths };
+    Bounded::exactly(hundredths / 100.0)
 }

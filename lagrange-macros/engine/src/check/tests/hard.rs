@@ -63,8 +63,8 @@ fn a_message_tells_the_state_and_both_sides() {
     assert_eq!(
         found,
         "2:96 E801 `der(der(theta)) == -g*sin(theta)/radius` does not hold while shell closed; \
-        at m = 0.43, g = 0.57, radius = 1.45, r = 1.45, theta = 0.44, der(r) = 0, der(theta) = -0.3: \
-        the left side is 0.167438, the right side -0.167438; they differ in sign only"
+        at m = 0.75, g = 2.31, radius = 1.9, r = 1.9, theta = -0.29, der(r) = 0, der(theta) = 0.59: \
+        the left side is -0.347658, the right side 0.347658; they differ in sign only"
     );
 }
 

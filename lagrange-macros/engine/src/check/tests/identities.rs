@@ -163,7 +163,7 @@ fn difference(fact: &Fact, a: &str, b: &str, dice: &mut Dice) -> f64 {
 
 #[test]
 fn false_checks_fail_and_true_ones_are_proven() {
-    let mut dice = Dice(2026);
+    let mut dice = Dice::new(2026);
     let (mut true_ones, mut false_ones) = (0, 0);
     for fact in FACTS {
         let other = fact.coordinates.split_whitespace().next().unwrap();

@@ -58,19 +58,19 @@ pub fn value(e: &Expr, state: &State) -> f64 {
 }
 
 /// A seeded choice.
-pub struct Dice(pub u64);
+pub struct Dice(fastrand::Rng);
 
 impl Dice {
+    pub fn new(seed: u64) -> Self {
+        Self(fastrand::Rng::with_seed(seed))
+    }
+
     pub fn below(&mut self, n: usize) -> usize {
-        self.0 = self
-            .0
-            .wrapping_mul(0x5851_f42d_4c95_7f2d)
-            .wrapping_add(0x1405_7b7e_f767_814f);
-        ((self.0 >> 33) as usize) % n
+        self.0.usize(..n)
     }
 
     pub fn unit(&mut self) -> f64 {
-        self.below(1 << 24) as f64 / f64::from(1 << 24)
+        self.0.f64()
     }
 }
 

@@ -198,23 +198,20 @@ pub fn solve(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
     b
 }
 
-/// Seeded random numbers (xorshift; Marsaglia 2003).
-pub struct Random(pub u64);
+/// Seeded random numbers.
+pub struct Random(fastrand::Rng);
 
 impl Random {
-    pub fn next(&mut self) -> u64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        self.0
+    pub fn new(seed: u64) -> Self {
+        Self(fastrand::Rng::with_seed(seed))
     }
 
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * (self.next() >> 11) as f64 / (1u64 << 53) as f64
+        low + (high - low) * self.0.f64()
     }
 
     pub fn below(&mut self, n: usize) -> usize {
-        (self.next() >> 16) as usize % n
+        self.0.usize(..n)
     }
 }
 
@@ -229,7 +226,7 @@ pub fn close(what: &str, got: f64, want: f64) {
 
 /// Calls `check` at ten random points.
 pub fn at_random(derived: &Derived, check: impl Fn(&Point)) {
-    let mut random = Random(0x5eed);
+    let mut random = Random::new(0x5eed);
     for _ in 0..10 {
         check(&derived.point(&mut random));
     }

@@ -104,7 +104,7 @@ fn relativistic_particle() {
     let d = Build::new("x", "m c k")
         .lagrangian("-m*c^2*sqrt(1 - der(x)^2/c^2) - k/2*x^2")
         .derive();
-    let mut random = Random(7);
+    let mut random = Random::new(7);
     for _ in 0..10 {
         let mut p = d.point(&mut random);
         p.insert("c".into(), 3.0);

@@ -185,7 +185,7 @@ fn friction_rows_follow_contacts_and_share_needs() {
     assert_eq!(structure.frictions[0].row, 1);
     assert_eq!(structure.rows.len(), 3);
     assert_eq!(structure.rows[1].needs, structure.rows[2].needs);
-    let mut random = Random(3);
+    let mut random = Random::new(3);
     let p = d.point(&mut random);
     close(
         "slip",

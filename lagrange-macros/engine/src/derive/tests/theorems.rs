@@ -117,7 +117,7 @@ fn random_system(random: &mut Random) -> Build {
 
 #[test]
 fn euler_lagrange_on_random_systems() {
-    let mut random = Random(20260101);
+    let mut random = Random::new(20260101);
     for _ in 0..20 {
         let d = random_system(&mut random).derive();
         for _ in 0..3 {
@@ -130,7 +130,7 @@ fn euler_lagrange_on_random_systems() {
 /// M depends on the velocities, so only the direct form of f exists.
 #[test]
 fn euler_lagrange_without_a_quadratic_form() {
-    let mut random = Random(31);
+    let mut random = Random::new(31);
     let q = ["a", "b", "c"];
     for _ in 0..10 {
         let (x, y) = (
@@ -149,7 +149,7 @@ fn euler_lagrange_without_a_quadratic_form() {
 
 #[test]
 fn euler_lagrange_on_standard_systems() {
-    let mut random = Random(11);
+    let mut random = Random::new(11);
     for scene in [
         systems::mass_on_shell(),
         systems::rolling_sphere(),
@@ -189,7 +189,7 @@ fn large_system(random: &mut Random) -> Build {
 
 #[test]
 fn euler_lagrange_on_large_random_systems() {
-    let mut random = Random(47);
+    let mut random = Random::new(47);
     for _ in 0..8 {
         let d = large_system(&mut random).derive();
         let point = d.point(&mut random);
@@ -234,7 +234,7 @@ pub fn chain(n: usize) -> Build {
 /// dh/dt = Q·v − ∂L/∂t along the accelerations that M v̇ = f gives.
 #[test]
 fn energy_theorem() {
-    let mut random = Random(77);
+    let mut random = Random::new(77);
     for _ in 0..20 {
         let d = random_system(&mut random)
             .load("push", "k*a", &[(0, "k*a*b"), (2, "sin(t)")])
@@ -270,7 +270,7 @@ fn energy_theorem() {
 /// Where T is a quadratic form and nothing depends on time, h = T + V.
 #[test]
 fn jacobi_integral_is_the_energy() {
-    let mut random = Random(5);
+    let mut random = Random::new(5);
     for scene in [
         systems::mass_on_wheel(),
         systems::double_pendulum(),
@@ -291,7 +291,7 @@ fn jacobi_integral_is_the_energy() {
 /// Momenta are ∂L/∂v.
 #[test]
 fn momenta_are_slopes_of_the_lagrangian() {
-    let mut random = Random(9);
+    let mut random = Random::new(9);
     for _ in 0..5 {
         let d = random_system(&mut random).derive();
         let point = d.point(&mut random);
@@ -316,7 +316,7 @@ fn momenta_are_slopes_of_the_lagrangian() {
 /// Rows: velocity = dg/dt, and d/dt velocity = a v̇ + γ, for random residuals.
 #[test]
 fn rows_are_time_derivatives() {
-    let mut random = Random(13);
+    let mut random = Random::new(13);
     let q = ["a", "b", "c"];
     for _ in 0..20 {
         let holonomic = format!(

@@ -72,7 +72,7 @@ fn compare(program: &Program, values: &BTreeMap<Symbol, f64>, held: Selection) -
 fn a_plan_keeps_values_for_every_set_of_needs() {
     let mut compared = 0;
     for seed in 0..200 {
-        let mut dice = Dice(seed);
+        let mut dice = Dice::new(seed);
         let (equations, symbols) = random_equations(&mut dice);
         let values = symbols
             .into_iter()

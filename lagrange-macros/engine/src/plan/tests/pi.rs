@@ -71,7 +71,7 @@ fn declaration(item: &str, units: bool) -> String {
 
 #[test]
 fn multiples_of_pi_keep_their_values_in_every_item() {
-    let mut dice = Dice(1);
+    let mut dice = Dice::new(1);
     for item in ITEMS {
         for sign in SIGNS {
             for units in [false, true] {

@@ -6,16 +6,16 @@ use crate::model::{Branch, System};
 use crate::symbolic::{ExprId, Function, Pool, Rational, Symbol};
 use proc_macro2::Span;
 
-/// Pseudo-random numbers (Knuth's MMIX linear congruence), seeded.
-pub struct Dice(pub u64);
+/// Seeded random numbers.
+pub struct Dice(fastrand::Rng);
 
 impl Dice {
+    pub fn new(seed: u64) -> Self {
+        Self(fastrand::Rng::with_seed(seed))
+    }
+
     fn below(&mut self, n: usize) -> usize {
-        self.0 = self
-            .0
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
-        (self.0 >> 33) as usize % n
+        self.0.usize(..n)
     }
 
     pub fn number(&mut self) -> f64 {

@@ -130,7 +130,7 @@ type Check<'a> = dyn FnMut(&mut Desk, ExprId, [f64; 3], Dual, [f64; 3]) + 'a;
 
 /// Calls the check with random programs that have comfortable values, and says how many there were.
 fn each(seed: u64, rounds: usize, check: &mut Check) -> usize {
-    let mut random = Random(seed);
+    let mut random = Random::new(seed);
     let mut checked = 0;
     for _ in 0..rounds {
         let length = 4 + random.below(14) as usize;
@@ -209,7 +209,7 @@ fn rewriting_keeps_the_value_and_never_costs() {
 
 #[test]
 fn rewriting_is_idempotent_and_repeatable() {
-    let mut random = Random(4);
+    let mut random = Random::new(4);
     for _ in 0..500 {
         let steps = program(&mut random, 12);
         let mut texts = Vec::new();
@@ -290,7 +290,7 @@ fn trigonometric(random: &mut Random, [x, y, _]: [f64; 3]) -> (String, f64) {
 
 #[test]
 fn trigonometric_polynomials_keep_their_value() {
-    let mut random = Random(7);
+    let mut random = Random::new(7);
     for _ in 0..100 {
         let at = [0; 3].map(|_| random.between(-3.0, 3.0));
         let (a, b) = (
