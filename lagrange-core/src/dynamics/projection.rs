@@ -109,7 +109,7 @@ impl<T: Scalar> Dynamics<T> {
         }
         let moved = moved || self.residual(Level::Velocity, v).relative > threshold;
         if moved {
-            self.move_velocities(t, q, v, &[], least)?;
+            self.move_velocities(v, &[], least)?;
         }
         self.settle_pinned(q, v, threshold);
         let carries = T::DERIVATIVES > 0 && !self.acting_rows().is_empty();
@@ -261,19 +261,18 @@ impl<T: Scalar> Dynamics<T> {
         v: &mut [T],
         held: &[bool],
     ) -> Result<(), EvaluationError> {
-        self.move_velocities(t, q, v, held, rounding::<T>())
+        self.run_rows(t, q, v);
+        self.move_velocities(v, held, rounding::<T>())
     }
 
-    /// [`Self::project_velocities`] where a relative residual is above `least`.
+    /// [`Self::project_velocities`] where a relative residual is above `least`. The motion program was run at (q, v), and its
+    /// outputs are those at the new velocities afterwards, as far as projections read them.
     fn move_velocities(
         &mut self,
-        t: T,
-        q: &[T],
         v: &mut [T],
         held: &[bool],
         mut least: f64,
     ) -> Result<(), EvaluationError> {
-        self.run_rows(t, q, v);
         let mut residual = self.residual(Level::Velocity, v);
         // The equations are linear: the second pass only takes away rounding.
         for _ in 0..2 {
@@ -283,11 +282,39 @@ impl<T: Scalar> Dynamics<T> {
             for (v, &change) in v.iter_mut().zip(&self.projection.change) {
                 *v += change;
             }
-            self.run_rows(t, q, v);
+            self.change_rates();
             residual = self.residual(Level::Velocity, v);
             least = rounding::<T>();
         }
         accept::<T>(residual)
+    }
+
+    /// The rates of the rows that act, after the velocities have changed as in `projection.change`: they are linear in these.
+    fn change_rates(&mut self) {
+        let Self {
+            modes,
+            current,
+            nodes,
+            projection,
+            description,
+            ..
+        } = self;
+        let compiled = &modes[*current];
+        let rates = compiled.acting.iter().map(|&row| {
+            let row = &description.rows[row];
+            let read = |place: ValueRef| place.read(&compiled.constants, nodes);
+            let terms = row.jacobian.iter();
+            let terms = terms.map(|&(j, place)| read(place) * projection.change[j]);
+            terms.fold(read(row.velocity), |sum, term| sum + term)
+        });
+        // All are read before one is written: two rows may have the same rate.
+        projection.right.clear();
+        projection.right.extend(rates);
+        for (&row, &rate) in compiled.acting.iter().zip(&projection.right) {
+            if let ValueRef::Node(node) = description.rows[row].velocity {
+                nodes[node] = rate;
+            }
+        }
     }
 
     fn residual_place(row: &Row, level: Level) -> Option<ValueRef> {
