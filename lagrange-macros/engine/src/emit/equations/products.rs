@@ -39,6 +39,16 @@ pub struct Plan {
     products: usize,
 }
 
+/// The row of the force `r`: positions, velocities and forces come first.
+pub fn force_row(mode: &ModeProgram, r: usize) -> usize {
+    2 * mode.inputs.coordinates + r
+}
+
+/// The row after the forces, which stays zero.
+pub fn zero_row(mode: &ModeProgram) -> usize {
+    force_row(mode, mode.forces.len())
+}
+
 impl Plan {
     pub fn new(mode: &ModeProgram) -> Plan {
         let mut plan = Plan {
@@ -61,7 +71,7 @@ impl Plan {
                 *plan.sums.entry(write.output).or_insert(set) |= varies;
             }
         }
-        let (n, forces) = (mode.inputs.coordinates, mode.forces.len());
+        let n = mode.inputs.coordinates;
         for j in 0..n {
             plan.rows_of.insert(Row::Value(mode.inputs.position(j)), j);
             plan.rows_of
@@ -70,11 +80,10 @@ impl Plan {
         for (r, force) in mode.forces.iter().enumerate() {
             if force.is_some() {
                 plan.rows_of
-                    .insert(Row::Value(mode.inputs.force(r)), 2 * n + r);
+                    .insert(Row::Value(mode.inputs.force(r)), force_row(mode, r));
             }
         }
-        // The row after the forces stays zero.
-        plan.rows = 2 * n + forces + 1;
+        plan.rows = zero_row(mode) + 1;
         for block in &mode.tape.blocks {
             for step in &block.steps {
                 let products = plan.products(step);
@@ -142,7 +151,7 @@ impl Plan {
         match extra.place {
             ValueRef::Node(output) => self.row(self.row_of_output(output)),
             ValueRef::Constant(at) => self.row(Row::Fixed(at)),
-            ValueRef::Zero => Some(2 * mode.inputs.coordinates + mode.forces.len()),
+            ValueRef::Zero => Some(zero_row(mode)),
         }
     }
 

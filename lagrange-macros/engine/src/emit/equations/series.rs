@@ -9,7 +9,7 @@
 
 use super::super::names::{self, index, local, plain};
 use super::number;
-use super::products::{Plan, Product, Row};
+use super::products::{Plan, Product, Row, force_row};
 use super::solve::Elimination;
 use super::value;
 use super::writer::{Writer, coefficient};
@@ -244,7 +244,7 @@ impl Expansion<'_> {
         for (r, place) in mode.forces.iter().enumerate() {
             if let Some(place) = place {
                 let value = writer.place(*place);
-                code.extend(self.store(2 * n + r, zero.clone(), value));
+                code.extend(self.store(force_row(mode, r), zero.clone(), value));
             }
         }
         for (value, place) in value::results(mode) {
@@ -533,7 +533,7 @@ impl Expansion<'_> {
         body.extend(self.next_of(Phase::Forces));
         for (r, place) in mode.forces.iter().enumerate() {
             if let Some(d) = place.and_then(|place| self.d_of_place(place)) {
-                body.extend(self.store(2 * n + r, quote!(#p), d));
+                body.extend(self.store(force_row(mode, r), quote!(#p), d));
             }
         }
         for (value, place) in value::results(mode) {

@@ -2,7 +2,7 @@
 
 use super::super::names::{self, index, local};
 use super::number;
-use super::products::Plan;
+use super::products::{Plan, force_row, zero_row};
 use super::solve::Elimination;
 use super::writer::Writer;
 use crate::plan::mode::{ModeProgram, Phase};
@@ -50,14 +50,13 @@ pub fn function(
     let nothing = |_: &Block| TokenStream::new();
     let [assembly, accelerations, forces] = [Phase::Assembly, Phase::Accelerations, Phase::Forces]
         .map(|phase| blocks(&writer, phase, nothing));
-    let n = mode.inputs.coordinates;
     let (rates, values) = (local("rates"), local("values"));
     let rates_of = mode.accelerations.iter().enumerate().map(|(j, place)| {
         let (j, value) = (index(j), writer.place(*place));
         quote!(#rates[#j] = #value;)
     });
     let of_rows = mode.forces.iter().enumerate().filter_map(|(r, place)| {
-        let (row, value) = (index(2 * n + r), writer.place((*place)?));
+        let (row, value) = (index(force_row(mode, r)), writer.place((*place)?));
         Some(quote!(#values[#row] = #value;))
     });
     let results = results(mode).into_iter().map(|(value, place)| {
@@ -90,7 +89,7 @@ pub fn function(
     let prologue = writer.prologue();
     let declarations = writer.declarations();
     let needs = names::needs(program.equations.needs.len());
-    let (count, rows) = (index(n), index(plan.rows));
+    let (count, rows) = (index(mode.inputs.coordinates), index(plan.rows));
     let bound = names::array(&rates, quote!(#rates.first_chunk_mut::<#count>()));
     let bound_values = names::array(&values, quote!(#values.first_chunk_mut::<#rows>()));
     let safe = local("safe");
@@ -128,11 +127,10 @@ pub fn function(
 
 /// What guards read beside the state and the forces, and in which row of a series it stands.
 fn kept(mode: &ModeProgram, plan: &Plan) -> BTreeMap<ValueRef, usize> {
-    let others = 2 * mode.inputs.coordinates + mode.forces.len() + 1;
     let extras = mode.extras.iter();
     extras
         .filter_map(|extra| Some((extra.place, plan.extra_row(mode, extra)?)))
-        .filter(|(_, row)| *row >= others)
+        .filter(|(_, row)| *row > zero_row(mode))
         .collect()
 }
 
