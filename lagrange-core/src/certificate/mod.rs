@@ -33,6 +33,9 @@ const FINEST: f64 = 1e-14;
 /// Bounds of rounding are this many units in the last place.
 const ROUNDINGS: f64 = 4096.0;
 
+/// Numbers that are smaller lose digits: what has decayed so far is zero.
+const UNDERFLOW: f64 = f64::MIN_POSITIVE / f64::EPSILON;
+
 /// What a check is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Subject {
@@ -257,7 +260,11 @@ impl Findings {
     fn book(&mut self, subject: Subject, error: f64, size: f64, time: f64, item: &'static str) {
         let check = &mut self.checks[subject as usize];
         check.count += 1;
-        let figure = if error <= 0.0 { 0.0 } else { error / size };
+        let figure = if error <= UNDERFLOW {
+            0.0
+        } else {
+            error / size
+        };
         // What is no number is worse than any number.
         let figure = if figure.is_nan() {
             f64::INFINITY

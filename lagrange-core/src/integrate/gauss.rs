@@ -206,11 +206,14 @@ impl<T: Scalar> Gauss<T> {
     ) -> Result<usize, StepError<A::Error>> {
         /// An iteration that needs more has a step that is far too large.
         const MAX_ITERATIONS: usize = 60;
-        /// Changes this small, relative to the accelerations, are allowed not to decrease any more: they are rounding.
+        /// Changes this small, relative to the accelerations, are allowed not to decrease any more: they are rounding. So are those
+        /// that velocities do not show, where forces balance.
         const ROUNDING: f64 = 1e-10;
         let n = self.coordinates;
         let h = T::from_f64(size);
         let mut previous = f64::INFINITY;
+        let speed = v.iter().fold(1.0_f64, |m, v| m.max(v.value().abs()));
+        let unseen = f64::EPSILON * speed / size;
         for iteration in 1..=MAX_ITERATIONS {
             let (mut change, mut scale) = (0.0f64, 0.0f64);
             for j in 0..STAGES {
@@ -238,7 +241,7 @@ impl<T: Scalar> Gauss<T> {
             if change == f64::INFINITY {
                 break;
             }
-            let settled = change >= previous && change <= ROUNDING * scale;
+            let settled = change >= previous && change <= (ROUNDING * scale).max(unseen);
             if change == 0.0 || settled {
                 return Ok(STAGES * iteration);
             }

@@ -13,6 +13,9 @@ use crate::system::{Restitution, ValueRef};
 /// Coefficients given by different formulas may differ by this share and still be meant as equal.
 const ROUNDING: f64 = 1e-9;
 
+/// A coefficient of friction that depends on the state is below zero from here on.
+const DECAYED: f64 = 1e-6;
+
 /// Weight of the constraints beside the mass matrix, relative.
 const WEIGHT: f64 = 1e6;
 
@@ -104,18 +107,20 @@ fn check_friction<T: Scalar>(dynamics: &Dynamics<T>, t: f64, f: usize) -> Result
         expected,
         fields: values_of(dynamics, parameters),
     };
+    // A coefficient that vanishes with the slip has the sign of its error where that has decayed.
+    let least = |place| if is_fixed(place) { 0.0 } else { -DECAYED };
     for (what, place, parameters) in [
         ("static friction", at_rest, rests),
         ("kinetic friction", sliding, slides),
     ] {
-        if counts(place) && number(place) < 0.0 {
+        if counts(place) && number(place) < least(place) {
             let expected = "at least 0".to_owned();
             return Err(refused(what, number(place), expected, parameters));
         }
     }
     // Where the coefficients depend on the slip it is those at rest that must agree.
     let comparable = is_fixed(at_rest) && is_fixed(sliding) || mode == FrictionMode::Stick;
-    if comparable && number(sliding) > (1.0 + ROUNDING) * number(at_rest) {
+    if comparable && number(sliding) > (1.0 + ROUNDING) * number(at_rest) - least(sliding) {
         let expected = format!("at most that of static friction, {}", number(at_rest));
         return Err(refused(
             "kinetic friction",

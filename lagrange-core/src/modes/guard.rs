@@ -144,6 +144,12 @@ pub fn guards_of_mode<T: Scalar>(
     }
 }
 
+/// Whether friction `f` cannot hold: its static coefficient is 0.
+pub fn fades<T: Scalar>(f: usize, dynamics: &Dynamics<T>) -> bool {
+    let place = dynamics.description().frictions[f].static_coefficient;
+    !matches!(place, ValueRef::Node(_)) && dynamics.motion(place).value() == 0.0
+}
+
 /// The guards of friction `f` while it sticks.
 pub fn stick_guards(f: usize, friction: &Friction) -> impl Iterator<Item = Guard> {
     let cone = friction.components > 1 || matches!(friction.normal, Normal::Constraint(_));

@@ -41,6 +41,8 @@ struct GuardPolynomial {
     stays: bool,
     /// Of its samples, the nearest to zero.
     least: f64,
+    /// What is added to the guard: that far it may fall below zero.
+    margin: f64,
 }
 
 /// The guards of a mode and what is watched beside, with their polynomials over a step.
@@ -111,6 +113,7 @@ impl GuardPolynomials {
                 },
                 stays: false,
                 least: 0.0,
+                margin: 0.0,
             });
         self.list.clear();
         self.list.extend(curves);
@@ -169,7 +172,32 @@ impl GuardPolynomials {
                     Sums::of(c)
                 }
             };
+            c[0] += curve.margin;
+            curve.sums.end += curve.margin;
             curve.stays = false;
+        }
+    }
+
+    /// Lets a guard of the mode fall below zero by `margin`, until [`Self::raise`] finds it clear of zero.
+    pub(super) fn lower(&mut self, guard: Guard, margin: f64) {
+        for curve in self.list.iter_mut().filter(|curve| curve.guard == guard) {
+            curve.margin = margin;
+        }
+    }
+
+    /// Whether a guard may fall below zero.
+    pub(super) fn is_lowered(&self, guard: Guard) -> bool {
+        let mut lowered = self.list.iter().filter(|curve| curve.margin > 0.0);
+        lowered.any(|curve| curve.guard == guard)
+    }
+
+    /// Takes the margin from guards that are clear of zero at part `end` of the step.
+    pub(super) fn raise(&mut self, end: f64) {
+        let coefficients = self.coefficients.chunks_exact(self.width.max(1));
+        for (curve, c) in self.list.iter_mut().zip(coefficients) {
+            if curve.margin > 0.0 && at(c, end) > 2.0 * curve.margin {
+                curve.margin = 0.0;
+            }
         }
     }
 
@@ -228,10 +256,12 @@ impl GuardPolynomials {
         dynamics: &Dynamics<T>,
     ) -> f64 {
         let reading = Reading::Values(dynamics);
-        match &self.list[index].linear {
+        let curve = &self.list[index];
+        let value = match &curve.linear {
             Some(linear) => linear.value(&reading),
-            None => redundant::value(self.list[index].guard, &self.composites, mode, &reading),
-        }
+            None => redundant::value(curve.guard, &self.composites, mode, &reading),
+        };
+        value + curve.margin
     }
 
     /// How far the polynomials are off at part `s` of the step, in units of what is allowed; `dynamics` holds the values of

@@ -24,7 +24,8 @@ pub(super) enum Hit {
     Nothing,
     /// Guards of the mode fall through zero (in [`Run::fallen`]) at this part of the step.
     Guards(f64),
-    /// A slip of two components has turned by a quarter within the step, which ends at this part of it.
+    /// A slip of two components has turned by a quarter within the step, which ends at this part of it; or one that fades has
+    /// passed zero by its error.
     Turned(f64),
     /// Stop `index` becomes true at this part of the step.
     Stop(usize, f64),
@@ -140,6 +141,7 @@ impl<T: Scalar> Run<T> {
             Hit::Nothing
         } else {
             self.tell_rest_from_turn(at);
+            self.tell_reversal_from_decay(at);
             if self.locator.fallen.is_empty() {
                 Hit::Turned(at)
             } else {

@@ -2,6 +2,7 @@
 
 mod accumulation;
 mod cause;
+mod fading;
 mod guard_polynomials;
 mod hits;
 mod instant;
@@ -221,11 +222,15 @@ impl<T: Scalar> Run<T> {
         self.switcher.restart();
         self.recorder.awaited.clone_from(&self.settings.last_events);
         (self.recorder.events_before, self.recorder.finished) = (0, false);
-        self.settle_start()
+        self.enter_start()?;
+        self.settle()?;
+        self.begin_sides();
+        self.recorder.finished |= self.has_seen_all();
+        Ok(())
     }
 
-    /// The mode in which the motion begins.
-    fn settle_start(&mut self) -> Result<(), Error> {
+    /// What the start is like, in the mode with every touching contact closed and every vanishing slip at rest.
+    fn enter_start(&mut self) -> Result<(), Error> {
         start::begin(
             &mut self.dynamics,
             self.now.t,
@@ -244,9 +249,6 @@ impl<T: Scalar> Run<T> {
         for &c in &self.switcher.status.below {
             self.now.below[c] = true;
         }
-        self.settle()?;
-        self.begin_sides();
-        self.recorder.finished |= self.has_seen_all();
         Ok(())
     }
 
@@ -299,6 +301,7 @@ impl<T: Scalar> Run<T> {
         self.log_marks(end);
         self.remember_sides(end);
         self.remember_regions(end);
+        self.locator.polynomials.raise(end);
         self.recorder.trajectory.push(&self.stepper.step, exact);
         self.recorder.trajectory.work.steps += 1;
         if end > 0.0 {

@@ -13,7 +13,7 @@ use crate::dynamics::approach;
 use crate::error::Error;
 use crate::mode::{Direction, FrictionMode, Sliding};
 use crate::modes::exact;
-use crate::modes::guard::Guard;
+use crate::modes::guard::{self, Guard};
 use crate::trajectory::State;
 
 /// A slip close to its rest is looked at from this part of the way.
@@ -147,6 +147,9 @@ impl<T: Scalar> Run<T> {
     /// Whether friction `f` comes to rest at part `end` of the step, or so soon after it that what still changes is below so
     /// many tolerances.
     fn rest(&mut self, f: usize, end: f64, allowed: f64) -> Option<Rest> {
+        if guard::fades(f, &self.dynamics) {
+            return None;
+        }
         let mut slips = [[0.0; 2]; 2];
         for (slip, s) in slips.iter_mut().zip([JUST_BEFORE * end, end]) {
             self.locator
@@ -227,7 +230,10 @@ impl<T: Scalar> Run<T> {
         self.dynamics.set_extra_needs(&self.switcher.status.needs);
         self.dynamics.tape(self.now.t, q, v);
         for f in 0..self.description().frictions.len() {
-            if !self.turns(f) || self.locator.fallen.contains(&Guard::Slip(f)) {
+            if !self.turns(f)
+                || self.locator.fallen.contains(&Guard::Slip(f))
+                || guard::fades(f, &self.dynamics)
+            {
                 continue;
             }
             let slip = self.dynamics.slip(f).map(|s| s.value());

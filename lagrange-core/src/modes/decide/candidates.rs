@@ -5,13 +5,13 @@ use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, OutputMask};
 use crate::effects::Item;
 use crate::mode::{Direction, FrictionMode, Mode, Sliding};
-use crate::modes::guard::Guard;
+use crate::modes::guard::{self, Guard};
 use crate::pool::Pool;
 use crate::system::{Description, Normal};
 
 /// More candidates than this are not enumerated: some five contacts with friction, or eight without, that may change at
 /// once. Beyond, [`pivot`](super::pivot) finds a mode without looking at all.
-const MOST_CANDIDATES: usize = 256;
+pub const MOST_CANDIDATES: usize = 256;
 
 /// Of one friction: stick, and two slips under each of two bearings.
 const MOST_STATES: usize = 5;
@@ -234,7 +234,11 @@ impl<T: Scalar> Choices<'_, T> {
                 put(FrictionMode::Slip(sliding));
             }
         } else if self.here.facts.resting[f] {
-            put(FrictionMode::Stick);
+            // What cannot hold does not bring a slip to rest.
+            let slips = slip_sign(f, self.here).is_some();
+            if !(slips && guard::fades(f, self.dynamics)) {
+                put(FrictionMode::Stick);
+            }
             for &bearing in bearings {
                 put(slide(1.0, bearing));
                 put(slide(-1.0, bearing));

@@ -22,8 +22,8 @@ impl Elaboration<'_> {
                 .as_ref()
                 .map(|on| this.item(on, &[Kind::Contact, Kind::Constraint]));
             let slip = this.slip(&declared.slip, &name.text);
-            let (given, static_coefficient, kinetic_coefficient) = this.law(&declared.law)?;
-            this.sensible(&declared.law, static_coefficient, kinetic_coefficient)?;
+            let (given, at_rest, sliding) = this.law(&declared.law)?;
+            this.sensible(&declared.law, at_rest, sliding)?;
             let normal = match (on, given) {
                 (Some(on), _) => match on? {
                     (Kind::Contact, contact) => Normal::Contact(contact),
@@ -31,9 +31,12 @@ impl Elaboration<'_> {
                 },
                 (None, given) => Normal::Given(given?),
             };
+            let slip = slip?;
+            let [static_coefficient, kinetic_coefficient] =
+                [at_rest, sliding].map(|e| this.of_slip_speed(e, &slip, &declared.slip));
             this.system.frictions.push(Friction {
                 name,
-                slip: slip?,
+                slip,
                 normal,
                 static_coefficient,
                 kinetic_coefficient,
@@ -107,6 +110,22 @@ impl Elaboration<'_> {
             return None;
         }
         Some(())
+    }
+
+    /// A coefficient in which √(s²) is |s| for the one slip component s: at rest the root has no Taylor series.
+    fn of_slip_speed(&mut self, e: ExprId, slip: &[(ExprId, Symbol)], declared: &Expr) -> ExprId {
+        let &[(s, _)] = slip else {
+            return e;
+        };
+        let pool = &mut self.system.pool;
+        let square = pool.mul(s, s);
+        let mark = pool.integer(1);
+        if pool.extract_root(e, square, mark) == e {
+            return e;
+        }
+        let text = format!("abs({declared})");
+        let speed = self.absolute(s, &text, declared.extent);
+        self.system.pool.extract_root(e, square, speed)
     }
 
     /// One or two slip components with the symbols of the forces along them.

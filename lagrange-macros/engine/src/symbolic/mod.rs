@@ -17,6 +17,7 @@ mod function;
 mod group;
 mod hash;
 mod linear;
+mod magnitude;
 mod node;
 mod operations;
 mod pool;

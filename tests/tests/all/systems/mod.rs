@@ -15,6 +15,7 @@ mod cradle;
 mod crowd;
 mod cue_ball;
 mod damped;
+mod fading;
 mod groove;
 mod held;
 mod hoop;
