@@ -56,6 +56,7 @@ pub struct Functions<T: Scalar> {
     pub(crate) land: fn(&mut Run<T>, &mut Record<T>),
     pub(crate) set_system: fn(&mut Run<T>, Erased<T>),
     pub(crate) consistent: Consistent<T>,
+    pub(crate) feasible_modes: Feasible<T>,
     pub(crate) sampler: fn(&Record<T>) -> Sampler<'_, T>,
     pub(crate) at: fn(&mut Sampler<'_, T>, f64) -> Result<Instant<T>, Error>,
     pub(crate) ledgers: Book<T>,
@@ -72,6 +73,7 @@ type Execute<T> = fn(
     usize,
     &mut dyn FnMut(&Record<T>),
 ) -> Result<(), Error>;
+type Feasible<T> = fn(&mut Run<T>, f64, &State<T>) -> Result<Vec<Instant<T>>, Error>;
 type Book<T> = fn(&Record<T>, Option<&[f64]>) -> Result<Vec<Ledger>, Error>;
 type Consistent<T> =
     fn(&mut Run<T>, f64, &State<T>, &State<T>, &FixedComponents) -> Result<State<T>, Error>;
@@ -86,6 +88,7 @@ impl<T: Scalar> Functions<T> {
         land: Run::land,
         set_system: Run::set_system,
         consistent: Run::consistent,
+        feasible_modes: Run::feasible_modes,
         sampler: |record| Sampler::new(record),
         at: |sampler, t| sampler.evaluate_at(t),
         ledgers: Record::book,

@@ -3,6 +3,7 @@
 mod accumulation;
 mod cause;
 mod fading;
+mod feasible;
 mod guard_polynomials;
 mod hits;
 mod instant;

@@ -119,14 +119,7 @@ impl<T: Scalar> Run<T> {
     }
 
     fn settle_knowing(&mut self, facts: &mut SwitchFacts) -> Result<(), Error> {
-        if !self.now.valued {
-            self.evaluate()?;
-        }
-        self.remember_before();
-        let hit = facts.arriving.contains(&true) && self.hit(facts)?;
-        if !hit {
-            self.rest_where_slip_vanishes(facts)?;
-        }
+        let hit = self.meet(facts)?;
         let here = SwitchContext {
             moment: EvaluationPoint {
                 t: self.now.t,
@@ -176,6 +169,19 @@ impl<T: Scalar> Run<T> {
         self.log_changes(impulses, self.switcher.decider.decision.ambiguous);
         self.switcher.collider.outcome = outcome;
         self.stops_of_the_mode()
+    }
+
+    /// The forces just before, and the impact if something is hit; whether one was.
+    pub(super) fn meet(&mut self, facts: &mut SwitchFacts) -> Result<bool, Error> {
+        if !self.now.valued {
+            self.evaluate()?;
+        }
+        self.remember_before();
+        let hit = facts.arriving.contains(&true) && self.hit(facts)?;
+        if !hit {
+            self.rest_where_slip_vanishes(facts)?;
+        }
+        Ok(hit)
     }
 
     /// The impact of the contacts whose gaps close, if there is one.

@@ -19,7 +19,7 @@ use crate::monitor::Monitor;
 use crate::precompiled::Runnable;
 use crate::settings::{Goal, Settings};
 use crate::system::{Impacts, System};
-use crate::trajectory::{State, Trajectory};
+use crate::trajectory::{Instant, State, Trajectory};
 use core::fmt;
 use core::ops::Range;
 
@@ -220,6 +220,22 @@ impl<'a, S: System<Scalar: Runnable>> Simulation<'a, S> {
         held: &FixedComponents,
     ) -> Result<State<S::Scalar>, Error> {
         self.runner().consistent(time, reference, wanted, held)
+    }
+
+    /// All modes in which the motion can go on from a state, with their accelerations and forces, the one that a run takes first;
+    /// of modes with the same accelerations one. Where contacts are hit in this state, velocities and modes are those after the impact.
+    ///
+    /// A rod that leans and slides on its tip may stay or fly off (Painlevé 1895): then there are two.
+    ///
+    /// # Errors
+    /// [`Error::NoMode`] if there is none, [`Error::Limit`] if more than 256 candidates would have to be tried, and what a run
+    /// refuses in a start.
+    pub fn feasible_modes(
+        &self,
+        time: f64,
+        state: &State<S::Scalar>,
+    ) -> Result<Vec<Instant<S::Scalar>>, Error> {
+        self.runner().feasible_modes(time, state)
     }
 }
 

@@ -7,7 +7,7 @@ use crate::run::lockstep::Member;
 use crate::settings::{Goal, Settings};
 use crate::state::FixedComponents;
 use crate::system::System;
-use crate::trajectory::{Record, State, Trajectory};
+use crate::trajectory::{Instant, Record, State, Trajectory};
 use core::ops::Range;
 
 /// Runs one system again and again: what a run works with is made once, and the trajectory is written into the same memory.
@@ -131,6 +131,18 @@ impl<S: System<Scalar: Runnable>> Runner<S> {
         held: &FixedComponents,
     ) -> Result<State<S::Scalar>, Error> {
         (S::Scalar::functions().consistent)(&mut self.run, time, reference, wanted, held)
+    }
+
+    /// As [`Simulation::feasible_modes`](crate::Simulation::feasible_modes).
+    ///
+    /// # Errors
+    /// As there.
+    pub fn feasible_modes(
+        &mut self,
+        time: f64,
+        state: &State<S::Scalar>,
+    ) -> Result<Vec<Instant<S::Scalar>>, Error> {
+        (S::Scalar::functions().feasible_modes)(&mut self.run, time, state)
     }
 
     /// The trajectory of the last run.

@@ -26,7 +26,7 @@ use crate::modes::redundant::{CompositeGuard, RedundantForces};
 use crate::modes::scale::Sizes;
 use crate::modes::table::Table;
 use crate::system::Description;
-use candidates::{Candidates, Listings};
+use candidates::{Candidates, Listings, MOST_CANDIDATES};
 pub use facts::{EvaluationPoint, SwitchContext, SwitchFacts};
 use incipient::Beginning;
 
@@ -143,13 +143,63 @@ impl<T: Scalar> Decider<T> {
                 dynamics.set_mode(&self.best);
                 Ok(())
             }
-            Ok(false) => Err(Error::NoMode {
-                time,
-                mode: here.present.display(d).to_string(),
-                item: concerned(d, here.facts, here.present),
-                tried: self.tried,
-            }),
+            Ok(false) => Err(self.no_mode(here, d)),
             Err(error) => Err(Error::from_evaluation(error, time, dynamics.mode(), d)),
+        }
+    }
+
+    /// All modes in which the motion can go on, the preferred ones first; without those that accelerate as one before them.
+    ///
+    /// # Errors
+    /// [`Error::NoMode`] if there is none, [`Error::Limit`] if there are too many candidates.
+    pub fn feasible(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        table: &mut Table,
+        here: SwitchContext<'_, T>,
+    ) -> Result<Vec<Mode>, Error> {
+        let d = dynamics.description();
+        let time = here.moment.t.value();
+        let mut listings = core::mem::take(&mut self.listings);
+        self.sized = false;
+        let listed = listings.list(dynamics, here, &self.rows, &mut self.decision.mode);
+        let Some(candidates) = listed else {
+            return Err(Error::Limit {
+                time,
+                what: "modes to be tried",
+                limit: MOST_CANDIDATES,
+            });
+        };
+        let (mut feasible, mut failure) = (Vec::new(), None);
+        let mut motions: Vec<Vec<f64>> = Vec::new();
+        self.tried = candidates.iter().count();
+        for mode in candidates.iter() {
+            match self.examine(dynamics, table, here, mode) {
+                Ok(true) => {
+                    let motion = dynamics.acceleration();
+                    if motions.iter().all(|other| differ(other, motion)) {
+                        motions.push(motion.iter().map(|a| a.value()).collect());
+                        feasible.push(self.posed.clone());
+                    }
+                }
+                Ok(false) => {}
+                Err(error) => failure = Some(Error::from_evaluation(error, time, mode, d)),
+            }
+        }
+        self.listings = listings;
+        match (feasible.is_empty(), failure) {
+            (true, Some(error)) => Err(error),
+            (true, None) => Err(self.no_mode(here, d)),
+            (false, _) => Ok(feasible),
+        }
+    }
+
+    fn no_mode(&self, here: SwitchContext<'_, T>, d: &'static Description) -> Error {
+        Error::NoMode {
+            time: here.moment.t.value(),
+            mode: here.present.display(d).to_string(),
+            item: concerned(d, here.facts, here.present),
+            tried: self.tried,
         }
     }
 

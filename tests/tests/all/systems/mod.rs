@@ -16,6 +16,7 @@ mod crowd;
 mod cue_ball;
 mod damped;
 mod fading;
+mod feasible;
 mod groove;
 mod held;
 mod hoop;

@@ -1,0 +1,56 @@
+//! All modes in which a state can go on, with their forces.
+
+use super::{Progress, Run};
+use crate::arithmetic::Scalar;
+use crate::error::Error;
+use crate::modes::decide::{EvaluationPoint, SwitchContext};
+use crate::state::State;
+use crate::trajectory::{Instant, instant, report_everything};
+
+impl<T: Scalar> Run<T> {
+    /// See [`crate::Simulation::feasible_modes`].
+    pub(crate) fn feasible_modes(
+        &mut self,
+        time: f64,
+        state: &State<T>,
+    ) -> Result<Vec<Instant<T>>, Error> {
+        let system = self.dynamics.system();
+        self.settings.check(&**system, state, &(time..time))?;
+        self.now.t = T::from_f64(time);
+        self.now.state.clone_from(state);
+        self.dynamics.restart();
+        self.enter_start()?;
+        let mut known = core::mem::take(&mut self.switcher.status.known);
+        self.meet(&mut known)?;
+        let here = SwitchContext {
+            moment: EvaluationPoint {
+                t: self.now.t,
+                q: &self.now.state.q,
+                v: &self.now.state.v,
+                order: self.stepper.order,
+                tolerance: self.settings.tolerance,
+            },
+            present: &self.now.mode,
+            known: &known,
+        };
+        let modes =
+            self.switcher
+                .decider
+                .feasible(&mut self.dynamics, &mut self.switcher.table, here)?;
+        self.switcher.status.known = known;
+        self.now.series = Progress::None;
+        report_everything(&mut self.dynamics);
+        let instants = modes.iter().map(|mode| {
+            self.dynamics.set_mode(mode);
+            self.dynamics.set_extra_needs(&self.switcher.status.needs);
+            let State { q, v } = &self.now.state;
+            let outcome = self.dynamics.value(self.now.t, q, v);
+            outcome.map_err(|e| self.error(e))?;
+            let (dynamics, redundant) = (&mut self.dynamics, &mut self.switcher.redundant);
+            Ok(instant(dynamics, redundant, self.now.t, &self.now.state))
+        });
+        let instants = instants.collect();
+        self.watch();
+        instants
+    }
+}
