@@ -15,6 +15,7 @@ mod cradle;
 mod crowd;
 mod cue_ball;
 mod damped;
+mod dead_points;
 mod fading;
 mod feasible;
 mod groove;
