@@ -20,8 +20,8 @@ impl<T: Scalar> Run<T> {
         self.now.state.clone_from(state);
         self.dynamics.restart();
         self.enter_start()?;
-        let mut known = core::mem::take(&mut self.switcher.status.known);
-        self.meet(&mut known)?;
+        let mut facts = core::mem::take(&mut self.switcher.status.facts);
+        self.meet(&mut facts)?;
         let here = SwitchContext {
             moment: EvaluationPoint {
                 t: self.now.t,
@@ -31,13 +31,13 @@ impl<T: Scalar> Run<T> {
                 tolerance: self.settings.tolerance,
             },
             present: &self.now.mode,
-            known: &known,
+            facts: &facts,
         };
         let modes =
             self.switcher
                 .decider
                 .feasible(&mut self.dynamics, &mut self.switcher.table, here)?;
-        self.switcher.status.known = known;
+        self.switcher.status.facts = facts;
         self.now.series = Progress::None;
         report_everything(&mut self.dynamics);
         let instants = modes.iter().map(|mode| {
