@@ -6,4 +6,4 @@
     contact(floor: y >= 0),
 )]
 struct S { mass: f64, gravity: f64, length: f64 }
-//~ 5:34 E406 `floor` is a contact, whose force is not known here; a force item may contain contacts and constraints; every output may contain all
+//~ 5:34 E406 `floor` is a contact, whose force is not known here; `force`, `dissipation` and a `define` for them may contain contacts and constraints; every output may contain all

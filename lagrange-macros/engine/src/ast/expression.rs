@@ -28,6 +28,33 @@ impl Expr {
             element,
         })
     }
+
+    /// The names that an expression uses, in order.
+    pub fn names_into<'a>(&'a self, names: &mut Vec<&'a str>) {
+        match &self.kind {
+            ExprKind::Number(_) => {}
+            ExprKind::Name(name) => names.push(&name.text),
+            ExprKind::Sum(terms) => terms.iter().for_each(|(_, term)| term.names_into(names)),
+            ExprKind::Product(factors) => factors
+                .iter()
+                .for_each(|(_, factor)| factor.names_into(names)),
+            ExprKind::Negative(inner)
+            | ExprKind::SumOver(_, inner)
+            | ExprKind::ListOver(_, inner) => inner.names_into(names),
+            ExprKind::Member(inner, _) | ExprKind::Element(inner, _) => inner.names_into(names),
+            ExprKind::Power(base, exponent) => [base, exponent]
+                .into_iter()
+                .for_each(|part| part.names_into(names)),
+            ExprKind::Call(_, parts) | ExprKind::List(parts) => {
+                parts.iter().for_each(|part| part.names_into(names));
+            }
+            ExprKind::If(condition, then, otherwise) => {
+                for part in [&condition.left, &condition.right, then, otherwise] {
+                    part.names_into(names);
+                }
+            }
+        }
+    }
 }
 
 /// digits · 10^exponent

@@ -35,6 +35,35 @@ pub struct Declaration {
     pub items: Vec<Item>,
     /// `crate = path`.
     pub core: Option<TokenStream>,
+    /// Where it stands.
+    pub home: Home,
+}
+
+/// Where a declaration stands, which decides how a parameter is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Home {
+    /// On a struct, whose fields are the parameters.
+    Struct,
+    /// In a text file.
+    File,
+}
+
+impl Home {
+    /// How a parameter is declared with this unit: `a field with …`.
+    pub fn with_unit(self, unit: &str) -> String {
+        match self {
+            Home::Struct => format!("a field with `#[lagrange(unit = \"{unit}\")]`"),
+            Home::File => format!("a parameter, `parameters(name: \"{unit}\" = …)`"),
+        }
+    }
+
+    /// What a parameter is.
+    pub fn parameter(self) -> &'static str {
+        match self {
+            Home::Struct => "a parameter (a field of the struct)",
+            Home::File => "a parameter, `parameters(name = 1)`",
+        }
+    }
 }
 
 /// A field of the struct.

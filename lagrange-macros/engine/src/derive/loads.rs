@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! force         Q = Q₀(q,v,t) + Σ (∂Q/∂λ) λ        linear in the multipliers it names: ∂Q/∂λ goes to the matrix
-//! dissipation   Q = −∂R/∂v                          (Goldstein, Poole & Safko 2002, section 1.5)
+//! dissipation   Q = −∂R/∂v, also linear in multipliers (Goldstein, Poole & Safko 2002, section 1.5)
 //! power         Q·v
 //! ```
 
@@ -40,12 +40,27 @@ pub(super) fn loads(sheet: &mut Sheet) -> Loads {
 }
 
 fn force(sheet: &mut Sheet, index: usize, loads: &mut Loads) {
-    let multipliers = sheet.system.multipliers();
     let [need, report_need] = sheet.needs.forces[index];
     let force = &sheet.system.forces[index];
     let (name, value) = (force.name.text.clone(), force.value);
     let generalized = force.generalized.clone();
-    for &(coordinate, q) in &generalized {
+    act(sheet, &name, need, &generalized, loads);
+    let power = sheet.x.along_velocity(&mut sheet.system.pool, &generalized);
+    loads
+        .forces
+        .push(report(sheet, &name, [need, report_need], value, power));
+}
+
+/// Generalized forces → the forcing without multipliers, and a coupling for each multiplier.
+fn act(
+    sheet: &mut Sheet,
+    name: &str,
+    need: NeedId,
+    generalized: &[(usize, ExprId)],
+    loads: &mut Loads,
+) {
+    let multipliers = sheet.system.multipliers();
+    for &(coordinate, q) in generalized {
         let pool = &mut sheet.system.pool;
         let present = pool.symbols(q);
         let named: Vec<(usize, Symbol)> = multipliers
@@ -77,10 +92,6 @@ fn force(sheet: &mut Sheet, index: usize, loads: &mut Loads) {
             });
         }
     }
-    let power = sheet.x.along_velocity(&mut sheet.system.pool, &generalized);
-    loads
-        .forces
-        .push(report(sheet, &name, [need, report_need], value, power));
 }
 
 fn dissipation(sheet: &mut Sheet, index: usize, loads: &mut Loads) {
@@ -94,10 +105,8 @@ fn dissipation(sheet: &mut Sheet, index: usize, loads: &mut Loads) {
         let q = pool.neg(slope);
         generalized.push((i, pool.simplify(q)));
     }
-    loads
-        .forcing
-        .extend(generalized.iter().map(|&(i, q)| (i, need, q)));
-    let power = x.along_velocity(pool, &generalized);
+    act(sheet, &name, need, &generalized, loads);
+    let power = sheet.x.along_velocity(&mut sheet.system.pool, &generalized);
     loads
         .dissipations
         .push(report(sheet, &name, [need, report_need], rayleigh, power));

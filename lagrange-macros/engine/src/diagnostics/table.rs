@@ -103,7 +103,7 @@ table! {
     CoordinateHere "E403" "{0} depends on parameters and t only, and `{1}` depends on the motion" "{2}";
     HigherDerivative "E404" "the derivative of an acceleration or force is not available" "";
     OutputOnly "E405" "`{0}` has a value after the equations are solved" "use it in `observe`, `stop`, `mark` or `check`";
-    ForceHere "E406" "`{0}` is a {1}, whose force is not known here" "a force item may contain contacts and constraints; every output may contain all";
+    ForceHere "E406" "`{0}` is a {1}, whose force is not known here" "`force`, `dissipation` and a `define` for them may contain contacts and constraints; every output may contain all";
     ConditionHere "E407" "`{0}(…)` is a condition, not a value" "use it in `stop` or `mark`, or behind `when` in a `check`, joined by `and`";
 
     NoCoordinates "E501" "no coordinates are declared" "add `coordinates(x, …)`";

@@ -29,7 +29,10 @@ pub fn declared(declaration: &Declaration) -> Declared {
     elaboration.read_all(declaration);
     match drawn(declaration).next() {
         Some(_) => elaboration.draws(declaration),
-        None => elaboration.seen(),
+        None => {
+            elaboration.units(declaration);
+            elaboration.seen();
+        }
     }
     let rates = elaboration.rates.take().unwrap_or_default();
     Declared {

@@ -6,7 +6,7 @@ use super::names::{Kind, Meaning, Names};
 use super::reach::{Context, Depth, Reach};
 use super::value::Value;
 use super::{ItemName, System};
-use crate::ast::{Declaration, Expr, Head, Item, ItemKind, Name};
+use crate::ast::{Declaration, Expr, Head, Home, Item, ItemKind, Name};
 use crate::diagnostics::{Code, Diagnostics};
 use crate::symbolic::{ExprId, Pool, Symbol};
 use proc_macro2::Span;
@@ -39,6 +39,8 @@ pub(super) struct Elaboration<'a> {
     pub overflowed: bool,
     /// Elements that arrays, sums and indexed items have been unrolled to.
     pub unrolled: i64,
+    /// Where the declaration stands, for messages.
+    pub home: Home,
 }
 
 /// A definition or output.
@@ -57,6 +59,7 @@ pub struct Scope {
     definitions: Vec<Pending>,
     coordinate_names: BTreeMap<String, (usize, Option<usize>)>,
     bodies: BTreeMap<String, usize>,
+    home: Home,
 }
 
 /// Resolves all names of a declaration; mistakes go to the sink.
@@ -133,6 +136,7 @@ impl<'a> Elaboration<'a> {
             dropped: false,
             overflowed: false,
             unrolled: 0,
+            home: declaration.home,
         }
     }
 
@@ -148,10 +152,13 @@ impl<'a> Elaboration<'a> {
                 .filter(|(_, accepted)| **accepted)
                 .map(|(item, _)| item)
         };
-        self.definitions_all();
+        self.definitions_all(|this, definition| !this.has_force(definition));
         for pass in Pass::ALL {
             for item in items() {
                 self.read(item, pass);
+            }
+            if pass == Pass::Forces {
+                self.definitions_all(|_, _| true);
             }
         }
     }
@@ -173,6 +180,7 @@ impl<'a> Elaboration<'a> {
             bodies: scope.bodies,
             dropped: false,
             unrolled: 0,
+            home: scope.home,
         }
     }
 
@@ -185,6 +193,7 @@ impl<'a> Elaboration<'a> {
             definitions: self.definitions,
             coordinate_names: self.coordinate_names,
             bodies: self.bodies,
+            home: self.home,
         };
         (self.system, scope)
     }
@@ -300,14 +309,36 @@ impl<'a> Elaboration<'a> {
         self.settle(&head.name.text, meaning);
     }
 
-    /// Evaluates every definition that nothing has used, so that its mistakes are found.
-    fn definitions_all(&mut self) {
+    /// Whether a definition names something that has a force, itself or by another definition.
+    fn has_force(&self, definition: usize) -> bool {
+        let mut seen = vec![false; self.definitions.len()];
+        let mut next = vec![definition];
+        while let Some(definition) = next.pop() {
+            if std::mem::replace(&mut seen[definition], true) {
+                continue;
+            }
+            let mut names = Vec::new();
+            self.definitions[definition].value.names_into(&mut names);
+            for entry in names.into_iter().filter_map(|name| self.names.get(name)) {
+                match entry.meaning {
+                    Meaning::Pending(other) => next.push(other),
+                    Meaning::Item { .. } if entry.kind.has_force() => return true,
+                    _ => {}
+                }
+            }
+        }
+        false
+    }
+
+    /// Evaluates every definition of a kind that nothing has used, so that its mistakes are found.
+    fn definitions_all(&mut self, of_kind: impl Fn(&Self, usize) -> bool) {
         for definition in 0..self.definitions.len() {
             let pending = &self.definitions[definition];
             let entry = self.names.get(&pending.head.name.text);
             let is_pending =
                 entry.is_some_and(|entry| matches!(entry.meaning, Meaning::Pending(_)));
-            if is_pending && pending.context.reach == Reach::Definition {
+            let defines = pending.context.reach == Reach::Definition;
+            if is_pending && defines && of_kind(self, definition) {
                 self.define(definition);
             }
         }

@@ -12,7 +12,7 @@ use crate::symbolic::{ExprId, Symbol};
 const FORCE: Context = Context::new(Reach::Loads, "a force");
 const POINT: Context = Context::new(Reach::Positions, "a point");
 const SPEED: Context = Context::new(Reach::Motion, "a velocity");
-const DISSIPATION: Context = Context::new(Reach::Motion, "a dissipation");
+const DISSIPATION: Context = Context::new(Reach::Loads, "a dissipation");
 
 impl Elaboration<'_> {
     pub fn force(&mut self, declared: &ast::Force) {
@@ -34,7 +34,8 @@ impl Elaboration<'_> {
                     norm(&mut this.system.pool, &f)
                 }
             };
-            this.linear_in_forces(&generalized, at)?;
+            let along: Vec<ExprId> = generalized.iter().map(|&(_, q)| q).collect();
+            this.linear_in_forces(&along, at)?;
             let force = this.symbol(&name.text, Depth::Force);
             this.system.forces.push(Force {
                 name,
@@ -117,7 +118,7 @@ impl Elaboration<'_> {
         generalized
     }
 
-    fn linear_in_forces(&mut self, generalized: &[(usize, ExprId)], at: Extent) -> Option<()> {
+    fn linear_in_forces(&mut self, components: &[ExprId], at: Extent) -> Option<()> {
         let constraints = self
             .system
             .constraints
@@ -130,7 +131,7 @@ impl Elaboration<'_> {
             .map(|contact| contact.force)
             .chain(constraints)
             .collect();
-        for &(_, component) in generalized {
+        for &component in components {
             if let Some(force) = self.nonlinear_in(component, &forces) {
                 let force = self.system.pool.name(force).to_string();
                 self.sink.report(Code::ForceNotLinear, at, &[&force]);
@@ -143,7 +144,9 @@ impl Elaboration<'_> {
     pub fn dissipation(&mut self, declared: &ast::Dissipation) {
         self.each(&declared.head, |this, name| {
             let rayleigh = this.scalar(&declared.value, DISSIPATION)?;
-            if this.depth(&[rayleigh]) < Depth::Velocity {
+            let symbols = this.system.pool.symbols(rayleigh);
+            let is_velocity = |symbol: &Symbol| this.depths[symbol.index()] == Depth::Velocity;
+            if !symbols.iter().any(is_velocity) {
                 let hint = "a dissipation is half a power: `c/2 * der(x)^2`";
                 let at = declared.value.extent;
                 this.sink.report(
@@ -153,6 +156,7 @@ impl Elaboration<'_> {
                 );
                 return None;
             }
+            this.linear_in_forces(&[rayleigh], declared.value.extent)?;
             this.system
                 .dissipations
                 .push(Dissipation { name, rayleigh });
@@ -162,13 +166,10 @@ impl Elaboration<'_> {
 
     /// Whether an item's name may stand for its force here.
     pub fn admit_item(&mut self, name: &Name, kind: Kind, context: Context) -> Option<()> {
-        let in_load =
-            context.reach == Reach::Loads && matches!(kind, Kind::Contact | Kind::Constraint);
-        let has_force = matches!(
-            kind,
-            Kind::Contact | Kind::Constraint | Kind::Friction | Kind::Force
-        );
-        if !has_force {
+        // Where a definition is used decides whether a force may stand there.
+        let in_load = matches!(context.reach, Reach::Loads | Reach::Definition)
+            && matches!(kind, Kind::Contact | Kind::Constraint);
+        if !kind.has_force() {
             let hint = "its name is for the run and its report; write the expression itself, or a `define`";
             self.sink
                 .report(Code::Unusable, name, &[&name.text, &kind.text(), &hint]);

@@ -67,6 +67,12 @@ impl Elaboration<'_> {
             }
             Meaning::Item { elements, lower } => {
                 self.admit_item(name, kind, context)?;
+                if elements.is_empty() {
+                    // A definition is needed before the item.
+                    self.sink
+                        .report(Code::ForceHere, name, &[&name.text, &kind.text()]);
+                    return None;
+                }
                 let mut values: Vec<Value> = elements
                     .into_iter()
                     .map(|element| self.force_of(kind, element))

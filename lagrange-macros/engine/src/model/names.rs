@@ -79,6 +79,14 @@ impl Kind {
 }
 
 impl Kind {
+    /// Whether its name can stand for a force.
+    pub fn has_force(self) -> bool {
+        matches!(
+            self,
+            Kind::Contact | Kind::Constraint | Kind::Friction | Kind::Force
+        )
+    }
+
     /// Whether its name becomes a constant of the struct. An output whose constant is taken goes without.
     fn has_handle(self) -> bool {
         !matches!(self, Kind::Field | Kind::Definition | Kind::Output)
@@ -222,8 +230,8 @@ impl Elaboration<'_> {
         match nearest(text, names) {
             Some(known) => format!("did you mean `{known}`?"),
             None => {
-                "declare it as a parameter (a field of the struct), a coordinate, or with `define`"
-                    .to_string()
+                let parameter = self.home.parameter();
+                format!("declare it as {parameter}, a coordinate, or with `define`")
             }
         }
     }

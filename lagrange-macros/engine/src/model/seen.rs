@@ -1,7 +1,7 @@
 //! What a picture shows where a declaration draws nothing: what its names and forces say of places.
 //!
-//! Names that differ in one letter, `x` and `y`, `bob_x` and `bob_y`, `x1` and `y1`, are the coordinates of a point. Where one of them is
-//! `z` the picture is in space. A contact whose gap is the height of a point over a level gives a floor.
+//! A vector of `observe` that is a length is a point, and names that differ in one letter, `x` and `y`, `bob_x` and `bob_y`, `x1` and `y1`, are
+//! the coordinates of one. Where one of them is `z`, or the vector has three, the picture is in space. A contact whose gap is the height of a point over a level gives a floor.
 
 use super::draws::{Draw, MOST_PLACES, placed_force};
 use super::elaborate::Elaboration;
@@ -60,7 +60,7 @@ impl Elaboration<'_> {
 
     /// Points of two or three coordinates.
     fn points(&self, components: usize) -> Vec<Vec<ExprId>> {
-        let mut points = Vec::new();
+        let mut points = self.observed(components);
         for name in self.names.keys() {
             for (at, _) in name.match_indices('x') {
                 let letters = ["x", "y", "z"].iter().take(components);
@@ -79,6 +79,27 @@ impl Elaboration<'_> {
             }
         }
         points
+    }
+
+    /// Vectors of `observe` with so many components that are places.
+    fn observed(&self, components: usize) -> Vec<Vec<ExprId>> {
+        let observes = &self.system.observes;
+        let named = |name: &str| observes.iter().position(|o| o.name.text == name);
+        let is_length = |&i: &usize| match self.system.units.observes.get(i) {
+            Some(unit) => unit == "m",
+            None => true,
+        };
+        let first = observes.iter();
+        let vectors = first.filter_map(|o| o.name.text.strip_suffix("[0]"));
+        let places = vectors.filter_map(|vector| {
+            let element = |k: usize| named(&format!("{vector}[{k}]"));
+            let elements: Option<Vec<usize>> = (0..components).map(element).collect();
+            let elements = elements.filter(|_| element(components).is_none())?;
+            let values: Vec<ExprId> = elements.iter().map(|&i| observes[i].value).collect();
+            let places = self.depth(&values) == Depth::Position;
+            (places && elements.iter().all(is_length)).then_some(values)
+        });
+        places.collect()
     }
 
     /// The values of a name that depends on positions.

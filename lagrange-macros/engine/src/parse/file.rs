@@ -11,7 +11,7 @@
 use super::cursor::{Cursor, DEEPEST};
 use super::item::{self, Items, Parameters, attributes};
 use super::structure;
-use crate::ast::{Declaration, Expr, Field};
+use crate::ast::{Declaration, Expr, Field, Home};
 use crate::diagnostics::{Code, Diagnostics, Extent};
 use core::ops::Range;
 use proc_macro2::{Ident, Span, TokenStream, TokenTree};
@@ -88,6 +88,7 @@ pub fn file(text: &str, name: &str, sink: &mut Diagnostics) -> Option<File> {
             fields,
             items: read.items,
             core: read.core,
+            home: Home::File,
         },
         defaults,
         until,

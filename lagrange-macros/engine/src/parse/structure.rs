@@ -2,7 +2,7 @@
 
 use super::cursor::Cursor;
 use super::item;
-use crate::ast::{Declaration, Domain, Field, Name, Unit};
+use crate::ast::{Declaration, Domain, Field, Home, Name, Unit};
 use crate::diagnostics::{Code, Diagnostics, Extent};
 use proc_macro2::{Ident, TokenStream};
 use syn::spanned::Spanned;
@@ -40,6 +40,7 @@ pub(super) fn declaration(input: TokenStream, sink: &mut Diagnostics) -> Option<
         fields,
         items,
         core,
+        home: Home::Struct,
     })
 }
 

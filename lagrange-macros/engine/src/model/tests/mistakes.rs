@@ -78,7 +78,23 @@ fn mistakes_point_at_their_token() {
         ("potential = energy", "2:13 E405"),
         ("contact(c: x >= 0), potential = gap(c)", "2:33 E405"),
         ("contact(c: x >= 0), potential = c", "2:33 E406"),
-        ("contact(c: x >= 0), dissipation(d: c*der(x))", "2:36 E406"),
+        ("contact(c: x >= 0), dissipation(d: c*a)", "2:36 E506"),
+        (
+            "contact(c: x >= 0), dissipation(d: c^2*der(x))",
+            "2:36 E509",
+        ),
+        (
+            "contact(c: x >= 0), define(p = 2*c), potential = p",
+            "2:34 E406",
+        ),
+        (
+            "contact(c: x >= 0), define(p = c^2), force(f: x = p)",
+            "2:51 E509",
+        ),
+        (
+            "force(f: x = 1), define(p = 2*f), force(h: x = p)",
+            "2:31 E406",
+        ),
         ("contact(c: x >= 0), force(f: x = c^2)", "2:34 E509"),
         ("force(f: x = 1), force(h: x = f)", "2:31 E406"),
         ("force(f: (a, b) at (x, y, r))", "2:20 E304"),

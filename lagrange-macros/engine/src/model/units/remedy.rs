@@ -3,7 +3,7 @@
 use super::check::Checker;
 use super::dimension::Dimension;
 use super::quantity::Quantity;
-use crate::ast::{Expr, ExprKind};
+use crate::ast::{Expr, ExprKind, Home};
 use crate::diagnostics::{Code, Extent};
 use crate::symbolic::Rational;
 
@@ -32,7 +32,7 @@ impl Checker<'_, '_> {
     /// What to do about an expression that has another unit than the wanted one.
     pub fn remedy(&mut self, wanted: &Quantity, found: &Quantity, expr: &Expr) -> String {
         let mut names = Vec::new();
-        names_in(expr, &mut names);
+        expr.names_into(&mut names);
         let inferred = names.into_iter().find_map(|name| {
             let quantity = self.inferred.get(name)?;
             Some(format!(
@@ -49,19 +49,19 @@ impl Checker<'_, '_> {
         let factor = self.unknowns.times(wanted, found, Rational::MINUS_ONE);
         if is_number(expr) {
             let unit = self.unknowns.text(&factor);
-            return format!(
-                "a number has no unit: make it a field with `#[lagrange(unit = \"{unit}\")]`"
-            );
+            let field = self.elaboration.home.with_unit(&unit);
+            return format!("a number has no unit: make it {field}");
         }
         let Some(factor) = self.unknowns.dimension(&factor) else {
-            return "units are `#[lagrange(unit = \"…\")]` on fields, and `coordinates(x: \"m\")`"
-                .to_string();
+            let units = match self.elaboration.home {
+                Home::Struct => "`#[lagrange(unit = \"…\")]` on fields",
+                Home::File => "`parameters(mass: \"kg\" = 1)`",
+            };
+            return format!("units are {units}, and `coordinates(x: \"m\")`");
         };
         if let Some(number) = constant(expr) {
-            return format!(
-                "`{number}` is a plain number: make it a field with `#[lagrange(unit = \"{}\")]`",
-                factor.text()
-            );
+            let field = self.elaboration.home.with_unit(&factor.text());
+            return format!("`{number}` is a plain number: make it {field}");
         }
         let is_plain = wanted.known().is_some_and(Dimension::is_one);
         match factor.as_time().filter(|_| !is_plain) {
@@ -91,6 +91,7 @@ pub(super) fn is_number(expr: &Expr) -> bool {
         ExprKind::Sum(terms) => terms.iter().all(|(_, term)| is_number(term)),
         ExprKind::Product(factors) => factors.iter().all(|(_, factor)| is_number(factor)),
         ExprKind::Power(base, exponent) => is_number(base) && is_number(exponent),
+        ExprKind::Call(_, arguments) => arguments.iter().all(is_number),
         _ => false,
     }
 }
@@ -102,32 +103,5 @@ fn constant(expr: &Expr) -> Option<&Expr> {
         ExprKind::Negative(inner) => constant(inner),
         ExprKind::Product(factors) => factors.iter().find_map(|(_, factor)| constant(factor)),
         _ => None,
-    }
-}
-
-/// The names that an expression uses, in order.
-fn names_in<'a>(expr: &'a Expr, names: &mut Vec<&'a str>) {
-    match &expr.kind {
-        ExprKind::Number(_) => {}
-        ExprKind::Name(name) => names.push(&name.text),
-        ExprKind::Sum(terms) => terms.iter().for_each(|(_, term)| names_in(term, names)),
-        ExprKind::Product(factors) => factors
-            .iter()
-            .for_each(|(_, factor)| names_in(factor, names)),
-        ExprKind::Negative(inner) | ExprKind::SumOver(_, inner) | ExprKind::ListOver(_, inner) => {
-            names_in(inner, names)
-        }
-        ExprKind::Member(inner, _) | ExprKind::Element(inner, _) => names_in(inner, names),
-        ExprKind::Power(base, exponent) => [base, exponent]
-            .into_iter()
-            .for_each(|part| names_in(part, names)),
-        ExprKind::Call(_, parts) | ExprKind::List(parts) => {
-            parts.iter().for_each(|part| names_in(part, names));
-        }
-        ExprKind::If(condition, then, otherwise) => {
-            for part in [&condition.left, &condition.right, then, otherwise] {
-                names_in(part, names);
-            }
-        }
     }
 }
