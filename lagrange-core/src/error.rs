@@ -236,7 +236,7 @@ impl fmt::Display for Error {
                 write!(
                     f,
                     "the start violates `{item}`: {level} residual {residual:.3e} (accepted: {tolerance:.1e}); \
-                     give a consistent start or ask the simulation to project it"
+                     give a consistent start, or have it moved onto the constraint (`project_start(true)`, `--project`)"
                 )
             }
             Error::Projection {
@@ -246,7 +246,7 @@ impl fmt::Display for Error {
             } => write!(
                 f,
                 "t = {time}: no nearby state satisfies all constraints; `{item}` is left with residual {residual:.3e}; \
-                 start nearer to the constraints or free more coordinates"
+                 start nearer to the constraints or hold fewer values (what is at rest in the named start stays at rest)"
             ),
             Error::Singular {
                 time,
@@ -334,7 +334,10 @@ impl fmt::Display for Error {
                 write!(f, "t = {time} is outside the trajectory [{first}, {last}]")
             }
             Error::NotRecorded => {
-                write!(f, "the run kept its events only; leave `record(false)` out")
+                write!(
+                    f,
+                    "the run kept its events and its ends only; leave `record(false)` out"
+                )
             }
         }
     }

@@ -77,5 +77,7 @@ pub use error::Error;
 #[cfg(feature = "derive")]
 pub use lagrange_macros::Lagrangian;
 pub use monitor::Monitor;
+/// Matrices and vectors of results are those of this crate.
+pub use nalgebra;
 pub use precompiled::Runnable;
 pub use simulation::{Awaited, Ensemble, Equations, Failure, FixedComponents, Runner, Simulation};

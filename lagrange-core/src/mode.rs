@@ -161,6 +161,16 @@ impl Mode {
             && self.frictions.iter().zip(&other.frictions).all(same)
     }
 
+    /// Lets go of what sticks; whether anything did.
+    pub(crate) fn release_sticking(&mut self) -> bool {
+        let sticking = self.frictions.iter_mut();
+        let sticking = sticking.filter(|friction| **friction == FrictionMode::Stick);
+        sticking
+            .map(|friction| *friction = FrictionMode::Inactive)
+            .count()
+            > 0
+    }
+
     /// Whether a slip of two components begins in it.
     pub(crate) fn has_incipient_slip(&self) -> bool {
         self.incipient().next().is_some()

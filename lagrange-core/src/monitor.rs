@@ -28,7 +28,7 @@ impl Monitor {
     }
 
     /// How far the run has come, s; 0 before it begins. After the run, while its energy is booked
-    /// ([`Record::ledger`](crate::trajectory::Record::ledger)), how far the books are.
+    /// ([`Trajectory::ledger`](crate::trajectory::Trajectory::ledger)), how far the books are.
     pub fn time(&self) -> f64 {
         f64::from_bits(self.0.time.load(Relaxed))
     }

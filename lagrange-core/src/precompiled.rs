@@ -14,7 +14,7 @@ use crate::run::lockstep::{Member, Together, go_on};
 use crate::settings::Settings;
 use crate::state::{FixedComponents, State};
 use crate::system::System;
-use crate::trajectory::{Instant, Ledger, Record, Sampler};
+use crate::trajectory::{Event, Instant, Ledger, Sampler, Trajectory};
 use core::fmt;
 use core::ops::Range;
 use std::sync::Arc;
@@ -53,30 +53,33 @@ pub struct Functions<T: Scalar> {
     pub(crate) execute: Execute<T>,
     pub(crate) launch: Launch<T>,
     pub(crate) go_on: fn(&mut Together<T>, &mut [Member<'_, T>]),
-    pub(crate) land: fn(&mut Run<T>, &mut Record<T>),
+    pub(crate) land: fn(&mut Run<T>, &mut Trajectory<T>),
     pub(crate) set_system: fn(&mut Run<T>, Erased<T>),
     pub(crate) consistent: Consistent<T>,
     pub(crate) feasible_modes: Feasible<T>,
-    pub(crate) sampler: fn(&Record<T>) -> Sampler<'_, T>,
+    pub(crate) sampler: fn(&Trajectory<T>) -> Sampler<'_, T>,
     pub(crate) at: fn(&mut Sampler<'_, T>, f64) -> Result<Instant<T>, Error>,
+    pub(crate) before: Beside<T>,
+    pub(crate) after: Beside<T>,
     pub(crate) ledgers: Book<T>,
-    pub(crate) verify: fn(&Record<T>, u64, f64) -> Result<Certificate, Error>,
+    pub(crate) verify: fn(&Trajectory<T>, u64, f64) -> Result<Certificate, Error>,
     pub(crate) dynamics: fn(Erased<T>, &Effects) -> Dynamics<T>,
 }
 
-type Launch<T> = fn(&mut Run<T>, &State<T>, Range<f64>, &mut Record<T>) -> Result<(), Error>;
+type Launch<T> = fn(&mut Run<T>, &State<T>, Range<f64>, &mut Trajectory<T>) -> Result<(), Error>;
 type Execute<T> = fn(
     &mut Run<T>,
     &State<T>,
     Range<f64>,
-    &mut Record<T>,
+    &mut Trajectory<T>,
     usize,
-    &mut dyn FnMut(&Record<T>),
+    &mut dyn FnMut(&Trajectory<T>),
 ) -> Result<(), Error>;
-type Feasible<T> = fn(&mut Run<T>, f64, &State<T>) -> Result<Vec<Instant<T>>, Error>;
-type Book<T> = fn(&Record<T>, Option<&[f64]>) -> Result<Vec<Ledger>, Error>;
+type Book<T> = fn(&Trajectory<T>, Option<&[f64]>) -> Result<Vec<Ledger>, Error>;
+type Beside<T> = fn(&mut Sampler<'_, T>, &Event<T>) -> Result<Instant<T>, Error>;
 type Consistent<T> =
     fn(&mut Run<T>, f64, &State<T>, &State<T>, &FixedComponents) -> Result<State<T>, Error>;
+type Feasible<T> = fn(&mut Run<T>, f64, &State<T>) -> Result<Vec<Instant<T>>, Error>;
 
 impl<T: Scalar> Functions<T> {
     /// The functions themselves.
@@ -91,7 +94,9 @@ impl<T: Scalar> Functions<T> {
         feasible_modes: Run::feasible_modes,
         sampler: |record| Sampler::new(record),
         at: |sampler, t| sampler.evaluate_at(t),
-        ledgers: Record::book,
+        before: |sampler, event| sampler.evaluate_before(event),
+        after: |sampler, event| sampler.evaluate_after(event),
+        ledgers: Trajectory::book,
         verify: certificate::verify,
         dynamics: Dynamics::of,
     };
@@ -110,7 +115,7 @@ impl<T: Runnable> Dynamics<T> {
     }
 }
 
-impl<T: Runnable> Record<T> {
+impl<T: Runnable> Trajectory<T> {
     /// Evaluates the trajectory at any time.
     pub fn sampler(&self) -> Sampler<'_, T> {
         (T::functions().sampler)(self)
@@ -157,8 +162,26 @@ impl<T: Runnable> Sampler<'_, T> {
     /// The motion at time `t`, s. At the instant of a switch: just after it.
     ///
     /// # Errors
-    /// [`Error::OutsideTrajectory`], [`Error::NotRecorded`]; or the equations of motion could not be evaluated there.
+    /// [`Error::OutsideTrajectory`]; [`Error::NotRecorded`] but at the first and the last time of the run; or the equations of motion
+    /// could not be evaluated there.
     pub fn at(&mut self, t: f64) -> Result<Instant<T>, Error> {
         (T::functions().at)(self, t)
+    }
+
+    /// The motion just before an event of this run, which need not be recorded for that: outputs, accelerations, energies, gaps.
+    ///
+    /// # Errors
+    /// [`Error::Dimension`] for an event of another system; or the equations of motion could not be evaluated there.
+    pub fn before(&mut self, event: &Event<T>) -> Result<Instant<T>, Error> {
+        (T::functions().before)(self, event)
+    }
+
+    /// The same just after it. Of several events at one instant each has the mode that follows them all, and an impact the velocities
+    /// that it leaves.
+    ///
+    /// # Errors
+    /// Those of [`Self::before`].
+    pub fn after(&mut self, event: &Event<T>) -> Result<Instant<T>, Error> {
+        (T::functions().after)(self, event)
     }
 }

@@ -14,6 +14,6 @@ pub use crate::simulation::{
 };
 pub use crate::system::{Derived, Description, Impacts, System};
 pub use crate::trajectory::{
-    Energies, Entry, Estimate, Event, EventKind, Instant, Ledger, Phase, Record, Sampler, Starts,
-    State, Subject, Trajectory, Work,
+    Energies, Entry, Estimate, Event, EventKind, Instant, Ledger, Phase, Sampler, Starts, State,
+    Subject, Trajectory, Work,
 };

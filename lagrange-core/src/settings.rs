@@ -3,7 +3,7 @@
 use crate::dynamics::Equations;
 use crate::effects::Effects;
 use crate::handle::Subject;
-use crate::integrate::Method;
+use crate::integrate::{Method, Tolerance};
 use crate::monitor::Monitor;
 use crate::system::Impacts;
 use crate::trajectory::{Event, EventKind};
@@ -25,6 +25,8 @@ pub(crate) struct Settings {
     pub effects: Effects,
     pub goal: Goal,
     pub tolerance: f64,
+    /// Per coordinate: errors of its position and its velocity are relative above this size and absolute below; empty: 1 for all.
+    pub sizes: Vec<f64>,
     pub method: Method,
     pub project_start: bool,
     /// What evaluates the equations of motion.
@@ -37,6 +39,26 @@ pub(crate) struct Settings {
     pub max_events: usize,
     pub max_steps: usize,
     pub monitor: Option<Monitor>,
+}
+
+impl Settings {
+    /// What a step may get wrong.
+    pub fn per_step(&self) -> Tolerance<'_> {
+        Tolerance {
+            sizes: &self.sizes,
+            ..Tolerance::both(self.tolerance)
+        }
+    }
+
+    /// Error that is below the tolerance for a position or velocity of the coordinate that is so large.
+    pub fn allowed(&self, coordinate: usize, size: f64) -> f64 {
+        self.tolerance * size.max(size_of(&self.sizes, coordinate))
+    }
+}
+
+/// The size above which errors of a coordinate are relative.
+pub(crate) fn size_of(sizes: &[f64], coordinate: usize) -> f64 {
+    sizes.get(coordinate).copied().unwrap_or(1.0)
 }
 
 /// An event that a run can end after.

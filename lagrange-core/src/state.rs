@@ -1,15 +1,88 @@
 //! States, and what is kept of them.
 
-use crate::handle::StartId;
-use crate::system::System;
+use crate::error::Error;
+use crate::handle::{CoordinateId, StartId};
+use crate::system::{Coordinate, Description, System};
+use core::fmt;
+use nalgebra::{DVectorView, Scalar};
 
-/// Positions and velocities.
-#[derive(Debug, PartialEq, Default)]
-pub struct State<T> {
+/// Positions and velocities, made by [`Starts::at`] or [`Starts::state`] and changed by name: `wheel.state().with_q(Wheel::THETA, 0.1)`.
+#[derive(Default)]
+pub struct State<T = f64> {
     /// q, one per coordinate.
     pub q: Vec<T>,
     /// v = dq/dt.
     pub v: Vec<T>,
+    /// What the numbers belong to; empty if that is not known.
+    coordinates: &'static [Coordinate],
+}
+
+impl<T> State<T> {
+    /// Of code that knows no names: positions and velocities in the order of the declaration.
+    pub fn new(q: Vec<T>, v: Vec<T>) -> Self {
+        let coordinates = &[];
+        Self { q, v, coordinates }
+    }
+
+    /// Calls its numbers by the names of a system.
+    pub(crate) fn name(&mut self, description: &'static Description) {
+        self.coordinates = description.coordinates;
+    }
+
+    /// The same with another position of a coordinate.
+    #[must_use]
+    pub fn with_q(mut self, coordinate: CoordinateId, q: T) -> Self {
+        self.q[coordinate.0] = q;
+        self
+    }
+
+    /// The same with another velocity of a coordinate.
+    #[must_use]
+    pub fn with_v(mut self, coordinate: CoordinateId, v: T) -> Self {
+        self.v[coordinate.0] = v;
+        self
+    }
+}
+
+impl<T> State<T> {
+    /// Whether there are so many numbers of each kind.
+    ///
+    /// # Errors
+    /// [`Error::Dimension`] if not.
+    pub(crate) fn check_dimension(&self, coordinates: usize) -> Result<(), Error> {
+        let mut lengths = [self.q.len(), self.v.len()].into_iter();
+        match lengths.find(|&found| found != coordinates) {
+            Some(found) => Err(Error::Dimension {
+                expected: coordinates,
+                found,
+            }),
+            None => Ok(()),
+        }
+    }
+}
+
+impl<T: Copy> State<T> {
+    /// Position of a coordinate.
+    pub fn q(&self, coordinate: CoordinateId) -> T {
+        self.q[coordinate.0]
+    }
+
+    /// Velocity of a coordinate.
+    pub fn v(&self, coordinate: CoordinateId) -> T {
+        self.v[coordinate.0]
+    }
+}
+
+impl<T: Scalar> State<T> {
+    /// The positions as a vector of nalgebra.
+    pub fn positions(&self) -> DVectorView<'_, T> {
+        DVectorView::from_slice(&self.q, self.q.len())
+    }
+
+    /// The velocities as a vector of nalgebra.
+    pub fn velocities(&self) -> DVectorView<'_, T> {
+        DVectorView::from_slice(&self.v, self.v.len())
+    }
 }
 
 impl<T: Clone> Clone for State<T> {
@@ -17,6 +90,7 @@ impl<T: Clone> Clone for State<T> {
         Self {
             q: self.q.clone(),
             v: self.v.clone(),
+            coordinates: self.coordinates,
         }
     }
 
@@ -24,31 +98,99 @@ impl<T: Clone> Clone for State<T> {
     fn clone_from(&mut self, source: &Self) {
         self.q.clone_from(&source.q);
         self.v.clone_from(&source.v);
+        self.coordinates = source.coordinates;
     }
 }
 
-/// Named starts as states.
+impl<T: PartialEq> PartialEq for State<T> {
+    fn eq(&self, other: &Self) -> bool {
+        (&self.q, &self.v) == (&other.q, &other.v)
+    }
+}
+
+/// `State { theta: 0.1, der(theta): 0.0 }`, or the lists `q` and `v` where names are not known.
+impl<T: fmt::Debug> fmt::Debug for State<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut state = f.debug_struct("State");
+        if self.coordinates.len() != self.q.len() || self.coordinates.len() != self.v.len() {
+            state.field("q", &self.q).field("v", &self.v);
+            return state.finish();
+        }
+        for (coordinate, q) in self.coordinates.iter().zip(&self.q) {
+            state.field(coordinate.name, q);
+        }
+        for (coordinate, v) in self.coordinates.iter().zip(&self.v) {
+            state.field(&format!("der({})", coordinate.name), v);
+        }
+        state.finish()
+    }
+}
+
+/// The states that a system can start from.
 pub trait Starts: System {
     /// The state of a named start at time 0.
     fn at(&self, start: StartId) -> State<Self::Scalar> {
-        let n = self.description().coordinates.len();
+        let mut state = self.state();
         let zero = Self::Scalar::default();
-        let mut state = State {
-            q: vec![zero; n],
-            v: vec![zero; n],
-        };
         System::start(self, start.0, zero, &mut state.q, &mut state.v);
+        state
+    }
+
+    /// All positions and velocities 0, to be changed by [`State::with_q`] and [`State::with_v`].
+    fn state(&self) -> State<Self::Scalar> {
+        let zeros = vec![Self::Scalar::default(); self.description().coordinates.len()];
+        let mut state = State::new(zeros.clone(), zeros);
+        state.name(self.description());
         state
     }
 }
 
 impl<S: System> Starts for S {}
 
-/// Which values a consistent state must keep exactly.
+/// Which values a consistent state must keep exactly: `FixedComponents::default().q(Pendulum::X).v(Pendulum::Y)`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct FixedComponents {
     /// Per coordinate: keep its position.
-    pub positions: Vec<bool>,
+    positions: Vec<bool>,
     /// Per coordinate: keep its velocity.
-    pub velocities: Vec<bool>,
+    velocities: Vec<bool>,
+}
+
+impl FixedComponents {
+    /// With the position of a coordinate.
+    #[must_use]
+    pub fn q(mut self, CoordinateId(i): CoordinateId) -> Self {
+        self.positions
+            .resize(self.positions.len().max(i + 1), false);
+        self.positions[i] = true;
+        self
+    }
+
+    /// With the velocity of a coordinate.
+    #[must_use]
+    pub fn v(mut self, CoordinateId(i): CoordinateId) -> Self {
+        self.velocities
+            .resize(self.velocities.len().max(i + 1), false);
+        self.velocities[i] = true;
+        self
+    }
+
+    /// Per coordinate of a system with so many: whether its position, and whether its velocity is kept.
+    ///
+    /// # Errors
+    /// [`Error::Dimension`] for a coordinate that is none of the system.
+    pub(crate) fn flags(&self, coordinates: usize) -> Result<[Vec<bool>; 2], Error> {
+        let most = self.positions.len().max(self.velocities.len());
+        if most > coordinates {
+            return Err(Error::Dimension {
+                expected: coordinates,
+                found: most,
+            });
+        }
+        Ok([&self.positions, &self.velocities].map(|held| {
+            let mut flags = held.clone();
+            flags.resize(coordinates, false);
+            flags
+        }))
+    }
 }

@@ -28,10 +28,7 @@ fn main() {
     let scene = CartesianPendulum::default();
     let (g, l) = (scene.gravity, scene.length);
     let period = std::f64::consts::TAU * (l / g).sqrt() / agm(1.0, (0.5 * START).cos());
-    let mut state = State {
-        q: vec![l * START.sin(), -l * START.cos()],
-        v: vec![0.0; 2],
-    };
+    let mut state = State::new(vec![l * START.sin(), -l * START.cos()], vec![0.0; 2]);
     let energy = |state: &State<f64>| {
         let [vx, vy] = [state.v[0], state.v[1]];
         0.5 * (vx * vx + vy * vy) / (g * l) + (state.q[1] / l + START.cos())

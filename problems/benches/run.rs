@@ -26,10 +26,7 @@ fn main() {
 fn scene<S: Derived<Scalar = f64> + Default>(criterion: &mut Criterion, until: f64) {
     let system = S::default();
     let n = S::DESCRIPTION.coordinates.len();
-    let mut start = State {
-        q: vec![0.0; n],
-        v: vec![0.0; n],
-    };
+    let mut start = State::new(vec![0.0; n], vec![0.0; n]);
     system.start(0, 0.0, &mut start.q, &mut start.v);
     let mut group = criterion.benchmark_group("run");
     for tolerance in [1e-3, 1e-6, 1e-9, 1e-12, 1e-15] {

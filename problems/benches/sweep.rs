@@ -62,10 +62,7 @@ fn scene<S: Derived<Scalar = f64> + Default>(
     let mut system = S::default();
     let start = |system: &S| {
         let n = S::DESCRIPTION.coordinates.len();
-        let mut start = State {
-            q: vec![0.0; n],
-            v: vec![0.0; n],
-        };
+        let mut start = State::new(vec![0.0; n], vec![0.0; n]);
         system.start(0, 0.0, &mut start.q, &mut start.v);
         start
     };
@@ -98,8 +95,9 @@ fn scene<S: Derived<Scalar = f64> + Default>(
                     runner.set_scene(&system);
                     Some(start(&system))
                 };
-                let take =
-                    |_, outcome: Result<(), Error>, _: &Trajectory<S>| outcome.expect("runs");
+                let take = |_, outcome: Result<(), Error>, _: &Trajectory<S::Scalar>| {
+                    outcome.expect("runs")
+                };
                 ensemble.run(RUNS, 0.0..until, prepare, take);
             });
         },

@@ -355,7 +355,7 @@ impl dyn Scene + '_ {
         let simulation = request.simulation(&system)?;
         let start = request.start(&system, &simulation)?;
         let until = request.until.unwrap_or(self.until());
-        let told = |piece: &Record<f64>, failure, request: &Request| {
+        let told = |piece: &Trajectory, failure, request: &Request| {
             let times = outcome::within(piece, until, request.samples);
             Outcome::sampled(self.name(), piece, failure, request, &times)
         };

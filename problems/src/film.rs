@@ -24,9 +24,9 @@ pub struct Film {
 
 impl Film {
     /// Of a finished run, which may have failed half-way.
-    pub(crate) fn of<S: System<Scalar = f64>>(
+    pub(crate) fn of(
         scene: &'static str,
-        trajectory: &Trajectory<S>,
+        trajectory: &Trajectory,
         failure: Option<Error>,
         request: &Request,
     ) -> Self {
@@ -36,7 +36,7 @@ impl Film {
         let samples = outcome.samples.iter();
         let instants = samples.map(|sample| (sample.time, &sample.mode, &sample.state));
         let drift = drift(trajectory, instants);
-        let declaration = trajectory.scene().declaration();
+        let declaration = trajectory.declaration();
         let Pictures { drawings, spaces } = drawn::pictures(declaration, &outcome);
         Self {
             drawings,
@@ -50,7 +50,7 @@ impl Film {
 
 /// About so many instants of a motion, in order: half of them at equal intervals, half spread over the integrator's steps, which
 /// are short where much happens in little time.
-fn instants(trajectory: &Record<f64>, count: usize) -> Vec<f64> {
+fn instants(trajectory: &Trajectory, count: usize) -> Vec<f64> {
     let mut times = equal(trajectory, count.div_ceil(2));
     let steps: Vec<f64> = trajectory
         .step_times()
@@ -90,7 +90,7 @@ fn without_rounding(outcome: &mut Outcome) {
 const BOOKS: usize = 120;
 
 /// The energy book at equal intervals.
-fn books(trajectory: &Record<f64>) -> Vec<(f64, Ledger)> {
+fn books(trajectory: &Trajectory) -> Vec<(f64, Ledger)> {
     let (first, last) = (trajectory.first_time(), trajectory.last_time());
     let part = |k: usize| first + (last - first) * k as f64 / BOOKS as f64;
     let times: Vec<f64> = (0..BOOKS).map(part).chain([last]).collect();
@@ -101,7 +101,7 @@ fn books(trajectory: &Record<f64>) -> Vec<(f64, Ledger)> {
 /// Largest relative residual of the rows that act, on position and velocity level, among instants of a run; `None` if none
 /// ever acts.
 pub(crate) fn drift<'a>(
-    trajectory: &Record<f64>,
+    trajectory: &Trajectory,
     instants: impl Iterator<Item = (f64, &'a Mode, &'a State<f64>)>,
 ) -> Option<f64> {
     let mut dynamics = trajectory.dynamics();

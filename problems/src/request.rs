@@ -36,6 +36,8 @@ pub struct Request {
     pub end_after: Vec<String>,
     /// Relative and absolute tolerance of the integration.
     pub tolerance: f64,
+    /// Absolute tolerances of coordinates that have one of their own.
+    pub absolute: Vec<(String, f64)>,
     /// Error that the final state and the times of events are to have at most, whatever the tolerance.
     pub error: Option<f64>,
     /// Whether a second run is to tell how far off the first is.
@@ -70,6 +72,7 @@ impl Default for Request {
             until: None,
             end_after: Vec::new(),
             tolerance: 1e-9,
+            absolute: Vec::new(),
             error: None,
             estimate: false,
             method: Method::Auto,
@@ -213,10 +216,14 @@ impl Request {
             .effects(self.effects(system.description())?)
             .project_start(self.project)
             .equations(self.equations);
-        let simulation = match self.error {
+        let mut simulation = match self.error {
             Some(error) => simulation.error(error),
             None => simulation.estimate(self.estimate),
         };
+        for (name, tolerance) in &self.absolute {
+            let coordinate = find_coordinate(system.description(), name)?;
+            simulation = simulation.absolute_tolerance(coordinate, *tolerance);
+        }
         let mut simulation = match self.impacts {
             Some(impacts) => simulation.impacts(impacts),
             None => simulation,
@@ -327,28 +334,21 @@ impl Start {
         system: &AnySystem<f64>,
         consistent: impl FnOnce(&State<f64>, &State<f64>, &FixedComponents) -> Result<State<f64>, Error>,
     ) -> Result<State<f64>, Error> {
-        let n = system.description().coordinates.len();
-        let mut reference = State {
-            q: vec![0.0; n],
-            v: vec![0.0; n],
+        let reference = match self.from {
+            Some(index) => system.at(StartId(index)),
+            None => system.state(),
         };
-        if let Some(index) = self.from {
-            system.start(index, 0.0, &mut reference.q, &mut reference.v);
-        }
         if self.held.is_empty() {
             return Ok(reference);
         }
         let mut wanted = reference.clone();
-        let mut held = FixedComponents {
-            positions: vec![false; n],
-            velocities: vec![false; n],
-        };
+        let mut held = FixedComponents::default();
         for &(index, level, value) in &self.held {
-            let (values, flags) = match level {
-                Quantity::Position => (&mut wanted.q, &mut held.positions),
-                Quantity::Velocity => (&mut wanted.v, &mut held.velocities),
+            let coordinate = CoordinateId(index);
+            (wanted, held) = match level {
+                Quantity::Position => (wanted.with_q(coordinate, value), held.q(coordinate)),
+                Quantity::Velocity => (wanted.with_v(coordinate, value), held.v(coordinate)),
             };
-            (values[index], flags[index]) = (value, true);
         }
         consistent(&reference, &wanted, &held)
     }
@@ -379,6 +379,17 @@ pub(crate) fn find_start(description: &'static Description, name: &str) -> Resul
     known()
         .position(|start| start == name)
         .ok_or_else(|| Refusal::unknown("start", name, known()))
+}
+
+/// The coordinate called `name`.
+pub(crate) fn find_coordinate(
+    description: &'static Description,
+    name: &str,
+) -> Result<CoordinateId, Refusal> {
+    let known = || description.coordinates.iter().map(|c| c.name);
+    let found = known().position(|coordinate| coordinate == name);
+    let unknown = || Refusal::unknown("coordinate", name, known());
+    found.map(CoordinateId).ok_or_else(unknown)
 }
 
 /// Level of a number of the state.

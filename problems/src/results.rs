@@ -93,7 +93,7 @@ pub trait Results {
     fn write(&self, path: impl AsRef<Path>) -> io::Result<()>;
 }
 
-impl<S: System<Scalar = f64>> Results for Trajectory<S> {
+impl Results for Trajectory {
     fn story(&self) -> String {
         let mut text = Vec::new();
         // Nothing fails that is written to memory.
@@ -138,7 +138,7 @@ impl<S: System<Scalar = f64>> Results for Trajectory<S> {
         let run = Shown {
             title: description.name.to_owned(),
             film: Film::of(description.name, self, None, &request),
-            derivation: self.scene().derivation(),
+            derivation: self.derivation(),
         };
         if let Some("html" | "htm") = ending {
             return to_file(path, |out| html::write(&[run], None, None, out));
@@ -170,7 +170,7 @@ impl<S: System<Scalar = f64>> Results for Trajectory<S> {
 }
 
 /// What is known of a run.
-fn outcome<S: System<Scalar = f64>>(run: &Trajectory<S>, samples: usize) -> Outcome {
+fn outcome(run: &Trajectory, samples: usize) -> Outcome {
     let request = Request {
         samples,
         ..Request::default()

@@ -4,7 +4,11 @@ use lagrange_core::prelude::*;
 use lagrange_problems::scenes::*;
 
 /// The trajectory from a start.
-fn run<S: System<Scalar = f64>>(system: &S, start: State<f64>, until: f64) -> Trajectory<S> {
+fn run<S: System<Scalar = f64>>(
+    system: &S,
+    start: State<f64>,
+    until: f64,
+) -> Trajectory<S::Scalar> {
     Simulation::new(system)
         .tolerance(1e-12)
         .run(start, 0.0..until)
@@ -12,10 +16,7 @@ fn run<S: System<Scalar = f64>>(system: &S, start: State<f64>, until: f64) -> Tr
 }
 
 /// Calls `compare(q, v, v̇)` at times all over a run.
-fn along<S: System<Scalar = f64>>(
-    trajectory: &Trajectory<S>,
-    mut compare: impl FnMut(&[f64], &[f64], &[f64]),
-) {
+fn along(trajectory: &Trajectory, mut compare: impl FnMut(&[f64], &[f64], &[f64])) {
     let mut sampler = trajectory.sampler();
     for k in 0..=20 {
         let time = trajectory.last_time() * f64::from(k) / 20.0;
@@ -24,7 +25,7 @@ fn along<S: System<Scalar = f64>>(
     }
 }
 
-fn balance<S: System<Scalar = f64>>(trajectory: &Trajectory<S>, tolerance: f64) {
+fn balance(trajectory: &Trajectory, tolerance: f64) {
     let closure = trajectory.ledger().expect("a ledger").closure;
     assert!(closure < tolerance, "energy is off by {closure:e}");
 }

@@ -200,7 +200,7 @@ fn patiently(run: impl FnOnce() -> Verdict) -> Verdict {
 }
 
 /// The verdict on a run that may have ended early.
-fn judge(run: &Record<f64>, error: Option<&Error>) -> Verdict {
+fn judge(run: &Trajectory, error: Option<&Error>) -> Verdict {
     told(run.verify(0).ok().as_ref(), error)
 }
 

@@ -75,7 +75,11 @@ pub fn all_agree(what: &str, a: &[f64], b: &[f64], tolerance: f64) {
 
 /// Runs a scene from a state at tolerance 1e-12.
 #[track_caller]
-pub fn run<S: System<Scalar = f64>>(scene: &S, start: State<f64>, until: f64) -> Trajectory<S> {
+pub fn run<S: System<Scalar = f64>>(
+    scene: &S,
+    start: State<f64>,
+    until: f64,
+) -> Trajectory<S::Scalar> {
     run_by(scene, ("taylor", 1e-12), start, until)
 }
 
@@ -86,7 +90,7 @@ pub fn run_by<S: System<Scalar = f64>>(
     (method, tolerance): (&str, f64),
     start: State<f64>,
     until: f64,
-) -> Trajectory<S> {
+) -> Trajectory<S::Scalar> {
     let simulation = Simulation::new(scene)
         .method(method.parse().expect("a method"))
         .tolerance(tolerance);
@@ -99,16 +103,13 @@ pub fn run_by<S: System<Scalar = f64>>(
 /// The state that the first start of a scene sets.
 pub fn first_start<S: System<Scalar = f64>>(scene: &S) -> State<f64> {
     let n = scene.description().coordinates.len();
-    let mut start = State {
-        q: vec![0.0; n],
-        v: vec![0.0; n],
-    };
+    let mut start = State::new(vec![0.0; n], vec![0.0; n]);
     scene.start(0, 0.0, &mut start.q, &mut start.v);
     start
 }
 
 /// The events as `item kind`.
-pub fn words(trajectory: &Record<f64>) -> Vec<String> {
+pub fn words(trajectory: &Trajectory) -> Vec<String> {
     let events = trajectory.events().iter();
     events
         .map(|e| format!("{} {}", e.subject.name(trajectory.description()), e.kind))
@@ -117,7 +118,7 @@ pub fn words(trajectory: &Record<f64>) -> Vec<String> {
 
 /// The first event of an item and kind, `("shell", "lost")`.
 #[track_caller]
-pub fn event<'a>(trajectory: &'a Record<f64>, item: &str, kind: &str) -> &'a Event<f64> {
+pub fn event<'a>(trajectory: &'a Trajectory, item: &str, kind: &str) -> &'a Event<f64> {
     let mut events = trajectory.events().iter();
     let found =
         events.find(|e| e.subject.name(trajectory.description()) == item && e.kind.word() == kind);
@@ -126,7 +127,7 @@ pub fn event<'a>(trajectory: &'a Record<f64>, item: &str, kind: &str) -> &'a Eve
 
 /// Closure of the energy ledger relative to its scale.
 #[track_caller]
-pub fn closure(trajectory: &Record<f64>) -> f64 {
+pub fn closure(trajectory: &Trajectory) -> f64 {
     let ledger = trajectory.ledger().expect("the trajectory can be sampled");
     ledger.closure.abs() / ledger.scale
 }

@@ -3,6 +3,7 @@
 use crate::declaration::{Declaration, Evaluator, Inputs, Seed, Worked};
 use crate::effects::{Effects, Item};
 use crate::mode::{FrictionMode, Mode};
+use crate::settings::size_of;
 use crate::system::Description;
 use crate::trajectory::State;
 
@@ -13,6 +14,8 @@ pub(super) struct Equations {
     pub declaration: &'static Declaration,
     pub effects: Effects,
     pub parameters: Vec<f64>,
+    /// Per coordinate: the size below which its errors are absolute; empty: 1 for all.
+    pub sizes: Vec<f64>,
     pub values: Evaluator,
     /// Per coordinate: what should vanish.
     pub residual: Vec<f64>,
@@ -59,6 +62,7 @@ impl Equations {
         declaration: &'static Declaration,
         effects: &Effects,
         parameters: Vec<f64>,
+        sizes: Vec<f64>,
         exact: f64,
     ) -> Self {
         let n = d.coordinates.len();
@@ -68,6 +72,7 @@ impl Equations {
             declaration,
             effects: effects.clone(),
             parameters,
+            sizes,
             values: Evaluator::new(declaration),
             residual: zero(),
             size: zero(),
@@ -335,7 +340,8 @@ impl Equations {
         }
     }
 
-    /// How much a value changes when each position and velocity x changes by 1 + |x|.
+    /// How much a value changes when each position and velocity x changes by 1 + |x|, or by more where its absolute tolerance says so: the
+    /// residuals of constraints and gaps are not asked for in finer units.
     pub fn reach(&mut self, value: usize, power: usize, at: Situation<'_>) -> f64 {
         let mut sum = 0.0;
         for (k, state) in [at.q, at.v].into_iter().enumerate() {
@@ -343,10 +349,10 @@ impl Equations {
             gradient.fill(0.0);
             self.values
                 .gradient_size(&[(value, power, 1.0)], k, gradient);
-            sum += gradient
-                .iter()
-                .zip(state)
-                .map(|(g, x)| g * (1.0 + x.abs()))
+            let terms = gradient.iter().zip(state).enumerate();
+            let size = |i| size_of(&self.sizes, i).max(1.0);
+            sum += terms
+                .map(|(i, (g, x))| g * (size(i) + x.abs()))
                 .sum::<f64>();
         }
         sum

@@ -1,6 +1,6 @@
 //! Certificates: a finished run checked against its declaration, by nothing that produced it.
 //!
-//! [`Record::verify`](crate::trajectory::Record::verify) evaluates the energies, gaps, slips and forces as they were declared ([`crate::declaration`]), without the
+//! [`Trajectory::verify`](crate::trajectory::Trajectory::verify) evaluates the energies, gaps, slips and forces as they were declared ([`crate::declaration`]), without the
 //! symbolic derivation, the emitted equations, the integrator and the logic of modes. Every check gives a figure without unit and
 //! a bound. There are two kinds of bounds, and none is fitted to a run:
 //!
@@ -8,7 +8,7 @@
 //!   is compared with the sum of the absolute values of its terms. The bound is 2¹² units in the last place: each of the
 //!   operations of the declaration rounds once, and solving a linear system loses a few digits.
 //! * **Tolerance.** What an integration only approximates is compared with the change that it makes when each position and
-//!   velocity x changes by 1 + |x|, the scale on which the tolerance is asked. Such a figure is the error of the state in units in
+//!   velocity x changes by 1 + |x|, the scale on which the tolerance is asked (or by what its own absolute tolerance says instead of 1). Such a figure is the error of the state in units in
 //!   which the integrator keeps it below the tolerance, step by step. The bound is [`MARGIN`] times the tolerance, because error
 //!   estimates only estimate. For forces the scale is the sum of the absolute values of the forces that balance.
 
@@ -164,7 +164,7 @@ impl Check {
     }
 }
 
-/// A finished run checked against its declaration; see [`Record::verify`](crate::trajectory::Record::verify).
+/// A finished run checked against its declaration; see [`Trajectory::verify`](crate::trajectory::Trajectory::verify).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Certificate {
     /// The checks for which there was something to look at.

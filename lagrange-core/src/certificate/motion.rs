@@ -17,12 +17,13 @@ use crate::dynamics::Dynamics;
 use crate::error::Error;
 use crate::integrate::{Method, Radau};
 use crate::mode::Mode;
-use crate::trajectory::{EventKind, Instant, Record, Sampler, State};
+use crate::settings::size_of;
+use crate::trajectory::{EventKind, Instant, Sampler, State, Trajectory};
 use nalgebra::{DMatrix, DVector};
 
 /// Everything about a run that is being checked.
 pub(super) struct Examination<'a, T: Scalar> {
-    pub record: &'a Record<T>,
+    pub record: &'a Trajectory<T>,
     pub equations: Equations,
     pub findings: Findings,
     pub watches: Watches,
@@ -42,9 +43,9 @@ pub(super) struct Examination<'a, T: Scalar> {
     nodes: Vec<(f64, f64)>,
 }
 
-/// See [`Record::verify`](crate::trajectory::Record::verify).
+/// See [`Trajectory::verify`](crate::trajectory::Trajectory::verify).
 pub(crate) fn verify<T: Scalar>(
-    record: &Record<T>,
+    record: &Trajectory<T>,
     seed: u64,
     share: f64,
 ) -> Result<Certificate, Error> {
@@ -54,7 +55,7 @@ pub(crate) fn verify<T: Scalar>(
 
 /// The run checked against a declaration.
 pub(super) fn against<T: Scalar>(
-    record: &Record<T>,
+    record: &Trajectory<T>,
     declaration: &'static Declaration,
     seed: u64,
     share: f64,
@@ -84,6 +85,7 @@ pub(super) fn against<T: Scalar>(
             declaration,
             &record.effects,
             parameters.collect(),
+            record.asked.sizes.clone(),
             ROUNDINGS * rounding,
         ),
         findings: Findings::new(tolerance.max(finest), rounding),
@@ -126,10 +128,7 @@ pub(super) fn against<T: Scalar>(
 /// A state as numbers.
 pub(super) fn numbers<T: Scalar>(state: &State<T>) -> State<f64> {
     let plain = |list: &[T]| list.iter().map(|x| x.value()).collect();
-    State {
-        q: plain(&state.q),
-        v: plain(&state.v),
-    }
+    State::new(plain(&state.q), plain(&state.v))
 }
 
 impl<T: Scalar> Examination<'_, T> {
@@ -235,7 +234,7 @@ impl<T: Scalar> Examination<'_, T> {
         let segment = &self.record.segments[k];
         let d = self.record.description();
         let (time, n) = (segment.t + segment.h * segment.end, last.q.len());
-        let State { q, v } = &mut self.scratch;
+        let State { q, v, .. } = &mut self.scratch;
         self.record.state_at(segment, segment.end, q, v);
         let mut columns = vec![T::zero(); 2 * n * n];
         let outcome = self.dynamics.jacobian(time, q, v, &mut columns);
@@ -263,10 +262,7 @@ impl<T: Scalar> Examination<'_, T> {
     /// State at part `s` of a step.
     fn state_at(&self, k: usize, s: f64) -> State<f64> {
         let n = self.record.description().coordinates.len();
-        let mut state = State {
-            q: vec![T::zero(); n],
-            v: vec![T::zero(); n],
-        };
+        let mut state = State::new(vec![T::zero(); n], vec![T::zero(); n]);
         let segment = &self.record.segments[k];
         self.record
             .state_at(segment, T::from_f64(s), &mut state.q, &mut state.v);
@@ -358,11 +354,15 @@ impl<T: Scalar> Examination<'_, T> {
 
     /// Whether a state is the one that is expected.
     fn is_near(&self, state: &State<f64>) -> bool {
-        let near = |(a, b): (&f64, &f64)| {
-            (a - b).abs() <= self.findings.tolerance * (1.0 + a.abs().max(b.abs()))
+        let sizes = &self.record.asked.sizes;
+        let near = |(i, (a, b)): (usize, (&f64, &f64))| {
+            let size = size_of(sizes, i) + a.abs().max(b.abs());
+            (a - b).abs() <= self.findings.tolerance * size
         };
         let expected = &self.expected;
-        state.q.iter().zip(&expected.q).all(near) && state.v.iter().zip(&expected.v).all(near)
+        let mut positions = state.q.iter().zip(&expected.q).enumerate();
+        let mut velocities = state.v.iter().zip(&expected.v).enumerate();
+        positions.all(near) && velocities.all(near)
     }
 
     /// The motion goes on in the state where it was.
@@ -379,10 +379,11 @@ impl<T: Scalar> Examination<'_, T> {
         let [a, b, sizes] = states;
         let lists = [[&a.q, &b.q, &sizes.q], [&a.v, &b.v, &sizes.v]];
         for [a, b, sizes] in lists {
-            for (((a, b), size), coordinate) in a.iter().zip(b).zip(sizes).zip(names) {
-                let size = factor * (1.0 + size.abs());
+            for (i, coordinate) in names.iter().enumerate() {
+                let least = size_of(&self.record.asked.sizes, i);
+                let size = factor * (least + sizes[i].abs());
                 self.findings
-                    .book(subject, (a - b).abs(), size, time, coordinate.name);
+                    .book(subject, (a[i] - b[i]).abs(), size, time, coordinate.name);
             }
         }
     }

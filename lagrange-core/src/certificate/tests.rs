@@ -2,7 +2,6 @@
 
 use super::motion::against;
 use super::{Certificate, Subject};
-use crate::Runnable;
 use crate::prelude::*;
 
 /// A block that is thrown onto a rough incline, bounces, slides, comes to rest and is pushed on.
@@ -55,7 +54,7 @@ const BLOCK: Block = Block {
     push: 10.0,
 };
 
-fn run(effects: Effects) -> Trajectory<Block> {
+fn run(effects: Effects) -> Trajectory {
     let simulation = Simulation::new(&BLOCK).effects(effects);
     simulation
         .run(BLOCK.at(Block::THROWN), 0.0..8.0)
@@ -63,7 +62,7 @@ fn run(effects: Effects) -> Trajectory<Block> {
 }
 
 #[track_caller]
-fn certificate<S: System<Scalar: Runnable>>(trajectory: &Trajectory<S>) -> Certificate {
+fn certificate(trajectory: &Trajectory) -> Certificate {
     trajectory.verify(1).expect("a certificate")
 }
 
@@ -115,7 +114,7 @@ fn a_force_a_millionth_too_weak_is_found() {
 fn a_nudged_state_is_found() {
     let mut trajectory = run(Effects::all());
     let segment = trajectory.segments[trajectory.segments.len() / 2];
-    trajectory.record().coefficients[segment.offset] += 1e-6;
+    trajectory.coefficients[segment.offset] += 1e-6;
     finds(&certificate(&trajectory), &[Subject::Joins]);
 }
 
@@ -125,7 +124,7 @@ fn a_velocity_that_is_not_the_rate_of_the_position_is_found() {
     let segment = trajectory.segments[1];
     let n = trajectory.description().coordinates.len();
     let velocity = segment.offset + n * (segment.degree + 1);
-    trajectory.record().coefficients[velocity] += 1e-5;
+    trajectory.coefficients[velocity] += 1e-5;
     finds(
         &certificate(&trajectory),
         &[Subject::Motion, Subject::Joins],
@@ -139,7 +138,7 @@ fn other_parameters_than_those_of_the_run_are_found() {
         mass: 2.001,
         ..BLOCK
     };
-    trajectory.record().system = std::sync::Arc::new(heavier);
+    trajectory.system = std::sync::Arc::new(heavier);
     finds(&certificate(&trajectory), &[Subject::Motion]);
 }
 
@@ -158,7 +157,7 @@ fn what_was_left_out_is_missed() {
             "{}",
             certificate(&trajectory)
         );
-        trajectory.record().effects = Effects::all();
+        trajectory.effects = Effects::all();
         finds(&certificate(&trajectory), &[subject]);
     }
 }
@@ -167,7 +166,7 @@ fn what_was_left_out_is_missed() {
 fn an_impact_that_bounces_too_high_is_found() {
     let mut trajectory = run(Effects::all());
     let events: Vec<Event<f64>> = trajectory.events().to_vec();
-    let record = trajectory.record();
+    let record = &mut trajectory;
     record.events.clear();
     for mut event in events {
         if event.kind == EventKind::Impact {

@@ -10,7 +10,7 @@ use crate::declaration::Declaration;
 use crate::effects::Item;
 use crate::mode::{FrictionMode, Mode};
 use crate::system::{Condition, Watch};
-use crate::trajectory::{self, Record};
+use crate::trajectory::{self, Trajectory};
 
 /// What is followed along the motion.
 #[derive(Debug)]
@@ -37,7 +37,7 @@ struct Guard {
 }
 
 impl Watches {
-    pub fn new<T: Scalar>(record: &Record<T>, declaration: &Declaration) -> Self {
+    pub fn new<T: Scalar>(record: &Trajectory<T>, declaration: &Declaration) -> Self {
         let d = record.description();
         let known = |list: &[Option<_>], i: usize| list.get(i).is_some_and(Option::is_some);
         let gaps = (0..declaration.contacts.len()).map(|c| (Kind::Gap(c), Item::Contact(c)));

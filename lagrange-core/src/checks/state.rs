@@ -36,10 +36,7 @@ impl<'a, S: System<Scalar = f64>> Checks<'a, S> {
             scene,
             mode: Mode::open(d),
             slipping: Vec::new(),
-            around: State {
-                q: vec![0.0; n],
-                v: vec![0.0; n],
-            },
+            around: State::new(vec![0.0; n], vec![0.0; n]),
             spread: 1.0,
             variation: 0.0,
             seed: 1,
@@ -158,7 +155,7 @@ impl<'a, S: System<Scalar = f64>> Checks<'a, S> {
         dynamics.set_mode(&self.mode);
         let outcome = dynamics.project(0.0, &mut q, &mut v, 0.0);
         outcome.map_err(|e| Error::from_evaluation(e, 0.0, &self.mode, d))?;
-        let state = State { q, v };
+        let state = State::new(q, v);
         let mut mode = self.mode.clone();
         let outcome = self.settle(&mut dynamics, &state, &mut mode);
         outcome.map_err(|e| Error::from_evaluation(e, 0.0, &mode, d))?;

@@ -42,10 +42,7 @@ fn rolling_slipping_and_flying() {
     let slipping = checks.clone().slips(Sphere::GRIP);
     assert_matches!(slipping, |s, now| now.force(Sphere::GRIP) =>
         -s.mu * now.force(Sphere::SHELL) * now.slip(Sphere::GRIP).signum());
-    let flying = checks.around(State {
-        q: vec![3.0, 0.0, 0.0],
-        v: vec![0.0; 3],
-    });
+    let flying = checks.around(State::new(vec![3.0, 0.0, 0.0], vec![0.0; 3]));
     assert_matches!(flying, |s, now| now.a(Sphere::R) =>
         now.q(Sphere::R) * now.v(Sphere::THETA).powi(2) - s.gravity * now.q(Sphere::THETA).cos());
     assert_matches!(flying, |s, now| now.gap(Sphere::SHELL) =>

@@ -6,21 +6,24 @@
 
 use crate::arithmetic::Scalar;
 
-/// Error that is allowed per step and component.
+/// Error that is allowed per step and component, as ODEPACK's `RTOL` and `ATOL(i)` (Hindmarsh 1983).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tolerance {
+pub struct Tolerance<'a> {
     /// In units of the component.
     pub relative: f64,
     /// In the component's own unit.
     pub absolute: f64,
+    /// Per coordinate, by what `absolute` is multiplied for its position and its velocity; empty: by 1.
+    pub sizes: &'a [f64],
 }
 
-impl Tolerance {
+impl Tolerance<'_> {
     /// The same number for both: an error of `tolerance` where components are of size 1 or less.
     pub const fn both(tolerance: f64) -> Self {
         Self {
             relative: tolerance,
             absolute: tolerance,
+            sizes: &[],
         }
     }
 
@@ -29,21 +32,24 @@ impl Tolerance {
         self.relative.max(self.absolute)
     }
 
-    /// Error allowed for a component of the size `size` ≥ 0; never zero.
-    pub fn scale(self, size: f64) -> f64 {
-        (self.absolute + self.relative * size).max(f64::MIN_POSITIVE)
+    /// Error allowed for the position or the velocity of a coordinate where that has the size `size` ≥ 0; never zero.
+    pub fn scale(self, coordinate: usize, size: f64) -> f64 {
+        let least = self.sizes.get(coordinate).copied().unwrap_or(1.0);
+        (self.absolute * least + self.relative * size).max(f64::MIN_POSITIVE)
     }
 }
 
-/// √(1/n Σ (eᵢ/scaleᵢ)²), the scale taken at the larger of |before| and |after|.
+/// √(1/n Σ (eᵢ/scaleᵢ)²), the scale taken at the larger of |before| and |after|. The components are those of the coordinates, once or
+/// several times one after the other.
 pub fn error_norm<T: Scalar>(error: &[T], before: &[T], after: &[T], tolerance: Tolerance) -> f64 {
     let states = before.iter().zip(after);
+    let mut coordinates = (0..tolerance.sizes.len()).cycle();
     let sum: f64 = error
         .iter()
         .zip(states)
         .map(|(e, (y0, y1))| {
             let size = y0.value().abs().max(y1.value().abs());
-            let ratio = e.value() / tolerance.scale(size);
+            let ratio = e.value() / tolerance.scale(coordinates.next().unwrap_or(0), size);
             ratio * ratio
         })
         .sum();

@@ -50,7 +50,7 @@ pub fn step_size<T: Scalar>(
     let mut sum = [0.0; 4];
     for i in 0..series.coordinates() {
         for row in [series.position(i), series.velocity(i)] {
-            let limit = 1.0 / tolerance.scale(row[0].value().abs());
+            let limit = 1.0 / tolerance.scale(i, row[0].value().abs());
             let (fours, end) = row[first..=order].as_chunks::<4>();
             let (size_fours, size_end) = sizes.split_at_mut(fours.len());
             for (four, c) in size_fours.iter_mut().zip(fours) {
@@ -188,7 +188,7 @@ fn defect_by<T: Scalar>(
     for (i, dv) in dv.iter().enumerate() {
         let row = &step.v[i * width..][..width];
         let error = (h * dv.value() - slope(row, i)).abs();
-        let limit = tolerance.scale(row[0].value().abs() + s * row[1].value().abs());
+        let limit = tolerance.scale(i, row[0].value().abs() + s * row[1].value().abs());
         let mut ratio = share * error / limit;
         if ratio > 1.0 {
             ratio = share * (error - ROUNDING * derivative_value(row, s, f64::abs)) / limit;

@@ -45,19 +45,19 @@ pub fn consistent<T: Scalar>(
     wanted: &State<T>,
     held: &FixedComponents,
 ) -> Result<State<T>, Error> {
+    let n = dynamics.description().coordinates.len();
+    [reference, wanted]
+        .into_iter()
+        .try_for_each(|state| state.check_dimension(n))?;
+    let [positions, velocities] = held.flags(n)?;
     domain::check_parameters(dynamics, time)?;
     let t = T::from_f64(time);
     let mut found = ConstraintStatus::new(dynamics.description());
     found.look(dynamics, t, reference, tolerance);
     dynamics.set_mode(&found.mode);
     let mut state = wanted.clone();
-    let outcome = dynamics.project_holding(
-        t,
-        &mut state.q,
-        &mut state.v,
-        &held.positions,
-        &held.velocities,
-    );
+    let (q, v) = (&mut state.q, &mut state.v);
+    let outcome = dynamics.project_holding(t, q, v, &positions, &velocities);
     outcome.map_err(|e| Error::from_evaluation(e, time, &found.mode, dynamics.description()))?;
     Ok(state)
 }

@@ -249,12 +249,13 @@ impl<T: Scalar> Run<T> {
 
     /// Whether all that can move in so much time is below the tolerance.
     fn is_over(&self, remaining: f64) -> bool {
-        let tolerance = self.settings.tolerance;
-        let moves =
-            |(q, v): (&T, &T)| v.value().abs() * remaining > tolerance * q.value().abs().max(1.0);
+        let moves = |(i, (q, v)): (usize, (&T, &T))| {
+            v.value().abs() * remaining > self.settings.allowed(i, q.value().abs())
+        };
+        let State { q, v, .. } = &self.now.state;
         // Below the resolution of time nothing can be told apart.
         let resolved = remaining > RESOLUTION * self.now.t.value().abs();
-        !(resolved && self.now.state.q.iter().zip(&self.now.state.v).any(moves))
+        !(resolved && q.iter().zip(v).enumerate().any(moves))
     }
 
     /// Whether the gap of contact `c` is below the tolerance.
@@ -295,7 +296,7 @@ impl<T: Scalar> Run<T> {
         self.dynamics.set_mode(&self.switcher.scratch_mode);
         self.evaluate_all_rows()?;
         let half = T::from_f64(0.5) * remaining;
-        let State { q, v } = &mut self.now.state;
+        let State { q, v, .. } = &mut self.now.state;
         let motion = self.dynamics.acceleration().iter();
         for ((q, v), &acceleration) in q.iter_mut().zip(v).zip(motion) {
             let change = remaining * acceleration;
@@ -307,7 +308,7 @@ impl<T: Scalar> Run<T> {
         let time = self.now.t.value();
         (self.switcher.collider).bring_to_rest(&self.dynamics, time, &self.now.state.v, &near)?;
         let rest = core::mem::take(&mut self.switcher.collider.rest);
-        let State { q, v } = &mut self.now.state;
+        let State { q, v, .. } = &mut self.now.state;
         for ((q, v), &after) in q.iter_mut().zip(v).zip(&rest.v) {
             *q += half * (after - *v);
             *v = after;

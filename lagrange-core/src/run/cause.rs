@@ -63,7 +63,7 @@ impl<T: Scalar> Run<T> {
             return None;
         };
         let half = T::from_f64(0.5);
-        let State { q, v } = &mut self.stepper.scratch;
+        let State { q, v, .. } = &mut self.stepper.scratch;
         self.stepper.step.state_into(half, q, v);
         let valued = self.dynamics.value(self.stepper.step.time(half), q, v);
         let (mut defect, mut size) = (0.0_f64, 0.0_f64);

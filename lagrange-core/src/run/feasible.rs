@@ -43,7 +43,7 @@ impl<T: Scalar> Run<T> {
         let instants = modes.iter().map(|mode| {
             self.dynamics.set_mode(mode);
             self.dynamics.set_extra_needs(&self.switcher.status.needs);
-            let State { q, v } = &self.now.state;
+            let State { q, v, .. } = &self.now.state;
             let outcome = self.dynamics.value(self.now.t, q, v);
             outcome.map_err(|e| self.error(e))?;
             let (dynamics, redundant) = (&mut self.dynamics, &mut self.switcher.redundant);

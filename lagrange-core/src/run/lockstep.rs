@@ -68,7 +68,7 @@ impl<T: Scalar> Run<T> {
 
     /// The motion at the start of the coming step.
     fn start_of_step(&mut self) -> Start<'_, T> {
-        let State { q, v } = &self.now.state;
+        let State { q, v, .. } = &self.now.state;
         Start {
             dynamics: &mut self.dynamics,
             t: self.now.t,

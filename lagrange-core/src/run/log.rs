@@ -8,12 +8,12 @@ use crate::mode::{FrictionMode, Mode};
 use crate::modes::decide::SwitchFacts;
 use crate::modes::impact::Impact;
 use crate::settings::{Awaited, Settings};
-use crate::trajectory::{Around, Asked, Event, EventKind, Record, State, Subject};
+use crate::trajectory::{Around, Asked, Event, EventKind, State, Subject, Trajectory};
 
 /// The record of a run, and what it is still to have.
 #[derive(Debug)]
 pub(super) struct Recorder<T: Scalar> {
-    pub(super) trajectory: Record<T>,
+    pub(super) trajectory: Trajectory<T>,
     pub(super) before: Before<T>,
     pub(super) forces_after: Vec<T>,
     pub(super) undetermined_after: Vec<bool>,
@@ -37,12 +37,13 @@ impl<T: Scalar> Recorder<T> {
         let rows = d.rows.len();
         let asked = Asked {
             tolerance: settings.tolerance,
+            sizes: settings.sizes.clone(),
             method: settings.method,
             impacts: settings.impacts.unwrap_or(d.impacts),
         };
-        let mut trajectory = Record {
+        let mut trajectory = Trajectory {
             monitor: settings.monitor.clone(),
-            ..Record::new(system, &settings.effects, settings.record, asked)
+            ..Trajectory::new(system, &settings.effects, settings.record, asked)
         };
         trajectory.begin(T::default(), state, mode);
         Recorder {

@@ -29,7 +29,7 @@ use crate::modes::start;
 use crate::settings::{Awaited, Settings};
 use crate::state::FixedComponents;
 use crate::system::{Description, Watch};
-use crate::trajectory::{EventKind, Record, State, Subject, Work};
+use crate::trajectory::{EventKind, State, Subject, Trajectory, Work};
 use core::ops::Range;
 use hits::{Hit, Locator};
 use log::Recorder;
@@ -97,10 +97,8 @@ impl<T: Scalar> Run<T> {
     pub(crate) fn new(system: Erased<T>, settings: &Settings) -> Self {
         let d = system.description();
         let n = d.coordinates.len();
-        let state = State {
-            q: vec![T::default(); n],
-            v: vec![T::default(); n],
-        };
+        let mut state = State::new(vec![T::default(); n], vec![T::default(); n]);
+        state.name(d);
         let mode = Mode::open(d);
         let mut run = Run {
             dynamics: Dynamics::of(system.clone(), &settings.effects),
@@ -151,7 +149,7 @@ impl<T: Scalar> Run<T> {
     }
 
     /// An empty trajectory.
-    pub(crate) fn record(&self) -> &Record<T> {
+    pub(crate) fn record(&self) -> &Trajectory<T> {
         &self.recorder.trajectory
     }
 
@@ -161,9 +159,9 @@ impl<T: Scalar> Run<T> {
         &mut self,
         start: &State<T>,
         span: Range<f64>,
-        into: &mut Record<T>,
+        into: &mut Trajectory<T>,
         bytes: usize,
-        take: &mut dyn FnMut(&Record<T>),
+        take: &mut dyn FnMut(&Trajectory<T>),
     ) -> Result<(), Error> {
         let mut outcome = self.launch(start, span, into);
         while outcome.is_ok() && self.goes_on() {
@@ -204,14 +202,16 @@ impl<T: Scalar> Run<T> {
         &mut self,
         start: &State<T>,
         span: Range<f64>,
-        into: &mut Record<T>,
+        into: &mut Trajectory<T>,
     ) -> Result<(), Error> {
         core::mem::swap(&mut self.recorder.trajectory, into);
         let t = T::from_f64(span.start);
         self.now.mode.clear();
-        self.recorder.trajectory.begin(t, start, &self.now.mode);
         (self.now.t, self.end) = (t, span.end);
         self.now.state.clone_from(start);
+        self.now.state.name(self.dynamics.description());
+        let state = &self.now.state;
+        self.recorder.trajectory.begin(t, state, &self.now.mode);
         self.dynamics.restart();
         self.recorder.work_before = self.dynamics.work();
         self.settings
@@ -243,9 +243,14 @@ impl<T: Scalar> Run<T> {
         self.recorder.trajectory.start.clone_from(&self.now.state);
         (self.now.series, self.now.valued) = (Progress::None, false);
         self.now.mode.clone_from(&self.switcher.status.mode);
+        self.hold_guards();
+        if self.evaluate().is_err() && self.now.mode.release_sticking() {
+            // What is at rest for an instant, as a slider at its dead centre, may be held there by nothing.
+            self.dynamics.set_mode(&self.now.mode);
+            self.hold_guards();
+        }
         self.recorder.trajectory.modes.clear();
         self.recorder.trajectory.modes.push(&self.now.mode);
-        self.hold_guards();
         self.now.below.fill(false);
         for &c in &self.switcher.status.below {
             self.now.below[c] = true;
@@ -264,7 +269,7 @@ impl<T: Scalar> Run<T> {
     }
 
     /// Ends a run, whatever came of it.
-    pub(crate) fn land(&mut self, into: &mut Record<T>) {
+    pub(crate) fn land(&mut self, into: &mut Trajectory<T>) {
         self.close();
         core::mem::swap(&mut self.recorder.trajectory, into);
     }
@@ -548,7 +553,7 @@ impl<T: Scalar> Run<T> {
     fn begin_series(&mut self) -> Result<(), EvaluationError> {
         if self.now.series == Progress::None {
             self.dynamics.hold_rows_aside(false);
-            let State { q, v } = &self.now.state;
+            let State { q, v, .. } = &self.now.state;
             let rest = self
                 .dynamics
                 .begin_series(self.now.t, q, v, self.stepper.order)?;

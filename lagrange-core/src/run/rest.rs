@@ -114,7 +114,7 @@ impl<T: Scalar> Run<T> {
         // From the difference over the last part of the step to that over what is left.
         let back = (1.0 - JUST_BEFORE) * end * self.stepper.step.h.value();
         let share = T::from_f64(left / back);
-        let State { q, v } = &mut self.now.state;
+        let State { q, v, .. } = &mut self.now.state;
         for ((q, v), &earlier) in q.iter_mut().zip(v).zip(&self.locator.earlier) {
             let change = share * (*v - earlier);
             *q += time * *v + half * change;
@@ -131,7 +131,7 @@ impl<T: Scalar> Run<T> {
         let Some(&rest) = self.locator.rests.first() else {
             return;
         };
-        let State { q, v } = &mut self.now.state;
+        let State { q, v, .. } = &mut self.now.state;
         for _ in 0..T::DERIVATIVES {
             self.dynamics.tape(self.now.t, q, v);
             let slip = exact::slip(rest.friction, rest.along.map(T::from_f64), &self.dynamics);
@@ -156,7 +156,7 @@ impl<T: Scalar> Run<T> {
                 .earlier
                 .copy_from_slice(&self.stepper.scratch.v);
             self.state_at_end(s);
-            let State { q, v } = &self.stepper.scratch;
+            let State { q, v, .. } = &self.stepper.scratch;
             let time = self.stepper.step.time(T::from_f64(s));
             self.dynamics.tape(time, q, v);
             *slip = self.dynamics.slip(f).map(|s| s.value());
@@ -170,20 +170,13 @@ impl<T: Scalar> Run<T> {
             return None;
         }
         let parts = speed / fall;
-        let allowed = allowed * self.settings.tolerance;
-        let changes = |(now, before): (&T, &T)| {
+        let changes = |(i, (now, before)): (usize, (&T, &T))| {
             let (now, before) = (now.value(), before.value());
-            (now - before).abs() * parts > allowed * now.abs().max(1.0)
+            (now - before).abs() * parts > allowed * self.settings.allowed(i, now.abs())
         };
-        if speed > rounding
-            && self
-                .stepper
-                .scratch
-                .v
-                .iter()
-                .zip(&self.locator.earlier)
-                .any(changes)
-        {
+        let velocities = self.stepper.scratch.v.iter();
+        let mut velocities = velocities.zip(&self.locator.earlier).enumerate();
+        if speed > rounding && velocities.any(changes) {
             return None;
         }
         let Self {
@@ -226,7 +219,7 @@ impl<T: Scalar> Run<T> {
 
     /// Slips that have vanished with those that were brought to rest: a body with two points at rest is at rest.
     fn rest_of_necessity(&mut self) {
-        let State { q, v } = &self.now.state;
+        let State { q, v, .. } = &self.now.state;
         self.dynamics.set_extra_needs(&self.switcher.status.needs);
         self.dynamics.tape(self.now.t, q, v);
         for f in 0..self.description().frictions.len() {
@@ -275,7 +268,7 @@ impl<T: Scalar> Run<T> {
         if self.now.mode.has_incipient_slip() {
             return true;
         }
-        let State { q, v } = &self.now.state;
+        let State { q, v, .. } = &self.now.state;
         if self.dynamics.value(self.now.t, q, v).is_err() {
             return true;
         }

@@ -37,7 +37,7 @@ impl<T: Scalar> Run<T> {
         let mut worst = 0.0_f64;
         for s in self.locator.polynomials.between_samples() {
             self.evaluate_end(s)?;
-            let (curves, tolerance) = (&self.locator.polynomials, self.stepper.tolerance.relative);
+            let (curves, tolerance) = (&self.locator.polynomials, self.settings.tolerance);
             let defect =
                 curves.interpolation_defect(&mut self.dynamics, &self.now.mode, s, tolerance);
             // Not the larger of a number and a NaN, which would be the number.

@@ -274,7 +274,7 @@ impl<T: Scalar> Run<T> {
             &self.stepper.step,
             1.0,
             acceleration,
-            self.stepper.tolerance,
+            self.settings.per_step(),
         );
         Some((defect, self.rank.distance(&self.dynamics)))
     }

@@ -9,7 +9,7 @@ use crate::arithmetic::Scalar;
 use crate::dynamics::EvaluationError;
 use crate::error::Error;
 use crate::integrate::taylor::{self, DefectControl, Verdict};
-use crate::integrate::{Integrator, Method, StepError, StepPolynomial, Tolerance, onto_step};
+use crate::integrate::{Integrator, Method, StepError, StepPolynomial, onto_step};
 use crate::modes::guard::Guard;
 use crate::settings::Settings;
 use crate::trajectory::State;
@@ -27,7 +27,6 @@ const KINK: f64 = 1e4;
 /// What makes the polynomials of a step, and the step at hand.
 #[derive(Debug)]
 pub(super) struct Stepper<T> {
-    pub(super) tolerance: Tolerance,
     /// Order of Taylor series.
     pub(super) order: usize,
     /// Judges the steps of Taylor series.
@@ -49,11 +48,9 @@ pub(super) struct Stepper<T> {
 impl<T: Scalar> Stepper<T> {
     /// Room for the steps of states like this one.
     pub(super) fn new(settings: &Settings, state: &State<T>) -> Self {
-        let tolerance = Tolerance::both(settings.tolerance);
         let n = state.q.len();
         Stepper {
-            tolerance,
-            order: taylor::order(tolerance),
+            order: taylor::order(settings.per_step()),
             control: DefectControl::default(),
             other: Integrator::new(settings.method, n).map(Box::new),
             wanted: None,
@@ -100,7 +97,7 @@ impl<T: Scalar> Run<T> {
     fn taylor_step(&mut self) -> Result<Hit, Error> {
         self.expand()?;
         let longest = self.end - self.now.t.value();
-        let mut h = taylor::step_size(&self.dynamics, self.stepper.order, self.stepper.tolerance)
+        let mut h = taylor::step_size(&self.dynamics, self.stepper.order, self.settings.per_step())
             .ok_or_else(|| self.not_finite("a Taylor coefficient"))?
             .min(longest);
         let mut closer = 0;
@@ -227,10 +224,10 @@ impl<T: Scalar> Run<T> {
                 step,
                 &self.stepper.slopes,
                 accelerations,
-                self.stepper.tolerance,
+                self.settings.per_step(),
             )
         } else {
-            taylor::defect(step, looked, accelerations, self.stepper.tolerance)
+            taylor::defect(step, looked, accelerations, self.settings.per_step())
         }
     }
 
@@ -239,7 +236,7 @@ impl<T: Scalar> Run<T> {
         let (curves, fallen) = (&self.locator.polynomials, &self.locator.fallen);
         let stops = matches!(hit, Hit::Stop(..));
         let located = |g| fallen.contains(&g) || stops && matches!(g, Guard::Stop(..));
-        let tolerance = self.stepper.tolerance.relative;
+        let tolerance = self.settings.tolerance;
         curves.defect(
             &mut self.dynamics,
             &self.now.mode,
@@ -257,14 +254,14 @@ impl<T: Scalar> Run<T> {
 
     /// The equations of motion for the state in `scratch`, that at part `end` of the step.
     fn evaluate_scratch(&mut self, end: f64) -> Result<(), EvaluationError> {
-        let State { q, v } = &self.stepper.scratch;
+        let State { q, v, .. } = &self.stepper.scratch;
         let time = self.stepper.step.time(T::from_f64(end));
         self.dynamics.value_along(time, q, v)
     }
 
     /// The state at part `end` of the step, in `scratch`.
     pub(super) fn state_at_end(&mut self, end: f64) {
-        let State { q, v } = &mut self.stepper.scratch;
+        let State { q, v, .. } = &mut self.stepper.scratch;
         self.stepper.step.state_into(T::from_f64(end), q, v);
     }
 
@@ -321,7 +318,7 @@ impl<T: Scalar> Run<T> {
                 q,
                 v,
                 longest,
-                self.stepper.tolerance,
+                self.settings.per_step(),
             ),
         };
         if let Ok(h) = first
@@ -362,7 +359,15 @@ impl<T: Scalar> Run<T> {
         };
         let (q, v) = (&self.now.state.q, &self.now.state.v);
         let (dynamics, step) = (&mut self.dynamics, &mut self.stepper.step);
-        match method.step(dynamics, self.now.t, q, v, h, self.stepper.tolerance, step) {
+        match method.step(
+            dynamics,
+            self.now.t,
+            q,
+            v,
+            h,
+            self.settings.per_step(),
+            step,
+        ) {
             Ok(accepted) => {
                 self.recorder.trajectory.work.rejected += accepted.rejected;
                 Ok(accepted.h_next)
@@ -389,7 +394,7 @@ impl<T: Scalar> Run<T> {
 
     /// Samples the guards along the step.
     fn sample(&mut self) -> Result<(), Error> {
-        let State { q, v } = &mut self.stepper.scratch;
+        let State { q, v, .. } = &mut self.stepper.scratch;
         let (curves, dynamics) = (&mut self.locator.polynomials, &mut self.dynamics);
         let sampled = curves.sample(dynamics, &self.now.mode, &self.stepper.step, q, v);
         sampled.map_err(|e| self.error(e))

@@ -98,7 +98,7 @@ impl<T: Scalar> Run<T> {
             && self.expand().is_ok()
         {
             let series =
-                taylor::step_size(&self.dynamics, self.stepper.order, self.stepper.tolerance);
+                taylor::step_size(&self.dynamics, self.stepper.order, self.settings.per_step());
             if series.is_some_and(|series| WORTH * series > h) {
                 self.leave_stiffness();
             }
@@ -127,7 +127,7 @@ impl<T: Scalar> Run<T> {
     fn smooth_for(&mut self) -> Option<f64> {
         const LOW: usize = 3;
         self.expand().ok()?;
-        let (dynamics, tolerance) = (&self.dynamics, self.stepper.tolerance);
+        let (dynamics, tolerance) = (&self.dynamics, self.settings.per_step());
         let h = if self.stepper.is_taylor() {
             taylor::step_size(dynamics, self.stepper.order, tolerance)
         } else {
@@ -138,7 +138,7 @@ impl<T: Scalar> Run<T> {
             (0..self.now.state.q.len()).all(|i| {
                 let rows = [dynamics.position_series(i), dynamics.velocity_series(i)];
                 rows.into_iter().all(|row| {
-                    let allowed = tolerance.scale(row[0].value().abs());
+                    let allowed = tolerance.scale(i, row[0].value().abs());
                     row[LOW].value().abs() <= most * allowed
                 })
             })
@@ -159,7 +159,15 @@ impl<T: Scalar> Run<T> {
         radau.restart();
         let (q, v) = (&self.now.state.q, &self.now.state.v);
         let (dynamics, step) = (&mut self.dynamics, &mut self.stepper.step);
-        let outcome = radau.step(dynamics, self.now.t, q, v, h, self.stepper.tolerance, step);
+        let outcome = radau.step(
+            dynamics,
+            self.now.t,
+            q,
+            v,
+            h,
+            self.settings.per_step(),
+            step,
+        );
         // The trial has left other values in their place.
         (self.now.series, self.now.valued) = (super::Progress::None, false);
         outcome.is_ok_and(|accepted| accepted.rejected == 0)
@@ -170,7 +178,7 @@ impl<T: Scalar> Run<T> {
     fn damping(&mut self) -> Result<f64, EvaluationError> {
         let n = self.now.state.q.len();
         let [mut by_q, mut by_v] = [0, 1].map(|_| vec![0.0; n * n]);
-        let State { q, v } = &self.now.state;
+        let State { q, v, .. } = &self.now.state;
         Acceleration::jacobian(&mut self.dynamics, self.now.t, q, v, &mut by_q, &mut by_v)?;
         Ok(-by_v.iter().step_by(n + 1).sum::<f64>())
     }

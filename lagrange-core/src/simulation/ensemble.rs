@@ -82,7 +82,7 @@ impl<S: System<Scalar: Runnable>> Ensemble<S> {
         count: usize,
         span: Range<f64>,
         mut prepare: impl FnMut(usize, &mut Runner<S>) -> Option<State<S::Scalar>>,
-        mut take: impl FnMut(usize, Result<(), Error>, &Trajectory<S>),
+        mut take: impl FnMut(usize, Result<(), Error>, &Trajectory<S::Scalar>),
     ) {
         while self.runners.len() < count.min(MAX_IN_FLIGHT) {
             self.runners.push(Runner::new(&self.scene, &self.settings));

@@ -14,12 +14,14 @@ use crate::arithmetic::Scalar;
 use crate::effects::Effects;
 use crate::erased::ErasedSystem;
 use crate::error::Error;
+use crate::handle::CoordinateId;
 use crate::integrate::Method;
 use crate::monitor::Monitor;
 use crate::precompiled::Runnable;
 use crate::settings::{Goal, Settings};
 use crate::system::{Impacts, System};
 use crate::trajectory::{Instant, State, Trajectory};
+use core::borrow::Borrow;
 use core::fmt;
 use core::ops::Range;
 
@@ -28,24 +30,26 @@ use core::ops::Range;
 pub struct Simulation<'a, S: System> {
     scene: &'a S,
     settings: Settings,
+    /// Absolute tolerances of single coordinates.
+    absolute: Vec<(CoordinateId, f64)>,
 }
 
 /// A run that ended early, with everything up to there.
 #[derive(Debug)]
-pub struct Failure<S: System> {
+pub struct Failure<T: Scalar = f64> {
     /// Why.
     pub error: Error,
     /// The motion until then.
-    pub trajectory: Box<Trajectory<S>>,
+    pub trajectory: Box<Trajectory<T>>,
 }
 
-impl<S: System> fmt::Display for Failure<S> {
+impl<T: Scalar> fmt::Display for Failure<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.error.fmt(f)
     }
 }
 
-impl<S: System + fmt::Debug> core::error::Error for Failure<S> {
+impl<T: Scalar> core::error::Error for Failure<T> {
     fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
         Some(&self.error)
     }
@@ -60,6 +64,7 @@ impl<'a, S: System<Scalar: Runnable>> Simulation<'a, S> {
                 effects: Effects::all(),
                 goal: Goal::Tolerance,
                 tolerance: 1e-9,
+                sizes: Vec::new(),
                 method: Method::Auto,
                 project_start: false,
                 equations: Equations::Emitted,
@@ -70,6 +75,7 @@ impl<'a, S: System<Scalar: Runnable>> Simulation<'a, S> {
                 max_steps: 100_000_000,
                 monitor: None,
             },
+            absolute: Vec::new(),
         }
     }
 
@@ -80,11 +86,20 @@ impl<'a, S: System<Scalar: Runnable>> Simulation<'a, S> {
         self
     }
 
+    /// Absolute tolerance of one coordinate, in its unit, and of its velocity, in its unit per second; it takes the place of what
+    /// [`Self::tolerance`] says for numbers near 0, and of what [`Self::error`] says for numbers below 1. This is SciPy's array `atol`
+    /// and ODEPACK's `ATOL(i)`. A coordinate in metres that moves by micrometres has one of its own.
+    #[must_use]
+    pub fn absolute_tolerance(mut self, coordinate: CoordinateId, tolerance: f64) -> Self {
+        self.absolute.push((coordinate, tolerance));
+        self
+    }
+
     /// Instead of a tolerance: the final state and the times of all events are to be within this error, relative for numbers
     /// above 1 and absolute (in their own units) below; from 1e-15 to 0.1.
     ///
     /// The run is made at tighter and tighter tolerances (shorter and shorter fixed steps) until two in a row differ by a quarter of
-    /// the error. The result is the tighter one; [`Record::estimate`](crate::trajectory::Record::estimate) has the difference.
+    /// the error. The result is the tighter one; [`Trajectory::estimate`](crate::trajectory::Trajectory::estimate) has the difference.
     /// Where runs do not agree so well however tight they are, the run ends with [`Error::Inexact`].
     #[must_use]
     pub fn error(mut self, error: f64) -> Self {
@@ -93,7 +108,7 @@ impl<'a, S: System<Scalar: Runnable>> Simulation<'a, S> {
     }
 
     /// Whether the run is made a second time, at a hundredth of the tolerance, to see how far off it is:
-    /// [`Record::estimate`](crate::trajectory::Record::estimate).
+    /// [`Trajectory::estimate`](crate::trajectory::Trajectory::estimate).
     #[must_use]
     pub fn estimate(mut self, yes: bool) -> Self {
         self.settings.goal = match yes {
@@ -176,17 +191,17 @@ impl<'a, S: System<Scalar: Runnable>> Simulation<'a, S> {
         self
     }
 
-    /// Integrates from `start` over `span` (s), or until a stop.
+    /// Integrates from `start`, a [`State`] or a reference to one, over `span` (s), or until a stop.
     ///
     /// # Errors
     /// A [`Failure`] with the error and the trajectory so far.
     pub fn run(
         &self,
-        start: State<S::Scalar>,
+        start: impl Borrow<State<S::Scalar>>,
         span: Range<f64>,
-    ) -> Result<Trajectory<S>, Failure<S>> {
+    ) -> Result<Trajectory<S::Scalar>, Failure<S::Scalar>> {
         let mut runner = self.runner();
-        let outcome = runner.run(&start, span).map(|_| ());
+        let outcome = runner.run(start, span).map(|_| ());
         let trajectory = runner.into_trajectory();
         match outcome {
             Ok(()) => Ok(trajectory),
@@ -199,12 +214,33 @@ impl<'a, S: System<Scalar: Runnable>> Simulation<'a, S> {
 
     /// Everything that a run works with, made ready once for many runs.
     pub fn runner(&self) -> Runner<S> {
-        Runner::new(self.scene, &self.settings)
+        Runner::new(self.scene, &self.settings())
     }
 
     /// Everything that many runs work with, several at a time.
     pub fn ensemble(&self) -> Ensemble<S> {
-        Ensemble::new(self.scene, &self.settings)
+        Ensemble::new(self.scene, &self.settings())
+    }
+
+    /// What was set, once all of it is known.
+    fn settings(&self) -> Settings {
+        let asked = match self.settings.goal {
+            Goal::Error(error) => error,
+            Goal::Tolerance | Goal::Estimate => self.settings.tolerance,
+        };
+        let mut sizes = Vec::new();
+        if !self.absolute.is_empty() {
+            sizes.resize(self.scene.description().coordinates.len(), 1.0);
+        }
+        for &(CoordinateId(i), absolute) in &self.absolute {
+            // What is none of the system is refused when a run begins.
+            sizes.resize(sizes.len().max(i + 1), 1.0);
+            sizes[i] = absolute / asked;
+        }
+        Settings {
+            sizes,
+            ..self.settings.clone()
+        }
     }
 
     /// The state nearest to `wanted` (in the mass metric) that satisfies all constraints, with the values in `held`
@@ -257,6 +293,20 @@ impl Settings {
                 expected,
             });
         }
+        if self.sizes.len() > n {
+            return Err(Error::Dimension {
+                expected: n,
+                found: self.sizes.len(),
+            });
+        }
+        let mut sizes = self.sizes.iter();
+        if let Some(size) = sizes.find(|&&size| !(size > 0.0 && size.is_finite())) {
+            return Err(Error::Argument {
+                what: "absolute tolerance",
+                value: size * self.tolerance,
+                expected: "positive",
+            });
+        }
         if let Method::RungeKutta4 { step } | Method::Gauss6 { step } = self.method
             && !(step > 0.0 && step.is_finite())
         {
@@ -282,14 +332,7 @@ impl Settings {
                 expected: "not before the first",
             });
         }
-        for list in [&start.q, &start.v] {
-            if list.len() != n {
-                return Err(Error::Dimension {
-                    expected: n,
-                    found: list.len(),
-                });
-            }
-        }
+        start.check_dimension(n)?;
         let numbers = start.q.iter().chain(&start.v);
         for (i, x) in numbers.enumerate() {
             if !x.value().is_finite() {

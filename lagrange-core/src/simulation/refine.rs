@@ -113,7 +113,7 @@ impl<S: System<Scalar: Runnable>> Runner<S> {
         if let Err(error) = outcome {
             difference.ends(second.trajectory.last_time(), &error);
         }
-        self.trajectory.record().estimate = Some(settings.estimate(difference));
+        self.trajectory.estimate = Some(settings.estimate(difference));
         Ok(())
     }
 
@@ -162,7 +162,7 @@ impl<S: System<Scalar: Runnable>> Runner<S> {
             };
             best = best.min(apart);
             core::mem::swap(&mut self.trajectory, &mut next.trajectory);
-            self.trajectory.record().estimate = Some(settings.estimate(difference));
+            self.trajectory.estimate = Some(settings.estimate(difference));
             if apart <= SHARE * error {
                 return Ok(());
             }

@@ -7,7 +7,8 @@ use crate::run::lockstep::Member;
 use crate::settings::{Goal, Settings};
 use crate::state::FixedComponents;
 use crate::system::System;
-use crate::trajectory::{Instant, Record, State, Trajectory};
+use crate::trajectory::{Instant, State, Trajectory};
+use core::borrow::Borrow;
 use core::ops::Range;
 
 /// Runs one system again and again: what a run works with is made once, and the trajectory is written into the same memory.
@@ -18,8 +19,9 @@ use core::ops::Range;
 /// Made by [`Simulation::runner`](crate::Simulation::runner).
 #[derive(Debug)]
 pub struct Runner<S: System> {
+    scene: S,
     run: Run<S::Scalar>,
-    pub(super) trajectory: Trajectory<S>,
+    pub(super) trajectory: Trajectory<S::Scalar>,
     pub(super) settings: Settings,
 }
 
@@ -27,7 +29,8 @@ impl<S: System<Scalar: Runnable>> Runner<S> {
     pub(crate) fn new(scene: &S, settings: &Settings) -> Self {
         let run = (S::Scalar::functions().run)(scene.erased().system, settings);
         Self {
-            trajectory: Trajectory::new(scene, run.record().clone()),
+            scene: scene.clone(),
+            trajectory: run.record().clone(),
             settings: settings.clone(),
             run,
         }
@@ -40,9 +43,10 @@ impl<S: System<Scalar: Runnable>> Runner<S> {
     /// Why the run ended early; [`Self::trajectory`] has the motion until then.
     pub fn run(
         &mut self,
-        start: &State<S::Scalar>,
+        start: impl Borrow<State<S::Scalar>>,
         span: Range<f64>,
-    ) -> Result<&Trajectory<S>, Error> {
+    ) -> Result<&Trajectory<S::Scalar>, Error> {
+        let start = start.borrow();
         match self.settings.goal {
             Goal::Tolerance => self.run_once(start, span),
             Goal::Estimate => self.run_twice(start, span),
@@ -59,13 +63,13 @@ impl<S: System<Scalar: Runnable>> Runner<S> {
     /// As of [`Self::run`].
     pub fn run_in_pieces(
         &mut self,
-        start: &State<S::Scalar>,
+        start: impl Borrow<State<S::Scalar>>,
         span: Range<f64>,
         bytes: usize,
-        mut take: impl FnMut(&Record<S::Scalar>),
+        mut take: impl FnMut(&Trajectory<S::Scalar>),
     ) -> Result<(), Error> {
         match self.settings.goal {
-            Goal::Tolerance => self.execute(start, span, bytes, &mut take),
+            Goal::Tolerance => self.execute(start.borrow(), span, bytes, &mut take),
             Goal::Estimate | Goal::Error(_) => self.run(start, span).map(|_| ()),
         }
     }
@@ -84,11 +88,17 @@ impl<S: System<Scalar: Runnable>> Runner<S> {
         start: &State<S::Scalar>,
         span: Range<f64>,
         bytes: usize,
-        take: &mut dyn FnMut(&Record<S::Scalar>),
+        take: &mut dyn FnMut(&Trajectory<S::Scalar>),
     ) -> Result<(), Error> {
         let execute = S::Scalar::functions().execute;
-        let record = self.trajectory.record();
-        execute(&mut self.run, start, span, record, bytes, take)
+        execute(
+            &mut self.run,
+            start,
+            span,
+            &mut self.trajectory,
+            bytes,
+            take,
+        )
     }
 
     /// Begins a run without going on with it.
@@ -97,7 +107,7 @@ impl<S: System<Scalar: Runnable>> Runner<S> {
         start: &State<S::Scalar>,
         span: Range<f64>,
     ) -> Result<(), Error> {
-        (S::Scalar::functions().launch)(&mut self.run, start, span, self.trajectory.record())
+        (S::Scalar::functions().launch)(&mut self.run, start, span, &mut self.trajectory)
     }
 
     /// Whether the run that has begun has more to do.
@@ -114,8 +124,8 @@ impl<S: System<Scalar: Runnable>> Runner<S> {
     }
 
     /// Ends the run that has begun; its trajectory.
-    pub(super) fn land(&mut self) -> &Trajectory<S> {
-        (S::Scalar::functions().land)(&mut self.run, self.trajectory.record());
+    pub(super) fn land(&mut self) -> &Trajectory<S::Scalar> {
+        (S::Scalar::functions().land)(&mut self.run, &mut self.trajectory);
         &self.trajectory
     }
 
@@ -146,25 +156,25 @@ impl<S: System<Scalar: Runnable>> Runner<S> {
     }
 
     /// The trajectory of the last run.
-    pub fn trajectory(&self) -> &Trajectory<S> {
+    pub fn trajectory(&self) -> &Trajectory<S::Scalar> {
         &self.trajectory
     }
 
     /// The trajectory of the last run, to keep.
-    pub fn into_trajectory(self) -> Trajectory<S> {
+    pub fn into_trajectory(self) -> Trajectory<S::Scalar> {
         self.trajectory
     }
 
     /// The system.
     pub fn scene(&self) -> &S {
-        self.trajectory.scene()
+        &self.scene
     }
 
     /// Takes another system of the same kind, as a sweep over parameters does.
     pub fn set_scene(&mut self, scene: &S) {
         let system = scene.erased().system;
-        self.trajectory.set_scene(scene);
-        self.trajectory.record().system = system.clone();
+        self.scene.clone_from(scene);
+        self.trajectory.system = system.clone();
         (S::Scalar::functions().set_system)(&mut self.run, system);
     }
 }

@@ -1,10 +1,11 @@
 //! Results asked by the handles of items, `now.force(MassOnWheel::RIM)`.
 
-use super::{Event, Instant, State};
+use super::{Event, Instant};
 use crate::arithmetic::Scalar;
 use crate::handle::{ContactId, CoordinateId, ForceId, FrictionId, ObserveId, Reaction};
 use crate::system::Description;
 use core::fmt;
+use nalgebra::DVectorView;
 
 /// The system that numbers belong to: what the indices of items mean.
 #[derive(Clone, Copy)]
@@ -22,34 +23,6 @@ impl PartialEq for Owner {
     }
 }
 
-impl<T: Copy> State<T> {
-    /// Position of a coordinate.
-    pub fn q(&self, coordinate: CoordinateId) -> T {
-        self.q[coordinate.0]
-    }
-
-    /// Velocity of a coordinate.
-    pub fn v(&self, coordinate: CoordinateId) -> T {
-        self.v[coordinate.0]
-    }
-}
-
-impl<T> State<T> {
-    /// The same with another position of a coordinate.
-    #[must_use]
-    pub fn with_q(mut self, coordinate: CoordinateId, q: T) -> Self {
-        self.q[coordinate.0] = q;
-        self
-    }
-
-    /// The same with another velocity of a coordinate.
-    #[must_use]
-    pub fn with_v(mut self, coordinate: CoordinateId, v: T) -> Self {
-        self.v[coordinate.0] = v;
-        self
-    }
-}
-
 impl<T: Scalar> Instant<T> {
     /// Position of a coordinate.
     pub fn q(&self, coordinate: CoordinateId) -> T {
@@ -59,6 +32,21 @@ impl<T: Scalar> Instant<T> {
     /// Velocity of a coordinate.
     pub fn v(&self, coordinate: CoordinateId) -> T {
         self.v[coordinate.0]
+    }
+
+    /// The positions as a vector of nalgebra.
+    pub fn positions(&self) -> DVectorView<'_, T> {
+        DVectorView::from_slice(&self.q, self.q.len())
+    }
+
+    /// The velocities as a vector of nalgebra.
+    pub fn velocities(&self) -> DVectorView<'_, T> {
+        DVectorView::from_slice(&self.v, self.v.len())
+    }
+
+    /// The accelerations as a vector of nalgebra.
+    pub fn accelerations(&self) -> DVectorView<'_, T> {
+        DVectorView::from_slice(&self.acceleration, self.acceleration.len())
     }
 
     /// Acceleration of a coordinate.

@@ -1,8 +1,8 @@
 //! Results in words: an event, an instant, a whole run.
 
-use super::{Event, EventKind, Instant, Record, Trajectory};
+use super::debug::rows;
+use super::{Event, EventKind, Instant, Trajectory};
 use crate::arithmetic::Scalar;
-use crate::system::System;
 use core::fmt::{Display, Formatter, Result};
 
 /// The event as a sentence, `t = 2.461759150 s: grip starts to slip`.
@@ -46,16 +46,8 @@ impl<T: Scalar> Display for Instant<T> {
         for (coordinate, v) in d.coordinates.iter().zip(&self.v) {
             write!(f, ", der({}) = {}", coordinate.name, v.value())?;
         }
-        let constraints = d.constraints.iter().map(|c| (c.name, c.row, 1));
-        let contacts = d.contacts.iter().map(|c| (c.name, c.row, 1));
-        let frictions = d.frictions.iter().map(|c| (c.name, c.row, c.components));
-        for (name, row, components) in constraints.chain(contacts).chain(frictions) {
-            for (k, force) in self.forces[row..row + components].iter().enumerate() {
-                match components {
-                    1 => write!(f, ", force({name}) = {}", force.value())?,
-                    _ => write!(f, ", force({name}[{k}]) = {}", force.value())?,
-                }
-            }
+        for (name, force) in rows(d).iter().zip(&self.forces) {
+            write!(f, ", force({name}) = {}", force.value())?;
         }
         for (observe, value) in d.observes.iter().zip(&self.observes) {
             write!(f, ", {} = {}", observe.name, value.value())?;
@@ -65,7 +57,7 @@ impl<T: Scalar> Display for Instant<T> {
 }
 
 /// What happened, a line for each event, from the first instant to the last.
-impl<T: Scalar> Display for Record<T> {
+impl<T: Scalar> Display for Trajectory<T> {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         let name = self.description().name;
         writeln!(f, "t = {:.9} s: {name} starts", self.first_time())?;
@@ -74,11 +66,5 @@ impl<T: Scalar> Display for Record<T> {
         }
         let steps = self.work().steps;
         write!(f, "t = {:.9} s: end, after {steps} steps", self.last_time())
-    }
-}
-
-impl<S: System> Display for Trajectory<S> {
-    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
-        Display::fmt(&**self, f)
     }
 }

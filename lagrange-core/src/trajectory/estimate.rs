@@ -1,15 +1,16 @@
 //! How far two runs of one system are apart: at the end, and event by event.
 //!
 //! Errors of a coordinate or velocity x are |Δx| / max(1, |x|), relative where x is large and absolute, in its own unit, where it
-//! is small; errors of times are the same in seconds. Impacts that accumulate are infinitely many, and how many of them a run
+//! is small; errors of times are the same in seconds. Where a coordinate has an absolute tolerance of its own, that size takes the place of 1. Impacts that accumulate are infinitely many, and how many of them a run
 //! follows one by one depends on its tolerance: those that only one of two runs follows have the error of the instant at which
 //! they end.
 
-use super::{EventKind, Record, State};
+use super::{EventKind, State, Trajectory};
 use crate::arithmetic::Scalar;
 use crate::error::Error;
 use crate::handle::Subject;
 use crate::integrate::Method;
+use crate::settings::size_of;
 use crate::system::Description;
 use core::fmt;
 use core::iter::repeat_n;
@@ -28,6 +29,8 @@ pub struct Summary {
     pub time: f64,
     /// State at the end.
     pub state: State<f64>,
+    /// Per coordinate: the size below which its errors are absolute; empty: 1 for all.
+    pub sizes: Vec<f64>,
 }
 
 /// How far two runs are apart.
@@ -73,14 +76,14 @@ fn accumulates((_, kind, _): &Happening) -> bool {
     matches!(kind, EventKind::Accumulates { .. })
 }
 
-/// |Δ| / max(1, |x|)
-fn relative(difference: f64, x: f64) -> f64 {
-    difference / x.abs().max(1.0)
+/// |Δ| / max(size, |x|)
+fn relative(difference: f64, x: f64, size: f64) -> f64 {
+    difference / x.abs().max(size)
 }
 
 impl Summary {
     /// What is compared of this run.
-    pub fn of<T: Scalar>(record: &Record<T>) -> Self {
+    pub fn of<T: Scalar>(record: &Trajectory<T>) -> Self {
         let values = |list: &[T]| list.iter().map(|x| x.value()).collect();
         let events = record.events().iter();
         Summary {
@@ -89,10 +92,11 @@ impl Summary {
                 .map(|event| (event.subject, event.kind, event.time.value()))
                 .collect(),
             time: record.last_time(),
-            state: State {
-                q: values(&record.final_state().q),
-                v: values(&record.final_state().v),
-            },
+            state: State::new(
+                values(&record.final_state().q),
+                values(&record.final_state().v),
+            ),
+            sizes: record.asked.sizes.clone(),
         }
     }
 
@@ -109,7 +113,7 @@ impl Summary {
         };
         if difference.parting.is_none() {
             self.compare_states(other, &mut difference);
-            let end = relative((self.time - other.time).abs(), self.time);
+            let end = relative((self.time - other.time).abs(), self.time, 1.0);
             if end > 0.0 {
                 event_error = Some(event_error.map_or(end, |error| error.max(end)));
             }
@@ -122,18 +126,19 @@ impl Summary {
 
     fn compare_states(&self, other: &Summary, difference: &mut Difference) {
         let apart = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).collect();
-        difference.state = State {
-            q: apart(&self.state.q, &other.state.q),
-            v: apart(&self.state.v, &other.state.v),
-        };
+        difference.state = State::new(
+            apart(&self.state.q, &other.state.q),
+            apart(&self.state.v, &other.state.v),
+        );
         let names = || self.description.coordinates.iter().map(|c| c.name);
         let positions = names().map(str::to_owned);
         let names = positions.chain(names().map(|name| format!("der({name})")));
-        let sizes = self.state.q.iter().chain(&self.state.v);
+        let values = self.state.q.iter().chain(&self.state.v);
         let apart = difference.state.q.iter().chain(&difference.state.v);
         difference.state_error = 0.0;
-        for (name, (&apart, &size)) in names.zip(apart.zip(sizes)) {
-            let error = relative(apart, size);
+        let coordinates = (0..self.state.q.len()).cycle();
+        for (i, (name, (&apart, &x))) in coordinates.zip(names.zip(apart.zip(values))) {
+            let error = relative(apart, x, size_of(&self.sizes, i));
             if error > difference.state_error || difference.coordinate.is_empty() {
                 (difference.state_error, difference.coordinate) = (error, name);
             }
@@ -167,7 +172,7 @@ impl Summary {
             let time = self.events[event].2;
             let apart = (time - other.events[counterpart].2).abs();
             differences.extend(repeat_n(apart, i_next - i));
-            let error = relative(apart, time);
+            let error = relative(apart, time, 1.0);
             largest = Some(largest.map_or(error, |largest| largest.max(error)));
             (i, k) = (i_next, k_next);
         }

@@ -59,7 +59,7 @@ impl EventKind {
 }
 
 /// One entry of the event log.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, PartialEq)]
 pub struct Event<T> {
     pub(super) owner: Owner,
     /// Time, s.
@@ -115,10 +115,7 @@ pub(crate) struct Around<'a, T> {
 impl<T: crate::arithmetic::Scalar> Event<T> {
     /// An entry to be written over.
     pub(crate) fn blank(description: &'static Description) -> Self {
-        let state = State {
-            q: Vec::new(),
-            v: Vec::new(),
-        };
+        let state = State::new(Vec::new(), Vec::new());
         Self {
             owner: Owner(description),
             time: T::default(),

@@ -4,7 +4,7 @@
 //! dh/dt = Σ Q·v − ∂L/∂t (Goldstein, Poole & Safko 2002, section 2.7). Each power is integrated over the stored step
 //! polynomials by Gauss–Legendre quadrature; impacts add their jumps. What is left over is the closure error.
 
-use super::{EventKind, Instant, Record, Sampler, State};
+use super::{EventKind, Instant, Sampler, State, Trajectory};
 use crate::arithmetic::Scalar;
 use crate::dynamics::row_name;
 use crate::error::Error;
@@ -59,7 +59,7 @@ const GAUSS: [(f64, f64); 8] = [
     (0.989_400_934_991_649_9, 0.027_152_459_411_754_095),
 ];
 
-impl<T: Scalar> Record<T> {
+impl<T: Scalar> Trajectory<T> {
     /// The ledgers at these times, or that of the end.
     pub(crate) fn book(&self, times: Option<&[f64]>) -> Result<Vec<Ledger>, Error> {
         match times {
@@ -96,14 +96,17 @@ impl<T: Scalar> Record<T> {
         time: T,
         state: &State<T>,
     ) -> Result<Energies, Error> {
-        let mode = self.modes.len() - 1;
-        Ok(energies(&sampler.evaluate(time, mode, state)?))
+        Ok(energies(&sampler.evaluate(
+            time,
+            self.final_mode(),
+            state,
+        )?))
     }
 }
 
 /// The books of a trajectory, kept from its beginning to some time.
 struct Books<'a, T: Scalar> {
-    trajectory: &'a Record<T>,
+    trajectory: &'a Trajectory<T>,
     sampler: Sampler<'a, T>,
     start: Energies,
     /// Every item, its work up to the begin of the first segment that is not booked.
@@ -121,13 +124,14 @@ struct Books<'a, T: Scalar> {
 }
 
 impl<'a, T: Scalar> Books<'a, T> {
-    fn open(trajectory: &'a Record<T>) -> Result<Self, Error> {
+    fn open(trajectory: &'a Trajectory<T>) -> Result<Self, Error> {
         trajectory.check_recorded()?;
         tell(trajectory, trajectory.first_time);
         let mut sampler = Sampler::new(trajectory);
         let (mut booked, entries) = items(trajectory.description());
         let jumps = jumps(trajectory, &mut sampler, &mut booked)?;
         let mode = trajectory.segments.first().map_or(0, |s| s.mode);
+        let mode = &trajectory.modes[mode];
         let start = sampler.evaluate(trajectory.first_time, mode, &trajectory.start)?;
         Ok(Books {
             trajectory,
@@ -215,7 +219,7 @@ impl<'a, T: Scalar> Books<'a, T> {
 }
 
 /// Lets those who watch see how far the books are.
-fn tell<T: Scalar>(trajectory: &Record<T>, time: T) {
+fn tell<T: Scalar>(trajectory: &Trajectory<T>, time: T) {
     if let Some(monitor) = &trajectory.monitor {
         monitor.tell(time.value());
     }
@@ -261,7 +265,7 @@ fn kind(d: &Description, row: usize) -> &'static str {
 /// Energy jumps at impacts, (time, entry, J); several events of one impact book it once. Adds an entry for every item that
 /// was hit.
 fn jumps<T: Scalar>(
-    trajectory: &Record<T>,
+    trajectory: &Trajectory<T>,
     sampler: &mut Sampler<'_, T>,
     work: &mut Vec<Entry>,
 ) -> Result<Vec<(f64, usize, f64)>, Error> {
@@ -285,7 +289,8 @@ fn jumps<T: Scalar>(
             _ => continue,
         };
         let mut modes = trajectory.modes.iter();
-        let mode = modes.position(|m| *m == event.before).unwrap_or(0);
+        let mode = modes.find(|m| **m == event.before);
+        let mode = mode.unwrap_or(&trajectory.modes[0]);
         let before = sampler.evaluate(event.time, mode, from)?;
         let after = sampler.evaluate(event.time, mode, to)?;
         let name = event.subject.name(d);

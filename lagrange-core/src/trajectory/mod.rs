@@ -1,6 +1,7 @@
 //! The result of a run: the motion as polynomials in time, the modes, the events, the work done.
 
 mod by_handle;
+mod debug;
 mod display;
 mod estimate;
 mod event;
@@ -18,16 +19,20 @@ pub use sampler::{Instant, Sampler};
 pub(crate) use sampler::{instant, report_everything};
 
 use crate::arithmetic::Scalar;
+use crate::declaration::Declaration;
+use crate::derivation::Derivation;
 use crate::dynamics::Dynamics;
 use crate::effects::Effects;
 use crate::erased::Erased;
 use crate::error::Error;
+use crate::handle::CoordinateId;
 use crate::integrate::{Method, StepPolynomial, horner};
 use crate::mode::Mode;
 use crate::monitor::Monitor;
 use crate::pool::Pool;
-use crate::system::{Description, Impacts, System};
-use core::ops::{Deref, Range};
+use crate::settings::size_of;
+use crate::system::{Description, Impacts};
+use core::ops::Range;
 
 /// What a run cost.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -47,10 +52,12 @@ pub struct Work {
 }
 
 /// What was asked of a run.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Asked {
     /// Relative and absolute.
     pub tolerance: f64,
+    /// Per coordinate, the size below which its errors are absolute; empty: 1 for all.
+    pub sizes: Vec<f64>,
     /// The method.
     pub method: Method,
     /// How contacts are solved that are hit together.
@@ -85,48 +92,9 @@ pub(crate) struct Segment<T> {
     pub mode: usize,
 }
 
-/// The motion of a system over a time interval.
-///
-/// What there is to ask of it is that of a [`Record`], which does not know the type of the system.
+/// The motion of a system over a time interval: polynomials in time, modes, events, work. It is that of any system with numbers `T`.
 #[derive(Clone, Debug)]
-pub struct Trajectory<S: System> {
-    scene: S,
-    record: Record<S::Scalar>,
-}
-
-impl<S: System> Trajectory<S> {
-    pub(crate) fn new(scene: &S, record: Record<S::Scalar>) -> Self {
-        Self {
-            scene: scene.clone(),
-            record,
-        }
-    }
-
-    /// The system that moved.
-    pub fn scene(&self) -> &S {
-        &self.scene
-    }
-
-    pub(crate) fn set_scene(&mut self, scene: &S) {
-        self.scene.clone_from(scene);
-    }
-
-    pub(crate) fn record(&mut self) -> &mut Record<S::Scalar> {
-        &mut self.record
-    }
-}
-
-impl<S: System> Deref for Trajectory<S> {
-    type Target = Record<S::Scalar>;
-
-    fn deref(&self) -> &Record<S::Scalar> {
-        &self.record
-    }
-}
-
-/// The motion of a system, whatever its type: polynomials in time, modes, events, work.
-#[derive(Clone, Debug)]
-pub struct Record<T: Scalar> {
+pub struct Trajectory<T: Scalar = f64> {
     pub(crate) system: Erased<T>,
     pub(crate) effects: Effects,
     /// What was asked of the run.
@@ -149,7 +117,7 @@ pub struct Record<T: Scalar> {
     pub(crate) monitor: Option<Monitor>,
 }
 
-impl<T: Scalar> Record<T> {
+impl<T: Scalar> Trajectory<T> {
     pub(crate) fn new(system: &Erased<T>, effects: &Effects, recorded: bool, asked: Asked) -> Self {
         let (time, state) = (T::default(), State::default());
         Self {
@@ -243,6 +211,16 @@ impl<T: Scalar> Record<T> {
         self.system.description()
     }
 
+    /// What was declared.
+    pub fn declaration(&self) -> &'static Declaration {
+        self.system.declaration()
+    }
+
+    /// What was derived from it, in words.
+    pub fn derivation(&self) -> &'static Derivation {
+        self.system.derivation()
+    }
+
     /// Value of parameter `index` of the description.
     pub fn parameter(&self, index: usize) -> T {
         self.system.parameter(index)
@@ -261,6 +239,12 @@ impl<T: Scalar> Record<T> {
     /// Relative and absolute tolerance that was asked for; with [`Simulation::error`](crate::Simulation::error) the one that was found.
     pub fn tolerance(&self) -> f64 {
         self.asked.tolerance
+    }
+
+    /// The same for a position or velocity of this coordinate near 0; differs where
+    /// [`Simulation::absolute_tolerance`](crate::Simulation::absolute_tolerance) says so.
+    pub fn absolute_tolerance(&self, coordinate: CoordinateId) -> f64 {
+        self.asked.tolerance * size_of(&self.asked.sizes, coordinate.0)
     }
 
     /// Method of integration that was asked for; where it has steps of fixed length, with the length that was found.

@@ -1,7 +1,7 @@
 //! The trajectory at any time: state, accelerations, forces, energies, outputs.
 
 use super::by_handle::Owner;
-use super::{Record, Segment, State};
+use super::{Event, Segment, State, Trajectory};
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, OutputMask, approach};
 use crate::error::Error;
@@ -11,7 +11,7 @@ use crate::modes::redundant::RedundantForces;
 use crate::system::{Normal, ValueRef};
 
 /// Everything known at one time.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Instant<T> {
     pub(super) owner: Owner,
     /// Time, s.
@@ -50,17 +50,18 @@ pub struct Instant<T> {
 /// Evaluates a trajectory at any time; keeps the memory for it.
 #[derive(Debug)]
 pub struct Sampler<'a, T: Scalar> {
-    trajectory: &'a Record<T>,
+    trajectory: &'a Trajectory<T>,
     dynamics: Dynamics<T>,
     redundant: RedundantForces<T>,
-    mode: Option<usize>,
+    /// What `dynamics` has been made ready for.
+    mode: Option<Mode>,
     /// Whether slips have been given directions for the present state.
     headed: bool,
     state: State<T>,
 }
 
 impl<'a, T: Scalar> Sampler<'a, T> {
-    pub(crate) fn new(trajectory: &'a Record<T>) -> Self {
+    pub(crate) fn new(trajectory: &'a Trajectory<T>) -> Self {
         let mut dynamics = trajectory.dynamics();
         report_everything(&mut dynamics);
         Self {
@@ -75,8 +76,22 @@ impl<'a, T: Scalar> Sampler<'a, T> {
 
     pub(crate) fn evaluate_at(&mut self, t: f64) -> Result<Instant<T>, Error> {
         let trajectory = self.trajectory;
-        trajectory.check_recorded()?;
         let (first, last) = (trajectory.first_time(), trajectory.last_time());
+        if !trajectory.recorded {
+            return match t {
+                _ if t == last => self.evaluate(
+                    trajectory.last_time,
+                    trajectory.final_mode(),
+                    &trajectory.last,
+                ),
+                _ if t == first => self.evaluate(
+                    trajectory.first_time,
+                    &trajectory.modes[0],
+                    &trajectory.start,
+                ),
+                _ => Err(Error::NotRecorded),
+            };
+        }
         if !(first..=last).contains(&t) {
             return Err(Error::OutsideTrajectory {
                 time: t,
@@ -86,8 +101,9 @@ impl<'a, T: Scalar> Sampler<'a, T> {
         }
         let after = trajectory.segments.partition_point(|s| s.t.value() <= t);
         match trajectory.segments.get(after.saturating_sub(1)) {
-            None => self.evaluate(T::from_f64(t), 0, &trajectory.start.clone()),
+            None => self.evaluate(T::from_f64(t), &trajectory.modes[0], &trajectory.start),
             Some(segment) => {
+                let mode = &trajectory.modes[segment.mode];
                 let time = T::from_f64(t);
                 let s = if segment.h.value() > 0.0 {
                     (time - segment.t) / segment.h
@@ -101,9 +117,9 @@ impl<'a, T: Scalar> Sampler<'a, T> {
                 };
                 let mut state = core::mem::take(&mut self.state);
                 trajectory.state_at(segment, s, &mut state.q, &mut state.v);
-                self.enter(segment.mode);
+                self.enter(mode);
                 self.headed = self.head_into_rest(segment, s, time, &state);
-                let instant = self.evaluate(time, segment.mode, &state);
+                let instant = self.evaluate(time, mode, &state);
                 if core::mem::take(&mut self.headed) {
                     self.mode = None;
                 }
@@ -113,21 +129,49 @@ impl<'a, T: Scalar> Sampler<'a, T> {
         }
     }
 
+    pub(crate) fn evaluate_before(&mut self, event: &Event<T>) -> Result<Instant<T>, Error> {
+        let d = self.trajectory.description();
+        event.state.check_dimension(d.coordinates.len())?;
+        let mut mode = event.before.clone();
+        for (f, _) in event.before.in_space() {
+            // A slip that has just come to rest had the direction against which friction acted.
+            let row = d.frictions[f].row;
+            let [x, y] = [row, row + 1].map(|row| -event.forces[row].value());
+            let size = x.hypot(y);
+            if size > 0.0 {
+                mode.turn(f, Direction::Incipient([x / size, y / size]));
+            }
+        }
+        self.evaluate(event.time, &mode, &event.state)
+    }
+
+    pub(crate) fn evaluate_after(&mut self, event: &Event<T>) -> Result<Instant<T>, Error> {
+        let n = self.trajectory.description().coordinates.len();
+        event.state_after.check_dimension(n)?;
+        self.evaluate(event.time, &event.after, &event.state_after)
+    }
+
+    /// The equations of motion at the instant that was asked for last: [`Dynamics::mass_matrix`], [`Dynamics::constraint_jacobian`].
+    pub fn dynamics(&self) -> &Dynamics<T> {
+        &self.dynamics
+    }
+
     /// The motion at part `s` of a segment.
     pub(crate) fn inside(&mut self, segment: usize, s: T) -> Result<Instant<T>, Error> {
-        let segment = &self.trajectory.segments[segment];
+        let trajectory = self.trajectory;
+        let segment = &trajectory.segments[segment];
         let mut state = core::mem::take(&mut self.state);
-        self.trajectory
-            .state_at(segment, s, &mut state.q, &mut state.v);
-        let instant = self.evaluate(segment.t + segment.h * s, segment.mode, &state);
+        trajectory.state_at(segment, s, &mut state.q, &mut state.v);
+        let mode = &trajectory.modes[segment.mode];
+        let instant = self.evaluate(segment.t + segment.h * s, mode, &state);
         self.state = state;
         instant
     }
 
-    fn enter(&mut self, mode: usize) {
-        if self.mode != Some(mode) {
-            self.mode = Some(mode);
-            self.dynamics.set_mode(&self.trajectory.modes[mode]);
+    fn enter(&mut self, mode: &Mode) {
+        if self.mode.as_ref() != Some(mode) {
+            self.mode = Some(mode.clone());
+            self.dynamics.set_mode(mode);
             let d = self.trajectory.description();
             let needs = guard::all_row_needs(d, &OutputMask::new(d));
             self.dynamics.set_extra_needs(&needs);
@@ -167,11 +211,11 @@ impl<'a, T: Scalar> Sampler<'a, T> {
         })
     }
 
-    /// Everything about a state in mode `mode` of the trajectory.
+    /// Everything about a state in a mode.
     pub(super) fn evaluate(
         &mut self,
         t: T,
-        mode: usize,
+        mode: &Mode,
         state: &State<T>,
     ) -> Result<Instant<T>, Error> {
         let d = self.trajectory.description();
@@ -183,7 +227,7 @@ impl<'a, T: Scalar> Sampler<'a, T> {
             dynamics.value_along(t, &state.q, &state.v)
         };
         let outcome = outcome.map(|()| instant(dynamics, &mut self.redundant, t, state));
-        outcome.map_err(|e| Error::from_evaluation(e, t.value(), &self.trajectory.modes[mode], d))
+        outcome.map_err(|e| Error::from_evaluation(e, t.value(), mode, d))
     }
 
     /// Power of every force, dissipation and row, and of explicit time, at part `s` of a segment; in the order of

@@ -8,10 +8,7 @@ use lagrange_core::prelude::*;
 pub fn runs<S: Scene>(method: Method, tolerance: f64) -> impl FnMut() -> Option<Vec<f64>> {
     let scene = S::Declared::default();
     let n = scene.description().coordinates.len();
-    let mut start = State {
-        q: vec![0.0; n],
-        v: vec![0.0; n],
-    };
+    let mut start = State::new(vec![0.0; n], vec![0.0; n]);
     scene.start(0, 0.0, &mut start.q, &mut start.v);
     let simulation = Simulation::new(&scene).method(method).tolerance(tolerance);
     let mut runner = simulation.record(false).runner();
@@ -19,7 +16,7 @@ pub fn runs<S: Scene>(method: Method, tolerance: f64) -> impl FnMut() -> Option<
 }
 
 /// Positions, then velocities, at the end of a run without events.
-pub fn end<S: System<Scalar = f64>>(trajectory: &Trajectory<S>) -> Option<Vec<f64>> {
+pub fn end(trajectory: &Trajectory) -> Option<Vec<f64>> {
     let end = trajectory.final_state();
     trajectory
         .events()

@@ -23,7 +23,7 @@ pub trait Scene: 'static {
     type Declared: System<Scalar = f64> + Default + 'static;
 
     /// What is compared, in a run of the declaration.
-    fn seen(trajectory: &Trajectory<Self::Declared>) -> Option<Vec<f64>>;
+    fn seen(trajectory: &Trajectory) -> Option<Vec<f64>>;
 
     /// By hand-reduced equations in another integrator.
     fn by_hand<P: Peer>(peer: P, tolerance: f64) -> Option<Vec<f64>>;
@@ -38,7 +38,7 @@ impl Scene for Double {
     const UNTIL: f64 = 5.0;
     type Declared = DoublePendulum;
 
-    fn seen(trajectory: &Trajectory<DoublePendulum>) -> Option<Vec<f64>> {
+    fn seen(trajectory: &Trajectory) -> Option<Vec<f64>> {
         ours::end(trajectory)
     }
 
@@ -58,7 +58,7 @@ impl Scene for FiveLinks {
     const UNTIL: f64 = 2.0;
     type Declared = FiveLinkChain;
 
-    fn seen(trajectory: &Trajectory<FiveLinkChain>) -> Option<Vec<f64>> {
+    fn seen(trajectory: &Trajectory) -> Option<Vec<f64>> {
         ours::end(trajectory)
     }
 
@@ -78,7 +78,7 @@ impl Scene for Rod {
     const UNTIL: f64 = 100.0;
     type Declared = CartesianPendulum;
 
-    fn seen(trajectory: &Trajectory<CartesianPendulum>) -> Option<Vec<f64>> {
+    fn seen(trajectory: &Trajectory) -> Option<Vec<f64>> {
         ours::end(trajectory)
     }
 
@@ -98,7 +98,7 @@ impl Scene for Orbit {
     const UNTIL: f64 = 200.0 * PI;
     type Declared = Kepler;
 
-    fn seen(trajectory: &Trajectory<Kepler>) -> Option<Vec<f64>> {
+    fn seen(trajectory: &Trajectory) -> Option<Vec<f64>> {
         ours::end(trajectory)
     }
 
@@ -118,7 +118,7 @@ impl Scene for Spring {
     const UNTIL: f64 = 10.0;
     type Declared = StiffSpringPendulum;
 
-    fn seen(trajectory: &Trajectory<StiffSpringPendulum>) -> Option<Vec<f64>> {
+    fn seen(trajectory: &Trajectory) -> Option<Vec<f64>> {
         ours::end(trajectory)
     }
 

@@ -38,15 +38,15 @@ impl Scene for Slide {
     const UNTIL: f64 = LONGEST;
     type Declared = MassOnShell;
 
-    fn seen(trajectory: &Trajectory<MassOnShell>) -> Option<Vec<f64>> {
+    fn seen(trajectory: &Trajectory) -> Option<Vec<f64>> {
         if trajectory.events().len() != 2 {
             return None;
         }
         let lost = &trajectory.events()[0];
-        let State { q, v } = trajectory.final_state();
+        let State { q, v, .. } = trajectory.final_state();
         let [x, vx, vy] = cartesian(q[0], q[1], v[0], v[1]);
         let end = trajectory.last_time();
-        let State { q, v } = &lost.state;
+        let State { q, v, .. } = &lost.state;
         Some(vec![lost.time, q[1], v[1], end, x, vx, vy])
     }
 
@@ -76,15 +76,15 @@ impl Scene for Roll {
     const UNTIL: f64 = LONGEST;
     type Declared = RollingSphere;
 
-    fn seen(trajectory: &Trajectory<RollingSphere>) -> Option<Vec<f64>> {
+    fn seen(trajectory: &Trajectory) -> Option<Vec<f64>> {
         if trajectory.events().len() != 2 {
             return None;
         }
         let lost = &trajectory.events()[0];
-        let State { q, v } = trajectory.final_state();
+        let State { q, v, .. } = trajectory.final_state();
         let [x, vx, vy] = cartesian(q[0], q[1], v[0], v[1]);
         let end = [trajectory.last_time(), x, vx, vy, q[2], v[2]];
-        let State { q, v } = &lost.state;
+        let State { q, v, .. } = &lost.state;
         Some([&[lost.time, q[1], v[1]][..], &end].concat())
     }
 
@@ -110,7 +110,7 @@ impl Scene for Slip {
     const UNTIL: f64 = LONGEST;
     type Declared = RollingSlippingSphere;
 
-    fn seen(trajectory: &Trajectory<RollingSlippingSphere>) -> Option<Vec<f64>> {
+    fn seen(trajectory: &Trajectory) -> Option<Vec<f64>> {
         if trajectory.events().len() != 3 {
             return None;
         }
@@ -120,7 +120,7 @@ impl Scene for Slip {
         let seen = events
             .iter()
             .flat_map(|e| [e.time, e.state.q[1], e.state.v[1]]);
-        let State { q, v } = trajectory.final_state();
+        let State { q, v, .. } = trajectory.final_state();
         let [x, vx, vy] = cartesian(q[0], q[1], v[0], v[1]);
         let end = [trajectory.last_time(), x, vx, vy, q[2], v[2]];
         Some(seen.chain(end).collect())
@@ -151,14 +151,14 @@ impl Scene for Wheel {
     const UNTIL: f64 = LONGEST;
     type Declared = MassOnWheel;
 
-    fn seen(trajectory: &Trajectory<MassOnWheel>) -> Option<Vec<f64>> {
+    fn seen(trajectory: &Trajectory) -> Option<Vec<f64>> {
         if trajectory.events().len() != 3 {
             return None;
         }
         let [slips, lost, _] = trajectory.events() else {
             return None;
         };
-        let State { q, v } = trajectory.final_state();
+        let State { q, v, .. } = trajectory.final_state();
         let [x, vx, vy] = cartesian(q[2], q[3], v[2], v[3]);
         let end = [trajectory.last_time(), q[0] + x, q[0], v[0] + vx, vy, v[0]];
         let seen = [slips, lost].map(|e| [e.time, e.state.q[3], e.state.v[3]]);

@@ -36,7 +36,7 @@ impl Motion<'_> {
     }
 
     /// Runs it.
-    pub(super) fn run(&self, setting: Setting) -> Result<Trajectory<AnySystem<f64>>, Error> {
+    pub(super) fn run(&self, setting: Setting) -> Result<Trajectory, Error> {
         self.simulation(setting)
             .run(self.start.clone(), 0.0..self.until)
             .map_err(|stopped| stopped.error)
@@ -65,13 +65,13 @@ impl Motion<'_> {
 }
 
 /// What the energy book leaves unexplained, over the scale of the energies.
-pub(super) fn energy_drift(trajectory: &Record<f64>) -> Option<f64> {
+pub(super) fn energy_drift(trajectory: &Trajectory) -> Option<f64> {
     let ledger = trajectory.ledger().ok()?;
     Some(ledger.closure.abs() / ledger.scale.max(f64::MIN_POSITIVE))
 }
 
 /// What has to hold is off by this much just before each event and at the end; `None` if nothing ever has to.
-pub(super) fn constraint_drift(trajectory: &Record<f64>) -> Option<f64> {
+pub(super) fn constraint_drift(trajectory: &Trajectory) -> Option<f64> {
     let events = trajectory.events().iter();
     let before = events.map(|event| (event.time, &event.before, &event.state));
     let end = (

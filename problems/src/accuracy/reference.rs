@@ -9,7 +9,7 @@ use crate::closed_form::ClosedForm;
 use crate::request::Refusal;
 use crate::sweep::event;
 use lagrange_core::prelude::*;
-use lagrange_core::system::{AnySystem, Description};
+use lagrange_core::system::Description;
 use lagrange_core::trajectory::{Difference, Summary};
 
 /// The tightest run: Taylor series, at the first of these tolerances that gets to the end.
@@ -116,7 +116,7 @@ pub(super) fn reference(
     Ok((reference?, scale))
 }
 
-fn tightest(motion: &Motion<'_>) -> Result<(Setting, Trajectory<AnySystem<f64>>), Refusal> {
+fn tightest(motion: &Motion<'_>) -> Result<(Setting, Trajectory), Refusal> {
     let mut refused = None;
     for setting in TIGHTEST {
         match motion.run(setting) {
@@ -163,6 +163,7 @@ fn summary(known: ClosedForm, description: &'static Description) -> Result<Summa
         events: events.collect::<Result<_, _>>()?,
         time: known.time,
         state: known.state,
+        sizes: Vec::new(),
     })
 }
 

@@ -1,7 +1,7 @@
 //! Which run of a scene is meant: arguments that several commands share, and the request that they make.
 
 use super::Trouble;
-use super::values::{error, named, positive, tolerance};
+use super::values::{error, named, named_positive, positive, tolerance};
 use clap::Args;
 use lagrange_core::prelude::{Impacts, Method};
 use lagrange_problems::file::{ENDING, find};
@@ -21,6 +21,10 @@ pub(super) struct RunArgs {
     /// Tolerance of the integration, relative and absolute [default: 1e-9].
     #[arg(long, value_name = "X", value_parser = tolerance, allow_hyphen_values = true)]
     tolerance: Option<f64>,
+    /// Absolute tolerance of one coordinate and of its velocity, in its units, instead of the number that stands for all
+    /// (x=1e-15); may be repeated.
+    #[arg(long, value_name = "NAME=X", value_parser = named_positive, allow_hyphen_values = true)]
+    absolute_tolerance: Vec<(String, f64)>,
     /// Error that the final state and the times of all events are to keep, relative above 1 and absolute below; tightens the
     /// tolerance until two runs agree.
     #[arg(long, value_name = "X", value_parser = error, allow_hyphen_values = true, conflicts_with = "tolerance")]
@@ -74,6 +78,7 @@ impl RunArgs {
         let file = self.motion.of(name)?;
         let request = Request {
             tolerance: self.tolerance.unwrap_or(file.request.tolerance),
+            absolute: instead(file.request.absolute, &self.absolute_tolerance),
             error: match self.tolerance {
                 Some(_) => None,
                 None => self.error.or(file.request.error),

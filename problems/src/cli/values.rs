@@ -17,6 +17,14 @@ pub(super) fn named(text: &str) -> Result<(String, f64), String> {
     Ok((name.to_owned(), finite(value)?))
 }
 
+/// `name=value`, the value above zero.
+pub(super) fn named_positive(text: &str) -> Result<(String, f64), String> {
+    match named(text)? {
+        (name, value) if value > 0.0 => Ok((name, value)),
+        (name, _) => Err(format!("the value of `{name}` must be above 0")),
+    }
+}
+
 /// A finite number.
 pub(super) fn finite(text: &str) -> Result<f64, String> {
     match text.trim().parse::<f64>() {

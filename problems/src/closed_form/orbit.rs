@@ -43,10 +43,10 @@ pub(crate) fn elliptic(mu: f64, start: &State<f64>, until: f64) -> Option<Closed
         by: "Kepler's equation",
         events: Vec::new(),
         time: until,
-        state: State {
-            q: vec![place(px, qx), place(py, qy)],
-            v: vec![rate(px, qx), rate(py, qy)],
-        },
+        state: State::new(
+            vec![place(px, qx), place(py, qy)],
+            vec![rate(px, qx), rate(py, qy)],
+        ),
         rounding: 1e-15 / (1.0 - e),
     })
 }
@@ -87,13 +87,7 @@ mod tests {
 
     #[test]
     fn turned_orbits_keep_energy_momentum_and_their_axis() {
-        let (mu, start) = (
-            2.0,
-            State {
-                q: vec![0.3, -0.4],
-                v: vec![1.1, 1.7],
-            },
-        );
+        let (mu, start) = (2.0, State::new(vec![0.3, -0.4], vec![1.1, 1.7]));
         let conserved = |s: &State<f64>| {
             let (r, v) = (s.q[0].hypot(s.q[1]), s.v[0].hypot(s.v[1]));
             let momentum = s.q[0] * s.v[1] - s.q[1] * s.v[0];

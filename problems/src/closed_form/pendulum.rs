@@ -62,10 +62,10 @@ pub(crate) fn swing(
         by: "Jacobi's elliptic functions",
         events: Vec::new(),
         time: until,
-        state: State {
-            q: vec![length * sine, -length * cosine],
-            v: vec![length * turning * cosine, length * turning * sine],
-        },
+        state: State::new(
+            vec![length * sine, -length * cosine],
+            vec![length * turning * cosine, length * turning * sine],
+        ),
         // A start is on its circle to rounding only, which changes the period: in proportion to time.
         rounding: 1e-15 + 0.5 * f64::EPSILON * slow * until,
     })
@@ -92,10 +92,7 @@ mod tests {
     use lagrange_core::prelude::State;
 
     fn state(q: [f64; 2], v: [f64; 2]) -> State<f64> {
-        State {
-            q: q.to_vec(),
-            v: v.to_vec(),
-        }
+        State::new(q.to_vec(), v.to_vec())
     }
 
     #[test]

@@ -21,7 +21,7 @@ pub struct Place {
 }
 
 /// The middle of the first phase in each mode.
-pub fn places(trajectory: &Record<f64>) -> Vec<Place> {
+pub fn places(trajectory: &Trajectory) -> Vec<Place> {
     let mut sampler = trajectory.sampler();
     let mut places: Vec<Place> = Vec::new();
     for phase in trajectory.phases() {
@@ -32,10 +32,7 @@ pub fn places(trajectory: &Record<f64>) -> Vec<Place> {
         let Ok(instant) = sampler.at(time) else {
             continue;
         };
-        let state = State {
-            q: instant.q.clone(),
-            v: instant.v.clone(),
-        };
+        let state = State::new(instant.q.clone(), instant.v.clone());
         places.push(Place {
             mode: phase.mode,
             time,
@@ -63,7 +60,7 @@ impl RightSide {
     ) -> Option<Self> {
         let mut dynamics = Dynamics::new(system, effects);
         dynamics.set_mode(&remaining(system.description(), effects, &place.mode));
-        let State { q, v } = &place.state;
+        let State { q, v, .. } = &place.state;
         dynamics.value(place.time, q, v).ok()?;
         Some(Self {
             dynamics,
@@ -86,7 +83,7 @@ impl RightSide {
     /// How long so many calls take from the beginning, each on the state that the last one has moved: the latency, which is
     /// what an integrator waits for.
     pub fn chain(&mut self, calls: u64) -> Duration {
-        let State { mut q, mut v } = black_box(self.start.clone());
+        let State { mut q, mut v, .. } = black_box(self.start.clone());
         let begin = Instant::now();
         for _ in 0..calls {
             let rates = &mut self.rates;

@@ -25,6 +25,8 @@ pub struct Outcome {
     pub method: Method,
     /// Its tolerance, relative and absolute.
     pub tolerance: f64,
+    /// Absolute tolerances of coordinates that have one of their own, by name.
+    pub absolute: Vec<(String, f64)>,
     /// How far off it is, if that was asked for.
     pub estimate: Option<Estimate>,
     /// Event log.
@@ -48,7 +50,7 @@ pub struct Outcome {
     pub event_ledgers: Vec<Ledger>,
     /// Work counts.
     pub work: Work,
-    /// When steps were bounded by stability ([`Record::stiff`]).
+    /// When steps were bounded by stability ([`Trajectory::stiff`]).
     pub stiff: Vec<Range<f64>>,
     /// Why the run ended early.
     pub failure: Option<Error>,
@@ -151,11 +153,25 @@ pub fn forces(description: &Description) -> Vec<Force> {
     constraints.chain(contacts).chain(frictions).collect()
 }
 
+/// Absolute tolerances of coordinates that have one of their own.
+fn own_tolerances(trajectory: &Trajectory) -> Vec<(String, f64)> {
+    let coordinates = trajectory.description().coordinates.iter().enumerate();
+    coordinates
+        .map(|(i, c)| {
+            (
+                c.name.to_owned(),
+                trajectory.absolute_tolerance(CoordinateId(i)),
+            )
+        })
+        .filter(|(_, absolute)| *absolute != trajectory.tolerance())
+        .collect()
+}
+
 impl Outcome {
     /// Collects what a trajectory knows, sampled at equal intervals as the request says.
     pub(crate) fn new(
         scene: &'static str,
-        trajectory: &Record<f64>,
+        trajectory: &Trajectory,
         failure: Option<Error>,
         request: &Request,
     ) -> Self {
@@ -166,7 +182,7 @@ impl Outcome {
     /// The same, sampled at these times, which are in order.
     pub(crate) fn sampled(
         scene: &'static str,
-        trajectory: &Record<f64>,
+        trajectory: &Trajectory,
         failure: Option<Error>,
         request: &Request,
         times: &[f64],
@@ -186,6 +202,7 @@ impl Outcome {
                 .collect(),
             method: trajectory.method(),
             tolerance: trajectory.tolerance(),
+            absolute: own_tolerances(trajectory),
             estimate: trajectory.estimate().cloned(),
             effects: trajectory.effects().clone(),
             events: events.to_vec(),

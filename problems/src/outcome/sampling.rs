@@ -8,14 +8,14 @@ use lagrange_core::prelude::*;
 use lagrange_core::system::{Friction, Normal};
 
 /// The instants between so many equal intervals of a motion.
-pub(crate) fn equal(trajectory: &Record<f64>, intervals: usize) -> Vec<f64> {
+pub(crate) fn equal(trajectory: &Trajectory, intervals: usize) -> Vec<f64> {
     let (first, last) = (trajectory.first_time(), trajectory.last_time());
     let step = (last - first) / intervals.max(1) as f64;
     (1..intervals).map(|k| first + k as f64 * step).collect()
 }
 
 /// The instants between so many equal intervals of the time up to `until` that a piece of a run has.
-pub(crate) fn within(piece: &Record<f64>, until: f64, intervals: usize) -> Vec<f64> {
+pub(crate) fn within(piece: &Trajectory, until: f64, intervals: usize) -> Vec<f64> {
     let step = until / intervals.max(1) as f64;
     let times = (1..intervals).map(|k| k as f64 * step);
     times
@@ -24,7 +24,7 @@ pub(crate) fn within(piece: &Record<f64>, until: f64, intervals: usize) -> Vec<f
 }
 
 /// Both ends of every phase, and between them these times, which are in order.
-pub(super) fn samples(trajectory: &Record<f64>, times: &[f64]) -> Vec<Sample> {
+pub(super) fn samples(trajectory: &Trajectory, times: &[f64]) -> Vec<Sample> {
     let (first, last) = (trajectory.first_time(), trajectory.last_time());
     let mut reader = Reader::new(trajectory);
     let mut samples = Vec::new();
@@ -63,7 +63,7 @@ pub(super) fn samples(trajectory: &Record<f64>, times: &[f64]) -> Vec<Sample> {
 
 /// The instants just before and just after every event. Of events at one instant only what is before the first and after
 /// the last can be read from the trajectory: nothing for those that follow another state or lead to one.
-pub(super) fn around(trajectory: &Record<f64>) -> Vec<[Option<Sample>; 2]> {
+pub(super) fn around(trajectory: &Trajectory) -> Vec<[Option<Sample>; 2]> {
     let mut reader = Reader::new(trajectory);
     let mut around = Vec::with_capacity(trajectory.events().len());
     for group in trajectory.events().chunk_by(|a, b| a.time == b.time) {
@@ -88,7 +88,7 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    fn new(trajectory: &'a Record<f64>) -> Self {
+    fn new(trajectory: &'a Trajectory) -> Self {
         Self {
             sampler: trajectory.sampler(),
             limits: Limits::new(trajectory.dynamics()),
@@ -116,10 +116,7 @@ impl<'a> Reader<'a> {
             phase,
             limits: self.limits.at(time, &instant),
             mode: instant.mode,
-            state: State {
-                q: instant.q,
-                v: instant.v,
-            },
+            state: State::new(instant.q, instant.v),
             forces: instant.forces,
             undetermined: instant.undetermined,
             kinetic: instant.kinetic,

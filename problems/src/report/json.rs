@@ -42,6 +42,8 @@ pub(super) struct Header {
     without: Vec<&'static str>,
     method: String,
     tolerance: f64,
+    #[serde(skip_serializing_if = "Numbers::is_empty")]
+    absolute_tolerance: Numbers,
     version: &'static str,
 }
 
@@ -176,6 +178,12 @@ struct Counts {
 /// A JSON object that keeps its order.
 pub(super) struct Numbers(pub Vec<(String, f64)>);
 
+impl Numbers {
+    fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
 impl Serialize for Numbers {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
@@ -208,6 +216,7 @@ fn named(outcome: &Outcome, units: Texts) -> Header {
         without: outcome.left_out(),
         method: outcome.method.to_string(),
         tolerance: outcome.tolerance,
+        absolute_tolerance: Numbers(outcome.absolute.clone()),
         version: env!("CARGO_PKG_VERSION"),
     }
 }

@@ -86,11 +86,12 @@ impl fmt::Display for Mistake {
 impl core::error::Error for Mistake {}
 
 /// The keys of a scene file, outside and inside of its table `outputs`.
-const KEYS: [&str; 13] = [
+const KEYS: [&str; 14] = [
     "scene",
     "until",
     "end_after",
     "tolerance",
+    "absolute_tolerance",
     "error",
     "estimate",
     "method",

@@ -8,8 +8,8 @@ use crate::report::RunFormat;
 use crate::report::export::Still;
 use crate::report::plot::Show;
 use crate::request::{
-    ERRORS, MOST_SAMPLES, Refusal, Request, TOLERANCES, find_effect, find_parameter, find_start,
-    find_state,
+    ERRORS, MOST_SAMPLES, Refusal, Request, TOLERANCES, find_coordinate, find_effect,
+    find_parameter, find_start, find_state,
 };
 use crate::sweep::event;
 use clap::ValueEnum;
@@ -73,6 +73,12 @@ fn contents(document: &DeTable) -> (Option<SceneFile>, Vec<Wrong>) {
         match key.get_ref().as_ref() {
             "until" => request.until = reader.take(value, positive),
             "tolerance" => request.tolerance = reader.take(value, tolerance).unwrap_or(1e-9),
+            "absolute_tolerance" => {
+                request.absolute = reader.pairs(value, |key, value| {
+                    refused(key, find_coordinate(d, key.get_ref()))?;
+                    Ok((key.get_ref().to_string(), positive(value)?))
+                });
+            }
             "error" => request.error = reader.take(value, error),
             "estimate" => request.estimate = reader.take(value, flag).unwrap_or_default(),
             "method" => request.method = reader.take(value, method).unwrap_or(request.method),

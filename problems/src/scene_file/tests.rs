@@ -16,6 +16,9 @@ impacts = "in_turn"
 mu_static = 10
 mass = 0.3
 
+[absolute_tolerance]
+x = 1e-15
+
 [start]
 from = "rest"
 theta = 0.1
@@ -44,6 +47,7 @@ fn a_file_says_what_a_command_line_says() {
         start,
         until,
         tolerance,
+        absolute,
         method,
         project,
         impacts,
@@ -52,6 +56,7 @@ fn a_file_says_what_a_command_line_says() {
         ..
     } = file.request;
     assert_eq!(parameters, [pair("mass", 0.3), pair("mu_static", 10.0)]);
+    assert_eq!(absolute, [pair("x", 1e-15)]);
     assert_eq!(start, [pair("der(theta)", -1.0), pair("theta", 0.1)]);
     assert_eq!(effects, [("grip".to_owned(), false)]);
     assert_eq!(
@@ -136,6 +141,14 @@ fn mistakes_are_told_at_their_place() {
             "2:13: the value must be above 0",
         ),
         (in_wheel("tolerance = 1"), "2:13: a tolerance is between"),
+        (
+            in_wheel("[absolute_tolerance]\nz = 1e-12"),
+            "3:1: no coordinate is called `z`",
+        ),
+        (
+            in_wheel("[absolute_tolerance]\nx = 0"),
+            "3:5: the value must be above 0",
+        ),
         (
             in_wheel("method = \"tayler\""),
             "2:10: no method is called `tayler`; did you mean `taylor`?",

@@ -25,6 +25,8 @@ struct Record<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     impacts: Option<String>,
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    absolute_tolerance: BTreeMap<&'a str, f64>,
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     parameters: BTreeMap<&'a str, f64>,
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     start: BTreeMap<&'a str, toml::Value>,
@@ -63,16 +65,19 @@ fn is_empty<T>(list: &&[T]) -> bool {
 ///
 /// # Errors
 /// What cannot be written in TOML, as a path that is not Unicode.
-pub fn write(
-    scene: &dyn Scene,
-    request: &Request,
-    outputs: &Outputs,
+pub fn write<'a>(
+    scene: &'a dyn Scene,
+    request: &'a Request,
+    outputs: &'a Outputs,
 ) -> Result<String, toml::ser::Error> {
     let numbers = request.start.iter();
     let numbers = numbers.map(|(name, value)| (name.as_str(), toml::Value::Float(*value)));
     let from = request.from.iter();
     let from = from.map(|name| ("from", toml::Value::String(name.clone())));
-    let pairs = request.parameters.iter();
+    let pairs = |list: &'a [(String, f64)]| {
+        let pairs = list.iter().map(|(name, value)| (name.as_str(), *value));
+        pairs.collect()
+    };
     let results = Results {
         format: outputs.format.map(|format| format.to_string()),
         output: &outputs.output,
@@ -92,7 +97,8 @@ pub fn write(
         method: request.method.to_string(),
         project: request.project,
         impacts: request.impacts.map(|impacts| impacts.to_string()),
-        parameters: pairs.map(|(name, value)| (name.as_str(), *value)).collect(),
+        absolute_tolerance: pairs(&request.absolute),
+        parameters: pairs(&request.parameters),
         start: from.chain(numbers).collect(),
         effects: request
             .effects

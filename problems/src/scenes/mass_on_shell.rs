@@ -82,10 +82,7 @@ impl MassOnShell {
         }
         let moments = hill.descent(theta)?;
         let land = &moments[1];
-        let state = State {
-            q: vec![land.r, land.theta],
-            v: vec![land.rising, land.turning],
-        };
+        let state = State::new(vec![land.r, land.theta], vec![land.rising, land.turning]);
         slide::landing(&moments, until, "shell lost", state)
     }
 }

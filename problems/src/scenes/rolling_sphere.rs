@@ -96,10 +96,10 @@ impl RollingSphere {
         let gear = hill.radius / self.sphere_radius;
         let spin = gear * leave.turning;
         let turned = phi + gear * (leave.theta - theta) + spin * (land.time - leave.time);
-        let state = State {
-            q: vec![land.r, land.theta, turned],
-            v: vec![land.rising, land.turning, spin],
-        };
+        let state = State::new(
+            vec![land.r, land.theta, turned],
+            vec![land.rising, land.turning, spin],
+        );
         slide::landing(&moments, until, "shell lost", state)
     }
 }

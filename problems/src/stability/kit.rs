@@ -63,8 +63,8 @@ impl From<Error> for Surprise {
     }
 }
 
-impl<S: System> From<Failure<S>> for Surprise {
-    fn from(failure: Failure<S>) -> Self {
+impl From<Failure> for Surprise {
+    fn from(failure: Failure) -> Self {
         Surprise::Failed(failure.error)
     }
 }
@@ -77,7 +77,7 @@ pub fn run<S: System<Scalar = f64>>(
     scene: &S,
     start: StartId,
     until: f64,
-) -> Result<Trajectory<S>, Surprise> {
+) -> Result<Trajectory<S::Scalar>, Surprise> {
     run_by(scene, (Method::Taylor, TOLERANCE), start, until)
 }
 
@@ -87,7 +87,7 @@ pub fn run_by<S: System<Scalar = f64>>(
     (method, tolerance): (Method, f64),
     start: StartId,
     until: f64,
-) -> Result<Trajectory<S>, Surprise> {
+) -> Result<Trajectory<S::Scalar>, Surprise> {
     let simulation = Simulation::new(scene).method(method).tolerance(tolerance);
     Ok(simulation.run(scene.at(start), 0.0..until)?)
 }
@@ -104,7 +104,7 @@ pub fn distance(found: f64, expected: f64) -> f64 {
 
 /// The `n`-th event (from 0) of an item and kind.
 pub fn event<'a>(
-    trajectory: &'a Record<f64>,
+    trajectory: &'a Trajectory,
     item: &str,
     kind: &str,
     n: usize,
@@ -122,7 +122,7 @@ pub fn event<'a>(
 }
 
 /// Demands that exactly these events happened, in this order.
-pub fn story(trajectory: &Record<f64>, expected: &[&str]) -> Result<(), Surprise> {
+pub fn story(trajectory: &Trajectory, expected: &[&str]) -> Result<(), Surprise> {
     let tell = |e: &Event<f64>| format!("{} {}", e.subject.name(trajectory.description()), e.kind);
     let found: Vec<String> = trajectory.events().iter().map(tell).collect();
     if found == expected {
@@ -135,14 +135,14 @@ pub fn story(trajectory: &Record<f64>, expected: &[&str]) -> Result<(), Surprise
 }
 
 /// Closure of the energy ledger relative to its scale.
-pub fn closure(trajectory: &Record<f64>) -> Result<f64, Surprise> {
+pub fn closure(trajectory: &Trajectory) -> Result<f64, Surprise> {
     let ledger = trajectory.ledger()?;
     Ok(ledger.closure.abs() / ledger.scale)
 }
 
 /// The largest residual of an equation of positions, and the deepest penetration, at the beginning of every step; in the
 /// unit of the scene.
-pub fn violation(trajectory: &Record<f64>) -> Result<f64, Surprise> {
+pub fn violation(trajectory: &Trajectory) -> Result<f64, Surprise> {
     let d = trajectory.description();
     let mut needs = OutputMask::new(d);
     for row in d.rows {

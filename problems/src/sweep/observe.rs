@@ -125,7 +125,7 @@ impl Observation {
     }
 
     /// Its value in a run; NaN if the run has no such event.
-    pub(crate) fn read(&self, trajectory: &Record<f64>) -> f64 {
+    pub(crate) fn read(&self, trajectory: &Trajectory) -> f64 {
         if let What::Modes(switches) = &self.what {
             return switches.number(trajectory.events());
         }

@@ -182,10 +182,10 @@ fn work<S: Derived<Scalar = f64>>(
         let place = Place {
             mode: wide,
             time: 0.2,
-            state: State {
-                q: (0..n).map(number).collect(),
-                v: (0..n).map(|i| -number(i)).collect(),
-            },
+            state: State::new(
+                (0..n).map(number).collect(),
+                (0..n).map(|i| -number(i)).collect(),
+            ),
         };
         if let Some(mut side) = RightSide::new(system, effects, &place) {
             side.chain(asked.times);

@@ -26,7 +26,7 @@ const STEP: [Part; 8] = [
         &["::first_hit", "::hides_a_start", "taylor::defect"],
     ),
     ("check of the end", &["Curves::defect", "::defect_at_end"]),
-    ("recording", &["Record<T>::push"]),
+    ("recording", &["Trajectory<T>::push"]),
     ("rest of the step", &["Run<T>::advance"]),
 ];
 /// What stands beside it.

@@ -95,10 +95,10 @@ impl Rod {
 
     /// Above the floor, in any position and motion.
     pub fn thrown(random: &mut Random) -> State<f64> {
-        State {
-            q: vec![0.0, random.between(1.1, 2.0), random.between(-1.5, 1.5)],
-            v: (0..3).map(|_| random.between(-3.0, 3.0)).collect(),
-        }
+        State::new(
+            vec![0.0, random.between(1.1, 2.0), random.between(-1.5, 1.5)],
+            (0..3).map(|_| random.between(-3.0, 3.0)).collect(),
+        )
     }
 }
 
@@ -113,12 +113,12 @@ impl Balls {
 
     /// Apart from each other, in any motion.
     pub fn apart(random: &mut Random) -> State<f64> {
-        State {
-            q: (0..4)
+        State::new(
+            (0..4)
                 .map(|i| 0.3 + f64::from(i) + random.between(0.0, 0.4))
                 .collect(),
-            v: (0..4).map(|_| random.between(-3.0, 3.0)).collect(),
-        }
+            (0..4).map(|_| random.between(-3.0, 3.0)).collect(),
+        )
     }
 }
 
@@ -144,10 +144,7 @@ impl Blocks {
                 0.0,
             ]
         };
-        State {
-            q: along(0.5),
-            v: along(1.0),
-        }
+        State::new(along(0.5), along(1.0))
     }
 }
 
@@ -181,7 +178,7 @@ impl Family for Chain {
         let q = (0..3).map(|_| random.sign() * random.between(1.7, 2.6));
         let q = q.collect();
         let v = signed(random, 3, 2.0);
-        (chain, State { q, v })
+        (chain, State::new(q, v))
     }
 }
 

@@ -63,7 +63,7 @@ impl Family for FourBar {
             torque: random.between(-3.0, 3.0),
         };
         let v = signed(random, 3, 3.0);
-        (bars, State { q, v })
+        (bars, State::new(q, v))
     }
 }
 
@@ -81,6 +81,6 @@ impl Family for Bead {
         let x = random.between(-0.9, 0.9);
         let q = vec![x, bead.bend * x * x + bead.wave * (bead.number * x).sin()];
         let v = vec![random.between(-3.0, 3.0), 0.0];
-        (bead, State { q, v })
+        (bead, State::new(q, v))
     }
 }

@@ -61,7 +61,7 @@ impl Family for Shaken {
         let angle = random.sign() * random.between(1.4, 2.8);
         let q = vec![length * angle.sin(), shaken.lift - length * angle.cos()];
         let v = signed(random, 2, 2.0);
-        (shaken, State { q, v })
+        (shaken, State::new(q, v))
     }
 }
 
@@ -79,6 +79,6 @@ impl Family for Feeder {
         };
         let q = vec![0.0, feeder.lift.max(random.between(0.0, 0.3))];
         let v = signed(random, 2, 1.0);
-        (feeder, State { q, v })
+        (feeder, State::new(q, v))
     }
 }

@@ -75,13 +75,7 @@ impl Family for Puck {
         };
         let mut q = signed(random, 2, 0.5);
         q.push(perhaps(random, 0.5));
-        (
-            puck,
-            State {
-                q,
-                v: signed(random, 3, 2.0),
-            },
-        )
+        (puck, State::new(q, signed(random, 3, 2.0)))
     }
 }
 
@@ -98,13 +92,7 @@ impl Family for Body {
         };
         let mut v = signed(random, 4, 2.0);
         v[0] = 0.0;
-        (
-            body,
-            State {
-                q: vec![1.0, 0.0, 0.0, 0.0],
-                v,
-            },
-        )
+        (body, State::new(vec![1.0, 0.0, 0.0, 0.0], v))
     }
 }
 
@@ -123,10 +111,7 @@ impl Family for Charge {
         };
         (
             charge,
-            State {
-                q: signed(random, 2, 0.9),
-                v: signed(random, 2, 2.0),
-            },
+            State::new(signed(random, 2, 0.9), signed(random, 2, 2.0)),
         )
     }
 }

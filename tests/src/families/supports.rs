@@ -92,16 +92,10 @@ impl Family for Beam {
         };
         // Lying at rest half of the time.
         let start = if random.sign() > 0.0 {
-            State {
-                q: vec![0.0; 3],
-                v: vec![0.0; 3],
-            }
+            State::new(vec![0.0; 3], vec![0.0; 3])
         } else {
             let q = vec![0.0, random.between(1.1, 1.5), random.between(-1.0, 1.0)];
-            State {
-                q,
-                v: signed(random, 3, 1.0),
-            }
+            State::new(q, signed(random, 3, 1.0))
         };
         (beam, start)
     }
@@ -122,13 +116,7 @@ impl Family for CartPole {
             turn: random.between(0.5, 2.0),
         };
         let q = vec![random.between(-0.9, 0.9), random.between(-1.0, 1.0)];
-        (
-            cart,
-            State {
-                q,
-                v: signed(random, 2, 2.0),
-            },
-        )
+        (cart, State::new(q, signed(random, 2, 2.0)))
     }
 }
 
@@ -155,6 +143,6 @@ impl Family for Cranks {
         let (sine, cosine) = (length * angle.sin(), length * angle.cos());
         let q = vec![sine, -cosine, 0.0];
         let v = vec![rate * cosine, rate * sine, 0.0];
-        (cranks, State { q, v })
+        (cranks, State::new(q, v))
     }
 }

@@ -198,10 +198,7 @@ struct Pulled {
 fn stops_and_marks_that_are_left_out_do_not_act() {
     let ball = Pulled { mass: 1.0 };
     let run = |effects: Effects| {
-        let rest = State {
-            q: vec![0.0],
-            v: vec![0.0],
-        };
+        let rest = State::new(vec![0.0], vec![0.0]);
         let trajectory = Simulation::new(&ball).effects(effects).run(rest, 0.0..2.0);
         let trajectory = trajectory.expect("a run");
         let kinds: Vec<EventKind> = trajectory.events().iter().map(|event| event.kind).collect();

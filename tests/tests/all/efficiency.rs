@@ -144,10 +144,7 @@ fn long_swing(scene: &CartesianPendulum, periods: usize) -> (f64, f64) {
     let (l, g, angle) = (scene.length, scene.gravity, 1.0f64);
     let period =
         core::f64::consts::TAU * (l / g).sqrt() / lagrange_tests::agm(1.0, (0.5 * angle).cos());
-    let mut state = State {
-        q: vec![l * angle.sin(), -l * angle.cos()],
-        v: vec![0.0; 2],
-    };
+    let mut state = State::new(vec![l * angle.sin(), -l * angle.cos()], vec![0.0; 2]);
     let energy = |s: &State<f64>| 0.5 * (s.v[0].powi(2) + s.v[1].powi(2)) / (g * l) + s.q[1] / l;
     let before = energy(&state);
     let simulation = Simulation::new(scene).tolerance(1e-16);

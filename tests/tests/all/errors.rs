@@ -19,13 +19,7 @@ fn fails(start: State<f64>, span: core::ops::Range<f64>) -> Error {
 
 #[test]
 fn a_start_inside_the_shell_is_refused_with_its_depth() {
-    let error = fails(
-        State {
-            q: vec![0.9, 0.1],
-            v: vec![0.0; 2],
-        },
-        0.0..1.0,
-    );
+    let error = fails(State::new(vec![0.9, 0.1], vec![0.0; 2]), 0.0..1.0);
     let Error::Start {
         item,
         level,
@@ -42,10 +36,7 @@ fn a_start_inside_the_shell_is_refused_with_its_depth() {
 #[test]
 fn a_start_that_does_not_roll_is_refused_or_projected() {
     let scene = RollingSphere::default();
-    let start = State {
-        q: vec![1.2, 0.3, 0.0],
-        v: vec![0.0, 1.0, 0.0],
-    };
+    let start = State::new(vec![1.2, 0.3, 0.0], vec![0.0, 1.0, 0.0]);
     let failure = Simulation::new(&scene)
         .run(start.clone(), 0.0..1.0)
         .expect_err("does not roll");
@@ -79,31 +70,16 @@ fn a_start_that_does_not_roll_is_refused_or_projected() {
 
 #[test]
 fn arguments_are_checked() {
-    let good = || State {
-        q: vec![1.0, 0.1],
-        v: vec![0.0; 2],
-    };
+    let good = || State::new(vec![1.0, 0.1], vec![0.0; 2]);
     assert!(matches!(
-        fails(
-            State {
-                q: vec![1.0],
-                v: vec![0.0]
-            },
-            0.0..1.0
-        ),
+        fails(State::new(vec![1.0], vec![0.0]), 0.0..1.0),
         Error::Dimension {
             expected: 2,
             found: 1
         }
     ));
     assert!(matches!(
-        fails(
-            State {
-                q: vec![1.0, f64::NAN],
-                v: vec![0.0; 2]
-            },
-            0.0..1.0
-        ),
+        fails(State::new(vec![1.0, f64::NAN], vec![0.0; 2]), 0.0..1.0),
         Error::Argument { .. }
     ));
     assert!(matches!(
@@ -417,10 +393,7 @@ fn a_field_outside_its_domain_is_refused_by_name() {
         };
         assert_eq!((item, value), (name, wrong));
         let start = scene.at(Disks::TURNED);
-        let held = FixedComponents {
-            positions: vec![true; 2],
-            velocities: vec![true; 2],
-        };
+        let held = FixedComponents::default().q(Disks::A).v(Disks::B);
         let moved = Simulation::new(&scene).consistent(0.0, &start, &start, &held);
         assert!(matches!(moved, Err(Error::Domain { .. })));
     }

@@ -155,10 +155,10 @@ fn the_end_of_impacts_of_two_contacts_is_as_certain_as_the_tolerance() {
         bounce: 0.31810121579451317,
         mu: 0.2705045456966014,
     };
-    let start = State {
-        q: vec![0.0, 1.5121702896212803, 0.007209059984908173],
-        v: vec![0.9513935142789203, 1.535229717053836, 0.38942938452651443],
-    };
+    let start = State::new(
+        vec![0.0, 1.5121702896212803, 0.007209059984908173],
+        vec![0.9513935142789203, 1.535229717053836, 0.38942938452651443],
+    );
     let run = |tolerance: f64| {
         let simulation = Simulation::new(&rod).tolerance(tolerance);
         Summary::of(&simulation.run(start.clone(), 0.0..2.0).expect("runs"))
@@ -186,10 +186,7 @@ fn chaos_says_what_can_be_had() {
         bounce: 0.0,
         mu: 0.0,
     };
-    let start = State {
-        q: vec![2.0, 2.5, 1.5],
-        v: vec![0.0; 3],
-    };
+    let start = State::new(vec![2.0, 2.5, 1.5], vec![0.0; 3]);
     let failure = Simulation::new(&chain)
         .error(1e-9)
         .run(start.clone(), 0.0..60.0)

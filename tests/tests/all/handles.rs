@@ -56,6 +56,75 @@ fn a_run_tells_forces_and_states_by_handle() {
     );
 }
 
+/// What is known on both sides of an event, and at the ends, needs no record; the impact of a puck tells the sides apart.
+#[test]
+fn both_sides_of_an_event_and_both_ends_are_known_without_a_record() {
+    let scene = Wheel::default();
+    let start = scene.state().with_q(Wheel::R, scene.radius);
+    let start = start.with_q(Wheel::THETA, scene.start_angle);
+    let simulation = Simulation::new(&scene).tolerance(1e-12);
+    let kept = simulation.run(&start, 0.0..20.0).expect("a run");
+    let bare = simulation.record(false).run(&start, 0.0..20.0);
+    let bare = bare.expect("a run");
+    assert_eq!(bare.events(), kept.events());
+    let mut sampler = bare.sampler();
+    for event in bare.events() {
+        let sides = [sampler.before(event), sampler.after(event)].map(|side| side.expect("known"));
+        let px = event.q(Wheel::X) + event.q(Wheel::R) * event.q(Wheel::THETA).sin();
+        let forces = [event.force(Wheel::GRIP), event.force_after(Wheel::GRIP)];
+        for (side, force) in sides.iter().zip(forces) {
+            agree("px", side.observe(Wheel::PX), px, 1e-13);
+            agree("F", side.force(Wheel::GRIP), force, 1e-9);
+        }
+        assert_eq!(
+            [&sides[0].mode, &sides[1].mode],
+            [&event.before, &event.after]
+        );
+    }
+    let last = kept.last_time();
+    let [end, expected] = [&bare, &kept].map(|run| run.sampler().at(last).expect("the end"));
+    agree(
+        "R",
+        end.force(Wheel::ROLLING),
+        expected.force(Wheel::ROLLING),
+        1e-12,
+    );
+    agree(
+        "N",
+        sampler.at(0.0).expect("the start").force(Wheel::RIM),
+        kept.sampler().at(0.0).expect("the start").force(Wheel::RIM),
+        1e-12,
+    );
+}
+
+#[test]
+fn numbers_are_shown_by_their_names() {
+    let scene = Wheel::default();
+    let run = Simulation::new(&scene).run(scene.at(Wheel::REST), 0.0..20.0);
+    let run = run.expect("a run");
+    let named = "State { x: 0.0, phi: 0.0, r: 1.0, theta: 0.05, der(x): 0.0, der(phi): 0.0, der(r): 0.0, der(theta): 0.0 }";
+    assert_eq!(format!("{:?}", run.first_state()), named);
+    assert_eq!(
+        format!("{:?}", State::new(vec![1.0], vec![2.0])),
+        "State::new([1.0], [2.0])"
+    );
+    let last = format!("{:?}", run.events().last().expect("an event"));
+    assert!(
+        last.contains("subject: floor, kind: Stop") && last.contains("der(theta): "),
+        "{last}"
+    );
+    assert!(last.contains("forces: {rolling: "), "{last}");
+    let now = format!("{:?}", run.sampler().at(1.0).expect("inside"));
+    for part in [
+        "mode: rim closed, grip sticks",
+        "q: {x: ",
+        "gaps: {rim: ",
+        "observes: {px: ",
+    ] {
+        assert!(now.contains(part), "{now}");
+    }
+}
+
 #[test]
 fn runs_end_after_what_handles_name() {
     let scene = Wheel::default();

@@ -32,14 +32,11 @@ fn bob() -> Bob {
 }
 
 fn start() -> State<f64> {
-    State {
-        q: vec![0.5, 0.5],
-        v: vec![0.3, -0.4],
-    }
+    State::new(vec![0.5, 0.5], vec![0.3, -0.4])
 }
 
 /// Every number of a run is finite.
-fn finite(trajectory: &Trajectory<Bob>) {
+fn finite(trajectory: &Trajectory) {
     let last = trajectory.final_state();
     assert!(last.q.iter().chain(&last.v).all(|x| x.is_finite()));
     let mut sampler = trajectory.sampler();
@@ -194,7 +191,7 @@ fn starts_that_make_no_sense_are_refused() {
         (vec![0.0, -2.0], vec![0.0; 2]),
     ] {
         let error = simulation
-            .run(State { q, v }, 0.0..1.0)
+            .run(State::new(q, v), 0.0..1.0)
             .expect_err("refused")
             .error;
         assert!(

@@ -66,10 +66,7 @@ fn a_damper_takes_what_the_oscillation_loses() {
         push: 0.0,
         rate: 0.0,
     };
-    let start = State {
-        q: vec![0.3],
-        v: vec![0.0],
-    };
+    let start = State::new(vec![0.3], vec![0.0]);
     let trajectory = run(&scene, start, 5.0);
     let mut random = Random::new(7);
     let times: Vec<f64> = (0..50).map(|_| random.between(0.0, 5.0)).collect();
@@ -107,10 +104,7 @@ fn a_drive_pays_for_the_damper_in_the_steady_state() {
     // The steady state: x = Re(push e^(iωt) / (k − mω² + icω)).
     let (a, b) = (9.0 - 2.5 * 2.5, 0.5 * 2.5);
     let size = a * a + b * b;
-    let start = State {
-        q: vec![2.0 * a / size],
-        v: vec![2.0 * b * 2.5 / size],
-    };
+    let start = State::new(vec![2.0 * a / size], vec![2.0 * b * 2.5 / size]);
     let period = 2.0 * core::f64::consts::PI / 2.5;
     let trajectory = run(&scene, start, 3.0 * period);
     let times = [period, 2.0 * period, 3.0 * period];
@@ -137,10 +131,7 @@ fn a_moving_constraint_and_a_brake() {
         rate: 3.0,
         hold: 1.0,
     };
-    let start = State {
-        q: vec![0.0, 0.0],
-        v: vec![1.0, 0.6],
-    };
+    let start = State::new(vec![0.0, 0.0], vec![1.0, 0.6]);
     let trajectory = run(&scene, start, 4.0);
     let times: Vec<f64> = (0..40).map(|k| 0.1 * f64::from(k)).collect();
     for (t, ledger) in times
@@ -164,10 +155,7 @@ fn impacts_are_booked_when_they_happen_and_to_the_last() {
         gravity: 10.0,
         bounce: 0.5,
     };
-    let start = State {
-        q: vec![0.2],
-        v: vec![0.0],
-    };
+    let start = State::new(vec![0.2], vec![0.0]);
     let trajectory = run(&scene, start, 2.0);
     // Falls 0.2 s at 2 m/s, then is away for 0.2 s, 0.1 s, …, and rests after 0.6 s.
     let ledgers = trajectory

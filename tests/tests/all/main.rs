@@ -24,4 +24,5 @@ mod stability;
 mod steppers;
 mod switches;
 mod systems;
+mod tolerances;
 mod wheel;

@@ -9,7 +9,7 @@ fn start(pendulum: &LongPendulum) -> State<f64> {
     let n = <LongPendulum>::DESCRIPTION.coordinates.len();
     let (mut q, mut v) = (vec![0.0; n], vec![0.0; n]);
     pendulum.start(0, 0.0, &mut q, &mut v);
-    State { q, v }
+    State::new(q, v)
 }
 
 #[test]

@@ -7,7 +7,11 @@ use lagrange_problems::scenes::hard::{
 use lagrange_problems::scenes::*;
 
 /// Runs a scene from its first start in a new simulation.
-fn single<S: Derived<Scalar = f64>>(scene: &S, tolerance: f64, until: f64) -> Trajectory<S> {
+fn single<S: Derived<Scalar = f64>>(
+    scene: &S,
+    tolerance: f64,
+    until: f64,
+) -> Trajectory<S::Scalar> {
     let run = Simulation::new(scene)
         .tolerance(tolerance)
         .run(start(scene), 0.0..until);
@@ -19,15 +23,12 @@ fn single<S: Derived<Scalar = f64>>(scene: &S, tolerance: f64, until: f64) -> Tr
 
 fn start<S: Derived<Scalar = f64>>(scene: &S) -> State<f64> {
     let n = S::DESCRIPTION.coordinates.len();
-    let mut state = State {
-        q: vec![0.0; n],
-        v: vec![0.0; n],
-    };
+    let mut state = State::new(vec![0.0; n], vec![0.0; n]);
     scene.start(0, 0.0, &mut state.q, &mut state.v);
     state
 }
 
-fn assert_same(one: &Record<f64>, other: &Record<f64>) {
+fn assert_same(one: &Trajectory, other: &Trajectory) {
     assert_eq!(one.events(), other.events());
     assert_eq!(one.final_state(), other.final_state());
     assert_eq!(one.last_time(), other.last_time());
@@ -92,7 +93,7 @@ fn what_was_not_recorded_is_refused() {
     assert!(matches!(trajectory.ledger(), Err(Error::NotRecorded)));
     assert_eq!(
         Error::NotRecorded.to_string(),
-        "the run kept its events only; leave `record(false)` out"
+        "the run kept its events and its ends only; leave `record(false)` out"
     );
 }
 

@@ -8,10 +8,7 @@ use lagrange_tests::{agree, words};
 fn check<S: Derived<Scalar = f64> + Default>(until: f64) {
     let scene = S::default();
     let n = S::DESCRIPTION.coordinates.len();
-    let mut start = State {
-        q: vec![0.0; n],
-        v: vec![0.0; n],
-    };
+    let mut start = State::new(vec![0.0; n], vec![0.0; n]);
     scene.start(0, 0.0, &mut start.q, &mut start.v);
     let run = |method: Method, tolerance| {
         let outcome = Simulation::new(&scene)
@@ -71,10 +68,10 @@ fn every_method_turns_a_body_in_quaternions() {
     // Close to the identity a diagonal minor of the singular mass matrix nearly vanishes: what elimination without row
     // exchanges loses there must not pass for a pivot.
     let body = lagrange_problems::scenes::hard::TumblingBody::default();
-    let start = State {
-        q: vec![1.0, 0.0, 0.0, 0.0],
-        v: vec![0.0, 0.5 * body.nudge, 0.5 * body.rate, 0.0],
-    };
+    let start = State::new(
+        vec![1.0, 0.0, 0.0, 0.0],
+        vec![0.0, 0.5 * body.nudge, 0.5 * body.rate, 0.0],
+    );
     let turned = |method| {
         let simulation = Simulation::new(&body).method(method).tolerance(1e-9);
         simulation.run(start.clone(), 0.0..10.0).expect("runs")

@@ -12,7 +12,7 @@ fn fall(start: f64, d: f64) -> f64 {
 }
 
 /// Checks that the flight after `lost` is a parabola to the end of the run, and ends at height `floor`.
-fn is_parabola(trajectory: &Record<f64>, lost: f64, gravity: f64, floor: f64) {
+fn is_parabola(trajectory: &Trajectory, lost: f64, gravity: f64, floor: f64) {
     let place = |state: &State<f64>| {
         let ((r, th), (vr, w)) = ((state.q[0], state.q[1]), (state.v[0], state.v[1]));
         let (s, c) = th.sin_cos();
@@ -203,10 +203,7 @@ fn with_little_friction_it_slips_from_the_start() {
 #[test]
 fn too_fast_it_leaves_at_once() {
     let scene = RollingSlippingSphere::default();
-    let start = State {
-        q: vec![1.2, 0.2, 0.0],
-        v: vec![0.0, 5.0, 30.0],
-    };
+    let start = State::new(vec![1.2, 0.2, 0.0], vec![0.0, 5.0, 30.0]);
     let trajectory = run(&scene, start, 100.0);
     assert_eq!(words(&trajectory), ["shell lost", "floor stop"]);
     assert_eq!(trajectory.events()[0].time, 0.0);

@@ -202,10 +202,7 @@ fn mass(state: &State<f64>) -> [f64; 4] {
 fn a_mass_that_is_too_fast_flies_a_parabola_until_it_meets_the_floor() {
     let scene = wheel(0.6, 0.5);
     for turn in [5.0, 8.0, -6.0] {
-        let start = State {
-            q: vec![0.0, 0.0, 0.5, 0.3],
-            v: vec![0.5 * turn, turn, 0.0, turn],
-        };
+        let start = State::new(vec![0.0, 0.0, 0.5, 0.3], vec![0.5 * turn, turn, 0.0, turn]);
         let trajectory = run(&scene, start.clone(), 100.0);
         assert_eq!(words(&trajectory), ["rim lost", "floor stop"]);
         assert_eq!(trajectory.events()[0].time, 0.0);

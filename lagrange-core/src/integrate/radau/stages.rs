@@ -180,7 +180,7 @@ impl<T: Scalar> Radau<T> {
             for i in 0..n {
                 let velocity = self.residual[j * n + i].value();
                 let position = h * Self::weighted(row, &self.residual, n, i).value();
-                let [q, v] = [0, 1].map(|k| tolerance.scale(self.start[k][i].value().abs()));
+                let [q, v] = [0, 1].map(|k| tolerance.scale(i, self.start[k][i].value().abs()));
                 sum += (position / q).powi(2) + (velocity / v).powi(2);
             }
             let size = (sum / (2 * n).max(1) as f64).sqrt();

@@ -4,7 +4,7 @@ use super::problems::{Kepler, Pendulum, Problem};
 use crate::integrate::{Method, RungeKutta, StepPolynomial, Tolerance};
 
 /// Every step is accepted, so that its size is the one asked for.
-const ANYTHING: Tolerance = Tolerance::both(1e30);
+const ANYTHING: Tolerance<'static> = Tolerance::both(1e30);
 
 fn distance(a: &(Vec<f64>, Vec<f64>), b: &(Vec<f64>, Vec<f64>)) -> f64 {
     let pairs = a.0.iter().zip(&b.0).chain(a.1.iter().zip(&b.1));

@@ -165,6 +165,10 @@ fn accuracy(run: &Shown) -> String {
             format!("{:e}", outcome.tolerance),
         ),
     ];
+    for (name, absolute) in &outcome.absolute {
+        let what = format!("absolute tolerance of {}", escaped(name));
+        rows.push(line(&what, format!("{absolute:e}")));
+    }
     if let Some(estimate) = &outcome.estimate {
         rows.push(line("off by", escaped(&estimate.to_string())));
     }

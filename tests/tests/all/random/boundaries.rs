@@ -30,7 +30,7 @@ fn rods_that_start_on_the_floor() {
             rod.half * cosine * turn,
             turn,
         ];
-        tally.run(&rod, &State { q, v }, Trial::until(3.0).rough(rod.mu));
+        tally.run(&rod, &State::new(q, v), Trial::until(3.0).rough(rod.mu));
     }
     tally.check();
 }
@@ -58,7 +58,7 @@ fn blocks_whose_friction_just_suffices() {
         ];
         tally.run(
             &block,
-            &State { q: vec![0.0; 2], v },
+            &State::new(vec![0.0; 2], v),
             Trial::until(3.0).rough(mu),
         );
     }

@@ -30,7 +30,7 @@ fn four_bars() {
             },
         };
         let v = (0..3).map(|_| random.between(-3.0, 3.0)).collect();
-        tally.run(&bars, &State { q, v }, Trial::until(5.0));
+        tally.run(&bars, &State::new(q, v), Trial::until(5.0));
     }
     tally.check();
 }
@@ -55,7 +55,7 @@ fn beads_on_wires() {
         let q = vec![x, bead.bend * x * x + bead.wave * (bead.number * x).sin()];
         let v = vec![random.between(-3.0, 3.0), 0.0];
         let until = if k < 2 { 1e4 } else { 10.0 };
-        tally.run(&bead, &State { q, v }, Trial::until(until));
+        tally.run(&bead, &State::new(q, v), Trial::until(until));
     }
     tally.check();
     assert_eq!(tally.longest, 10_000);

@@ -34,7 +34,7 @@ fn feeders() {
         let v = vec![random.between(-1.0, 1.0), random.between(-1.0, 1.0)];
         let until = if k < 2 { 300.0 } else { 5.0 };
         let trial = Trial::until(until).rough(1.5 * feeder.mu);
-        tally.run(&feeder, &State { q, v }, trial);
+        tally.run(&feeder, &State::new(q, v), trial);
     }
     tally.check();
     assert_eq!(tally.longest, 10_000);

@@ -28,7 +28,7 @@ pub fn ball<T: Runnable>(
     [gravity, bounce, height, speed]: [T; 4],
     until: f64,
     settings: (f64, Method),
-) -> Trajectory<Ball<T>> {
+) -> Trajectory<T> {
     let scene = Ball {
         mass: T::one(),
         gravity,

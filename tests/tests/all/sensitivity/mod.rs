@@ -14,7 +14,7 @@ fn run<S: System<Scalar: Runnable>>(
     start: State<S::Scalar>,
     until: f64,
     settings: (f64, Method),
-) -> Trajectory<S> {
+) -> Trajectory<S::Scalar> {
     let simulation = Simulation::new(scene)
         .tolerance(settings.0)
         .method(settings.1);
@@ -25,7 +25,7 @@ fn run<S: System<Scalar: Runnable>>(
 }
 
 /// Instants of all events, states after them, final state.
-fn all<T: Scalar>(record: &Record<T>) -> Vec<T> {
+fn all<T: Scalar>(record: &Trajectory<T>) -> Vec<T> {
     let mut list = Vec::new();
     for event in record.events() {
         list.push(event.time);

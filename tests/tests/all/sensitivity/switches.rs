@@ -28,7 +28,7 @@ struct Shell<T = f64> {
 fn shell<T: Runnable>(
     [mass, gravity, radius, angle]: [T; 4],
     settings: (f64, Method),
-) -> Trajectory<Shell<T>> {
+) -> Trajectory<T> {
     let scene = Shell {
         mass,
         gravity,
@@ -106,7 +106,7 @@ struct Wheel<T = f64> {
 fn wheel<T: Runnable>(
     [inertia, mass, radius, mu_static, mu_kinetic, angle]: [T; 6],
     settings: (f64, Method),
-) -> Trajectory<Wheel<T>> {
+) -> Trajectory<T> {
     let scene = Wheel {
         wheel: T::one(),
         inertia,

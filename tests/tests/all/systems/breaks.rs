@@ -29,7 +29,7 @@ fn run_at<S: System<Scalar = f64>>(
     tolerance: f64,
     start: State<f64>,
     until: f64,
-) -> Trajectory<S> {
+) -> Trajectory<S::Scalar> {
     let simulation = Simulation::new(scene).tolerance(tolerance);
     let run = simulation.run(start, 0.0..until);
     run.unwrap_or_else(|failure| panic!("{tolerance:e}: {failure}"))

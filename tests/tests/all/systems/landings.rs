@@ -32,7 +32,7 @@ impl Lander {
 
     /// Whether the impulse of the first impact stops the slip; if not, it slides along what is left of it.
     #[track_caller]
-    fn stops(&self, trajectory: &Record<f64>) -> bool {
+    fn stops(&self, trajectory: &Trajectory) -> bool {
         let hit = event(trajectory, "floor", "impact");
         let (before, after) = (self.slip(&hit.state), self.slip(&hit.state_after));
         let arrival = -hit.state.v[2];

@@ -54,8 +54,5 @@ use lagrange_core::prelude::*;
 const PI: f64 = core::f64::consts::PI;
 
 pub fn state(q: &[f64], v: &[f64]) -> State<f64> {
-    State {
-        q: q.to_vec(),
-        v: v.to_vec(),
-    }
+    State::new(q.to_vec(), v.to_vec())
 }

@@ -29,7 +29,7 @@ const PLATE: Plate = Plate {
 };
 
 /// The time at which all legs rest.
-fn rest(trajectory: &Trajectory<Plate>) -> f64 {
+fn rest(trajectory: &Trajectory) -> f64 {
     let mut told = words(trajectory);
     told.sort();
     assert_eq!(told, ["leg[0] sticks", "leg[1] sticks", "leg[2] sticks"]);

@@ -66,16 +66,13 @@ struct Tables {
 }
 
 fn state(q: [f64; 2], v: [f64; 2]) -> State<f64> {
-    State {
-        q: q.to_vec(),
-        v: v.to_vec(),
-    }
+    State::new(q.to_vec(), v.to_vec())
 }
 
-fn story<S: Derived<Scalar = f64>>(trajectory: &Trajectory<S>) -> Vec<(&'static str, String)> {
+fn story(trajectory: &Trajectory) -> Vec<(&'static str, String)> {
     let events = trajectory.events().iter();
     events
-        .map(|e| (e.subject.name(S::DESCRIPTION), e.kind.to_string()))
+        .map(|e| (e.subject.name(trajectory.description()), e.kind.to_string()))
         .collect()
 }
 

@@ -147,7 +147,7 @@ fn the_lower_slips_then_the_upper() {
 
 /// Runs for 6 s; another method arrives at the same place.
 #[track_caller]
-fn confirmed(scene: &Blocks, start: &State<f64>) -> Trajectory<Blocks> {
+fn confirmed(scene: &Blocks, start: &State<f64>) -> Trajectory {
     let trajectory = run(scene, start.clone(), 6.0);
     let (told, off) = (words(&trajectory), closure(&trajectory));
     println!("{told:?} {:?} {off:e}", trajectory.work());

@@ -39,7 +39,7 @@ fn steady(scene: &Coupler, t: f64) -> [f64; 2] {
     [size * (p * sin - c * cos), size * (p * cos + c * sin)]
 }
 
-fn run(method: Method, tolerance: f64, until: f64) -> Trajectory<Coupler> {
+fn run(method: Method, tolerance: f64, until: f64) -> Trajectory {
     let simulation = Simulation::new(&COUPLER)
         .method(method)
         .tolerance(tolerance);
@@ -73,10 +73,7 @@ fn sensitivities_pass_through_the_change_of_method() {
         damping: Dual::variable(COUPLER.damping, 0),
         place: number(COUPLER.place),
     };
-    let start = State {
-        q: vec![number(0.5)],
-        v: vec![number(0.0)],
-    };
+    let start = State::new(vec![number(0.5)], vec![number(0.0)]);
     let outcome = Simulation::new(&scene).run(start, 0.0..3.0);
     let trajectory = outcome.expect("a run");
     assert_eq!(trajectory.stiff().len(), 1);
