@@ -164,3 +164,5 @@ pub fn type_name(path: &str) -> String {
 
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod textbook;

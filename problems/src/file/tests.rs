@@ -178,6 +178,20 @@ fn mistakes_are_marked_where_they_are() {
           4 | 	kinetic = mass^2/2 * der(x)^2,
             | 	          ^^^^^^^^^^^^^^^^^^^"#]]
     .assert_eq(&mistakes(&text.replace("stifness", "stiffness").replace("mass/2", "mass^2/2")));
+    // What to do is told as it is done in a file, which has no fields.
+    let number = text.replace("stifness/2 * x^2", "mass * 9.81 * x");
+    let told = mistakes(&number);
+    assert!(
+        told.contains(
+            r#"`9.81` is a plain number: make it a parameter, `parameters(name: "m/s²" = …)`"#
+        ),
+        "{told}"
+    );
+    let told = mistakes(&text.replace("stifness", "k"));
+    assert!(
+        told.contains("declare it as a parameter, `parameters(name = 1)`, a coordinate"),
+        "{told}"
+    );
 }
 
 #[test]
