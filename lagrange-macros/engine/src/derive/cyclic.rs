@@ -29,7 +29,12 @@ pub(super) fn cyclic(sheet: &mut Sheet, inertias: &[Inertia], others: &[ExprId])
                 .iter()
                 .all(|terms| terms.get(&q).is_none_or(|terms| is_flat(pool, terms, q)))
     };
-    sheet.x.positions.iter().map(|&q| free(q)).collect()
+    let mut cyclic: Vec<bool> = sheet.x.positions.iter().map(|&q| free(q)).collect();
+    // The momentum of a turn changes with the axis that it is about.
+    for &first in &sheet.x.turns {
+        cyclic[first..first + 3].fill(false);
+    }
+    cyclic
 }
 
 /// Symbols that decide the branches of an expression.

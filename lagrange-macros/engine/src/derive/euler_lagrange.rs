@@ -5,7 +5,8 @@
 //! Mᵢⱼ = ∂²T/∂vᵢ∂vⱼ        fᵢ = ∂L/∂qᵢ − (d/dt ∂T/∂vᵢ) at v̇ = 0
 //! ```
 //!
-//! (Goldstein, Poole & Safko 2002, section 1.4; Lanczos 1970, chapter V). Where T is quadratic in v there is a
+//! (Goldstein, Poole & Safko 2002, section 1.4; Lanczos 1970, chapter V). For the turns of a body, whose rates ω are no rates
+//! of coordinates, it is d/dt ∂L/∂ω + ω × ∂L/∂ω − ∂L/∂(turns) = Q (Whittaker 1904, section 30). Where T is quadratic in v there is a
 //! second form of f, by Christoffel symbols ([`super::quadratic`]); the one with fewer operations is kept.
 
 use super::NeedId;
@@ -77,6 +78,7 @@ pub(super) fn groups(system: &mut System, needs: &Needs) -> Vec<Group> {
 pub(super) fn derive(pool: &mut Pool, x: &Variables, group: &Group) -> Inertia {
     let moving = x.velocities_in(pool, group.kinetic);
     if moving.len() > LARGE
+        && x.turns.is_empty()
         && let Some(squares) = Squares::of(pool, x, group.kinetic)
     {
         return large(pool, x, group, &squares);
@@ -89,7 +91,9 @@ pub(super) fn derive(pool: &mut Pool, x: &Variables, group: &Group) -> Inertia {
     let quadratic = mass
         .values()
         .all(|&entry| x.velocities_in(pool, entry).is_empty());
-    let expansion = quadratic.then(|| Quadratic::new(pool, x, group.kinetic, &raw_momenta, &mass));
+    // Christoffel symbols are those of coordinates.
+    let expansion = (quadratic && x.turns.is_empty())
+        .then(|| Quadratic::new(pool, x, group.kinetic, &raw_momenta, &mass));
     let (potential, conservative) = conservative(pool, x, group.potential);
 
     let small = moving.len() <= LARGE;
@@ -222,7 +226,7 @@ fn conservative(pool: &mut Pool, x: &Variables, potential: ExprId) -> (ExprId, V
     let mut slopes = vec![Vec::new(); x.len()];
     for (term, number) in terms {
         for i in x.positions_in(pool, term) {
-            let slope = pool.differentiate(term, x.positions[i]);
+            let slope = x.slope(pool, term, i);
             slopes[i].push(pool.scale(slope, number));
         }
     }
@@ -243,21 +247,31 @@ fn present(pool: &Pool, forcing: Vec<ExprId>) -> Vec<(usize, ExprId)> {
         .collect()
 }
 
-/// ∂T/∂qᵢ − (d/dt ∂T/∂vᵢ) at v̇ = 0, term by term.
+/// ∂T/∂qᵢ − (d/dt ∂T/∂vᵢ) at v̇ = 0, term by term; less ω × ∂T/∂ω for the turns of a body.
 fn direct_form(
     pool: &mut Pool,
     x: &Variables,
     kinetic: ExprId,
     momenta: &[(usize, ExprId)],
 ) -> Vec<ExprId> {
-    let mut forcing: Vec<ExprId> = x
-        .positions
-        .iter()
-        .map(|&q| pool.differentiate(kinetic, q))
-        .collect();
+    let mut forcing: Vec<ExprId> = (0..x.len()).map(|i| x.slope(pool, kinetic, i)).collect();
     for &(i, p) in momenta {
         let rate = x.rate(pool, p);
         forcing[i] = pool.sub(forcing[i], rate);
+    }
+    for &first in &x.turns {
+        let momentum = |k: usize| momenta.iter().find(|&&(i, _)| i == first + k);
+        let spin = [0, 1, 2].map(|k| momentum(k).map_or(x.zero, |&(_, p)| p));
+        let rates = [0, 1, 2].map(|k| x.rates[first + k]);
+        for k in 0..3 {
+            let [next, last] = [(k + 1) % 3, (k + 2) % 3];
+            let carried = [
+                pool.mul(rates[next], spin[last]),
+                pool.mul(rates[last], spin[next]),
+            ];
+            let carried = pool.sub(carried[0], carried[1]);
+            forcing[first + k] = pool.sub(forcing[first + k], carried);
+        }
     }
     forcing
 }

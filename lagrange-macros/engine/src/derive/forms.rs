@@ -11,6 +11,12 @@ pub(super) struct Variables {
     pub positions: Vec<Symbol>,
     /// v
     pub velocities: Vec<Symbol>,
+    /// What changes with each coordinate, and how fast.
+    pub moved: Vec<Vec<(Symbol, ExprId)>>,
+    /// Axes of bodies, and their rates.
+    pub axes: Vec<(Symbol, ExprId)>,
+    /// The first of the three turns of each body.
+    pub turns: Vec<usize>,
     /// v as expressions.
     pub rates: Vec<ExprId>,
     /// 0
@@ -22,9 +28,20 @@ pub(super) struct Variables {
 impl Variables {
     /// The variables of a system.
     pub fn of(system: &mut System) -> Self {
-        let pool = &mut system.pool;
         let velocities: Vec<Symbol> = system.coordinates.iter().map(|c| c.velocity).collect();
+        let count = velocities.len();
+        let moved = (0..count).map(|i| system.moved(i)).collect();
+        let turns = system.bodies.iter().map(|body| body.first).collect();
+        let pool = &mut system.pool;
+        let mut axes = Vec::new();
+        for body in &system.bodies {
+            let rates = [0, 1, 2].map(|k| velocities[body.first + k]);
+            axes.extend(body.rates(pool, rates));
+        }
         Self {
+            axes,
+            moved,
+            turns,
             time: system.time,
             positions: system.coordinates.iter().map(|c| c.position).collect(),
             rates: velocities.iter().map(|&v| pool.leaf(v)).collect(),
@@ -49,6 +66,11 @@ impl Variables {
             .filter(|(q, _)| present.binary_search(q).is_ok())
             .map(|(&q, &v)| (q, v))
             .collect();
+        direction.extend(
+            self.axes
+                .iter()
+                .filter(|(e, _)| present.binary_search(e).is_ok()),
+        );
         if present.binary_search(&self.time).is_ok() {
             direction.push((self.time, self.one));
         }
@@ -60,9 +82,22 @@ impl Variables {
         indices_in(&self.velocities, &pool.symbols(e))
     }
 
-    /// Indices of the coordinates whose position occurs in e.
+    /// Indices of the coordinates that e changes with.
     pub fn positions_in(&self, pool: &Pool, e: ExprId) -> Vec<usize> {
-        indices_in(&self.positions, &pool.symbols(e))
+        let present = pool.symbols(e);
+        let mut indices = indices_in(&self.positions, &present);
+        for i in self.turns.iter().flat_map(|&first| first..first + 3) {
+            let mut moved = self.moved[i].iter();
+            if moved.any(|(axis, _)| present.binary_search(axis).is_ok()) {
+                indices.push(i);
+            }
+        }
+        indices
+    }
+
+    /// ∂e/∂qᵢ, or the rate at which e changes with a turn.
+    pub fn slope(&self, pool: &mut Pool, e: ExprId, i: usize) -> ExprId {
+        pool.derivative_along(e, &self.moved[i])
     }
 
     /// Whether e can change during a run: it is no expression of parameters alone.

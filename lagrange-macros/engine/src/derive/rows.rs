@@ -93,7 +93,7 @@ fn position_level(pool: &mut Pool, x: &Variables, g: ExprId) -> Form {
     let jacobian: Vec<(usize, ExprId)> = x
         .positions_in(pool, position)
         .into_iter()
-        .map(|i| (i, pool.differentiate(position, x.positions[i])))
+        .map(|i| (i, x.slope(pool, position, i)))
         .collect();
     let drift = pool.differentiate(position, x.time);
     let declared = x.rate(pool, position);

@@ -15,7 +15,7 @@ const MOST_CYCLIC: usize = 12;
 impl Work<'_> {
     /// Momenta of cyclic coordinates and the energy.
     pub fn conserved(&mut self) -> Vec<Conserved> {
-        let structure = &self.program.equations.structure;
+        let structure = &self.equations.structure;
         let cyclic: Vec<usize> = (0..structure.cyclic.len())
             .filter(|&i| structure.cyclic[i])
             .collect();
@@ -30,8 +30,8 @@ impl Work<'_> {
 
     /// ∂L/∂v of a cyclic coordinate: changed by the forces on it alone.
     fn momentum(&mut self, i: usize) -> Conserved {
-        let structure = &self.program.equations.structure;
-        let system = &self.program.equations.system;
+        let structure = &self.equations.structure;
+        let system = &self.equations.system;
         let letter = self.names.letter(system.coordinates[i].position);
         let quantity = self.formula_of(structure.momenta.0[i]);
         let name = Letter::of("p", &subscript(&letter));
@@ -84,7 +84,7 @@ impl Work<'_> {
 
     /// What changes the momentum of a cyclic coordinate: ṗ = ∂L/∂q + Q, and ∂L/∂q = 0.
     fn generalized_load(&mut self, i: usize, rows: &[usize]) -> ExprId {
-        let system = &self.program.equations.system;
+        let system = &self.equations.system;
         let mut terms = Vec::new();
         for force in &system.forces {
             let own = force.generalized.iter().filter(|&&(j, _)| j == i);
@@ -98,7 +98,7 @@ impl Work<'_> {
         }
         let multipliers = self.system().multipliers();
         for &row in rows {
-            for &(j, entry) in &self.program.equations.structure.rows[row].jacobian {
+            for &(j, entry) in &self.equations.structure.rows[row].jacobian {
                 if j == i {
                     let entry = self.output(entry);
                     let pool = self.pool();
@@ -112,7 +112,7 @@ impl Work<'_> {
 
     /// The Jacobi integral; T + V where T is quadratic in the velocities.
     fn energy(&mut self) -> Conserved {
-        let structure = &self.program.equations.structure;
+        let structure = &self.equations.structure;
         let (kinetic, potential, jacobi, time_power, _) = structure.energy;
         let [t, v, h, power] = [kinetic, potential, jacobi, time_power].map(|o| self.output(o));
         let pool = self.pool();
@@ -161,7 +161,7 @@ impl Work<'_> {
 
     /// What takes energy, or gives some.
     fn takers(&mut self) -> Vec<String> {
-        let system = &self.program.equations.system;
+        let system = &self.equations.system;
         let mut takers: Vec<String> = Vec::new();
         let loads = system.forces.iter().map(|f| &f.name);
         let loads = loads.chain(system.dissipations.iter().map(|d| &d.name));
@@ -183,9 +183,9 @@ impl Work<'_> {
 
     /// Whether a row holds something that moves by itself: its rate is not linear in v alone.
     fn does_work(&mut self, row: usize) -> bool {
-        let numbers = &self.program.equations.structure.rows[row];
+        let numbers = &self.equations.structure.rows[row];
         let velocity = self.output(numbers.velocity);
-        let system = &self.program.equations.system;
+        let system = &self.equations.system;
         let velocities: Vec<_> = system.coordinates.iter().map(|c| c.velocity).collect();
         let pool = self.pool();
         let zero = pool.integer(0);
@@ -196,7 +196,7 @@ impl Work<'_> {
 
     /// Name of the item that a row belongs to.
     fn row_name(&self, row: usize) -> &str {
-        let system = &self.program.equations.system;
+        let system = &self.equations.system;
         let contacts = system.constraints.len();
         if let Some(constraint) = system.constraints.get(row) {
             return &constraint.name.text;

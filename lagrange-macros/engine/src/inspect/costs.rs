@@ -1,10 +1,10 @@
 //! What a right-hand side costs: operations per mode, and of each effect beside what it stands on.
 
 use super::Cost;
-use super::work::Work;
 use crate::derive::{NeedId, Stage};
-use crate::model::Normal;
+use crate::model::{Normal, System};
 use crate::modes::{FrictionState, Mode};
+use crate::plan::Program;
 use crate::symbolic::{ExprId, Node, Pool};
 use std::collections::BTreeMap;
 
@@ -24,9 +24,18 @@ impl Mask {
     }
 }
 
-impl Work<'_> {
+/// Counts the operations of what runs.
+pub(super) struct Counts<'a> {
+    pub program: &'a Program,
+}
+
+impl Counts<'_> {
+    fn system(&self) -> &System {
+        &self.program.equations.system
+    }
+
     /// Operations of the equations of motion of a mode, and the same with its guards.
-    pub(super) fn operations(&self, mode: &Mode) -> [usize; 2] {
+    pub fn of_mode(&self, mode: &Mode) -> [usize; 2] {
         let mut mask = self.energies_and_loads();
         self.hold_mode(mode, &mut mask);
         let motion = self.program.operations(Stage::Motion, &mask.0);
@@ -35,7 +44,7 @@ impl Work<'_> {
     }
 
     /// Operations of energies and loads, then of each item that can act beside them.
-    pub(super) fn costs(&mut self) -> Vec<Cost> {
+    pub fn costs(&self, pool: &Pool) -> Vec<Cost> {
         let system = &self.program.equations.system;
         let structure = &self.program.equations.structure;
         let base = self.energies_and_loads();
@@ -43,29 +52,29 @@ impl Work<'_> {
         let mut core = self.empty();
         let named = structure.kinetic.iter().chain(&structure.potential);
         named.for_each(|&need| core.hold(need));
-        self.cost("energies", &self.empty(), &core, &mut costs);
+        self.cost(pool, "energies", &self.empty(), &core, &mut costs);
         let loads = structure.forces.iter().map(|f| f.need);
         let loads = loads.chain(structure.dissipations.iter().map(|d| d.need));
         let names = system.forces.iter().map(|f| &f.name.text);
         let names = names.chain(system.dissipations.iter().map(|d| &d.name.text));
-        for (name, need) in names.zip(loads).collect::<Vec<_>>() {
+        for (name, need) in names.zip(loads) {
             let mut with = Mask(core.0.clone());
             with.hold(need);
-            self.cost(name, &core, &with, &mut costs);
+            self.cost(pool, name, &core, &with, &mut costs);
         }
         for (i, constraint) in system.constraints.iter().enumerate() {
             let mut with = Mask(base.0.clone());
             self.hold_row(i, &mut with);
-            self.cost(&constraint.name.text, &base, &with, &mut costs);
+            self.cost(pool, &constraint.name.text, &base, &with, &mut costs);
         }
         for (i, contact) in system.contacts.iter().enumerate() {
             let name = &contact.name.text;
             let mut gap = Mask(base.0.clone());
             gap.hold(structure.rows[self.system().contact_row(i)].needs[2]);
-            self.cost(&format!("{name} open"), &base, &gap, &mut costs);
+            self.cost(pool, &format!("{name} open"), &base, &gap, &mut costs);
             let mut with = Mask(base.0.clone());
             self.hold_row(self.system().contact_row(i), &mut with);
-            self.cost(&format!("{name} closed"), &base, &with, &mut costs);
+            self.cost(pool, &format!("{name} closed"), &base, &with, &mut costs);
         }
         for (i, friction) in system.frictions.iter().enumerate() {
             let mut pressed = Mask(base.0.clone());
@@ -79,7 +88,7 @@ impl Work<'_> {
                 let mut with = Mask(pressed.0.clone());
                 self.hold_friction(i, state, &mut with);
                 let name = format!("{} {verb}", friction.name.text);
-                self.cost(&name, &pressed, &with, &mut costs);
+                self.cost(pool, &name, &pressed, &with, &mut costs);
             }
         }
         costs.truncate(MOST_SHOWN);
@@ -170,7 +179,7 @@ impl Work<'_> {
     }
 
     /// What the second mask costs beyond the first.
-    fn cost(&mut self, name: &str, without: &Mask, with: &Mask, costs: &mut Vec<Cost>) {
+    fn cost(&self, pool: &Pool, name: &str, without: &Mask, with: &Mask, costs: &mut Vec<Cost>) {
         let after = |mask: &Mask| self.program.operations(Stage::Motion, &mask.0);
         // Need 0 alone is where energies without a name stand.
         let base = if name == "energies" {
@@ -187,7 +196,7 @@ impl Work<'_> {
             }
             for &(need, term) in &output.terms {
                 if with.holds(need) && (name == "energies" || !without.holds(need)) {
-                    let size = tree(self.reader.pool(), term, &mut sizes);
+                    let size = tree(pool, term, &mut sizes);
                     before = before.saturating_add(size);
                 }
             }

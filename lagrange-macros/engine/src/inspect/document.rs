@@ -103,6 +103,16 @@ impl Derivation {
     }
 
     fn equations(&self, blocks: &mut Vec<Block>) {
+        if !self.bodies.is_empty() {
+            blocks.push(Block::Heading(2, "Bodies in space".to_owned()));
+        }
+        for body in &self.bodies {
+            blocks.push(Block::Paragraph(vec![words(&body.text)]));
+            let definitions = body.definitions.iter();
+            blocks.push(Block::Equations(
+                definitions.map(|e| (Vec::new(), e.clone())).collect(),
+            ));
+        }
         blocks.push(Block::Heading(2, ENERGIES.to_owned()));
         let energy = |name: &str, value: &Formula| {
             let left = Formula::Letter(Letter::new(name));

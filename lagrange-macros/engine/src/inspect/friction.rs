@@ -13,7 +13,7 @@ impl Work<'_> {
         if !state.slips() {
             return Vec::new();
         }
-        let item = &self.program.equations.system.frictions[friction];
+        let item = &self.equations.system.frictions[friction];
         let strength = self.strength(friction, item.kinetic_coefficient);
         let letters = self.forces(friction);
         if let Some(forward) = state.is_forward() {
@@ -47,7 +47,7 @@ impl Work<'_> {
             true => Rational::ONE,
             false => Rational::MINUS_ONE,
         };
-        let item = &self.program.equations.system.frictions[friction];
+        let item = &self.equations.system.frictions[friction];
         let normal = match item.normal {
             Normal::Contact(contact) => self.normal_force(contact),
             Normal::Constraint(_) => return None,
@@ -62,7 +62,7 @@ impl Work<'_> {
 
     /// μ N
     pub(super) fn strength(&mut self, friction: usize, coefficient: ExprId) -> Formula {
-        let system = &self.program.equations.system;
+        let system = &self.equations.system;
         let coefficient = self.reader.formula(coefficient);
         let normal = match system.frictions[friction].normal {
             Normal::Contact(contact) => {
@@ -85,7 +85,7 @@ impl Work<'_> {
 
     /// N of a contact.
     fn normal_force(&mut self, contact: usize) -> ExprId {
-        let item = &self.program.equations.system.contacts[contact];
+        let item = &self.equations.system.contacts[contact];
         let pool = self.pool();
         let force = pool.leaf(item.force);
         match item.normal_factor {

@@ -21,7 +21,7 @@ impl Work<'_> {
     }
 
     fn contact_guard(&mut self, contact: usize, closed: bool, known: &Known) -> Guard {
-        let item = &self.program.equations.system.contacts[contact];
+        let item = &self.equations.system.contacts[contact];
         let name = &item.name.text;
         let (meaning, value, otherwise) = match closed {
             true => {
@@ -47,7 +47,7 @@ impl Work<'_> {
         state: FrictionState,
         known: &Known,
     ) -> Option<Guard> {
-        let item = &self.program.equations.system.frictions[friction];
+        let item = &self.equations.system.frictions[friction];
         let name = &item.name.text;
         let (meaning, statement, otherwise) = match state {
             FrictionState::Inactive => return None,

@@ -18,7 +18,7 @@ impl Work<'_> {
     }
 
     fn impact(&mut self, contact: usize) -> Impact {
-        let system = &self.program.equations.system;
+        let system = &self.equations.system;
         let item = &system.contacts[contact];
         let row = self.system().contact_row(contact);
         let bilateral: Vec<usize> = (0..system.constraints.len())
@@ -92,7 +92,7 @@ impl Work<'_> {
     /// Row i of Σ aᵀΛ.
     fn impulses(&mut self, i: usize, rows: &[usize]) -> Formula {
         let multipliers = self.system().multipliers();
-        let structure = &self.program.equations.structure;
+        let structure = &self.equations.structure;
         let mut terms = Vec::new();
         for &row in rows {
             for &(j, entry) in &structure.rows[row].jacobian {

@@ -10,7 +10,7 @@ const MOST_VELOCITIES: usize = 12;
 impl Work<'_> {
     /// T: as it is computed, or by velocities, ½ vᵀM v, where that is all of it and reads better.
     pub fn kinetic(&mut self) -> Formula {
-        let structure = &self.program.equations.structure;
+        let structure = &self.equations.structure;
         let declared = self.output(structure.energy.0);
         let as_is = self.reader.formula(declared);
         match self.quadratic_form(declared) {
@@ -28,7 +28,7 @@ impl Work<'_> {
 
     /// ½ vᵀM v if that is T: it is, if M is free of v, and T and ∂T/∂v vanish with v.
     fn quadratic_form(&mut self, kinetic: ExprId) -> Option<ExprId> {
-        let coordinates = &self.program.equations.system.coordinates;
+        let coordinates = &self.equations.system.coordinates;
         let velocities: Vec<Symbol> = coordinates.iter().map(|c| c.velocity).collect();
         if velocities.len() > MOST_VELOCITIES {
             return None;
@@ -47,7 +47,7 @@ impl Work<'_> {
             }
         }
         let mut terms = Vec::new();
-        for &(i, j, entry) in &self.program.equations.structure.mass {
+        for &(i, j, entry) in &self.equations.structure.mass {
             let entry = self.output(entry);
             let pool = self.pool();
             if pool.depends_on_any(entry, &velocities) {

@@ -9,8 +9,10 @@ pub struct Letter {
     pub subscript: String,
     /// As declared by `tex = "…"`, or empty.
     pub tex: String,
-    /// Number of dots.
+    /// Which derivative by time it stands for.
     pub rate: u8,
+    /// Which one it stands for without dots: 1 for the rate ω of a body.
+    pub undotted: u8,
     /// What is said beside it.
     pub mark: Mark,
 }
@@ -89,6 +91,7 @@ impl Letter {
             subscript: subscript.to_owned(),
             tex: String::new(),
             rate: 0,
+            undotted: 0,
             mark: Mark::None,
         };
         if !element.is_empty() {
@@ -108,6 +111,7 @@ impl Letter {
             subscript,
             tex: String::new(),
             rate: 0,
+            undotted: 0,
             mark: Mark::None,
         }
     }
@@ -124,10 +128,32 @@ impl Letter {
         self
     }
 
-    /// With so many dots.
+    /// The derivative of this order.
     pub fn rate(mut self, rate: u8) -> Letter {
         self.rate = rate;
         self
+    }
+
+    /// Number of dots.
+    pub fn dots(&self) -> u8 {
+        self.rate.saturating_sub(self.undotted)
+    }
+
+    /// The rate about axis `k` of a body, which is named where there are others.
+    pub fn body_rate(body: &str, k: usize) -> Letter {
+        let letter = Letter {
+            rate: 1,
+            undotted: 1,
+            ..Letter::of("ω", body)
+        };
+        letter.element(&k.to_string())
+    }
+
+    /// Component `j` in space of axis `i` of a body: e₀₁.
+    pub fn axis(body: &str, i: &str, j: &str) -> Letter {
+        let digits = [i, j].iter().all(|index| index.len() == 1);
+        let comma = if digits { "" } else { "," };
+        Letter::of("e", body).element(&format!("{i}{comma}{j}"))
     }
 
     /// Whether it is one character, which products write side by side.

@@ -3,6 +3,7 @@
 //! A derivation is plain data; [`mod@print`] has the languages in which it can be said. It is read off the finished program:
 //! forms that are made for reading never reach the emitted code.
 
+mod bodies;
 mod conserved;
 mod costs;
 mod declared;
@@ -49,6 +50,8 @@ pub struct Derivation {
     pub kinetic: Formula,
     /// V
     pub potential: Formula,
+    /// Rates and axes of the bodies in space that formulas speak of.
+    pub bodies: Vec<Body>,
     /// One per coordinate: inertia = forces.
     pub motion: Vec<Equation>,
     /// Constraints, contacts and slips on the level of accelerations.
@@ -73,6 +76,17 @@ pub struct Derivation {
     pub hints: Vec<String>,
     /// What was left out for length, and the like.
     pub notes: Vec<String>,
+}
+
+/// A body in space whose rates are velocities.
+#[derive(Clone, Debug)]
+pub struct Body {
+    /// As declared.
+    pub name: String,
+    /// What its letters mean, in words.
+    pub text: String,
+    /// Rates and axes by its quaternion.
+    pub definitions: Vec<Statement>,
 }
 
 /// A check and how far it is known to hold.

@@ -43,7 +43,7 @@ impl Work<'_> {
         let equations = self.equations(&parts);
         let solution = self.solution(&parts, &unknowns).unwrap_or_default();
         let guards = self.guards(mode, &parts.known);
-        let [operations, with_guards] = self.operations(mode);
+        let [operations, with_guards] = self.counts.of_mode(mode);
         Mode {
             name: mode.name(self.system()),
             known,
@@ -60,7 +60,7 @@ impl Work<'_> {
     }
 
     fn parts<'m>(&mut self, mode: &'m modes::Mode) -> Parts<'m> {
-        let equations = &self.program.equations;
+        let equations = self.equations;
         let acting = mode.acting_rows(&equations.system);
         let pins = modes::pins(equations, self.reader.pool(), &acting);
         Parts {

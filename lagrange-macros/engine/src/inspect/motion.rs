@@ -26,14 +26,14 @@ impl Work<'_> {
 
     /// M v̇ = f + Σ aᵀλ, one per coordinate.
     pub fn motion(&mut self) -> Vec<Equation> {
-        let rows: Vec<usize> = (0..self.program.equations.structure.rows.len()).collect();
+        let rows: Vec<usize> = (0..self.equations.structure.rows.len()).collect();
         let count = self.system().coordinates.len();
         Work::shown(count)
             .into_iter()
             .map(|i| {
                 let left = self.inertia(i, &[]);
                 let right = self.load(i, &rows, &[]);
-                let label = self.names.letter(self.system().coordinates[i].position);
+                let label = self.names.coordinate(&self.system().coordinates[i]);
                 Equation {
                     label,
                     statement: Statement::equal(left, right),
@@ -44,7 +44,7 @@ impl Work<'_> {
 
     /// Terms of row i of M v̇, its own acceleration first.
     pub fn inertia_terms(&mut self, i: usize, known: &Known) -> Vec<ExprId> {
-        let mass = &self.program.equations.structure.mass;
+        let mass = &self.equations.structure.mass;
         let mut entries: Vec<(usize, _)> = mass
             .iter()
             .filter(|(row, column, _)| *row == i || *column == i)
@@ -83,7 +83,7 @@ impl Work<'_> {
 
     /// Terms of f + Σ aᵀλ over these rows: applied forces first, then multiplier by multiplier.
     pub fn load_terms(&mut self, i: usize, rows: &[usize], known: &Known) -> Vec<ExprId> {
-        let structure = &self.program.equations.structure;
+        let structure = &self.equations.structure;
         let forcing = self.output(structure.forcing[i]);
         let multipliers = self.system().multipliers();
         let mut terms = vec![self.pool().substitute(forcing, known)];
@@ -126,7 +126,7 @@ impl Work<'_> {
 
     /// a v̇, and γ.
     fn acceleration_sides(&mut self, row: usize) -> (ExprId, ExprId) {
-        let numbers = &self.program.equations.structure.rows[row];
+        let numbers = &self.equations.structure.rows[row];
         let mut terms = Vec::new();
         for &(j, entry) in &numbers.jacobian {
             let symbol = self.system().coordinates[j].acceleration;
@@ -152,7 +152,7 @@ impl Work<'_> {
 
     /// The slip, or the rate of a constraint or gap.
     pub fn rate(&mut self, row: usize, known: &Known) -> Formula {
-        let velocity = self.output(self.program.equations.structure.rows[row].velocity);
+        let velocity = self.output(self.equations.structure.rows[row].velocity);
         let velocity = self.pool().substitute(velocity, known);
         self.reader.formula(velocity)
     }

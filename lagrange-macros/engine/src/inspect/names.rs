@@ -2,8 +2,8 @@
 
 use super::letter::Letter;
 use crate::ast::Declaration;
-use crate::model::System;
-use crate::symbolic::Symbol;
+use crate::model::{Body, Coordinate, System};
+use crate::symbolic::{ExprId, Node, Rational, Symbol};
 use std::collections::BTreeMap;
 
 /// What a symbol of the pool is, in the order in which factors are written.
@@ -37,6 +37,8 @@ pub struct Known {
 /// Letters of a system.
 pub struct Names {
     symbols: BTreeMap<Symbol, Known>,
+    bodies: BTreeMap<String, String>,
+    roots: BTreeMap<ExprId, (Rational, Letter)>,
     declared: BTreeMap<String, Letter>,
 }
 
@@ -48,6 +50,8 @@ impl Names {
     pub fn of(declaration: &Declaration, system: &System) -> Names {
         let mut names = Names {
             symbols: BTreeMap::new(),
+            bodies: BTreeMap::new(),
+            roots: roots(system),
             declared: fields(declaration, system),
         };
         names.enter(system.time, Letter::new("t"), Kind::Time, 0);
@@ -65,7 +69,13 @@ impl Names {
             let order = early.unwrap_or(FIRST.len()) * system.parameters.len() + i;
             names.enter(parameter.symbol, letter, Kind::Parameter, order);
         }
+        for body in &system.bodies {
+            names.enter_body(system, body);
+        }
         for (i, coordinate) in system.coordinates.iter().enumerate() {
+            if names.symbols.contains_key(&coordinate.velocity) {
+                continue;
+            }
             let letter = Letter::new(&coordinate.name.text);
             let kinds = [Kind::Position, Kind::Velocity, Kind::Acceleration];
             let symbols = [
@@ -81,6 +91,45 @@ impl Names {
             names.enter(symbol, letter, Kind::Force, i);
         }
         names
+    }
+
+    /// The rates and axes of a body; they bear its name where there are several.
+    fn enter_body(&mut self, system: &System, body: &Body) {
+        let mut known = self.declared.values();
+        let name = match system.bodies.len() == 1 && known.all(|letter| letter.base != "ω") {
+            true => String::new(),
+            false => body.name.clone(),
+        };
+        for k in 0..3 {
+            let i = body.first + k;
+            let letter = Letter::body_rate(&name, k);
+            let turn = &system.coordinates[i];
+            self.enter(turn.velocity, letter.clone(), Kind::Velocity, i);
+            self.enter(turn.acceleration, letter.rate(2), Kind::Acceleration, i);
+            for j in 0..3 {
+                let letter = Letter::axis(&name, &k.to_string(), &j.to_string());
+                self.enter(body.axes[k][j], letter, Kind::Position, 3 * i + j);
+            }
+        }
+        self.bodies.insert(body.name.clone(), name);
+    }
+
+    /// How a body is written in subscripts, of those whose rates are velocities.
+    pub fn body(&self, name: &str) -> Option<&str> {
+        self.bodies.get(name).map(String::as_str)
+    }
+
+    /// The power of an expression that a definition names: a distance is written by its name.
+    pub fn root(&self, base: ExprId) -> Option<&(Rational, Letter)> {
+        self.roots.get(&base)
+    }
+
+    /// The letter of a coordinate, or of the rate of a turn.
+    pub fn coordinate(&self, coordinate: &Coordinate) -> Letter {
+        match self.symbols.contains_key(&coordinate.position) {
+            true => self.letter(coordinate.position),
+            false => self.letter(coordinate.velocity),
+        }
     }
 
     fn enter(&mut self, symbol: Symbol, letter: Letter, kind: Kind, order: usize) {
@@ -139,6 +188,20 @@ fn fields(declaration: &Declaration, system: &System) -> BTreeMap<String, Letter
         declared.insert(name.clone(), letter);
     }
     declared
+}
+
+/// Definitions that are roots, by what the root is of.
+fn roots(system: &System) -> BTreeMap<ExprId, (Rational, Letter)> {
+    let mut roots = BTreeMap::new();
+    for (name, e) in &system.defined {
+        if let Node::Product(factors) = system.pool.node(*e)
+            && let [(base, power)] = factors[..]
+            && !power.is_integer()
+        {
+            roots.insert(base, (power, Letter::new(name)));
+        }
+    }
+    roots
 }
 
 /// Letters of multipliers and applied forces.

@@ -1,5 +1,6 @@
 //! What the parts of the derivation share while it is read off.
 
+use super::costs::Counts;
 use super::formula::Formula;
 use super::names::Names;
 use super::readable::Reader;
@@ -7,8 +8,9 @@ use super::shown::{UnknownMode, shown};
 use super::switches::switches;
 use super::{Derivation, Meaning};
 use crate::ast::Declaration;
-use crate::derive::OutputId;
-use crate::model::System;
+use crate::derive::{self, Equations, OutputId};
+use crate::diagnostics::Diagnostics;
+use crate::model::{self, System};
 use crate::plan::Program;
 use crate::symbolic::{ExprId, Pool};
 
@@ -20,17 +22,20 @@ const MOST_BRANCHES: usize = 12;
 
 /// A derivation on its way.
 pub(super) struct Work<'a> {
-    pub program: &'a Program,
+    /// What is read: of bodies in space their rates are the velocities.
+    pub equations: &'a Equations,
     pub names: &'a Names,
     pub reader: Reader<'a>,
     /// Whether modes are solved: not where there are many.
     pub solves: bool,
+    /// What runs costs this much.
+    pub counts: &'a Counts<'a>,
 }
 
 impl Work<'_> {
     /// The system, without its pool.
     pub fn system(&self) -> &System {
-        &self.program.equations.system
+        &self.equations.system
     }
 
     /// The pool.
@@ -40,7 +45,7 @@ impl Work<'_> {
 
     /// An output as one expression.
     pub fn output(&mut self, output: OutputId) -> ExprId {
-        self.program.equations.total(self.reader.pool(), output)
+        self.equations.total(self.reader.pool(), output)
     }
 
     /// An output on paper.
@@ -78,25 +83,36 @@ pub(super) fn derivation(
     pool: &mut Pool,
     mode: Option<&str>,
 ) -> Result<Derivation, UnknownMode> {
-    let system = &program.equations.system;
-    let names = Names::of(declaration, system);
+    let counts = Counts { program };
+    let costs = counts.costs(pool);
+    let mut in_rates = in_body_rates(declaration);
+    let read = in_rates.as_ref().unwrap_or(&program.equations);
+    let names = Names::of(declaration, &read.system);
+    let mut own = in_rates
+        .as_mut()
+        .map(|equations| std::mem::take(&mut equations.system.pool));
+    let (equations, pool) = match (&in_rates, &mut own) {
+        (Some(equations), Some(own)) => (equations, own),
+        _ => (&program.equations, pool),
+    };
+    let system = &equations.system;
     let guards = system.branches.iter().map(|branch| branch.guard).collect();
     let mut work = Work {
-        program,
+        equations,
         names: &names,
         reader: Reader::new(pool, &names, guards),
         solves: true,
+        counts: &counts,
     };
     let (shown, mode_count) = shown(system, mode)?;
     work.solves = shown.len() <= MOST_SOLVED;
-    let structure = &program.equations.structure;
     let kinetic = work.kinetic();
-    let potential = work.formula_of(structure.energy.1);
+    let potential = work.formula_of(equations.structure.energy.1);
+    let bodies = work.bodies(declaration);
     let motion = work.motion();
     let rows = work.rows();
     let impacts = work.impacts();
     let conserved = work.conserved();
-    let costs = work.costs();
     let modes: Vec<_> = shown.iter().map(|mode| work.mode(mode)).collect();
     let switches = switches(system, &shown);
     let mut notes = Vec::new();
@@ -108,6 +124,7 @@ pub(super) fn derivation(
         ));
     }
     notes.extend(work.notes(motion.len()));
+    let hints = program.equations.system.hints.iter();
     Ok(Derivation {
         name: declaration.name.to_string(),
         summary: summary(&declaration.documentation),
@@ -115,6 +132,7 @@ pub(super) fn derivation(
         declared: super::declared::items(declaration, &names),
         kinetic,
         potential,
+        bodies,
         motion,
         rows,
         modes,
@@ -125,9 +143,17 @@ pub(super) fn derivation(
         conserved,
         checks: Vec::new(),
         costs,
-        hints: system.hints.iter().map(|hint| hint.text.clone()).collect(),
+        hints: hints.map(|hint| hint.text.clone()).collect(),
         notes,
     })
+}
+
+/// The equations with the rates of bodies as velocities, where there are bodies.
+fn in_body_rates(declaration: &Declaration) -> Option<Equations> {
+    let system = model::in_body_rates(declaration)?;
+    // The declaration has no mistakes: what this finds is not for its author.
+    let equations = derive::equations(system, &mut Diagnostics::new())?;
+    (!equations.system.pool.is_full()).then_some(equations)
 }
 
 /// The first paragraph in one line.

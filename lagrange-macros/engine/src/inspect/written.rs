@@ -53,15 +53,18 @@ impl Names {
                 self.call("list", over.into())
             }
             ExprKind::List(elements) => Formula::List(all(elements)),
-            ExprKind::Element(base, index) => match (self.written(base), &index.kind) {
-                (Formula::Letter(letter), _) => {
+            ExprKind::Element(base, index) => match (self.axis(base, index), self.written(base)) {
+                (Some(axis), _) => Formula::Letter(axis),
+                (None, Formula::Letter(letter)) => {
                     Formula::Letter(letter.element(&index.to_string().replace(' ', "")))
                 }
-                (base, _) => Formula::Element(Box::new(base), Box::new(self.written(index))),
+                (None, base) => Formula::Element(Box::new(base), Box::new(self.written(index))),
             },
             ExprKind::Member(base, name) => {
-                let body = self.written(base);
-                match body {
+                if let Some(known) = self.member(base, &name.text) {
+                    return Formula::Letter(known);
+                }
+                match self.written(base) {
                     Formula::Letter(letter) => {
                         Formula::Letter(Letter::new(&format!("{}.{}", letter.base, name.text)))
                     }
@@ -69,6 +72,34 @@ impl Names {
                 }
             }
         }
+    }
+
+    /// The letter of the rates or the axes of a body, where there is one.
+    fn member(&self, base: &Expr, member: &str) -> Option<Letter> {
+        let ExprKind::Name(name) = &base.kind else {
+            return None;
+        };
+        let body = self.body(&name.text)?;
+        match member {
+            "body_rate" => Some(Letter::of("ω", body)),
+            "axes" => Some(Letter::of("e", body)),
+            _ => None,
+        }
+    }
+
+    /// The letter of `body.axes[i][j]`.
+    fn axis(&self, base: &Expr, index: &Expr) -> Option<Letter> {
+        let ExprKind::Element(base, axis) = &base.kind else {
+            return None;
+        };
+        let ExprKind::Member(base, member) = &base.kind else {
+            return None;
+        };
+        let (ExprKind::Name(body), "axes") = (&base.kind, member.text.as_str()) else {
+            return None;
+        };
+        let [i, j] = [&**axis, index].map(|index| index.to_string().replace(' ', ""));
+        Some(Letter::axis(self.body(&body.text)?, &i, &j))
     }
 
     /// A comparison as written.

@@ -7,17 +7,19 @@
 //! space_rate          ω = 2 (w u̇ − ẇ u + u × u̇), along the axes of space
 //! ```
 //!
+//! Where rates of bodies are velocities, axes and body rates are symbols, and there is no quaternion.
+//!
 //! (Whittaker, Analytical Dynamics, 1904, §§9–16.) With T = ½ Σ Iₖ Ωₖ² the 4 × 4 mass matrix is singular along q
 //! itself; together with the unit constraint the equations are regular.
 
-use super::elaborate::Elaboration;
+use super::elaborate::{Elaboration, item_name};
 use super::names::{Entry, Kind, Meaning};
 use super::reach::{Context, Depth};
 use super::value::{Value, cross, dot};
-use super::{Constraint, Level};
+use super::{Body, Constraint, Level, System};
 use crate::ast::{self, Expr, ExprKind, Head, Name};
 use crate::diagnostics::{Code, nearest};
-use crate::symbolic::{ExprId, Rational};
+use crate::symbolic::{ExprId, Rational, Symbol};
 
 const BODIES: &str = "members belong to a body of `attitude`";
 const MEMBERS: [&str; 3] = ["axes", "space_rate", "body_rate"];
@@ -25,15 +27,41 @@ const MEMBERS: [&str; 3] = ["axes", "space_rate", "body_rate"];
 impl Elaboration<'_> {
     /// The four coordinates of a body.
     pub fn declare_attitude(&mut self, attitude: &ast::Attitude) {
-        let first = self.declare_array(&attitude.coordinates, Some(4));
+        let first = match self.in_body_rates {
+            true => self.declare_turns(attitude),
+            false => self.declare_array(&attitude.coordinates, Some(4)),
+        };
         if let Some(first) = first {
             self.bodies.insert(attitude.body.text.clone(), first);
         }
         self.dropped |= first.is_none();
     }
 
+    /// The three turns of a body, and its axes; gives the first turn.
+    fn declare_turns(&mut self, attitude: &ast::Attitude) -> Option<usize> {
+        self.enter(&attitude.coordinates, Kind::Coordinate, Meaning::Poisoned)?;
+        let first = self.system.coordinates.len();
+        let element = |k| item_name(&attitude.body, Some((k as i64, k, 3)));
+        for k in 0..3 {
+            self.add_coordinate(element(k));
+        }
+        let name = attitude.body.text.clone();
+        let axes = [0, 1, 2].map(|i| {
+            [0, 1, 2].map(|j| self.symbol(&format!("{name}.axes[{i}][{j}]"), Depth::Position))
+        });
+        let body = Body { name, first, axes };
+        let rates = [0, 1, 2].map(|k| self.system.coordinates[first + k].velocity);
+        self.directions
+            .extend(body.rates(&mut self.system.pool, rates));
+        self.system.bodies.push(body);
+        Some(first)
+    }
+
     /// The unit constraint of a body.
     pub fn attitude(&mut self, attitude: &ast::Attitude) {
+        if self.in_body_rates {
+            return;
+        }
         let head = Head {
             name: attitude.body.clone(),
             index: None,
@@ -110,8 +138,11 @@ impl Elaboration<'_> {
             }
             "body_rate" | "space_rate" => {
                 self.admit(Depth::Velocity, context, &text, member.into())?;
-                let sign = if member.text == "space_rate" { 2 } else { -2 };
-                Some(self.rate(first, sign))
+                let in_space = member.text == "space_rate";
+                Some(match self.turned_body(first).map(|body| body.axes) {
+                    Some(axes) => self.turning(first, in_space.then_some(axes)),
+                    None => self.rate(first, if in_space { 2 } else { -2 }),
+                })
             }
             other => {
                 let hint = match nearest(other, MEMBERS) {
@@ -126,6 +157,11 @@ impl Elaboration<'_> {
     }
 
     fn axes(&mut self, first: usize) -> Value {
+        if let Some(axes) = self.turned_body(first).map(|body| body.axes) {
+            let pool = &mut self.system.pool;
+            let vector = |axis: [Symbol; 3]| vector(axis.map(|e| pool.leaf(e)));
+            return Value::List(axes.map(vector).into());
+        }
         let (w, u) = self.quaternion(first, Depth::Position);
         let pool = &mut self.system.pool;
         let (zero, one, two) = (pool.integer(0), pool.integer(1), Rational::integer(2));
@@ -147,6 +183,26 @@ impl Elaboration<'_> {
             Value::List((0..3).map(component).collect())
         };
         Value::List((0..3).map(axis).collect())
+    }
+
+    /// The body whose first turn this is.
+    fn turned_body(&self, first: usize) -> Option<&Body> {
+        self.system.bodies.iter().find(|body| body.first == first)
+    }
+
+    /// The rates ωₖ of a body, or with its axes their sum Σ ωₖ eₖ in space.
+    fn turning(&mut self, first: usize, axes: Option<[[Symbol; 3]; 3]>) -> Value {
+        let System {
+            pool, coordinates, ..
+        } = &mut self.system;
+        let rates = [0, 1, 2].map(|k| pool.leaf(coordinates[first + k].velocity));
+        let Some(axes) = axes else {
+            return vector(rates);
+        };
+        vector([0, 1, 2].map(|j| {
+            let along = axes.map(|axis| pool.leaf(axis[j]));
+            dot(pool, &rates, &along)
+        }))
     }
 
     /// 2 (w u̇ − ẇ u) + sign u × u̇
@@ -176,4 +232,8 @@ impl Elaboration<'_> {
         self.enter(&attitude.body, Kind::Constraint, meaning)
             .is_some()
     }
+}
+
+fn vector(components: [ExprId; 3]) -> Value {
+    Value::List(components.map(Value::Scalar).into())
 }

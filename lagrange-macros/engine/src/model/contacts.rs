@@ -93,23 +93,20 @@ impl Elaboration<'_> {
                 }
             },
         };
-        let positions: Vec<_> = self
-            .system
-            .coordinates
-            .iter()
-            .map(|coordinate| coordinate.position)
+        let moved: Vec<_> = (0..self.system.coordinates.len())
+            .map(|i| self.system.moved(i))
             .collect();
         let pool = &mut self.system.pool;
-        let slope: Vec<ExprId> = positions
+        let slope: Vec<ExprId> = moved
             .iter()
-            .map(|&q| pool.differentiate(gap, q))
+            .map(|moved| pool.derivative_along(gap, moved))
             .collect();
         let jacobian: Vec<Vec<ExprId>> = point_value
             .iter()
             .map(|&p| {
-                positions
+                moved
                     .iter()
-                    .map(|&q| pool.differentiate(p, q))
+                    .map(|moved| pool.derivative_along(p, moved))
                     .collect()
             })
             .collect();
@@ -127,7 +124,7 @@ impl Elaboration<'_> {
             return None;
         };
         let pool = &mut self.system.pool;
-        let residuals: Vec<ExprId> = (0..positions.len())
+        let residuals: Vec<ExprId> = (0..moved.len())
             .map(|j| {
                 let column: Vec<ExprId> = jacobian.iter().map(|row| row[j]).collect();
                 let reached = dot(pool, &column, &normal);

@@ -147,7 +147,7 @@ impl Elaboration<'_> {
         usize::try_from(count).ok().filter(|&count| count > 0)
     }
 
-    fn add_coordinate(&mut self, name: ItemName) -> Value {
+    pub(super) fn add_coordinate(&mut self, name: ItemName) -> Value {
         let position = self.symbol(&name.text, Depth::Position);
         let velocity = self.symbol(&format!("der({})", name.text), Depth::Velocity);
         let acceleration = self.symbol(&format!("der(der({}))", name.text), Depth::Acceleration);

@@ -33,6 +33,8 @@ pub(super) struct Elaboration<'a> {
     pub coordinate_names: BTreeMap<String, (usize, Option<usize>)>,
     /// First coordinate of each body of `attitude`.
     pub bodies: BTreeMap<String, usize>,
+    /// Whether the rates of those bodies are velocities, in place of those of their quaternions.
+    pub in_body_rates: bool,
     /// Whether something could not be read; the sink says why.
     pub dropped: bool,
     /// Whether an exact number that did not fit has been reported.
@@ -83,6 +85,20 @@ pub fn scoped(declaration: &Declaration, sink: &mut Diagnostics) -> Option<(Syst
     (sink.count() == before).then_some((system, scope))
 }
 
+/// The mechanics of a declaration without mistakes with the rates of its bodies as velocities, for equations that people
+/// read (Euler 1758); nothing where there is no body, or where the declaration speaks of its quaternion.
+pub fn in_body_rates(declaration: &Declaration) -> Option<System> {
+    let mut sink = Diagnostics::new();
+    let mut elaboration = Elaboration::new(declaration, &mut sink);
+    elaboration.in_body_rates = true;
+    elaboration.read_in(declaration, &Pass::MECHANICS);
+    let whole = !elaboration.dropped && elaboration.sink.is_empty();
+    let defined = elaboration.defined();
+    let mut system = elaboration.close().0;
+    system.defined = defined;
+    (whole && !system.bodies.is_empty()).then_some(system)
+}
+
 /// Items are read in this order: each needs only what comes before it.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Pass {
@@ -97,6 +113,14 @@ enum Pass {
 }
 
 impl Pass {
+    const MECHANICS: [Pass; 5] = [
+        Pass::Energies,
+        Pass::Contacts,
+        Pass::Constraints,
+        Pass::Frictions,
+        Pass::Forces,
+    ];
+
     const ALL: [Pass; 8] = [
         Pass::Energies,
         Pass::Contacts,
@@ -133,6 +157,7 @@ impl<'a> Elaboration<'a> {
             definitions: Vec::new(),
             coordinate_names: BTreeMap::new(),
             bodies: BTreeMap::new(),
+            in_body_rates: false,
             dropped: false,
             overflowed: false,
             unrolled: 0,
@@ -142,6 +167,11 @@ impl<'a> Elaboration<'a> {
 
     /// Enters all names and reads all items.
     pub fn read_all(&mut self, declaration: &Declaration) {
+        self.read_in(declaration, &Pass::ALL);
+    }
+
+    /// Enters all names and reads the items of these passes.
+    fn read_in(&mut self, declaration: &Declaration, passes: &[Pass]) {
         let accepted = self.declare(declaration);
         self.check_energies(declaration);
         let items = || {
@@ -153,7 +183,7 @@ impl<'a> Elaboration<'a> {
                 .map(|(item, _)| item)
         };
         self.definitions_all(|this, definition| !this.has_force(definition));
-        for pass in Pass::ALL {
+        for &pass in passes {
             for item in items() {
                 self.read(item, pass);
             }
@@ -178,6 +208,7 @@ impl<'a> Elaboration<'a> {
             definitions: scope.definitions,
             coordinate_names: scope.coordinate_names,
             bodies: scope.bodies,
+            in_body_rates: false,
             dropped: false,
             unrolled: 0,
             home: scope.home,
@@ -342,6 +373,22 @@ impl<'a> Elaboration<'a> {
                 self.define(definition);
             }
         }
+    }
+
+    /// Scalar definitions and their values.
+    fn defined(&self) -> Vec<(String, ExprId)> {
+        let names = self
+            .definitions
+            .iter()
+            .map(|pending| &pending.head.name.text);
+        let worth = names.filter_map(|name| match self.names.get(name)?.meaning {
+            Meaning::Value {
+                value: Value::Scalar(e),
+                ..
+            } => Some((name.clone(), e)),
+            _ => None,
+        });
+        worth.collect()
     }
 
     /// Exact numbers that did not fit make every form doubtful: reported where it first happens.

@@ -4,7 +4,7 @@ use super::elaborate::Elaboration;
 use super::names::Kind;
 use super::reach::{Context, Depth, Reach};
 use super::value::{Value, norm};
-use super::{Dissipation, Force, System, Worked};
+use super::{Dissipation, Force, Worked};
 use crate::ast::{self, Action, Expr, Name};
 use crate::diagnostics::{Code, Extent};
 use crate::symbolic::{ExprId, Symbol};
@@ -94,17 +94,17 @@ impl Elaboration<'_> {
         if let &[(force, Worked::Coordinate(index))] = components {
             return vec![(index, force)];
         }
-        let System {
-            pool, coordinates, ..
-        } = &mut self.system;
         let mut generalized = Vec::new();
-        for (j, coordinate) in coordinates.iter().enumerate() {
+        for j in 0..self.system.coordinates.len() {
+            let moved = self.system.moved(j);
+            let velocity = self.system.coordinates[j].velocity;
+            let pool = &mut self.system.pool;
             let terms: Vec<ExprId> = components
                 .iter()
                 .map(|&(f, worked)| {
                     let slope = match worked {
-                        Worked::Point(p) => pool.differentiate(p, coordinate.position),
-                        Worked::Speed(s) => pool.differentiate(s, coordinate.velocity),
+                        Worked::Point(p) => pool.derivative_along(p, &moved),
+                        Worked::Speed(s) => pool.differentiate(s, velocity),
                         Worked::Coordinate(index) => pool.integer(i64::from(index == j)),
                     };
                     pool.mul(f, slope)

@@ -39,12 +39,13 @@ use crate::ast::{Domain, Emit, Impacts};
 use crate::diagnostics::Extent;
 use crate::symbolic::{ExprId, Pool, Symbol};
 use proc_macro2::{Ident, Span, TokenStream};
+use std::collections::BTreeMap;
 
 pub use checks::{Check, Premise, checks};
 pub use declared::{Declared, declared};
 pub use defaults::{defaults, number};
 pub use draws::{Draw, Turn};
-pub use elaborate::{Scope, scoped, system};
+pub use elaborate::{Scope, in_body_rates, scoped, system};
 pub(crate) use names::shouting;
 
 /// A mechanical system with all names resolved.
@@ -65,6 +66,10 @@ pub struct System {
     pub parameters: Vec<Parameter>,
     /// Coordinates, arrays flattened.
     pub coordinates: Vec<Coordinate>,
+    /// Bodies of `attitude` whose rates are velocities; in a system [to be read](in_body_rates) only.
+    pub bodies: Vec<Body>,
+    /// What scalar definitions are worth; in a system [to be read](in_body_rates) only.
+    pub defined: Vec<(String, ExprId)>,
     /// Kinetic energy terms. With `lagrangian = L`: the single term L − L(v=0).
     pub kinetic: Vec<EnergyTerm>,
     /// Potential energy terms. With `lagrangian = L`: the single term −L(v=0).
@@ -104,6 +109,15 @@ pub struct System {
 }
 
 impl System {
+    /// What changes with coordinate i, and how fast: its position by 1, or the axes of a body with a turn.
+    pub fn moved(&mut self, i: usize) -> Vec<(Symbol, ExprId)> {
+        let turning = |body: &&Body| (body.first..body.first + 3).contains(&i);
+        match self.bodies.iter().find(turning) {
+            Some(body) => body.turned(&mut self.pool, i - body.first),
+            None => vec![(self.coordinates[i].position, self.pool.integer(1))],
+        }
+    }
+
     /// A system without parameters, coordinates and items.
     pub(crate) fn empty(name: Ident, pool: Pool, time: Symbol) -> System {
         System {
@@ -115,6 +129,8 @@ impl System {
             time,
             parameters: Vec::new(),
             coordinates: Vec::new(),
+            bodies: Vec::new(),
+            defined: Vec::new(),
             kinetic: Vec::new(),
             potential: Vec::new(),
             from_lagrangian: false,
@@ -213,6 +229,45 @@ pub struct Coordinate {
     pub acceleration: Symbol,
     /// As declared or inferred; empty for a plain number and where nothing is known.
     pub unit: String,
+}
+
+/// A body whose orientation is known by its axes, and whose velocities are the rates ωₖ about them. They are the rates of
+/// no coordinates; three coordinates of the system, the turns of the body, have them as velocities all the same.
+pub struct Body {
+    /// Its name in `attitude`.
+    pub name: String,
+    /// The first of its three turns.
+    pub first: usize,
+    /// Component j in space of axis i.
+    pub axes: [[Symbol; 3]; 3],
+}
+
+impl Body {
+    /// What a turn about axis k changes: ėᵢ = ω × eᵢ, so that e₁ turns to e₂ about e₀.
+    pub fn turned(&self, pool: &mut Pool, k: usize) -> Vec<(Symbol, ExprId)> {
+        let [next, last] = [(k + 1) % 3, (k + 2) % 3];
+        let mut turned = Vec::new();
+        for j in 0..3 {
+            let [towards, away] = [self.axes[last][j], self.axes[next][j]].map(|e| pool.leaf(e));
+            turned.push((self.axes[next][j], towards));
+            turned.push((self.axes[last][j], pool.neg(away)));
+        }
+        turned
+    }
+
+    /// Rates of the axes: ėᵢ = ω × eᵢ.
+    pub fn rates(&self, pool: &mut Pool, rates: [Symbol; 3]) -> Vec<(Symbol, ExprId)> {
+        let mut terms: BTreeMap<Symbol, Vec<ExprId>> = BTreeMap::new();
+        for (k, rate) in rates.into_iter().enumerate() {
+            for (axis, slope) in self.turned(pool, k) {
+                let rate = pool.leaf(rate);
+                let term = pool.mul(slope, rate);
+                terms.entry(axis).or_default().push(term);
+            }
+        }
+        let sums = terms.into_iter();
+        sums.map(|(axis, terms)| (axis, pool.sum(&terms))).collect()
+    }
 }
 
 /// A term of the kinetic or potential energy.

@@ -42,7 +42,7 @@ pub struct Rattleback<T = f64> {
     /// Moments of inertia about the ellipsoid's axes, kg m².
     #[lagrange(unit = "kg m^2", domain = "positive", symbol = "I")]
     pub inertia: [T; 3],
-    /// Product of inertia I₁₂, kg m².
+    /// Product of inertia I₀₁, kg m².
     #[lagrange(unit = "kg m^2")]
     pub skew: T,
     /// Semi-axis along, m.

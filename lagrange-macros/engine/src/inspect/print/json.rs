@@ -5,6 +5,7 @@
 //!   "symbols":   [{ "name", "letter": F, "text", "unit" }],
 //!   "declared":  [{ "item", "name", "parts": [text | F | S] }],
 //!   "energies":  { "kinetic": F, "potential": F },
+//!   "bodies":    [{ "name", "text", "definitions": [S] }],
 //!   "motion":    [{ "coordinate": F, "equation": S }],
 //!   "rows":      [{ "name", "kind", "declared": S, "acceleration": S, "multiplier": F, "acts" }],
 //!   "mode_count", "modes": [{ "name", "known": [S], "unknowns": [F], "equations": [S], "solution": [S],
@@ -23,7 +24,8 @@ use super::{latex, text};
 use crate::inspect::formula::{Formula, Relation, Statement};
 use crate::inspect::letter::Letter;
 use crate::inspect::{
-    Checked, Conserved, Cost, Derivation, Equation, Impact, Item, Meaning, Mode, Part, Row, Switch,
+    Body, Checked, Conserved, Cost, Derivation, Equation, Impact, Item, Meaning, Mode, Part, Row,
+    Switch,
 };
 
 /// The whole derivation as JSON.
@@ -39,6 +41,7 @@ pub fn json(d: &Derivation) -> String {
         ("symbols", list(d.symbols.iter().map(symbol))),
         ("declared", list(d.declared.iter().map(declared))),
         ("energies", energies),
+        ("bodies", list(d.bodies.iter().map(body))),
         ("motion", list(d.motion.iter().map(motion))),
         ("rows", list(d.rows.iter().map(row))),
         ("mode_count", d.mode_count.to_string()),
@@ -73,6 +76,14 @@ fn declared(item: &Item) -> String {
         ("item", quoted(item.keyword)),
         ("name", quoted(&item.name)),
         ("parts", list(parts)),
+    ])
+}
+
+fn body(body: &Body) -> String {
+    object(&[
+        ("name", quoted(&body.name)),
+        ("text", quoted(&body.text)),
+        ("definitions", list(body.definitions.iter().map(statement))),
     ])
 }
 

@@ -72,7 +72,7 @@ impl Notation for Latex {
             None if letter.is_single() => letter.base.clone(),
             None => format!("\\mathrm{{{}}}", name(&letter.base)),
         };
-        let dotted = match letter.rate {
+        let dotted = match letter.dots() {
             0 => base,
             1 => format!("\\dot{{{base}}}"),
             _ => format!("\\ddot{{{base}}}"),

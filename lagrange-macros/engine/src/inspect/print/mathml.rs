@@ -46,7 +46,7 @@ const SPACE: &str = "<mspace width=\"0.17em\"/>";
 impl Notation for MathMl {
     fn letter(&self, letter: &Letter) -> String {
         let base = format!("<mi>{}</mi>", escaped(&letter.base));
-        let dotted = match letter.rate {
+        let dotted = match letter.dots() {
             0 => base,
             // Not as accents: with fonts that have no table of mathematics they touch the letter.
             1 => format!("<mover>{base}<mo>˙</mo></mover>"),

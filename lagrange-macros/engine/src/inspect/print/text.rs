@@ -20,7 +20,7 @@ pub fn statement(s: &Statement) -> String {
 
 impl Notation for Text {
     fn letter(&self, letter: &Letter) -> String {
-        let dots = match letter.rate {
+        let dots = match letter.dots() {
             _ if !letter.is_single() => "",
             0 => "",
             1 => "\u{307}",
@@ -33,7 +33,7 @@ impl Notation for Text {
         };
         let mut text = format!("{}{dots}{subscript}", letter.base);
         if !letter.is_single() {
-            for _ in 0..letter.rate {
+            for _ in 0..letter.dots() {
                 text = format!("der({text})");
             }
         }

@@ -92,6 +92,18 @@ impl Reader<'_> {
             below: Vec::new(),
         };
         for &(base, exponent) in factors {
+            if let Some((power, letter)) = self.names.root(base)
+                && let Some(times) = exponent.checked_div(*power)
+                && times.is_integer()
+            {
+                let formula = raised(Formula::Letter(letter.clone()), times);
+                let side = match times.is_negative() {
+                    true => &mut sides.below,
+                    false => &mut sides.above,
+                };
+                side.push(((MOVING_SUM, 0, 0), formula));
+                continue;
+            }
             let mut rank = self.rank(base);
             let (negative, formula) = match self.full(base).signed() {
                 // An odd power of a sum that reads better with its sign in front.

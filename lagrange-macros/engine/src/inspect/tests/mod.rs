@@ -1,5 +1,6 @@
 //! Derivations of the scenes, and what they leave alone.
 
+mod bodies;
 mod modes;
 mod printed;
 mod values;

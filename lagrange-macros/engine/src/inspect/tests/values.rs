@@ -1,6 +1,7 @@
 //! Formulas say what expressions are worth, in every scene.
 
 use super::{planned, scenes};
+use crate::inspect::costs::Counts;
 use crate::inspect::formula::{Formula, Statement};
 use crate::inspect::names::Names;
 use crate::inspect::print;
@@ -158,7 +159,10 @@ fn equations_of_motion_balance() {
     for (name, tokens) in scenes() {
         let (scene, mut pool) = Scene::new(tokens);
         let mut work = Work {
-            program: &scene.program,
+            equations: &scene.program.equations,
+            counts: &Counts {
+                program: &scene.program,
+            },
             names: &scene.names,
             reader: scene.reader(&mut pool),
             solves: true,
