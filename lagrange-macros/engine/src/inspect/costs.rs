@@ -1,10 +1,12 @@
 //! What a right-hand side costs: operations per mode, and of each effect beside what it stands on.
 
-use super::Cost;
+use super::{Cost, Emitted, ModeWork};
 use crate::derive::{NeedId, Stage};
 use crate::model::{Normal, System};
 use crate::modes::{FrictionState, Mode};
 use crate::plan::Program;
+use crate::plan::mode::Phase;
+use crate::plan::mode::products::Plan;
 use crate::symbolic::{ExprId, Node, Pool};
 use std::collections::BTreeMap;
 
@@ -34,13 +36,26 @@ impl Counts<'_> {
         &self.program.equations.system
     }
 
-    /// Operations of the equations of motion of a mode, and the same with its guards.
-    pub fn of_mode(&self, mode: &Mode) -> [usize; 2] {
+    /// What a mode costs.
+    pub fn of_mode(&self, mode: &Mode) -> ModeWork {
         let mut mask = self.energies_and_loads();
         self.hold_mode(mode, &mut mask);
-        let motion = self.program.operations(Stage::Motion, &mask.0);
+        let operations = self.program.operations(Stage::Motion, &mask.0);
         self.hold_guards(mode, &mut mask);
-        [motion, self.program.operations(Stage::Motion, &mask.0)]
+        let with_guards = self.program.operations(Stage::Motion, &mask.0);
+        let mut modes = self.program.modes.iter();
+        let own = modes.find(|own| same_structure(&own.mode, mode));
+        ModeWork {
+            operations,
+            with_guards,
+            emitted: own.map(|own| Emitted {
+                constants: own.constants.outputs,
+                unknowns: own.system.matrix.len(),
+                accelerations: own.operations(Phase::Accelerations),
+                whole: own.operations(Phase::Outputs),
+                convolutions: Plan::new(own).convolutions(),
+            }),
+        }
     }
 
     /// Operations of energies and loads, then of each item that can act beside them.
@@ -207,6 +222,13 @@ impl Counts<'_> {
             after,
         });
     }
+}
+
+/// Whether two modes differ in directions of slips only: functions serve all directions.
+fn same_structure(a: &Mode, b: &Mode) -> bool {
+    let kind = std::mem::discriminant::<FrictionState>;
+    let frictions = a.frictions.iter().zip(&b.frictions);
+    a.contacts == b.contacts && frictions.map(|(a, b)| kind(a) == kind(b)).all(|same| same)
 }
 
 /// Operations of an expression as a tree: every use of a part counts again.

@@ -225,16 +225,53 @@ impl Derivation {
             ]
         });
         blocks.push(Block::Table([header].into_iter().chain(rows).collect()));
-        let header = ["mode", "equations of motion", "with guards"];
-        let header = header.map(|title| vec![words(title)]).to_vec();
-        let rows = self.modes.iter().map(|mode| {
+        let table = |header: &[&str], rows: Vec<Vec<String>>| {
+            let header = header.iter().map(|title| title.to_string()).collect();
+            let cell = |text: String| vec![words(text)];
+            let rows = [header].into_iter().chain(rows);
+            Block::Table(
+                rows.map(|row| row.into_iter().map(cell).collect())
+                    .collect(),
+            )
+        };
+        let interpreted = |mode: &Mode| {
+            let work = &mode.work;
             vec![
-                vec![words(&mode.name)],
-                vec![words(mode.operations.to_string())],
-                vec![words(mode.with_guards.to_string())],
+                mode.name.clone(),
+                work.operations.to_string(),
+                work.with_guards.to_string(),
             ]
-        });
-        blocks.push(Block::Table([header].into_iter().chain(rows).collect()));
+        };
+        blocks.push(table(
+            &["mode", "equations of motion", "with guards"],
+            self.modes.iter().map(interpreted).collect(),
+        ));
+        let of_functions = |mode: &Mode| {
+            let own = mode.work.emitted?;
+            let numbers = [
+                own.constants,
+                own.unknowns,
+                own.accelerations,
+                own.whole,
+                own.convolutions,
+            ];
+            let numbers = numbers.map(|number| number.to_string());
+            Some([mode.name.clone()].into_iter().chain(numbers).collect())
+        };
+        let rows: Vec<Vec<String>> = self.modes.iter().filter_map(of_functions).collect();
+        if rows.is_empty() {
+            return;
+        }
+        blocks.push(Block::Paragraph(vec![words(
+            "Of modes that have functions of their own: constants, numbers of parameters alone that are computed once for each \
+             choice of them; unknowns of the linear system, which is factorized once a step; operations of the motion at a \
+             state, and of all that guards read; sums over earlier coefficients (convolutions) for each new one of the \
+             Taylor series.",
+        )]));
+        blocks.push(table(
+            &["mode", "constants", "unknowns", "motion", "all", "sums"],
+            rows,
+        ));
     }
 }
 

@@ -176,10 +176,34 @@ pub struct Mode {
     pub solution: Vec<Statement>,
     /// What must hold, and what happens if it does not.
     pub guards: Vec<Guard>,
-    /// Operations of its equations of motion, shared.
+    /// What it costs.
+    pub work: ModeWork,
+}
+
+/// What a mode costs.
+#[derive(Clone, Copy, Debug)]
+pub struct ModeWork {
+    /// Operations of its equations of motion in the program that serves all modes.
     pub operations: usize,
     /// The same with its guards.
     pub with_guards: usize,
+    /// Of the functions that are written for it alone, where there are any.
+    pub emitted: Option<Emitted>,
+}
+
+/// What the functions of a mode cost.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Emitted {
+    /// Numbers that depend on parameters alone: computed once for each choice of them.
+    pub constants: usize,
+    /// Unknowns of the linear system, which is factorized once a step.
+    pub unknowns: usize,
+    /// Operations of the accelerations at a state.
+    pub accelerations: usize,
+    /// Operations with forces and all that guards read.
+    pub whole: usize,
+    /// Sums over earlier coefficients for each new one of the Taylor series.
+    pub convolutions: usize,
 }
 
 impl Mode {

@@ -43,7 +43,6 @@ impl Work<'_> {
         let equations = self.equations(&parts);
         let solution = self.solution(&parts, &unknowns).unwrap_or_default();
         let guards = self.guards(mode, &parts.known);
-        let [operations, with_guards] = self.counts.of_mode(mode);
         Mode {
             name: mode.name(self.system()),
             known,
@@ -54,8 +53,7 @@ impl Work<'_> {
             equations,
             solution,
             guards,
-            operations,
-            with_guards,
+            work: self.counts.of_mode(mode),
         }
     }
 

@@ -1,6 +1,5 @@
 //! The equations of each mode as Rust: `constants`, `value` and `series`, and the table that says where their numbers are.
 
-mod products;
 mod series;
 mod solve;
 mod value;
@@ -10,7 +9,7 @@ use super::names::{self, index, local, plain};
 use super::scalar;
 use crate::derive::Stage;
 use crate::modes::FrictionState;
-use crate::plan::mode::{ModeProgram, Phase};
+use crate::plan::mode::{ModeProgram, Phase, products};
 use crate::plan::{Program, ValueRef};
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
@@ -41,7 +40,10 @@ pub fn equations(program: &Program) -> TokenStream {
             plain(&format!("series_{at}")),
         );
         let words = mode.mode.name(&program.equations.system);
-        let heading = format!(" {words}: {} operations.", operations(mode));
+        let heading = format!(
+            " {words}: {} operations.",
+            mode.operations(Phase::Accelerations)
+        );
         values.push(value::function(&value, &heading, program, mode, &plan));
         value_entries.push(quote!(#value::<#number> as #core::equations::ValueFn<#number>));
         let sums = plan.convolutions();
@@ -84,14 +86,6 @@ pub fn equations(program: &Program) -> TokenStream {
             const { &[#(#series_entries),*] }
         }
     }
-}
-
-/// Arithmetic operations of the accelerations.
-fn operations(mode: &ModeProgram) -> usize {
-    let blocks = mode.tape.blocks.iter().zip(&mode.phases);
-    let needed = blocks.filter(|(_, phase)| **phase < Phase::Forces);
-    let steps = needed.flat_map(|(block, _)| &block.steps);
-    steps.filter(|step| step.operation.is_work()).count() + solve::operations(&mode.system)
 }
 
 /// `ModeStructure { … }`

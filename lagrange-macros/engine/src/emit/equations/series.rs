@@ -9,11 +9,11 @@
 
 use super::super::names::{self, index, local, plain};
 use super::number;
-use super::products::{Plan, Product, Row, force_row};
 use super::solve::Elimination;
 use super::value;
 use super::writer::{Writer, coefficient};
 use crate::ast::Emit;
+use crate::plan::mode::products::{Plan, Product, Row, force_row};
 use crate::plan::mode::{ModeProgram, Phase};
 use crate::plan::{Block, Coefficient, Mode, Operation, Program, Step, Value, ValueRef};
 use proc_macro2::{Ident, TokenStream};

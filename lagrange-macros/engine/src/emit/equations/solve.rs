@@ -57,12 +57,6 @@ fn order(system: &LinearSystem) -> Vec<usize> {
     order
 }
 
-/// Arithmetic operations of the solution.
-pub fn operations(system: &LinearSystem) -> usize {
-    let n = system.matrix.len();
-    n * (n + 1) * (2 * n + 1) / 6
-}
-
 impl<'a> Elimination<'a> {
     pub fn new(writer: &Writer, system: &'a LinearSystem) -> Elimination<'a> {
         let size = system.matrix.len();

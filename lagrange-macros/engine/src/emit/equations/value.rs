@@ -2,9 +2,9 @@
 
 use super::super::names::{self, index, local};
 use super::number;
-use super::products::{Plan, force_row, zero_row};
 use super::solve::Elimination;
 use super::writer::Writer;
+use crate::plan::mode::products::{Plan, force_row, zero_row};
 use crate::plan::mode::{ModeProgram, Phase};
 use crate::plan::{Block, Mode, Program, Value, ValueRef};
 use proc_macro2::{Ident, TokenStream};

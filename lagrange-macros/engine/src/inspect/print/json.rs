@@ -9,7 +9,8 @@
 //!   "motion":    [{ "coordinate": F, "equation": S }],
 //!   "rows":      [{ "name", "kind", "declared": S, "acceleration": S, "multiplier": F, "acts" }],
 //!   "mode_count", "modes": [{ "name", "known": [S], "unknowns": [F], "equations": [S], "solution": [S],
-//!                 "guards": [{ "while": S, "otherwise" }], "operations", "operations_with_guards" }],
+//!                 "guards": [{ "while": S, "otherwise" }], "operations", "operations_with_guards",
+//!                 "functions": { "constants", "unknowns", "accelerations", "whole", "convolutions" } | null }],
 //!   "switches":  [{ "from", "to", "label" }]        indices of modes
 //!   "impacts":   [{ "contact", "when": [S, S], "equations": [S], "note" }],
 //!   "conserved": [{ "name", "quantity": S, "rate": S | null, "when" }],
@@ -112,6 +113,15 @@ fn mode(mode: &Mode) -> String {
             ("otherwise", quoted(&guard.otherwise)),
         ])
     });
+    let functions = mode.work.emitted.map(|own| {
+        object(&[
+            ("constants", own.constants.to_string()),
+            ("unknowns", own.unknowns.to_string()),
+            ("accelerations", own.accelerations.to_string()),
+            ("whole", own.whole.to_string()),
+            ("convolutions", own.convolutions.to_string()),
+        ])
+    });
     object(&[
         ("name", quoted(&mode.name)),
         ("known", list(mode.known.iter().map(statement))),
@@ -119,8 +129,9 @@ fn mode(mode: &Mode) -> String {
         ("equations", list(mode.equations.iter().map(statement))),
         ("solution", list(mode.solution.iter().map(statement))),
         ("guards", list(guards)),
-        ("operations", mode.operations.to_string()),
-        ("operations_with_guards", mode.with_guards.to_string()),
+        ("operations", mode.work.operations.to_string()),
+        ("operations_with_guards", mode.work.with_guards.to_string()),
+        ("functions", functions.unwrap_or("null".to_owned())),
     ])
 }
 

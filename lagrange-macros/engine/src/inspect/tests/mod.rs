@@ -1,6 +1,7 @@
 //! Derivations of the scenes, and what they leave alone.
 
 mod bodies;
+mod costs;
 mod modes;
 mod printed;
 mod values;

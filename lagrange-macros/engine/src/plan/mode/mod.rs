@@ -13,6 +13,7 @@
 
 mod balance;
 mod masked;
+pub mod products;
 mod reduce;
 mod stages;
 
@@ -52,6 +53,14 @@ pub struct LinearSystem {
     pub reciprocals: Vec<Option<ValueRef>>,
     /// Unknowns that stand alone, already divided by their inertia.
     pub units: Vec<bool>,
+}
+
+impl LinearSystem {
+    /// Arithmetic operations of the solution, of a full matrix.
+    pub fn operations(&self) -> usize {
+        let n = self.matrix.len();
+        n * (n + 1) * (2 * n + 1) / 6
+    }
 }
 
 /// What a program gives besides accelerations and forces.
@@ -501,6 +510,14 @@ impl ModeProgram {
         blocks
             .filter(move |(_, p)| **p == phase)
             .map(|(block, _)| block)
+    }
+
+    /// Arithmetic operations up to the end of a phase, the solution of the linear system included.
+    pub fn operations(&self, last: Phase) -> usize {
+        let blocks = self.tape.blocks.iter().zip(&self.phases);
+        let needed = blocks.filter(|(_, phase)| **phase <= last);
+        let steps = needed.flat_map(|(block, _)| &block.steps);
+        steps.filter(|step| step.operation.is_work()).count() + self.system.operations()
     }
 
     /// Whether each value of the tape changes with time.

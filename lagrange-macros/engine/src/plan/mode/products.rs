@@ -3,7 +3,7 @@
 //! Coefficient k of a product is a sum over the earlier coefficients of its operands; everything else is linear and needs
 //! only coefficient k itself.
 
-use crate::plan::mode::{Extra, ModeProgram};
+use super::{Extra, ModeProgram};
 use crate::plan::{Mode, Operation, Step, Value, ValueRef};
 use std::collections::BTreeMap;
 
@@ -50,6 +50,7 @@ pub fn zero_row(mode: &ModeProgram) -> usize {
 }
 
 impl Plan {
+    /// What the series of a mode keep.
     pub fn new(mode: &ModeProgram) -> Plan {
         let mut plan = Plan {
             varying: mode.varying(),
