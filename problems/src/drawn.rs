@@ -204,9 +204,9 @@ impl Moment<'_> {
             (Form::Mass, _) => Solid::Mass(at),
             (Form::Pivot, _) => Solid::Pivot(at),
             (Form::Path, _) => Solid::Trace(at),
-            (Form::Arrow | Form::Ground | Form::Shell | Form::Bowl | Form::Polygon, _) => {
-                return None;
-            }
+            (Form::Shell, _) => Solid::Shell(x, at),
+            (Form::Bowl, _) => Solid::Bowl(x, at),
+            (Form::Arrow | Form::Ground | Form::Polygon, _) => return None,
         })
     }
 

@@ -42,6 +42,10 @@ pub enum Solid {
     Box([f64; 3], Pose),
     /// A cylinder of a radius and a height around its centre, along the third axis; a spoke shows how far it has turned.
     Disc(f64, f64, Pose),
+    /// The surface of a fixed sphere.
+    Shell(f64, Vector),
+    /// The lower half of the surface of a fixed sphere, open above.
+    Bowl(f64, Vector),
     /// A rod, a string or a chain, from joint to joint.
     Rod(Vec<Vector>),
     /// A point mass.
@@ -91,6 +95,8 @@ impl Solid {
             Solid::HalfEllipsoid(..) => "half ellipsoid",
             Solid::Box(..) => "box",
             Solid::Disc(..) => "disc",
+            Solid::Shell(..) => "shell",
+            Solid::Bowl(..) => "bowl",
             Solid::Rod(_) => "rod",
             Solid::Mass(_) => "mass",
             Solid::Pivot(_) => "pivot",
@@ -101,7 +107,10 @@ impl Solid {
     /// What does not change of it, m: its radius, its edges.
     pub fn size(&self) -> Vec<f64> {
         match self {
-            Solid::Ball(radius, _) | Solid::RolledBall(radius, ..) => vec![*radius],
+            Solid::Ball(radius, _)
+            | Solid::RolledBall(radius, ..)
+            | Solid::Shell(radius, _)
+            | Solid::Bowl(radius, _) => vec![*radius],
             Solid::HalfEllipsoid(edges, _) | Solid::Box(edges, _) => edges.to_vec(),
             Solid::Disc(radius, height, _) => vec![*radius, *height],
             _ => Vec::new(),
@@ -116,9 +125,12 @@ impl Solid {
             | Solid::HalfEllipsoid(_, pose)
             | Solid::Box(_, pose)
             | Solid::Disc(_, _, pose) => vec![pose.at],
-            Solid::RolledBall(_, at, _) | Solid::Mass(at) | Solid::Pivot(at) | Solid::Trace(at) => {
-                vec![*at]
-            }
+            Solid::RolledBall(_, at, _)
+            | Solid::Shell(_, at)
+            | Solid::Bowl(_, at)
+            | Solid::Mass(at)
+            | Solid::Pivot(at)
+            | Solid::Trace(at) => vec![*at],
             Solid::Rod(joints) => joints.clone(),
         }
     }
@@ -143,7 +155,10 @@ impl Solid {
             Vector::from_fn(|row, _| length([0, 1, 2].map(|k| axes[k] * turn[(row, k)])))
         };
         match self {
-            Solid::Ball(radius, _) | Solid::RolledBall(radius, ..) => Vector::repeat(*radius),
+            Solid::Ball(radius, _)
+            | Solid::RolledBall(radius, ..)
+            | Solid::Shell(radius, _)
+            | Solid::Bowl(radius, _) => Vector::repeat(*radius),
             Solid::HalfEllipsoid(axes, pose) => rows(pose, *axes, |[x, y, z]| x.hypot(y).hypot(z)),
             Solid::Box(edges, pose) => rows(pose, edges.map(|edge| edge / 2.0), |[x, y, z]| {
                 x.abs() + y.abs() + z.abs()

@@ -44,6 +44,65 @@ fn every_scene_moves_in_a_file_that_is_whole_and_small() {
     }
 }
 
+/// A marble that falls into a bowl in space, 0.284 s after it was dropped (√(2 (0.15 + 0.2458)/9.81)).
+const MARBLE: &str = "
+    parameters(mass = 0.02, radius = 0.3, marble = 0.02, gravity = 9.81, aside = 0.12),
+    coordinates(x, y, z),
+    define(distance = sqrt(x^2 + y^2 + z^2)),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2 + der(z)^2),
+    potential = mass * gravity * z,
+    contact(bowl: distance <= radius - marble, restitution = 1/2),
+    start(dropped: x = aside, y = aside/2, z = radius/2),
+    draw(floor: -radius),
+    draw(bowl: (0, 0, 0), radius = radius),
+    draw(shell: (-2*radius, 0, -radius/2), radius = radius/2),
+    draw(sphere: (x, y, z), radius = marble),
+    draw(pivot: (0, 0, radius)),
+    draw(arrow: bowl * (-x/distance, -y/distance, -z/distance) at (x, y, z)),
+    until = 0.6,
+";
+
+/// In space an impulse is an arrow that ends in a dot where it acts; the wall of a bowl hides what lies in it.
+#[test]
+fn impulses_and_hidden_things_in_space() {
+    let scene = lagrange_problems::file::scene("marble.lagrange", MARBLE).expect("a declaration");
+    let film = scene
+        .film(&Request {
+            samples: 200,
+            ..Request::default()
+        })
+        .expect("a film");
+    let panels = [Panel {
+        title: "marble",
+        film: &film,
+    }];
+    let frame = |time: f64| {
+        let clock = Clock {
+            instants: vec![time],
+            rate: 25.0,
+        };
+        stills(&panels, &clock).next().expect("a frame")
+    };
+    let (before, after) = (frame(0.27), frame(0.29));
+    let dots = |frame: &str| frame.matches(" r=\"4\"").count();
+    assert_eq!(dots(&before), 0);
+    assert_eq!(dots(&after), 1);
+    assert!(!before.contains(">impulse of bowl<") && after.contains(">impulse of bowl<"));
+    // The stripes of the marble, then the wall, then the arrow.
+    let at = |part: &str| {
+        after
+            .find(part)
+            .unwrap_or_else(|| panic!("{part} in {after}"))
+    };
+    let (ball, wall) = (at("url(#round)"), at("fill-rule=\"evenodd\""));
+    let last_ball = after.rfind("url(#round)").expect("the marble");
+    assert!(ball < wall && last_ball < wall && wall < at(">impulse of bowl<"));
+    assert_eq!(unclosed(&after), Vec::<&str>::new());
+    let moving = animated(&panels, &Clock::new(&panels, 25.0, None).expect("a clock"));
+    assert_eq!(unclosed(&moving), Vec::<&str>::new());
+    assert!(moving.contains("<circle"));
+}
+
 #[test]
 fn frames_are_numbered_and_show_their_instants() {
     let folder = std::env::temp_dir().join(format!("lagrange-frames-{}", std::process::id()));

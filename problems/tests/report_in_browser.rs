@@ -76,6 +76,34 @@ fn every_page_opens_without_complaints() {
     }
 }
 
+/// Where there is no WebGL the picture is painted: not blank, and it turns with the arrow keys.
+#[test]
+fn space_is_painted_without_webgl() {
+    let Some(mut browser) = Browser::start() else {
+        return;
+    };
+    let page = Written::report("painted.html", &["rattleback"]);
+    browser.open(&page.0, AT_A_DESK);
+    // What `location.hash` is when the page is read decides.
+    browser.evaluate("(location.hash = 'painted', location.reload())");
+    let canvas = "document.querySelector('.view canvas')";
+    browser.wait(&format!(
+        "location.hash === '#painted' && !!{canvas}?.getContext('2d')"
+    ));
+    let colours = format!(
+        "(() => {{ const c = {canvas}, d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data, seen = new Set();
+          for (let i = 0; i < d.length; i += 4) seen.add((d[i] << 16) | (d[i + 1] << 8) | d[i + 2]); return seen.size; }})()"
+    );
+    browser.wait(&format!("{colours} > 20"));
+    let picture = format!("{canvas}.toDataURL()");
+    let before = browser.evaluate(&picture);
+    browser.evaluate("document.querySelector('.view').focus()");
+    browser.press("ArrowRight");
+    let before = serde_json::to_string(&before).expect("text");
+    browser.wait(&format!("{picture} !== {before}"));
+    assert_eq!(browser.complaints, Vec::<String>::new());
+}
+
 #[test]
 fn it_plays_and_is_searched_by_keyboard_and_mouse() {
     let Some(mut browser) = Browser::start() else {

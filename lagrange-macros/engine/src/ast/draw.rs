@@ -28,9 +28,9 @@ pub enum Form {
     Floor,
     /// A fixed polygon in a plane.
     Ground,
-    /// A fixed round body in a plane, seen from outside.
+    /// A fixed round surface, seen from outside.
     Shell,
-    /// A fixed round hollow in a plane, seen from inside.
+    /// A fixed round hollow, seen from inside; in space the lower half of a sphere.
     Bowl,
     /// A round body, in space a cylinder.
     Disc,
@@ -139,7 +139,7 @@ impl Form {
         match self {
             Form::Floor => rule((1, 1), &[], Some(&[]), Some(TURNED)),
             Form::Ground | Form::Polygon => rule((3, MANY), &[], Some(&[]), None),
-            Form::Shell | Form::Bowl => rule((1, 1), &[Radius], Some(&[Radius]), None),
+            Form::Shell | Form::Bowl => rule((1, 1), &[Radius], Some(&[Radius]), Some(&[Radius])),
             Form::Disc => rule(
                 (1, 1),
                 &[Radius],

@@ -307,16 +307,17 @@ fn mode_blocks(mode: &Mode, blocks: &mut Vec<Block>) {
     blocks.push(Block::Equations(
         equations.map(|e| (Vec::new(), e.clone())).collect(),
     ));
-    if !mode.solution.is_empty() {
+    let solution = mode.solution.as_deref().unwrap_or_default();
+    if !solution.is_empty() {
         blocks.push(Block::Paragraph(vec![words("hence")]));
-        let solution = mode.solution.iter();
+        let solution = solution.iter();
         blocks.push(Block::Equations(
             solution.map(|e| (Vec::new(), e.clone())).collect(),
         ));
     }
     let unsolved = mode.unsolved();
     if !unsolved.is_empty() {
-        let mut pieces = vec![words("too long to be written out: ")];
+        let mut pieces = vec![words("not in closed form, or too long to be written out: ")];
         for (i, unknown) in unsolved.into_iter().enumerate() {
             if i > 0 {
                 pieces.push(words(", "));

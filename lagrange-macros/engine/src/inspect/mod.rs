@@ -172,8 +172,8 @@ pub struct Mode {
     pub unknowns: Vec<Letter>,
     /// What determines them.
     pub equations: Vec<Statement>,
-    /// Unknowns in closed form, those for which it is short.
-    pub solution: Vec<Statement>,
+    /// Unknowns in closed form, those for which it is short; none where it was not sought, which a note says.
+    pub solution: Option<Vec<Statement>>,
     /// What must hold, and what happens if it does not.
     pub guards: Vec<Guard>,
     /// What it costs.
@@ -207,20 +207,17 @@ pub struct Emitted {
 }
 
 impl Mode {
-    /// Unknowns without a closed form where others have one: theirs would be too long.
+    /// Unknowns that the solution leaves out: theirs would be too long. None where no solution was sought.
     pub fn unsolved(&self) -> Vec<&Letter> {
+        let Some(solution) = &self.solution else {
+            return Vec::new();
+        };
         let solved = |unknown: &Letter| {
-            let mut lefts = self.solution.iter().map(|statement| &statement.left);
+            let mut lefts = solution.iter().map(|statement| &statement.left);
             lefts.any(|left| matches!(left, Formula::Letter(letter) if letter == unknown))
         };
-        match self.solution.is_empty() {
-            true => Vec::new(),
-            false => self
-                .unknowns
-                .iter()
-                .filter(|unknown| !solved(unknown))
-                .collect(),
-        }
+        let unknowns = self.unknowns.iter();
+        unknowns.filter(|unknown| !solved(unknown)).collect()
     }
 }
 

@@ -41,7 +41,9 @@ impl Work<'_> {
         let known = self.pinned(&parts);
         let unknowns = self.unknowns(&parts);
         let equations = self.equations(&parts);
-        let solution = self.solution(&parts, &unknowns).unwrap_or_default();
+        let solution = self
+            .solves
+            .then(|| self.solution(&parts, &unknowns).unwrap_or_default());
         let guards = self.guards(mode, &parts.known);
         Mode {
             name: mode.name(self.system()),
@@ -141,7 +143,7 @@ impl Work<'_> {
     /// Accelerations and multipliers in closed form; nothing for friction that makes the equations nonlinear.
     fn solution(&mut self, parts: &Parts, unknowns: &[Symbol]) -> Option<Vec<Statement>> {
         let coordinates = self.system().coordinates.len();
-        if !self.solves || coordinates > MOST_SOLVED {
+        if coordinates > MOST_SOLVED {
             return None;
         }
         let mut residuals = Vec::new();

@@ -108,6 +108,13 @@ impl Reel {
         }
         let arrows: Vec<Vec<Seen>> = places.iter().map(|place| panel.arrows(*place)).collect();
         for i in 0..arrows.first().map_or(0, Vec::len) {
+            let dots = arrows
+                .iter()
+                .filter_map(|arrows| element::dot(i, &arrows[i]));
+            let dots: Vec<Element> = dots.collect();
+            if !dots.is_empty() {
+                self.moving(&dots, "", out);
+            }
             let all = arrows.iter().map(|arrows| element::arrow(i, &arrows[i]));
             let (arrows, names): (Vec<Element>, Vec<Option<Element>>) = all.unzip();
             self.moving(&arrows, "", out);

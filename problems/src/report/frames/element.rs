@@ -83,6 +83,21 @@ pub(super) fn mark(mark: &Mark, place: Place, height: f64) -> Option<Element> {
     })
 }
 
+/// Radius of the dot where a force acts.
+const DOT: f64 = 4.0;
+
+/// The dot where the arrow number `index` acts, which is gone with the force.
+pub(super) fn dot(index: usize, seen: &Seen) -> Option<Element> {
+    let [x, y] = seen.acts?;
+    let radius = outline(seen.ends).map_or(0.0, |_| DOT);
+    let moving = vec![("cx", short(x)), ("cy", short(y)), ("r", short(radius))];
+    Some(Element::new(
+        "circle",
+        format!(" fill=\"{}\"", colour(index)),
+        moving,
+    ))
+}
+
 /// The arrow number `index`: its outline, and its name if there is room for one.
 pub(super) fn arrow(index: usize, seen: &Seen) -> (Element, Option<Element>) {
     let fill = format!(" fill=\"{}\"", colour(index));

@@ -55,6 +55,8 @@ pub(super) struct Seen {
     pub name: String,
     /// From where to where it points: x, y, x, y.
     pub ends: [f64; 4],
+    /// In space, where it acts: a dot shows it, since arrows end in front of or behind what they push.
+    pub acts: Option<[f64; 2]>,
     /// Where its name stands, if it is long enough for one that covers no other.
     pub label: Option<[f64; 2]>,
 }
@@ -213,7 +215,16 @@ impl Place<'_> {
                 taken.iter().all(apart)
             });
             taken.extend(label.map(|[x, y]| [x, y, half]));
-            Seen { name, ends, label }
+            let acts = self.painter.as_ref().map(|_| match impulse {
+                true => [x2, y2],
+                false => [x1, y1],
+            });
+            Seen {
+                name,
+                ends,
+                acts,
+                label,
+            }
         };
         if let Some(painter) = &self.painter {
             return painter.arrows(place).into_iter().map(seen).collect();

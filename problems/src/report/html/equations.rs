@@ -41,7 +41,7 @@ pub(super) fn equations(run: &Shown) -> String {
         return String::new();
     };
     let title = escaped(&run.title);
-    let declared = declared(&derived);
+    let (declared, bodies) = (declared(&derived), bodies(&derived));
     let energies: String = [("T", &derived.kinetic), ("V", &derived.potential)]
         .map(|(name, value)| {
             let name = Formula::Letter(Letter::new(name));
@@ -58,7 +58,7 @@ pub(super) fn equations(run: &Shown) -> String {
     let impacts = impacts(outcome, &derived);
     format!(
         "<h3>Equations</h3>\n{note}<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"Equations of {title}\">\n\
-         <h4>Declared</h4>\n{declared}<h4>Energies</h4>\n{energies}\n<h4>Equations of motion</h4>\n{motion}\n\
+         <h4>Declared</h4>\n{declared}{bodies}<h4>Energies</h4>\n{energies}\n<h4>Equations of motion</h4>\n{motion}\n\
          {rows}{modes}{impacts}</div>\n"
     )
 }
@@ -86,6 +86,21 @@ fn declared(derived: &inspect::Derivation) -> String {
         )
     };
     format!("<table>\n{}</table>\n", items.map(row).collect::<String>())
+}
+
+/// What the rates and axes of bodies in space are.
+fn bodies(derived: &inspect::Derivation) -> String {
+    let body = |body: &inspect::Body| {
+        let definitions: String = body.definitions.iter().map(titled).collect();
+        format!("<p>{}</p>\n{definitions}\n", escaped(&body.text))
+    };
+    match derived.bodies.as_slice() {
+        [] => String::new(),
+        list => format!(
+            "<h4>Bodies in space</h4>\n{}",
+            list.iter().map(body).collect::<String>()
+        ),
+    }
 }
 
 fn rows(derived: &inspect::Derivation) -> String {
@@ -171,15 +186,16 @@ fn mode(mode: &inspect::Mode, out: &mut String) {
     };
     let _ = writeln!(out, "<p>Unknown: {}{more}</p>", unknowns.join(", "));
     out.extend(mode.equations.iter().map(titled));
-    if !mode.solution.is_empty() {
+    let solution = mode.solution.as_deref().unwrap_or_default();
+    if !solution.is_empty() {
         out.push_str("<p>Hence</p>\n");
-        out.extend(mode.solution.iter().map(titled));
+        out.extend(solution.iter().map(titled));
     }
     let unsolved: Vec<String> = mode.unsolved().into_iter().map(letter).collect();
     if !unsolved.is_empty() {
         let _ = writeln!(
             out,
-            "<p>Too long to be written out: {}</p>",
+            "<p>Not in closed form, or too long to be written out: {}</p>",
             unsolved.join(", ")
         );
     }

@@ -32,6 +32,15 @@ function plate(mesh, across, height, tone) {
   }, tone);
 }
 
+// The second half of a mesh turned inside out.
+function inward(mesh) {
+  for (let i = mesh.length / 2; i < mesh.length; i += 7) {
+    for (const k of [0, 1, 2]) mesh[i + k] *= 0.99;
+    for (const k of [3, 4, 5]) mesh[i + k] *= -1;
+  }
+  return mesh;
+}
+
 function tube(mesh, across, along, [low, high], [from, to], tone) {
   const slope = (from - to) / (high - low);
   return surface(mesh, across, along, (u, v) => {
@@ -67,6 +76,9 @@ const meshes = {
   mass: cap([], 28, 16, [-right, right]),
   "half ellipsoid": plate(cap([], 56, 14, [-right, 0], () => 1), 56, 0),
   box: cube([], 6),
+  shell: cap([], 56, 28, [-right, right]),
+  // Both sides are seen: that from outside first.
+  bowl: inward(cap(cap([], 56, 14, [-right, 0], () => 1), 56, 14, [-right, 0])),
   disc: plate(plate(tube([], 64, 1, [-0.5, 0.5], [1, 1]), 64, 0.5, sector), 64, -0.5, sector),
   rod: tube([], 12, 1, [0, 1], [1, 1]),
   shaft: plate(tube([], 16, 1, [0, 1], [1, 1]), 16, 0),

@@ -36,9 +36,19 @@ function painted(canvas) {
     if (floor) {
       const reach = Math.min(Math.ceil((0.6 * floor.wide) / floor.cell), 40) * floor.cell;
       const spot = (x, y) => project(plus(floor.at, apply(floor.turn, [x, y, 0])));
+      // Lines end on a circle, and where they pass the eye.
+      const line = (at, far) => {
+        let seen = [];
+        for (let i = -12; i <= 12; i++) {
+          const next = at((far * i) / 12), behind = next[2] < 0.05 * reach;
+          if (!behind) seen.push(next);
+          if (behind || i === 12) { stroke(seen, css(colours.line), 1); seen = []; }
+        }
+      };
       for (let x = -reach; x <= reach; x += floor.cell) {
-        stroke([spot(x - floor.begin[0], -reach), spot(x - floor.begin[0], reach)], css(colours.line), 1);
-        stroke([spot(-reach, x - floor.begin[1]), spot(reach, x - floor.begin[1])], css(colours.line), 1);
+        const far = Math.sqrt(Math.max(reach * reach - x * x, 0));
+        line((y) => spot(x - floor.begin[0], y), far);
+        line((y) => spot(y, x - floor.begin[1]), far);
       }
       pen.beginPath();
       for (const corner of dark) {

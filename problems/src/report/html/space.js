@@ -1,7 +1,7 @@
 // A scene in space: solids in the light, that can be turned, moved and zoomed; forces as arrows with names.
 
 const sun = unit([-0.45, -0.5, 1]);
-const paints = { "half ellipsoid": ["body", "c0"], ball: ["body", "c0"], "rolled ball": ["body", "c0"], disc: ["body", "c0"],
+const paints = { "half ellipsoid": ["body", "c0"], ball: ["body", "c0"], "rolled ball": ["body", "c0"], disc: ["body", "c0"], shell: ["body", "c0"], bowl: ["body", "edge"],
   box: ["body", "body"], rod: ["edge", "edge"], mass: ["c0", "c0"], pivot: ["quiet", "quiet"] };
 
 // What is returned shows the scene at a place among the samples.
@@ -79,7 +79,7 @@ function space(stage, run) {
       return [straight("tip", top, numbers, 3 * thin, first), plate];
     }
     const scale = edges.length === 1 ? [edges[0], edges[0], edges[0]] : edges.length === 2 ? [edges[0], edges[0], edges[1]] : edges;
-    return [{ mesh: kind === "rolled ball" ? "ball" : kind, turn: rotation(turn.map((column) => at(column, where))), scale, at: numbers, first, second }];
+    return [{ mesh: kind === "rolled ball" ? "ball" : kind, turn: turn ? rotation(turn.map((column) => at(column, where))) : upright, scale, at: numbers, first, second }];
   }
 
   const legend = html("ul", { class: "legend" }, stage);

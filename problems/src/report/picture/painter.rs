@@ -131,9 +131,13 @@ impl Painter {
         self.solids(&self.pieces(place, |body| !moves(body)), out);
     }
 
-    /// What is in front of the paths: solids that move.
+    /// What is in front of the paths: solids that move, and walls around them.
     pub fn above(&self, place: Place, out: &mut String) {
-        self.solids(&self.pieces(place, moves), out);
+        let bowls = self.stage.bodies.iter().filter(|body| body.kind == "bowl");
+        let walls = bowls.map(|bowl| self.wall(joints(bowl, place)[0], bowl.size[0]));
+        let mut pieces = self.pieces(place, moves);
+        pieces.extend(walls);
+        self.solids(&pieces, out);
     }
 
     fn pieces(&self, place: Place, which: impl Fn(&Body) -> bool) -> Vec<Piece> {
@@ -233,7 +237,9 @@ impl Painter {
         match body.kind {
             "rod" => self.rod(joints),
             "mass" => self.ball(joints[0], 4.0 * self.thin, "c0"),
-            "pivot" => self.ball(joints[0], 2.0 * self.thin, "quiet"),
+            "pivot" => self.pivot(joints[0]),
+            "shell" => self.ball(joints[0], body.size[0], "body"),
+            "bowl" => self.hollow(joints[0], body.size[0]),
             "ball" | "rolled ball" => self.striped(joints[0], body.size[0], turn(body, place)),
             _ => self.faced(body, joints[0], turn(body, place)),
         }
@@ -269,7 +275,76 @@ impl Painter {
         }
     }
 
-    /// The same with stripes.
+    /// A cone under a plate, from whose tip something hangs.
+    fn pivot(&self, tip: Vector) -> Piece {
+        let top = tip + 5.0 * self.thin * Vector::z();
+        let seen = |corners: &[Vector]| corners.iter().map(|c| self.view.place(*c)).collect();
+        let mut cone: Vec<Vector> = rim([3.0 * self.thin; 2], 0.0)
+            .iter()
+            .map(|c| top + c)
+            .collect();
+        cone.push(tip);
+        let mut text = String::new();
+        polygon(&hull(seen(&cone)), &shaded("quiet", 0.9), &mut text);
+        let plate = 9.0 * self.thin;
+        for (out, face) in box_faces([plate, plate, 1.5 * self.thin]) {
+            let face: Vec<Vector> = face.iter().map(|c| top + c).collect();
+            if out.dot(&(self.view.eye - face[0])) > 0.0 {
+                polygon(&seen(&face), &shaded("quiet", bright(&out)), &mut text);
+            }
+            cone.extend(face);
+        }
+        Piece {
+            corners: cone,
+            faces: Vec::new(),
+            text,
+        }
+    }
+
+    /// What is seen of a bowl through its rim: nothing in it is behind that.
+    fn hollow(&self, at: Vector, radius: f64) -> Piece {
+        let rim: Vec<Vector> = rim([radius; 2], 0.0)
+            .iter()
+            .map(|corner| at + corner)
+            .collect();
+        let mut text = String::new();
+        if self.view.eye.z > at.z {
+            let seen: Vec<[f64; 2]> = rim.iter().map(|corner| self.view.place(*corner)).collect();
+            polygon(&seen, &shaded("body", 0.9), &mut text);
+        }
+        let mut corners = half_sphere([radius; 3]);
+        corners.iter_mut().for_each(|corner| *corner += at);
+        Piece {
+            corners,
+            faces: Vec::new(),
+            text,
+        }
+    }
+
+    /// The wall of a bowl towards the eye, which hides what is in it.
+    fn wall(&self, at: Vector, radius: f64) -> Piece {
+        let corners: Vec<Vector> = half_sphere([radius; 3])
+            .iter()
+            .map(|corner| at + corner)
+            .collect();
+        let seen = |corner: &Vector| self.view.place(*corner);
+        let mut path = format!("M{}Z", points(&hull(corners.iter().map(seen).collect())));
+        if self.view.eye.z > at.z {
+            let rim: Vec<[f64; 2]> = corners[..ROUND].iter().map(seen).collect();
+            let _ = write!(path, "M{}Z", points(&rim));
+        }
+        let near = |corner: &Vector| (corner - at).dot(&(self.view.eye - at)) > 0.0;
+        Piece {
+            text: format!(
+                "<path class=\"face\" fill-rule=\"evenodd\" d=\"{path}\" fill=\"{}\"/>\n",
+                shaded("edge", 1.0)
+            ),
+            corners: corners.into_iter().filter(near).collect(),
+            faces: Vec::new(),
+        }
+    }
+
+    /// A ball with stripes.
     fn striped(&self, at: Vector, radius: f64, turn: UnitQuaternion<f64>) -> Piece {
         const ROWS: usize = 8;
         const COLUMNS: usize = 16;
@@ -324,11 +399,7 @@ impl Painter {
             .map(place)
             .collect();
         if let ("half ellipsoid", [a, b, c]) = (body.kind, body.size.as_slice()) {
-            for k in 1..6 {
-                let (low, wide) = (f64::from(k) / 6.0 * FRAC_PI_2).sin_cos();
-                corners.extend(rim([a * wide, b * wide], -c * low).iter().map(place));
-            }
-            corners.push(place(&Vector::new(0.0, 0.0, -c)));
+            corners.extend(half_sphere([*a, *b, *c])[ROUND..].iter().map(place));
         }
         let mut text = String::new();
         if let Some(paint) = rounded {
@@ -345,8 +416,7 @@ impl Painter {
             if out.dot(&(self.view.eye - face[0])) <= 0.0 {
                 continue;
             }
-            let bright =
-                0.62 + 0.12 * out.z + 0.36 * out.dot(&Vector::from(SUN).normalize()).max(0.0);
+            let bright = bright(&out);
             let seen: Vec<[f64; 2]> = face.iter().map(|corner| self.view.place(*corner)).collect();
             polygon(&seen, &shaded("body", bright), &mut text);
             if body.kind == "disc" {
@@ -408,6 +478,22 @@ fn rim([a, b]: [f64; 2], height: f64) -> Vec<Vector> {
     circle()
         .map(|[cos, sin]| Vector::new(a * cos, b * sin, height))
         .collect()
+}
+
+/// How bright a face is by its direction.
+fn bright(out: &Vector) -> f64 {
+    0.62 + 0.12 * out.z + 0.36 * out.dot(&Vector::from(SUN).normalize()).max(0.0)
+}
+
+/// The half of an ellipsoid below its centre: its rim first, the pole last.
+fn half_sphere([a, b, c]: [f64; 3]) -> Vec<Vector> {
+    let mut corners = Vec::new();
+    for k in 0..6 {
+        let (low, wide) = (f64::from(k) / 6.0 * FRAC_PI_2).sin_cos();
+        corners.extend(rim([a * wide, b * wide], -c * low));
+    }
+    corners.push(Vector::new(0.0, 0.0, -c));
+    corners
 }
 
 /// Directions outward, and corners.

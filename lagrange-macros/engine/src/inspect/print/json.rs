@@ -8,7 +8,7 @@
 //!   "bodies":    [{ "name", "text", "definitions": [S] }],
 //!   "motion":    [{ "coordinate": F, "equation": S }],
 //!   "rows":      [{ "name", "kind", "declared": S, "acceleration": S, "multiplier": F, "acts" }],
-//!   "mode_count", "modes": [{ "name", "known": [S], "unknowns": [F], "equations": [S], "solution": [S],
+//!   "mode_count", "modes": [{ "name", "known": [S], "unknowns": [F], "equations": [S], "solution": [S], "left_out": [F],
 //!                 "guards": [{ "while": S, "otherwise" }], "operations", "operations_with_guards",
 //!                 "functions": { "constants", "unknowns", "accelerations", "whole", "convolutions" } | null }],
 //!   "switches":  [{ "from", "to", "label" }]        indices of modes
@@ -127,7 +127,11 @@ fn mode(mode: &Mode) -> String {
         ("known", list(mode.known.iter().map(statement))),
         ("unknowns", list(mode.unknowns.iter().map(letter))),
         ("equations", list(mode.equations.iter().map(statement))),
-        ("solution", list(mode.solution.iter().map(statement))),
+        (
+            "solution",
+            list(mode.solution.iter().flatten().map(statement)),
+        ),
+        ("left_out", list(mode.unsolved().into_iter().map(letter))),
         ("guards", list(guards)),
         ("operations", mode.work.operations.to_string()),
         ("operations_with_guards", mode.work.with_guards.to_string()),

@@ -10,6 +10,8 @@ use crate::inspect::formula::Statement;
 
 /// Letters that a row of a table has room for.
 const WIDEST: usize = 70;
+/// Letters that stand for the space between two columns.
+const BETWEEN: usize = 3;
 /// A table with more rows is written as several, as each stays on one page.
 const LONGEST: usize = 30;
 
@@ -106,20 +108,24 @@ fn table(rows: &[Vec<Vec<Piece>>], out: &mut String) {
             .unwrap_or(0)
     };
     let widths: Vec<usize> = (0..columns).map(width).collect();
-    let wide = widths.iter().sum::<usize>() > WIDEST;
+    let between = BETWEEN * columns.saturating_sub(1);
+    let wide = between + widths.iter().sum::<usize>() > WIDEST;
     if wide && widths[1..].iter().sum::<usize>() > WIDEST / 2 || widths.first() == Some(&WIDEST) {
         return paragraphs(rows, out);
     }
+    // What the other columns leave to the first one.
+    let others: usize = between + widths.iter().skip(1).sum::<usize>();
+    let left = WIDEST.saturating_sub(others) as f64 / WIDEST as f64;
     for part in rows.chunks(LONGEST) {
         out.push_str(&format!(
-            "\\par\\noindent\\begin{{tabular}}{{{}}}\n",
+            "\\par\\noindent\\begin{{tabular}}{{@{{}}{}@{{}}}}\n",
             "l".repeat(columns)
         ));
         for row in part {
             let mut cells: Vec<String> = row.iter().map(|cell| line(cell)).collect();
             if wide && let Some(first) = cells.first_mut() {
                 *first = format!(
-                    "\\parbox[t]{{0.45\\linewidth}}{{\\raggedright\\hangindent=1em {first}\\strut}}"
+                    "\\parbox[t]{{{left:.2}\\linewidth}}{{\\raggedright\\hangindent=1em {first}\\strut}}"
                 );
             }
             out.push_str(&format!("  {} \\\\\n", cells.join(" & ")));

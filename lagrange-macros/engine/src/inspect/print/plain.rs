@@ -90,6 +90,19 @@ fn table(rows: &[Vec<Vec<Piece>>], out: &mut String) {
             of_column.map(|cell| width(cell)).max().unwrap_or(0)
         })
         .collect();
+    let formulas = rows
+        .iter()
+        .flatten()
+        .flatten()
+        .any(|piece| !matches!(piece, Piece::Words(_)));
+    let total: usize = widths.iter().map(|wide| wide + 2).sum();
+    if let [header, rows @ ..] = rows
+        && header.first().is_some_and(|cell| line(cell).is_empty())
+        && formulas
+        && total > 2 * WIDTH
+    {
+        return blocks(header, rows, out);
+    }
     for row in &cells {
         let mut text = String::new();
         for (cell, &wide) in row.iter().zip(&widths) {
@@ -101,6 +114,22 @@ fn table(rows: &[Vec<Vec<Piece>>], out: &mut String) {
         }
         out.push_str(text.trim_end());
         out.push('\n');
+    }
+}
+
+/// A table too wide for any screen: each row as a name with its cells below, statements broken.
+fn blocks(header: &[Vec<Piece>], rows: &[Vec<Vec<Piece>>], out: &mut String) {
+    for row in rows {
+        for (i, (cell, title)) in row.iter().zip(header).enumerate() {
+            let title = line(title);
+            match cell.as_slice() {
+                _ if i == 0 => out.push_str(&format!("  {}\n", line(cell))),
+                [Piece::Statement(statement)] => {
+                    lines(&[(vec![Piece::Words(title)], statement.clone())], out);
+                }
+                cell => out.push_str(&format!("  {title}    {}\n", line(cell))),
+            }
+        }
     }
 }
 

@@ -67,7 +67,11 @@ fn modes_are_solved_where_the_solution_is_short() {
             .find(|(name, _)| name == scene)
             .expect("a scene");
         let found = crate::inspect(tokens, Some(mode)).unwrap_or_else(|e| panic!("{e}"));
-        let lines = found.modes[0].solution.iter().map(print::text::statement);
+        let lines = found.modes[0]
+            .solution
+            .iter()
+            .flatten()
+            .map(print::text::statement);
         lines.collect::<Vec<_>>().join("\n")
     };
     let check = |scene, mode, expected: &[&str]| {
