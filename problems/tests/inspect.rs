@@ -28,9 +28,22 @@ fn json_has_what_its_schema_says() {
         assert_eq!(value["schema"], "lagrange.derivation.1");
         let count = |key: &str| value[key].as_array().map_or(0, Vec::len);
         let description = scene.description();
-        let shown = |n: usize| if n > 12 { 5 } else { n };
+        // Three rates of a body in place of four coordinates and a row that keeps their sum of squares.
+        let shown = |n: usize| match n - count("bodies") {
+            n if n > 12 => 5,
+            n => n,
+        };
         assert_eq!(count("motion"), shown(description.coordinates.len()));
         assert_eq!(count("rows"), shown(description.rows.len()));
+        for mode in value["modes"].as_array().into_iter().flatten() {
+            let len = |key: &str| mode[key].as_array().map_or(0, Vec::len);
+            let told = len("solution") + len("left_out");
+            assert!(
+                told == 0 || told == len("unknowns"),
+                "{}: {mode}",
+                scene.name()
+            );
+        }
         assert!(count("modes") > 0 && count("conserved") > 0 && count("operations") > 0);
         for equation in value["motion"].as_array().into_iter().flatten() {
             for side in ["left", "right"] {

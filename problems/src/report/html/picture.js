@@ -21,7 +21,7 @@ function picture(stage, run) {
   const elements = { circle: "circle", polygon: "polygon", ground: "rect" };
   const drawn = marks.map((mark) => {
     const shape = svg(elements[mark.form] || "polyline", { class: mark.class }, root);
-    if (mark.form === "ground") set(shape, { x: -3000, width: 7000, height: height + 10 });
+    if (mark.form === "ground") set(shape, { x: -30000, width: 61000, height: height + 10 });
     if (mark.form === "placed") set(shape, { points: mark.line.map((point) => point.join(",")).join(" ") });
     if (mark.form === "trace") {
       const path = run.time.map((_, i) => pairs(mark.numbers.map((column) => at(column, [i, 0]))));

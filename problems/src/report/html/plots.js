@@ -6,22 +6,23 @@ function nice(x) {
 
 const dashes = ["none", "7 4", "2 3", "9 3 2 3"];
 
-// A piece of paper as wide as there is room, so that letters keep their size.
+// A piece of paper as wide as there is room, so that letters keep their size, and a sheet of glass over it for what moves: so the
+// paper need not be drawn again with every frame.
 function paper(figure) {
   const width = Math.min(Math.max(Math.round(figure.clientWidth) || 440, 280), 1600), height = width > 900 ? 200 : 240;
-  const root = svg("svg", { viewBox: `0 0 ${width} ${height}`, role: "img", tabindex: 0 }, figure);
-  return { root, left: 62, right: width - 12, top: 26, bottom: height - 40, width, height };
+  const sheet = html("div", { class: "sheet" }, figure), viewBox = `0 0 ${width} ${height}`;
+  const root = svg("svg", { viewBox, role: "img", tabindex: 0 }, sheet), glass = svg("svg", { class: "glass", viewBox, "aria-hidden": "true" }, sheet);
+  return { root, glass, left: 62, right: width - 12, top: 26, bottom: height - 40, width, height };
 }
 
 // Axes with ticks around ranges; gives the scales.
 function axes(box, [x0, x1], [y0, y1], xName, yName) {
-  const { root, left, right, top, bottom, height } = box;
+  const { root, right, top, bottom, height } = box;
   const widen = (a, b) => (b > a ? [a, b] : [a - (Math.abs(a) || 1) * 0.5, b + (Math.abs(b) || 1) * 0.5]);
   [x0, x1] = widen(x0, x1);
   [y0, y1] = widen(y0, y1);
   const air = 0.05 * (y1 - y0);
   [y0, y1] = [y0 - air, y1 + air];
-  const X = (x) => left + ((x - x0) / (x1 - x0)) * (right - left);
   const Y = (y) => bottom - ((y - y0) / (y1 - y0)) * (bottom - top);
   const ticks = (from, to, most) => {
     const step = nice((2.4 * (to - from)) / most), decimals = Math.max(0, -Math.floor(Math.log10(step) + 1e-9)), list = [];
@@ -32,11 +33,16 @@ function axes(box, [x0, x1], [y0, y1], xName, yName) {
     }
     return list;
   };
-  for (const [x, text] of ticks(x0, x1, (right - left) / 45)) {
+  const steps = ticks(y0, y1, 10);
+  // Long numbers need room.
+  const left = (box.left = Math.max(box.left, 12 + 7.5 * Math.max(...steps.map(([, text]) => text.length))));
+  const X = (x) => left + ((x - x0) / (x1 - x0)) * (right - left);
+  const across = ticks(x0, x1, (right - left) / 45), letters = Math.max(...across.map(([, text]) => text.length));
+  for (const [x, text] of letters > 7 ? ticks(x0, x1, (right - left) / (10 * letters)) : across) {
     svg("line", { class: "grid", x1: X(x), x2: X(x), y1: top, y2: bottom }, root);
     svg("text", { class: "words", x: X(x), y: bottom + 18, "text-anchor": "middle" }, root).textContent = text;
   }
-  for (const [y, text] of ticks(y0, y1, 10)) {
+  for (const [y, text] of steps) {
     svg("line", { class: "grid", x1: left, x2: right, y1: Y(y), y2: Y(y) }, root);
     svg("text", { class: "words", x: left - 6, y: Y(y) + 4, "text-anchor": "end" }, root).textContent = text;
   }
@@ -88,7 +94,7 @@ function zooming() {
 // Curves [{ name, xs, ys, times, dash }]; over time a click goes there. A part that is pulled over is enlarged, a double click or 0
 // shows all again; at the pointer the legend tells the values there.
 function chart(figure, legend, { title, xName, axis, whole, span, lines, seek, under, zoom }) {
-  const box = paper(figure), { root } = box;
+  const box = paper(figure), { root, glass } = box;
   const outputs = lines.map(({ name, dash }, i) => entry(legend, name, colour(i), dash));
   const note = html("span", { class: "note", hidden: "" }, figure);
   const all = html("button", { type: "button", class: "all" }, figure, "Show all");
@@ -100,14 +106,16 @@ function chart(figure, legend, { title, xName, axis, whole, span, lines, seek, u
     const within = ({ xs, ys }) => ys.filter((_, i) => xs[i] >= part[0] && xs[i] <= part[1]);
     const ys = part ? range(lines.flatMap(within)) : span || range(lines.flatMap((line) => line.ys));
     root.replaceChildren();
+    glass.replaceChildren();
     set(root, { "aria-label": `${title}: ${lines.map((line) => line.name).join(", ")} over ${xName}, ${axis} from ${digits(ys[0])} to ${digits(ys[1])}` });
     scale = axes(box, part || whole, ys, xName, axis);
     if (under) under(box, scale);
     const [x, y, width, height] = [box.left, box.top, box.right - box.left, box.bottom - box.top];
-    const inside = svg("svg", { x, y, width, height, viewBox: `${x} ${y} ${width} ${height}` }, root);
+    const window = { x, y, width, height, viewBox: `${x} ${y} ${width} ${height}` };
+    const inside = svg("svg", window, root), above = svg("svg", window, glass);
     lines.forEach(({ xs, ys, dash }, i) => svg("path", { class: "curve", style: `stroke: ${colour(i)}`, "stroke-dasharray": dash, d: path(xs, ys, scale) }, inside));
-    cursor = seek ? svg("line", { class: "cursor", y1: box.top, y2: box.bottom }, root) : null;
-    dots = seek ? [] : lines.map((_, i) => svg("circle", { class: "point", r: 5, style: `fill: ${colour(i)}` }, inside));
+    cursor = seek ? svg("line", { class: "cursor", y1: box.top, y2: box.bottom }, glass) : null;
+    dots = seek ? [] : lines.map((_, i) => svg("circle", { class: "point", r: 5, style: `fill: ${colour(i)}` }, above));
     all.hidden = !part;
     show(last);
   }
