@@ -104,6 +104,21 @@ fn space_is_painted_without_webgl() {
     assert_eq!(browser.complaints, Vec::<String>::new());
 }
 
+/// What WebGL draws is gone after a frame: paper gets a copy of it.
+#[test]
+fn a_scene_in_space_is_on_paper_too() {
+    let Some(mut browser) = Browser::start() else {
+        return;
+    };
+    let page = Written::report("paper.html", &["rattleback"]);
+    browser.open(&page.0, AT_A_DESK);
+    let colours = "(() => { dispatchEvent(new Event('beforeprint')); const c = document.querySelector('.printed');
+          const d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data, seen = new Set();
+          for (let i = 0; i < d.length; i += 4) seen.add((d[i] << 16) | (d[i + 1] << 8) | d[i + 2]); return seen.size; })()";
+    browser.wait(&format!("{colours} > 20"));
+    assert_eq!(browser.complaints, Vec::<String>::new());
+}
+
 #[test]
 fn it_plays_and_is_searched_by_keyboard_and_mouse() {
     let Some(mut browser) = Browser::start() else {

@@ -205,6 +205,14 @@ function space(stage, run) {
     soon();
   }, { passive: false });
 
+  // What WebGL has drawn is gone with the frame: paper gets a copy.
+  const copy = html("canvas", { class: "printed", "aria-hidden": "true" }, box);
+  addEventListener("beforeprint", () => {
+    draw();
+    [copy.width, copy.height] = [canvas.width, canvas.height];
+    if (canvas.width) copy.getContext("2d").drawImage(canvas, 0, 0);
+  });
+
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { paint(); soon(); });
   new ResizeObserver(soon).observe(canvas);
   return (where, arrowsToo) => {
