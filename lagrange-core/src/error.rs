@@ -40,14 +40,23 @@ pub enum Error {
         /// Number given.
         found: usize,
     },
-    /// The start does not satisfy a constraint, or penetrates a contact.
+    /// The start does not satisfy a constraint.
     Start {
-        /// Name of the constraint or contact.
+        /// Name of the constraint.
         item: &'static str,
         /// Level of the residual.
         level: Level,
         /// Its value, in the unit of the declaration.
         residual: f64,
+        /// What is accepted.
+        tolerance: f64,
+    },
+    /// The start is below the surface of a contact.
+    Penetrates {
+        /// Name of the contact.
+        item: &'static str,
+        /// Its gap, in the unit of the declaration.
+        gap: f64,
         /// What is accepted.
         tolerance: f64,
     },
@@ -229,16 +238,26 @@ impl fmt::Display for Error {
                 residual,
                 tolerance,
             } => {
-                let level = match level {
-                    Level::Position => "position",
-                    Level::Velocity => "velocity",
+                let (level, what) = match level {
+                    Level::Position => ("position", "positions"),
+                    Level::Velocity => ("velocity", "velocities, `der(…)`,"),
                 };
                 write!(
                     f,
                     "the start violates `{item}`: {level} residual {residual:.3e} (accepted: {tolerance:.1e}); \
-                     give a consistent start, or have it moved onto the constraint (`project_start(true)`, `--project`)"
+                     give {what} that satisfy it, or have the nearest ones taken (`project_start(true)`, `--project`)"
                 )
             }
+            Error::Penetrates {
+                item,
+                gap,
+                tolerance,
+            } => write!(
+                f,
+                "the start is below the surface of `{item}`: gap {gap:.3e} (accepted: {:.1e}); begin above it, or, for a body that \
+                 hangs under a surface, let the contact's region (`where …`) leave that place out",
+                -tolerance
+            ),
             Error::Projection {
                 time,
                 residual,

@@ -29,6 +29,8 @@ pub enum EvaluationError {
     NoSeries {
         /// The operation that has none.
         operation: Operation,
+        /// The item or coordinate whose equation has it.
+        item: Option<&'static str>,
     },
     /// The acceleration of this coordinate is not a finite number.
     NotFiniteAcceleration {
@@ -80,7 +82,7 @@ impl EvaluationError {
             | Self::Inconsistent { row, .. }
             | Self::NotFiniteForce { row }
             | Self::Projection { row, .. } => Some(row_name(description, row)),
-            Self::NoSeries { .. } => None,
+            Self::NoSeries { item, .. } => item,
         }
     }
 }
@@ -102,7 +104,7 @@ impl fmt::Display for EvaluationError {
                 f,
                 "row {row} depends on the other rows but contradicts them by {residual:e}; leave one of them out"
             ),
-            Self::NoSeries { operation } => write!(
+            Self::NoSeries { operation, .. } => write!(
                 f,
                 "the motion or a guard has no Taylor series here ({}), and every method decides modes by series; write what breaks off there as branches, with `if`",
                 match operation {

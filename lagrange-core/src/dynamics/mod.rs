@@ -13,6 +13,7 @@ mod jacobian;
 mod lanes;
 mod matrices;
 mod output_mask;
+mod owner;
 mod packets;
 mod projection;
 mod series;

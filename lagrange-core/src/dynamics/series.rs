@@ -151,7 +151,10 @@ impl<T: Scalar> Dynamics<T> {
         interpreted.evaluate(Extent::Series, REPORT);
         let (series, registers) = interpreted.series_memory(order);
         match series.singular(registers) {
-            Some(operation) => Err(EvaluationError::NoSeries { operation }),
+            Some((operation, result)) => {
+                let item = interpreted.shape.item_of(result, self.description);
+                Err(EvaluationError::NoSeries { operation, item })
+            }
             None => {
                 series.begin(registers);
                 Ok(())

@@ -315,7 +315,9 @@ impl<T: Scalar> Dynamics<T> {
         let SlipDirections { matrix, right, .. } = &mut self.slip_directions;
         if !solve_small(matrix, right) {
             let operation = Operation::SquareRoot;
-            return Err(EvaluationError::NoSeries { operation });
+            let f = self.beginning(0);
+            let item = Some(self.description().frictions[f].name);
+            return Err(EvaluationError::NoSeries { operation, item });
         }
         for i in 0..count {
             let f = self.beginning(i);

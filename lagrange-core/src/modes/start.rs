@@ -10,7 +10,8 @@ use crate::state::{FixedComponents, State};
 /// rest, and says in `status` what is known.
 ///
 /// # Errors
-/// [`Error::Domain`] for a number without meaning, [`Error::Start`] where a constraint is violated (unless `project`) or a contact is penetrated.
+/// [`Error::Domain`] for a number without meaning, [`Error::Start`] where a constraint is violated and
+/// [`Error::Penetrates`] where a contact is penetrated (unless `project`).
 pub fn begin<T: Scalar>(
     dynamics: &mut Dynamics<T>,
     t: T,

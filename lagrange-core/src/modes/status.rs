@@ -87,21 +87,22 @@ impl ConstraintStatus {
     /// Whether constraints and contacts hold.
     ///
     /// # Errors
-    /// [`Error::Start`]: the first that does not.
+    /// [`Error::Penetrates`], [`Error::Start`]: the first that does not.
     pub fn refuse_violations(&self, d: &'static Description, tolerance: f64) -> Result<(), Error> {
         let near = slack(tolerance);
-        let penetrated = self.gaps.iter().map(|&(c, gap, size)| {
-            let excess = (-gap).max(0.0);
-            (d.contacts[c].name, Level::Position, gap, excess, size)
-        });
-        let violated = self.residuals.iter().map(|&(row, level, residual, size)| {
-            let item = crate::dynamics::row_name(d, row);
-            (item, level, residual, residual.abs(), size)
-        });
-        for (item, level, residual, excess, size) in penetrated.chain(violated) {
-            if excess > near * size {
+        for &(c, gap, size) in &self.gaps {
+            if -gap > near * size {
+                return Err(Error::Penetrates {
+                    item: d.contacts[c].name,
+                    gap,
+                    tolerance: near * size,
+                });
+            }
+        }
+        for &(row, level, residual, size) in &self.residuals {
+            if residual.abs() > near * size {
                 return Err(Error::Start {
-                    item,
+                    item: crate::dynamics::row_name(d, row),
                     level,
                     residual,
                     tolerance: near * size,

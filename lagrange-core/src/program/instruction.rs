@@ -157,6 +157,21 @@ pub(crate) struct Program {
     pub(super) terms: Vec<(Register, Register)>,
 }
 
+impl Program {
+    /// Per register, of so many: whether its value depends on that of `source`.
+    pub(crate) fn dependents(&self, source: Register, registers: usize) -> Vec<bool> {
+        let mut depends = vec![false; registers];
+        depends[source.index()] = true;
+        for instruction in self.parts.iter().flatten() {
+            let mut operands = instruction.operands(&self.terms);
+            if operands.any(|register| depends[register.index()]) {
+                depends[instruction.to.index()] = true;
+            }
+        }
+        depends
+    }
+}
+
 /// Runs a method with the registers as an array of the smallest size that holds them: then no index needs a check.
 macro_rules! with_registers {
     ($registers:expr, |$array:ident| $body:expr) => {{

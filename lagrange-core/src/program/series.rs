@@ -119,7 +119,7 @@ pub(crate) struct Series<T> {
     before: Vec<Step>,
     after: Vec<Step>,
     /// Operations that need a series to exist: where their arguments are.
-    critical: Vec<(Operation, Register, Register)>,
+    critical: Vec<(Operation, Instruction)>,
     /// Number of products.
     count: usize,
     products: Vec<Products<T>>,
@@ -257,9 +257,7 @@ impl<T: Number> Series<T> {
     /// Notes an operation whose series can fail to exist.
     fn watch(&mut self, i: &Instruction) {
         let operation = match i.op {
-            Op::Div => {
-                return self.critical.push((Operation::Division, i.y, i.y));
-            }
+            Op::Div => Operation::Division,
             Op::Sqrt => Operation::SquareRoot,
             Op::Powf => Operation::Power,
             Op::Ln => Operation::Logarithm,
@@ -267,7 +265,7 @@ impl<T: Number> Series<T> {
             Op::Atan2 => Operation::Angle,
             _ => return,
         };
-        self.critical.push((operation, i.x, i.y));
+        self.critical.push((operation, *i));
     }
 
     /// Coefficients 0, from values in the registers `first`.
@@ -366,18 +364,18 @@ impl<T: Scalar> Series<T> {
         }
     }
 
-    /// The first operation that has no Taylor series where the registers hold the values `first`.
+    /// The first operation that has no Taylor series where the registers hold the values `first`, and where its result goes.
     #[inline]
-    pub(crate) fn singular(&self, first: &[T]) -> Option<Operation> {
+    pub(crate) fn singular(&self, first: &[T]) -> Option<(Operation, Register)> {
         let at = |register: Register| first[register.index()].value();
-        let fails = |&&(operation, x, y): &&(Operation, Register, Register)| match operation {
-            Operation::Division => at(x) == 0.0,
-            Operation::InverseSine => !(at(x).abs() < 1.0),
-            Operation::Angle => at(x) == 0.0 && at(y) == 0.0,
-            _ => !(at(x) > 0.0),
+        let fails = |&&(operation, i): &&(Operation, Instruction)| match operation {
+            Operation::Division => at(i.y) == 0.0,
+            Operation::InverseSine => !(at(i.x).abs() < 1.0),
+            Operation::Angle => at(i.x) == 0.0 && at(i.y) == 0.0,
+            _ => !(at(i.x) > 0.0),
         };
         let found = self.critical.iter().find(fails);
-        found.map(|&(operation, ..)| operation)
+        found.map(|&(operation, i)| (operation, i.to))
     }
 }
 

@@ -124,7 +124,11 @@ impl Run {
             let text = scene_file::write(scene, &request, &outputs).map_err(Trouble::failed)?;
             to_file(path, |out| out.write_all(text.as_bytes()))?;
         }
-        for (format, path) in &destinations {
+        // A story without a motion would only hide the error.
+        let tells = |destination: &&(RunFormat, Option<PathBuf>)| {
+            outcome.has_begun() || *destination != &(RunFormat::Table, None)
+        };
+        for (format, path) in destinations.iter().filter(tells) {
             write(&outcome, *format, path.as_deref())?;
         }
         if let Some(path) = &outputs.plot {

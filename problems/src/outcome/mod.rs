@@ -168,6 +168,11 @@ fn own_tolerances(trajectory: &Trajectory) -> Vec<(String, f64)> {
 }
 
 impl Outcome {
+    /// Whether anything moved or happened before the run failed.
+    pub fn has_begun(&self) -> bool {
+        self.failure.is_none() || self.work.steps > 0 || !self.events.is_empty()
+    }
+
     /// Collects what a trajectory knows, sampled at equal intervals as the request says.
     pub(crate) fn new(
         scene: &'static str,

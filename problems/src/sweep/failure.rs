@@ -22,7 +22,7 @@ const REASONS: [&str; 13] = [
 /// The number of a reason; 0 is kept where a run did not fail.
 pub(super) fn code(error: &Error) -> f64 {
     let word = match error {
-        Error::Start { .. } => "start",
+        Error::Start { .. } | Error::Penetrates { .. } => "start",
         Error::Projection { .. } => "projection",
         Error::Singular { .. } => "singular",
         Error::NotFinite { .. } => "not finite",

@@ -20,17 +20,11 @@ fn fails(start: State<f64>, span: core::ops::Range<f64>) -> Error {
 #[test]
 fn a_start_inside_the_shell_is_refused_with_its_depth() {
     let error = fails(State::new(vec![0.9, 0.1], vec![0.0; 2]), 0.0..1.0);
-    let Error::Start {
-        item,
-        level,
-        residual,
-        ..
-    } = error
-    else {
+    let Error::Penetrates { item, gap, .. } = error else {
         panic!("{error}")
     };
-    assert_eq!((item, level), ("shell", Level::Position));
-    agree("depth", residual, -0.1, 1e-12);
+    assert_eq!(item, "shell");
+    agree("depth", gap, -0.1, 1e-12);
 }
 
 #[test]
@@ -404,4 +398,48 @@ fn a_field_outside_its_domain_is_refused_by_name() {
         error.to_string(),
         "t = 0: `radius[1]`: value = -0.5; it must be positive"
     );
+}
+
+/// A puck on a wet table, with a force and a stop whose roots begin at zero.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, z),
+    kinetic = (der(x)^2 + der(y)^2 + der(z)^2) / 2,
+    potential = 10 * z,
+    contact(table: z >= 0),
+    friction(film on table: slip = (der(x), der(y)), static = 0, kinetic = norm([der(x), der(y)])),
+    force(pull: x = 1 + strength * sqrt(y)),
+    stop(far: sqrt(x) >= 1),
+)]
+struct Wet {
+    strength: f64,
+}
+
+/// What has no Taylor series where the run begins is named.
+#[test]
+fn what_has_no_series_is_named() {
+    let named = |without: &[Item], y: f64| {
+        let scene = Wet { strength: 1.0 };
+        let effects = without
+            .iter()
+            .fold(Effects::all(), |effects, item| effects.without(*item));
+        let start = State {
+            q: vec![0.0, y, 0.0],
+            v: vec![0.0; 3],
+        };
+        let run = Simulation::new(&scene)
+            .effects(effects)
+            .run(start, 0.0..1.0);
+        match run.expect_err("no series").error {
+            Error::Singular { items, reason, .. } => {
+                assert!(reason.contains("square root"), "{reason}");
+                items
+            }
+            error => panic!("{error}"),
+        }
+    };
+    let (film, far) = (Wet::FILM.into(), Wet::FAR.into());
+    assert_eq!(named(&[far], 1.0), ["film"]);
+    assert_eq!(named(&[film, far], 0.0), ["x"]);
+    assert_eq!(named(&[film], 1.0), ["far"]);
 }

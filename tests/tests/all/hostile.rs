@@ -197,7 +197,10 @@ fn starts_that_make_no_sense_are_refused() {
         assert!(
             matches!(
                 error,
-                Error::Argument { .. } | Error::Dimension { .. } | Error::Start { .. }
+                Error::Argument { .. }
+                    | Error::Dimension { .. }
+                    | Error::Start { .. }
+                    | Error::Penetrates { .. }
             ),
             "{error}"
         );

@@ -67,7 +67,7 @@ table! {
 
     NotAStruct "E101" "Lagrangian is derived for a struct with named fields" "write `struct {0} { mass: f64, … }`: every field is a parameter";
     Generics "E102" "{0}" "the struct is plain (`f64` fields) or has exactly one type parameter: `struct {1}<T = f64>`";
-    FieldType "E103" "a parameter cannot have this type" "fields are `{0}` or `[{0}; N]` with a number N";
+    FieldType "E103" "a parameter cannot have this type" "fields are `{0}` or `[{0}; N]` with a number N; for other numbers give the struct a parameter, `struct S<T = f64>`, and fields that are `T`";
     AttributeForm "E104" "{0}" "{1}";
     NoDeclaration "E105" "nothing is declared" "add `#[lagrange(coordinates(…), kinetic = …, potential = …)]` to the struct";
 
@@ -103,7 +103,7 @@ table! {
     CoordinateHere "E403" "{0} depends on parameters and t only, and `{1}` depends on the motion" "{2}";
     HigherDerivative "E404" "the derivative of an acceleration or force is not available" "";
     OutputOnly "E405" "`{0}` has a value after the equations are solved" "use it in `observe`, `stop`, `mark` or `check`";
-    ForceHere "E406" "`{0}` is a {1}, whose force is not known here" "`force`, `dissipation` and a `define` for them may contain contacts and constraints; every output may contain all";
+    ForceHere "E406" "`{0}` is a {1}, whose force is not known here" "{2}";
     ConditionHere "E407" "`{0}(…)` is a condition, not a value" "use it in `stop` or `mark`, or behind `when` in a `check`, joined by `and`";
 
     NoCoordinates "E501" "no coordinates are declared" "add `coordinates(x, …)`";
@@ -121,6 +121,8 @@ table! {
     NegativeFriction "E512" "friction is not negative" "its sign follows from the slip: write the magnitude";
     FrictionGrows "E513" "kinetic friction {0} is larger than static friction {1}" "the kinetic coefficient is at most the static one: are they exchanged?";
     RestitutionRange "E514" "{0} is no restitution" "it lies between 0 (no bounce) and 1 (no loss)";
+
+    KineticAtRest "E515" "{0}" "a kinetic energy is made of `der(…)`; an energy of position belongs in `potential`, with the opposite sign";
 
     NoInertia "E601" "the coordinate `{0}` has no inertia" "no kinetic energy contains `der({0})`, and no constraint ties it: add its kinetic energy or remove it";
     EquationCount "E602" "{0} equations for {1} unknowns" "{2}";

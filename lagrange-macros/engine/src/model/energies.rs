@@ -2,7 +2,7 @@
 
 use super::elaborate::Elaboration;
 use super::names::Kind;
-use super::reach::{Context, Reach};
+use super::reach::{Context, Depth, Reach};
 use super::{EnergyTerm, ItemName};
 use crate::ast::{Declaration, Energy, Expr, ItemKind, Name};
 use crate::diagnostics::Code;
@@ -54,7 +54,11 @@ impl Elaboration<'_> {
             _ => POTENTIAL,
         };
         let add = |this: &mut Self, name: ItemName| {
-            let energy = this.scalar(&energy.value, context)?;
+            let value = &energy.value;
+            let energy = this.scalar(value, context)?;
+            if kind == Kind::Kinetic {
+                this.check_at_rest(energy, value)?;
+            }
             let terms = match kind {
                 Kind::Kinetic => &mut this.system.kinetic,
                 _ => &mut this.system.potential,
@@ -76,6 +80,47 @@ impl Elaboration<'_> {
                 self.dropped |= add(self, name).is_none();
             }
         }
+    }
+
+    /// What is left of a kinetic energy where nothing moves comes from moving frames, and is not negative. A term without
+    /// velocities that is negative somewhere belongs elsewhere.
+    fn check_at_rest(&mut self, energy: ExprId, written: &Expr) -> Option<()> {
+        /// Number of states that are looked at.
+        const STATES: u32 = 16;
+        if self.rates.is_some() || !self.system.pool.branches(energy).is_empty() {
+            return Some(());
+        }
+        let moves = self.depth(&[energy]) >= Depth::Velocity;
+        let zero = self.system.pool.integer(0);
+        let rest: Vec<_> = self.velocities().into_iter().map(|v| (v, zero)).collect();
+        let left = self.system.pool.substitute(energy, &rest);
+        if self.system.pool.is_zero(left) {
+            return Some(());
+        }
+        let changes = |&symbol: &Symbol| {
+            symbol == self.system.time || self.depths[symbol.index()] >= Depth::Position
+        };
+        let negative = (0..STATES).any(|state| {
+            let value = |symbol: Symbol| {
+                let number = arbitrary(state, symbol);
+                if changes(&symbol) {
+                    number
+                } else {
+                    number.abs()
+                }
+            };
+            self.system.pool.evaluate(&[left], &value, &|_| true)[0] < 0.0
+        });
+        let what = match moves {
+            false => format!("`{written}` has no velocity"),
+            true if negative => {
+                "this kinetic energy is negative in some states of rest".to_string()
+            }
+            true => return Some(()),
+        };
+        self.sink
+            .report(Code::KineticAtRest, written.extent, &[&what]);
+        None
     }
 
     pub fn split_lagrangian(&mut self, value: &Expr, keyword: Span) {
@@ -185,6 +230,12 @@ impl Elaboration<'_> {
                 .report(Code::NotQuadratic, item.keyword, &[&what, &velocity]);
         }
     }
+}
+
+/// A number between −1 and 1 for a symbol in a state (the golden ratio spreads them).
+fn arbitrary(state: u32, symbol: Symbol) -> f64 {
+    let k = f64::from(state + 1) + 7.31 * (symbol.index() + 1) as f64;
+    2.0 * (k * 0.618_033_988_749_894_9).fract() - 1.0
 }
 
 fn unnamed(text: &str, span: Span) -> ItemName {

@@ -2,7 +2,7 @@
 
 use super::elaborate::Elaboration;
 use super::names::Kind;
-use super::reach::{Context, Depth, Reach};
+use super::reach::{Context, Depth, NORMAL_FORCE, Reach};
 use super::value::{Value, norm};
 use super::{Dissipation, Force, Worked};
 use crate::ast::{self, Action, Expr, Name};
@@ -13,6 +13,9 @@ const FORCE: Context = Context::new(Reach::Loads, "a force");
 const POINT: Context = Context::new(Reach::Positions, "a point");
 const SPEED: Context = Context::new(Reach::Motion, "a velocity");
 const DISSIPATION: Context = Context::new(Reach::Loads, "a dissipation");
+
+/// Where the names of items stand for their forces.
+pub const FORCES_STAND: &str = "`force`, `dissipation` and a `define` for them may contain contacts and constraints; every output may contain all";
 
 impl Elaboration<'_> {
     pub fn force(&mut self, declared: &ast::Force) {
@@ -176,8 +179,15 @@ impl Elaboration<'_> {
             return None;
         }
         if !in_load && !matches!(context.reach, Reach::Forces | Reach::Outputs) {
+            let hint = match (context.what, kind) {
+                (NORMAL_FORCE, Kind::Contact | Kind::Constraint) => format!(
+                    "friction names what presses: `friction(… on {}: slip = …, static = …)`",
+                    name.text
+                ),
+                _ => FORCES_STAND.to_owned(),
+            };
             self.sink
-                .report(Code::ForceHere, name, &[&name.text, &kind.text()]);
+                .report(Code::ForceHere, name, &[&name.text, &kind.text(), &hint]);
             return None;
         }
         Some(())

@@ -2,7 +2,7 @@
 
 use super::elaborate::Elaboration;
 use super::names::Kind;
-use super::reach::{Context, Depth, Reach};
+use super::reach::{Context, Depth, NORMAL_FORCE, Reach};
 use super::value::Value;
 use super::{Friction, Normal};
 use crate::ast::{self, Expr, ExprKind, FrictionLaw};
@@ -11,7 +11,7 @@ use crate::symbolic::{ExprId, Rational, Symbol};
 
 const SLIP: Context = Context::new(Reach::Motion, "a slip velocity");
 const COEFFICIENT: Context = Context::new(Reach::Motion, "a coefficient of friction");
-const NORMAL: Context = Context::new(Reach::Motion, "a normal force");
+const NORMAL: Context = Context::new(Reach::Motion, NORMAL_FORCE);
 const LIMIT: Context = Context::new(Reach::Motion, "a friction force");
 
 impl Elaboration<'_> {

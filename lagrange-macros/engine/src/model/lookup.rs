@@ -1,6 +1,7 @@
 //! Names as written → their values.
 
 use super::elaborate::Elaboration;
+use super::forces::FORCES_STAND;
 use super::names::{Kind, Meaning};
 use super::reach::{Context, Reach};
 use super::value::Value;
@@ -69,8 +70,11 @@ impl Elaboration<'_> {
                 self.admit_item(name, kind, context)?;
                 if elements.is_empty() {
                     // A definition is needed before the item.
-                    self.sink
-                        .report(Code::ForceHere, name, &[&name.text, &kind.text()]);
+                    self.sink.report(
+                        Code::ForceHere,
+                        name,
+                        &[&name.text, &kind.text(), &FORCES_STAND],
+                    );
                     return None;
                 }
                 let mut values: Vec<Value> = elements

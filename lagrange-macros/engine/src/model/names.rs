@@ -182,24 +182,13 @@ impl Elaboration<'_> {
     }
 
     fn suggestion(&self, text: &str) -> String {
-        const GREEK: [(&str, &str); 12] = [
-            ("π", "pi"),
-            ("α", "alpha"),
-            ("β", "beta"),
-            ("γ", "gamma"),
-            ("θ", "theta"),
-            ("ϑ", "theta"),
-            ("λ", "lambda"),
-            ("μ", "mu"),
-            ("φ", "phi"),
-            ("ϕ", "phi"),
-            ("ψ", "psi"),
-            ("ω", "omega"),
-        ];
         if text == "e" {
             return "powers of Euler's number are written `exp(…)`".to_string();
         }
-        if let Some((_, word)) = GREEK.iter().find(|(letter, _)| *letter == text) {
+        let mut letters = text.chars();
+        if let (Some(letter), None) = (letters.next(), letters.next())
+            && let Some(word) = spelt(letter)
+        {
             return format!("write `{word}`");
         }
         let bases = [
@@ -309,7 +298,27 @@ pub(super) fn plain(ident: &proc_macro2::Ident) -> String {
     Name::new(ident).text
 }
 
-/// A name as that of a constant: `muStatic` and `mu_static` are both `MU_STATIC`.
+/// The name of a Greek letter, whether small or capital.
+fn spelt(letter: char) -> Option<&'static str> {
+    /// Names from α to ω, ς between ρ and σ among them.
+    const NAMES: [&str; 25] = [
+        "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa",
+        "lambda", "mu", "nu", "xi", "omicron", "pi", "rho", "sigma", "sigma", "tau", "upsilon",
+        "phi", "chi", "psi", "omega",
+    ];
+    match letter {
+        'ϑ' => Some("theta"),
+        'ϕ' => Some("phi"),
+        _ => {
+            let small = letter.to_lowercase().next()?;
+            let place = (small as usize).checked_sub('α' as usize)?;
+            NAMES.get(place).copied()
+        }
+    }
+}
+
+/// A name as that of a constant: `muStatic` and `mu_static` are both `MU_STATIC`. Greek letters are spelt, `THETA`: Rust warns of
+/// names that look alike, and Θ looks like θ.
 pub(crate) fn shouting(name: &str) -> String {
     let mut constant = String::with_capacity(name.len() + 4);
     let mut lower = false;
@@ -318,7 +327,10 @@ pub(crate) fn shouting(name: &str) -> String {
             constant.push('_');
         }
         lower = letter.is_lowercase() || letter.is_numeric();
-        constant.extend(letter.to_uppercase());
+        match spelt(letter) {
+            Some(name) => constant.push_str(&name.to_uppercase()),
+            None => constant.extend(letter.to_uppercase()),
+        }
     }
     constant
 }

@@ -38,6 +38,9 @@ pub(super) enum Reach {
     Outputs,
 }
 
+/// What is written as `normal = …`.
+pub(super) const NORMAL_FORCE: &str = "a normal force";
+
 /// Where an expression stands.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Context {

@@ -10,6 +10,11 @@ pub(super) fn number(literal: &Literal, sink: &mut Diagnostics) -> Option<Decima
     let plain: String = text.chars().filter(|&c| c != '_').collect();
     let split = suffix_start(&plain);
     let (digits, suffix) = plain.split_at(split);
+    if text.starts_with('"') {
+        let hint = "write the expression without quotation marks; only units have them";
+        sink.report(Code::RustNotation, literal.span(), &[&text, &hint]);
+        return None;
+    }
     if digits.is_empty() || (digits == "0" && suffix.starts_with(['x', 'b', 'o'])) {
         sink.report(Code::NumberForm, literal.span(), &[&text]);
         return None;

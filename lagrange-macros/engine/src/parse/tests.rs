@@ -236,7 +236,7 @@ fn mistakes_point_at_their_token() {
         ("start(a: )", "2:10 E001"),
         ("impacts = sometimes", "2:11 E001"),
         ("coordinates = x", "2:13 E001"),
-        ("kinetic = \"text\"", "2:11 E008"),
+        ("kinetic = \"text\"", "2:11 E021"),
         ("kinetic = 1 % 2", "2:13 E024"),
     ];
     mistakes_are_at(&wrong, |items| {

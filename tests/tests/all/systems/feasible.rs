@@ -177,5 +177,8 @@ fn after_an_impact() {
 fn what_is_no_state_is_refused() {
     let below = BEAM.at(Beam::LIES).with_q(Beam::Y, -0.1);
     let refused = Simulation::new(&BEAM).feasible_modes(0.0, &below);
-    assert!(matches!(refused, Err(Error::Start { .. })), "{refused:?}");
+    assert!(
+        matches!(refused, Err(Error::Penetrates { .. })),
+        "{refused:?}"
+    );
 }

@@ -130,7 +130,7 @@ fn a_start_inside_the_table_is_refused_but_not_beside_it() {
     let inside = Simulation::new(&TABLE).run(state([0.5, 0.7], [0.0, 0.0]), 0.0..0.1);
     let error = inside.expect_err("penetrates").error;
     assert!(
-        matches!(error, Error::Start { item: "table", .. }),
+        matches!(error, Error::Penetrates { item: "table", .. }),
         "{error}"
     );
     let beside = Simulation::new(&TABLE).run(state([1.5, 0.7], [0.0, 0.0]), 0.0..0.1);

@@ -106,7 +106,7 @@ fn mistakes_point_at_their_token() {
         ("stop(s: closed(x))", "2:16 E206"),
         ("start(s), observe(j = s)", "2:23 E207"),
         ("observe(h = x), potential = h", "2:29 E405"),
-        ("kinetic = x", "2:1 E511"),
+        ("kinetic = der(x)^2", "2:1 E511"),
         ("lagrangian = x", "1:47 E503"),
         ("contact(c: x >= 0), kinetic(k: der(x)^4)", "1:47 E507"),
         (

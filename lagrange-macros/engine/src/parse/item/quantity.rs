@@ -37,6 +37,10 @@ pub(super) fn coordinates(parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<
                 Some(Unit { text, extent })
             }
         };
+        if let Some(next) = part.word() {
+            sink.report(Code::MissingComma, &next, &[&next.text]);
+            return None;
+        }
         leftover(part, sink)?;
         Some(Coordinate { name, length, unit })
     })?;

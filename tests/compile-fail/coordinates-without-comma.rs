@@ -1,0 +1,6 @@
+// Coordinates are separated by commas.
+#[lagrange(
+    coordinates(x y),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2),
+)]
+struct S { mass: f64 }
