@@ -2,7 +2,7 @@
 
 use super::interpreted::{Extent, Shape};
 use crate::program::Register;
-use crate::system::{Description, Normal, Place};
+use crate::system::{Description, Normal, ValueRef};
 
 impl Shape {
     /// The item, else the coordinate, whose numbers depend on what goes to this register.
@@ -15,9 +15,9 @@ impl Shape {
         let depends = self
             .program(Extent::Series)
             .dependents(result, self.registers);
-        let among = |nodes: &[Register], place: Place| match place {
-            Place::Node(node) => nodes.get(node).is_some_and(|r| depends[r.index()]),
-            Place::Zero | Place::Constant(_) => false,
+        let among = |nodes: &[Register], place: ValueRef| match place {
+            ValueRef::Node(node) => nodes.get(node).is_some_and(|r| depends[r.index()]),
+            ValueRef::Zero | ValueRef::Constant(_) => false,
         };
         let watches = d.stops.iter().chain(d.marks).find(|watch| {
             let mut terms = watch.terms.iter();
@@ -34,11 +34,11 @@ impl Shape {
 
 /// The numbers of the motion program with the items that they belong to, those that belong to one alone before those that several
 /// make.
-fn numbers(d: &'static Description) -> impl Iterator<Item = (&'static str, Place)> {
+fn numbers(d: &'static Description) -> impl Iterator<Item = (&'static str, ValueRef)> {
     let frictions = d.frictions.iter().flat_map(|f| {
         let normal = match f.normal {
             Normal::Given(place) => place,
-            Normal::Contact(_) | Normal::Constraint(_) => Place::Zero,
+            Normal::Contact(_) | Normal::Constraint(_) => ValueRef::Zero,
         };
         [f.static_coefficient, f.kinetic_coefficient, normal].map(|place| (f.name, place))
     });
