@@ -423,10 +423,7 @@ fn what_has_no_series_is_named() {
         let effects = without
             .iter()
             .fold(Effects::all(), |effects, item| effects.without(*item));
-        let start = State {
-            q: vec![0.0, y, 0.0],
-            v: vec![0.0; 3],
-        };
+        let start = State::new(vec![0.0, y, 0.0], vec![0.0; 3]);
         let run = Simulation::new(&scene)
             .effects(effects)
             .run(start, 0.0..1.0);
