@@ -4,3 +4,4 @@
     kinetic = mass/2 * (der(x)^2 + der(y)^2),
 )]
 struct S { mass: f64 }
+//~ 3:19 E003 expected a comma before `y`; parts are separated by commas

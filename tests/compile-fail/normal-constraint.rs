@@ -6,3 +6,4 @@
     friction(grip: slip = der(x), normal = rail, static = 0.2),
 )]
 struct S { mass: f64 }
+//~ 6:44 E406 `rail` is a constraint, whose force is not known here; friction names what presses: `friction(… on rail: slip = …, static = …)`

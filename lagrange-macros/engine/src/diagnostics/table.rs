@@ -67,7 +67,7 @@ table! {
 
     NotAStruct "E101" "Lagrangian is derived for a struct with named fields" "write `struct {0} { mass: f64, … }`: every field is a parameter";
     Generics "E102" "{0}" "the struct is plain (`f64` fields) or has exactly one type parameter: `struct {1}<T = f64>`";
-    FieldType "E103" "a parameter cannot have this type" "fields are `{0}` or `[{0}; N]` with a number N; for other numbers give the struct a parameter, `struct S<T = f64>`, and fields that are `T`";
+    FieldType "E103" "a parameter cannot have this type" "fields are `{0}` or `[{0}; N]` with a number N{1}";
     AttributeForm "E104" "{0}" "{1}";
     NoDeclaration "E105" "nothing is declared" "add `#[lagrange(coordinates(…), kinetic = …, potential = …)]` to the struct";
 

@@ -87,7 +87,8 @@ impl Elaboration<'_> {
     fn check_at_rest(&mut self, energy: ExprId, written: &Expr) -> Option<()> {
         /// Number of states that are looked at.
         const STATES: u32 = 16;
-        if self.rates.is_some() || !self.system.pool.branches(energy).is_empty() {
+        let mistaken = self.sink.count() > 0 || self.system.coordinates.is_empty();
+        if mistaken || self.rates.is_some() || !self.system.pool.branches(energy).is_empty() {
             return Some(());
         }
         let moves = self.depth(&[energy]) >= Depth::Velocity;

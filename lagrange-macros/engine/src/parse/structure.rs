@@ -70,6 +70,12 @@ fn scalar(input: &DeriveInput, sink: &mut Diagnostics) -> Option<Ident> {
 
 fn field(field: &syn::Field, scalar: Option<&Ident>, sink: &mut Diagnostics) -> Option<Field> {
     let expected = scalar.map_or("f64".to_string(), Ident::to_string);
+    let others = match scalar {
+        None => {
+            "; for other numbers give the struct a parameter, `struct S<T = f64>`, and fields that are `T`"
+        }
+        Some(_) => "",
+    };
     let is_scalar =
         |ty: &Type| matches!(visible(ty), Type::Path(path) if path.path.is_ident(&expected));
     let length = match visible(&field.ty) {
@@ -77,13 +83,13 @@ fn field(field: &syn::Field, scalar: Option<&Ident>, sink: &mut Diagnostics) -> 
         Type::Array(array) if is_scalar(&array.elem) => {
             let length = length(&array.len);
             if length.is_none() {
-                sink.report(Code::FieldType, array.len.span(), &[&expected]);
+                sink.report(Code::FieldType, array.len.span(), &[&expected, &others]);
                 return None;
             }
             length
         }
         ty => {
-            sink.report(Code::FieldType, ty.span(), &[&expected]);
+            sink.report(Code::FieldType, ty.span(), &[&expected, &others]);
             return None;
         }
     };
