@@ -227,8 +227,8 @@ impl Counts<'_> {
 /// Whether two modes differ in directions of slips only: functions serve all directions.
 fn same_structure(a: &Mode, b: &Mode) -> bool {
     let kind = std::mem::discriminant::<FrictionState>;
-    let frictions = a.frictions.iter().zip(&b.frictions);
-    a.contacts == b.contacts && frictions.map(|(a, b)| kind(a) == kind(b)).all(|same| same)
+    let mut frictions = a.frictions.iter().zip(&b.frictions);
+    a.contacts == b.contacts && frictions.all(|(a, b)| kind(a) == kind(b))
 }
 
 /// Operations of an expression as a tree: every use of a part counts again.
