@@ -52,7 +52,6 @@ mod derivation;
 pub mod dynamics;
 pub mod effects;
 pub mod equations;
-mod erased;
 pub mod error;
 pub mod events;
 pub mod handle;

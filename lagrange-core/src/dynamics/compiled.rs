@@ -8,9 +8,9 @@ use super::output_mask::{self, OutputMask};
 use crate::arithmetic::Scalar;
 use crate::effects::Effects;
 use crate::equations::Arguments;
-use crate::erased::ErasedSystem;
 use crate::linear::{KktPattern, Solver, acting};
 use crate::mode::Mode;
+use crate::system::ErasedSystem;
 use crate::system::{Description, Selection};
 
 /// Interpreted equations kept per mode: what is asked for beside the motion changes between stepping and switching, and numbers vanish

@@ -1,8 +1,8 @@
 //! The numbers of a system that depend on its parameters alone.
 
 use crate::arithmetic::Scalar;
-use crate::erased::ErasedSystem;
 use crate::program::{Builder, Numbers, Program, Register, room};
+use crate::system::ErasedSystem;
 use crate::system::Selection;
 
 /// The program of the constants, loaded for the effects of a scene and the branches of a mode.

@@ -5,8 +5,8 @@ use crate::effects::{Effects, Item};
 use crate::equations::{
     Arguments, FrictionState, ModeStructure, ROW, Refused, Row, SeriesFn, ValueFn,
 };
-use crate::erased::ErasedSystem;
 use crate::mode::{Direction, FrictionMode, Mode};
+use crate::system::ErasedSystem;
 use crate::system::{Description, Selection, ValueRef};
 
 /// A series that is always zero.

@@ -32,9 +32,9 @@ pub(crate) use slip_direction::{approach, solve_small};
 
 use crate::arithmetic::Scalar;
 use crate::effects::Effects;
-use crate::erased::Erased;
 use crate::linear::{SolveError, Solver};
 use crate::mode::Mode;
+use crate::system::Erased;
 use crate::system::{Description, ValueRef};
 use compiled::{Asked, Compiled, Part};
 use emitted::Emitted;

@@ -3,11 +3,11 @@
 use super::Run;
 use crate::arithmetic::Scalar;
 use crate::dynamics;
-use crate::erased::Erased;
 use crate::mode::{FrictionMode, Mode};
 use crate::modes::decide::SwitchFacts;
 use crate::modes::impact::Impact;
 use crate::settings::{Awaited, Settings};
+use crate::system::Erased;
 use crate::trajectory::{Around, Asked, Event, EventKind, State, Subject, Trajectory};
 
 /// The record of a run, and what it is still to have.

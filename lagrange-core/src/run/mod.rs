@@ -20,7 +20,6 @@ mod switch;
 
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError, OutputMask};
-use crate::erased::Erased;
 use crate::error::Error;
 use crate::mode::Mode;
 use crate::modes::guard::{self, Guard};
@@ -28,6 +27,7 @@ use crate::modes::reading::Reading;
 use crate::modes::start;
 use crate::settings::{Awaited, Settings};
 use crate::state::FixedComponents;
+use crate::system::Erased;
 use crate::system::{Description, Watch};
 use crate::trajectory::{EventKind, State, Subject, Trajectory, Work};
 use core::ops::Range;

@@ -12,13 +12,13 @@ pub use runner::Runner;
 
 use crate::arithmetic::Scalar;
 use crate::effects::Effects;
-use crate::erased::ErasedSystem;
 use crate::error::Error;
 use crate::handle::CoordinateId;
 use crate::integrate::Method;
 use crate::monitor::Monitor;
 use crate::precompiled::Runnable;
 use crate::settings::{Goal, Settings};
+use crate::system::ErasedSystem;
 use crate::system::{Impacts, System};
 use crate::trajectory::{Instant, State, Trajectory};
 use core::borrow::Borrow;

@@ -23,7 +23,6 @@ use crate::declaration::Declaration;
 use crate::derivation::Derivation;
 use crate::dynamics::Dynamics;
 use crate::effects::Effects;
-use crate::erased::Erased;
 use crate::error::Error;
 use crate::handle::CoordinateId;
 use crate::integrate::{Method, StepPolynomial, horner};
@@ -31,6 +30,7 @@ use crate::mode::Mode;
 use crate::monitor::Monitor;
 use crate::pool::Pool;
 use crate::settings::size_of;
+use crate::system::Erased;
 use crate::system::{Description, Impacts};
 use core::ops::Range;
 

@@ -21,14 +21,13 @@ const ENGINE: [&str; 12] = [
 ];
 
 /// From numbers to a finished run; the lowest first.
-const CORE: [&str; 28] = [
+const CORE: [&str; 27] = [
     "arithmetic",
     "declaration",
     "program",
     "equations",
     "derivation",
     "system",
-    "erased",
     "effects",
     "handle",
     "mode",

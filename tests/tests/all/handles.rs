@@ -102,11 +102,11 @@ fn numbers_are_shown_by_their_names() {
     let scene = Wheel::default();
     let run = Simulation::new(&scene).run(scene.at(Wheel::REST), 0.0..20.0);
     let run = run.expect("a run");
-    let named = "State { x: 0.0, phi: 0.0, r: 1.0, theta: 0.05, der(x): 0.0, der(phi): 0.0, der(r): 0.0, der(theta): 0.0 }";
+    let named = "State { x: 0.0, phi: 0.0, r: 0.5, theta: 0.05, der(x): 0.0, der(phi): 0.0, der(r): 0.0, der(theta): 0.0 }";
     assert_eq!(format!("{:?}", run.first_state()), named);
     assert_eq!(
         format!("{:?}", State::new(vec![1.0], vec![2.0])),
-        "State::new([1.0], [2.0])"
+        "State { q: [1.0], v: [2.0] }"
     );
     let last = format!("{:?}", run.events().last().expect("an event"));
     assert!(

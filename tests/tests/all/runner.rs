@@ -74,7 +74,7 @@ fn another_scene_in_the_same_runner_is_that_scene() {
         scene.mu_static = mu;
         runner.set_scene(&scene);
         assert_eq!(runner.scene().mu_static, mu);
-        let trajectory = runner.run(&start(&scene), 0.0..20.0).expect("runs");
+        let trajectory = runner.run(start(&scene), 0.0..20.0).expect("runs");
         assert_same(trajectory, &single(&scene, 1e-9, 20.0));
     }
 }
@@ -101,7 +101,7 @@ fn what_was_not_recorded_is_refused() {
 fn an_error_leaves_the_motion_until_then() {
     let scene = MassOnShell::default();
     let mut runner = Simulation::new(&scene).max_steps(3).runner();
-    let outcome = runner.run(&start(&scene), 0.0..20.0).map(|_| ());
+    let outcome = runner.run(start(&scene), 0.0..20.0).map(|_| ());
     assert!(matches!(outcome, Err(Error::Limit { what: "steps", .. })));
     assert_eq!(runner.trajectory().work().steps, 3);
     assert!(runner.trajectory().last_time() > 0.0);
@@ -141,7 +141,7 @@ fn pieces_follow_each_other() {
     let whole = simulation.run(start(&scene), 0.0..20.0).expect("a run");
     let mut runner = simulation.runner();
     let (mut pieces, mut events, mut last) = (0, 0, 0.0);
-    let taken = runner.run_in_pieces(&start(&scene), 0.0..20.0, 3000, |piece| {
+    let taken = runner.run_in_pieces(start(&scene), 0.0..20.0, 3000, |piece| {
         assert_eq!(piece.first_time(), last);
         assert!(piece.verify(pieces).expect("recorded").holds());
         (pieces, last) = (pieces + 1, piece.last_time());

@@ -50,7 +50,7 @@ fn numbers_that_become_zero_or_one_are_taken_as_they_are() {
     let mut runner = simulation.runner();
     for scene in &all {
         runner.set_scene(scene);
-        let motion = runner.run(&state(&q, &v), 0.0..0.2).expect("a run");
+        let motion = runner.run(state(&q, &v), 0.0..0.2).expect("a run");
         let mut sampler = motion.sampler();
         for t in [0.0, 0.1, 0.2] {
             let now = sampler.at(t).expect("within");
@@ -110,7 +110,7 @@ fn a_term_whose_factor_became_zero_does_not_spoil_the_run() {
     let mut runner = Simulation::new(&Half { strength: -0.3 }).runner();
     for strength in [-0.3, 0.0, 0.5, 0.0] {
         runner.set_scene(&Half { strength });
-        let outcome = runner.run(&state(&[0.5], &[-1.0]), 0.0..2.0);
+        let outcome = runner.run(state(&[0.5], &[-1.0]), 0.0..2.0);
         match outcome {
             Ok(motion) => {
                 assert_eq!(strength, 0.0);

@@ -3,11 +3,11 @@
 //! What integrates and switches modes works with this. It is compiled once per scalar, not once per system, and so a
 //! program with many systems stays small and quick to compile.
 
+use super::{Description, Selection, System};
 use crate::arithmetic::Scalar;
 use crate::declaration::Declaration;
 use crate::derivation::Derivation;
 use crate::equations::{LaneSeriesFn, ModeStructure, SeriesFn, ValueFn};
-use crate::system::{Description, Selection, System};
 use core::fmt;
 use std::sync::Arc;
 

@@ -8,15 +8,18 @@
 //!
 //! Every number is an *output* of a tape or a parameter-only *constant*; a [`ValueRef`] says which.
 
+mod erased;
+
 use crate::arithmetic::{Number, Scalar};
 use crate::declaration::Declaration;
 use crate::derivation::Derivation;
 use crate::equations::{LaneSeriesFn, ModeStructure, SeriesFn, ValueFn};
-pub use crate::erased::AnySystem;
 use crate::program::Encoded;
 pub use crate::program::{Needs, Selection, ValueRef};
 use core::fmt;
 use core::str::FromStr;
+pub use erased::AnySystem;
+pub(crate) use erased::{Erased, ErasedSystem};
 
 /// A mechanical system: what `#[derive(Lagrangian)]` implements, with [`Derived`].
 ///
