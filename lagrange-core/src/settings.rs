@@ -3,7 +3,7 @@
 use crate::dynamics::Equations;
 use crate::effects::Effects;
 use crate::handle::Subject;
-use crate::integrate::{Method, Tolerance};
+use crate::integrate::{Method, Tolerance, least_size};
 use crate::monitor::Monitor;
 use crate::system::Impacts;
 use crate::trajectory::{Event, EventKind};
@@ -52,13 +52,8 @@ impl Settings {
 
     /// Error that is below the tolerance for a position or velocity of the coordinate that is so large.
     pub fn allowed(&self, coordinate: usize, size: f64) -> f64 {
-        self.tolerance * size.max(size_of(&self.sizes, coordinate))
+        self.tolerance * size.max(least_size(&self.sizes, coordinate))
     }
-}
-
-/// The size above which errors of a coordinate are relative.
-pub(crate) fn size_of(sizes: &[f64], coordinate: usize) -> f64 {
-    sizes.get(coordinate).copied().unwrap_or(1.0)
 }
 
 /// An event that a run can end after.

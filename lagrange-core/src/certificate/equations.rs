@@ -2,8 +2,8 @@
 
 use crate::declaration::{Declaration, Evaluator, Inputs, Seed, Worked};
 use crate::effects::{Effects, Item};
+use crate::integrate::least_size;
 use crate::mode::{FrictionMode, Mode};
-use crate::settings::size_of;
 use crate::system::Description;
 use crate::trajectory::State;
 
@@ -350,7 +350,7 @@ impl Equations {
             self.values
                 .gradient_size(&[(value, power, 1.0)], k, gradient);
             let terms = gradient.iter().zip(state).enumerate();
-            let size = |i| size_of(&self.sizes, i).max(1.0);
+            let size = |i| least_size(&self.sizes, i).max(1.0);
             sum += terms
                 .map(|(i, (g, x))| g * (size(i) + x.abs()))
                 .sum::<f64>();

@@ -15,9 +15,9 @@ use crate::checks::state::signed;
 use crate::declaration::Declaration;
 use crate::dynamics::Dynamics;
 use crate::error::Error;
+use crate::integrate::least_size;
 use crate::integrate::{Method, Radau};
 use crate::mode::Mode;
-use crate::settings::size_of;
 use crate::trajectory::{EventKind, Instant, Sampler, State, Trajectory};
 use nalgebra::{DMatrix, DVector};
 
@@ -356,7 +356,7 @@ impl<T: Scalar> Examination<'_, T> {
     fn is_near(&self, state: &State<f64>) -> bool {
         let sizes = &self.record.asked.sizes;
         let near = |(i, (a, b)): (usize, (&f64, &f64))| {
-            let size = size_of(sizes, i) + a.abs().max(b.abs());
+            let size = least_size(sizes, i) + a.abs().max(b.abs());
             (a - b).abs() <= self.findings.tolerance * size
         };
         let expected = &self.expected;
@@ -380,7 +380,7 @@ impl<T: Scalar> Examination<'_, T> {
         let lists = [[&a.q, &b.q, &sizes.q], [&a.v, &b.v, &sizes.v]];
         for [a, b, sizes] in lists {
             for (i, coordinate) in names.iter().enumerate() {
-                let least = size_of(&self.record.asked.sizes, i);
+                let least = least_size(&self.record.asked.sizes, i);
                 let size = factor * (least + sizes[i].abs());
                 self.findings
                     .book(subject, (a[i] - b[i]).abs(), size, time, coordinate.name);

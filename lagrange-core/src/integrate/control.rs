@@ -34,9 +34,14 @@ impl Tolerance<'_> {
 
     /// Error allowed for the position or the velocity of a coordinate where that has the size `size` ≥ 0; never zero.
     pub fn scale(self, coordinate: usize, size: f64) -> f64 {
-        let least = self.sizes.get(coordinate).copied().unwrap_or(1.0);
+        let least = least_size(self.sizes, coordinate);
         (self.absolute * least + self.relative * size).max(f64::MIN_POSITIVE)
     }
+}
+
+/// The size above which errors of a coordinate are relative.
+pub(crate) fn least_size(sizes: &[f64], coordinate: usize) -> f64 {
+    sizes.get(coordinate).copied().unwrap_or(1.0)
 }
 
 /// √(1/n Σ (eᵢ/scaleᵢ)²), the scale taken at the larger of |before| and |after|. The components are those of the coordinates, once or

@@ -24,6 +24,7 @@ mod verner98;
 use core::fmt;
 
 pub use control::Tolerance;
+pub(crate) use control::least_size;
 pub use gauss::Gauss;
 pub use integrator::Integrator;
 pub use method::{Method, ParseMethodError};

@@ -10,7 +10,7 @@ use crate::arithmetic::Scalar;
 use crate::error::Error;
 use crate::handle::Subject;
 use crate::integrate::Method;
-use crate::settings::size_of;
+use crate::integrate::least_size;
 use crate::system::Description;
 use core::fmt;
 use core::iter::repeat_n;
@@ -138,7 +138,7 @@ impl Summary {
         difference.state_error = 0.0;
         let coordinates = (0..self.state.q.len()).cycle();
         for (i, (name, (&apart, &x))) in coordinates.zip(names.zip(apart.zip(values))) {
-            let error = relative(apart, x, size_of(&self.sizes, i));
+            let error = relative(apart, x, least_size(&self.sizes, i));
             if error > difference.state_error || difference.coordinate.is_empty() {
                 (difference.state_error, difference.coordinate) = (error, name);
             }

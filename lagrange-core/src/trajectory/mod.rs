@@ -25,11 +25,11 @@ use crate::dynamics::Dynamics;
 use crate::effects::Effects;
 use crate::error::Error;
 use crate::handle::CoordinateId;
+use crate::integrate::least_size;
 use crate::integrate::{Method, StepPolynomial, horner};
 use crate::mode::Mode;
 use crate::monitor::Monitor;
 use crate::pool::Pool;
-use crate::settings::size_of;
 use crate::system::Erased;
 use crate::system::{Description, Impacts};
 use core::ops::Range;
@@ -244,7 +244,7 @@ impl<T: Scalar> Trajectory<T> {
     /// The same for a position or velocity of this coordinate near 0; differs where
     /// [`Simulation::absolute_tolerance`](crate::Simulation::absolute_tolerance) says so.
     pub fn absolute_tolerance(&self, coordinate: CoordinateId) -> f64 {
-        self.asked.tolerance * size_of(&self.asked.sizes, coordinate.0)
+        self.asked.tolerance * least_size(&self.asked.sizes, coordinate.0)
     }
 
     /// Method of integration that was asked for; where it has steps of fixed length, with the length that was found.
