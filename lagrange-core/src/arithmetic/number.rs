@@ -1,5 +1,6 @@
 //! What the equations of a mode work with: a number, or the numbers of several motions side by side.
 
+use super::pack::each_lane;
 use super::{Pack, Scalar};
 #[cfg(target_arch = "x86_64")]
 use core::marker::PhantomData;
@@ -187,9 +188,22 @@ macro_rules! each {
     ($($name:ident $(, $argument:ident)*;)*) => {$(
         #[inline(always)]
         fn $name(self $(, $argument: Self)*) -> Self {
-            Pack(core::array::from_fn(|lane| Scalar::$name(self.0[lane] $(, $argument.0[lane])*)))
+            each_lane!(lane => Scalar::$name(self.0[lane] $(, $argument.0[lane])*))
         }
     )*};
+}
+
+/// The same for functions that give two numbers.
+macro_rules! pair {
+    ($x:ident, $name:ident) => {{
+        let [mut first, mut second] = [$x; 2];
+        let mut lane = 0;
+        while lane < L {
+            (first.0[lane], second.0[lane]) = Scalar::$name($x.0[lane]);
+            lane += 1;
+        }
+        (first, second)
+    }};
 }
 
 /// The arguments of a function that is compiled for a kind of processor.
@@ -235,23 +249,15 @@ impl<T: Scalar, const L: usize> Number for Pack<T, L> {
     }
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
-        let pairs = self.0.map(Scalar::sin_cos);
-        (
-            Pack(pairs.map(|pair| pair.0)),
-            Pack(pairs.map(|pair| pair.1)),
-        )
+        pair!(self, sin_cos)
     }
     #[inline(always)]
     fn sinh_cosh(self) -> (Self, Self) {
-        let pairs = self.0.map(Scalar::sinh_cosh);
-        (
-            Pack(pairs.map(|pair| pair.0)),
-            Pack(pairs.map(|pair| pair.1)),
-        )
+        pair!(self, sinh_cosh)
     }
     #[inline(always)]
     fn powf(self, c: f64) -> Self {
-        Pack(self.0.map(|x| Scalar::powf(x, c)))
+        each_lane!(lane => Scalar::powf(self.0[lane], c))
     }
     #[inline(always)]
     fn any_zero(self) -> bool {
@@ -267,7 +273,7 @@ impl<T: Scalar, const L: usize> Number for Pack<T, L> {
     }
     #[inline(always)]
     fn lesser(a: Self, b: Self) -> Self {
-        Pack(core::array::from_fn(|lane| T::lesser(a.0[lane], b.0[lane])))
+        each_lane!(lane => T::lesser(a.0[lane], b.0[lane]))
     }
     #[inline(always)]
     fn is_positive_share(pivot: Self, diagonal: Self) -> bool {

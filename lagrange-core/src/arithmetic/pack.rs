@@ -8,12 +8,19 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 #[repr(align(32))]
 pub struct Pack<T, const L: usize>(pub [T; L]);
 
-impl<T: Scalar, const L: usize> Pack<T, L> {
-    #[inline(always)]
-    fn zip(self, y: Self, f: impl Fn(T, T) -> T) -> Self {
-        Self(core::array::from_fn(|lane| f(self.0[lane], y.0[lane])))
-    }
+/// The number of each lane, given which it is. Neither closures nor `array::from_fn` are always inlined into code for other registers.
+macro_rules! each_lane {
+    ($lane:ident => $value:expr) => {{
+        let mut numbers = [T::zero(); L];
+        let mut $lane = 0;
+        while $lane < L {
+            numbers[$lane] = $value;
+            $lane += 1;
+        }
+        Pack(numbers)
+    }};
 }
+pub(super) use each_lane;
 
 macro_rules! lane_by_lane {
     ($($operation:ident $method:ident $sign:tt,)*) => {$(
@@ -21,7 +28,7 @@ macro_rules! lane_by_lane {
             type Output = Self;
             #[inline(always)]
             fn $method(self, y: Self) -> Self {
-                self.zip(y, |x, y| x $sign y)
+                each_lane!(lane => self.0[lane] $sign y.0[lane])
             }
         }
     )*};
@@ -33,6 +40,6 @@ impl<T: Scalar, const L: usize> Neg for Pack<T, L> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Self(self.0.map(|x| -x))
+        each_lane!(lane => -self.0[lane])
     }
 }
