@@ -181,7 +181,7 @@ impl<S> Entry<S> {
         Self { results, ..self }
     }
 
-    /// The same with a closed form, for [`Scene::accuracy`](trait.Scene.html#method.accuracy) to measure errors against.
+    /// The same with a closed form, for `lagrange accuracy` to measure errors against.
     pub const fn known(self, closed_form: Solution<S>) -> Self {
         Self {
             closed_form: Some(closed_form),
@@ -274,7 +274,7 @@ impl dyn Scene + '_ {
         self.run_in_pieces(request, PIECE)
     }
 
-    /// Runs it to be looked at: [`Self::run`] with pictures.
+    /// Runs it to be looked at: as [`Outcome`], with pictures.
     ///
     /// # Errors
     /// As for a run.
