@@ -10,8 +10,7 @@ use crate::effects::Effects;
 use crate::equations::Arguments;
 use crate::linear::{KktPattern, Solver, acting};
 use crate::mode::Mode;
-use crate::system::ErasedSystem;
-use crate::system::{Description, Selection};
+use crate::system::{Description, ErasedSystem, Selection};
 
 /// Interpreted equations kept per mode: what is asked for beside the motion changes between stepping and switching, and numbers vanish
 /// for some parameters and not for others.

@@ -2,8 +2,7 @@
 
 use crate::arithmetic::Scalar;
 use crate::program::{Builder, Numbers, Program, Register, room};
-use crate::system::ErasedSystem;
-use crate::system::Selection;
+use crate::system::{ErasedSystem, Selection};
 
 /// The program of the constants, loaded for the effects of a scene and the branches of a mode.
 ///

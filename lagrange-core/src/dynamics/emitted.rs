@@ -6,8 +6,7 @@ use crate::equations::{
     Arguments, FrictionState, ModeStructure, ROW, Refused, Row, SeriesFn, ValueFn,
 };
 use crate::mode::{Direction, FrictionMode, Mode};
-use crate::system::ErasedSystem;
-use crate::system::{Description, Selection, ValueRef};
+use crate::system::{Description, ErasedSystem, Selection, ValueRef};
 
 /// A series that is always zero.
 const NO_ROW: u32 = u32::MAX;

@@ -15,8 +15,7 @@ use super::output_mask::OutputMask;
 use crate::arithmetic::{Number, Scalar};
 use crate::linear::KktPattern;
 use crate::program::{Builder, Numbers, Op, Program, Register, Series, room};
-use crate::system::ErasedSystem;
-use crate::system::{Description, Selection, ValueRef};
+use crate::system::{Description, ErasedSystem, Selection, ValueRef};
 use core::ops::Range;
 use std::sync::Arc;
 

@@ -1,9 +1,9 @@
 //! All modes in which a state can go on, with their forces.
 
+use super::switch::Switcher;
 use super::{Progress, Run};
 use crate::arithmetic::Scalar;
 use crate::error::Error;
-use crate::modes::decide::{EvaluationPoint, SwitchContext};
 use crate::state::State;
 use crate::trajectory::{Instant, instant, report_everything};
 
@@ -20,24 +20,14 @@ impl<T: Scalar> Run<T> {
         self.now.state.clone_from(state);
         self.dynamics.restart();
         self.enter_start()?;
-        let mut facts = core::mem::take(&mut self.switcher.status.facts);
-        self.meet(&mut facts)?;
-        let here = SwitchContext {
-            moment: EvaluationPoint {
-                t: self.now.t,
-                q: &self.now.state.q,
-                v: &self.now.state.v,
-                order: self.stepper.order,
-                tolerance: self.settings.tolerance,
-            },
-            present: &self.now.mode,
-            facts: &facts,
-        };
-        let modes =
-            self.switcher
-                .decider
-                .feasible(&mut self.dynamics, &mut self.switcher.table, here)?;
-        self.switcher.status.facts = facts;
+        let modes = self.knowing(|run, facts| {
+            run.meet(facts)?;
+            let here = run
+                .now
+                .context(run.stepper.order, run.settings.tolerance, facts);
+            let Switcher { decider, table, .. } = &mut run.switcher;
+            decider.feasible(&mut run.dynamics, table, here)
+        })?;
         self.now.series = Progress::None;
         report_everything(&mut self.dynamics);
         let instants = modes.iter().map(|mode| {

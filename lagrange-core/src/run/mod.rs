@@ -22,6 +22,7 @@ use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError, OutputMask};
 use crate::error::Error;
 use crate::mode::Mode;
+use crate::modes::decide::{EvaluationPoint, SwitchContext, SwitchFacts};
 use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
 use crate::modes::start;
@@ -90,6 +91,28 @@ struct Now<T> {
     valued: bool,
     /// Distance from a position where constraints lose rank.
     distance: f64,
+}
+
+impl<T: Scalar> Now<T> {
+    /// Where the mode may end, for who decides on the next.
+    fn context<'a>(
+        &'a self,
+        order: usize,
+        tolerance: f64,
+        facts: &'a SwitchFacts,
+    ) -> SwitchContext<'a, T> {
+        SwitchContext {
+            moment: EvaluationPoint {
+                t: self.t,
+                q: &self.state.q,
+                v: &self.state.v,
+                order,
+                tolerance,
+            },
+            present: &self.mode,
+            facts,
+        }
+    }
 }
 
 impl<T: Scalar> Run<T> {

@@ -20,7 +20,7 @@ const ROOT: f64 = 1e-9;
 /// So often are the composite guards of one step found anew.
 const MOST_CORRECTIONS: usize = 12;
 
-/// CompositeGuard guards are also looked for at these parts of a step,
+/// Composite guards are also looked for at these parts of a step,
 const WITHIN: [f64; 3] = [0.25, 0.5, 0.75];
 
 /// and watched from there on if they have come this near to zero, relative.

@@ -6,7 +6,7 @@ use crate::arithmetic::Scalar;
 use crate::effects::Item;
 use crate::error::Error;
 use crate::mode::{FrictionMode, Mode};
-use crate::modes::decide::{Decider, EvaluationPoint, SwitchContext, SwitchFacts};
+use crate::modes::decide::{Decider, SwitchFacts};
 use crate::modes::domain;
 use crate::modes::guard::Guard;
 use crate::modes::impact::{Collider, Impact};
@@ -112,25 +112,22 @@ impl<T: Scalar> Run<T> {
 
     /// Impact if needed, then the next mode; logs what changed. `self.switcher.status.facts` says what vanishes at this instant.
     pub(super) fn settle(&mut self) -> Result<(), Error> {
+        self.knowing(Self::settle_knowing)
+    }
+
+    /// Does something with the facts of this instant, which are then put back, whatever came of it.
+    pub(super) fn knowing<R>(&mut self, act: impl FnOnce(&mut Self, &mut SwitchFacts) -> R) -> R {
         let mut facts = core::mem::take(&mut self.switcher.status.facts);
-        let outcome = self.settle_knowing(&mut facts);
+        let outcome = act(self, &mut facts);
         self.switcher.status.facts = facts;
         outcome
     }
 
     fn settle_knowing(&mut self, facts: &mut SwitchFacts) -> Result<(), Error> {
         let hit = self.meet(facts)?;
-        let here = SwitchContext {
-            moment: EvaluationPoint {
-                t: self.now.t,
-                q: &self.now.state.q,
-                v: &self.now.state.v,
-                order: self.stepper.order,
-                tolerance: self.settings.tolerance,
-            },
-            present: &self.now.mode,
-            facts,
-        };
+        let here = self
+            .now
+            .context(self.stepper.order, self.settings.tolerance, facts);
         self.switcher
             .decider
             .decide(&mut self.dynamics, &mut self.switcher.table, here)?;

@@ -110,8 +110,8 @@ impl<S: System<Scalar: Runnable>> Ensemble<S> {
                     }
                 }
             }
-            let berths = self.runners.iter_mut().zip(&under_way);
-            let taken = berths.filter(|(_, under_way)| under_way.is_some());
+            let runners = self.runners.iter_mut().zip(&under_way);
+            let taken = runners.filter(|(_, under_way)| under_way.is_some());
             let mut members: Vec<_> = taken.map(|(runner, _)| runner.member()).collect();
             if members.is_empty() {
                 return;

@@ -39,7 +39,7 @@ pub struct Decision {
     pub zeros: Vec<(Guard, usize)>,
     /// Whether another mode with another motion was feasible too.
     pub ambiguous: bool,
-    /// CompositeGuard guards that are at their border, or near it.
+    /// Composite guards that are at their border, or near it.
     pub composites: Vec<CompositeGuard>,
     /// Whether the dynamics hold the series of this mode at the moment, for the needs of its guards.
     pub expanded: bool,
@@ -164,6 +164,7 @@ impl<T: Scalar> Decider<T> {
         self.sized = false;
         let listed = listings.list(dynamics, here, &self.rows, &mut self.decision.mode);
         let Some(candidates) = listed else {
+            self.listings = listings;
             return Err(Error::Limit {
                 time,
                 what: "modes to be tried",

@@ -1,4 +1,4 @@
-//! CompositeGuard guards: sums of guards of undetermined forces in which all that is open cancels.
+//! Composite guards: sums of guards of undetermined forces in which all that is open cancels.
 
 use crate::arithmetic::Scalar;
 use crate::mode::Mode;
