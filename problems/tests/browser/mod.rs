@@ -32,8 +32,17 @@ pub struct Reader {
 }
 
 impl Browser {
-    /// Starts the Chromium of this machine; says so if there is none.
+    /// Starts the Chromium of this machine without any graphics; says so if there is none.
     pub fn start() -> Option<Self> {
+        Self::found(&["--disable-gpu"])
+    }
+
+    /// The same with WebGL, done by the processor.
+    pub fn with_webgl() -> Option<Self> {
+        Self::found(&["--use-angle=swiftshader", "--enable-unsafe-swiftshader"])
+    }
+
+    fn found(graphics: &[&str]) -> Option<Self> {
         let names = ["chromium", "chromium-browser", "google-chrome"];
         let paths = std::env::var_os("PATH")?;
         let folders: Vec<PathBuf> = std::env::split_paths(&paths).collect();
@@ -44,10 +53,10 @@ impl Browser {
             println!("skipped: there is no chromium on this machine");
             return None;
         };
-        Some(Self::of(&program))
+        Some(Self::of(&program, graphics))
     }
 
-    fn of(program: &Path) -> Self {
+    fn of(program: &Path, graphics: &[&str]) -> Self {
         let profile = std::env::temp_dir().join(format!(
             "lagrange-browser-{}-{:?}",
             std::process::id(),
@@ -57,10 +66,10 @@ impl Browser {
             .args([
                 "--headless",
                 "--no-sandbox",
-                "--disable-gpu",
                 "--no-first-run",
                 "--remote-debugging-port=0",
             ])
+            .args(graphics)
             .arg(format!("--user-data-dir={}", profile.display()))
             .stderr(Stdio::piped())
             .stdout(Stdio::null())

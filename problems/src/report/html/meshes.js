@@ -24,9 +24,9 @@ function cap(mesh, across, along, [low, high], tone) {
 }
 
 // A flat round face at a height.
-function plate(mesh, across, height, tone) {
+function plate(mesh, across, along, height, tone) {
   const side = Math.sign(height) || 1;
-  return surface(mesh, across, 3, (u, v) => {
+  return surface(mesh, across, along, (u, v) => {
     const [c, s] = round(side * u);
     return [[v * c, v * s, height], [0, 0, side]];
   }, tone);
@@ -71,17 +71,17 @@ const striped = (u, v) => (Math.abs(v - 0.5) < 0.125 || Math.abs(v - 0.5) > 0.43
 const sector = (u) => (u < 1 / 16 ? 1 : 0);
 const meshes = {
   ball: cap([], 48, 28, [-right, right], striped),
-  bead: cap([], 10, 6, [-right, right]),
+  bead: cap([], 8, 5, [-right, right]),
   pivot: cap([], 20, 10, [-right, right]),
   mass: cap([], 28, 16, [-right, right]),
-  "half ellipsoid": plate(cap([], 56, 14, [-right, 0], () => 1), 56, 0),
-  box: cube([], 6),
+  "half ellipsoid": plate(cap([], 56, 14, [-right, 0], () => 1), 56, 3, 0),
+  box: cube([], 4),
   shell: cap([], 56, 28, [-right, right]),
   // Both sides are seen: that from outside first.
   bowl: inward(cap(cap([], 56, 14, [-right, 0], () => 1), 56, 14, [-right, 0])),
-  disc: plate(plate(tube([], 64, 1, [-0.5, 0.5], [1, 1]), 64, 0.5, sector), 64, -0.5, sector),
+  disc: plate(plate(tube([], 64, 1, [-0.5, 0.5], [1, 1]), 64, 3, 0.5, sector), 64, 3, -0.5, sector),
   rod: tube([], 12, 1, [0, 1], [1, 1]),
-  shaft: plate(tube([], 16, 1, [0, 1], [1, 1]), 16, 0),
-  tip: plate(tube([], 20, 1, [0, 1], [1, 0]), 20, 0),
+  shaft: tube([], 10, 1, [0, 1], [1, 1]),
+  tip: plate(tube([], 14, 1, [0, 1], [1, 0]), 14, 1, 0),
 };
 for (const name of Object.keys(meshes)) meshes[name] = new Float32Array(meshes[name]);

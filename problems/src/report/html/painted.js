@@ -1,74 +1,101 @@
-// Draws parts without WebGL: triangles from the back to the front, the shadow flat on the ground.
+// Draws parts on the processor alone: faces from the back to the front, the shadow flat on the ground.
 
 function painted(canvas) {
-  const pen = canvas.getContext("2d");
+  const pen = canvas.getContext("2d", { alpha: false });
   const css = (rgb, k = 1) => `rgb(${rgb.map((c) => Math.round(255 * Math.min(1, c * k))).join(" ")})`;
-  return ({ parts, thrusts, floor, traces, camera, sun, colours }) => {
-    const { width, height } = canvas, { eye } = camera;
-    const project = (p) => { const [x, y, z] = camera.project(p); return [(0.5 + 0.5 * x) * width, (0.5 - 0.5 * y) * height, z]; };
-    const stroke = (points, style, thick) => {
-      pen.beginPath();
-      for (const [x, y] of points) pen.lineTo(x, y);
-      [pen.strokeStyle, pen.lineWidth] = [style, thick];
-      pen.stroke();
-    };
+  const trail = (pen, points, style, thick) => {
+    pen.beginPath();
+    for (const [x, y] of points) pen.lineTo(x, y);
+    [pen.strokeStyle, pen.lineWidth] = [style, thick];
+    pen.stroke();
+  };
+  // Where a point is on the canvas, and how far away.
+  const looking = (view, width, height) => ([x, y, z]) => {
+    const far = view[3] * x + view[7] * y + view[11] * z + view[15];
+    const across = view[0] * x + view[4] * y + view[8] * z + view[12], up = view[1] * x + view[5] * y + view[9] * z + view[13];
+    return [(0.5 + (0.5 * across) / far) * width, (0.5 - (0.5 * up) / far) * height, far];
+  };
+
+  // The page and the grid, which fades into it, stay as they are while the camera rests.
+  const backdrop = document.createElement("canvas");
+  let shown = "";
+  function ground(floor, view, colours) {
+    const { width, height } = canvas, wanted = [...view, width, height, ...colours.page, ...colours.line].join();
+    if (wanted === shown) return backdrop;
+    shown = wanted;
+    [backdrop.width, backdrop.height] = [width, height];
+    const pen = backdrop.getContext("2d", { alpha: false }), project = looking(view, width, height);
     pen.fillStyle = css(colours.page);
     pen.fillRect(0, 0, width, height);
-    const dark = [];
-    const faces = (list, casts) => list.flatMap(({ mesh, turn, scale, at, first, second }) => {
-      const triangles = [];
-      const numbers = meshes[mesh];
-      for (let i = 0; i < numbers.length; i += 21) {
-        const corner = [0, 7, 14].map((k) => plus(at, apply(turn, [0, 1, 2].map((c) => numbers[i + k + c] * scale[c]))));
-        const normal = unit(apply(turn, [0, 1, 2].map((c) => (numbers[i + 3 + c] + numbers[i + 10 + c] + numbers[i + 17 + c]) / scale[c])));
-        const middle = corner.reduce((sum, c) => plus(sum, c, 1 / 3), [0, 0, 0]);
-        if (floor && casts && inner(normal, sun) > 0) {
-          const up = floor.turn.slice(6), fall = inner(sun, up);
-          dark.push(corner.map((c) => plus(c, sun, -inner(plus(c, floor.at, -1), up) / fall)));
+    if (!floor) return backdrop;
+    const { turn, at, wide, cell, begin } = floor, spot = (x, y) => project(plus(at, apply(turn, [x, y, 0])));
+    const count = Math.min(Math.floor(wide / cell), 60), style = css(colours.line), pieces = 24;
+    const first = begin.map((x) => -(((x % cell) + cell) % cell));
+    for (const across of [0, 1]) {
+      for (let k = -count; k <= count; k++) {
+        const off = first[across] + k * cell, far = Math.sqrt(Math.max(wide * wide - off * off, 0));
+        const strong = Math.round((off + begin[across]) / cell) % 5 === 0 ? 1 : 0.5;
+        const along = (i) => { const on = far * ((2 * i) / pieces - 1); return across ? [on, off] : [off, on]; };
+        for (let i = 0; i < pieces; i++) {
+          const [from, to] = [spot(...along(i)), spot(...along(i + 1))];
+          if (Math.min(from[2], to[2]) < 0.05 * wide) continue;
+          pen.globalAlpha = strong * Math.max(0, Math.min(1, 1.6 * (1 - Math.hypot(...along(i + 0.5)) / wide))) ** 2;
+          if (pen.globalAlpha > 0.01) trail(pen, [from, to], style, 1);
         }
-        if (inner(normal, plus(eye, middle, -1)) <= 0) continue;
-        const bright = 0.62 + 0.12 * normal[2] + 0.36 * Math.max(inner(normal, sun), 0);
-        triangles.push([project(middle)[2], corner, css(numbers[i + 6] > 0.5 ? second : first, bright)]);
       }
-      return triangles;
-    }).sort((a, b) => b[0] - a[0]);
-    const all = [...faces(parts, true), ...faces(thrusts, false)];
-    if (floor) {
-      const reach = Math.min(Math.ceil((0.6 * floor.wide) / floor.cell), 40) * floor.cell;
-      const spot = (x, y) => project(plus(floor.at, apply(floor.turn, [x, y, 0])));
-      // Lines end on a circle, and where they pass the eye.
-      const line = (at, far) => {
-        let seen = [];
-        for (let i = -12; i <= 12; i++) {
-          const next = at((far * i) / 12), behind = next[2] < 0.05 * reach;
-          if (!behind) seen.push(next);
-          if (behind || i === 12) { stroke(seen, css(colours.line), 1); seen = []; }
-        }
-      };
-      for (let x = -reach; x <= reach; x += floor.cell) {
-        const far = Math.sqrt(Math.max(reach * reach - x * x, 0));
-        line((y) => spot(x - floor.begin[0], y), far);
-        line((y) => spot(y, x - floor.begin[1]), far);
-      }
-      pen.beginPath();
-      for (const corner of dark) {
-        const [a, b, c] = corner.map(project);
-        const turned = (b[0] - a[0]) * (c[1] - a[1]) > (b[1] - a[1]) * (c[0] - a[0]) ? [a, b, c] : [a, c, b];
-        turned.forEach(([x, y], i) => (i ? pen.lineTo(x, y) : pen.moveTo(x, y)));
-      }
-      [pen.fillStyle, pen.globalAlpha] = [css(colours.ink), 0.15];
-      pen.fill();
-      pen.globalAlpha = 1;
     }
-    for (const { points, count } of traces) stroke(points.slice(0, count).map(project), css(colours.quiet), 1.5);
+    return backdrop;
+  }
+
+  return ({ parts, thrusts, floor, traces, camera, sun, colours }) => {
+    const { width, height } = canvas, { eye, view } = camera, project = looking(view, width, height);
+    const up = floor?.turn.slice(6), fall = floor && inner(sun, up), shadow = new Path2D();
+    // A mesh is made of faces with four corners, written as two triangles of three times seven numbers.
+    const faces = (list, casts) => {
+      const found = [];
+      for (const { mesh, turn, scale, at, first, second } of list) {
+        const numbers = meshes[mesh];
+        for (let i = 0; i < numbers.length; i += 42) {
+          const corners = [0, 7, 14, 35].map((k) => {
+            const [x, y, z] = apply(turn, [numbers[i + k] * scale[0], numbers[i + k + 1] * scale[1], numbers[i + k + 2] * scale[2]]);
+            return [at[0] + x, at[1] + y, at[2] + z];
+          });
+          const sum = (k) => (numbers[i + k] + numbers[i + k + 7] + numbers[i + k + 14] + numbers[i + k + 35]) / scale[k - 3];
+          const normal = unit(apply(turn, [sum(3), sum(4), sum(5)]));
+          const light = inner(normal, sun), [one, , two] = corners;
+          if (casts && light > 0) {
+            const flat = corners.map((c) => project(plus(c, sun, -inner(plus(c, floor.at, -1), up) / fall)));
+            const area = (flat[2][0] - flat[0][0]) * (flat[3][1] - flat[1][1]) - (flat[2][1] - flat[0][1]) * (flat[3][0] - flat[1][0]);
+            trace(shadow, area > 0 ? flat : flat.reverse());
+          }
+          const middle = [(one[0] + two[0]) / 2, (one[1] + two[1]) / 2, (one[2] + two[2]) / 2];
+          if (inner(normal, plus(eye, middle, -1)) <= 0) continue;
+          const bright = 0.62 + 0.12 * normal[2] + 0.36 * Math.max(light, 0);
+          found.push({ far: project(middle)[2], corners, style: css(numbers[i + 6] > 0.5 ? second : first, bright) });
+        }
+      }
+      return found.sort((a, b) => b.far - a.far);
+    };
+    const all = [...faces(parts, !!floor), ...faces(thrusts, false)];
+    pen.drawImage(ground(floor, view, colours), 0, 0);
+    [pen.fillStyle, pen.globalAlpha] = [css(colours.dark), 0.28];
+    pen.fill(shadow);
+    pen.globalAlpha = 1;
+    for (const { points, count } of traces) trail(pen, points.slice(0, count).map(project), css(colours.quiet), 1.5);
+    // Faces of one colour that follow each other are filled together, and a line around them hides the seams.
     pen.lineWidth = 0.7;
-    for (const [, corner, style] of all) {
-      pen.beginPath();
-      for (const [x, y] of corner.map(project)) pen.lineTo(x, y);
-      pen.closePath();
+    for (let i = 0; i < all.length; ) {
+      const path = new Path2D(), { style } = all[i];
+      for (; i < all.length && all[i].style === style; i++) trace(path, all[i].corners.map(project));
       pen.fillStyle = pen.strokeStyle = style;
-      pen.fill();
-      pen.stroke();
+      pen.fill(path);
+      pen.stroke(path);
     }
   };
+}
+
+function trace(path, corners) {
+  path.moveTo(corners[0][0], corners[0][1]);
+  // `closePath` takes longer with every face that the path has already.
+  for (const i of [1, 2, 3, 0]) path.lineTo(corners[i][0], corners[i][1]);
 }

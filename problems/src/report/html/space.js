@@ -16,9 +16,9 @@ function space(stage, run) {
   const buttons = html("div", { class: "views", role: "group", "aria-label": "Seen from" }, box);
   const seen = camera(run.space);
 
-  let render;
-  try { render = location.hash === "#painted" ? null : webgl(canvas); } catch (problem) { render = null; }
-  render ??= painted(canvas);
+  // `#webgl` and `#painted` behind the page's address choose how it is drawn.
+  const drawn = { "#webgl": webgl, "#painted": painted }[location.hash] || (accelerated() ? webgl : painted);
+  const render = drawn(canvas) || painted(canvas);
 
   let colours = {};
   const paint = () => {

@@ -73,10 +73,17 @@ const mapSize = 1024;
 // A light whose picture holds nothing.
 const beyond = [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 1];
 
+// Whether there is WebGL on a graphics card. A program in its place takes three times as long as painting.
+function accelerated() {
+  const gl = document.createElement("canvas").getContext("webgl2", { failIfMajorPerformanceCaveat: true });
+  if (!gl) return false;
+  const named = gl.getExtension("WEBGL_debug_renderer_info"), card = gl.getParameter(named ? named.UNMASKED_RENDERER_WEBGL : gl.RENDERER);
+  gl.getExtension("WEBGL_lose_context")?.loseContext();
+  return !/swiftshader|llvmpipe|softpipe|software|basic render/i.test(card);
+}
+
 function webgl(canvas) {
-  // A program that plays the part of a graphics card has no time for smooth edges; see `pace`.
-  const wanted = { alpha: false, antialias: true, failIfMajorPerformanceCaveat: true };
-  const gl = canvas.getContext("webgl2", wanted) || canvas.getContext("webgl2", { alpha: false, antialias: false });
+  const gl = canvas.getContext("webgl2", { alpha: false, antialias: true });
   if (!gl) return null;
   const program = (vertex, fragment) => {
     const made = gl.createProgram();

@@ -16,8 +16,10 @@ use order::Contents;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
-/// Of formulas with more to read than this, parts are left out.
-const LONGEST: usize = 120;
+/// A formula with no more to read than this is written whole.
+const WHOLE: usize = 900;
+/// Of a longer one so much is written, to show how it begins.
+const BEGINNING: usize = 120;
 
 /// base^exponent factors.
 type Factors = Vec<(ExprId, Rational)>;
@@ -56,7 +58,12 @@ impl<'a> Reader<'a> {
 
     /// An expression on paper; what would be very long is shortened.
     pub fn formula(&mut self, e: ExprId) -> Formula {
-        self.full(e).shortened(LONGEST)
+        let full = self.full(e);
+        if full.size() <= WHOLE {
+            full
+        } else {
+            full.shortened(BEGINNING)
+        }
     }
 
     fn full(&mut self, e: ExprId) -> Formula {
