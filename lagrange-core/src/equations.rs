@@ -42,6 +42,8 @@ pub struct ModeStructure {
     pub contacts: &'static [bool],
     /// How each friction acts.
     pub frictions: &'static [FrictionState],
+    /// The constraint that is left out, of those that would act.
+    pub left_out: Option<usize>,
     /// Number of constants.
     pub constants: usize,
     /// Coordinates that stand still, and where among the constants.

@@ -61,15 +61,25 @@ fn rows_by_node(nodes: usize, rows: &[(usize, usize)]) -> Vec<u32> {
 }
 
 impl<T: Scalar> Emitted<T> {
-    /// The equations of a mode, if they have been emitted. Without a constraint others hold.
+    /// The equations of a mode, if they have been emitted.
     pub(super) fn of(system: &dyn ErasedSystem<T>, effects: &Effects, mode: &Mode) -> Option<Self> {
         let d = system.description();
-        let other = |item| matches!(item, Item::Constraint(_));
-        if effects.left_out().any(other) {
+        let mut missing = effects.left_out().filter_map(|item| match item {
+            Item::Constraint(i) => {
+                let contact = d.constraints[i].while_contact;
+                contact
+                    .is_none_or(|contact| mode.contacts[contact])
+                    .then_some(i)
+            }
+            _ => None,
+        });
+        let left_out = missing.next();
+        if missing.next().is_some() {
             return None;
         }
         let structures = system.structures().iter().enumerate();
-        let mut matching = structures.filter(|(_, s)| s.contacts == mode.contacts);
+        let mut matching =
+            structures.filter(|(_, s)| s.contacts == mode.contacts && s.left_out == left_out);
         let (index, structure, signs) =
             matching.find_map(|(index, s)| Some((index, s, signs(s, mode)?)))?;
         let zero = T::default();

@@ -4,18 +4,24 @@
 use lagrange_core::prelude::*;
 use lagrange_problems::catalogue::scenes;
 use lagrange_problems::outcome::Outcome;
-use lagrange_problems::request::Request;
+use lagrange_problems::request::{Refusal, Request};
 
-/// Runs a scene for a short while.
-fn run(scene: &'static dyn lagrange_problems::catalogue::Scene, equations: Equations) -> Outcome {
-    let request = Request {
+/// Runs a scene for a short while, perhaps with a constraint left out.
+fn run(
+    scene: &'static dyn lagrange_problems::catalogue::Scene,
+    without: Option<&str>,
+    equations: Equations,
+) -> Result<Outcome, Refusal> {
+    scene.run(&Request {
         until: Some(scene.until().min(1.5)),
+        effects: without
+            .map(|item| (item.to_owned(), false))
+            .into_iter()
+            .collect(),
         equations,
         tolerance: 1e-11,
         ..Request::default()
-    };
-    let outcome = scene.run(&request);
-    outcome.unwrap_or_else(|refusal| panic!("{}: {refusal}", scene.name()))
+    })
 }
 
 /// Events in words with their times, and the state at the end.
@@ -26,40 +32,56 @@ fn story(outcome: &Outcome) -> (Vec<(String, f64)>, Vec<f64>) {
         let name = format!("{} {}", event.subject.name(d), event.kind.word());
         (name, event.time)
     });
-    let last = outcome.samples.last().expect("a run that begins");
-    let state = last.state.q.iter().chain(&last.state.v).copied();
-    (events.collect(), state.collect())
+    let last = outcome.samples.last();
+    let state = last.map_or(Vec::new(), |last| {
+        [&last.state.q[..], &last.state.v].concat()
+    });
+    (events.collect(), state)
+}
+
+/// Both ways find the same events, and end alike, or are refused for the same reason.
+fn compare(scene: &'static dyn lagrange_problems::catalogue::Scene, without: Option<&str>) {
+    let words = format!("{} without {without:?}", scene.name());
+    let run = |equations| run(scene, without, equations);
+    let (emitted, interpreted) = match (run(Equations::Emitted), run(Equations::Interpreted)) {
+        (Ok(emitted), Ok(interpreted)) => (emitted, interpreted),
+        (Err(one), Err(other)) => {
+            assert!(without.is_some(), "{words}: {one}");
+            assert_eq!(one.to_string(), other.to_string(), "{words}");
+            return;
+        }
+        (Err(refusal), _) | (_, Err(refusal)) => panic!("{words}: {refusal}"),
+    };
+    assert_eq!(
+        emitted.failure.as_ref().map(Error::to_string),
+        interpreted.failure.as_ref().map(Error::to_string),
+        "{words}"
+    );
+    assert!(emitted.failure.is_none() || without.is_some(), "{words}");
+    let ((events, end), (others, other_end)) = (story(&emitted), story(&interpreted));
+    assert_eq!(end.len(), other_end.len(), "{words}");
+    let names = |events: &[(String, f64)]| -> Vec<String> {
+        events.iter().map(|(name, _)| name.clone()).collect()
+    };
+    assert_eq!(names(&events), names(&others), "{words}");
+    for ((name, time), (_, other)) in events.iter().zip(&others) {
+        assert!(
+            (time - other).abs() < 1e-8,
+            "{words}, {name}: {time}, interpreted {other}"
+        );
+    }
+    for (x, y) in end.iter().zip(&other_end) {
+        let allowed = 1e-6 * x.abs().max(1.0);
+        assert!((x - y).abs() < allowed, "{words}: {x}, interpreted {y}");
+    }
 }
 
 #[test]
 fn interpreted_equations_give_the_same_events_and_the_same_end() {
-    let equations = Equations::Interpreted;
     for scene in scenes() {
-        let (events, end) = story(&run(scene, Equations::Emitted));
-        let (others, other_end) = story(&run(scene, equations));
-        let names = |events: &[(String, f64)]| -> Vec<String> {
-            events.iter().map(|(name, _)| name.clone()).collect()
-        };
-        assert_eq!(
-            names(&events),
-            names(&others),
-            "{}: {equations:?}",
-            scene.name()
-        );
-        for ((name, time), (_, other)) in events.iter().zip(&others) {
-            assert!(
-                (time - other).abs() < 1e-8,
-                "{}, {name}: {time}, {equations:?} {other}",
-                scene.name()
-            );
-        }
-        for (x, y) in end.iter().zip(&other_end) {
-            let allowed = 1e-6 * x.abs().max(1.0);
-            assert!(
-                (x - y).abs() < allowed,
-                "{}: {x}, {equations:?} {y}",
-                scene.name()
-            );
+        compare(scene, None);
+        for constraint in scene.system().description().constraints {
+            compare(scene, Some(constraint.name));
         }
     }
 }

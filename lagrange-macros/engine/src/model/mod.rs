@@ -341,7 +341,7 @@ pub struct Friction {
 }
 
 /// Source of the normal force.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Normal {
     /// Of contact i.
     Contact(usize),

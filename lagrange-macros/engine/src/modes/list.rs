@@ -25,15 +25,20 @@ pub fn all(system: &System) -> Modes<'_> {
 }
 
 /// The modes with equations of their own: the sign of a slip of one component is left to an argument, and a friction that
-/// could act may be left out. At most so many, and whether these are all.
+/// could act may be left out. At most so many, and whether these are all; if so, also as many with one constraint left out.
 pub fn structures(system: &System, most: usize) -> (Vec<Mode>, bool) {
     let one = [Stick, Slip(Fixed(Sign::Undecided)), Inactive];
     let two = [Stick, Slip(AlongSlip), Slip(Incipient), Inactive];
     let modes = Modes::of(system, &one, &two);
-    (
-        modes.iter().take(most).collect(),
-        modes.count() <= most as u128,
-    )
+    let complete = modes.count() <= most as u128;
+    let mut list: Vec<Mode> = modes.iter().take(most).collect();
+    if complete {
+        let without = |i| list.iter().filter_map(move |mode| mode.without(system, i));
+        let constraints = 0..system.constraints.len();
+        let fewer: Vec<Mode> = constraints.flat_map(without).take(most).collect();
+        list.extend(fewer);
+    }
+    (list, complete)
 }
 
 impl<'a> Modes<'a> {

@@ -22,6 +22,8 @@ pub struct Mode {
     pub frictions: Vec<FrictionState>,
     /// Per constraint: the sign of its multiplier λ, on which the normal force |λ| of a slipping friction depends.
     pub normal_signs: Vec<Sign>,
+    /// The constraint that a scene leaves out.
+    pub left_out: Option<usize>,
 }
 
 /// How a friction acts.
@@ -85,6 +87,7 @@ impl Mode {
             contacts: vec![false; system.contacts.len()],
             frictions: vec![FrictionState::Inactive; system.frictions.len()],
             normal_signs: vec![Sign::Undecided; system.constraints.len()],
+            left_out: None,
         }
     }
 
@@ -101,7 +104,7 @@ impl Mode {
     fn rows(&self, system: &System, counts: impl Fn(FrictionState) -> bool) -> Vec<usize> {
         let holds = |&i: &usize| {
             let contact = system.constraints[i].while_contact;
-            contact.is_none_or(|contact| self.contacts[contact])
+            contact.is_none_or(|contact| self.contacts[contact]) && self.left_out != Some(i)
         };
         let closed = (0..self.contacts.len()).filter(|&i| self.contacts[i]);
         let frictions = (0..self.frictions.len()).filter(|&f| counts(self.frictions[f]));
@@ -110,6 +113,19 @@ impl Mode {
             .chain(closed.map(|i| system.contact_row(i)))
             .chain(frictions.flat_map(|f| system.slip_rows(f)))
             .collect()
+    }
+
+    /// This mode without a constraint that acts in it; none where a friction has its normal force from this constraint.
+    fn without(&self, system: &System, constraint: usize) -> Option<Mode> {
+        let mut frictions = system.frictions.iter().zip(&self.frictions);
+        let carries = frictions.any(|(friction, &state)| {
+            friction.normal == Normal::Constraint(constraint) && state != FrictionState::Inactive
+        });
+        let acts = self.acting_rows(system).contains(&constraint);
+        (acts && !carries).then(|| Mode {
+            left_out: Some(constraint),
+            ..self.clone()
+        })
     }
 
     /// This mode with each sign of the multipliers from which slipping frictions have their normal force.

@@ -31,7 +31,11 @@ impl Mode {
         let frictions = frictions
             .filter(|(_, state)| **state != Inactive)
             .map(|(friction, state)| format!("{} {}", friction.name.text, state.verb()));
-        let words: Vec<String> = contacts.chain(frictions).collect();
+        let without = self.left_out.map(|i| {
+            let constraint = &system.constraints[i];
+            format!("without {}", constraint.name.text)
+        });
+        let words: Vec<String> = contacts.chain(frictions).chain(without).collect();
         match words.is_empty() {
             true => "smooth".to_owned(),
             false => words.join(", "),

@@ -93,10 +93,23 @@ fn all_modes_of_small_systems() {
     }
 }
 
-/// The sign of a slip is an argument; a friction that is left out leaves its contact closed without friction.
+/// The sign of a slip is an argument; a friction that is left out leaves its contact closed without friction. A constraint can be
+/// left out where it acts, with no friction on it.
 #[test]
 fn structures_of_small_systems() {
-    let table: [(&[&str], usize, &[&str], bool); 3] = [
+    let table: [(&[&str], usize, &[&str], bool); 4] = [
+        (
+            &[FLOOR, GUIDE, SLEEVE],
+            16,
+            &[
+                "floor open",
+                "floor closed, sleeve sticks",
+                "floor closed, sleeve slips",
+                "floor closed",
+                "floor closed, without guide",
+            ],
+            true,
+        ),
         (
             &[FLOOR, RUB],
             16,

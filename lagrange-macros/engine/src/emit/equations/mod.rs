@@ -97,6 +97,10 @@ fn structure(program: &Program, mode: &ModeProgram, plan: &products::Plan) -> To
         FrictionState::Stick => quote!(Stick),
         FrictionState::Slip(_) => quote!(Slip),
     });
+    let left_out = match mode.mode.left_out.map(index) {
+        Some(constraint) => quote!(Some(#constraint)),
+        None => quote!(None),
+    };
     let system = &program.equations.system;
     let pins = mode.pins.iter().map(|&(j, place)| {
         let (j, place) = (index(j), names::place(system, place));
@@ -122,6 +126,7 @@ fn structure(program: &Program, mode: &ModeProgram, plan: &products::Plan) -> To
         #core::equations::ModeStructure {
             contacts: &[#(#contacts),*],
             frictions: &[#(#core::equations::FrictionState::#frictions),*],
+            left_out: #left_out,
             constants: #count,
             pins: &[#(#pins),*],
             rows: #rows,
