@@ -218,7 +218,7 @@ impl<T: Scalar> Run<T> {
         let (remaining, uncertain) = self.switcher.impacts[c].book(self.now.t)?;
         let certain = uncertain <= self.settings.tolerance * self.now.t.value().abs().max(1.0)
             || remaining.value() <= RESOLUTION * self.now.t.value().abs();
-        if !(certain && (self.is_over(remaining.value()) || self.is_lost_in_rounding(c))) {
+        if !(certain && self.is_over(remaining.value()) || self.is_lost_in_rounding(c)) {
             return None;
         }
         // Contacts that take part in the same cycle close with it.

@@ -2,6 +2,7 @@
 
 mod aligned;
 mod at_limit;
+mod backlash;
 mod ball;
 mod belt;
 mod bending_guards;
