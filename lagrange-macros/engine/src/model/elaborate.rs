@@ -21,6 +21,8 @@ pub(super) struct Elaboration<'a> {
     pub handles: BTreeMap<String, String>,
     /// Bound indices, innermost last.
     pub indices: Vec<(String, i64)>,
+    /// What `slip` stands for: the slip of the friction whose coefficients are read.
+    pub slip: Option<Value>,
     /// Kind of each symbol, by its index.
     pub depths: Vec<Depth>,
     /// q → v, v → v̇, t → 1.
@@ -151,6 +153,7 @@ impl<'a> Elaboration<'a> {
             names: Names::new(),
             handles: BTreeMap::new(),
             indices: Vec::new(),
+            slip: None,
             depths: vec![Depth::Parameter; time.index() + 1],
             directions: vec![(time, one)],
             rates: None,
@@ -202,6 +205,7 @@ impl<'a> Elaboration<'a> {
             names: scope.names,
             handles: BTreeMap::new(),
             indices: Vec::new(),
+            slip: None,
             depths: scope.depths,
             directions: scope.directions,
             rates: None,
@@ -315,8 +319,8 @@ impl<'a> Elaboration<'a> {
             context,
         } = self.definitions[definition].clone();
         self.settle(&head.name.text, Meaning::Busy);
-        // A definition does not see the indices of where it is used.
-        let indices = std::mem::take(&mut self.indices);
+        // A definition does not see the indices and the slip of where it is used.
+        let (indices, slip) = (std::mem::take(&mut self.indices), self.slip.take());
         let found = match &head.index {
             None => self.value(&value, context).map(|value| (value, 0)),
             Some(index) => self.range(index).and_then(|(from, to)| {
@@ -326,7 +330,7 @@ impl<'a> Elaboration<'a> {
                 elements.map(|elements| (Value::List(elements), from))
             }),
         };
-        self.indices = indices;
+        (self.indices, self.slip) = (indices, slip);
         self.dropped |= found.is_none();
         self.check_overflow(head.name.span());
         let meaning = match found {

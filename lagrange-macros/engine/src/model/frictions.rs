@@ -22,7 +22,13 @@ impl Elaboration<'_> {
                 .as_ref()
                 .map(|on| this.item(on, &[Kind::Contact, Kind::Constraint]));
             let slip = this.slip(&declared.slip, &name.text);
-            let (given, at_rest, sliding) = this.law(&declared.law)?;
+            this.slip = slip.as_deref().map(|components| match components {
+                &[(slip, _)] => Value::Scalar(slip),
+                two => Value::List(two.iter().map(|&(e, _)| Value::Scalar(e)).collect()),
+            });
+            let law = this.law(&declared.law);
+            this.slip = None;
+            let (given, at_rest, sliding) = law?;
             this.sensible(&declared.law, at_rest, sliding)?;
             let normal = match (on, given) {
                 (Some(on), _) => match on? {

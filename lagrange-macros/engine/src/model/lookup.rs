@@ -19,6 +19,7 @@ impl Elaboration<'_> {
                 return Some(Value::Scalar(self.system.pool.leaf(time)));
             }
             "energy" => return self.energy(name, context).map(Value::Scalar),
+            "slip" if self.slip.is_some() => return self.slip.clone(),
             _ => {}
         }
         if let Some(&(_, index)) = self.indices.iter().rev().find(|(known, _)| known == text) {

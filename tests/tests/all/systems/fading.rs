@@ -28,7 +28,7 @@ const FIXED: f64 = 1e-9;
     kinetic = mass/2 * (der(x)^2 + der(y)^2) + mass * radius^2 / 4 * der(phi)^2,
     potential = mass * gravity * y,
     contact(floor: y >= radius),
-    friction(film on floor: slip = foot, static = 0, kinetic = wet * sqrt(foot^2)),
+    friction(film on floor: slip = foot, static = 0, kinetic = wet * sqrt(slip^2)),
     start(thrown: y = radius, der(x) = speed),
 )]
 struct Disc {
@@ -160,7 +160,7 @@ fn a_slip_that_creeps() {
     kinetic = (der(x[0])^2 + der(x[1])^2 + der(x[2])^2) / 2,
     potential = stiffness/2 * (x[0]^2 + x[1]^2) + gravity * x[2],
     contact(table: x[2] >= 0),
-    friction(film on table: slip = (der(x[0]), der(x[1])), static = 0, kinetic = wet * norm([der(x[0]), der(x[1])])),
+    friction(film on table: slip = (der(x[0]), der(x[1])), static = 0, kinetic = wet * norm(slip)),
 )]
 struct Puck {
     stiffness: f64,

@@ -70,7 +70,11 @@ impl Checker<'_, '_> {
                 self.equal(&speed, &slip, "a slip", &friction.slip)?;
             }
         }
-        self.friction_law(&friction.law, forces.first()?)
+        let slip = self.slips.get(&element).cloned();
+        self.names.insert("slip".to_owned(), slip);
+        let law = self.friction_law(&friction.law, forces.first()?);
+        self.names.remove("slip");
+        law
     }
 
     /// The forces along the components of a slip have one unit.
