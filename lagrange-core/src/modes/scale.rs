@@ -60,6 +60,11 @@ impl Sizes {
         }
     }
 
+    /// Size of the accelerations along a row.
+    pub fn acceleration<T: Scalar>(&self, row: usize, dynamics: &Dynamics<T>) -> f64 {
+        self.row(row, dynamics).acceleration
+    }
+
     fn row<T: Scalar>(&self, row: usize, dynamics: &Dynamics<T>) -> Row {
         let jacobian = dynamics.description().rows[row].jacobian.iter();
         let compliance: f64 = jacobian

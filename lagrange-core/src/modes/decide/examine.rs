@@ -3,13 +3,14 @@
 use super::questions::{concerns, leading, list_questions, unit_of_order};
 use super::{Decider, EvaluationPoint, SwitchContext};
 use crate::arithmetic::Scalar;
-use crate::dynamics::{Dynamics, EvaluationError};
+use crate::dynamics::{Dynamics, EvaluationError, OutputMask};
 use crate::integrate::{Tolerance, taylor};
-use crate::mode::Mode;
+use crate::mode::{FrictionMode, Mode};
 use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
 use crate::modes::redundant::{self, CompositeGuard};
 use crate::modes::table::Table;
+use crate::system::ValueRef;
 
 /// Order of the series that are looked at first. Leading coefficients beyond it vanish rarely.
 const LOW_ORDER: usize = 4;
@@ -22,6 +23,9 @@ const AHEAD: f64 = 1e-2;
 
 /// So many composite guards at most begin at their border.
 const MOST_JOINTS: usize = 20;
+
+/// A row that acts and whose rate grows beyond this share of what it is made of, over a step, does not follow from the others.
+const APART: f64 = 1e-6;
 
 /// What a guard does just after the instant, with the number of leading coefficients that vanish.
 enum Leading {
@@ -90,8 +94,14 @@ impl<T: Scalar> Decider<T> {
         }
         self.share(dynamics);
         self.ask_values(dynamics, here);
-        if !self.violated.is_empty() || self.questions.is_empty() {
-            return Ok(self.violated.is_empty());
+        if !self.violated.is_empty() {
+            return Ok(false);
+        }
+        if dynamics.has_rows_aside() && self.comes_apart(dynamics, &watched.deciding, here)? {
+            return Ok(false);
+        }
+        if self.questions.is_empty() {
+            return Ok(true);
         }
         let settled = self.zeros.len();
         for order in [LOW_ORDER.min(moment.order), moment.order] {
@@ -103,6 +113,55 @@ impl<T: Scalar> Decider<T> {
             }
         }
         Ok(true)
+    }
+
+    /// Whether rows that depend on others at the instant do so at the instant only, and a friction that sticks is one of them: a slider in
+    /// its dead centre, which is at rest however the crank turns. No force keeps it there; the frictions that would have to are blamed.
+    fn comes_apart(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        needs: &OutputMask,
+        here: SwitchContext<'_, T>,
+    ) -> Result<bool, EvaluationError> {
+        let d = dynamics.description();
+        let moment = here.moment;
+        let frictions = self.posed.frictions.iter().enumerate();
+        let sticking = frictions.filter(|(_, friction)| **friction == FrictionMode::Stick);
+        let sticking: Vec<usize> = sticking.map(|(f, _)| f).collect();
+        if sticking.is_empty() {
+            return Ok(false);
+        }
+        dynamics.set_extra_needs(&guard::all_row_needs(d, needs));
+        dynamics.series(moment.t, moment.q, moment.v, moment.order)?;
+        self.decision.expanded = false;
+        let allowed = Tolerance::both(moment.tolerance);
+        let step = taylor::step_size(dynamics, moment.order, allowed);
+        let h = step.filter(|h| h.is_finite()).unwrap_or(1.0);
+        let largest = |series: &[T]| {
+            let powers = core::iter::successors(Some(1.0), |power| Some(power * h));
+            let terms = series.iter().zip(powers);
+            terms.fold(0.0_f64, |largest, (c, power)| {
+                largest.max(c.value().abs() * power)
+            })
+        };
+        let reading = Reading::Series(dynamics);
+        let size = |place: ValueRef| largest(reading.motion(place).as_slice());
+        let apart = dynamics.acting_rows().iter().any(|&index| {
+            let row = &d.rows[index];
+            let speeds = row.jacobian.iter();
+            let speeds =
+                speeds.map(|&(j, place)| size(place) * largest(dynamics.velocity_series(j)));
+            let whole = speeds.sum::<f64>() + self.sizes.acceleration(index, dynamics) * h;
+            size(row.velocity) > APART * whole
+        });
+        if apart {
+            let guard = |&f: &usize| match d.frictions[f].components {
+                1 => Guard::StickUpper(f),
+                _ => Guard::StickCone(f),
+            };
+            self.violated.extend(sticking.iter().map(guard));
+        }
+        Ok(apart)
     }
 
     /// Puts composite guards in the place of those of undetermined forces.

@@ -60,3 +60,54 @@ fn passages_of_dead_points_keep_the_tolerance() {
         }
     }
 }
+
+/// A crank turns a yoke that rubs on its guide.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(theta, x),
+    kinetic = inertia/2 * der(theta)^2 + mass/2 * der(x)^2,
+    constraint(slot: x == crank * cos(theta)),
+    friction(rub: slip = der(x), limit = dry),
+    force(motor: theta = torque),
+    start(dead: x = crank),
+)]
+struct Yoke {
+    inertia: f64,
+    mass: f64,
+    crank: f64,
+    dry: f64,
+    torque: f64,
+}
+
+/// In its dead centre the yoke is at rest whether it sticks or not, and no friction holds the crank. What the motor does is kinetic energy
+/// and friction over the way of the yoke.
+#[test]
+fn what_rubs_does_not_stick_in_its_dead_centre() {
+    let yoke = Yoke {
+        inertia: 0.3,
+        mass: 2.0,
+        crank: 0.5,
+        dry: 1.5,
+        torque: 2.0,
+    };
+    for (method, tolerance) in [
+        ("taylor", 1e-12),
+        ("taylor", 1e-6),
+        ("dop853", 1e-9),
+        ("radau5", 1e-9),
+    ] {
+        let run = run_by(&yoke, (method, tolerance), yoke.at(Yoke::DEAD), 1.0);
+        let end = run.final_state();
+        let (theta, rate) = (end.q(Yoke::THETA), end.v(Yoke::THETA));
+        assert!(theta > 1.5 && theta < PI, "{theta}");
+        let inertia = yoke.inertia + yoke.mass * (yoke.crank * theta.sin()).powi(2);
+        let way = yoke.crank * (1.0 - theta.cos());
+        let work = yoke.torque * theta - yoke.dry * way;
+        agree(
+            method,
+            0.5 * inertia * rate * rate / work,
+            1.0,
+            10.0 * tolerance,
+        );
+    }
+}
