@@ -26,7 +26,7 @@ pub(crate) fn pictures(declaration: &'static Declaration, outcome: &Outcome) -> 
     if draws.is_empty() {
         return Pictures::default();
     }
-    let mut instant = Instant::new(declaration, outcome.parameters.clone());
+    let mut instant = Instant::new(declaration, &outcome.parameters);
     let samples = outcome.samples.iter();
     let places = draws.iter().flat_map(|draw| draw.places);
     match places.map(|place| place.len()).max() {
@@ -61,15 +61,13 @@ fn takes_part(draw: &Draw, outcome: &Outcome) -> bool {
 struct Instant {
     declaration: &'static Declaration,
     evaluator: Evaluator,
-    parameters: Vec<f64>,
 }
 
 impl Instant {
-    fn new(declaration: &'static Declaration, parameters: Vec<f64>) -> Self {
+    fn new(declaration: &'static Declaration, parameters: &[f64]) -> Self {
         Self {
             declaration,
-            evaluator: Evaluator::with_pictures(declaration),
-            parameters,
+            evaluator: Evaluator::of_everything(declaration, parameters),
         }
     }
 
@@ -78,7 +76,6 @@ impl Instant {
         let mut loads = vec![0.0; self.declaration.forces.len()];
         let mut evaluate = |loads: &[f64]| {
             self.evaluator.evaluate(Inputs {
-                parameters: &self.parameters,
                 time: sample.time,
                 q: &sample.state.q,
                 v: &sample.state.v,

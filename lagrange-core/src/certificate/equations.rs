@@ -1,6 +1,6 @@
 //! The declared equations at a state: what balances in every coordinate, and how large its terms are.
 
-use crate::declaration::{Declaration, Evaluator, Inputs, Seed, Worked};
+use crate::declaration::{Declaration, Evaluator, Gradient, Inputs, Seed, Worked};
 use crate::effects::{Effects, Item};
 use crate::integrate::least_size;
 use crate::mode::{FrictionMode, Mode};
@@ -13,10 +13,12 @@ pub(super) struct Equations {
     pub d: &'static Description,
     pub declaration: &'static Declaration,
     pub effects: Effects,
-    pub parameters: Vec<f64>,
     /// Per coordinate: the size below which its errors are absolute; empty: 1 for all.
     pub sizes: Vec<f64>,
+    /// Constraints, contacts and frictions.
     pub values: Evaluator,
+    /// Everything that balances.
+    balancing: Evaluator,
     /// Per coordinate: what should vanish.
     pub residual: Vec<f64>,
     /// Per coordinate: the sum of the absolute values of its terms.
@@ -27,10 +29,13 @@ pub(super) struct Equations {
     pub exact: f64,
     /// Per coordinate: accelerations that forces of its size would make, where that has been measured.
     pub swiftness: Vec<f64>,
-    seeds: [Vec<Seed>; 2],
-    gradient: [Vec<f64>; 3],
+    /// Per row: the value whose rate its force acts along, and its level.
+    rows: Vec<(usize, Level)>,
+    seeds: Vec<Seed>,
+    /// What the last sweep has found.
+    pub gradients: Vec<Gradient>,
+    sizes_along: Vec<[f64; 3]>,
     zeros: Vec<f64>,
-    loads: Vec<f64>,
 }
 
 /// A state and what acts in it.
@@ -56,33 +61,129 @@ pub(super) enum Level {
     Velocity,
 }
 
+/// Change of a value with these derivatives; see [`Equations::reach`].
+pub(super) fn change(derivatives: &[[f64; 3]], sizes: &[f64], [q, v]: [&[f64]; 2]) -> f64 {
+    let terms = derivatives.iter().enumerate();
+    let terms = terms.map(|(i, [by_position, by_velocity, _])| {
+        let least = least_size(sizes, i).max(1.0);
+        by_position * (least + q[i].abs()) + by_velocity * (least + v[i].abs())
+    });
+    terms.sum()
+}
+
+impl Situation<'_> {
+    /// The same for an evaluator, with zeros for what is not known.
+    pub fn inputs<'b>(&'b self, zeros: &'b [f64]) -> Inputs<'b> {
+        let or = |given: &'b [f64]| if given.is_empty() { zeros } else { given };
+        Inputs {
+            time: self.time,
+            q: self.q,
+            v: self.v,
+            acceleration: or(self.acceleration),
+            forces: or(self.forces),
+            loads: or(self.loads),
+        }
+    }
+}
+
+/// A generalized force along ∂value/∂q, of velocity level ∂value/∂v.
+fn along(value: usize, level: Level, force: f64) -> Seed {
+    Seed {
+        value,
+        variation: match level {
+            Level::Position => [force, 0.0],
+            Level::Velocity => [0.0, -force],
+        },
+        gradient: 0.0,
+    }
+}
+
+/// Level of constraint `i`.
+fn level(d: &Description, i: usize) -> Level {
+    match d.rows[d.constraints[i].row].position {
+        Some(_) => Level::Position,
+        None => Level::Velocity,
+    }
+}
+
+/// The value whose rate the force of a row acts along, and its level.
+fn source(d: &Description, declaration: &Declaration, row: usize) -> (usize, Level) {
+    if let Some(i) = d.constraints.iter().position(|c| c.row == row) {
+        return (declaration.constraints[i], level(d, i));
+    }
+    if let Some(c) = d.contacts.iter().position(|c| c.row == row) {
+        return (declaration.contacts[c].gap, Level::Position);
+    }
+    let on = |f: &crate::system::Friction| (f.row..f.row + f.components).contains(&row);
+    let f = d.frictions.iter().position(on).unwrap_or(0);
+    let slip = declaration.frictions[f].slip;
+    (slip[row - d.frictions[f].row], Level::Velocity)
+}
+
+/// Values of all that balances.
+fn balancing(d: &Declaration) -> Vec<usize> {
+    let mut values = [d.kinetic, d.potential, d.constraints, d.dissipations].concat();
+    values.extend(d.contacts.iter().map(|contact| contact.gap));
+    values.extend(d.frictions.iter().flat_map(|friction| friction.slip));
+    for &(value, worked) in d.forces.iter().flat_map(|force| force.components) {
+        values.push(value);
+        if let Worked::Point(p) | Worked::Speed(p) = worked {
+            values.push(p);
+        }
+    }
+    values
+}
+
+/// Values of constraints, contacts and frictions.
+fn surfaces(d: &Declaration) -> Vec<usize> {
+    let mut values = d.constraints.to_vec();
+    for contact in d.contacts {
+        values.extend([contact.gap, contact.restitution]);
+        values.extend(
+            [contact.normal_factor, contact.region]
+                .into_iter()
+                .flatten(),
+        );
+    }
+    for friction in d.frictions {
+        values.extend([friction.static_coefficient, friction.kinetic_coefficient]);
+        values.extend(friction.slip);
+        values.extend(friction.normal);
+    }
+    values
+}
+
 impl Equations {
     pub fn new(
         d: &'static Description,
         declaration: &'static Declaration,
         effects: &Effects,
-        parameters: Vec<f64>,
+        parameters: &[f64],
         sizes: Vec<f64>,
         exact: f64,
     ) -> Self {
         let n = d.coordinates.len();
         let zero = || vec![0.0; n];
+        let least = [n, d.rows.len(), d.forces.len()].into_iter().max();
         Self {
             d,
             declaration,
             effects: effects.clone(),
-            parameters,
             sizes,
-            values: Evaluator::new(declaration),
+            values: Evaluator::new(declaration, parameters, surfaces(declaration)),
+            balancing: Evaluator::new(declaration, parameters, balancing(declaration)),
             residual: zero(),
             size: zero(),
             largest: zero(),
             exact,
             swiftness: zero(),
-            seeds: [Vec::new(), Vec::new()],
-            gradient: [zero(), zero(), zero()],
-            zeros: vec![0.0; n.max(d.rows.len())],
-            loads: vec![0.0; d.forces.len()],
+            rows: (0..d.rows.len())
+                .map(|row| source(d, declaration, row))
+                .collect(),
+            seeds: Vec::new(),
+            gradients: vec![Gradient::default(); n],
+            sizes_along: vec![[0.0; 3]; n],
+            zeros: vec![0.0; least.unwrap_or(n)],
         }
     }
 
@@ -92,39 +193,21 @@ impl Equations {
 
     /// Level of constraint `i`.
     pub fn level(&self, i: usize) -> Level {
-        match self.d.rows[self.d.constraints[i].row].position {
-            Some(_) => Level::Position,
-            None => Level::Velocity,
-        }
+        level(self.d, i)
     }
 
-    /// Takes a state.
+    /// Constraints, contacts and frictions of a state.
     pub fn take(&mut self, at: Situation<'_>) {
-        let (n, m) = (self.d.coordinates.len(), self.d.rows.len());
-        let zeros = &self.zeros;
-        fn or<'a>(given: &'a [f64], zeros: &'a [f64]) -> &'a [f64] {
-            if given.is_empty() { zeros } else { given }
-        }
-        self.values.evaluate(Inputs {
-            parameters: &self.parameters,
-            time: at.time,
-            q: at.q,
-            v: at.v,
-            acceleration: or(at.acceleration, &zeros[..n]),
-            forces: or(at.forces, &zeros[..m]),
-            loads: or(at.loads, &self.loads),
-        });
+        self.values.evaluate(at.inputs(&self.zeros));
     }
 
-    /// d/dt ∂L/∂v − ∂L/∂q − Q − Σ λ∇g at the state taken, with the forces `lambda` of all rows.
-    pub fn balance(&mut self, lambda: &[f64]) {
-        self.begin();
-        // Each energy once as it changes with v, and twice as it changes with q: see `crate::declaration`.
-        self.seed_energies(1, 1.0);
-        self.seed_energies(0, -2.0);
-        self.seed_rows(lambda);
-        let (d, values) = (self.declaration, &self.values);
-        let [still, moving] = &mut self.seeds;
+    /// d/dt ∂L/∂v − ∂L/∂q − Q − Σ λ∇g at a state.
+    pub fn balance(&mut self, at: Situation<'_>) {
+        self.balancing.evaluate(at.inputs(&self.zeros));
+        self.residual.fill(0.0);
+        self.size.fill(0.0);
+        self.seed(1.0, at.forces);
+        let (d, values) = (self.declaration, &self.balancing);
         for (i, force) in d.forces.iter().enumerate() {
             if !self.effects.includes(self.d, Item::Force(i)) {
                 continue;
@@ -136,60 +219,71 @@ impl Equations {
                         self.residual[j] -= f;
                         self.size[j] += f.abs();
                     }
-                    Worked::Point(p) => still.push((p, 0, -f)),
-                    Worked::Speed(s) => moving.push((s, 0, -f)),
+                    Worked::Point(p) => self.seeds.push(along(p, Level::Position, f)),
+                    Worked::Speed(s) => self.seeds.push(along(s, Level::Velocity, f)),
                 }
             }
         }
         for (i, &r) in d.dissipations.iter().enumerate() {
             if self.effects.includes(self.d, Item::Dissipation(i)) {
-                moving.push((r, 0, 1.0));
+                self.seeds.push(along(r, Level::Velocity, -1.0));
             }
         }
-        self.sweep();
-    }
-
-    /// [`Self::balance`] at a state, which is taken. Where something is beyond rounding at first sight, with all its sizes.
-    pub fn balance_at(&mut self, at: Situation<'_>, mode: &Mode) {
-        self.take(at);
-        self.balance(at.forces);
-        self.swiftness.fill(0.0);
-        let beyond = |(error, size): (&f64, &f64)| error.abs() > self.exact * size;
-        if self.residual.iter().zip(&self.size).any(beyond) {
-            self.balance_with_sizes(at, mode);
+        self.balancing.sweep(&self.seeds, &mut self.gradients);
+        let sums = self.residual.iter_mut().zip(&mut self.size);
+        for ((residual, size), gradient) in sums.zip(&self.gradients) {
+            *residual -= gradient.variation.sum;
+            *size += gradient.variation.size;
         }
     }
 
-    /// [`Self::balance`] at a state, which is taken, its sizes with everything that rounding errors are relative to: how much it changes
-    /// when each position and velocity x changes by 1 + |x| (two large forces that cancel in a spring near its rest length), and
-    /// what the forces of rows bring from one equation into another.
-    fn balance_with_sizes(&mut self, at: Situation<'_>, mode: &Mode) {
+    /// Whether what balances at the last state is beyond rounding at first sight.
+    pub fn is_beyond(&self) -> bool {
+        let mut pairs = self.residual.iter().zip(&self.size);
+        pairs.any(|(error, size)| error.abs() > self.exact * size)
+    }
+
+    /// [`Self::balance`] at a state, its sizes with everything that rounding errors are relative to: how much it changes
+    /// when each position and velocity x changes by 1 + |x| (two large forces that cancel in a spring near its rest length) and
+    /// each acceleration by its size, and what the forces of rows bring from one equation into another.
+    pub fn balance_with_sizes(&mut self, at: Situation<'_>, mode: &Mode) {
         /// Changes of the state, whose rounding errors do not matter and which are small enough to be linear.
         const CHANGE: f64 = 1.0 / 1_048_576.0;
-        let changed = |x: &[f64]| -> Vec<f64> {
+        let changed = |x: &[f64], least: f64| -> Vec<f64> {
             let signs = [1.0, -1.0, 1.0, 1.0, -1.0].into_iter().cycle();
             let signed = x.iter().zip(signs);
             signed
-                .map(|(x, s)| x + s * CHANGE * (1.0 + x.abs()))
+                .map(|(x, s)| x + s * CHANGE * (least + x.abs()))
                 .collect()
         };
-        let (q, v) = (changed(at.q), changed(at.v));
-        self.take(Situation { q: &q, v: &v, ..at });
-        self.balance(at.forces);
-        let beside = self.residual.clone();
+        let (q, v) = (changed(at.q, 1.0), changed(at.v, 1.0));
+        // Accelerations are rounded beside their own size: huge ones that cancel where the inertia nearly vanishes.
+        let acceleration = changed(at.acceleration, 0.0);
+        let states = [
+            Situation { q: &q, v: &v, ..at },
+            Situation {
+                acceleration: &acceleration,
+                ..at
+            },
+        ];
+        let beside = states.map(|state| {
+            self.balance(state);
+            self.residual.clone()
+        });
         self.take(at);
-        self.balance(at.forces);
-        for ((size, there), here) in self.size.iter_mut().zip(beside).zip(&self.residual) {
-            *size += (there - here).abs() / CHANGE;
+        self.balance(at);
+        for beside in beside {
+            for ((size, there), here) in self.size.iter_mut().zip(beside).zip(&self.residual) {
+                *size += (there - here).abs() / CHANGE;
+            }
         }
         let mut brought = vec![0.0; self.size.len()];
         for row in 0..self.d.rows.len() {
             if self.acts(row, mode) {
                 let (value, level) = self.row(row);
                 let (along, square) = self.along(value, level, &self.size.clone());
-                for (brought, g) in brought.iter_mut().zip(&self.gradient[0]) {
-                    *brought += g * along / square.max(f64::MIN_POSITIVE);
-                }
+                let force = along / square.max(f64::MIN_POSITIVE);
+                self.bring(level, force, &mut brought);
             }
         }
         for f in 0..self.d.frictions.len() {
@@ -199,6 +293,13 @@ impl Equations {
         }
         for (size, brought) in self.size.iter_mut().zip(brought) {
             *size += brought;
+        }
+    }
+
+    /// Adds a force along the value that was looked at last.
+    fn bring(&self, level: Level, force: f64, brought: &mut [f64]) {
+        for (brought, sizes) in brought.iter_mut().zip(&self.sizes_along) {
+            *brought += sizes[level as usize] * force;
         }
     }
 
@@ -218,30 +319,28 @@ impl Equations {
         let force = coefficient * along / square.max(f64::MIN_POSITIVE);
         for &slip in friction.slip {
             self.along(slip, Level::Velocity, &sizes);
-            for (brought, g) in brought.iter_mut().zip(&self.gradient[0]) {
-                *brought += g * force;
-            }
+            self.bring(Level::Velocity, force, brought);
         }
     }
 
-    /// Momenta at velocities that are larger by 1, all of one sign, added to the sizes: what rounding errors of velocities
-    /// that cancel are relative to.
-    pub fn add_momentum_sizes(&mut self, time: f64, state: &State<f64>) {
+    /// Momenta at velocities that are larger by 1, all of one sign, as sizes: what rounding errors of velocities that cancel are
+    /// relative to.
+    pub fn momentum_sizes(&mut self, time: f64, state: &State<f64>) -> Vec<f64> {
         let v: Vec<f64> = state.v.iter().map(|v| 1.0 + v.abs()).collect();
-        self.take(Situation {
-            time,
-            q: &state.q,
-            v: &v,
-            acceleration: &[],
-            forces: &[],
-            loads: &[],
-        });
-        let residual = self.residual.clone();
-        self.add_momenta(1.0);
-        self.residual = residual;
+        let raised = State::new(state.q.clone(), v);
+        self.momenta(time, &raised, &[]);
+        self.gradients.iter().map(|g| g.velocity.size).collect()
     }
 
-    /// T or V at the state taken.
+    /// Finds ∂L/∂v and Σ λ∇g at a state: `velocity` and `variation` of [`Self::gradients`].
+    pub fn momenta(&mut self, time: f64, state: &State<f64>, impulses: &[f64]) {
+        let at = super::motion::situation(time, state);
+        self.balancing.evaluate(at.inputs(&self.zeros));
+        self.seed(0.0, impulses);
+        self.balancing.sweep(&self.seeds, &mut self.gradients);
+    }
+
+    /// T or V at the last balance.
     pub fn energy(&self, potential: bool) -> f64 {
         let (values, item): (_, fn(usize) -> Item) = match potential {
             false => (self.declaration.kinetic, Item::Kinetic),
@@ -251,138 +350,99 @@ impl Equations {
             .iter()
             .enumerate()
             .filter(|(i, _)| self.includes(item(*i)));
-        taking.map(|(_, value)| self.values.value(*value)).sum()
+        taking.map(|(_, value)| self.balancing.value(*value)).sum()
     }
 
-    /// v·∂L/∂v − L at the state taken, and the size of its terms.
-    pub fn jacobi(&mut self, at: Situation<'_>) -> (f64, f64) {
-        self.begin();
-        self.add_momenta(1.0);
+    /// v·∂L/∂v − L at the last balance, and the size of its terms.
+    pub fn jacobi(&self, at: Situation<'_>) -> (f64, f64) {
         let (mut sum, mut size) = (0.0, 0.0);
-        for ((p, s), v) in self.residual.iter().zip(&self.size).zip(at.v) {
-            sum += p * v;
-            size += s * (1.0 + v.abs());
+        for (i, gradient) in self.gradients.iter().enumerate() {
+            let least = least_size(&self.sizes, i).max(1.0);
+            let (position, p) = (gradient.position.size, gradient.velocity);
+            sum += p.sum * at.v[i];
+            size += p.size * (1.0 + at.v[i].abs());
+            size += position * (least + at.q[i].abs()) + p.size * (least + at.v[i].abs());
         }
-        let kinetic = self.declaration.kinetic.iter().enumerate();
-        let kinetic = kinetic.map(|(i, value)| (Item::Kinetic(i), *value, -1.0));
-        let potential = self.declaration.potential.iter().enumerate();
-        let potential = potential.map(|(i, value)| (Item::Potential(i), *value, 1.0));
-        for (item, value, sign) in kinetic.chain(potential) {
-            if self.includes(item) {
-                sum += sign * self.values.value(value);
-                size += self.values.value(value).abs() + self.reach(value, 0, at);
-            }
+        for (value, sign) in self.energies() {
+            sum -= sign * self.balancing.value(value);
+            size += self.balancing.value(value).abs();
         }
         (sum, size)
     }
 
-    /// ±∂L/∂v at the state taken, added to what balances since [`Self::begin`].
-    pub fn add_momenta(&mut self, factor: f64) {
-        self.seeds.iter_mut().for_each(Vec::clear);
-        self.seed_energies_at(1, 0, factor);
-        self.sweep();
+    /// Energies of velocities as large that do not cancel: what huge velocities are rounded beside.
+    pub fn energy_of_each(&mut self, at: Situation<'_>) -> f64 {
+        let signs = [[1.0, 1.0], [1.0, -1.0]];
+        let sizes = signs.map(|signs| {
+            let pairs = at.v.iter().zip(signs.into_iter().cycle());
+            let v: Vec<f64> = pairs.map(|(v, sign)| sign * v.abs()).collect();
+            let turned = Situation { v: &v, ..at };
+            self.balancing.evaluate(turned.inputs(&self.zeros));
+            let energies = self.energies();
+            energies
+                .map(|(value, _)| self.balancing.value(value).abs())
+                .sum::<f64>()
+        });
+        sizes[0].max(sizes[1])
     }
 
-    /// − Σ λ∇g at the state taken, added to what balances.
-    pub fn add_impulses(&mut self, impulses: &[f64]) {
-        self.seeds.iter_mut().for_each(Vec::clear);
-        self.seed_rows(impulses);
-        self.sweep();
+    /// The terms of L that take part, with their signs.
+    fn energies(&self) -> impl Iterator<Item = (usize, f64)> {
+        let kinetic = self.declaration.kinetic.iter().enumerate();
+        let kinetic = kinetic.map(|(i, value)| (Item::Kinetic(i), *value, 1.0));
+        let potential = self.declaration.potential.iter().enumerate();
+        let potential = potential.map(|(i, value)| (Item::Potential(i), *value, -1.0));
+        let all = kinetic.chain(potential);
+        all.filter_map(|(item, value, sign)| self.includes(item).then_some((value, sign)))
     }
 
-    pub fn begin(&mut self) {
-        self.residual.fill(0.0);
-        self.size.fill(0.0);
-        self.seeds.iter_mut().for_each(Vec::clear);
-    }
-
-    fn seed_energies(&mut self, power: usize, factor: f64) {
-        self.seed_energies_at(power, power, factor);
-    }
-
-    fn seed_energies_at(&mut self, sweep: usize, power: usize, factor: f64) {
-        let (kinetic, potential) = (self.declaration.kinetic, self.declaration.potential);
-        for (i, &value) in kinetic.iter().enumerate() {
-            if self.effects.includes(self.d, Item::Kinetic(i)) {
-                self.seeds[sweep].push((value, power, factor));
-            }
-        }
-        for (i, &value) in potential.iter().enumerate() {
-            if self.effects.includes(self.d, Item::Potential(i)) {
-                self.seeds[sweep].push((value, power, -factor));
-            }
-        }
-    }
-
-    fn seed_rows(&mut self, lambda: &[f64]) {
-        for (i, &value) in self.declaration.constraints.iter().enumerate() {
-            let force = lambda[self.d.constraints[i].row];
-            let sweep = usize::from(self.level(i) == Level::Velocity);
-            self.seeds[sweep].push((value, 0, -force));
-        }
-        for (contact, place) in self.declaration.contacts.iter().zip(self.d.contacts) {
-            self.seeds[0].push((contact.gap, 0, -lambda[place.row]));
-        }
-        for (friction, place) in self.declaration.frictions.iter().zip(self.d.frictions) {
-            for (k, &slip) in friction.slip.iter().enumerate() {
-                self.seeds[1].push((slip, 0, -lambda[place.row + k]));
-            }
-        }
-        self.seeds
-            .iter_mut()
-            .for_each(|seeds| seeds.retain(|seed| seed.2 != 0.0));
-    }
-
-    fn sweep(&mut self) {
-        for (power, seeds) in self.seeds.iter().enumerate() {
-            self.values
-                .sweep(seeds, power, &mut self.residual, &mut self.size);
-        }
+    /// Weights of L, `variation` of it in what balances, and of the forces of all rows.
+    fn seed(&mut self, variation: f64, lambda: &[f64]) {
+        let mut seeds = core::mem::take(&mut self.seeds);
+        seeds.clear();
+        seeds.extend(self.energies().map(|(value, sign)| Seed {
+            value,
+            variation: [sign * variation, 0.0],
+            gradient: sign,
+        }));
+        let acting = lambda
+            .iter()
+            .enumerate()
+            .filter(|(_, force)| **force != 0.0);
+        seeds.extend(acting.map(|(row, &force)| {
+            let (value, level) = self.rows[row];
+            along(value, level, force)
+        }));
+        self.seeds = seeds;
     }
 
     /// How much a value changes when each position and velocity x changes by 1 + |x|, or by more where its absolute tolerance says so: the
     /// residuals of constraints and gaps are not asked for in finer units.
     pub fn reach(&mut self, value: usize, power: usize, at: Situation<'_>) -> f64 {
-        let mut sum = 0.0;
-        for (k, state) in [at.q, at.v].into_iter().enumerate() {
-            let gradient = &mut self.gradient[k];
-            gradient.fill(0.0);
-            self.values
-                .gradient_size(&[(value, power, 1.0)], k, gradient);
-            let terms = gradient.iter().zip(state).enumerate();
-            let size = |i| least_size(&self.sizes, i).max(1.0);
-            sum += terms
-                .map(|(i, (g, x))| g * (size(i) + x.abs()))
-                .sum::<f64>();
-        }
-        sum
-    }
-
-    /// Remembers the sizes of the forces that balance at the state taken.
-    pub fn status(&mut self, at: Situation<'_>) {
-        self.take(at);
-        self.balance(at.forces);
-        for (largest, size) in self.largest.iter_mut().zip(&self.size) {
-            *largest = largest.max(*size);
-        }
+        self.values
+            .gradient_size(value, power, &mut self.sizes_along);
+        change(&self.sizes_along, &self.sizes, [at.q, at.v])
     }
 
     /// Accelerations that forces of the sizes of the last balance would make. The inertia of a coordinate is its momentum where
     /// all velocities are 1; terms of either sign count alike, so that it is not too small.
     fn measure_swiftness(&mut self, at: Situation<'_>) {
+        self.balance(at);
         let ones = vec![1.0; at.v.len()];
-        self.take(Situation { v: &ones, ..at });
-        let mut inertia = vec![0.0; ones.len()];
+        let still = Situation { v: &ones, ..at };
+        self.balancing.evaluate(still.inputs(&self.zeros));
+        self.swiftness.fill(0.0);
         for (i, &value) in self.declaration.kinetic.iter().enumerate() {
             if self.effects.includes(self.d, Item::Kinetic(i)) {
-                self.values
-                    .gradient_size(&[(value, 0, 1.0)], 1, &mut inertia);
+                self.balancing
+                    .gradient_size(value, 0, &mut self.sizes_along);
+                let sizes = self.swiftness.iter_mut().zip(&self.sizes_along);
+                sizes.for_each(|(inertia, sizes)| *inertia += sizes[1]);
             }
         }
-        for ((swift, size), inertia) in self.swiftness.iter_mut().zip(&self.size).zip(inertia) {
-            *swift = if inertia > 0.0 { size / inertia } else { 0.0 };
+        for (swift, size) in self.swiftness.iter_mut().zip(&self.size) {
+            *swift = if *swift > 0.0 { size / *swift } else { 0.0 };
         }
-        self.take(at);
     }
 
     /// The size of the forces that balance in the run, as a force along the gradient of a value: by velocities for one of velocity
@@ -394,20 +454,21 @@ impl Equations {
         if square > 0.0 { along / square } else { 0.0 }
     }
 
-    /// The gradient of a value times sizes, and its square; the gradient stays in `gradient[0]`.
+    /// The gradient of a value times sizes, and its square.
     fn along(&mut self, value: usize, level: Level, sizes: &[f64]) -> (f64, f64) {
-        let gradient = &mut self.gradient[0];
-        gradient.fill(0.0);
-        let power = usize::from(level == Level::Velocity);
-        self.values
-            .gradient_size(&[(value, 0, 1.0)], power, gradient);
-        let pairs = gradient.iter().zip(sizes);
-        let along = pairs.map(|(g, size)| g * size).sum();
-        (along, gradient.iter().map(|g| g * g).sum())
+        self.values.gradient_size(value, 0, &mut self.sizes_along);
+        let (mut along, mut square) = (0.0, 0.0);
+        for (gradient, size) in self.sizes_along.iter().zip(sizes) {
+            let g = gradient[level as usize];
+            along += g * size;
+            square += g * g;
+        }
+        (along, square)
     }
 
     /// The second rate of a value of position level or the first of one of velocity level, and the size of its terms.
     pub fn acceleration(&mut self, value: usize, level: Level, at: Situation<'_>) -> (f64, f64) {
+        self.swiftness.fill(0.0);
         let (error, size) = self.acceleration_at_sight(value, level, at);
         if error.abs() <= self.exact * size {
             return (error, size);
@@ -426,21 +487,12 @@ impl Equations {
             Level::Position => (2, 2.0),
             Level::Velocity => (1, 1.0),
         };
+        let sizes = &mut self.sizes_along;
+        self.values.gradient_size(value, power, sizes);
         let mut size = 0.0;
-        for (k, state) in [at.q, at.v, at.acceleration]
-            .into_iter()
-            .enumerate()
-            .skip(1)
-        {
-            let gradient = &mut self.gradient[k];
-            gradient.fill(0.0);
-            self.values
-                .gradient_size(&[(value, power, 1.0)], k, gradient);
-            let half = if k == 2 { 0.5 } else { 1.0 };
-            let terms = gradient.iter().zip(state).zip(&self.swiftness);
-            size += terms
-                .map(|((g, x), swift)| half * g * if k == 2 { x.abs() + swift } else { x.abs() })
-                .sum::<f64>();
+        for (i, [_, by_velocity, by_acceleration]) in self.sizes_along.iter().enumerate() {
+            let swift = at.acceleration[i].abs() + self.swiftness[i];
+            size += by_velocity * at.v[i].abs() + 0.5 * by_acceleration * swift;
         }
         (
             factor * self.values.coefficient(value, power),
@@ -472,17 +524,7 @@ impl Equations {
 
     /// The value whose rate the force of a row acts along, and its level.
     pub fn row(&self, row: usize) -> (usize, Level) {
-        let d = self.d;
-        if let Some(i) = d.constraints.iter().position(|c| c.row == row) {
-            return (self.declaration.constraints[i], self.level(i));
-        }
-        if let Some(c) = d.contacts.iter().position(|c| c.row == row) {
-            return (self.declaration.contacts[c].gap, Level::Position);
-        }
-        let on = |f: &crate::system::Friction| (f.row..f.row + f.components).contains(&row);
-        let f = d.frictions.iter().position(on).unwrap_or(0);
-        let slip = self.declaration.frictions[f].slip;
-        (slip[row - d.frictions[f].row], Level::Velocity)
+        self.rows[row]
     }
 
     /// Whether a row acts in a mode.

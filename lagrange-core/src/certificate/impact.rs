@@ -27,14 +27,20 @@ impl<T: Scalar> Examination<'_, T> {
         let impulses: Vec<f64> = event.impulses.iter().map(|x| x.value()).collect();
         let d = self.equations.d;
         let (equations, findings) = (&mut self.equations, &mut self.findings);
-        equations.begin();
-        equations.add_momentum_sizes(time, &after);
+        equations.size = equations.momentum_sizes(time, &after);
+        equations.momenta(time, &after, &[]);
+        for (i, gradient) in equations.gradients.iter().enumerate() {
+            equations.residual[i] = gradient.velocity.sum;
+            equations.size[i] += gradient.velocity.size;
+        }
+        equations.momenta(time, &before, &impulses);
+        for (i, gradient) in equations.gradients.iter().enumerate() {
+            equations.residual[i] -= gradient.velocity.sum + gradient.variation.sum;
+            equations.size[i] += gradient.velocity.size + gradient.variation.size;
+        }
         equations.take(situation(time, &after));
-        equations.add_momenta(1.0);
         let rates_after = equations.rates(time, &after);
         equations.take(situation(time, &before));
-        equations.add_momenta(-1.0);
-        equations.add_impulses(&impulses);
         let rates = equations.rates(time, &before);
         for (i, coordinate) in d.coordinates.iter().enumerate() {
             let (error, size) = (equations.residual[i].abs(), equations.size[i]);

@@ -8,9 +8,9 @@ use crate::mode::{Direction, FrictionMode, Mode};
 /// Beside its reach a slip in space has no direction below this multiple of the tolerance.
 const VANISHING: f64 = 1e3;
 
-/// What the run reports of an instant.
+/// Energies that the run reports of an instant.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Reported {
+pub(super) struct Energies {
     pub kinetic: f64,
     pub potential: f64,
     /// v·∂L/∂v − L
@@ -18,53 +18,59 @@ pub(super) struct Reported {
 }
 
 impl Equations {
-    /// Checks a state with the reported accelerations and forces. `passed` says of which contacts the motion has passed beyond
-    /// the surface outside their region.
-    pub fn examine(
+    /// Checks whether a state with the reported accelerations and forces balances, and its energies; remembers how large the forces are.
+    pub fn examine_balance(
         &mut self,
         at: Situation<'_>,
         mode: &Mode,
-        reported: Reported,
-        passed: &mut [bool],
+        reported: Energies,
         findings: &mut Findings,
     ) {
-        self.balance_at(at, mode);
-        let d = self.d;
-        for (i, coordinate) in d.coordinates.iter().enumerate() {
+        self.balance(at);
+        for (largest, size) in self.largest.iter_mut().zip(&self.size) {
+            *largest = largest.max(*size);
+        }
+        self.examine_energies(at, reported, findings);
+        if self.is_beyond() {
+            self.balance_with_sizes(at, mode);
+        }
+        for (i, coordinate) in self.d.coordinates.iter().enumerate() {
             let (error, size) = (self.residual[i].abs(), self.size[i]);
             findings.book(Subject::Equations, error, size, at.time, coordinate.name);
         }
-        self.examine_positions(at, mode, passed, findings);
+    }
+
+    /// Checks constraints, contacts and frictions of the state that was taken.
+    pub fn examine(&mut self, at: Situation<'_>, mode: &Mode, findings: &mut Findings) {
+        self.examine_positions(at, mode, findings);
         self.examine_constraints(at, mode, findings);
         self.examine_contacts(at, mode, findings);
         self.examine_frictions(at, mode, findings);
-        self.examine_energies(at, reported, findings);
     }
 
-    fn examine_energies(&mut self, at: Situation<'_>, reported: Reported, findings: &mut Findings) {
-        let name = self.d.name;
-        let (jacobi, size) = self.jacobi(at);
-        let error = (reported.jacobi - jacobi).abs();
-        findings.book(Subject::Energies, error, size, at.time, name);
+    fn examine_energies(&mut self, at: Situation<'_>, reported: Energies, findings: &mut Findings) {
+        let (jacobi, mut size) = self.jacobi(at);
+        let pairs = [
+            (reported.jacobi, jacobi),
+            (reported.kinetic, self.energy(false)),
+            (reported.potential, self.energy(true)),
+        ];
         // A Lagrangian does not say which of its terms are kinetic.
-        if self.d.inertia.is_none() {
-            return;
+        let known = if self.d.inertia.is_none() { 1 } else { 3 };
+        let errors = pairs.map(|(reported, declared)| (reported - declared).abs());
+        if errors[..known]
+            .iter()
+            .any(|error| *error > self.exact * size)
+        {
+            size += self.energy_of_each(at);
         }
-        for (potential, reported) in [(false, reported.kinetic), (true, reported.potential)] {
-            let declared = self.energy(potential);
-            let error = (reported - declared).abs();
-            findings.book(Subject::Energies, error, size, at.time, name);
+        for &error in &errors[..known] {
+            findings.book(Subject::Energies, error, size, at.time, self.d.name);
         }
     }
 
-    /// Constraints of position level and gaps with their rates, in the state taken.
-    pub fn examine_positions(
-        &mut self,
-        at: Situation<'_>,
-        mode: &Mode,
-        passed: &mut [bool],
-        findings: &mut Findings,
-    ) {
+    /// Constraints and closed contacts with their rates, in the state that was taken.
+    pub fn examine_positions(&mut self, at: Situation<'_>, mode: &Mode, findings: &mut Findings) {
         let d = self.d;
         for (i, &value) in self.declaration.constraints.iter().enumerate() {
             if self.constraint_acts(i, mode) {
@@ -81,32 +87,13 @@ impl Equations {
             }
         }
         for (c, contact) in self.declaration.contacts.iter().enumerate() {
-            if !self.includes(Item::Contact(c)) {
+            if !(self.includes(Item::Contact(c)) && mode.contacts[c]) {
                 continue;
             }
-            let name = d.contacts[c].name;
-            let gap = self.values.value(contact.gap);
-            let wanting = mode.contacts[c] || gap < 0.0;
-            let reach = if wanting {
-                self.reach(contact.gap, 0, at)
-            } else {
-                1.0
-            };
-            if mode.contacts[c] {
-                findings.book(Subject::Closed, gap.abs(), reach, at.time, name);
-                let (rate, reach) = (
-                    self.values.rate(contact.gap),
-                    self.reach(contact.gap, 1, at),
-                );
-                findings.book(Subject::Closed, rate.abs(), reach, at.time, name);
-                continue;
-            }
-            let outside = contact
-                .region
-                .is_some_and(|region| self.values.value(region) < 0.0);
-            passed[c] = gap < 0.0 && (passed[c] || outside);
-            if !passed[c] {
-                findings.book(Subject::Gaps, -gap, reach, at.time, name);
+            for power in 0..2 {
+                let error = self.values.coefficient(contact.gap, power).abs();
+                let reach = self.reach(contact.gap, power, at);
+                findings.book(Subject::Closed, error, reach, at.time, d.contacts[c].name);
             }
         }
     }

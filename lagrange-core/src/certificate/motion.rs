@@ -5,20 +5,26 @@
 //! its end: v(end) − v(0) − ∫ a dt and q(end) − q(0) − ∫ v dt, with the reported accelerations a along the dense output, are the
 //! error of the step and h·∂a/∂q times that of the dense output. The integrals are by Gauss–Legendre quadrature. In stiff systems h·∂a/∂v is
 //! large: of the steps of Radau what counts is the part of the error that is not damped at once.
+//!
+//! Where the dense output is as good as the step, as a Taylor series is, its defects q̇ − v and v̇ − a are as small as its error. Then their
+//! absolute values at three places, by Radau's quadrature, are more than the integral of a defect that grows towards the end, and
+//! where that is below the tolerance nothing else is evaluated.
 
 use super::equations::{Equations, Situation};
-use super::instant::Reported;
-use super::watch::Watches;
+use super::instant::Energies;
+use super::watch::{Step, Watches};
 use super::{Certificate, FINEST, Findings, ROUNDINGS, Subject};
 use crate::arithmetic::Scalar;
 use crate::checks::state::signed;
 use crate::declaration::Declaration;
 use crate::dynamics::Dynamics;
+use crate::dynamics::OutputMask;
 use crate::error::Error;
-use crate::integrate::least_size;
-use crate::integrate::{Method, Radau};
+use crate::integrate::{Acceleration, Method, Radau, least_size};
 use crate::mode::Mode;
-use crate::trajectory::{EventKind, Instant, Sampler, State, Trajectory};
+use crate::modes::guard::all_row_needs;
+use crate::modes::redundant::RedundantForces;
+use crate::trajectory::{EventKind, Segment, State, Trajectory};
 use nalgebra::{DMatrix, DVector};
 
 /// Everything about a run that is being checked.
@@ -27,8 +33,6 @@ pub(super) struct Examination<'a, T: Scalar> {
     pub equations: Equations,
     pub findings: Findings,
     pub watches: Watches,
-    /// Per contact: whether the motion has passed beyond its surface outside its region.
-    pub passed: Vec<bool>,
     /// Events that have been looked at.
     pub events: usize,
     /// State in which the motion is to go on.
@@ -38,9 +42,45 @@ pub(super) struct Examination<'a, T: Scalar> {
     /// Steps within which something could not be evaluated.
     pub unevaluated: usize,
     dynamics: Dynamics<T>,
+    redundant: RedundantForces<T>,
+    /// What is read of all rows.
+    rows: OutputMask,
+    /// The modes of the run, once slips that begin in them have begun.
+    modes: Vec<Mode>,
     scratch: State<T>,
+    /// Derivatives of the polynomials of a step, and accelerations.
+    rates: State<T>,
+    acceleration: Vec<T>,
+    polynomials: Step,
+    /// Ends of the step, errors, and what they are measured by.
+    begin: State<f64>,
+    last: State<f64>,
+    errors: State<f64>,
+    sizes: State<f64>,
     /// Nodes and weights of the quadrature of the last step.
     nodes: Vec<(f64, f64)>,
+}
+
+/// Nodes and weights of Radau's quadrature with three places in [0, 1], the last of them the end (Hairer & Wanner 1996, section IV.5).
+const RADAU: [(f64, f64); 3] = [
+    (0.155_051_025_721_682_2, 0.376_403_062_700_467_3),
+    (0.644_948_974_278_317_8, 0.512_485_826_188_421_6),
+    (1.0, 1.0 / 9.0),
+];
+
+/// The balance of forces is looked at in this many steps after every change of the mode,
+const FIRST: usize = 4;
+
+/// and in this share of those that follow.
+const SHARE: f64 = 0.25;
+
+/// What is looked at in a step besides its motion and its guards.
+#[derive(Clone, Copy, Debug)]
+struct Look {
+    /// The part of it that is chosen.
+    part: f64,
+    /// Whether forces are looked at there.
+    balances: bool,
 }
 
 /// See [`Trajectory::verify`](crate::trajectory::Trajectory::verify).
@@ -77,6 +117,14 @@ pub(super) fn against<T: Scalar>(
         false => f64::EPSILON,
     };
     let parameters = (0..d.parameters.len()).map(|i| record.parameter(i).value());
+    let parameters: Vec<f64> = parameters.collect();
+    let mut dynamics = record.dynamics();
+    let mut needs = OutputMask::new(d);
+    needs.insert(d.energy.need);
+    let loads = d.forces.iter().map(|force| force.report_need);
+    loads.for_each(|need| needs.insert(need));
+    dynamics.set_report_needs(&needs);
+    let start = numbers(&record.start);
     let finest = FINEST * rounding / f64::EPSILON;
     let mut examination = Examination {
         record,
@@ -84,29 +132,46 @@ pub(super) fn against<T: Scalar>(
             d,
             declaration,
             &record.effects,
-            parameters.collect(),
+            &parameters,
             record.asked.sizes.clone(),
             ROUNDINGS * rounding,
         ),
         findings: Findings::new(tolerance.max(finest), rounding),
-        watches: Watches::new(record, declaration),
-        passed: vec![false; d.contacts.len()],
+        watches: Watches::new(record, declaration, &parameters),
         events: 0,
-        expected: numbers(&record.start),
+        expected: start.clone(),
         time: record.first_time(),
         unevaluated: 0,
-        dynamics: record.dynamics(),
+        dynamics,
+        redundant: RedundantForces::default(),
+        rows: all_row_needs(d, &OutputMask::new(d)),
+        modes: record.modes.iter().map(Mode::under_way).collect(),
         scratch: record.start.clone(),
+        rates: record.start.clone(),
+        acceleration: record.start.v.clone(),
+        polynomials: Step::default(),
+        begin: start.clone(),
+        last: start.clone(),
+        errors: start.clone(),
+        sizes: start,
         nodes: Vec::new(),
     };
     let mut random = fastrand::Rng::with_seed(seed);
+    let (mut mode, mut alike) = (usize::MAX, 0);
     let segments = record.segments.iter().enumerate();
     let chosen = segments.map(|(k, segment)| {
         let (looked, part) = (signed(&mut random), signed(&mut random));
+        if segment.mode != mode {
+            (mode, alike) = (segment.mode, 0);
+        }
+        alike += 1;
         let looked = k == 0 || looked < 2.0 * share - 1.0;
-        looked.then(|| segment.end.value() * (0.5 + 0.5 * part))
+        looked.then(|| Look {
+            part: segment.end.value() * (0.5 + 0.5 * part),
+            balances: alike <= FIRST || signed(&mut random) < 2.0 * SHARE - 1.0,
+        })
     });
-    let chosen: Vec<Option<f64>> = chosen.collect();
+    let chosen: Vec<Option<Look>> = chosen.collect();
     certificate.looked = chosen.iter().flatten().count();
     examination.steps(&chosen);
     certificate.unevaluated = examination.unevaluated;
@@ -131,41 +196,56 @@ pub(super) fn numbers<T: Scalar>(state: &State<T>) -> State<f64> {
     State::new(plain(&state.q), plain(&state.v))
 }
 
+/// Copies a state as numbers.
+fn copy<T: Scalar>(state: &State<T>, to: &mut State<f64>) {
+    let lists = [(&state.q, &mut to.q), (&state.v, &mut to.v)];
+    for (from, to) in lists {
+        to.iter_mut().zip(from).for_each(|(to, x)| *to = x.value());
+    }
+}
+
 impl<T: Scalar> Examination<'_, T> {
-    /// The sizes of forces in the run; what is reported at a chosen instant of each step that is looked at, if it can be evaluated.
-    fn status(&mut self, chosen: &[Option<f64>]) -> Vec<Option<Numbers>> {
-        let mut sampler = Sampler::new(self.record);
-        let mut look = |(k, s): (usize, &Option<f64>)| {
-            let now = sampler.inside(k, T::from_f64((*s)?)).ok()?;
-            let now = Numbers::of(&now);
-            self.equations.status(now.situation());
-            Some(now)
+    /// What is reported at the chosen instants, if it can be evaluated; whether that balances, and how large forces are in the run.
+    fn balances(&mut self, chosen: &[Option<Look>]) -> Vec<Option<Reported>> {
+        let look = |(k, look): (usize, &Option<Look>)| {
+            let look = look.filter(|look| look.balances)?;
+            let reported = self.report(k, look.part).ok()?;
+            let at = reported.situation(self.record.description().coordinates.len());
+            let mode = &self.modes[self.record.segments[k].mode];
+            let (equations, findings) = (&mut self.equations, &mut self.findings);
+            equations.examine_balance(at, mode, reported.energies, findings);
+            Some(reported)
         };
-        chosen.iter().enumerate().map(&mut look).collect()
+        chosen.iter().enumerate().map(look).collect()
     }
 
-    fn steps(&mut self, chosen: &[Option<f64>]) {
+    fn steps(&mut self, chosen: &[Option<Look>]) {
         let record = self.record;
-        let reported = self.status(chosen);
-        for (k, (segment, now)) in record.segments.iter().zip(&reported).enumerate() {
+        let reported = self.balances(chosen);
+        for (k, segment) in record.segments.iter().enumerate() {
             let (t, h, end) = (segment.t.value(), segment.h.value(), segment.end.value());
-            let begin = self.state_at(k, 0.0);
+            self.place(k, 0.0);
+            copy(&self.scratch, &mut self.begin);
+            let begin = core::mem::take(&mut self.begin);
             self.events_until(t, &begin, k == 0, t + h * end > t);
             self.join(t, &begin);
+            self.begin = begin;
             if h * end > 0.0 {
-                let last = self.state_at(k, end);
-                if chosen[k].is_some() {
-                    let looked = now.as_ref().map(|now| self.step(k, now, &begin, &last));
+                self.place(k, end);
+                copy(&self.scratch, &mut self.last);
+                if let Some(look) = chosen[k] {
                     // Where constraints lose rank within a step there are no forces.
-                    self.unevaluated += usize::from(!matches!(looked, Some(Ok(()))));
-                    self.watches.forget();
-                    let at = situation(t + h * end, &last);
+                    let known = reported[k].is_some() || !look.balances;
+                    let looked = self.step(k, reported[k].as_ref());
+                    self.unevaluated += usize::from(!known || looked.is_err());
+                    let at = situation(t + h * end, &self.last);
                     self.equations.take(at);
-                    let mode = &record.modes[segment.mode];
-                    let (passed, findings) = (&mut self.passed, &mut self.findings);
-                    self.equations.examine_positions(at, mode, passed, findings);
+                    let mode = &self.modes[segment.mode];
+                    self.equations
+                        .examine_positions(at, mode, &mut self.findings);
                 }
-                (self.expected, self.time) = (last, t + h * end);
+                core::mem::swap(&mut self.expected, &mut self.last);
+                self.time = t + h * end;
             }
         }
         let last = numbers(&record.last);
@@ -174,66 +254,151 @@ impl<T: Scalar> Examination<'_, T> {
     }
 
     /// One step, with what is reported at an instant in it.
-    fn step(
-        &mut self,
-        k: usize,
-        reported: &Numbers,
-        begin: &State<f64>,
-        last: &State<f64>,
-    ) -> Result<(), Error> {
+    fn step(&mut self, k: usize, reported: Option<&Reported>) -> Result<(), Error> {
         let segment = &self.record.segments[k];
-        let (t, h, end) = (segment.t.value(), segment.h.value(), segment.end.value());
+        self.watch(k)?;
+        if let Some(reported) = reported {
+            let at = reported.situation(self.begin.q.len());
+            self.equations.take(at);
+            let mode = &self.modes[segment.mode];
+            self.equations.examine(at, mode, &mut self.findings);
+        }
+        if !self.has_small_defects(segment)? {
+            self.integrate(segment)?;
+        }
+        // The error of a step is a mean over its components, one of which may have all of it.
+        let components = (2.0 * self.begin.q.len() as f64).sqrt();
+        self.book(Subject::Motion, segment.t.value(), components);
+        Ok(())
+    }
+
+    /// Follows guards over a step.
+    fn watch(&mut self, k: usize) -> Result<(), Error> {
+        let segment = &self.record.segments[k];
+        let mode = &self.modes[segment.mode];
+        if self.watches.is_idle(mode) {
+            return Ok(());
+        }
+        let of_forces = self.watches.needs_forces(mode);
+        let step = &mut self.polynomials;
+        (step.time, step.length) = (segment.t.value(), segment.h.value());
+        (step.end, step.width) = (segment.end.value(), segment.degree + 1);
+        let n = self.begin.q.len();
+        let numbers = &self.record.coefficients[segment.offset..][..2 * n * step.width];
+        step.coefficients.clear();
+        step.coefficients.extend(numbers.iter().map(|x| x.value()));
+        self.watches.follow(step, mode, &mut self.findings);
+        if of_forces {
+            for &(x, _) in &gauss(segment.degree + 2) {
+                let now = self.report(k, 0.5 * segment.end.value() * (1.0 + x))?;
+                let (at, mode) = (now.situation(n), &self.modes[segment.mode]);
+                self.watches.see(at, mode, true, &mut self.findings);
+            }
+        }
+        Ok(())
+    }
+
+    /// Finds the errors of a step, and what they are measured by, from the defects of its dense output. Whether they are below the tolerance.
+    fn has_small_defects(&mut self, segment: &Segment<T>) -> Result<bool, Error> {
+        let record = self.record;
+        let span = (segment.h * segment.end).value();
+        self.start_errors(0.0);
+        for (part, weight) in RADAU {
+            let s = segment.end * T::from_f64(part);
+            self.accelerate(segment, s)?;
+            for i in 0..self.begin.q.len() {
+                let (dq, dv) = (self.rates.q[i] / segment.h, self.rates.v[i] / segment.h);
+                let defects = [dq - self.scratch.v[i], dv - self.acceleration[i]];
+                let [q, v] = defects.map(|defect| defect.value().abs());
+                self.errors.q[i] += weight * span * q;
+                self.errors.v[i] += weight * span * v;
+            }
+        }
+        let pairs = |errors: &[f64], sizes: &[f64]| {
+            let mut pairs = errors.iter().zip(sizes).enumerate();
+            pairs.all(|(i, (error, size))| {
+                let least = least_size(&record.asked.sizes, i);
+                *error <= self.findings.tolerance * (least + size)
+            })
+        };
+        Ok(pairs(&self.errors.q, &self.sizes.q) && pairs(&self.errors.v, &self.sizes.v))
+    }
+
+    /// Finds the errors of a step, and what they are measured by, from the integrals of velocities and accelerations.
+    fn integrate(&mut self, segment: &Segment<T>) -> Result<(), Error> {
         let points = segment.degree / 2 + 2;
         if self.nodes.len() != points {
             self.nodes = gauss(points);
         }
-        let (mut sums, mut sizes) = (begin.clone(), begin.clone());
-        let (mut again, mut told) = (Vec::new(), false);
+        let (h, end) = (segment.h.value(), segment.end.value());
+        self.start_errors(1.0);
         for i in 0..points {
             let (x, w) = self.nodes[i];
-            let (s, weight) = (0.5 * end * (1.0 + x), 0.5 * end * h * w);
-            let now = self.bare(k, s)?;
-            if !told && reported.time <= now.time {
-                self.instant(reported, true, &mut again);
-                told = true;
+            self.accelerate(segment, T::from_f64(0.5 * end * (1.0 + x)))?;
+            let weight = 0.5 * end * h * w;
+            let rates = [
+                (&mut self.errors.q, &self.scratch.v),
+                (&mut self.errors.v, &self.acceleration),
+            ];
+            for (sums, rates) in rates {
+                let pairs = sums.iter_mut().zip(rates);
+                pairs.for_each(|(sum, rate)| *sum += weight * rate.value());
             }
-            self.instant(&now, false, &mut again);
-            let sums = sums
-                .q
-                .iter_mut()
-                .zip(&now.v)
-                .chain(sums.v.iter_mut().zip(&now.acceleration));
-            sums.for_each(|(sum, rate)| *sum += weight * rate);
-            let sizes = sizes
-                .q
-                .iter_mut()
-                .zip(&now.q)
-                .chain(sizes.v.iter_mut().zip(&now.v));
-            sizes.for_each(|(size, x)| *size = size.abs().max(x.abs()));
-        }
-        if !told {
-            self.instant(reported, true, &mut again);
-        }
-        for time in again {
-            self.watches.forget();
-            let now = self.bare(k, (time - t) / h)?;
-            self.instant(&now, false, &mut Vec::new());
         }
         if segment.degree == Radau::<T>::DEGREE {
-            self.damp(k, &mut sums, last)?;
+            self.damp(segment)?;
         }
-        // The error of a step is a mean over its components, one of which may have all of it.
-        let components = (2.0 * begin.q.len() as f64).sqrt();
-        self.compare(Subject::Motion, t, [&sums, last, &sizes], components);
         Ok(())
     }
 
-    /// What is left of the difference of `sums` from the state at the end of a step, (1 − h J)⁻¹ of it, J the Jacobian there: an error of the
-    /// dense output in a motion that is damped fast changes the accelerations by far more, but for a short time only.
-    fn damp(&mut self, k: usize, sums: &mut State<f64>, last: &State<f64>) -> Result<(), Error> {
-        let segment = &self.record.segments[k];
+    /// Errors as they are before a step: the difference of its ends, or nothing.
+    fn start_errors(&mut self, difference: f64) {
+        let q = [&mut self.errors.q, &mut self.sizes.q];
+        let v = [&mut self.errors.v, &mut self.sizes.v];
+        let ends = [(&self.begin.q, &self.last.q), (&self.begin.v, &self.last.v)];
+        for ([errors, sizes], (begin, last)) in [q, v].into_iter().zip(ends) {
+            for i in 0..begin.len() {
+                errors[i] = difference * (begin[i] - last[i]);
+                sizes[i] = begin[i].abs().max(last[i].abs());
+            }
+        }
+    }
+
+    /// State, its derivatives and accelerations at part `s` of a step, by the equations that the run itself evaluates; remembers how large the state is.
+    fn accelerate(&mut self, segment: &Segment<T>, s: T) -> Result<(), Error> {
+        let State { q, v, .. } = &mut self.scratch;
+        let lists = [(&mut *q, &mut self.rates.q), (&mut *v, &mut self.rates.v)];
+        for (which, (values, rates)) in lists.into_iter().enumerate() {
+            for (i, (x, rate)) in values.iter_mut().zip(rates).enumerate() {
+                let c = self.record.polynomial(segment, which, i);
+                (*x, *rate) = with_derivative(c, s);
+            }
+        }
+        let time = segment.t + segment.h * s;
+        let mode = &self.record.modes[segment.mode];
+        self.dynamics.set_mode(mode);
+        let outcome = if mode.incipient().next().is_none() {
+            Acceleration::acceleration(&mut self.dynamics, time, q, v, &mut self.acceleration)
+        } else {
+            let outcome = self.dynamics.value_along(time, q, v);
+            self.acceleration
+                .copy_from_slice(self.dynamics.acceleration());
+            outcome
+        };
         let d = self.record.description();
-        let (time, n) = (segment.t + segment.h * segment.end, last.q.len());
+        outcome.map_err(|e| Error::from_evaluation(e, time.value(), mode, d))?;
+        for (sizes, list) in [(&mut self.sizes.q, q), (&mut self.sizes.v, v)] {
+            let pairs = sizes.iter_mut().zip(list);
+            pairs.for_each(|(size, x)| *size = size.max(x.value().abs()));
+        }
+        Ok(())
+    }
+
+    /// What is left of the errors at the end of a step, (1 − h J)⁻¹ of them, J the Jacobian there: an error of the
+    /// dense output in a motion that is damped fast changes the accelerations by far more, but for a short time only.
+    fn damp(&mut self, segment: &Segment<T>) -> Result<(), Error> {
+        let d = self.record.description();
+        let (time, n) = (segment.t + segment.h * segment.end, self.last.q.len());
         let State { q, v, .. } = &mut self.scratch;
         self.record.state_at(segment, segment.end, q, v);
         let mut columns = vec![T::zero(); 2 * n * n];
@@ -247,68 +412,54 @@ impl<T: Scalar> Examination<'_, T> {
         };
         let unit = |i: usize, j: usize| f64::from(u8::from(i == j));
         let matrix = DMatrix::from_fn(2 * n, 2 * n, |i, j| unit(i, j) - h * rate(i, j));
-        let ends = last.q.iter().chain(&last.v);
-        let sums = sums.q.iter_mut().chain(&mut sums.v);
-        let (sums, ends): (Vec<&mut f64>, Vec<&f64>) = (sums.collect(), ends.collect());
-        let error = DVector::from_fn(2 * n, |i, _| *sums[i] - ends[i]);
-        if let Some(left) = matrix.lu().solve(&error) {
-            for ((sum, end), left) in sums.into_iter().zip(ends).zip(left.iter()) {
-                *sum = end + left;
-            }
+        let State { q, v, .. } = &mut self.errors;
+        let errors = DVector::from_iterator(2 * n, q.iter().chain(v.iter()).copied());
+        if let Some(left) = matrix.lu().solve(&errors) {
+            let errors = q.iter_mut().chain(v);
+            errors
+                .zip(left.iter())
+                .for_each(|(error, left)| *error = *left);
         }
         Ok(())
     }
 
-    /// State at part `s` of a step.
-    fn state_at(&self, k: usize, s: f64) -> State<f64> {
-        let n = self.record.description().coordinates.len();
-        let mut state = State::new(vec![T::zero(); n], vec![T::zero(); n]);
-        let segment = &self.record.segments[k];
-        self.record
-            .state_at(segment, T::from_f64(s), &mut state.q, &mut state.v);
-        numbers(&state)
+    /// Takes the state at part `s` of a step.
+    fn place(&mut self, k: usize, s: f64) {
+        let (segment, State { q, v, .. }) = (&self.record.segments[k], &mut self.scratch);
+        self.record.state_at(segment, T::from_f64(s), q, v);
     }
 
-    /// Accelerations and forces at part `s` of a step, by the equations that the run itself evaluates.
-    fn bare(&mut self, k: usize, s: f64) -> Result<Numbers, Error> {
+    /// What is reported at part `s` of a step.
+    fn report(&mut self, k: usize, s: f64) -> Result<Reported, Error> {
+        self.place(k, s);
         let segment = &self.record.segments[k];
-        let (q, v) = (&mut self.scratch.q, &mut self.scratch.v);
-        self.record.state_at(segment, T::from_f64(s), q, v);
+        let State { q, v, .. } = &self.scratch;
         let time = segment.t + segment.h * T::from_f64(s);
         let mode = &self.record.modes[segment.mode];
-        self.dynamics.set_mode(mode);
-        let d = self.record.description();
-        let outcome = self.dynamics.value_along(time, q, v);
+        let (d, dynamics) = (self.record.description(), &mut self.dynamics);
+        dynamics.set_mode(mode);
+        dynamics.set_extra_needs(&self.rows);
+        let outcome = dynamics.value_along(time, q, v);
         outcome.map_err(|e| Error::from_evaluation(e, time.value(), mode, d))?;
-        let plain = |list: &[T]| list.iter().map(|x| x.value()).collect();
-        Ok(Numbers {
+        let forces = self.redundant.report(dynamics, &mut Vec::new());
+        dynamics.replace_forces(&forces);
+        dynamics.report_value();
+        let loads = d
+            .forces
+            .iter()
+            .map(|force| dynamics.report(force.value).value());
+        let lists = [&q[..], v, Dynamics::acceleration(dynamics), &forces];
+        let numbers = lists.into_iter().flatten().map(|x| x.value());
+        Ok(Reported {
             time: time.value(),
-            mode: mode.under_way(),
-            acceleration: plain(self.dynamics.acceleration()),
-            forces: (0..d.rows.len())
-                .map(|row| self.dynamics.force(row).value())
-                .collect(),
-            loads: Vec::new(),
-            energies: Reported::default(),
-            q: plain(q),
-            v: plain(v),
+            energies: Energies {
+                kinetic: dynamics.report(d.energy.kinetic).value(),
+                potential: dynamics.report(d.energy.potential).value(),
+                jacobi: dynamics.report(d.energy.jacobi).value(),
+            },
+            rows: forces.len(),
+            numbers: numbers.chain(loads).collect(),
         })
-    }
-
-    /// Looks at an instant, at a chosen one at everything.
-    fn instant(&mut self, now: &Numbers, chosen: bool, again: &mut Vec<f64>) {
-        let at = now.situation();
-        let (equations, findings) = (&mut self.equations, &mut self.findings);
-        if !chosen && self.watches.is_idle(&now.mode) {
-            return;
-        }
-        equations.take(at);
-        let seen = (at, &now.mode);
-        self.watches
-            .see(equations, findings, seen, &self.passed, again);
-        if chosen {
-            equations.examine(at, &now.mode, now.energies, &mut self.passed, findings);
-        }
     }
 
     /// Goes through the events up to a time, when the motion goes on in the state `begin`: impacts change the state that is
@@ -367,69 +518,68 @@ impl<T: Scalar> Examination<'_, T> {
 
     /// The motion goes on in the state where it was.
     fn join(&mut self, time: f64, found: &State<f64>) {
-        let expected = core::mem::take(&mut self.expected);
+        let State { q, v, .. } = &self.expected;
+        let lists = [
+            (&mut self.errors.q, &mut self.sizes.q, q, &found.q),
+            (&mut self.errors.v, &mut self.sizes.v, v, &found.v),
+        ];
+        for (errors, sizes, expected, found) in lists {
+            for i in 0..found.len() {
+                errors[i] = found[i] - expected[i];
+                sizes[i] = found[i].abs();
+            }
+        }
         let components = (2.0 * found.q.len() as f64).sqrt();
-        self.compare(Subject::Joins, time, [&expected, found, found], components);
-        self.expected = expected;
+        self.book(Subject::Joins, time, components);
     }
 
-    /// Books the difference of two states beside the sizes of a third, times `factor`.
-    fn compare(&mut self, subject: Subject, time: f64, states: [&State<f64>; 3], factor: f64) {
-        let names = self.record.description().coordinates;
-        let [a, b, sizes] = states;
-        let lists = [[&a.q, &b.q, &sizes.q], [&a.v, &b.v, &sizes.v]];
-        for [a, b, sizes] in lists {
-            for (i, coordinate) in names.iter().enumerate() {
-                let least = least_size(&self.record.asked.sizes, i);
-                let size = factor * (least + sizes[i].abs());
+    /// Books the errors of a state beside its sizes, times `factor`.
+    fn book(&mut self, subject: Subject, time: f64, factor: f64) {
+        let (errors, sizes) = (&self.errors, &self.sizes);
+        for [errors, sizes] in [[&errors.q, &sizes.q], [&errors.v, &sizes.v]] {
+            for (i, coordinate) in self.record.description().coordinates.iter().enumerate() {
+                let size = factor * (least_size(&self.record.asked.sizes, i) + sizes[i]);
                 self.findings
-                    .book(subject, (a[i] - b[i]).abs(), size, time, coordinate.name);
+                    .book(subject, errors[i].abs(), size, time, coordinate.name);
             }
         }
     }
 }
 
 /// What is reported of an instant, as plain numbers.
-struct Numbers {
+struct Reported {
     time: f64,
-    mode: Mode,
-    q: Vec<f64>,
-    v: Vec<f64>,
-    acceleration: Vec<f64>,
-    forces: Vec<f64>,
-    loads: Vec<f64>,
-    energies: Reported,
+    energies: Energies,
+    /// Number of forces.
+    rows: usize,
+    /// Positions, velocities, accelerations, forces and loads.
+    numbers: Vec<f64>,
 }
 
-impl Numbers {
-    fn of<T: Scalar>(now: &Instant<T>) -> Self {
-        let plain = |list: &[T]| list.iter().map(|x| x.value()).collect();
-        Self {
-            time: now.time.value(),
-            mode: now.mode.clone(),
-            q: plain(&now.q),
-            v: plain(&now.v),
-            acceleration: plain(&now.acceleration),
-            forces: plain(&now.forces),
-            loads: plain(&now.loads),
-            energies: Reported {
-                kinetic: now.kinetic.value(),
-                potential: now.potential.value(),
-                jacobi: now.jacobi.value(),
-            },
-        }
-    }
-
-    fn situation(&self) -> Situation<'_> {
+impl Reported {
+    /// The same of a system with `n` coordinates.
+    fn situation(&self, n: usize) -> Situation<'_> {
+        let (q, rest) = self.numbers.split_at(n);
+        let (v, rest) = rest.split_at(n);
+        let (acceleration, rest) = rest.split_at(n);
+        let (forces, loads) = rest.split_at(self.rows);
         Situation {
             time: self.time,
-            q: &self.q,
-            v: &self.v,
-            acceleration: &self.acceleration,
-            forces: &self.forces,
-            loads: &self.loads,
+            q,
+            v,
+            acceleration,
+            forces,
+            loads,
         }
     }
+}
+
+/// Σ cₖ sᵏ and Σ k cₖ sᵏ⁻¹.
+fn with_derivative<T: Scalar>(c: &[T], s: T) -> (T, T) {
+    let coefficients = c.iter().rev();
+    coefficients.fold((T::zero(), T::zero()), |(value, rate), &c| {
+        (value * s + c, rate * s + value)
+    })
 }
 
 /// Nodes and weights of Gauss–Legendre quadrature on [−1, 1], by Newton's method on the Legendre polynomial (Davis & Rabinowitz

@@ -180,3 +180,33 @@ fn an_impact_that_bounces_too_high_is_found() {
         &[Subject::Impulses, Subject::Impacts, Subject::Joins],
     );
 }
+
+/// A mass that drifts past a narrow peak.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2 / 2,
+    start(pushed: der(x) = 1),
+    mark(peak: exp(-((x - place) / width)^2) >= 1/2),
+)]
+struct Drift {
+    place: f64,
+    width: f64,
+}
+
+#[test]
+fn a_guard_that_is_true_for_a_thousandth_of_a_step_is_found() {
+    let drift = Drift {
+        place: 0.3,
+        width: 1e-3,
+    };
+    let effects = Effects::all().without(Drift::PEAK);
+    let simulation = Simulation::new(&drift).effects(effects);
+    let mut trajectory = simulation
+        .run(drift.at(Drift::PUSHED), 0.0..1.0)
+        .expect("a run");
+    assert_eq!(trajectory.segments.len(), 1);
+    assert!(certificate(&trajectory).holds());
+    trajectory.effects = Effects::all();
+    finds(&certificate(&trajectory), &[Subject::Marks]);
+}

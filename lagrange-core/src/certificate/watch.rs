@@ -1,23 +1,43 @@
-//! Gaps, stops and marks along the motion, also between the instants that are looked at.
+//! Gaps, stops and marks over a whole step, in intervals.
 //!
-//! Where a guard has an extremum between three neighbouring instants it is looked at once more where the parabola through them has
-//! it, if the parabola crosses zero there.
+//! With the positions and velocities of the step's polynomials as intervals a guard g and its rate ġ are intervals too, and
+//! g ∈ g(a) + ġ·(t − a) besides. Where g keeps its sign between two instants, or ġ does, the values at the two say all; where neither
+//! is known the time between them is halved. A dip that is not deeper than the tolerance is none.
 
-use super::equations::{Equations, Situation};
+use super::equations::{Situation, change};
 use super::{Findings, Subject};
 use crate::arithmetic::Scalar;
-use crate::declaration::Declaration;
+use crate::declaration::{Declaration, Evaluator, Inputs, Interval, Real};
 use crate::effects::Item;
+use crate::integrate::horner;
 use crate::mode::{FrictionMode, Mode};
-use crate::system::{Condition, Watch};
+use crate::system::{Condition, Description, Watch};
 use crate::trajectory::{self, Trajectory};
+
+/// A step is cut into at most so many parts.
+const PARTS: usize = 256;
 
 /// What is followed along the motion.
 #[derive(Debug)]
 pub(super) struct Watches {
+    d: &'static Description,
     guards: Vec<Guard>,
     /// Times of logged marks, by mark.
     marks: Vec<Vec<f64>>,
+    values: Evaluator,
+    ranges: Evaluator<Interval>,
+    /// Per coordinate: the size below which its errors are absolute; empty: 1 for all.
+    sizes: Vec<f64>,
+    /// Per contact: whether the motion has passed beyond its surface outside its region.
+    passed: Vec<bool>,
+    zeros: Vec<f64>,
+    unknown: Vec<Interval>,
+    state: [Vec<f64>; 2],
+    /// Positions, velocities and accelerations between two instants.
+    between: [Vec<Interval>; 3],
+    changes: Vec<[f64; 3]>,
+    /// Parts that the step may still be cut into.
+    parts: usize,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,151 +47,336 @@ enum Kind {
     Mark(usize),
 }
 
-/// A guard and its last values, with their times.
+/// A guard and its last value, with its time. A gap counts where its region is ≥ 0. Stops and marks are true where all terms are.
 #[derive(Debug)]
 struct Guard {
     kind: Kind,
+    terms: Vec<usize>,
+    region: Option<usize>,
+    /// Whether it reads forces, which are known at single instants only.
+    of_forces: bool,
     /// Whether a stop has been false.
     armed: bool,
-    last: Vec<(f64, f64)>,
+    last: Option<(f64, f64)>,
+}
+
+/// The polynomials of a step.
+#[derive(Debug, Default)]
+pub(super) struct Step {
+    pub time: f64,
+    pub length: f64,
+    /// The part of it that belongs to the motion.
+    pub end: f64,
+    /// Number of coefficients of each.
+    pub width: usize,
+    /// Of positions, then of velocities.
+    pub coefficients: Vec<f64>,
+}
+
+impl Step {
+    fn polynomials(&self, which: usize) -> impl Iterator<Item = &[f64]> {
+        let all = self.coefficients.chunks_exact(self.width);
+        let n = all.len() / 2;
+        all.skip(which * n).take(n)
+    }
+}
+
+/// Everything that a polynomial can be between two parts of a step.
+fn range(c: impl DoubleEndedIterator<Item = f64>, [from, to]: [f64; 2]) -> Interval {
+    let (low, high) = c.rev().fold((0.0, 0.0), |(low, high), c| {
+        let down = if low < 0.0 { to } else { from };
+        let up = if high < 0.0 { from } else { to };
+        (low * down + c, high * up + c)
+    });
+    Interval::new(low, high)
 }
 
 impl Watches {
-    pub fn new<T: Scalar>(record: &Trajectory<T>, declaration: &Declaration) -> Self {
+    pub fn new<T: Scalar>(
+        record: &Trajectory<T>,
+        declaration: &'static Declaration,
+        parameters: &[f64],
+    ) -> Self {
         let d = record.description();
-        let known = |list: &[Option<_>], i: usize| list.get(i).is_some_and(Option::is_some);
-        let gaps = (0..declaration.contacts.len()).map(|c| (Kind::Gap(c), Item::Contact(c)));
-        let stops = (0..d.stops.len()).filter(|&i| known(declaration.stops, i));
-        let stops = stops.map(|i| (Kind::Stop(i), Item::Stop(i)));
-        let marks = (0..d.marks.len()).filter(|&i| known(declaration.marks, i));
-        let marks = marks.map(|i| (Kind::Mark(i), Item::Mark(i)));
-        let all = gaps.chain(stops).chain(marks);
-        let taking = all.filter(|(_, item)| record.effects.includes(d, *item));
-        let guards = taking.map(|(kind, _)| Guard {
-            kind,
-            armed: false,
-            last: Vec::new(),
-        });
+        let mut guards = Vec::new();
+        let mut follow = |kind, item, terms: &[usize], region| {
+            if record.effects.includes(d, item) {
+                guards.push(Guard {
+                    kind,
+                    terms: terms.to_vec(),
+                    region,
+                    of_forces: false,
+                    armed: false,
+                    last: None,
+                });
+            }
+        };
+        for (c, contact) in declaration.contacts.iter().enumerate() {
+            follow(
+                Kind::Gap(c),
+                Item::Contact(c),
+                &[contact.gap],
+                contact.region,
+            );
+        }
+        for (i, terms) in declaration.stops.iter().enumerate() {
+            if let Some(terms) = terms {
+                follow(Kind::Stop(i), Item::Stop(i), terms, None);
+            }
+        }
+        for (i, terms) in declaration.marks.iter().enumerate() {
+            if let Some(terms) = terms {
+                follow(Kind::Mark(i), Item::Mark(i), terms, None);
+            }
+        }
+        let wanted = guards.iter().flat_map(Guard::reads).collect::<Vec<_>>();
+        let values = Evaluator::new(declaration, parameters, wanted.iter().copied());
+        for guard in &mut guards {
+            let of_forces = guard.reads().any(|value| values.is_of_forces(value));
+            guard.of_forces = of_forces;
+        }
         let times = |i: usize| {
             let events = record.events().iter();
             let own = events.filter(|e| e.subject == trajectory::Subject::Mark(i));
             own.map(|e| e.time.value()).collect()
         };
+        let n = d.coordinates.len();
+        let most = n.max(d.rows.len()).max(d.forces.len());
         Self {
-            guards: guards.collect(),
+            d,
+            guards,
             marks: (0..d.marks.len()).map(times).collect(),
+            values,
+            ranges: Evaluator::new(declaration, parameters, wanted),
+            sizes: record.asked.sizes.clone(),
+            passed: vec![false; d.contacts.len()],
+            zeros: vec![0.0; most],
+            unknown: vec![Interval::ANYTHING; most],
+            state: [vec![0.0; n], vec![0.0; n]],
+            between: [(); 3].map(|()| vec![Interval::default(); n]),
+            changes: vec![[0.0; 3]; n],
+            parts: 0,
         }
     }
 
     /// Whether there is nothing to follow in a mode.
     pub fn is_idle(&self, mode: &Mode) -> bool {
-        let closed = |guard: &Guard| matches!(guard.kind, Kind::Gap(c) if mode.contacts[c]);
-        self.guards.iter().all(closed)
+        !self.guards.iter().any(|guard| guard.acts(self.d, mode))
     }
 
-    /// The motion has jumped or is in another mode.
-    pub fn forget(&mut self) {
-        self.guards.iter_mut().for_each(|guard| guard.last.clear());
+    /// Whether a guard that acts in a mode reads forces.
+    pub fn needs_forces(&self, mode: &Mode) -> bool {
+        let mut guards = self.guards.iter();
+        guards.any(|guard| guard.of_forces && guard.acts(self.d, mode))
     }
 
-    /// Looks at the state that `equations` has taken; adds the times at which to look again.
+    /// Follows all guards over a step.
+    pub fn follow(&mut self, step: &Step, mode: &Mode, findings: &mut Findings) {
+        self.guards.iter_mut().for_each(|guard| guard.last = None);
+        self.parts = PARTS;
+        self.look(step, 0.0, mode, findings);
+        self.between(step, [0.0, step.end], mode, findings);
+    }
+
+    /// Looks at everything between two parts of a step, the first of which has been looked at, and at the second.
+    fn between(&mut self, step: &Step, [a, b]: [f64; 2], mode: &Mode, findings: &mut Findings) {
+        let middle = 0.5 * (a + b);
+        if self.parts > 0
+            && a < middle
+            && middle < b
+            && !self.is_plain(step, [a, b], mode, findings)
+        {
+            self.parts -= 1;
+            self.between(step, [a, middle], mode, findings);
+            self.between(step, [middle, b], mode, findings);
+        } else {
+            self.look(step, b, mode, findings);
+        }
+    }
+
+    /// Whether all guards are between two instants as their values at the two say.
+    fn is_plain(
+        &mut self,
+        step: &Step,
+        [a, b]: [f64; 2],
+        mode: &Mode,
+        findings: &Findings,
+    ) -> bool {
+        let h = step.length;
+        let [q, v, acceleration] = &mut self.between;
+        for (x, c) in q.iter_mut().zip(step.polynomials(0)) {
+            *x = range(c.iter().copied(), [a, b]);
+        }
+        for (x, c) in v.iter_mut().zip(step.polynomials(1)) {
+            *x = range(c.iter().copied(), [a, b]);
+        }
+        if self.ranges.needs_accelerations() {
+            for (x, c) in acceleration.iter_mut().zip(step.polynomials(1)) {
+                let rates = c.iter().enumerate().skip(1).map(|(k, c)| k as f64 * c / h);
+                *x = range(rates, [a, b]);
+            }
+        }
+        let (n, time) = (q.len(), step.time);
+        self.ranges.evaluate(Inputs {
+            time: Interval::new(time + h * a, time + h * b),
+            q,
+            v,
+            acceleration: &acceleration[..n],
+            forces: &self.unknown,
+            loads: &self.unknown,
+        });
+        let [q, v] = &self.state;
+        for guard in &self.guards {
+            if guard.of_forces || !guard.acts(self.d, mode) {
+                continue;
+            }
+            let (value, rate) = guard.range(&self.ranges);
+            let (_, before) = guard.last.unwrap_or_default();
+            let gone = rate * Interval::new(0.0, h * (b - a));
+            let value = value.within(Interval::number(before) + gone);
+            let is_plain = |depth: f64| match guard.kind {
+                Kind::Gap(c) => self.passed[c] || value.low >= -depth,
+                Kind::Stop(_) => value.high <= depth || value.low >= 0.0,
+                Kind::Mark(_) => value.low >= -depth || value.high <= depth,
+            };
+            if rate.low >= 0.0 || rate.high <= 0.0 || is_plain(0.0) {
+                continue;
+            }
+            let (_, term) = guard.value(&self.values);
+            self.values.gradient_size(term, 0, &mut self.changes);
+            let reach = change(&self.changes, &self.sizes, [q, v]);
+            if !is_plain(findings.tolerance * reach) {
+                return false;
+            }
+        }
+        true
+    }
+
+    /// Looks at an instant of a step.
+    fn look(&mut self, step: &Step, s: f64, mode: &Mode, findings: &mut Findings) {
+        let [mut q, mut v] = core::mem::take(&mut self.state);
+        for (x, c) in q.iter_mut().zip(step.polynomials(0)) {
+            *x = horner(c, s);
+        }
+        for (x, c) in v.iter_mut().zip(step.polynomials(1)) {
+            *x = horner(c, s);
+        }
+        let at = Situation {
+            time: step.time + step.length * s,
+            q: &q,
+            v: &v,
+            acceleration: &[],
+            forces: &[],
+            loads: &[],
+        };
+        self.see(at, mode, false, findings);
+        self.state = [q, v];
+    }
+
+    /// Looks at an instant: at the guards that read forces, or at the others.
     pub fn see(
         &mut self,
-        equations: &mut Equations,
+        at: Situation<'_>,
+        mode: &Mode,
+        of_forces: bool,
         findings: &mut Findings,
-        (at, mode): (Situation<'_>, &Mode),
-        passed: &[bool],
-        again: &mut Vec<f64>,
     ) {
-        let d = equations.d;
+        self.values.evaluate(at.inputs(&self.zeros));
         for guard in &mut self.guards {
-            let Some((value, term)) = guard.kind.value(equations, mode) else {
-                guard.last.clear();
+            if guard.of_forces != of_forces {
                 continue;
-            };
-            // What is as it should be is not measured.
-            let mut book = |subject, error: f64, name| {
-                let reach = if error > 0.0 {
-                    equations.reach(term, 0, at)
-                } else {
-                    0.0
-                };
-                // Forces do not follow from the state alone.
-                let reach = if reach > 0.0 { reach } else { 1.0 };
-                findings.book(subject, error, reach, at.time, name);
-            };
-            let from = guard.last.last().copied();
-            match guard.kind {
-                Kind::Gap(c) if !passed[c] => {
-                    book(Subject::Gaps, -value, d.contacts[c].name);
+            }
+            if !guard.acts(self.d, mode) {
+                guard.last = None;
+                continue;
+            }
+            let (value, term) = guard.value(&self.values);
+            let (subject, error, name) = match guard.kind {
+                Kind::Gap(c) => {
+                    let gap = self.values.value(term);
+                    self.passed[c] = gap < 0.0 && (self.passed[c] || value > gap);
+                    let error = if self.passed[c] { 0.0 } else { -value };
+                    (Subject::Gaps, error, self.d.contacts[c].name)
                 }
-                Kind::Gap(_) => {}
                 Kind::Stop(i) => {
-                    if guard.armed {
-                        book(Subject::Stops, value, d.stops[i].name);
-                    }
+                    let error = if guard.armed { value } else { 0.0 };
                     guard.armed |= value < 0.0;
+                    (Subject::Stops, error, self.d.stops[i].name)
                 }
                 Kind::Mark(i) => {
-                    if let Some((before, earlier)) = from {
-                        let zeros = d.marks[i].zeros;
-                        let crossed = earlier < 0.0 && value > 0.0;
-                        let crossed = crossed || zeros && earlier > 0.0 && value < 0.0;
-                        let blur = 1e-9 * (at.time - before);
-                        let near = before - blur..=at.time + blur;
-                        let logged = self.marks[i].iter().any(|t| near.contains(t));
-                        let missed = crossed && !logged;
-                        let error = if missed {
-                            earlier.abs().min(value.abs())
-                        } else {
-                            0.0
-                        };
-                        book(Subject::Marks, error, d.marks[i].name);
-                    }
+                    let missed =
+                        guard.misses(at.time, value, self.d.marks[i].zeros, &self.marks[i]);
+                    (Subject::Marks, missed, self.d.marks[i].name)
                 }
+            };
+            guard.last = Some((at.time, value));
+            // What is as it should be is not measured, and forces do not follow from the state alone.
+            let mut reach = 0.0;
+            if error > 0.0 {
+                self.values.gradient_size(term, 0, &mut self.changes);
+                reach = change(&self.changes, &self.sizes, [at.q, at.v]);
             }
-            again.extend(guard.remember(at.time, value));
+            let reach = if reach > 0.0 { reach } else { 1.0 };
+            findings.book(subject, error.max(0.0), reach, at.time, name);
         }
     }
 }
 
 impl Guard {
-    /// Keeps the last three values; where the parabola through them has an extremum beyond zero.
-    fn remember(&mut self, time: f64, value: f64) -> Option<f64> {
-        self.last.push((time, value));
-        let &[(t0, a), (t1, b), (t2, c)] = self.last.last_chunk::<3>()?;
-        self.last.remove(0);
-        let extreme = (b - a) * (c - b) < 0.0 && (b < a) == (b > 0.0);
-        if !extreme {
-            return None;
-        }
-        let (left, right) = ((b - a) / (t1 - t0), (c - b) / (t2 - t1));
-        let bend = (right - left) / (t2 - t0);
-        let slope = left + bend * (t1 - t0);
-        let shift = -slope / (2.0 * bend);
-        let lowest = b + slope * shift + bend * shift * shift;
-        (lowest * b < 0.0).then_some(t1 + shift)
+    /// All values that it reads.
+    fn reads(&self) -> impl Iterator<Item = usize> {
+        self.terms.iter().chain(&self.region).copied()
     }
-}
 
-impl Kind {
-    /// The value of a guard and which it is; of a gap while its contact is open. Stops and marks are true where it is ≥ 0.
-    fn value(self, equations: &Equations, mode: &Mode) -> Option<(f64, usize)> {
-        let (declaration, d) = (equations.declaration, equations.d);
-        let value = |term: usize| equations.values.value(term);
-        let terms = match self {
-            Kind::Gap(c) if mode.contacts[c] => return None,
-            Kind::Gap(c) => {
-                let gap = declaration.contacts[c].gap;
-                return Some((value(gap), gap));
+    /// Whether it is followed in a mode: gaps while their contacts are open.
+    fn acts(&self, d: &Description, mode: &Mode) -> bool {
+        match self.kind {
+            Kind::Gap(c) => !mode.contacts[c],
+            Kind::Stop(i) => holds(&d.stops[i], mode),
+            Kind::Mark(i) => holds(&d.marks[i], mode),
+        }
+    }
+
+    /// Its value, and the term that has it.
+    fn value(&self, values: &Evaluator) -> (f64, usize) {
+        let terms = self.terms.iter().map(|&term| (values.value(term), term));
+        let least = terms.min_by(|a, b| a.0.total_cmp(&b.0));
+        let (value, term) = least.unwrap_or((f64::NAN, 0));
+        match self.region {
+            Some(region) => (value.max(-values.value(region)), term),
+            None => (value, term),
+        }
+    }
+
+    /// Its value and its rate.
+    fn range(&self, values: &Evaluator<Interval>) -> (Interval, Interval) {
+        let terms = self.terms.iter();
+        let both = terms.map(|&term| (values.value(term), values.rate(term)));
+        let least = both.reduce(|a, b| (a.0.min(b.0), a.1.hull(b.1)));
+        let (value, rate) = least.unwrap_or((Interval::ANYTHING, Interval::ANYTHING));
+        match self.region {
+            Some(region) => {
+                let minus = Interval::number(-1.0);
+                let outside = (minus * values.value(region), minus * values.rate(region));
+                (value.max(outside.0), rate.hull(outside.1))
             }
-            Kind::Stop(i) if !holds(&d.stops[i], mode) => return None,
-            Kind::Mark(i) if !holds(&d.marks[i], mode) => return None,
-            Kind::Stop(i) => declaration.stops[i]?,
-            Kind::Mark(i) => declaration.marks[i]?,
+            None => (value, rate),
+        }
+    }
+
+    /// How far a mark has gone through zero since it was looked at last without having been logged.
+    fn misses(&self, time: f64, value: f64, zeros: bool, logged: &[f64]) -> f64 {
+        let Some((before, earlier)) = self.last else {
+            return 0.0;
         };
-        let values = terms.iter().map(|&term| (value(term), term));
-        values.min_by(|a, b| a.0.total_cmp(&b.0))
+        let crossed = earlier < 0.0 && value > 0.0 || zeros && earlier > 0.0 && value < 0.0;
+        let blur = 1e-9 * (time - before);
+        let near = before - blur..=time + blur;
+        if crossed && !logged.iter().any(|t| near.contains(t)) {
+            earlier.abs().min(value.abs())
+        } else {
+            0.0
+        }
     }
 }
 

@@ -1,203 +1,411 @@
 //! Values, rates and gradients of the declared quantities at a state.
 //!
-//! A motion q + vτ + ½aτ² goes through the operations as [`Series`]. Gradients come from one sweep backwards: a change δx(τ)
+//! A motion q + vτ + ½aτ² goes through the operations as [`Series`]; where it is one of intervals, everything that it can be
+//! within a time goes through them at once. Gradients come from one sweep backwards: a change δx(τ)
 //! of an operand changes f(x) by f'(x)δx, so that the weights w̄ₖ of the coefficients of a value go back by convolution with
-//! f'(x), and those of a derivative y = ẋ by x̄ₖ₊₁ += (k+1) ȳₖ (Griewank & Walther 2008, chapter 13). With
+//! f'(x), and those of a derivative y = ẋ by x̄ₖ₊₁ += (k+1) ȳₖ (Griewank & Walther 2008, chapter 13).
+//!
+//! What balances is a functional derivative of ∫L dτ, which is a series itself. By parts it goes back through y = ẋ as
 //!
 //! ```text
-//! ∂L₀/∂q₁ = ∂L/∂v        ∂L₁/∂q₁ = d/dt ∂L/∂v + ∂L/∂q        ∂L₀/∂q₀ = ∂L/∂q
+//! δ/δx = −d/dτ δ/δy        so that        δ/δq = ∂L/∂q − d/dt ∂L/∂v
 //! ```
 //!
-//! two sweeps, from the weights of L and of everything that forces act on, are all of d/dt ∂L/∂v − ∂L/∂q − Q.
+//! A force λ on a gap has the weight λ there, and one on a slip the weight −λτ, whose −d/dτ it is. The same sweep
+//! takes ∂L/∂q and ∂L/∂v along.
 
+use super::real::Real;
 use super::series::{Series, function, power};
 use super::{Declaration, op};
+use core::ops::AddAssign;
 
 /// What a declaration is evaluated at.
 #[derive(Clone, Copy, Debug)]
-pub struct Inputs<'a> {
-    /// Parameters, in the order of the description.
-    pub parameters: &'a [f64],
+pub struct Inputs<'a, N = f64> {
     /// t
-    pub time: f64,
+    pub time: N,
     /// q
-    pub q: &'a [f64],
+    pub q: &'a [N],
     /// v
-    pub v: &'a [f64],
+    pub v: &'a [N],
     /// dv/dt
-    pub acceleration: &'a [f64],
+    pub acceleration: &'a [N],
     /// λ of every row.
-    pub forces: &'a [f64],
+    pub forces: &'a [N],
     /// Values of the applied forces.
-    pub loads: &'a [f64],
+    pub loads: &'a [N],
 }
 
-/// A weight of a coefficient of a value: (value, power of τ, weight).
-pub type Seed = (usize, usize, f64);
+/// A value with the coefficients of its weight in what balances, and its weight in the gradient.
+#[derive(Clone, Copy, Debug)]
+pub struct Seed {
+    /// The value.
+    pub value: usize,
+    /// Weights of τ⁰ and τ¹ in the functional derivative.
+    pub variation: [f64; 2],
+    /// Weight in the gradient.
+    pub gradient: f64,
+}
+
+/// A sum, and the sum of the absolute values of its terms, which rounding errors and errors of the state are relative to.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sum {
+    /// Σ x
+    pub sum: f64,
+    /// Σ |x|
+    pub size: f64,
+}
+
+impl Sum {
+    #[inline]
+    fn of(x: f64) -> Self {
+        let size = x.abs();
+        Self { sum: x, size }
+    }
+
+    #[inline]
+    fn times(self, factor: f64) -> Self {
+        Self {
+            sum: self.sum * factor,
+            size: self.size * factor.abs(),
+        }
+    }
+}
+
+impl AddAssign for Sum {
+    #[inline]
+    fn add_assign(&mut self, other: Self) {
+        self.sum += other.sum;
+        self.size += other.size;
+    }
+}
+
+/// What a sweep finds for a coordinate.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Gradient {
+    /// ∂/∂q − d/dt ∂/∂v
+    pub variation: Sum,
+    /// ∂/∂q
+    pub position: Sum,
+    /// ∂/∂v
+    pub velocity: Sum,
+}
+
+/// Weights of a value: τ⁰ and τ¹ of the functional derivative, the gradient, and that which has come through a derivative.
+type Weights = [Sum; 4];
+
+#[derive(Clone, Copy, Debug)]
+struct Operation {
+    /// The value that it defines.
+    value: usize,
+    code: u32,
+    /// The operand that chooses.
+    guard: usize,
+    x: usize,
+    y: usize,
+}
+
+impl Operation {
+    /// Operands that are values.
+    fn operands(&self) -> impl Iterator<Item = usize> {
+        let (x, y, guard) = (Some(self.x), Some(self.y), Some(self.guard));
+        let values = match self.code {
+            op::NUMBER | op::PARAMETER | op::TIME | op::POSITION | op::FORCE | op::LOAD => {
+                [None; 3]
+            }
+            op::ADD | op::MULTIPLY | op::ATAN2 => [x, y, None],
+            op::SELECT => [x, y, guard],
+            _ => [x, None, None],
+        };
+        values.into_iter().flatten()
+    }
+}
 
 /// Evaluates a declaration; keeps the memory for it.
 #[derive(Clone, Debug)]
-pub struct Evaluator {
+pub struct Evaluator<N = f64> {
     declaration: &'static Declaration,
-    values: Vec<Series>,
-    /// Derivative of each value by its operands.
-    slopes: Vec<[Series; 2]>,
-    /// The operands that the derivatives are by.
-    operands: Vec<[usize; 2]>,
-    weights: Vec<[f64; 3]>,
+    /// What changes with the state, of what is wanted.
+    operations: Vec<Operation>,
+    /// Per value: whether it changes with the state.
+    moves: Vec<bool>,
+    /// Per value: whether it reads forces, which do not follow from the state alone.
+    of_forces: Vec<bool>,
+    values: Vec<Series<N>>,
+    /// Derivative of each function by its operands.
+    slopes: Vec<[Series<N>; 2]>,
+    weights: Vec<Weights>,
+    /// The same of one value's coefficients.
+    sizes: Vec<[f64; 3]>,
 }
 
-/// No operand.
-const NOTHING: usize = usize::MAX;
-
-impl Evaluator {
-    /// An evaluator of everything but pictures, without values.
-    pub fn new(declaration: &'static Declaration) -> Self {
-        Self::of(declaration, declaration.values)
-    }
-
-    /// An evaluator of everything, without values.
-    pub fn with_pictures(declaration: &'static Declaration) -> Self {
-        Self::of(declaration, declaration.words.len() / 12)
-    }
-
-    /// An evaluator of so many values.
-    fn of(declaration: &'static Declaration, count: usize) -> Self {
-        Self {
-            declaration,
-            values: Vec::with_capacity(count),
-            slopes: Vec::with_capacity(count),
-            operands: Vec::with_capacity(count),
-            weights: vec![[0.0; 3]; count],
+impl<N: Real> Evaluator<N> {
+    /// An evaluator of these values, with these parameters.
+    pub fn new(
+        declaration: &'static Declaration,
+        parameters: &[f64],
+        wanted: impl IntoIterator<Item = usize>,
+    ) -> Self {
+        let words = declaration.words.chunks_exact(12).enumerate();
+        let all: Vec<Operation> = words.map(operation).collect();
+        let mut needed = vec![false; all.len()];
+        wanted.into_iter().for_each(|value| needed[value] = true);
+        for operation in all.iter().rev() {
+            if needed[operation.value] {
+                operation.operands().for_each(|x| needed[x] = true);
+            }
         }
+        let mut evaluator = Self {
+            declaration,
+            operations: Vec::with_capacity(all.len()),
+            moves: vec![false; all.len()],
+            of_forces: vec![false; all.len()],
+            values: vec![Series::default(); all.len()],
+            slopes: vec![[Series::default(); 2]; all.len()],
+            weights: Vec::new(),
+            sizes: Vec::new(),
+        };
+        let still = Inputs {
+            time: N::default(),
+            q: &[],
+            v: &[],
+            acceleration: &[],
+            forces: &[],
+            loads: &[],
+        };
+        for operation in all.into_iter().filter(|operation| needed[operation.value]) {
+            let at = operation.value;
+            evaluator.moves[at] = match operation.code {
+                op::TIME | op::POSITION | op::FORCE | op::LOAD => true,
+                _ => operation.operands().any(|x| evaluator.moves[x]),
+            };
+            evaluator.of_forces[at] = match operation.code {
+                op::FORCE | op::LOAD => true,
+                _ => operation.operands().any(|x| evaluator.of_forces[x]),
+            };
+            if operation.code == op::PARAMETER {
+                evaluator.values[at] = Series::constant(N::number(parameters[operation.x]));
+            } else if evaluator.moves[at] {
+                evaluator.operations.push(operation);
+            } else {
+                evaluator.apply(operation, still);
+            }
+        }
+        evaluator
     }
 
-    /// Number of operations, each of which rounds.
-    pub fn operations(&self) -> usize {
-        self.weights.len()
+    /// An evaluator of everything, pictures too.
+    pub fn of_everything(declaration: &'static Declaration, parameters: &[f64]) -> Self {
+        Self::new(declaration, parameters, 0..declaration.words.len() / 12)
+    }
+
+    /// Whether a value reads forces, which do not follow from the state alone.
+    pub fn is_of_forces(&self, value: usize) -> bool {
+        self.of_forces[value]
+    }
+
+    /// Whether any value reads velocities as such, so that its rate needs accelerations.
+    pub fn needs_accelerations(&self) -> bool {
+        let mut operations = self.operations.iter();
+        operations.any(|operation| operation.code == op::DERIVATIVE)
     }
 
     /// Takes another state.
-    pub fn evaluate(&mut self, x: Inputs<'_>) {
-        self.values.clear();
-        self.slopes.clear();
-        self.operands.clear();
-        let one = Series::constant(1.0);
-        let none = [Series::default(); 2];
-        let words = self.declaration.words.chunks_exact(12);
-        for words in words.take(self.weights.len()) {
-            let word = |k: usize| {
-                let bytes = [words[k], words[k + 1], words[k + 2], words[k + 3]];
-                u32::from_le_bytes(bytes)
-            };
-            let (code, i, j) = (word(0), word(4) as usize, word(8) as usize);
-            let number = |list: &[f64]| (Series::constant(list[i]), none, [NOTHING; 2]);
-            let n = |i: usize| self.values[i];
-            let (value, slopes, operands) = match code & 255 {
-                op::NUMBER => number(self.declaration.numbers),
-                op::PARAMETER => number(x.parameters),
-                op::FORCE => number(x.forces),
-                op::LOAD => number(x.loads),
-                op::TIME => (Series([x.time, 1.0, 0.0]), none, [NOTHING; 2]),
-                op::POSITION => {
-                    let moves = Series([x.q[i], x.v[i], 0.5 * x.acceleration[i]]);
-                    (moves, none, [NOTHING; 2])
-                }
-                op::ADD => (n(i) + n(j), [one, one], [i, j]),
-                op::MULTIPLY => (n(i) * n(j), [n(j), n(i)], [i, j]),
-                op::POWER => {
-                    let c = self.declaration.numbers[j];
-                    let (value, slope) = n(i).of(power(n(i).0[0], c));
-                    (value, [slope, one], [i, NOTHING])
-                }
-                op::DERIVATIVE => (n(i).derivative(), none, [i, NOTHING]),
-                op::SELECT => {
-                    let chosen = if n((code >> 8) as usize).0[0] >= 0.0 {
-                        i
-                    } else {
-                        j
-                    };
-                    (n(chosen), [one, one], [chosen, NOTHING])
-                }
-                op::ATAN2 => {
-                    let (value, slopes) = n(i).atan2(n(j));
-                    (value, slopes, [i, j])
-                }
-                call => {
-                    let (value, slope) = n(i).of(function(call - op::FUNCTIONS, n(i).0[0]));
-                    (value, [slope, one], [i, NOTHING])
-                }
-            };
-            self.values.push(value);
-            self.slopes.push(slopes);
-            self.operands.push(operands);
+    pub fn evaluate(&mut self, x: Inputs<'_, N>) {
+        for k in 0..self.operations.len() {
+            self.apply(self.operations[k], x);
         }
     }
 
+    #[inline]
+    fn apply(&mut self, operation: Operation, x: Inputs<'_, N>) {
+        let (at, i, j) = (operation.value, operation.x, operation.y);
+        let n = |i: usize| self.values[i];
+        self.values[at] = match operation.code {
+            op::NUMBER => Series::constant(N::number(self.declaration.numbers[i])),
+            op::FORCE => Series::constant(x.forces[i]),
+            op::LOAD => Series::constant(x.loads[i]),
+            op::TIME => Series([x.time, N::number(1.0), N::default()]),
+            op::POSITION => Series([x.q[i], x.v[i], N::number(0.5) * x.acceleration[i]]),
+            op::ADD => n(i) + n(j),
+            op::MULTIPLY => n(i) * n(j),
+            op::DERIVATIVE => n(i).derivative(),
+            op::SELECT => match n(operation.guard).0[0].is_positive() {
+                Some(true) => n(i),
+                Some(false) => n(j),
+                // What is chosen in between jumps, or its rate does.
+                None => {
+                    let value = n(i).0[0].hull(n(j).0[0]);
+                    Series([value, N::ANYTHING, N::ANYTHING])
+                }
+            },
+            op::ATAN2 => {
+                let (value, slopes) = n(i).atan2(n(j));
+                self.slopes[at] = slopes;
+                value
+            }
+            op::POWER => {
+                let c = self.declaration.numbers[j];
+                let (value, slope) = n(i).of(power(n(i).0[0], c));
+                self.slopes[at][0] = slope;
+                value
+            }
+            call => {
+                let (value, slope) = n(i).of(function(call - op::FUNCTIONS, n(i).0[0]));
+                self.slopes[at][0] = slope;
+                value
+            }
+        };
+    }
+
     /// A value at the state.
-    pub fn value(&self, value: usize) -> f64 {
+    pub fn value(&self, value: usize) -> N {
         self.values[value].0[0]
     }
 
     /// Coefficient of a value's series at the state.
-    pub fn coefficient(&self, value: usize, power: usize) -> f64 {
+    pub fn coefficient(&self, value: usize, power: usize) -> N {
         self.values[value].0[power]
     }
 
     /// d/dt of a value.
-    pub fn rate(&self, value: usize) -> f64 {
+    pub fn rate(&self, value: usize) -> N {
         self.values[value].0[1]
     }
+}
 
-    /// Σ weight · ∂value/∂qₖ of all seeds for every coordinate, k = `power`, added to `sums`; and the same of absolute values,
-    /// which rounding errors and errors of the state are relative to, to `sizes`.
-    pub fn sweep(&mut self, seeds: &[Seed], power: usize, sums: &mut [f64], sizes: &mut [f64]) {
-        self.back(seeds, power, sums, |x| x);
-        self.back(seeds, power, sizes, f64::abs);
+/// An operation from its words.
+fn operation((value, words): (usize, &[u8])) -> Operation {
+    let word = |k: usize| {
+        let bytes = [words[k], words[k + 1], words[k + 2], words[k + 3]];
+        u32::from_le_bytes(bytes)
+    };
+    Operation {
+        value,
+        code: word(0) & 255,
+        guard: (word(0) >> 8) as usize,
+        x: word(4) as usize,
+        y: word(8) as usize,
+    }
+}
+
+impl Evaluator {
+    /// Hands the derivatives of an operation over, with the operands that they are by.
+    #[inline]
+    fn pass(&self, operation: Operation, mut to: impl FnMut(usize, &Series)) {
+        const ONE: Series = Series([1.0, 0.0, 0.0]);
+        let (i, j) = (operation.x, operation.y);
+        let mut by = |i: usize, slope: &Series| {
+            if self.moves[i] {
+                to(i, slope);
+            }
+        };
+        match operation.code {
+            op::ADD => {
+                by(i, &ONE);
+                by(j, &ONE);
+            }
+            op::MULTIPLY => {
+                by(i, &self.values[j]);
+                by(j, &self.values[i]);
+            }
+            op::SELECT if self.value(operation.guard) >= 0.0 => by(i, &ONE),
+            op::SELECT => by(j, &ONE),
+            op::TIME | op::FORCE | op::LOAD => {}
+            op::ATAN2 => {
+                let [along, across] = &self.slopes[operation.value];
+                by(i, along);
+                by(j, across);
+            }
+            _ => by(i, &self.slopes[operation.value][0]),
+        }
     }
 
-    /// The sizes of [`Self::sweep`] alone.
-    pub fn gradient_size(&mut self, seeds: &[Seed], power: usize, sizes: &mut [f64]) {
-        self.back(seeds, power, sizes, f64::abs);
+    /// Operations up to that which defines a value.
+    fn up_to(&self, last: usize) -> usize {
+        self.operations
+            .partition_point(|operation| operation.value <= last)
     }
 
-    fn back(&mut self, seeds: &[Seed], power: usize, out: &mut [f64], of: impl Fn(f64) -> f64) {
-        let Some(last) = seeds.iter().map(|seed| seed.0).max() else {
+    /// Σ weight · δ/δq of all seeds for every coordinate, with their gradients.
+    pub fn sweep(&mut self, seeds: &[Seed], out: &mut [Gradient]) {
+        out.fill(Gradient::default());
+        let Some(last) = seeds.iter().map(|seed| seed.value).max() else {
             return;
         };
-        self.weights[..=last].fill([0.0; 3]);
-        for &(value, k, weight) in seeds {
-            self.weights[value][k] += of(weight);
+        let mut weights = core::mem::take(&mut self.weights);
+        weights.clear();
+        weights.resize(last + 1, Weights::default());
+        for seed in seeds {
+            let [first, second] = seed.variation;
+            let w = &mut weights[seed.value];
+            for (w, x) in w.iter_mut().zip([first, second, seed.gradient]) {
+                *w += Sum::of(x);
+            }
         }
-        for at in (0..=last).rev() {
-            let w = self.weights[at];
+        for k in (0..self.up_to(last)).rev() {
+            let operation = self.operations[k];
+            let [e0, e1, g, p] = weights[operation.value];
+            if e0.size + e1.size + g.size + p.size == 0.0 {
+                continue;
+            }
+            match operation.code {
+                op::POSITION => {
+                    let out = &mut out[operation.x];
+                    out.variation += e0;
+                    out.position += g;
+                    out.velocity += p;
+                }
+                op::DERIVATIVE => {
+                    let x = &mut weights[operation.x];
+                    x[0] += e1.times(-1.0);
+                    x[3] += g;
+                }
+                _ => self.pass(operation, |i, Series([a, b, _])| {
+                    let x = &mut weights[i];
+                    x[0] += e0.times(*a);
+                    x[1] += e1.times(*a);
+                    x[1] += e0.times(*b);
+                    x[2] += g.times(*a);
+                    x[3] += p.times(*a);
+                }),
+            }
+        }
+        self.weights = weights;
+    }
+
+    /// Σ |∂c/∂qₖ| for every coordinate and k, c a coefficient of a value.
+    pub fn gradient_size(&mut self, value: usize, power: usize, out: &mut [[f64; 3]]) {
+        out.fill([0.0; 3]);
+        let mut sizes = core::mem::take(&mut self.sizes);
+        sizes.clear();
+        sizes.resize(value + 1, [0.0; 3]);
+        sizes[value][power] = 1.0;
+        for k in (0..self.up_to(value)).rev() {
+            let operation = self.operations[k];
+            let w = sizes[operation.value];
             if w == [0.0; 3] {
                 continue;
             }
-            let words = &self.declaration.words[12 * at..];
-            match u32::from(words[0]) {
+            match operation.code {
                 op::POSITION => {
-                    let i = u32::from_le_bytes([words[4], words[5], words[6], words[7]]);
-                    out[i as usize] += w[power];
+                    let out = &mut out[operation.x];
+                    (0..3).for_each(|k| out[k] += w[k]);
                 }
                 op::DERIVATIVE => {
-                    let x = &mut self.weights[self.operands[at][0]];
+                    let x = &mut sizes[operation.x];
                     x[1] += w[0];
                     x[2] += 2.0 * w[1];
                 }
-                _ => {
-                    for (slope, operand) in self.slopes[at].iter().zip(self.operands[at]) {
-                        if operand == NOTHING {
-                            continue;
-                        }
-                        let [a, b, c] = slope.0.map(&of);
-                        let x = &mut self.weights[operand];
-                        x[0] += w[0] * a + w[1] * b + w[2] * c;
-                        x[1] += w[1] * a + w[2] * b;
-                        x[2] += w[2] * a;
-                    }
-                }
+                _ => self.pass(operation, |i, slope| {
+                    let [a, b, c] = slope.0.map(f64::abs);
+                    let x = &mut sizes[i];
+                    x[0] += w[0] * a + w[1] * b + w[2] * c;
+                    x[1] += w[1] * a + w[2] * b;
+                    x[2] += w[2] * a;
+                }),
             }
         }
+        self.sizes = sizes;
     }
 }

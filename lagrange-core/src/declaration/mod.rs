@@ -8,10 +8,16 @@
 
 mod draw;
 mod evaluate;
+mod interval;
+mod real;
 mod series;
+#[cfg(test)]
+mod tests;
 
 pub use draw::{Draw, Form, Turn};
-pub use evaluate::{Evaluator, Inputs, Seed};
+pub use evaluate::{Evaluator, Gradient, Inputs, Seed, Sum};
+pub use interval::Interval;
+pub use real::Real;
 pub use series::Series;
 
 /// The declared quantities. Numbers are those of values; lists are in the order of the description's.

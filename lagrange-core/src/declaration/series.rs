@@ -1,30 +1,34 @@
-//! Polynomials of degree two in time, c₀ + c₁τ + c₂τ², as numbers: a motion q + vτ + ½aτ² goes through an expression, and
+//! Polynomials of degree two in time, c₀ + c₁τ + c₂τ², as numbers or intervals: a motion q + vτ + ½aτ² goes through an expression, and
 //! with it its rate.
 
+use super::real::Real;
 use core::ops::{Add, Mul};
 
 /// c₀, c₁, c₂.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Series(pub [f64; 3]);
+pub struct Series<N = f64>(pub [N; 3]);
 
-impl Series {
+impl<N: Real> Series<N> {
     /// Does not move.
-    pub const fn constant(c: f64) -> Self {
-        Self([c, 0.0, 0.0])
+    #[inline]
+    pub fn constant(c: N) -> Self {
+        Self([c, N::default(), N::default()])
     }
 
     /// d/dτ; the coefficient that the rate would need and is not known is 0.
+    #[inline]
     pub fn derivative(self) -> Self {
         let [_, x, y] = self.0;
-        Self([x, 2.0 * y, 0.0])
+        Self([x, y + y, N::default()])
     }
 
     /// f(self), and f'(self), from the derivatives f, f', f'', f''' at c₀.
-    pub fn of(self, [f, f1, f2, f3]: [f64; 4]) -> (Self, Self) {
+    #[inline]
+    pub fn of(self, [f, f1, f2, f3]: [N; 4]) -> (Self, Self) {
         let [_, x, y] = self.0;
-        let square = 0.5 * x * x;
+        let square = N::number(0.5) * x * x;
         // 0·∞ where a power has come down to a number.
-        let times = |a: f64, b: f64| if b == 0.0 { 0.0 } else { a * b };
+        let times = |a: N, b: N| if b.is_zero() { b } else { a * b };
         let value = [f, times(f1, x), times(f1, y) + times(f2, square)];
         let slope = [f1, times(f2, x), times(f2, y) + times(f3, square)];
         (Self(value), Self(slope))
@@ -34,27 +38,30 @@ impl Series {
     pub fn atan2(self, x: Self) -> (Self, [Self; 2]) {
         let y = self;
         let square = x * x + y * y;
-        let [s, ..] = square.0;
-        let (inverse, _) = square.of([1.0 / s, -1.0 / (s * s), 2.0 / (s * s * s), 0.0]);
-        let (along, across) = (x * inverse, y * inverse * Self::constant(-1.0));
+        let (inverse, _) = square.of(power(square.0[0], -1.0));
+        let minus = Self::constant(N::number(-1.0));
+        let (along, across) = (x * inverse, y * inverse * minus);
         let [rate, slope, _] = (along * y.derivative() + across * x.derivative()).0;
-        let angle = f64::atan2(y.0[0], x.0[0]);
-        (Self([angle, rate, 0.5 * slope]), [along, across])
+        let angle = y.0[0].atan2(x.0[0]);
+        let half = N::number(0.5) * slope;
+        (Self([angle, rate, half]), [along, across])
     }
 }
 
-impl Add for Series {
+impl<N: Real> Add for Series<N> {
     type Output = Self;
 
+    #[inline]
     fn add(self, other: Self) -> Self {
         let ([a, b, c], [x, y, z]) = (self.0, other.0);
         Self([a + x, b + y, c + z])
     }
 }
 
-impl Mul for Series {
+impl<N: Real> Mul for Series<N> {
     type Output = Self;
 
+    #[inline]
     fn mul(self, other: Self) -> Self {
         let ([a, b, c], [x, y, z]) = (self.0, other.0);
         Self([a * x, a * y + b * x, a * z + b * y + c * x])
@@ -62,57 +69,58 @@ impl Mul for Series {
 }
 
 /// Function `number` of the format and its first three derivatives at x.
-pub(super) fn function(number: u32, x: f64) -> [f64; 4] {
+pub(super) fn function<N: Real>(number: u32, x: N) -> [N; 4] {
+    let n = N::number;
+    let minus = |x: N| n(-1.0) * x;
+    let square = |x: N| x.raised(2.0);
     match number {
         0 => {
             let (s, c) = x.sin_cos();
-            [s, c, -s, -c]
+            [s, c, minus(s), minus(c)]
         }
         1 => {
             let (s, c) = x.sin_cos();
-            [c, -s, -c, s]
+            [c, minus(s), minus(c), s]
         }
         2 => {
             let t = x.tan();
-            let u = 1.0 + t * t;
-            [t, u, 2.0 * t * u, 2.0 * u * (1.0 + 3.0 * t * t)]
+            let u = n(1.0) + square(t);
+            let third = n(2.0) * u * (n(1.0) + n(3.0) * square(t));
+            [t, u, n(2.0) * t * u, third]
         }
         3 | 4 => {
-            let w = 1.0 / (1.0 - x * x).sqrt();
-            let cube = w * w * w;
-            let third = cube + 3.0 * x * x * cube * w * w;
+            let w = (n(1.0) + minus(square(x))).raised(-0.5);
+            let cube = w.raised(3.0);
+            let third = cube + n(3.0) * square(x) * w.raised(5.0);
             match number {
                 3 => [x.asin(), w, x * cube, third],
-                _ => [x.acos(), -w, -x * cube, -third],
+                _ => [x.acos(), minus(w), minus(x * cube), minus(third)],
             }
         }
         5 => {
-            let u = 1.0 / (1.0 + x * x);
-            let third = (6.0 * x * x - 2.0) * u * u * u;
-            [x.atan(), u, -2.0 * x * u * u, third]
+            let u = (n(1.0) + square(x)).raised(-1.0);
+            let third = (n(6.0) * square(x) + n(-2.0)) * u.raised(3.0);
+            [x.atan(), u, n(-2.0) * x * square(u), third]
         }
         6 => [x.sinh(), x.cosh(), x.sinh(), x.cosh()],
         7 => [x.cosh(), x.sinh(), x.cosh(), x.sinh()],
         8 => {
             let t = x.tanh();
-            let u = 1.0 - t * t;
-            [t, u, -2.0 * t * u, u * (6.0 * t * t - 2.0)]
+            let u = n(1.0) + minus(square(t));
+            let third = u * (n(6.0) * square(t) + n(-2.0));
+            [t, u, n(-2.0) * t * u, third]
         }
         9 => [x.exp(); 4],
-        10 => [x.ln(), 1.0 / x, -1.0 / (x * x), 2.0 / (x * x * x)],
-        _ => [f64::NAN; 4],
+        10 => {
+            let third = n(2.0) * x.raised(-3.0);
+            [x.ln(), x.raised(-1.0), minus(x.raised(-2.0)), third]
+        }
+        _ => [N::ANYTHING; 4],
     }
 }
 
 /// xᵖ and its first three derivatives.
-pub(super) fn power(x: f64, p: f64) -> [f64; 4] {
-    let raised = |p: f64| {
-        if p == p.trunc() && p.abs() < 1e9 {
-            x.powi(p as i32)
-        } else {
-            x.powf(p)
-        }
-    };
+pub(super) fn power<N: Real>(x: N, p: f64) -> [N; 4] {
     let mut factor = 1.0;
     core::array::from_fn(|k| {
         let k = k as f64;
@@ -121,9 +129,9 @@ pub(super) fn power(x: f64, p: f64) -> [f64; 4] {
         }
         // The fourth derivative of a cube is 0, also at 0.
         if factor == 0.0 {
-            0.0
+            N::default()
         } else {
-            factor * raised(p - k)
+            N::number(factor) * x.raised(p - k)
         }
     })
 }
