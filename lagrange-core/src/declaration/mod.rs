@@ -27,8 +27,6 @@ pub struct Declaration {
     pub words: &'static [u8],
     /// Exact numbers.
     pub numbers: &'static [f64],
-    /// How many values there are without those that only pictures need, which follow.
-    pub values: usize,
     /// Kinetic energies; of a `lagrangian` the whole of it.
     pub kinetic: &'static [usize],
     /// Potential energies.
@@ -102,7 +100,6 @@ impl Declaration {
     pub const NONE: Self = Self {
         words: &[],
         numbers: &[],
-        values: 0,
         kinetic: &[],
         potential: &[],
         constraints: &[],

@@ -32,7 +32,6 @@ pub fn declaration(declared: &Declared, system: &System) -> TokenStream {
     let core = &system.core;
     let mut writer = Writer::new(declared);
     writer.write(&roots(of));
-    let values = index(writer.count);
     writer.write(&drawn_roots(of));
     let value = |e: &ExprId| index(writer.values[e]);
     let option = |e: &Option<ExprId>| match e {
@@ -116,7 +115,6 @@ pub fn declaration(declared: &Declared, system: &System) -> TokenStream {
         #core::declaration::Declaration {
             words: #words,
             numbers: #numbers,
-            values: #values,
             kinetic: &[#(#kinetic),*],
             potential: &[#(#potential),*],
             constraints: &[#(#constraints),*],
