@@ -407,8 +407,8 @@ impl Numbers {
         Self {
             time: now.time.value(),
             mode: now.mode.clone(),
-            q: plain(&now.q),
-            v: plain(&now.v),
+            q: plain(&now.state.q),
+            v: plain(&now.state.v),
             acceleration: plain(&now.acceleration),
             forces: plain(&now.forces),
             loads: plain(&now.loads),

@@ -3,8 +3,9 @@
 //! Where a system is a struct, rustc reads these literals; where it is a file, this reads the same. What is read lives as long as the
 //! program.
 
-use lagrange_core::declaration::{self, Declaration, Draw, Form, Turn, Worked};
-use lagrange_core::program::Encoded;
+use lagrange_core::__private::declaration::{self, Declaration, Draw, Form, Turn, Worked};
+use lagrange_core::__private::places::*;
+use lagrange_core::__private::program::{Encoded, ValueRef};
 use lagrange_core::system::*;
 use syn::{Expr, Lit, Member};
 
