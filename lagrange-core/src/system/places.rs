@@ -82,7 +82,7 @@ pub struct Branch {
 
 /// Energies; all in the report tape.
 ///
-/// What a scene can leave out stands under its own need ([`Effect::need`]), here as in the motion tape, so that
+/// What a scene can leave out stands under its own need ([`Effect::need`](super::Effect::need)), here as in the motion tape, so that
 /// these add up what acts: hold the needs of the active effects beside [`Energy::need`].
 #[derive(Debug)]
 pub struct Energy {
