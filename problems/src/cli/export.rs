@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 #[derive(Args)]
 #[command(after_help = "Examples:
   lagrange export pendulum.lagrange
-  lagrange export pendulum.lagrange --output src/pendulum.rs")]
+  lagrange export pendulum.lagrange --output pendulum.rs")]
 pub(super) struct Export {
     /// The declaration (….lagrange).
     file: String,
