@@ -26,7 +26,7 @@ pub struct Derivation {
 }
 
 impl Derivation {
-    /// Of a system that was not derived from a declaration.
+    /// Of a system about which nothing was derived.
     pub const NONE: Derivation = Derivation {
         name: "",
         declaration: "",

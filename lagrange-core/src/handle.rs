@@ -1,7 +1,7 @@
 //! Handles: typed indices of the items of a system, emitted as associated constants (`MassOnWheel::RIM`).
 //!
-//! Each is an index into the table of the same name in [`crate::system::Description`]; the number inside is public, so
-//! that systems that are not derived can make them.
+//! Each is an index into the table of the same name in [`crate::system::Description`]; the number inside is public, for programs
+//! that work on any system, [`AnySystem`](crate::system::AnySystem), and know no names.
 
 use crate::effects::Item;
 use crate::system::Description;

@@ -36,7 +36,7 @@
 //! * [`error::Error`]: what can go wrong, with the numbers that say where.
 //! * [`checks`]: formulas derived by hand, held against the derived equations.
 //! * [`arithmetic::Dual`]: derivatives of whole runs by parameters and start.
-//! * [`system`]: what the macro implements.
+//! * [`system`]: the names and units of everything that was declared, of one system or of any.
 
 // The derive macro names this crate by its path, also inside it.
 extern crate self as lagrange_core;
@@ -47,13 +47,13 @@ pub mod arithmetic;
 pub mod book;
 pub mod certificate;
 pub mod checks;
-pub mod declaration;
+mod declaration;
 mod derivation;
 pub mod dynamics;
 pub mod effects;
-pub mod equations;
+mod equations;
 pub mod error;
-pub mod events;
+mod events;
 pub mod handle;
 pub mod integrate;
 mod linear;
@@ -63,7 +63,7 @@ mod monitor;
 mod pool;
 mod precompiled;
 pub mod prelude;
-pub mod program;
+mod program;
 mod run;
 mod settings;
 pub mod simulation;
@@ -80,3 +80,26 @@ pub use monitor::Monitor;
 pub use nalgebra;
 pub use precompiled::Runnable;
 pub use simulation::{Awaited, Ensemble, Equations, Failure, FixedComponents, Runner, Simulation};
+
+/// What the code that the derive macro emits is made of. It may change with every version: only that code and the program
+/// `lagrange`, which comes with this crate, may use it.
+#[doc(hidden)]
+pub mod __private {
+    pub use crate::arithmetic::number::{Body, Number};
+
+    pub mod declaration {
+        pub use crate::declaration::*;
+    }
+
+    pub mod equations {
+        pub use crate::equations::*;
+    }
+
+    pub mod places {
+        pub use crate::system::places::*;
+    }
+
+    pub mod program {
+        pub use crate::program::{Encoded, Selection, ValueRef};
+    }
+}

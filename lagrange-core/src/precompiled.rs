@@ -78,7 +78,7 @@ type Execute<T> = fn(
 type Book<T> = fn(&Trajectory<T>, Option<&[f64]>) -> Result<Vec<Ledger>, Error>;
 type Beside<T> = fn(&mut Sampler<'_, T>, &Event<T>) -> Result<Instant<T>, Error>;
 type Consistent<T> =
-    fn(&mut Run<T>, f64, &State<T>, &State<T>, &FixedComponents) -> Result<State<T>, Error>;
+    fn(&mut Run<T>, f64, &State<T>, &FixedComponents<T>) -> Result<State<T>, Error>;
 type Feasible<T> = fn(&mut Run<T>, f64, &State<T>) -> Result<Vec<Instant<T>>, Error>;
 
 impl<T: Scalar> Functions<T> {

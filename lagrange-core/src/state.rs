@@ -147,50 +147,59 @@ pub trait Starts: System {
 
 impl<S: System> Starts for S {}
 
-/// Which values a consistent state must keep exactly: `FixedComponents::default().q(Pendulum::X).v(Pendulum::Y)`.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct FixedComponents {
-    /// Per coordinate: keep its position.
-    positions: Vec<bool>,
-    /// Per coordinate: keep its velocity.
-    velocities: Vec<bool>,
+/// Values that a consistent state must have exactly: `FixedComponents::default().q(Pendulum::X, 0.6).v(Pendulum::Y, 0.0)`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FixedComponents<T = f64> {
+    positions: Vec<(CoordinateId, T)>,
+    velocities: Vec<(CoordinateId, T)>,
 }
 
-impl FixedComponents {
-    /// With the position of a coordinate.
+impl<T> Default for FixedComponents<T> {
+    fn default() -> Self {
+        Self {
+            positions: Vec::new(),
+            velocities: Vec::new(),
+        }
+    }
+}
+
+impl<T: Copy> FixedComponents<T> {
+    /// With this position of a coordinate.
     #[must_use]
-    pub fn q(mut self, CoordinateId(i): CoordinateId) -> Self {
-        self.positions
-            .resize(self.positions.len().max(i + 1), false);
-        self.positions[i] = true;
+    pub fn q(mut self, coordinate: CoordinateId, q: T) -> Self {
+        self.positions.push((coordinate, q));
         self
     }
 
-    /// With the velocity of a coordinate.
+    /// With this velocity of a coordinate.
     #[must_use]
-    pub fn v(mut self, CoordinateId(i): CoordinateId) -> Self {
-        self.velocities
-            .resize(self.velocities.len().max(i + 1), false);
-        self.velocities[i] = true;
+    pub fn v(mut self, coordinate: CoordinateId, v: T) -> Self {
+        self.velocities.push((coordinate, v));
         self
     }
 
-    /// Per coordinate of a system with so many: whether its position, and whether its velocity is kept.
+    /// Writes the values into a state, and says per coordinate whether its position, and whether its velocity is fixed.
     ///
     /// # Errors
     /// [`Error::Dimension`] for a coordinate that is none of the system.
-    pub(crate) fn flags(&self, coordinates: usize) -> Result<[Vec<bool>; 2], Error> {
-        let most = self.positions.len().max(self.velocities.len());
-        if most > coordinates {
-            return Err(Error::Dimension {
-                expected: coordinates,
-                found: most,
-            });
-        }
-        Ok([&self.positions, &self.velocities].map(|held| {
-            let mut flags = held.clone();
-            flags.resize(coordinates, false);
-            flags
-        }))
+    pub(crate) fn write(&self, state: &mut State<T>) -> Result<[Vec<bool>; 2], Error> {
+        let positions = write(&self.positions, &mut state.q)?;
+        let velocities = write(&self.velocities, &mut state.v)?;
+        Ok([positions, velocities])
     }
+}
+
+/// Writes `values` among `numbers`, and says which of these they are.
+fn write<T: Copy>(values: &[(CoordinateId, T)], numbers: &mut [T]) -> Result<Vec<bool>, Error> {
+    let mut fixed = vec![false; numbers.len()];
+    for &(CoordinateId(i), value) in values {
+        let (Some(number), Some(is_fixed)) = (numbers.get_mut(i), fixed.get_mut(i)) else {
+            return Err(Error::Dimension {
+                expected: fixed.len(),
+                found: i + 1,
+            });
+        };
+        (*number, *is_fixed) = (value, true);
+    }
+    Ok(fixed)
 }

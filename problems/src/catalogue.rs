@@ -4,7 +4,7 @@
 use crate::accuracy::{self, Accuracy, Motion, Study};
 use crate::closed_form::ClosedForm;
 use crate::cost::{self, Costs};
-use crate::film::Film;
+use crate::film::{self, Film, Reel};
 use crate::outcome::{self, Outcome};
 use crate::request::{Refusal, Request};
 #[cfg(feature = "scenes")]
@@ -274,21 +274,20 @@ impl dyn Scene + '_ {
         self.run_in_pieces(request, PIECE)
     }
 
-    /// Runs it to be looked at: as [`Outcome`], with pictures.
+    /// Runs it to be looked at: as [`Outcome`], with pictures. Of a long motion it keeps what is looked at, as a run does.
     ///
     /// # Errors
     /// As for a run.
     pub fn film(&self, request: &Request) -> Result<Film, Refusal> {
-        let system = self.requested(request)?;
-        let simulation = request.simulation(&system)?;
-        let start = request.start(&system, &simulation)?;
-        let until = request.until.unwrap_or(self.until());
-        let outcome = request.stage(until, || simulation.run(start, 0.0..until));
-        let (trajectory, failure) = match outcome {
-            Ok(trajectory) => (trajectory, None),
-            Err(stopped) => (*stopped.trajectory, Some(stopped.error)),
+        self.film_in_pieces(request, PIECE)
+    }
+
+    fn film_in_pieces(&self, request: &Request, bytes: usize) -> Result<Film, Refusal> {
+        let reel = |piece: &Trajectory, failure, request: &Request, times: &[f64]| {
+            Reel::of(self.name(), piece, failure, request, times)
         };
-        Ok(Film::of(self.name(), &trajectory, failure, request))
+        let reel = self.in_pieces(request, bytes, film::instants, reel, Reel::join)?;
+        Ok(reel.film())
     }
 
     /// Measures what each effect costs.
@@ -349,27 +348,42 @@ impl dyn Scene + '_ {
         Ok(system)
     }
 
-    /// The run as asked for, of whose motion so many bytes are kept at a time.
     fn run_in_pieces(&self, request: &Request, bytes: usize) -> Result<Outcome, Refusal> {
+        let outcome = |piece: &Trajectory, failure, request: &Request, times: &[f64]| {
+            Outcome::sampled(self.name(), piece, failure, request, times)
+        };
+        self.in_pieces(request, bytes, outcome::equal, outcome, Outcome::join)
+    }
+
+    /// What is `told` of the run as asked for. So many bytes of the motion are kept at a time: a longer one is told piece by piece, at
+    /// equal intervals, and what is told is joined; one that fits is told at these `instants`.
+    fn in_pieces<T>(
+        &self,
+        request: &Request,
+        bytes: usize,
+        instants: fn(&Trajectory, usize) -> Vec<f64>,
+        told: impl Fn(&Trajectory, Option<Error>, &Request, &[f64]) -> T,
+        join: impl Fn(&mut T, T),
+    ) -> Result<T, Refusal> {
         let system = self.requested(request)?;
         let simulation = request.simulation(&system)?;
         let start = request.start(&system, &simulation)?;
         let until = request.until.unwrap_or(self.until());
-        let told = |piece: &Trajectory, failure, request: &Request| {
+        let told_piece = |piece: &Trajectory, failure, request: &Request| {
             let times = outcome::within(piece, until, request.samples);
-            Outcome::sampled(self.name(), piece, failure, request, &times)
+            told(piece, failure, request, &times)
         };
         let unseen = Request {
             progress: None,
             ..request.clone()
         };
-        let mut whole: Option<Outcome> = None;
+        let mut whole: Option<T> = None;
         let mut runner = simulation.runner();
         let run = || {
             runner.run_in_pieces(&start, 0.0..until, bytes, |piece| {
-                let next = told(piece, None, &unseen);
+                let next = told_piece(piece, None, &unseen);
                 match &mut whole {
-                    Some(whole) => whole.join(next),
+                    Some(whole) => join(whole, next),
                     None => whole = Some(next),
                 }
             })
@@ -377,9 +391,9 @@ impl dyn Scene + '_ {
         let failure = request.stage(until, run).err();
         let last = runner.trajectory();
         Ok(match whole {
-            None => Outcome::new(self.name(), last, failure, request),
+            None => told(last, failure, request, &instants(last, request.samples)),
             Some(mut whole) => {
-                whole.join(told(last, failure, request));
+                join(&mut whole, told_piece(last, failure, request));
                 whole
             }
         })
@@ -395,7 +409,7 @@ pub fn find(name: &str) -> Result<&'static dyn Scene, Refusal> {
 
 #[cfg(all(test, feature = "scenes"))]
 mod tests {
-    use super::{BeltOscillator, Entry, Outcome, Request, Scene};
+    use super::{BeltOscillator, Entry, Film, Outcome, Request, Scene};
 
     #[test]
     fn pieces_make_the_same_run() {
@@ -429,5 +443,32 @@ mod tests {
         let certificates = [&joined, &whole].map(|run| run.certificate.clone().expect("one"));
         assert_eq!(certificates[0].steps, certificates[1].steps);
         assert!(certificates.iter().all(|c| c.holds()));
+    }
+
+    #[test]
+    fn a_film_of_pieces_shows_the_same() {
+        let belt: &dyn Scene = &Entry::<BeltOscillator>::new("belt", 20.0);
+        let request = Request {
+            samples: 50,
+            ..Request::default()
+        };
+        let film = |bytes| belt.film_in_pieces(&request, bytes).expect("a film");
+        let films: [Film; 2] = [film(usize::MAX), film(3000)];
+        let [whole, joined] = &films;
+        assert_eq!(joined.outcome.phases, whole.outcome.phases);
+        for film in &films {
+            assert_eq!(film.drawings.len(), film.outcome.samples.len());
+            assert!(film.drift.is_some_and(|drift| drift < 1e-9));
+            assert!(film.books.len() <= 121, "{}", film.books.len());
+        }
+        let [a, b] = films
+            .each_ref()
+            .map(|film| film.books.last().expect("books"));
+        assert_eq!(a.0, b.0);
+        assert_eq!(a.1.work.len(), b.1.work.len());
+        for (a, b) in a.1.work.iter().zip(&b.1.work) {
+            assert_eq!((a.name, a.kind), (b.name, b.kind));
+            assert!((a.work - b.work).abs() < 1e-9, "{a:?} {b:?}");
+        }
     }
 }

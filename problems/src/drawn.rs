@@ -5,7 +5,7 @@
 use crate::drawing::{Arrow, Drawing, Shape};
 use crate::outcome::{Outcome, Sample, forces};
 use crate::space::{Pose, Solid, Space, Vector};
-use lagrange_core::declaration::{Declaration, Draw, Evaluator, Form, Inputs, Turn};
+use lagrange_core::__private::declaration::{Declaration, Draw, Evaluator, Form, Inputs, Turn};
 
 /// The pictures of all samples: in a plane, or in space.
 #[derive(Default)]

@@ -5,6 +5,7 @@ use crate::drawn::{self, Pictures};
 use crate::outcome::{Outcome, equal};
 use crate::request::Request;
 use crate::space::Space;
+use lagrange_core::__private::declaration::Declaration;
 use lagrange_core::prelude::*;
 
 /// A run to be looked at.
@@ -22,27 +23,53 @@ pub struct Film {
     pub drift: Option<f64>,
 }
 
-impl Film {
-    /// Of a finished run, which may have failed half-way.
+/// What is kept of a run, or of a piece of one, to make a [`Film`] of it.
+pub(crate) struct Reel {
+    outcome: Outcome,
+    drift: Option<f64>,
+    declaration: &'static Declaration,
+}
+
+impl Reel {
+    /// Of a run, which may have failed half-way, or of a piece of one, sampled at these times, which are in order.
     pub(crate) fn of(
         scene: &'static str,
         trajectory: &Trajectory,
         failure: Option<Error>,
         request: &Request,
+        times: &[f64],
     ) -> Self {
-        let times = instants(trajectory, request.samples);
-        let mut outcome = Outcome::sampled(scene, trajectory, failure, request, &times);
-        without_rounding(&mut outcome);
+        let booked = Request {
+            ledger: true,
+            ..request.clone()
+        };
+        let mut outcome = Outcome::sampled(scene, trajectory, failure, &booked, times);
+        outcome.event_ledgers = Vec::new();
         let samples = outcome.samples.iter();
         let instants = samples.map(|sample| (sample.time, &sample.mode, &sample.state));
-        let drift = drift(trajectory, instants);
-        let declaration = trajectory.declaration();
-        let Pictures { drawings, spaces } = drawn::pictures(declaration, &outcome);
         Self {
+            drift: drift(trajectory, instants),
+            declaration: trajectory.declaration(),
+            outcome,
+        }
+    }
+
+    /// Goes on with the next piece.
+    pub(crate) fn join(&mut self, next: Self) {
+        self.outcome.join(next.outcome);
+        self.drift = self.drift.into_iter().chain(next.drift).reduce(f64::max);
+    }
+
+    /// Draws what is kept.
+    pub(crate) fn film(self) -> Film {
+        let mut outcome = self.outcome;
+        without_rounding(&mut outcome);
+        let Pictures { drawings, spaces } = drawn::pictures(self.declaration, &outcome);
+        Film {
             drawings,
             spaces,
-            books: request.stage(trajectory.last_time(), || books(trajectory)),
-            drift,
+            books: books(&mut outcome),
+            drift: self.drift,
             outcome,
         }
     }
@@ -50,7 +77,7 @@ impl Film {
 
 /// About so many instants of a motion, in order: half of them at equal intervals, half spread over the integrator's steps, which
 /// are short where much happens in little time.
-fn instants(trajectory: &Trajectory, count: usize) -> Vec<f64> {
+pub(crate) fn instants(trajectory: &Trajectory, count: usize) -> Vec<f64> {
     let mut times = equal(trajectory, count.div_ceil(2));
     let steps: Vec<f64> = trajectory
         .step_times()
@@ -86,16 +113,19 @@ fn without_rounding(outcome: &mut Outcome) {
     }
 }
 
-/// Intervals at which the energy book is opened.
+/// At how many samples the energy books are kept at most, beside the first.
 const BOOKS: usize = 120;
 
-/// The energy book at equal intervals.
-fn books(trajectory: &Trajectory) -> Vec<(f64, Ledger)> {
-    let (first, last) = (trajectory.first_time(), trajectory.last_time());
-    let part = |k: usize| first + (last - first) * k as f64 / BOOKS as f64;
-    let times: Vec<f64> = (0..BOOKS).map(part).chain([last]).collect();
-    let ledgers = trajectory.ledgers(&times).unwrap_or_default();
-    times.into_iter().zip(ledgers).collect()
+/// The energy books of a run at some of its samples, the first and the last among them.
+fn books(outcome: &mut Outcome) -> Vec<(f64, Ledger)> {
+    let times = outcome.samples.iter().map(|sample| sample.time);
+    let books = times.zip(core::mem::take(&mut outcome.ledgers));
+    let count = books.len();
+    let apart = count.div_ceil(BOOKS).max(1);
+    let kept = books
+        .enumerate()
+        .filter(|(i, _)| *i == 0 || (count - 1 - i) % apart == 0);
+    kept.map(|(_, book)| book).collect()
 }
 
 /// Largest relative residual of the rows that act, on position and velocity level, among instants of a run; `None` if none

@@ -271,8 +271,8 @@ impl Request {
     ) -> Result<State<f64>, Refusal> {
         let start = Start::new(self, system.description())?;
         start
-            .state(system, |reference, wanted, held| {
-                simulation.consistent(0.0, reference, wanted, held)
+            .state(system, |reference, fixed| {
+                simulation.consistent(0.0, reference, fixed)
             })
             .map_err(Refusal::Start)
     }
@@ -332,7 +332,7 @@ impl Start {
     pub(crate) fn state(
         &self,
         system: &AnySystem<f64>,
-        consistent: impl FnOnce(&State<f64>, &State<f64>, &FixedComponents) -> Result<State<f64>, Error>,
+        consistent: impl FnOnce(&State<f64>, &FixedComponents) -> Result<State<f64>, Error>,
     ) -> Result<State<f64>, Error> {
         let reference = match self.from {
             Some(index) => system.at(StartId(index)),
@@ -341,16 +341,12 @@ impl Start {
         if self.held.is_empty() {
             return Ok(reference);
         }
-        let mut wanted = reference.clone();
-        let mut held = FixedComponents::default();
-        for &(index, level, value) in &self.held {
-            let coordinate = CoordinateId(index);
-            (wanted, held) = match level {
-                Quantity::Position => (wanted.with_q(coordinate, value), held.q(coordinate)),
-                Quantity::Velocity => (wanted.with_v(coordinate, value), held.v(coordinate)),
-            };
-        }
-        consistent(&reference, &wanted, &held)
+        let none = FixedComponents::default();
+        let hold = |fixed: FixedComponents, &(index, level, value): &_| match level {
+            Quantity::Position => fixed.q(CoordinateId(index), value),
+            Quantity::Velocity => fixed.v(CoordinateId(index), value),
+        };
+        consistent(&reference, &self.held.iter().fold(none, hold))
     }
 }
 

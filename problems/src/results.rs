@@ -1,6 +1,6 @@
 //! What the program makes of a run, for a run from code: its story, a plot, a page, its numbers.
 
-use crate::film::Film;
+use crate::film::{Reel, instants};
 use crate::outcome::Outcome;
 use crate::report::export::{Moving, Pace, Still};
 use crate::report::frames::{self, Clock};
@@ -135,9 +135,10 @@ impl Results for Trajectory {
             samples: html::intervals(description, duration, 1),
             ..Request::default()
         };
+        let times = instants(self, request.samples);
         let run = Shown {
             title: description.name.to_owned(),
-            film: Film::of(description.name, self, None, &request),
+            film: Reel::of(description.name, self, None, &request, &times).film(),
             derivation: self.derivation(),
         };
         if let Some("html" | "htm") = ending {

@@ -21,7 +21,7 @@ fn along(trajectory: &Trajectory, mut compare: impl FnMut(&[f64], &[f64], &[f64]
     for k in 0..=20 {
         let time = trajectory.last_time() * f64::from(k) / 20.0;
         let instant = sampler.at(time).expect("a time of the run");
-        compare(&instant.q, &instant.v, &instant.acceleration);
+        compare(&instant.state.q, &instant.state.v, &instant.acceleration);
     }
 }
 

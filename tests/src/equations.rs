@@ -1,9 +1,10 @@
 //! The equations of motion of a system in one mode at one state, as dense matrices.
 
+use lagrange_core::__private::program::ValueRef;
 use lagrange_core::dynamics::{Dynamics, OutputMask};
 use lagrange_core::effects::Effects;
 use lagrange_core::mode::Mode;
-use lagrange_core::system::{System, ValueRef};
+use lagrange_core::system::System;
 
 /// What the derived equations say at one state.
 #[derive(Clone, Debug)]

@@ -1,7 +1,8 @@
 //! Modes by hand.
 
+use lagrange_core::__private::places::Normal;
 use lagrange_core::mode::{FrictionMode, Mode, Sliding};
-use lagrange_core::system::{Derived, Description, Normal};
+use lagrange_core::system::{Derived, Description};
 
 /// Everything open.
 pub fn flight<S: Derived>() -> Mode {

@@ -3,16 +3,15 @@
 mod dual;
 #[cfg(feature = "num-dual")]
 mod num_dual;
-mod number;
+pub(crate) mod number;
 mod pack;
 mod scalar;
 #[cfg(test)]
 mod tests;
 
 pub use dual::Dual;
-pub use number::{Body, Number};
-pub(crate) use number::{epsilon, positive_definite};
-pub use pack::Pack;
+pub(crate) use number::{Number, epsilon, positive_definite};
+pub(crate) use pack::Pack;
 
 use core::fmt::Debug;
 

@@ -1,6 +1,6 @@
 //! Certificates: a finished run checked against its declaration, by nothing that produced it.
 //!
-//! [`Trajectory::verify`](crate::trajectory::Trajectory::verify) evaluates the energies, gaps, slips and forces as they were declared ([`crate::declaration`]), without the
+//! [`Trajectory::verify`](crate::trajectory::Trajectory::verify) evaluates the energies, gaps, slips and forces as they were declared (`declaration`), without the
 //! symbolic derivation, the emitted equations, the integrator and the logic of modes. Every check gives a figure without unit and
 //! a bound. There are two kinds of bounds, and none is fitted to a run:
 //!

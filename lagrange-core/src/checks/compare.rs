@@ -128,10 +128,10 @@ fn numbers<S: System<Scalar = f64>>(scene: &S, now: &Instant<f64>) -> Vec<(Strin
     for (i, parameter) in d.parameters.iter().enumerate() {
         state.push((parameter.name.to_owned(), scene.parameter(i)));
     }
-    for (coordinate, &q) in d.coordinates.iter().zip(&now.q) {
+    for (coordinate, &q) in d.coordinates.iter().zip(&now.state.q) {
         state.push((coordinate.name.to_owned(), q));
     }
-    for (coordinate, &v) in d.coordinates.iter().zip(&now.v) {
+    for (coordinate, &v) in d.coordinates.iter().zip(&now.state.v) {
         state.push((format!("der({})", coordinate.name), v));
     }
     state

@@ -10,6 +10,7 @@ use crate::modes::guard;
 use crate::modes::redundant::RedundantForces;
 use crate::system::{Normal, System};
 use crate::trajectory::{Instant, State, instant, report_everything};
+use core::borrow::Borrow;
 
 /// Where formulas are compared: a mode, and how its states are drawn.
 ///
@@ -81,8 +82,8 @@ impl<'a, S: System<Scalar = f64>> Checks<'a, S> {
 
     /// Draws states around this one (before they are moved onto the constraints).
     #[must_use]
-    pub fn around(mut self, state: State<f64>) -> Self {
-        self.around = state;
+    pub fn around(mut self, state: impl Borrow<State<f64>>) -> Self {
+        self.around.clone_from(state.borrow());
         self
     }
 

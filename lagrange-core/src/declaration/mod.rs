@@ -96,7 +96,7 @@ pub enum Worked {
 }
 
 impl Declaration {
-    /// Of a system that was written by hand: nothing is declared, and nothing can be checked.
+    /// Of a struct whose declaration has mistakes: nothing is declared.
     pub const NONE: Self = Self {
         words: &[],
         numbers: &[],

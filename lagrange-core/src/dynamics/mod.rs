@@ -25,6 +25,7 @@ mod values;
 
 pub use error::{EvaluationError, row_name};
 pub(crate) use lanes::{Lanes, Start};
+#[doc(hidden)]
 pub use output_mask::{OutputMask, add_branch_guards, add_guards};
 pub(crate) use packets::Packets;
 pub use projection::Residual;
@@ -201,11 +202,13 @@ impl<T: Scalar> Dynamics<T> {
     }
 
     /// What the equations of motion of this mode need.
+    #[doc(hidden)]
     pub fn motion_needs(&self) -> &OutputMask {
         &self.compiled().motion_needs
     }
 
     /// What was asked of the report.
+    #[doc(hidden)]
     pub fn report_needs(&self) -> &OutputMask {
         &self.report_needs
     }
@@ -345,6 +348,7 @@ impl<T: Scalar> Dynamics<T> {
 
     /// Asks the motion program for more than the equations of motion: gaps, slips, coefficients, branch guards.
     /// Replaces what was asked for before.
+    #[doc(hidden)]
     pub fn set_extra_needs(&mut self, needs: &[u64]) {
         self.ask_for(needs, false);
     }
@@ -365,6 +369,7 @@ impl<T: Scalar> Dynamics<T> {
 
     /// Asks for outputs of the report, of [`Self::report_value`] and of every [`Self::series`]. Replaces what was
     /// asked for before; need 0 alone asks for nothing.
+    #[doc(hidden)]
     pub fn set_report_needs(&mut self, needs: &[u64]) {
         if self.report_needs[..] != *needs {
             self.report_needs.clear();
@@ -444,12 +449,14 @@ impl<T: Scalar> Dynamics<T> {
 
     /// A number of the motion program at the last [`Self::value`]. Its need must have been held.
     #[inline]
+    #[doc(hidden)]
     pub fn motion(&self, place: ValueRef) -> T {
         place.read(&self.compiled().constants, &self.nodes)
     }
 
     /// A number of the report at the last [`Self::report_value`]. Its need must have been held.
     #[inline]
+    #[doc(hidden)]
     pub fn report(&self, place: ValueRef) -> T {
         place.read(&self.compiled().constants, &self.report_nodes)
     }

@@ -6,7 +6,7 @@ use crate::mode::{Direction, FrictionMode, Mode};
 use crate::system::{Description, Normal};
 use core::ops::Deref;
 
-/// A set of needs; reads as [`crate::system::Needs`].
+/// A set of needs; reads as those of a [`Selection`](crate::program::Selection).
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct OutputMask {
     words: Vec<u64>,

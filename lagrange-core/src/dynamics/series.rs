@@ -193,6 +193,7 @@ impl<T: Scalar> Dynamics<T> {
 
     /// Coefficients of a number of the motion program that depends on the state. Its need must have been asked for by
     /// [`Self::set_extra_needs`]; of other numbers, zeros.
+    #[doc(hidden)]
     pub fn motion_series(&self, place: ValueRef) -> &[T] {
         if let Some(emitted) = self.in_use() {
             return match place {
@@ -209,6 +210,7 @@ impl<T: Scalar> Dynamics<T> {
 
     /// Coefficients of a term of a stop or a mark that depends on the state. Its need must have been asked for by
     /// [`Self::set_report_needs`]; of other numbers, zeros: emitted functions give series of what guards read.
+    #[doc(hidden)]
     pub fn report_series(&self, place: ValueRef) -> &[T] {
         if let Some(emitted) = self.in_use() {
             return match place {

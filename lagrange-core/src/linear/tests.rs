@@ -4,6 +4,7 @@ use super::{Inertia, KktPattern, Solver};
 use crate::effects::Effects;
 use crate::mode::{Direction, FrictionMode, Mode, Sliding};
 use crate::program::{Builder as Loader, Encoded, Register, room};
+use crate::system::places::*;
 use crate::system::*;
 use nalgebra::{DMatrix, DVector};
 

@@ -43,20 +43,17 @@ pub fn consistent<T: Scalar>(
     time: f64,
     tolerance: f64,
     reference: &State<T>,
-    wanted: &State<T>,
-    held: &FixedComponents,
+    fixed: &FixedComponents<T>,
 ) -> Result<State<T>, Error> {
     let n = dynamics.description().coordinates.len();
-    [reference, wanted]
-        .into_iter()
-        .try_for_each(|state| state.check_dimension(n))?;
-    let [positions, velocities] = held.flags(n)?;
+    reference.check_dimension(n)?;
+    let mut state = reference.clone();
+    let [positions, velocities] = fixed.write(&mut state)?;
     domain::check_parameters(dynamics, time)?;
     let t = T::from_f64(time);
     let mut found = ConstraintStatus::new(dynamics.description());
     found.look(dynamics, t, reference, tolerance);
     dynamics.set_mode(&found.mode);
-    let mut state = wanted.clone();
     let (q, v) = (&mut state.q, &mut state.v);
     let outcome = dynamics.project_holding(t, q, v, &positions, &velocities);
     outcome.map_err(|e| Error::from_evaluation(e, time, &found.mode, dynamics.description()))?;

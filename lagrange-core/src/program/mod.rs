@@ -16,6 +16,6 @@ mod tests;
 pub(crate) use builder::{Builder, Numbers};
 pub use encoded::Encoded;
 pub(crate) use instruction::{Op, Program, Register, room};
-pub use selection::{Needs, Selection, ValueRef};
+pub use selection::{Selection, ValueRef};
 pub(crate) use series::Series;
 pub use series::{MAX_ORDER, Operation, ROW, Row, STRIDE};

@@ -163,12 +163,11 @@ impl<T: Scalar> Run<T> {
         &mut self,
         time: f64,
         reference: &State<T>,
-        wanted: &State<T>,
-        held: &FixedComponents,
+        fixed: &FixedComponents<T>,
     ) -> Result<State<T>, Error> {
         let tolerance = self.settings.tolerance;
         self.dynamics.restart();
-        start::consistent(&mut self.dynamics, time, tolerance, reference, wanted, held)
+        start::consistent(&mut self.dynamics, time, tolerance, reference, fixed)
     }
 
     /// An empty trajectory.

@@ -243,19 +243,19 @@ impl<'a, S: System<Scalar: Runnable>> Simulation<'a, S> {
         }
     }
 
-    /// The state nearest to `wanted` (in the mass metric) that satisfies all constraints, with the values in `held`
-    /// kept exactly. Contacts that are closed in `reference` stay closed; slips that vanish there vanish.
+    /// The state nearest to `reference` (in the mass metric) that has the values in `fixed` exactly and satisfies all constraints.
+    /// Contacts that are closed in `reference` stay closed; slips that vanish there vanish.
     ///
     /// # Errors
-    /// [`Error::Projection`] if there is none, with the row that cannot be satisfied.
+    /// [`Error::Projection`] if there is none, with the row that cannot be satisfied; [`Error::Dimension`] if `reference` or `fixed`
+    /// belongs to another system.
     pub fn consistent(
         &self,
         time: f64,
-        reference: &State<S::Scalar>,
-        wanted: &State<S::Scalar>,
-        held: &FixedComponents,
+        reference: impl Borrow<State<S::Scalar>>,
+        fixed: &FixedComponents<S::Scalar>,
     ) -> Result<State<S::Scalar>, Error> {
-        self.runner().consistent(time, reference, wanted, held)
+        self.runner().consistent(time, reference, fixed)
     }
 
     /// All modes in which the motion can go on from a state, with their accelerations and forces, the one that a run takes first;
@@ -269,7 +269,7 @@ impl<'a, S: System<Scalar: Runnable>> Simulation<'a, S> {
     pub fn feasible_modes(
         &self,
         time: f64,
-        state: &State<S::Scalar>,
+        state: impl Borrow<State<S::Scalar>>,
     ) -> Result<Vec<Instant<S::Scalar>>, Error> {
         self.runner().feasible_modes(time, state)
     }

@@ -136,11 +136,10 @@ impl<S: System<Scalar: Runnable>> Runner<S> {
     pub fn consistent(
         &mut self,
         time: f64,
-        reference: &State<S::Scalar>,
-        wanted: &State<S::Scalar>,
-        held: &FixedComponents,
+        reference: impl Borrow<State<S::Scalar>>,
+        fixed: &FixedComponents<S::Scalar>,
     ) -> Result<State<S::Scalar>, Error> {
-        (S::Scalar::functions().consistent)(&mut self.run, time, reference, wanted, held)
+        (S::Scalar::functions().consistent)(&mut self.run, time, reference.borrow(), fixed)
     }
 
     /// As [`Simulation::feasible_modes`](crate::Simulation::feasible_modes).
@@ -150,9 +149,9 @@ impl<S: System<Scalar: Runnable>> Runner<S> {
     pub fn feasible_modes(
         &mut self,
         time: f64,
-        state: &State<S::Scalar>,
+        state: impl Borrow<State<S::Scalar>>,
     ) -> Result<Vec<Instant<S::Scalar>>, Error> {
-        (S::Scalar::functions().feasible_modes)(&mut self.run, time, state)
+        (S::Scalar::functions().feasible_modes)(&mut self.run, time, state.borrow())
     }
 
     /// The trajectory of the last run.

@@ -67,9 +67,7 @@ pub(crate) type Erased<T> = Arc<dyn ErasedSystem<T>>;
 ///
 /// let mut system = AnySystem::new(Cart { mass: 1.0 });
 /// system.set_parameter(0, 6.0);
-/// let mut start = State::new(vec![0.0], vec![0.0]);
-/// system.start(0, 0.0, &mut start.q, &mut start.v);
-/// let run = Simulation::new(&system).run(start, 0.0..2.0).expect("runs");
+/// let run = Simulation::new(&system).run(system.at(StartId(0)), 0.0..2.0).expect("runs");
 /// assert_eq!(run.final_state().q, [1.0]);
 /// ```
 #[derive(Clone, Debug)]

@@ -26,22 +26,22 @@ impl PartialEq for Owner {
 impl<T: Scalar> Instant<T> {
     /// Position of a coordinate.
     pub fn q(&self, coordinate: CoordinateId) -> T {
-        self.q[coordinate.0]
+        self.state.q(coordinate)
     }
 
     /// Velocity of a coordinate.
     pub fn v(&self, coordinate: CoordinateId) -> T {
-        self.v[coordinate.0]
+        self.state.v(coordinate)
     }
 
     /// The positions as a vector of nalgebra.
     pub fn positions(&self) -> DVectorView<'_, T> {
-        DVectorView::from_slice(&self.q, self.q.len())
+        self.state.positions()
     }
 
     /// The velocities as a vector of nalgebra.
     pub fn velocities(&self) -> DVectorView<'_, T> {
-        DVectorView::from_slice(&self.v, self.v.len())
+        self.state.velocities()
     }
 
     /// The accelerations as a vector of nalgebra.

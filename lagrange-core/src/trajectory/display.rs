@@ -40,10 +40,10 @@ impl<T: Scalar> Display for Instant<T> {
         if !(d.contacts.is_empty() && d.frictions.is_empty()) {
             write!(f, ": {}", self.mode.display(d))?;
         }
-        for (coordinate, q) in d.coordinates.iter().zip(&self.q) {
+        for (coordinate, q) in d.coordinates.iter().zip(&self.state.q) {
             write!(f, ", {} = {}", coordinate.name, q.value())?;
         }
-        for (coordinate, v) in d.coordinates.iter().zip(&self.v) {
+        for (coordinate, v) in d.coordinates.iter().zip(&self.state.v) {
             write!(f, ", der({}) = {}", coordinate.name, v.value())?;
         }
         for (name, force) in rows(d).iter().zip(&self.forces) {

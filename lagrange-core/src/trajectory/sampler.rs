@@ -18,10 +18,8 @@ pub struct Instant<T> {
     pub time: T,
     /// The mode.
     pub mode: Mode,
-    /// Positions.
-    pub q: Vec<T>,
-    /// Velocities.
-    pub v: Vec<T>,
+    /// Positions and velocities.
+    pub state: State<T>,
     /// Accelerations.
     pub acceleration: Vec<T>,
     /// λ of every row; 0 where it does not act; for frictions the force along +slip. Where the motion leaves forces open: the
@@ -244,7 +242,7 @@ impl<'a, T: Scalar> Sampler<'a, T> {
         let rows = d.rows.iter().enumerate().map(|(i, row)| {
             // The power of λ is λ a·v: not zero where a surface moves.
             let speed = row.jacobian.iter().fold(T::default(), |sum, &(j, place)| {
-                sum + dynamics.motion(place) * instant.v[j]
+                sum + dynamics.motion(place) * instant.state.v[j]
             });
             instant.forces[i] * speed
         });
@@ -291,8 +289,7 @@ pub(crate) fn instant<T: Scalar>(
         owner: Owner(d),
         time: t,
         mode: dynamics.mode().under_way(),
-        q: state.q.clone(),
-        v: state.v.clone(),
+        state: state.clone(),
         acceleration: dynamics.acceleration().to_vec(),
         forces,
         undetermined,

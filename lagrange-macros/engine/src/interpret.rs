@@ -7,7 +7,7 @@ use crate::plan::{
     Coefficient, Mode, Operation, Program, Start, StartTarget, Tape, Value, ValueRef,
 };
 
-/// What a tape is told beside its inputs; as `lagrange_core::system::Selection`.
+/// What a tape is told beside its inputs; as the core's `Selection`.
 #[derive(Clone, Copy, Debug)]
 pub struct Selection<'a> {
     /// Words of the need mask.

@@ -3,8 +3,8 @@
 use super::Trouble;
 use super::output::{ready, to_file};
 use clap::Args;
-use lagrange_problems::file::{self, ENDING};
-use std::path::PathBuf;
+use lagrange_problems::file::{self, ENDING, Exported};
+use std::path::{Path, PathBuf};
 
 /// Write a declaration as Rust: the struct with its derive, and its default values.
 ///
@@ -30,11 +30,23 @@ impl Export {
             )));
         }
         ready(self.output.as_deref(), std::slice::from_ref(&self.file))?;
-        let rust = file::read(&self.file).and_then(|text| file::rust(&self.file, &text));
-        let rust = rust.map_err(Trouble::usage)?;
-        match &self.output {
-            None => super::print(|out| out.write_all(rust.as_bytes())),
-            Some(path) => to_file(path, |out| out.write_all(rust.as_bytes())),
-        }
+        let exported = file::read(&self.file).and_then(|text| file::export(&self.file, &text));
+        let exported = exported.map_err(Trouble::usage)?;
+        let Some(path) = &self.output else {
+            return super::print(|out| out.write_all(exported.rust.as_bytes()));
+        };
+        to_file(path, |out| out.write_all(exported.rust.as_bytes()))?;
+        super::print(|out| writeln!(out, "{}", hint(path, &self.file, &exported)))
     }
+}
+
+/// What to write in `main.rs`, where the struct stands in `path`.
+fn hint(path: &Path, file: &str, Exported { system, until, .. }: &Exported) -> String {
+    let stem = |path: &Path| path.file_stem().unwrap_or_default().display().to_string();
+    let (module, scene) = (stem(path), stem(Path::new(file)));
+    format!(
+        "{} is written; for a program with it, write in main.rs\n    mod {module};\n    \
+         .scene(Entry::<{module}::{system}>::new({scene:?}, {until:?}))",
+        path.display()
+    )
 }

@@ -82,7 +82,7 @@ fn in_rust(folder: &Path, package: &str) -> Result<(), Trouble> {
          # Without its default features it is the program without the scenes of the catalogue.\n\
          lagrange-problems = {{ path = {problems:?}, default-features = false }}\n\n[workspace]\n"
     );
-    let pendulum = file::rust("pendulum.lagrange", TEMPLATE).map_err(Trouble::failed)?;
+    let pendulum = file::export("pendulum.lagrange", TEMPLATE).map_err(Trouble::failed)?;
     let sources = folder.join("src");
     fs::create_dir_all(&sources).map_err(|error| {
         Trouble::failed(format_args!("cannot make {}: {error}", sources.display()))
@@ -90,7 +90,7 @@ fn in_rust(folder: &Path, package: &str) -> Result<(), Trouble> {
     for (path, text) in [
         (folder.join("Cargo.toml"), cargo.as_str()),
         (sources.join("main.rs"), MAIN),
-        (sources.join("pendulum.rs"), &pendulum),
+        (sources.join("pendulum.rs"), &pendulum.rust),
     ] {
         to_file(&path, |out| out.write_all(text.as_bytes()))?;
     }

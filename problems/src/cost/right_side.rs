@@ -32,11 +32,10 @@ pub fn places(trajectory: &Trajectory) -> Vec<Place> {
         let Ok(instant) = sampler.at(time) else {
             continue;
         };
-        let state = State::new(instant.q.clone(), instant.v.clone());
         places.push(Place {
             mode: phase.mode,
             time,
-            state,
+            state: instant.state,
         });
     }
     places

@@ -3,8 +3,9 @@
 //! Where a system is a struct, rustc reads these literals; where it is a file, this reads the same. What is read lives as long as the
 //! program.
 
-use lagrange_core::declaration::{self, Declaration, Draw, Form, Turn, Worked};
-use lagrange_core::program::Encoded;
+use lagrange_core::__private::declaration::{self, Declaration, Draw, Form, Turn, Worked};
+use lagrange_core::__private::places::*;
+use lagrange_core::__private::program::{Encoded, ValueRef};
 use lagrange_core::system::*;
 use syn::{Expr, Lit, Member};
 
@@ -198,7 +199,7 @@ structs! {
     Watch { name terms conditions need zeros }
     Units { energy rows forces dissipations }
     Declaration {
-        words numbers values kinetic potential constraints contacts frictions forces dissipations stops marks draws
+        words numbers kinetic potential constraints contacts frictions forces dissipations stops marks draws
     }
     declaration::Contact { gap normal_factor restitution region }
     declaration::Friction { slip normal static_coefficient kinetic_coefficient }

@@ -114,12 +114,28 @@ pub fn scene(path: &str, text: &str) -> Result<&'static dyn Scene, Refused> {
     Ok(Box::leak(Box::new(entry)))
 }
 
-/// The text of a Rust file that declares on a struct what the text of a file declares.
+/// A declaration in Rust.
+#[derive(Clone, Debug)]
+pub struct Exported {
+    /// The text of a file with a struct that declares the same, and its default values.
+    pub rust: String,
+    /// Name of the struct.
+    pub system: String,
+    /// Time at which a run ends unless asked otherwise, s.
+    pub until: f64,
+}
+
+/// The struct that declares what the text of a file declares.
 ///
 /// # Errors
 /// What it declares has mistakes.
-pub fn rust(path: &str, text: &str) -> Result<String, Refused> {
-    Ok(derived(path, text)?.rust)
+pub fn export(path: &str, text: &str) -> Result<Exported, Refused> {
+    let found = derived(path, text)?;
+    Ok(Exported {
+        rust: found.rust,
+        system: type_name(path),
+        until: found.until.unwrap_or(UNTIL),
+    })
 }
 
 /// The text of a file.

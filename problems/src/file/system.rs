@@ -1,7 +1,7 @@
 //! A system that is data: tables that were read, and numbers for its parameters.
 
+use lagrange_core::__private::declaration::Declaration;
 use lagrange_core::Derivation;
-use lagrange_core::declaration::Declaration;
 use lagrange_core::system::{Description, System};
 use lagrange_engine::interpret;
 use lagrange_engine::plan::Start;

@@ -366,7 +366,9 @@ fn what_a_parameter_may_be_is_kept_by_the_file_and_the_struct() {
             .run(&Request::default())
             .is_ok_and(|run| run.failure.is_none())
     );
-    let rust = super::rust("falling.lagrange", text).expect("a struct");
+    let rust = super::export("falling.lagrange", text)
+        .expect("a struct")
+        .rust;
     assert!(
         rust.contains("#[lagrange(unit = \"kg\", domain = \"positive\")]"),
         "{rust}"

@@ -2,10 +2,11 @@
 
 use super::Sample;
 use core::iter;
+use lagrange_core::__private::places::Normal;
 use lagrange_core::dynamics::{Dynamics, OutputMask};
 use lagrange_core::mode::{FrictionMode, Mode};
 use lagrange_core::prelude::*;
-use lagrange_core::system::{Friction, Normal};
+use lagrange_core::system::Friction;
 
 /// The instants between so many equal intervals of a motion.
 pub(crate) fn equal(trajectory: &Trajectory, intervals: usize) -> Vec<f64> {
@@ -116,7 +117,7 @@ impl<'a> Reader<'a> {
             phase,
             limits: self.limits.at(time, &instant),
             mode: instant.mode,
-            state: State::new(instant.q, instant.v),
+            state: instant.state,
             forces: instant.forces,
             undetermined: instant.undetermined,
             kinetic: instant.kinetic,
@@ -151,7 +152,9 @@ impl Limits {
             self.dynamics.set_mode(&instant.mode);
         }
         let description = self.dynamics.description();
-        let along = self.dynamics.value_along(time, &instant.q, &instant.v);
+        let along = self
+            .dynamics
+            .value_along(time, &instant.state.q, &instant.state.v);
         if along.is_err() {
             return vec![None; description.frictions.len()];
         }

@@ -181,7 +181,7 @@ pub fn rocking_block(_: Extent) -> Result<Vec<Figure>, Surprise> {
     for k in 0..SWINGS {
         let (most, lasts) = swing(rate, alpha, p2);
         let top = sampler.at(time + 0.5 * lasts)?;
-        tilts = tilts.max(relative(top.q[2].abs(), most));
+        tilts = tilts.max(relative(top.state.q[2].abs(), most));
         time += lasts;
         let hit = event(&trajectory, ["right", "left"][k % 2], "impact", k / 2)?;
         times = times.max(relative(hit.time, time));

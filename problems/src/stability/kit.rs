@@ -1,9 +1,9 @@
 //! Short ways to run a scene and to look at what it did.
 
 use core::fmt;
+use lagrange_core::__private::program::ValueRef;
 use lagrange_core::dynamics::OutputMask;
 use lagrange_core::prelude::*;
-use lagrange_core::system::ValueRef;
 
 /// Why a case could not be measured.
 #[derive(Clone, Debug, PartialEq)]
@@ -154,7 +154,7 @@ pub fn violation(trajectory: &Trajectory) -> Result<f64, Surprise> {
     let mut worst: f64 = 0.0;
     for t in trajectory.step_times().chain([trajectory.last_time()]) {
         let now = sampler.at(t)?;
-        dynamics.tape(t, &now.q, &now.v);
+        dynamics.tape(t, &now.state.q, &now.state.v);
         let position = |row: usize| dynamics.motion(d.rows[row].position.unwrap_or(ValueRef::Zero));
         let equations = d.constraints.iter().map(|c| position(c.row).abs());
         let contacts = d.contacts.iter().zip(&now.mode.contacts);

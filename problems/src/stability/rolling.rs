@@ -77,7 +77,7 @@ fn disk_leaning_over(scene: &RollingDisk) -> Result<[Figure; 4], Surprise> {
 fn lowest_lean(mut sampler: Sampler<'_, f64>, until: f64) -> Result<f64, Surprise> {
     let mut lowest = f64::INFINITY;
     for k in 0..=3000 {
-        lowest = lowest.min(sampler.at(until * f64::from(k) / 3000.0)?.q[3]);
+        lowest = lowest.min(sampler.at(until * f64::from(k) / 3000.0)?.state.q[3]);
     }
     Ok(lowest)
 }
@@ -160,7 +160,10 @@ pub fn rattleback(_: Extent) -> Result<Vec<Figure>, Surprise> {
         8000,
     );
     let now = trajectory.sampler().at(until)?;
-    let (w, u) = (now.q[3], [now.q[4], now.q[5], now.q[6]]);
+    let (w, u) = (
+        now.state.q[3],
+        [now.state.q[4], now.state.q[5], now.state.q[6]],
+    );
     // The vertical in the body: third row of the rotation.
     let vertical = [
         2.0 * (u[0] * u[2] - w * u[1]),
@@ -194,8 +197,14 @@ pub fn rattleback(_: Extent) -> Result<Vec<Figure>, Surprise> {
 
 /// Ω = 2 (w u̇ − ẇ u − u × u̇)
 fn body_rates(now: &Instant<f64>) -> Vector {
-    let (w, u) = (now.q[3], [now.q[4], now.q[5], now.q[6]]);
-    let (wd, ud) = (now.v[3], [now.v[4], now.v[5], now.v[6]]);
+    let (w, u) = (
+        now.state.q[3],
+        [now.state.q[4], now.state.q[5], now.state.q[6]],
+    );
+    let (wd, ud) = (
+        now.state.v[3],
+        [now.state.v[4], now.state.v[5], now.state.v[6]],
+    );
     let c = cross(u, ud);
     core::array::from_fn(|k| 2.0 * (w * ud[k] - wd * u[k] - c[k]))
 }

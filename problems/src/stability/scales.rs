@@ -124,7 +124,9 @@ pub fn overdamped_oscillator(_: Extent) -> Result<Vec<Figure>, Surprise> {
         for t in [3e-6, 1e-4, 0.1, 1.0, 3.0] {
             let now = sampler.at(t)?;
             let [x, v] = exact(t);
-            worst = worst.max(distance(now.q[0], x)).max(distance(now.v[0], v));
+            worst = worst
+                .max(distance(now.state.q[0], x))
+                .max(distance(now.state.v[0], v));
         }
         figures.push(Figure::new(
             format!("{tolerance:e}: x, m, and its rate, m/s"),

@@ -174,12 +174,12 @@ pub fn hoop_bead(_: Extent) -> Result<Vec<Figure>, Surprise> {
     let mut worst = 0.0_f64;
     for k in 1..40 {
         let now = sampler.at(turns.time * f64::from(k) / 40.0)?;
-        let expected = if now.q[1] < change {
-            pulled(now.q[1])
+        let expected = if now.state.q[1] < change {
+            pulled(now.state.q[1])
         } else {
-            pushed(now.q[1])
+            pushed(now.state.q[1])
         };
-        worst = worst.max(distance(now.v[1].powi(2), expected) / rate.powi(2));
+        worst = worst.max(distance(now.state.v[1].powi(2), expected) / rate.powi(2));
     }
     Ok(vec![
         Figure::new("θ̇² on the way up", worst, 1e-11),

@@ -61,8 +61,8 @@ pub(crate) fn worker(
                 if varies {
                     runner.set_scene(&system);
                 }
-                let state = start.state(&system, |reference, wanted, held| {
-                    runner.consistent(0.0, reference, wanted, held)
+                let state = start.state(&system, |reference, fixed| {
+                    runner.consistent(0.0, reference, fixed)
                 });
                 state
                     .map_err(|error| refused.push((index, code(&error))))

@@ -132,7 +132,16 @@ fn a_limit_keeps_the_trajectory_so_far() {
     assert!(matches!(failure.error, Error::Limit { limit: 5, .. }));
     assert_eq!(failure.trajectory.work().steps, 5);
     let last = failure.trajectory.last_time();
-    assert!(failure.trajectory.sampler().at(last).expect("inside").q[1] > 0.01);
+    assert!(
+        failure
+            .trajectory
+            .sampler()
+            .at(last)
+            .expect("inside")
+            .state
+            .q[1]
+            > 0.01
+    );
     assert!(matches!(
         failure.trajectory.sampler().at(last + 1.0),
         Err(Error::OutsideTrajectory { .. })
@@ -386,9 +395,8 @@ fn a_field_outside_its_domain_is_refused_by_name() {
             panic!("{error}");
         };
         assert_eq!((item, value), (name, wrong));
-        let start = scene.at(Disks::TURNED);
-        let held = FixedComponents::default().q(Disks::A).v(Disks::B);
-        let moved = Simulation::new(&scene).consistent(0.0, &start, &start, &held);
+        let fixed = FixedComponents::default().q(Disks::A, 0.1);
+        let moved = Simulation::new(&scene).consistent(0.0, scene.at(Disks::TURNED), &fixed);
         assert!(matches!(moved, Err(Error::Domain { .. })));
     }
     // Nothing turns then: it is legal, but cannot be solved.

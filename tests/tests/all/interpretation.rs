@@ -1,8 +1,9 @@
 //! The programs of the five scenes as the core runs them against the engine's own interpretation of the same declarations: each
 //! scene's source is read again through the pipeline, in process, and both are run on the same numbers, with any set of needs.
 
+use lagrange_core::__private::program::Selection;
 use lagrange_core::arithmetic::Dual;
-use lagrange_core::system::{Derived, Selection};
+use lagrange_core::system::Derived;
 use lagrange_engine::interpret::{self, Machine};
 use lagrange_engine::plan::Program;
 use lagrange_problems::scenes::*;

@@ -36,7 +36,7 @@ fn a_stopped_run_keeps_the_motion_until_then() {
     assert_eq!(failure.trajectory.last_time(), time);
     let whole = simulation.run(start(&pendulum), 0.0..12.0).expect("a run");
     let (mut some, mut all) = (failure.trajectory.sampler(), whole.sampler());
-    let at = |sampler: &mut Sampler<f64>| sampler.at(9.0).expect("an instant").q;
+    let at = |sampler: &mut Sampler<f64>| sampler.at(9.0).expect("an instant").state.q;
     assert_eq!(at(&mut some), at(&mut all));
 }
 

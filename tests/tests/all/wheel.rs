@@ -181,7 +181,7 @@ fn slipping_agrees_with_its_reduced_equation_integrated_apart() {
         assert!(closure(&trajectory) < 1e-10);
         // After that the wheel rolls on as it is.
         let now = trajectory.sampler().at(lost.time + 1e-2).expect("flight");
-        agree("ẋ in flight", now.v[0], speed, 1e-10);
+        agree("ẋ in flight", now.state.v[0], speed, 1e-10);
         agree("rolling multiplier in flight", now.forces[0], 0.0, 1e-12);
     }
 }

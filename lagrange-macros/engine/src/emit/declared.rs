@@ -1,4 +1,4 @@
-//! The declared quantities as data: `lagrange_core::declaration::Declaration`, which certificates evaluate.
+//! The declared quantities as data: `Declaration` of the core, which certificates evaluate.
 //!
 //! A straight line of operations, one for each sub-expression of the declaration in the order of the pool. It is not planned,
 //! shared between modes or optimised, so that it has nothing in common with the tapes but the declaration.
@@ -11,7 +11,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use std::collections::{BTreeMap, BTreeSet};
 
-// Numbers of the operations; all as in `lagrange_core::declaration`.
+// Numbers of the operations; all as in the core's `declaration`.
 const NUMBER: usize = 0;
 const PARAMETER: usize = 1;
 const TIME: usize = 2;
@@ -50,7 +50,7 @@ pub fn declaration(declared: &Declared, system: &System) -> TokenStream {
         let (Restitution::Newton(e) | Restitution::Poisson(e)) = contact.restitution;
         let restitution = value(&e);
         quote! {
-            #core::declaration::Contact {
+            #core::__private::declaration::Contact {
                 gap: #gap, normal_factor: #factor, restitution: #restitution, region: #region,
             }
         }
@@ -65,7 +65,7 @@ pub fn declaration(declared: &Declared, system: &System) -> TokenStream {
         let stick = value(&friction.static_coefficient);
         let slide = value(&friction.kinetic_coefficient);
         quote! {
-            #core::declaration::Friction {
+            #core::__private::declaration::Friction {
                 slip: &[#(#slip),*], normal: #normal, static_coefficient: #stick, kinetic_coefficient: #slide,
             }
         }
@@ -87,10 +87,10 @@ pub fn declaration(declared: &Declared, system: &System) -> TokenStream {
                     quote!(Speed(#s))
                 }
             };
-            quote!((#f, #core::declaration::Worked::#worked))
+            quote!((#f, #core::__private::declaration::Worked::#worked))
         });
         let reported = value(&force.value);
-        quote!(#core::declaration::Force { value: #reported, components: &[#(#components),*] })
+        quote!(#core::__private::declaration::Force { value: #reported, components: &[#(#components),*] })
     });
     let dissipations = of.dissipations.iter().map(|d| value(&d.rayleigh));
     let watches = |all: &[Watch], known: &[Watch]| -> Vec<TokenStream> {
@@ -112,7 +112,7 @@ pub fn declaration(declared: &Declared, system: &System) -> TokenStream {
     let words = Literal::byte_string(&writer.bytes);
     let numbers = writer.numbers.table();
     quote! {
-        #core::declaration::Declaration {
+        #core::__private::declaration::Declaration {
             words: #words,
             numbers: #numbers,
             kinetic: &[#(#kinetic),*],
@@ -164,12 +164,12 @@ fn drawn(draw: &Draw, core: &TokenStream, writer: &Writer) -> TokenStream {
     });
     let loads = draw.loads.iter().map(|load| index(*load));
     quote! {
-        #core::declaration::Draw {
-            form: #core::declaration::Form::#form,
+        #core::__private::declaration::Draw {
+            form: #core::__private::declaration::Form::#form,
             name: #name,
             places: &[#(#places),*],
             size: #size,
-            turn: #core::declaration::Turn::#turn,
+            turn: #core::__private::declaration::Turn::#turn,
             parts: &[#(#parts),*],
             applied: #applied,
             loads: &[#(#loads),*],

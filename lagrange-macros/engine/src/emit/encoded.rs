@@ -1,4 +1,4 @@
-//! A tape as data: one literal that `lagrange_core::program` loads. Its format is described there.
+//! A tape as data: one literal that the core's `program` loads. Its format is described there.
 
 use super::exact::Exact;
 use super::names;
@@ -15,7 +15,7 @@ pub fn encoded(system: &System, tape: &Tape) -> TokenStream {
     let numbers = writer.numbers.table();
     let (values, outputs) = (names::index(tape.values), names::index(tape.outputs));
     quote! {
-        #core::program::Encoded {
+        #core::__private::program::Encoded {
             words: #words,
             numbers: #numbers,
             values: #values,
@@ -24,7 +24,7 @@ pub fn encoded(system: &System, tape: &Tape) -> TokenStream {
     }
 }
 
-// Numbers of the operations that only writing needs; all as in `lagrange_core::program`.
+// Numbers of the operations that only writing needs; all as in the core's `program`.
 const SET: usize = 23;
 const ADD_TO: usize = 24;
 const SUBTRACT_FROM: usize = 25;

@@ -134,7 +134,7 @@ fn implementation(input: &DeriveInput, core: &TokenStream) -> TokenStream {
         #[automatically_derived]
         impl #parameters #core::system::Derived for #name #arguments #conditions {
             const DESCRIPTION: &'static #core::system::Description = &#description;
-            const DECLARATION: &'static #core::declaration::Declaration = &#core::declaration::Declaration::NONE;
+            const DECLARATION: &'static #core::__private::declaration::Declaration = &#core::__private::declaration::Declaration::NONE;
         }
     }
 }
@@ -148,9 +148,9 @@ fn empty(core: &TokenStream) -> TokenStream {
             parameters: &[],
             coordinates: &[],
             needs: 0,
-            constants: #core::program::Encoded::NONE,
-            motion: #core::program::Encoded::NONE,
-            report: #core::program::Encoded::NONE,
+            constants: #core::__private::program::Encoded::NONE,
+            motion: #core::__private::program::Encoded::NONE,
+            report: #core::__private::program::Encoded::NONE,
             mass: &[],
             inertia: ::core::option::Option::None,
             forcing: &[],
@@ -164,14 +164,14 @@ fn empty(core: &TokenStream) -> TokenStream {
             forces: &[],
             dissipations: &[],
             branches: &[],
-            energy: #core::system::Energy {
-                kinetic: #core::system::ValueRef::Zero,
-                potential: #core::system::ValueRef::Zero,
-                jacobi: #core::system::ValueRef::Zero,
-                time_power: #core::system::ValueRef::Zero,
+            energy: #core::__private::places::Energy {
+                kinetic: #core::__private::program::ValueRef::Zero,
+                potential: #core::__private::program::ValueRef::Zero,
+                jacobi: #core::__private::program::ValueRef::Zero,
+                time_power: #core::__private::program::ValueRef::Zero,
                 need: 0,
             },
-            momenta: #core::system::Momenta { places: &[], need: 0 },
+            momenta: #core::__private::places::Momenta { places: &[], need: 0 },
             observes: &[],
             stops: &[],
             marks: &[],

@@ -101,7 +101,7 @@ pub fn emit(program: &Program, declared: &Declared, verdicts: &[Verdict]) -> Tok
         #[allow(unused, clippy::all, clippy::pedantic, clippy::nursery)]
         impl #generics #core::system::Derived for #name #arguments {
             const DESCRIPTION: &'static #core::system::Description = &#description;
-            const DECLARATION: &'static #core::declaration::Declaration = &#declaration;
+            const DECLARATION: &'static #core::__private::declaration::Declaration = &#declaration;
         }
     }
 }

@@ -65,7 +65,7 @@ pub fn read_tables(core: &TokenStream) -> TokenStream {
         fn description(&self) -> &'static #core::system::Description {
             <Self as #core::system::Derived>::DESCRIPTION
         }
-        fn declaration(&self) -> &'static #core::declaration::Declaration {
+        fn declaration(&self) -> &'static #core::__private::declaration::Declaration {
             <Self as #core::system::Derived>::DECLARATION
         }
     }
@@ -167,14 +167,14 @@ pub fn crossing(tape: &Tape) -> BTreeSet<Value> {
 pub fn place(system: &System, place: ValueRef) -> TokenStream {
     let core = &system.core;
     match place {
-        ValueRef::Zero => quote!(#core::system::ValueRef::Zero),
+        ValueRef::Zero => quote!(#core::__private::program::ValueRef::Zero),
         ValueRef::Constant(at) => {
             let at = index(at);
-            quote!(#core::system::ValueRef::Constant(#at))
+            quote!(#core::__private::program::ValueRef::Constant(#at))
         }
         ValueRef::Node(at) => {
             let at = index(at);
-            quote!(#core::system::ValueRef::Node(#at))
+            quote!(#core::__private::program::ValueRef::Node(#at))
         }
     }
 }

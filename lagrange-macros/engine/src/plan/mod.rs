@@ -5,7 +5,7 @@
 //! ```
 //!
 //! What depends on parameters only is computed once per run by the constants program; everything else is an
-//! operation of `lagrange_core::program` in one of two tapes, before the solve and after it.
+//! operation of the core's `program` in one of two tapes, before the solve and after it.
 
 mod constants;
 mod distribute;
@@ -32,7 +32,7 @@ use outputs::Target;
 use schedule::Demand;
 use std::collections::BTreeMap;
 
-/// Where a number is found after a tape has run; as `lagrange_core::system::ValueRef`.
+/// Where a number is found after a tape has run; as the core's `ValueRef`.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum ValueRef {
     /// Structurally zero.

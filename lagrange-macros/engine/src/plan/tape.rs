@@ -1,6 +1,6 @@
 //! What a program is made of: straight-line operations in masked blocks.
 //!
-//! The operations are those of `lagrange_core::program`, so emission is a transcription. A tape is
+//! The operations are those of the core's `program`, so emission is a transcription. A tape is
 //! in single assignment: value `i < inputs` is input `i`, every step defines the next value (or two).
 
 use super::needs::OutputMask;

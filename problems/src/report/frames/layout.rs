@@ -187,7 +187,8 @@ impl Place<'_> {
             let y = 0.5 * self.height;
             let _ = writeln!(
                 out,
-                "<text class=\"words\" x=\"500\" y=\"{y}\" text-anchor=\"middle\">no picture</text>"
+                "<text class=\"words\" x=\"500\" y=\"{y}\" text-anchor=\"middle\">no picture: draw(…) in the declaration says what is \
+                 shown</text>"
             );
         }
     }

@@ -9,8 +9,8 @@ mod linkages;
 mod moving;
 
 use core::fmt::Debug;
+use lagrange_core::__private::places::Normal;
 use lagrange_core::prelude::*;
-use lagrange_core::system::Normal;
 
 /// How to run, and what to hold the run to.
 #[derive(Clone, Copy, Debug)]
@@ -127,7 +127,7 @@ impl Tally {
 /// What must hold at one time.
 fn instant<S: Derived<Scalar = f64>>(now: &Instant<f64>, trial: Trial) -> Result<(), String> {
     let d = S::DESCRIPTION;
-    let mut numbers = now.q.iter().chain(&now.v).chain(&now.forces);
+    let mut numbers = now.state.q.iter().chain(&now.state.v).chain(&now.forces);
     if !numbers.all(|x| x.is_finite()) {
         return Err("not finite".to_owned());
     }

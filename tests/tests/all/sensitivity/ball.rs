@@ -79,7 +79,7 @@ fn impacts_of_a_bouncing_ball() {
         let y = (power / e * g * fall - g * left / two) * left;
         let instant = motion.sampler().at(3.0).expect("within");
         same_slopes("y", state.q[1], y, tolerance);
-        same_slopes("y sampled", instant.q[1], y, tolerance);
+        same_slopes("y sampled", instant.state.q[1], y, tolerance);
         same_slopes("x", state.q[0], u * number(3.0), tolerance);
     }
 }

@@ -180,8 +180,8 @@ fn two_balls_that_land_together_do_as_each_alone() {
         let t = 0.05 * f64::from(k);
         let (a, b) = (pair.sampler().at(t), single.sampler().at(t));
         let (a, b) = (a.expect("inside"), b.expect("inside"));
-        agree("first", a.q[0], b.q[1], 1e-11);
-        agree("second", a.q[1], b.q[1], 1e-11);
+        agree("first", a.state.q[0], b.state.q[1], 1e-11);
+        agree("second", a.state.q[1], b.state.q[1], 1e-11);
     }
     assert_eq!(pair.final_mode().contacts, [true, true]);
     // From different heights they come to rest at different times.

@@ -66,7 +66,7 @@ fn momentum_grows_with_the_push_only() {
             let t = 0.5 * f64::from(k);
             let now = trajectory.sampler().at(t).expect("inside");
             agree("momentum", now.observes[0], push * t, 1e-10);
-            agree("lean", now.observes[1], now.q[1], 0.0);
+            agree("lean", now.observes[1], now.state.q[1], 0.0);
         }
         let ledger = trajectory.ledger().expect("sampled");
         agree(

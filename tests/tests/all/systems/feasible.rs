@@ -74,7 +74,7 @@ fn a_rod_with_one_motion_and_one_with_none() {
         rate: 0.0,
     };
     let modes = Simulation::new(&gentle)
-        .feasible_modes(0.0, &gentle.at(Rod::PUSHED))
+        .feasible_modes(0.0, gentle.at(Rod::PUSHED))
         .expect("modes");
     assert_eq!(modes.len(), 1);
     agree(
@@ -84,7 +84,7 @@ fn a_rod_with_one_motion_and_one_with_none() {
         1e-12,
     );
     let rough = Rod { mu: 1.6, ..gentle };
-    let none = Simulation::new(&rough).feasible_modes(0.0, &rough.at(Rod::PUSHED));
+    let none = Simulation::new(&rough).feasible_modes(0.0, rough.at(Rod::PUSHED));
     assert!(
         matches!(none, Err(Error::NoMode { tried: 2, .. })),
         "{none:?}"
@@ -130,7 +130,7 @@ const BEAM: Beam = Beam {
 #[test]
 fn supports_too_many() {
     let modes = Simulation::new(&BEAM)
-        .feasible_modes(0.0, &BEAM.at(Beam::LIES))
+        .feasible_modes(0.0, BEAM.at(Beam::LIES))
         .expect("modes");
     assert_eq!(
         modes.len(),
@@ -154,7 +154,7 @@ fn what_sticks_may_slip_too() {
         ..BEAM
     };
     let modes = Simulation::new(&beam)
-        .feasible_modes(0.0, &beam.at(Beam::LIES))
+        .feasible_modes(0.0, beam.at(Beam::LIES))
         .expect("modes");
     assert!(modes[0].mode.sticks(Beam::GRIP));
     assert!(modes[1].mode.slips(Beam::GRIP) && modes[1].a(Beam::X) > 0.0);
@@ -164,7 +164,7 @@ fn what_sticks_may_slip_too() {
 #[test]
 fn after_an_impact() {
     let modes = Simulation::new(&BEAM)
-        .feasible_modes(0.0, &BEAM.at(Beam::DROPS))
+        .feasible_modes(0.0, BEAM.at(Beam::DROPS))
         .expect("modes");
     assert!(
         modes

@@ -76,7 +76,7 @@ fn a_block_pushed_sideways_comes_to_rest() {
         for tau in [0.8, 0.3, 0.1] {
             let [time, across, down] = way(ratio, speed, 1.0, tau);
             let instant = sampler.at(time).expect("on the way");
-            all_agree("on the way", &instant.q[..2], &[across, down], 1e-10);
+            all_agree("on the way", &instant.state.q[..2], &[across, down], 1e-10);
             let limit = block(ratio).mu_kinetic * 2.0 * 9.81 * SLOPE.cos();
             agree("friction", instant.observes[0].sqrt(), limit, 1e-12);
         }
@@ -100,7 +100,7 @@ fn friction_as_strong_as_the_slope() {
     let mut sampler = trajectory.sampler();
     for k in 1..20 {
         let instant = sampler.at(0.25 * f64::from(k)).expect("in the run");
-        let (vx, vy) = (instant.v[0], instant.v[1]);
+        let (vx, vy) = (instant.state.v[0], instant.state.v[1]);
         agree("v (1 + cos ψ)", vx.hypot(vy) + vy, 1.7, 1e-10);
     }
     agree("end", trajectory.final_state().v[1], 0.85, 1e-9);

@@ -43,7 +43,7 @@ fn an_orbit_keeps_energy_momentum_and_its_axis() {
     let expected = constants(&start.q, &start.v);
     for k in 0..=100 {
         let now = trajectory.sampler().at(f64::from(k)).expect("inside");
-        let found = constants(&now.q, &now.v);
+        let found = constants(&now.state.q, &now.state.v);
         for (found, expected) in found.iter().zip(expected) {
             agree("constant", *found, expected, 1e-10);
         }

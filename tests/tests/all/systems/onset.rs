@@ -51,6 +51,6 @@ fn slip_begins_along_its_own_acceleration() {
         // The straight beginning, up to what the push grows by.
         let after = 1e-5;
         let now = motion.sampler().at(begin + after).expect("within");
-        agree("speed", now.v[i] / after, alpha * u[i], 1e-4);
+        agree("speed", now.state.v[i] / after, alpha * u[i], 1e-4);
     }
 }

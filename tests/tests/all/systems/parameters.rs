@@ -54,14 +54,14 @@ fn numbers_that_become_zero_or_one_are_taken_as_they_are() {
         let mut sampler = motion.sampler();
         for t in [0.0, 0.1, 0.2] {
             let now = sampler.at(t).expect("within");
-            let expected = scene.accelerations([now.q[0], now.q[1]], now.v[1]);
+            let expected = scene.accelerations([now.state.q[0], now.state.q[1]], now.state.v[1]);
             all_agree(&format!("{scene:?}"), &now.acceleration, &expected, 1e-14);
         }
         // The series as well, by what they make of the velocities.
         let (one, other) = (sampler.at(0.1), sampler.at(0.1002));
         let (one, other) = (one.expect("within"), other.expect("within"));
-        let slopes = [0, 1].map(|i| (other.v[i] - one.v[i]) / 2e-4);
-        let expected = scene.accelerations([one.q[0], one.q[1]], one.v[1]);
+        let slopes = [0, 1].map(|i| (other.state.v[i] - one.state.v[i]) / 2e-4);
+        let expected = scene.accelerations([one.state.q[0], one.state.q[1]], one.state.v[1]);
         all_agree(&format!("{scene:?}"), &slopes, &expected, 1e-3);
     }
 }

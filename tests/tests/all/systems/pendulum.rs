@@ -34,14 +34,14 @@ fn a_cartesian_pendulum_keeps_its_length_and_meets_jacobi() {
     let mut sampler = trajectory.sampler();
     for k in 0..=200 {
         let now = sampler.at(0.5 * f64::from(k)).expect("inside");
-        assert!((now.q[0].hypot(now.q[1]) - 1.0).abs() < 1e-12);
-        assert!((now.q[0] * now.v[0] + now.q[1] * now.v[1]).abs() < 1e-11);
+        assert!((now.state.q[0].hypot(now.state.q[1]) - 1.0).abs() < 1e-12);
+        assert!((now.state.q[0] * now.state.v[0] + now.state.q[1] * now.state.v[1]).abs() < 1e-11);
         // Tension −2λl = m(v²/l − g y/l).
-        let speed = now.v[0].powi(2) + now.v[1].powi(2);
+        let speed = now.state.v[0].powi(2) + now.state.v[1].powi(2);
         agree(
             "λ",
             -2.0 * now.forces[0],
-            0.7 * (speed - 9.81 * now.q[1]),
+            0.7 * (speed - 9.81 * now.state.q[1]),
             1e-9,
         );
     }
@@ -84,10 +84,10 @@ fn both_pendulums_swing_alike() {
             let t = 0.2 * f64::from(k);
             let (a, b) = (one.sampler().at(t), two.sampler().at(t));
             let (a, b) = (a.expect("inside"), b.expect("inside"));
-            agree("x", b.q[0], length * a.q[0].sin(), 1e-9);
-            agree("y", b.q[1], -length * a.q[0].cos(), 1e-9);
+            agree("x", b.state.q[0], length * a.state.q[0].sin(), 1e-9);
+            agree("y", b.state.q[1], -length * a.state.q[0].cos(), 1e-9);
             // The pull of the rod, −2 λ l along it.
-            let pull = mass * (gravity * a.q[0].cos() + length * a.v[0] * a.v[0]);
+            let pull = mass * (gravity * a.state.q[0].cos() + length * a.state.v[0] * a.state.v[0]);
             agree("pull", -2.0 * length * b.forces[0], pull, 1e-8);
         }
         assert!(closure(&one) < 1e-11);
@@ -149,8 +149,8 @@ fn a_redundant_rod_changes_nothing() {
         let t = 0.25 * f64::from(k);
         let (a, b) = (one.sampler().at(t), two.sampler().at(t));
         let (a, b) = (a.expect("inside"), b.expect("inside"));
-        agree("x", b.q[0], a.q[0], 1e-10);
-        agree("y", b.q[1], a.q[1], 1e-10);
+        agree("x", b.state.q[0], a.state.q[0], 1e-10);
+        agree("y", b.state.q[1], a.state.q[1], 1e-10);
         // Only what both do together is determined.
         agree("pull", b.forces[0] + 2.0 * b.forces[1], a.forces[0], 1e-9);
     }

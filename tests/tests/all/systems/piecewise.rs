@@ -146,7 +146,7 @@ fn half_periods_of_a_bilinear_spring_add_up() {
     agree("v", trajectory.final_state().v[0], 0.0, 1e-10);
     let mut sampler = trajectory.sampler();
     let far = sampler.at(0.5 * period).expect("inside");
-    agree("on the soft side", far.q[0], -0.1 * 10.0 / 2.0, 1e-11);
+    agree("on the soft side", far.state.q[0], -0.1 * 10.0 / 2.0, 1e-11);
 }
 
 /// Dry friction written with `sign`: it would have to switch infinitely fast.

@@ -18,7 +18,7 @@ fn accelerations_soon_after_the_start() {
         let mut solved = trajectory.dynamics();
         solved.set_equations(Equations::Interpreted);
         solved
-            .value(now.time, &now.q, &now.v)
+            .value(now.time, &now.state.q, &now.state.v)
             .expect("accelerations");
         let what = format!("accelerations at t = {}", now.time);
         all_agree(&what, &now.acceleration, solved.acceleration(), 1e-5);

@@ -36,14 +36,14 @@ fn a_turning_skate_moves_sideways_on_a_cycloid() {
         let t = 0.1 * f64::from(k);
         let phase = turn * t;
         let now = trajectory.sampler().at(t).expect("inside");
-        agree("x", now.q[0], height * phase.sin().powi(2), 1e-10);
+        agree("x", now.state.q[0], height * phase.sin().powi(2), 1e-10);
         agree(
             "y",
-            now.q[1],
+            now.state.q[1],
             height * (phase - 0.5 * (2.0 * phase).sin()),
             1e-10,
         );
-        agree("φ", now.q[2], phase, 1e-11);
+        agree("φ", now.state.q[2], phase, 1e-11);
         // The edge gives what the turn of the velocity and gravity across it ask for.
         let across = 2.0 * 3.0 * gravity * slope.sin() * phase.sin();
         agree("force", now.forces[0].abs(), across.abs(), 1e-9);

@@ -76,7 +76,7 @@ fn the_wire_pulls_then_pushes() {
     let mut seen = [false; 2];
     for k in 1..=50 {
         let instant = sampler.at(0.75 * f64::from(k) / 50.0).expect("in the run");
-        let (theta, w) = (instant.q[1], instant.v[1]);
+        let (theta, w) = (instant.state.q[1], instant.state.v[1]);
         if w < 0.1 {
             break;
         }

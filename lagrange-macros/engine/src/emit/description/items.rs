@@ -47,9 +47,11 @@ impl Writer<'_> {
             );
             let parameters = self.parameters_of([numbers.restitution]);
             let restitution = match contact.restitution {
-                Restitution::Newton(_) => quote!(#core::system::Restitution::Newton(#restitution)),
+                Restitution::Newton(_) => {
+                    quote!(#core::__private::places::Restitution::Newton(#restitution))
+                }
                 Restitution::Poisson(_) => {
-                    quote!(#core::system::Restitution::Poisson(#restitution))
+                    quote!(#core::__private::places::Restitution::Poisson(#restitution))
                 }
             };
             quote! {
@@ -79,16 +81,16 @@ impl Writer<'_> {
             let normal = match (friction.normal, numbers.given_normal) {
                 (Normal::Contact(contact), _) => {
                     let contact = index(contact);
-                    quote!(#core::system::Normal::Contact(#contact))
+                    quote!(#core::__private::places::Normal::Contact(#contact))
                 }
                 (Normal::Constraint(constraint), _) => {
                     let constraint = index(constraint);
-                    quote!(#core::system::Normal::Constraint(#constraint))
+                    quote!(#core::__private::places::Normal::Constraint(#constraint))
                 }
                 (Normal::Given(_), given) => {
                     let given = given.expect("a given normal force has an output");
                     let given = self.place(given);
-                    quote!(#core::system::Normal::Given(#given))
+                    quote!(#core::__private::places::Normal::Given(#given))
                 }
             };
             let (stick, slide) = (
@@ -143,7 +145,7 @@ impl Writer<'_> {
             let users = numbers.users.iter().map(|user| index(user.0));
             let text = &branch.text;
             quote! {
-                #core::system::Branch {
+                #core::__private::places::Branch {
                     guard: #guard, need: #need, after_solve: #after_solve, users: &[#(#users),*], text: #text,
                 }
             }
@@ -170,7 +172,7 @@ impl Writer<'_> {
                 Condition::Slips(item) => (names::plain("Slips"), item),
             };
             let item = index(*item);
-            quote!(#core::system::Condition::#kind(#item))
+            quote!(#core::__private::places::Condition::#kind(#item))
         });
         quote! {
             #core::system::Watch {

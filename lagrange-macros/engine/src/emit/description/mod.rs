@@ -77,7 +77,7 @@ pub fn description(program: &Program) -> TokenStream {
             dissipations: &[#(#dissipations),*],
             branches: &[#(#branches),*],
             energy: #energy,
-            momenta: #core::system::Momenta { places: #momenta, need: #momenta_need },
+            momenta: #core::__private::places::Momenta { places: #momenta, need: #momenta_need },
             observes: &[#(#observes),*],
             stops: &[#(#stops),*],
             marks: &[#(#marks),*],
@@ -218,12 +218,12 @@ impl Writer<'_> {
             let (bias, position, velocity) = (self.place(row.bias), self.maybe(row.position), self.place(row.velocity));
             let [a, b, c, d] = row.needs.map(|need| index(need.0));
             quote! {
-                #core::system::Row {
+                #core::__private::places::Row {
                     jacobian: &[#(#jacobian),*],
                     bias: #bias,
                     position: #position,
                     velocity: #velocity,
-                    needs: #core::system::RowNeeds { jacobian: #a, bias: #b, position: #c, velocity: #d },
+                    needs: #core::__private::places::RowNeeds { jacobian: #a, bias: #b, position: #c, velocity: #d },
                 }
             }
         });
@@ -235,7 +235,7 @@ impl Writer<'_> {
         let couplings = self.program.equations.structure.couplings.iter().map(|coupling| {
             let (coordinate, row) = (index(coupling.coordinate), index(coupling.row));
             let (factor, need) = (self.place(coupling.factor), index(coupling.need.0));
-            quote!(#core::system::Coupling { coordinate: #coordinate, row: #row, factor: #factor, need: #need })
+            quote!(#core::__private::places::Coupling { coordinate: #coordinate, row: #row, factor: #factor, need: #need })
         });
         couplings.collect()
     }
@@ -248,7 +248,7 @@ impl Writer<'_> {
         let (jacobi, time_power, need) =
             (self.place(jacobi), self.place(time_power), index(need.0));
         quote! {
-            #core::system::Energy {
+            #core::__private::places::Energy {
                 kinetic: #kinetic, potential: #potential, jacobi: #jacobi, time_power: #time_power, need: #need,
             }
         }

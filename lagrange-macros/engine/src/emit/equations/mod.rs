@@ -45,7 +45,8 @@ pub fn equations(program: &Program) -> TokenStream {
             mode.operations(Phase::Accelerations)
         );
         values.push(value::function(&value, &heading, program, mode, &plan));
-        value_entries.push(quote!(#value::<#number> as #core::equations::ValueFn<#number>));
+        value_entries
+            .push(quote!(#value::<#number> as #core::__private::equations::ValueFn<#number>));
         let sums = plan.convolutions();
         let heading = format!(" {words}: {sums} sums over earlier coefficients for each new one.");
         series.push(series::function(
@@ -55,16 +56,17 @@ pub fn equations(program: &Program) -> TokenStream {
             mode,
             &plan,
         ));
-        series_entries.push(quote!(#one_series::<#number> as #core::equations::SeriesFn<#number>));
+        series_entries
+            .push(quote!(#one_series::<#number> as #core::__private::equations::SeriesFn<#number>));
     }
     let (mode, held, signs, c) = (local("mode"), local("held"), local("signs"), local("c"));
     quote! {
-        const MODES: &'static [#core::equations::ModeStructure] = &[#(#structures),*];
+        const MODES: &'static [#core::__private::equations::ModeStructure] = &[#(#structures),*];
 
         fn mode_constants(
             &self,
             #mode: usize,
-            #held: &#core::system::Selection,
+            #held: &#core::__private::program::Selection,
             #signs: &[Self::Scalar],
             #c: &mut [Self::Scalar],
         ) -> bool {
@@ -74,14 +76,14 @@ pub fn equations(program: &Program) -> TokenStream {
             }
         }
 
-        fn mode_values<#number: #core::arithmetic::Number>(
-        ) -> &'static [#core::equations::ValueFn<#number>] {
+        fn mode_values<#number: #core::__private::Number>(
+        ) -> &'static [#core::__private::equations::ValueFn<#number>] {
             #(#values)*
             const { &[#(#value_entries),*] }
         }
 
-        fn mode_series<#number: #core::arithmetic::Number>(
-        ) -> &'static [#core::equations::SeriesFn<#number>] {
+        fn mode_series<#number: #core::__private::Number>(
+        ) -> &'static [#core::__private::equations::SeriesFn<#number>] {
             #(#series)*
             const { &[#(#series_entries),*] }
         }
@@ -123,9 +125,9 @@ fn structure(program: &Program, mode: &ModeProgram, plan: &products::Plan) -> To
     let count = index(mode.constants.outputs);
     let rows = index(plan.rows);
     quote! {
-        #core::equations::ModeStructure {
+        #core::__private::equations::ModeStructure {
             contacts: &[#(#contacts),*],
-            frictions: &[#(#core::equations::FrictionState::#frictions),*],
+            frictions: &[#(#core::__private::equations::FrictionState::#frictions),*],
             left_out: #left_out,
             constants: #count,
             pins: &[#(#pins),*],
@@ -163,7 +165,7 @@ fn mode_constants(program: &Program, mode: &ModeProgram) -> TokenStream {
     let tests = mode.divisors.iter().map(|(pivot, against)| {
         let pivot = place(pivot);
         let against = against.iter().map(place);
-        quote!(#core::equations::is_safe_divisor(#pivot, &[#(#against),*]))
+        quote!(#core::__private::equations::is_safe_divisor(#pivot, &[#(#against),*]))
     });
     let positive = mode.positive.iter().map(|place| {
         let inertia = match place {

@@ -113,25 +113,25 @@ pub fn function(
     let count = index(plan.rows);
     let bound = names::array(&rows, quote!(#rows.first_chunk_mut::<#count>()));
     let (body, state) = (plain("Coefficients"), local("state"));
-    let result = quote!(::core::result::Result<(), #core::equations::Refused>);
+    let result = quote!(::core::result::Result<(), #core::__private::equations::Refused>);
     quote! {
         #[doc = #heading]
-        fn #name<#number: #core::arithmetic::Number>(
+        fn #name<#number: #core::__private::Number>(
             #c: &[#number],
-            #held: &#core::system::Selection,
+            #held: &#core::__private::program::Selection,
             #order: usize,
-            #state: #core::equations::Arguments<#number>,
-            #rows: &mut [#core::equations::Row<#number>],
+            #state: #core::__private::equations::Arguments<#number>,
+            #rows: &mut [#core::__private::equations::Row<#number>],
         ) -> #result {
             struct #body;
-            impl<#number: #core::arithmetic::Number>
-                #core::arithmetic::Body<#core::equations::SeriesArguments<'_, #number>> for #body
+            impl<#number: #core::__private::Number>
+                #core::__private::Body<#core::__private::equations::SeriesArguments<'_, #number>> for #body
             {
                 type Output = #result;
                 #[inline(always)]
                 fn run(
                     (#c, #held, #order, (#t, #q, #v), #rows):
-                        #core::equations::SeriesArguments<'_, #number>,
+                        #core::__private::equations::SeriesArguments<'_, #number>,
                 ) -> #result {
                     #prologue
                     #bound
@@ -142,7 +142,7 @@ pub fn function(
                 }
             }
             #number::across::<#body, _>((#c, #held, #order, #state, #rows))
-                .unwrap_or(::core::result::Result::Err(#core::equations::Refused::NoLanes))
+                .unwrap_or(::core::result::Result::Err(#core::__private::equations::Refused::NoLanes))
         }
     }
 }
@@ -208,7 +208,7 @@ impl Expansion<'_> {
         let safe = local("safe");
         code.extend(quote! {
             if !#safe {
-                return ::core::result::Result::Err(#core::equations::Refused::Pivot);
+                return ::core::result::Result::Err(#core::__private::equations::Refused::Pivot);
             }
         });
         let right = mode.system.right.iter().map(|place| match place {
@@ -324,7 +324,7 @@ impl Expansion<'_> {
         let refuse = |condition: TokenStream| {
             quote! {
                 if #condition {
-                    return ::core::result::Result::Err(#core::equations::Refused::NoSeries);
+                    return ::core::result::Result::Err(#core::__private::equations::Refused::NoSeries);
                 }
             }
         };
@@ -526,7 +526,7 @@ impl Expansion<'_> {
             if let Some(d) = self.d_of_place(*place) {
                 let velocity = index(n + j);
                 body.extend(quote! {
-                    #rows[#velocity][(#k + 1) & 31] = #d * #number::of(#core::equations::INVERSES[(#k + 1) & 31]);
+                    #rows[#velocity][(#k + 1) & 31] = #d * #number::of(#core::__private::equations::INVERSES[(#k + 1) & 31]);
                 });
             }
         }
@@ -558,7 +558,7 @@ impl Expansion<'_> {
         quote! {
             let #p = #k & 31;
             let #weight = #number::of(#k as f64);
-            let #share = #number::of(#core::equations::INVERSES[#p]);
+            let #share = #number::of(#core::__private::equations::INVERSES[#p]);
             #body
         }
     }

@@ -95,9 +95,9 @@ pub fn function(
     let safe = local("safe");
     quote! {
         #[doc = #heading]
-        fn #name<#number: #core::arithmetic::Number>(
+        fn #name<#number: #core::__private::Number>(
             #c: &[#number],
-            #held: &#core::system::Selection,
+            #held: &#core::__private::program::Selection,
             (#t, #q, #v): (#number, &[#number], &[#number]),
             #rates: &mut [#number],
             #values: ::core::option::Option<&mut [#number]>,

@@ -1,0 +1,121 @@
+//! Where the numbers of the equations are found, and which needs they belong to.
+//!
+//! Every number is an *output* of a program or a parameter-only *constant*; a [`ValueRef`] says which.
+
+use crate::program::ValueRef;
+
+/// One scalar equation aᵢ v̇ + γᵢ = 0 with multiplier λᵢ.
+#[derive(Debug)]
+pub struct Row {
+    /// aᵢ: (coordinate, where), structural zeros left out. Need [`RowNeeds::jacobian`].
+    pub jacobian: &'static [(usize, ValueRef)],
+    /// γᵢ. Need [`RowNeeds::bias`].
+    pub bias: ValueRef,
+    /// g(q,t), for rows of position level (constraints, contacts). Need [`RowNeeds::position`].
+    pub position: Option<ValueRef>,
+    /// aᵢ v + bᵢ: the rate of g, or the velocity-level residual, or the slip. Need [`RowNeeds::velocity`].
+    pub velocity: ValueRef,
+    /// What to hold to have each of these.
+    pub needs: RowNeeds,
+}
+
+/// Needs of a row.
+#[derive(Clone, Copy, Debug)]
+pub struct RowNeeds {
+    /// For the Jacobian (and the couplings of this row).
+    pub jacobian: usize,
+    /// For the acceleration bias γ.
+    pub bias: usize,
+    /// For the position residual or gap.
+    pub position: usize,
+    /// For the velocity residual or slip.
+    pub velocity: usize,
+}
+
+/// A force proportional to a multiplier.
+#[derive(Clone, Copy, Debug)]
+pub struct Coupling {
+    /// Coordinate that it acts on.
+    pub coordinate: usize,
+    /// Row whose multiplier scales it.
+    pub row: usize,
+    /// The factor.
+    pub factor: ValueRef,
+    /// Need of the force item that it belongs to.
+    pub need: usize,
+}
+
+/// Law of impact.
+#[derive(Clone, Copy, Debug)]
+pub enum Restitution {
+    /// v⁺ = −e v⁻.
+    Newton(ValueRef),
+    /// Impulse of restitution = e · impulse of compression.
+    Poisson(ValueRef),
+}
+
+/// Source of a friction's normal force.
+#[derive(Clone, Copy, Debug)]
+pub enum Normal {
+    /// λ · factor of this contact.
+    Contact(usize),
+    /// |λ| of this constraint.
+    Constraint(usize),
+    /// An expression (`normal = …`; 1 for `limit = …`, whose limits are the coefficients).
+    Given(ValueRef),
+}
+
+/// A piecewise branch.
+#[derive(Debug)]
+pub struct Branch {
+    /// `then` while ≥ 0. Motion if [`Self::after_solve`] is false, else report.
+    pub guard: ValueRef,
+    /// Need of the guard.
+    pub need: usize,
+    /// Whether the guard uses accelerations or forces, so only outputs of the report can use the branch.
+    pub after_solve: bool,
+    /// Needs of which any one makes the branch matter.
+    pub users: &'static [usize],
+    /// As the user wrote it.
+    pub text: &'static str,
+}
+
+/// Energies; all in the report tape.
+///
+/// What a scene can leave out stands under its own need ([`Effect::need`](super::Effect::need)), here as in the motion tape, so that
+/// these add up what acts: hold the needs of the active effects beside [`Energy::need`].
+#[derive(Debug)]
+pub struct Energy {
+    /// T as declared.
+    pub kinetic: ValueRef,
+    /// V as declared.
+    pub potential: ValueRef,
+    /// v·∂L/∂v − L.
+    pub jacobi: ValueRef,
+    /// −∂L/∂t: the rate of the Jacobi integral that explicit time causes.
+    pub time_power: ValueRef,
+    /// Need of the unnamed energies' part of all of them.
+    pub need: usize,
+}
+
+/// Generalized momenta; needs as for [`Energy`].
+#[derive(Debug)]
+pub struct Momenta {
+    /// ∂L/∂v, one per coordinate. Report.
+    pub places: &'static [ValueRef],
+    /// Need of the unnamed energies' part of all of them.
+    pub need: usize,
+}
+
+/// A condition on the mode.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Condition {
+    /// This contact is closed.
+    Closed(usize),
+    /// This contact is open.
+    Open(usize),
+    /// This friction sticks.
+    Sticks(usize),
+    /// This friction slips.
+    Slips(usize),
+}
