@@ -101,14 +101,18 @@ impl Equations {
                 findings.book(Subject::Closed, rate.abs(), reach, at.time, name);
                 continue;
             }
-            let outside = contact
-                .region
-                .is_some_and(|region| self.values.value(region) < 0.0);
-            passed[c] = gap < 0.0 && (passed[c] || outside);
+            passed[c] = self.has_passed(c, gap, passed[c]);
             if !passed[c] {
                 findings.book(Subject::Gaps, -gap, reach, at.time, name);
             }
         }
+    }
+
+    /// Whether the motion is beyond the surface of contact `c`, which it has passed outside the contact's region, now or `before`.
+    pub fn has_passed(&self, c: usize, gap: f64, before: bool) -> bool {
+        let region = self.declaration.contacts[c].region;
+        let outside = region.is_some_and(|region| self.values.value(region) < 0.0);
+        gap < 0.0 && (before || outside)
     }
 
     fn examine_constraints(&mut self, at: Situation<'_>, mode: &Mode, findings: &mut Findings) {

@@ -305,7 +305,7 @@ impl<T: Scalar> Examination<'_, T> {
         equations.take(at);
         let seen = (at, &now.mode);
         self.watches
-            .see(equations, findings, seen, &self.passed, again);
+            .see(equations, findings, seen, &mut self.passed, again);
         if chosen {
             equations.examine(at, &now.mode, now.energies, &mut self.passed, findings);
         }

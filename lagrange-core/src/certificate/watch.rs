@@ -80,7 +80,7 @@ impl Watches {
         equations: &mut Equations,
         findings: &mut Findings,
         (at, mode): (Situation<'_>, &Mode),
-        passed: &[bool],
+        passed: &mut [bool],
         again: &mut Vec<f64>,
     ) {
         let d = equations.d;
@@ -89,6 +89,9 @@ impl Watches {
                 guard.last.clear();
                 continue;
             };
+            if let Kind::Gap(c) = guard.kind {
+                passed[c] = equations.has_passed(c, value, passed[c]);
+            }
             // What is as it should be is not measured.
             let mut book = |subject, error: f64, name| {
                 let reach = if error > 0.0 {

@@ -24,9 +24,16 @@ pub(crate) use erased::{Erased, ErasedSystem};
 /// A mechanical system: what `#[derive(Lagrangian)]` implements, with [`Derived`].
 ///
 /// What its equations are made of stands in its description, as [programs](crate::program).
-pub trait System: Clone + Send + Sync + 'static {
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a mechanical system",
+    note = "derive it, `#[derive(Lagrangian)]`, from what stands in `#[lagrange(…)]`; the numbers in it are `f64`, `f32` or `Dual`"
+)]
+pub trait System: Sized + Send + Sync + 'static {
     /// The number type of parameters and state.
     type Scalar: Scalar;
+
+    /// The same system once more, which is what a run keeps.
+    fn copy(&self) -> Self;
 
     /// The table of names, places and needs.
     fn description(&self) -> &'static Description;
@@ -79,7 +86,7 @@ pub trait System: Clone + Send + Sync + 'static {
     /// The system without its type, which is all that a run sees of it.
     #[doc(hidden)]
     fn erased(&self) -> AnySystem<Self::Scalar> {
-        AnySystem::alone(self.clone())
+        AnySystem::alone(self.copy())
     }
 
     /// The Taylor series of the modes, of several motions side by side.
