@@ -227,10 +227,8 @@ impl<'a, T: Scalar> Sampler<'a, T> {
         } else {
             dynamics.value_along(t, &state.q, &state.v)
         };
-        let outcome =
-            outcome.and_then(|()| instant(dynamics, &mut self.redundant, t, state));
-        let mut instant =
-            outcome.map_err(|e| Error::from_evaluation(e, t.value(), mode, d))?;
+        let outcome = outcome.and_then(|()| instant(dynamics, &mut self.redundant, t, state));
+        let mut instant = outcome.map_err(|e| Error::from_evaluation(e, t.value(), mode, d))?;
         // The mode is that of the phase.
         instant.mode.branches.clone_from(&mode.branches);
         Ok(instant)

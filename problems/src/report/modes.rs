@@ -29,17 +29,22 @@ fn acceleration_unit(unit: &str) -> String {
 /// Forces, then accelerations.
 fn columns(found: &Feasible) -> Vec<Column> {
     let d = found.description;
-    let every = |value: &dyn Fn(&Instant<f64>) -> (bool, f64)| found.modes.iter().map(value).collect();
+    let every =
+        |value: &dyn Fn(&Instant<f64>) -> (bool, f64)| found.modes.iter().map(value).collect();
     let forces = forces(d).into_iter().map(|force| Column {
         values: every(&|now| (force.acts(d, &now.mode), now.forces[force.row])),
         unit: d.units.row(force.row).to_owned(),
         name: force.name,
     });
-    let accelerations = d.coordinates.iter().enumerate().map(|(i, coordinate)| Column {
-        values: every(&|now| (true, now.acceleration[i])),
-        unit: acceleration_unit(coordinate.unit),
-        name: velocity_name(&velocity_name(coordinate.name)),
-    });
+    let accelerations = d
+        .coordinates
+        .iter()
+        .enumerate()
+        .map(|(i, coordinate)| Column {
+            values: every(&|now| (true, now.acceleration[i])),
+            unit: acceleration_unit(coordinate.unit),
+            name: velocity_name(&velocity_name(coordinate.name)),
+        });
     forces.chain(accelerations).collect()
 }
 
@@ -60,7 +65,11 @@ pub fn table(found: &Feasible, mut out: impl Write) -> io::Result<()> {
     for (k, now) in found.modes.iter().enumerate() {
         let numbers = columns.iter().zip(&decimals).map(|(column, decimals)| {
             let (acts, value) = column.values[k];
-            if acts { decimals.show(value) } else { String::new() }
+            if acts {
+                decimals.show(value)
+            } else {
+                String::new()
+            }
         });
         let mode = super::words::brief(&now.mode, found.description);
         table.add_row([(k + 1).to_string(), mode].into_iter().chain(numbers));
@@ -74,7 +83,10 @@ pub fn table(found: &Feasible, mut out: impl Write) -> io::Result<()> {
     writeln!(out, "{}\n", table.trim_fmt())?;
     let time = found.time;
     match found.modes.len() {
-        1 => writeln!(out, "At t = {time} s the motion can go on in this mode only."),
+        1 => writeln!(
+            out,
+            "At t = {time} s the motion can go on in this mode only."
+        ),
         count => writeln!(
             out,
             "At t = {time} s the motion can go on in {count} modes; a run takes the first."
@@ -107,7 +119,11 @@ pub fn json(found: &Feasible, mut out: impl Write) -> io::Result<()> {
         let coordinates = d.coordinates.iter().zip(&now.acceleration);
         Line {
             mode: now.mode.display(d).to_string(),
-            forces: Numbers(forces.map(|force| (force.name, now.forces[force.row])).collect()),
+            forces: Numbers(
+                forces
+                    .map(|force| (force.name, now.forces[force.row]))
+                    .collect(),
+            ),
             accelerations: Numbers(
                 coordinates
                     .map(|(coordinate, value)| (coordinate.name.to_owned(), *value))
@@ -131,7 +147,9 @@ pub fn json(found: &Feasible, mut out: impl Write) -> io::Result<()> {
 pub fn csv(found: &Feasible, out: impl Write) -> io::Result<()> {
     let columns = columns(found);
     let mut writer = csv::Writer::from_writer(out);
-    let names = columns.iter().map(|column| with_unit(&column.name, &column.unit));
+    let names = columns
+        .iter()
+        .map(|column| with_unit(&column.name, &column.unit));
     writer.write_record(core::iter::once("mode".to_owned()).chain(names))?;
     for (k, now) in found.modes.iter().enumerate() {
         let numbers = columns.iter().map(|column| column.values[k].1.to_string());

@@ -274,7 +274,9 @@ impl Writer<'_> {
                 let other = self.term(level, depth);
                 a.call_of_two(other, "max", |x, y| if x.value >= y.value { x } else { y })
             }
-            18 => a.call("sign", |x| Jet::constant(if x.value < 0.0 { -1.0 } else { 1.0 })),
+            18 => a.call("sign", |x| {
+                Jet::constant(if x.value < 0.0 { -1.0 } else { 1.0 })
+            }),
             _ => {
                 let (b, c) = (self.term(level, depth), self.term(level, depth));
                 let text = format!("if({} >= 1/5, {}, {})", a.text, b.text, c.text);

@@ -1,4 +1,8 @@
-//! Random declarations through the engine and the core: whatever is declared, what is derived says the same.
+//! Random declarations through the engine and the core: whatever is declared, what is derived says the same, interpreted and compiled.
+
+mod compiled;
+#[rustfmt::skip]
+mod written;
 
 use lagrange_core::prelude::*;
 use lagrange_engine::ast::Form;
@@ -9,7 +13,7 @@ use lagrange_tests::Random;
 use lagrange_tests::declarations::{Declared, declaration};
 
 /// How many declarations are drawn.
-const DRAWN: u64 = 300;
+const DRAWN: u64 = 240;
 
 /// The scene of a declaration that is right.
 fn scene(number: u64, declared: &Declared) -> &'static dyn Scene {
@@ -23,9 +27,7 @@ fn scene(number: u64, declared: &Declared) -> &'static dyn Scene {
 /// What a declaration says of its first start and its outputs is what is derived from it; along a run everything else that it says
 /// is checked by the certificate, which evaluates the declaration in series.
 fn check(number: u64, declared: &Declared) -> Option<String> {
-    let clock = std::time::Instant::now();
     let system = scene(number, declared).system();
-    println!("{number} derived in {:.3}, {} modes", clock.elapsed().as_secs_f64(), declared.text.len());
     let start = system.at(StartId(0));
     let leaves = declared.leaves_at_start(0.0);
     for (moves, coordinate, factor, term) in &declared.started {
@@ -53,7 +55,10 @@ fn check(number: u64, declared: &Declared) -> Option<String> {
         let leaves = declared.leaves(&now);
         for (name, factor, term) in &declared.observed {
             let observes = run.description().observes;
-            let place = observes.iter().position(|o| o.name == name).expect("an output");
+            let place = observes
+                .iter()
+                .position(|o| o.name == name)
+                .expect("an output");
             let (found, expected) = (now.observes[place], factor * term.at(&leaves).value);
             assert!(
                 near(found, expected),
@@ -65,7 +70,11 @@ fn check(number: u64, declared: &Declared) -> Option<String> {
         }
     }
     if let Ok(certificate) = run.verify(number) {
-        assert!(certificate.holds(), "{number}: {certificate}\n{error:?}\n{}", declared.text);
+        assert!(
+            certificate.holds(),
+            "{number}: {certificate}\n{error:?}\n{}",
+            declared.text
+        );
     }
     error
 }
@@ -77,25 +86,12 @@ fn near(a: f64, b: f64) -> bool {
 #[test]
 fn what_is_derived_is_what_is_declared() {
     let mut errors = Vec::new();
-    let from: u64 = std::env::var("FROM").map_or(0, |x| x.parse().unwrap());
-    let to: u64 = std::env::var("TO").map_or(DRAWN, |x| x.parse().unwrap());
-    for number in from..to {
-        let clock = std::time::Instant::now();
-        let declared = declaration(number);
-        let r = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| check(number, &declared)));
-        match r {
-            Ok(r) => errors.extend(r.map(|error| format!("{number}: {error}"))),
-            Err(e) => {
-                let words = e.downcast_ref::<String>().cloned().unwrap_or_default();
-                println!("FAIL {number} {words}");
-            }
-        }
-        let s = clock.elapsed().as_secs_f64();
-        if s > 1.0 { println!("{number} takes {s}"); }
+    for number in 0..DRAWN {
+        let error = check(number, &declaration(number));
+        errors.extend(error.map(|error| format!("{number}: {error}")));
     }
-    // A run may end where its physics has no answer.
-    println!("{}", errors.join("\n"));
-    assert!(errors.len() < DRAWN as usize / 20, "{}", errors.join("\n"));
+    // Forces that jump with a velocity, friction that would have to slip at the start: few runs end early.
+    assert!(errors.len() < DRAWN as usize / 15, "{}", errors.join("\n"));
 }
 
 /// All that the macro does: code, and the derivation to be read.
@@ -146,8 +142,26 @@ fn damaged_declarations_are_read_or_refused() {
 fn everything_in_the_language_is_drawn() {
     let texts: String = (0..DRAWN).map(|number| declaration(number).text).collect();
     let forms = Form::ALL.map(|(word, _)| word);
-    let others = ["where", "while", "poisson", "at", "along", "on", "sum", "list", "if", "and", "positive", "nonnegative"];
-    for word in KEYWORDS.iter().chain(FUNCTIONS).chain(&forms).chain(&others) {
+    let others = [
+        "where",
+        "while",
+        "poisson",
+        "at",
+        "along",
+        "on",
+        "sum",
+        "list",
+        "if",
+        "and",
+        "positive",
+        "nonnegative",
+    ];
+    for word in KEYWORDS
+        .iter()
+        .chain(FUNCTIONS)
+        .chain(&forms)
+        .chain(&others)
+    {
         let mut words = texts.split(|c: char| !c.is_alphanumeric() && c != '_');
         assert!(words.any(|found| found == *word), "`{word}` is never drawn");
     }
