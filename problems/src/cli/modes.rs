@@ -15,7 +15,7 @@ use std::io::{self, Write};
 /// instant, modes are those after the impact.
 #[derive(Args)]
 #[command(after_help = "Examples:
-  lagrange modes painleve-rod --start \"der(theta)=5\"
+  lagrange modes painleve-rod --set mu=1.6 --set rate=5
   lagrange modes mass-on-wheel --at 0.3 --format json
 
 Exit codes: 0 there are modes, 1 there is none or the run failed, 2 the request makes no sense.")]

@@ -424,7 +424,7 @@ impl Draft {
         }
         if self.has[3] {
             list.push(
-                "q = [4/5, 2/5, -2/5, 1/5], der(q[2]) = 1/(4*second), der(q[1]) = 1/(4*second)"
+                "q = [1/2, 1/2, -1/2, 1/2], der(q[2]) = 1/(4*second), der(q[1]) = 1/(4*second)"
                     .to_owned(),
             );
         }

@@ -11,7 +11,7 @@ use lagrange_tests::declarations::declaration;
 use lagrange_tests::{Random, all_agree, modes};
 
 /// How many declarations are compiled.
-const COMPILED: usize = 4;
+const COMPILED: usize = 8;
 
 /// States in each mode.
 const STATES: usize = 3;
