@@ -111,7 +111,7 @@ impl<T: Scalar> fmt::Debug for Functions<T> {
 impl<T: Runnable> Dynamics<T> {
     /// The equations of a scene with all contacts open.
     pub fn new<S: System<Scalar = T>>(scene: &S, effects: &Effects) -> Self {
-        (T::functions().dynamics)(Arc::new(scene.clone()), effects)
+        (T::functions().dynamics)(Arc::new(scene.copy()), effects)
     }
 }
 

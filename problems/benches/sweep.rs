@@ -53,7 +53,7 @@ fn main() {
     criterion.final_summary();
 }
 
-fn scene<S: Derived<Scalar = f64> + Default>(
+fn scene<S: Derived<Scalar = f64> + Clone + Default>(
     criterion: &mut Criterion,
     until: f64,
     last: Option<(Subject, EventKind)>,

@@ -4,6 +4,7 @@
 use crate::accuracy::{self, Accuracy, Motion, Study};
 use crate::closed_form::ClosedForm;
 use crate::cost::{self, Costs};
+use crate::feasible::{self, Feasible};
 use crate::film::{self, Film, Reel};
 use crate::outcome::{self, Outcome};
 use crate::request::{Refusal, Request};
@@ -194,7 +195,7 @@ impl<S: System<Scalar = f64>> Entry<S> {
     fn prototype(&self) -> S {
         match self.prototype {
             Prototype::Made(system) => system(),
-            Prototype::Kept(system) => system.clone(),
+            Prototype::Kept(system) => system.copy(),
         }
     }
 }
@@ -288,6 +289,14 @@ impl dyn Scene + '_ {
         };
         let reel = self.in_pieces(request, bytes, film::instants, reel, Reel::join)?;
         Ok(reel.film())
+    }
+
+    /// All modes in which the motion can go on at the start, or at a later time of the run.
+    ///
+    /// # Errors
+    /// The request makes no sense, the start does not exist, the run does not come so far, or there is no mode.
+    pub fn modes(&self, request: &Request, at: Option<f64>) -> Result<Feasible, Refusal> {
+        feasible::modes(self.name(), &self.requested(request)?, request, at)
     }
 
     /// Measures what each effect costs.

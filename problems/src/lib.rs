@@ -15,6 +15,7 @@ pub mod cost;
 pub mod count;
 pub mod drawing;
 mod drawn;
+pub mod feasible;
 pub mod file;
 pub mod film;
 pub mod names;

@@ -305,3 +305,30 @@ fn a_saved_run_runs_again() {
     );
     refuses(&["run", "nowhere.toml"], 2, "cannot read nowhere.toml");
 }
+
+/// Painlevé's rod stays with N = −b/A, or flies off; A and b are those of its declaration's documentation.
+#[test]
+fn feasible_modes_are_listed_with_their_forces() {
+    let asked = [
+        "modes",
+        "painleve-rod",
+        "--set",
+        "mu=1.6",
+        "--set",
+        "rate=5",
+        "--format",
+        "csv",
+    ];
+    let said = says(&asked);
+    let lines: Vec<Vec<&str>> = said.lines().map(|line| line.split(',').collect()).collect();
+    let [_, stays, flies] = &lines[..] else {
+        panic!("{said}")
+    };
+    let (sin, cos) = 1.1_f64.sin_cos();
+    let (a, b) = (1.0 + 3.0 * cos * (cos - 1.6 * sin), 12.5 * sin - 9.81);
+    let number = |cell: &str| cell.parse::<f64>().expect("a number");
+    // The names of what the first mode does are two cells.
+    assert!((number(stays[2]) + b / a).abs() < 1e-12, "{said}");
+    assert_eq!(number(flies[1]), 0.0);
+    assert!((number(flies[4]) + 9.81).abs() < 1e-12, "{said}");
+}

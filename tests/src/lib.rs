@@ -2,6 +2,7 @@
 //!
 //! Nothing here computes as the library does: what it is compared with is written again from the textbook.
 
+pub mod declarations;
 pub mod equations;
 pub mod exactness;
 pub mod families;
@@ -35,6 +36,11 @@ impl Random {
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         let z = self.bits();
         low + (high - low) * (z >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// One of 0, 1, …, n − 1.
+    pub fn below(&mut self, n: usize) -> usize {
+        (self.bits() % n as u64) as usize
     }
 
     /// +1 or −1.

@@ -16,6 +16,11 @@ pub(crate) use pack::Pack;
 use core::fmt::Debug;
 
 /// A number that parameters, states and coefficients are made of.
+#[diagnostic::on_unimplemented(
+    message = "systems cannot be made of `{Self}`",
+    label = "not a number that runs are made of",
+    note = "numbers are `f64`, `f32` and `Dual`"
+)]
 pub trait Scalar:
     nalgebra::Scalar
     + Copy

@@ -139,7 +139,7 @@ impl<'a, S: System<Scalar = f64>> Checks<'a, S> {
         // A sequence of its own for every state.
         let seed = self.seed ^ (number as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
         let mut random = fastrand::Rng::with_seed(seed);
-        let mut scene = self.scene.clone();
+        let mut scene = self.scene.copy();
         for index in 0..d.parameters.len() {
             let factor = 1.0 + self.variation * signed(&mut random);
             scene.set_parameter(index, self.scene.parameter(index) * factor);
@@ -161,6 +161,7 @@ impl<'a, S: System<Scalar = f64>> Checks<'a, S> {
         let outcome = self.settle(&mut dynamics, &state, &mut mode);
         outcome.map_err(|e| Error::from_evaluation(e, 0.0, &mode, d))?;
         let now = instant(&mut dynamics, &mut RedundantForces::default(), 0.0, &state);
+        let now = now.map_err(|e| Error::from_evaluation(e, 0.0, &mode, d))?;
         Ok((scene, now))
     }
 

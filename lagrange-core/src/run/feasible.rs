@@ -35,9 +35,10 @@ impl<T: Scalar> Run<T> {
             self.dynamics.set_extra_needs(&self.switcher.status.needs);
             let State { q, v, .. } = &self.now.state;
             let outcome = self.dynamics.value(self.now.t, q, v);
-            outcome.map_err(|e| self.error(e))?;
             let (dynamics, redundant) = (&mut self.dynamics, &mut self.switcher.redundant);
-            Ok(instant(dynamics, redundant, self.now.t, &self.now.state))
+            let outcome =
+                outcome.and_then(|()| instant(dynamics, redundant, self.now.t, &self.now.state));
+            outcome.map_err(|e| self.error(e))
         });
         let instants = instants.collect();
         self.watch();

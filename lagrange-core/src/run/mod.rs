@@ -254,14 +254,20 @@ impl<T: Scalar> Run<T> {
 
     /// What the start is like, in the mode with every touching contact closed and every vanishing slip at rest.
     fn enter_start(&mut self) -> Result<(), Error> {
-        start::begin(
+        let outcome = start::begin(
             &mut self.dynamics,
             self.now.t,
             &mut self.now.state,
             self.settings.tolerance,
             self.settings.project_start,
             &mut self.switcher.status,
-        )?;
+        );
+        if outcome.is_err() {
+            // A projection that fails leaves off half-way, and a run that does not begin ends where it was to start.
+            let start = &self.recorder.trajectory.start;
+            self.now.state.clone_from(start);
+        }
+        outcome?;
         self.recorder.trajectory.start.clone_from(&self.now.state);
         (self.now.series, self.now.valued) = (Progress::None, false);
         self.now.mode.clone_from(&self.switcher.status.mode);

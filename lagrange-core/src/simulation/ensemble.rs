@@ -65,7 +65,7 @@ pub struct Ensemble<S: System> {
 impl<S: System<Scalar: Runnable>> Ensemble<S> {
     pub(crate) fn new(scene: &S, settings: &Settings) -> Self {
         Self {
-            scene: scene.clone(),
+            scene: scene.copy(),
             settings: settings.clone(),
             runners: Vec::new(),
             together: Together {

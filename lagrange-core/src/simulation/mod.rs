@@ -26,12 +26,23 @@ use core::fmt;
 use core::ops::Range;
 
 /// How to run a system. Build it, set what differs from the defaults, call [`Simulation::run`].
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Simulation<'a, S: System> {
     scene: &'a S,
     settings: Settings,
     /// Absolute tolerances of single coordinates.
     absolute: Vec<(CoordinateId, f64)>,
+}
+
+// A derive would ask for systems that are `Clone`.
+impl<S: System> Clone for Simulation<'_, S> {
+    fn clone(&self) -> Self {
+        Self {
+            scene: self.scene,
+            settings: self.settings.clone(),
+            absolute: self.absolute.clone(),
+        }
+    }
 }
 
 /// A run that ended early, with everything up to there.

@@ -29,7 +29,7 @@ impl<S: System<Scalar: Runnable>> Runner<S> {
     pub(crate) fn new(scene: &S, settings: &Settings) -> Self {
         let run = (S::Scalar::functions().run)(scene.erased().system, settings);
         Self {
-            scene: scene.clone(),
+            scene: scene.copy(),
             trajectory: run.record().clone(),
             settings: settings.clone(),
             run,
@@ -172,7 +172,7 @@ impl<S: System<Scalar: Runnable>> Runner<S> {
     /// Takes another system of the same kind, as a sweep over parameters does.
     pub fn set_scene(&mut self, scene: &S) {
         let system = scene.erased().system;
-        self.scene.clone_from(scene);
+        self.scene = scene.copy();
         self.trajectory.system = system.clone();
         (S::Scalar::functions().set_system)(&mut self.run, system);
     }

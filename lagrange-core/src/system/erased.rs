@@ -98,6 +98,10 @@ impl<T: Scalar> AnySystem<T> {
 impl<T: Scalar> System for AnySystem<T> {
     type Scalar = T;
 
+    fn copy(&self) -> Self {
+        self.clone()
+    }
+
     fn description(&self) -> &'static Description {
         self.system.description()
     }
@@ -149,7 +153,7 @@ impl<S: System> ErasedSystem<S::Scalar> for S {
     }
 
     fn with_parameter(&self, index: usize, value: S::Scalar) -> Erased<S::Scalar> {
-        let mut system = self.clone();
+        let mut system = self.copy();
         system.set_parameter(index, value);
         Arc::new(system)
     }

@@ -21,9 +21,17 @@ pub(crate) use erased::{Erased, ErasedSystem};
 pub(crate) use places::{Condition, Normal, Restitution, Row};
 
 /// A mechanical system: what `#[derive(Lagrangian)]` implements, with [`Derived`]. It is not implemented by hand.
-pub trait System: Clone + Send + Sync + 'static {
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a mechanical system",
+    note = "derive it, `#[derive(Lagrangian)]`, from what stands in `#[lagrange(…)]`; the numbers in it are `f64` or `Dual`"
+)]
+pub trait System: Sized + Send + Sync + 'static {
     /// The number type of parameters and state.
     type Scalar: Scalar;
+
+    /// The same system once more, which is what a run keeps.
+    #[doc(hidden)]
+    fn copy(&self) -> Self;
 
     /// Names and units of everything that was declared.
     fn description(&self) -> &'static Description;
@@ -80,7 +88,7 @@ pub trait System: Clone + Send + Sync + 'static {
     /// The system without its type, which is all that a run sees of it.
     #[doc(hidden)]
     fn erased(&self) -> AnySystem<Self::Scalar> {
-        AnySystem::alone(self.clone())
+        AnySystem::alone(self.copy())
     }
 
     /// The Taylor series of the modes, of several motions side by side.

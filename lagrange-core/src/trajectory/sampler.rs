@@ -3,7 +3,8 @@
 use super::by_handle::Owner;
 use super::{Event, Segment, State, Trajectory};
 use crate::arithmetic::Scalar;
-use crate::dynamics::{Dynamics, OutputMask, approach};
+use crate::dynamics::{Dynamics, EvaluationError, OutputMask, add_guards, approach};
+use crate::effects::Item;
 use crate::error::Error;
 use crate::mode::{Direction, Mode};
 use crate::modes::guard;
@@ -224,8 +225,11 @@ impl<'a, T: Scalar> Sampler<'a, T> {
         } else {
             dynamics.value_along(t, &state.q, &state.v)
         };
-        let outcome = outcome.map(|()| instant(dynamics, &mut self.redundant, t, state));
-        outcome.map_err(|e| Error::from_evaluation(e, t.value(), mode, d))
+        let outcome = outcome.and_then(|()| instant(dynamics, &mut self.redundant, t, state));
+        let mut instant = outcome.map_err(|e| Error::from_evaluation(e, t.value(), mode, d))?;
+        // The mode is that of the phase.
+        instant.mode.branches.clone_from(&mode.branches);
+        Ok(instant)
     }
 
     /// Power of every force, dissipation and row, and of explicit time, at part `s` of a segment; in the order of
@@ -267,17 +271,32 @@ pub(crate) fn report_everything<T: Scalar>(dynamics: &mut Dynamics<T>) {
 }
 
 /// Everything about a state in the present mode; all numbers of the rows and the report must have been asked for.
+///
+/// # Errors
+/// Those of [`Dynamics::value`].
 pub(crate) fn instant<T: Scalar>(
     dynamics: &mut Dynamics<T>,
     redundant: &mut RedundantForces<T>,
     t: T,
     state: &State<T>,
-) -> Instant<T> {
+) -> Result<Instant<T>, EvaluationError> {
     let d = dynamics.description();
     let mut undetermined = Vec::new();
-    let forces = redundant.report(dynamics, &mut undetermined);
+    let mut forces = redundant.report(dynamics, &mut undetermined);
     dynamics.replace_forces(&forces);
     dynamics.report_value();
+    let reported = branches_of_outputs(dynamics);
+    // The guard of one may depend on the side of another.
+    for _ in &reported {
+        if !take_sides(&reported, dynamics) {
+            break;
+        }
+        dynamics.value(t, &state.q, &state.v)?;
+        undetermined.clear();
+        forces = redundant.report(dynamics, &mut undetermined);
+        dynamics.replace_forces(&forces);
+        dynamics.report_value();
+    }
     let contacts = d
         .contacts
         .iter()
@@ -285,7 +304,7 @@ pub(crate) fn instant<T: Scalar>(
     let frictions = d.frictions.iter().flat_map(|f| f.row..f.row + f.components);
     let limits = (0..d.frictions.len()).map(|f| limit(dynamics, f, &forces));
     let limits = limits.collect();
-    Instant {
+    Ok(Instant {
         owner: Owner(d),
         time: t,
         mode: dynamics.mode().under_way(),
@@ -307,7 +326,46 @@ pub(crate) fn instant<T: Scalar>(
             .iter()
             .map(|o| dynamics.report(o.place))
             .collect(),
+    })
+}
+
+/// The branches that only outputs use: a run does not watch them, so that the mode does not tell on which side they are.
+fn branches_of_outputs<T: Scalar>(dynamics: &Dynamics<T>) -> Vec<usize> {
+    let (d, effects) = (dynamics.description(), dynamics.effects());
+    if d.branches.is_empty() {
+        return Vec::new();
     }
+    let mut watched = dynamics.motion_needs().clone();
+    let stops = d.stops.iter().enumerate();
+    let marks = d.marks.iter().enumerate();
+    stops
+        .map(|(i, stop)| (Item::Stop(i), stop.need))
+        .chain(marks.map(|(i, mark)| (Item::Mark(i), mark.need)))
+        .filter(|(item, _)| effects.includes(d, *item))
+        .for_each(|(_, need)| watched.insert(need));
+    add_guards(d, effects, dynamics.mode(), &mut watched);
+    (0..d.branches.len())
+        .filter(|&b| !watched.contains(d.branches[b].need))
+        .collect()
+}
+
+/// Puts these branches on the sides that their guards have at the last value; whether one was on the other.
+fn take_sides<T: Scalar>(branches: &[usize], dynamics: &mut Dynamics<T>) -> bool {
+    let d = dynamics.description();
+    let mut mode = dynamics.mode().clone();
+    for &b in branches {
+        let branch = &d.branches[b];
+        let guard = match branch.after_solve {
+            true => dynamics.report(branch.guard),
+            false => dynamics.motion(branch.guard),
+        };
+        mode.set_branch(b, guard.value() >= 0.0);
+    }
+    let changed = mode != *dynamics.mode();
+    if changed {
+        dynamics.set_mode(&mode);
+    }
+    changed
 }
 
 /// μs N of friction `f`.

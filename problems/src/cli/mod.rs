@@ -12,6 +12,7 @@ mod export;
 mod inspect;
 mod list;
 mod merge;
+mod modes;
 mod new;
 mod output;
 mod report;
@@ -70,6 +71,7 @@ enum Command {
     Inspect(inspect::Inspect),
     Run(run::Run),
     Verify(verify::Verify),
+    Modes(modes::Modes),
     Report(report::Report),
     Accuracy(accuracy::Measure),
     Effects(effects::Effects),
@@ -151,6 +153,7 @@ pub(crate) fn run(arguments: &[OsString]) -> ExitCode {
         Command::Inspect(inspect) => inspect.execute(),
         Command::Run(run) => run.execute(),
         Command::Verify(verify) => verify.execute(),
+        Command::Modes(modes) => modes.execute(),
         Command::Report(report) => report.execute(),
         Command::Accuracy(accuracy) => accuracy.execute(),
         Command::Effects(effects) => effects.execute(),

@@ -24,6 +24,10 @@ pub(super) struct FileSystem {
 impl System for FileSystem {
     type Scalar = f64;
 
+    fn copy(&self) -> Self {
+        self.clone()
+    }
+
     fn description(&self) -> &'static Description {
         &self.tables.description
     }

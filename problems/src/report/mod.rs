@@ -11,6 +11,7 @@ pub mod html;
 pub mod json;
 pub mod jsonl;
 mod letters;
+pub mod modes;
 pub mod parquet;
 mod picture;
 pub mod plot;

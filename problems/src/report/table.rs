@@ -358,7 +358,7 @@ pub(super) fn page() -> Table {
 
 /// How a column of numbers is written: with five significant digits of its largest.
 #[derive(Clone, Copy)]
-enum Decimals {
+pub(super) enum Decimals {
     /// With so many of them.
     Plain(usize),
     /// As 1.2345e30.
@@ -366,7 +366,7 @@ enum Decimals {
 }
 
 impl Decimals {
-    fn of(values: impl IntoIterator<Item = f64>) -> Self {
+    pub(super) fn of(values: impl IntoIterator<Item = f64>) -> Self {
         let largest = values
             .into_iter()
             .fold(0.0, |largest: f64, value| largest.max(value.abs()));
@@ -380,7 +380,7 @@ impl Decimals {
     }
 
     /// The number, without the sign of a zero.
-    fn show(self, value: f64) -> String {
+    pub(super) fn show(self, value: f64) -> String {
         let text = match self {
             Decimals::Plain(decimals) => format!("{value:.decimals$}"),
             Decimals::Scientific if value == 0.0 => "0".to_owned(),

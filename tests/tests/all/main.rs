@@ -3,6 +3,7 @@
 mod architecture;
 mod bowl;
 mod certificates;
+mod declarations;
 mod derived;
 mod diagnostics;
 mod effects;

@@ -119,6 +119,9 @@ fn implementation(input: &DeriveInput, core: &TokenStream) -> TokenStream {
         #[automatically_derived]
         impl #parameters #core::system::System for #name #arguments #conditions {
             type Scalar = #scalar;
+            fn copy(&self) -> Self {
+                ::core::unreachable!()
+            }
             #read_tables
             fn parameter(&self, _: usize) -> Self::Scalar {
                 ::core::unreachable!()

@@ -88,6 +88,9 @@ pub fn emit(program: &Program, declared: &Declared, verdicts: &[Verdict]) -> Tok
         #[allow(unused, clippy::all, clippy::pedantic, clippy::nursery)]
         impl #generics #core::system::System for #name #arguments {
             type Scalar = #scalar;
+            fn copy(&self) -> Self {
+                Self { ..*self }
+            }
             #read_tables
             fn derivation(&self) -> &'static #core::Derivation {
                 #inherent::derivation()

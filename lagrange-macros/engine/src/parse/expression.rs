@@ -17,7 +17,7 @@ use crate::diagnostics::{Code, Diagnostics, Extent};
 use proc_macro2::{Delimiter, TokenTree};
 
 /// Functions of the language that take values.
-pub(crate) const FUNCTIONS: &[&str] = &[
+pub const FUNCTIONS: &[&str] = &[
     "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "ln",
     "sqrt", "abs", "sign", "min", "max", "dot", "cross", "norm", "der",
 ];

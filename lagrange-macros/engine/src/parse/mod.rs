@@ -17,8 +17,9 @@ use crate::ast::Declaration;
 use crate::diagnostics::Diagnostics;
 use proc_macro2::TokenStream;
 
-pub(crate) use expression::FUNCTIONS;
+pub use expression::FUNCTIONS;
 pub use file::{File, file};
+pub use item::KEYWORDS;
 
 /// Reads a struct with its `#[lagrange(…)]` attributes; mistakes go to the sink.
 pub fn declaration(input: TokenStream, sink: &mut Diagnostics) -> Option<Declaration> {

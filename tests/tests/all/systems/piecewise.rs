@@ -176,3 +176,42 @@ fn a_sign_that_would_chatter_is_a_typed_error_at_its_time() {
     let said = failure.to_string();
     assert!(said.contains("friction"), "{said}");
 }
+
+/// A mass that falls; what is observed has sides, what moves has none.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2/2,
+    potential = -pull * x,
+    observe(
+        speed = if(der(x) >= 1, 1, 2),
+        leader = max(x, t/4),
+        pressed = if(if(der(der(x)) >= pull/2, x, 0) >= 1/10, 3, 4),
+    ),
+)]
+struct Falling {
+    pull: f64,
+}
+
+#[test]
+fn outputs_are_on_the_side_of_the_state() {
+    let scene = Falling { pull: 10.0 };
+    let trajectory = run(&scene, state(&[0.0], &[0.0]), 0.5);
+    assert!(trajectory.events().is_empty());
+    let mut sampler = trajectory.sampler();
+    for k in 0..50 {
+        let t = 0.003 + 0.01 * f64::from(k);
+        let now = sampler.at(t).expect("a time of the run");
+        let x = 5.0 * t * t;
+        let speed = if 10.0 * t >= 1.0 { 1.0 } else { 2.0 };
+        let pressed = if x >= 0.1 { 3.0 } else { 4.0 };
+        agree("speed", now.observe(Falling::SPEED), speed, 0.0);
+        agree(
+            "leader",
+            now.observe(Falling::LEADER),
+            x.max(t / 4.0),
+            1e-12,
+        );
+        agree("pressed", now.observe(Falling::PRESSED), pressed, 0.0);
+    }
+}

@@ -19,7 +19,7 @@ use crate::diagnostics::{Code, Diagnostics, Extent, nearest};
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
 /// Words that begin an item.
-const KEYWORDS: &[&str] = &[
+pub const KEYWORDS: &[&str] = &[
     "coordinates",
     "define",
     "kinetic",

@@ -1,0 +1,47 @@
+//! All modes in which a motion can go on at an instant: where a run takes one of several.
+
+use crate::request::{Refusal, Request};
+use lagrange_core::prelude::*;
+use lagrange_core::system::{AnySystem, Description};
+
+/// The feasible modes of an instant.
+pub struct Feasible {
+    /// Name of the scene.
+    pub scene: &'static str,
+    /// Its names.
+    pub description: &'static Description,
+    /// Time, s.
+    pub time: f64,
+    /// One instant for each mode, with its forces and accelerations; first the one that a run takes.
+    pub modes: Vec<Instant<f64>>,
+}
+
+/// The modes at the start of a run, or at a later time of it.
+pub(crate) fn modes(
+    scene: &'static str,
+    system: &AnySystem<f64>,
+    request: &Request,
+    at: Option<f64>,
+) -> Result<Feasible, Refusal> {
+    let simulation = request.simulation(system)?;
+    let start = request.start(system, &simulation)?;
+    let (time, state) = match at.filter(|time| *time > 0.0) {
+        None => (0.0, start),
+        Some(time) => {
+            let run = simulation.run(start, 0.0..time);
+            let run = run.map_err(|failure| Refusal::Run(failure.error))?;
+            let (first, last) = (run.first_time(), run.last_time());
+            if last < time {
+                return Err(Refusal::Run(Error::OutsideTrajectory { time, first, last }));
+            }
+            (time, run.final_state().clone())
+        }
+    };
+    let modes = simulation.feasible_modes(time, &state);
+    Ok(Feasible {
+        scene,
+        description: system.description(),
+        time,
+        modes: modes.map_err(Refusal::Run)?,
+    })
+}

@@ -1,0 +1,160 @@
+//! Feasible modes → table, JSON, CSV: one line per mode, with its forces and accelerations.
+
+use super::json::Numbers;
+use super::table::{Decimals, page};
+use super::{rate_unit, with_unit};
+use crate::feasible::Feasible;
+use crate::outcome::forces;
+use crate::request::velocity_name;
+use comfy_table::CellAlignment;
+use lagrange_core::prelude::Instant;
+use serde::Serialize;
+use std::io::{self, Write};
+
+/// A number of every mode: name, unit, and whether it acts, with its value, in each.
+struct Column {
+    name: String,
+    unit: String,
+    values: Vec<(bool, f64)>,
+}
+
+/// The unit of an acceleration: `m/s²`; empty for a coordinate without a unit.
+fn acceleration_unit(unit: &str) -> String {
+    match rate_unit(unit) {
+        rate if rate.is_empty() => rate,
+        rate => format!("{rate}²"),
+    }
+}
+
+/// Forces, then accelerations.
+fn columns(found: &Feasible) -> Vec<Column> {
+    let d = found.description;
+    let every =
+        |value: &dyn Fn(&Instant<f64>) -> (bool, f64)| found.modes.iter().map(value).collect();
+    let forces = forces(d).into_iter().map(|force| Column {
+        values: every(&|now| (force.acts(d, &now.mode), now.forces[force.row])),
+        unit: d.units.row(force.row).to_owned(),
+        name: force.name,
+    });
+    let accelerations = d
+        .coordinates
+        .iter()
+        .enumerate()
+        .map(|(i, coordinate)| Column {
+            values: every(&|now| (true, now.acceleration[i])),
+            unit: acceleration_unit(coordinate.unit),
+            name: velocity_name(&velocity_name(coordinate.name)),
+        });
+    forces.chain(accelerations).collect()
+}
+
+/// Writes a table to read.
+///
+/// # Errors
+/// Of `out`.
+pub fn table(found: &Feasible, mut out: impl Write) -> io::Result<()> {
+    let columns = columns(found);
+    let mut table = page();
+    let header = |column: &Column| format!("{}\n{}", column.name, column.unit);
+    let names = columns.iter().map(header);
+    table.set_header(["".to_owned(), "mode".to_owned()].into_iter().chain(names));
+    let decimals: Vec<Decimals> = columns
+        .iter()
+        .map(|column| Decimals::of(column.values.iter().map(|(_, value)| *value)))
+        .collect();
+    for (k, now) in found.modes.iter().enumerate() {
+        let numbers = columns.iter().zip(&decimals).map(|(column, decimals)| {
+            let (acts, value) = column.values[k];
+            if acts {
+                decimals.show(value)
+            } else {
+                String::new()
+            }
+        });
+        let mode = super::words::brief(&now.mode, found.description);
+        table.add_row([(k + 1).to_string(), mode].into_iter().chain(numbers));
+    }
+    for (index, column) in table.column_iter_mut().enumerate() {
+        column.set_padding((if index == 0 { 0 } else { 1 }, 1));
+        if index >= 2 {
+            column.set_cell_alignment(CellAlignment::Right);
+        }
+    }
+    writeln!(out, "{}\n", table.trim_fmt())?;
+    let time = found.time;
+    match found.modes.len() {
+        1 => writeln!(
+            out,
+            "At t = {time} s the motion can go on in this mode only."
+        ),
+        count => writeln!(
+            out,
+            "At t = {time} s the motion can go on in {count} modes; a run takes the first."
+        ),
+    }
+}
+
+#[derive(Serialize)]
+struct Page {
+    scene: &'static str,
+    time: f64,
+    modes: Vec<Line>,
+}
+
+#[derive(Serialize)]
+struct Line {
+    mode: String,
+    forces: Numbers,
+    accelerations: Numbers,
+}
+
+/// Writes one JSON object and a newline.
+///
+/// # Errors
+/// Of `out`.
+pub fn json(found: &Feasible, mut out: impl Write) -> io::Result<()> {
+    let d = found.description;
+    let line = |now: &Instant<f64>| {
+        let forces = forces(d).into_iter();
+        let coordinates = d.coordinates.iter().zip(&now.acceleration);
+        Line {
+            mode: now.mode.display(d).to_string(),
+            forces: Numbers(
+                forces
+                    .map(|force| (force.name, now.forces[force.row]))
+                    .collect(),
+            ),
+            accelerations: Numbers(
+                coordinates
+                    .map(|(coordinate, value)| (coordinate.name.to_owned(), *value))
+                    .collect(),
+            ),
+        }
+    };
+    let page = Page {
+        scene: found.scene,
+        time: found.time,
+        modes: found.modes.iter().map(line).collect(),
+    };
+    serde_json::to_writer_pretty(&mut out, &page).map_err(io::Error::from)?;
+    writeln!(out)
+}
+
+/// Writes a line per mode.
+///
+/// # Errors
+/// Of `out`.
+pub fn csv(found: &Feasible, out: impl Write) -> io::Result<()> {
+    let columns = columns(found);
+    let mut writer = csv::Writer::from_writer(out);
+    let names = columns
+        .iter()
+        .map(|column| with_unit(&column.name, &column.unit));
+    writer.write_record(core::iter::once("mode".to_owned()).chain(names))?;
+    for (k, now) in found.modes.iter().enumerate() {
+        let numbers = columns.iter().map(|column| column.values[k].1.to_string());
+        let mode = now.mode.display(found.description).to_string();
+        writer.write_record(core::iter::once(mode).chain(numbers))?;
+    }
+    writer.flush()
+}
