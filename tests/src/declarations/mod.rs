@@ -58,8 +58,9 @@ pub fn declaration(number: u64) -> Declared {
 impl Declared {
     /// Values of the leaves at an instant.
     pub fn leaves(&self, now: &Instant<f64>) -> Vec<Jet> {
-        let value =
-            |(_, source): &(Leaf, Source)| source.at(now.time, &now.state.q, &now.state.v, &now.acceleration);
+        let value = |(_, source): &(Leaf, Source)| {
+            source.at(now.time, &now.state.q, &now.state.v, &now.acceleration)
+        };
         self.leaves.iter().map(value).collect()
     }
 

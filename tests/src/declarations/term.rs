@@ -7,13 +7,16 @@ use std::rc::Rc;
 /// A value and its rate.
 pub type Jet = Dual<f64, 1>;
 
+/// The value of an expression from those of the leaves.
+type Evaluation = dyn Fn(&[Jet]) -> Jet;
+
 /// An expression, as it is written and as it is evaluated from the values of the [`Leaf`]s.
 #[derive(Clone)]
 pub struct Term {
     /// In the language.
     pub text: String,
     binding: Binding,
-    value: Rc<dyn Fn(&[Jet]) -> Jet>,
+    value: Rc<Evaluation>,
 }
 
 /// How tightly an expression binds; looser ones stand in parentheses inside tighter ones.
