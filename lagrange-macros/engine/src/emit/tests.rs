@@ -119,12 +119,5 @@ fn a_picture_is_no_equation() {
         draw(arrow: floor * (0, cos(x*y)) at (abs(x), y)),
     });
     assert_eq!(plain.description.to_string(), drawn.description.to_string());
-    let (plain, drawn) = (plain.declaration.to_string(), drawn.declaration.to_string());
-    assert_ne!(plain, drawn);
-    // Certificates evaluate as many values as without a picture.
-    let counted = |text: &str| -> Option<String> {
-        let (_, after) = text.split_once("values :")?;
-        Some(after.split(',').next()?.trim().to_owned())
-    };
-    assert!(counted(&plain).is_some_and(|count| counted(&drawn) == Some(count)));
+    assert_ne!(plain.declaration.to_string(), drawn.declaration.to_string());
 }
