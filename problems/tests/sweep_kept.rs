@@ -187,8 +187,10 @@ fn damaged_chunks_are_done_again() {
 }
 
 /// Waits until a process has kept something in a file: before, it may not hold it yet.
-fn at_work(rows: &Path) {
+fn at_work(child: &mut Child, rows: &Path) {
     while fs::metadata(rows).map_or(0, |rows| rows.len()) == 0 {
+        let ended = child.try_wait().expect("a child");
+        assert!(ended.is_none(), "it ended before it was seen at work");
         std::thread::sleep(Duration::from_millis(5));
     }
 }
@@ -201,7 +203,7 @@ fn one_process_works_at_a_time() {
     // Long enough that it is still at work when the others come.
     let long = ["--vary", "mass=1..2:2000", "--output", path(&output)];
     let mut first = start(&sweep(&long));
-    at_work(&rows);
+    at_work(&mut first, &rows);
     let says = "another process works on";
     refuses(&sweep(&long), 1, says);
     let shard = [&long[..], &["--shard", "1/2"]].concat();
@@ -210,7 +212,7 @@ fn one_process_works_at_a_time() {
     first.wait().expect("it has ended");
     // Shards work side by side, but each alone.
     let mut first = start(&sweep(&shard));
-    at_work(&part(&output, "1/2").1);
+    at_work(&mut first, &part(&output, "1/2").1);
     refuses(&sweep(&shard), 1, says);
     refuses(&sweep(&long), 1, says);
     let mut second = start(&sweep(&[&long[..], &["--shard", "2/2"]].concat()));

@@ -2,8 +2,7 @@
 //!
 //! With Newton's restitution the intervals between impacts shrink by a factor ρ < 1, and what is left of them after an
 //! interval Δ lasts Δ ρ/(1 − ρ). Once all that can still move in that time is below the tolerance, and not earlier, the
-//! contact closes at the limit instant (Brogliato 2016, section 1.3; Goebel & Teel 2008). So it does once the flights are lower than
-//! gaps are rounded.
+//! contact closes at the limit instant (Brogliato 2016, section 1.3; Goebel & Teel 2008).
 //!
 //! Of a cycle of several contacts (a rocking block alternates its corners) the impacts of each shrink by a factor; those that
 //! take part close together. Impacts of several contacts without a law (a ball in a groove) are followed as one train
@@ -26,9 +25,6 @@ const REMEMBERED: usize = 128;
 
 /// Time intervals below this share of the time itself cannot be told apart.
 const RESOLUTION: f64 = 64.0 * f64::EPSILON;
-
-/// Gaps, relative to sizes of 1, are rounded to so much.
-const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// The impacts of one contact.
 #[derive(Clone, Copy, Debug)]
@@ -218,7 +214,7 @@ impl<T: Scalar> Run<T> {
         let (remaining, uncertain) = self.switcher.impacts[c].book(self.now.t)?;
         let certain = uncertain <= self.settings.tolerance * self.now.t.value().abs().max(1.0)
             || remaining.value() <= RESOLUTION * self.now.t.value().abs();
-        if !(certain && self.is_over(remaining.value()) || self.is_lost_in_rounding(c)) {
+        if !(certain && self.is_over(remaining.value())) {
             return None;
         }
         // Contacts that take part in the same cycle close with it.
@@ -260,14 +256,6 @@ impl<T: Scalar> Run<T> {
         // Below the resolution of time nothing can be told apart.
         let resolved = remaining > RESOLUTION * self.now.t.value().abs();
         !(resolved && q.iter().zip(v).enumerate().any(moves))
-    }
-
-    /// Whether contact `c` opened no wider before its last impact than a gap is rounded: a gap that is a difference does not tell
-    /// when the next flight ends, while the law of those before does. `dynamics` still holds the rates before the impact.
-    fn is_lost_in_rounding(&self, c: usize) -> bool {
-        let (rate, _) = self.rate(self.description().contacts[c].row);
-        // A flight under a constant force rises by a quarter of speed times duration.
-        0.25 * rate.abs() * self.switcher.impacts[c].interval <= ROUNDING
     }
 
     /// Whether the gap of contact `c` is below the tolerance.

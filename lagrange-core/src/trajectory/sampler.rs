@@ -3,7 +3,9 @@
 use super::by_handle::Owner;
 use super::{Event, Segment, State, Trajectory};
 use crate::arithmetic::Scalar;
-use crate::dynamics::{Dynamics, EvaluationError, OutputMask, add_guards, approach};
+use crate::dynamics::{
+    Dynamics, EvaluationError, OutputMask, add_branch_guards, add_guards, approach,
+};
 use crate::effects::Item;
 use crate::error::Error;
 use crate::mode::{Direction, Mode};
@@ -267,6 +269,8 @@ pub(crate) fn report_everything<T: Scalar>(dynamics: &mut Dynamics<T>) {
     loads
         .chain(d.observes.iter().map(|o| o.need))
         .for_each(|need| needs.insert(need));
+    // A run does not watch the branches of outputs alone.
+    add_branch_guards(d, &mut needs);
     dynamics.set_report_needs(&needs);
 }
 

@@ -27,6 +27,9 @@ const MOST_JOINTS: usize = 20;
 /// A row that acts and whose rate grows beyond this share of what it is made of, over a step, does not follow from the others.
 const APART: f64 = 1e-6;
 
+/// Velocities below it are compared with it.
+const AT_REST: f64 = 1e-2;
+
 /// What a guard does just after the instant, with the number of leading coefficients that vanish.
 enum Leading {
     Rises(usize),
@@ -149,8 +152,9 @@ impl<T: Scalar> Decider<T> {
         let apart = dynamics.acting_rows().iter().any(|&index| {
             let row = &d.rows[index];
             let speeds = row.jacobian.iter();
-            let speeds =
-                speeds.map(|&(j, place)| size(place) * largest(dynamics.velocity_series(j)));
+            // A velocity that is zero is so only to rounding of the unit.
+            let speeds = speeds
+                .map(|&(j, place)| size(place) * (largest(dynamics.velocity_series(j)) + AT_REST));
             let whole = speeds.sum::<f64>() + self.sizes.acceleration(index, dynamics) * h;
             size(row.velocity) > APART * whole
         });

@@ -10,7 +10,9 @@ use lagrange_tests::{agree, event, run_by};
     coordinates(a, b),
     kinetic = driving/2 * der(a)^2 + driven/2 * der(b)^2,
     contact(tooth: b - a >= -play, restitution = e),
+    contact(back: a - b >= -play, restitution = e),
     force(drive: a = torque * cos(rate * t)),
+    dissipation(drag/2 * der(b)^2),
 )]
 struct Gears {
     driving: f64,
@@ -18,13 +20,15 @@ struct Gears {
     play: f64,
     torque: f64,
     rate: f64,
+    drag: f64,
     e: f64,
 }
 
+const METHODS: [&str; 4] = ["auto", "dopri5", "dop853", "verner98"];
+
 /// Whatever the blows are, the momentum is the impulse of the drive, and once the teeth stay together so is that of each gear.
 #[test]
-fn bounces_below_the_rounding_of_the_gap_accumulate_by_every_method() {
-    let methods = ["auto", "dopri5", "dop853", "verner98", "radau5"];
+fn gears_that_have_met_turn_as_one() {
     for (e, begin, rate) in [(0.3, 0.0, 3.0), (0.5, 0.7, 2.0), (0.15, -2.0, 4.0)] {
         let gears = Gears {
             driving: 0.1,
@@ -32,16 +36,14 @@ fn bounces_below_the_rounding_of_the_gap_accumulate_by_every_method() {
             play: 0.05,
             torque: 1.0,
             rate,
+            drag: 0.0,
             e,
         };
         let (whole, until) = (gears.driving + gears.driven, 0.38);
         // While the torque is positive the teeth stay together.
         let speed = gears.torque / (rate * whole) * (rate * until).sin();
         let turned = gears.torque / (rate * rate * whole) * (1.0 - (rate * until).cos());
-        for by in methods
-            .iter()
-            .flat_map(|m| [1e-6, 1e-9, 1e-12].map(|x| (*m, x)))
-        {
+        for by in METHODS.iter().flat_map(|m| [1e-6, 1e-9].map(|x| (*m, x))) {
             let what = format!("e = {e}, {by:?}");
             let start = state(&[begin, begin], &[0.0, 0.0]);
             let trajectory = run_by(&gears, by, start, until);
@@ -57,4 +59,28 @@ fn bounces_below_the_rounding_of_the_gap_accumulate_by_every_method() {
             agree(&what, mean - begin, turned, bound);
         }
     }
+}
+
+/// The play is used up forth and back, and the bounces end each time, where the rounding of the gap hides them too.
+#[test]
+fn bounces_below_the_rounding_of_the_gap_accumulate() {
+    let gears = Gears {
+        driving: 0.1,
+        driven: 0.2,
+        play: 0.05,
+        torque: 1.0,
+        rate: 3.0,
+        drag: 0.1,
+        e: 0.3,
+    };
+    let rests = METHODS.map(|method| {
+        let trajectory = run_by(&gears, (method, 1e-9), state(&[0.0; 2], &[0.0; 2]), 20.0);
+        assert!(trajectory.events().len() < 500, "{method}");
+        let accumulates = |event: &&Event<f64>| matches!(event.kind, EventKind::Accumulates { .. });
+        trajectory.events().iter().filter(accumulates).count()
+    });
+    assert!(
+        rests[0] > 10 && rests.iter().all(|count| *count == rests[0]),
+        "{rests:?}"
+    );
 }
