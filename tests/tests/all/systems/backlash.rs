@@ -12,7 +12,7 @@ use lagrange_tests::{agree, event, run_by};
     contact(tooth: b - a >= -play, restitution = e),
     contact(back: a - b >= -play, restitution = e),
     force(drive: a = torque * cos(rate * t)),
-    dissipation(drag/2 * der(b)^2),
+    dissipation(bearing: drag/2 * der(b)^2),
 )]
 struct Gears {
     driving: f64,
