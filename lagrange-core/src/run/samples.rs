@@ -16,9 +16,6 @@ const AIM: f64 = 0.3;
 /// Step sizes change by these factors at most.
 const FACTORS: [f64; 2] = [0.1, 5.0];
 
-/// Guards, relative to sizes of 1, are rounded to so much.
-const ROUNDING: f64 = 64.0 * f64::EPSILON;
-
 /// A root of a guard that was sampled.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SampledRoot {
@@ -93,11 +90,6 @@ impl<T: Scalar> Run<T> {
         let (guard, curve) = self.locator.polynomials.get(index)?;
         let known = curve.len() - self.judged(guard, curve)?.len();
         let rate = slope(curve, root.s).abs();
-        // Of a flight that rises no higher than rounding the guard does not tell where it ends. Its interpolation does, from which
-        // the zero at the start has been taken.
-        if known > 0 && rate * root.s <= ROUNDING {
-            return None;
-        }
         let side = match root.direction {
             Direction::Falling => 1.0,
             Direction::Rising => -1.0,
