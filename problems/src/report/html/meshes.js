@@ -65,6 +65,22 @@ function cube(mesh, cells) {
   return mesh;
 }
 
+// The lines of a ground's grid in pieces: the two ends of each, in the plane, and how strong it is; every fifth line is stronger.
+function gridded({ wide, cell, begin }, parts) {
+  const count = Math.min(Math.floor(wide / cell), 60), pieces = [], first = begin.map((x) => -(((x % cell) + cell) % cell));
+  for (const across of [0, 1]) {
+    for (let k = -count; k <= count; k++) {
+      const off = first[across] + k * cell, far = Math.sqrt(Math.max(wide * wide - off * off, 0));
+      const strong = Math.round((off + begin[across]) / cell) % 5 === 0 ? 1 : 0.5;
+      const spot = (i) => { const on = far * ((2 * i) / parts - 1); return across ? [on, off] : [off, on]; };
+      for (let i = 0; i < parts; i++) pieces.push({ ends: [spot(i), spot(i + 1)], middle: spot(i + 0.5), strong });
+    }
+  }
+  return pieces;
+}
+// The ground fades into the page towards its border.
+const faded = ([x, y], wide) => Math.max(0, Math.min(1, 1.6 * (1 - Math.hypot(x, y) / wide))) ** 2;
+
 const right = Math.PI / 2;
 // A belt and two poles: no turn of the ball goes unseen.
 const striped = (u, v) => (Math.abs(v - 0.5) < 0.125 || Math.abs(v - 0.5) > 0.43 || (u < 0.0625 && v > 0.5) ? 1 : 0);

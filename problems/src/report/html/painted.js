@@ -28,21 +28,12 @@ function painted(canvas) {
     pen.fillStyle = css(colours.page);
     pen.fillRect(0, 0, width, height);
     if (!floor) return backdrop;
-    const { turn, at, wide, cell, begin } = floor, spot = (x, y) => project(plus(at, apply(turn, [x, y, 0])));
-    const count = Math.min(Math.floor(wide / cell), 60), style = css(colours.line), pieces = 24;
-    const first = begin.map((x) => -(((x % cell) + cell) % cell));
-    for (const across of [0, 1]) {
-      for (let k = -count; k <= count; k++) {
-        const off = first[across] + k * cell, far = Math.sqrt(Math.max(wide * wide - off * off, 0));
-        const strong = Math.round((off + begin[across]) / cell) % 5 === 0 ? 1 : 0.5;
-        const along = (i) => { const on = far * ((2 * i) / pieces - 1); return across ? [on, off] : [off, on]; };
-        for (let i = 0; i < pieces; i++) {
-          const [from, to] = [spot(...along(i)), spot(...along(i + 1))];
-          if (Math.min(from[2], to[2]) < 0.05 * wide) continue;
-          pen.globalAlpha = strong * Math.max(0, Math.min(1, 1.6 * (1 - Math.hypot(...along(i + 0.5)) / wide))) ** 2;
-          if (pen.globalAlpha > 0.01) trail(pen, [from, to], style, 1);
-        }
-      }
+    const { turn, at, wide } = floor, style = css(colours.line);
+    for (const { ends, middle, strong } of gridded(floor, 24)) {
+      const [from, to] = ends.map(([x, y]) => project(plus(at, apply(turn, [x, y, 0]))));
+      if (Math.min(from[2], to[2]) < 0.05 * wide) continue;
+      pen.globalAlpha = strong * faded(middle, wide);
+      if (pen.globalAlpha > 0.01) trail(pen, [from, to], style, 1);
     }
     return backdrop;
   }

@@ -139,22 +139,13 @@ function webgl(canvas) {
 
   // A round of ground that fades into the page, and the lines of its grid.
   let laid;
-  function lay({ turn, at, wide, cell, begin }) {
+  function lay(floor) {
+    const { turn, at, wide } = floor;
     const place = (x, y) => plus(at, apply(turn, [x, y, 0])), fan = [...at, 1], lines = [];
     for (let k = 0; k <= 64; k++) fan.push(...place(...round(k / 64).map((x) => x * wide)), 0);
-    const fade = (x, y) => Math.max(0, Math.min(1, 1.6 * (1 - Math.hypot(x, y) / wide))) ** 2;
-    const count = Math.min(Math.floor(wide / cell), 60), parts = 12;
-    const first = begin.map((x) => -(((x % cell) + cell) % cell));
-    for (const across of [0, 1]) {
-      for (let k = -count; k <= count; k++) {
-        const off = first[across] + k * cell, far = Math.sqrt(Math.max(wide * wide - off * off, 0));
-        const strong = Math.round((off + begin[across]) / cell) % 5 === 0 ? 1 : 0.5;
-        const spot = (i) => { const on = far * ((2 * i) / parts - 1); return across ? [on, off] : [off, on]; };
-        for (let i = 0; i < parts; i++) {
-          const ends = [spot(i), spot(i + 1)], ahead = plus(place(...ends[1]), place(...ends[0]), -1);
-          for (const [end, side] of [[0, -1], [0, 1], [1, -1], [1, -1], [0, 1], [1, 1]]) lines.push(...place(...ends[end]), ...ahead, 0.55 * side, strong * fade(...ends[end]));
-        }
-      }
+    for (const { ends, strong } of gridded(floor, 12)) {
+      const ahead = plus(place(...ends[1]), place(...ends[0]), -1);
+      for (const [end, side] of [[0, -1], [0, 1], [1, -1], [1, -1], [0, 1], [1, 1]]) lines.push(...place(...ends[end]), ...ahead, 0.55 * side, strong * faded(ends[end], wide));
     }
     return { fan: buffer(new Float32Array(fan), layout(ground, ["place", 3], ["fade", 1])), lines: buffer(new Float32Array(lines), lineLayout) };
   }
