@@ -1,9 +1,6 @@
 //! Ctrl-C: what is done is kept, and the exit code says what happened.
-#![cfg(unix)]
 
-mod program;
-
-use program::{folder, text};
+use crate::program::{folder, text};
 use std::fs;
 use std::io::Read;
 use std::process::{Command, Stdio};

@@ -2,9 +2,7 @@
 //!
 //! Accessibility is judged by axe-core where `AXE` is the path of its `axe.min.js`; `.ci/run` gets it from PyPI.
 
-mod browser;
-
-use browser::{Browser, Reader};
+use crate::browser::{Browser, Reader};
 use lagrange_problems::catalogue::scenes;
 use std::path::PathBuf;
 use std::process::Command;

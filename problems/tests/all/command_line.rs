@@ -1,8 +1,6 @@
 //! The program as a user meets it: what goes where, and with which exit code.
 
-mod program;
-
-use program::{lagrange, refuses, says, text};
+use crate::program::{lagrange, refuses, says, text};
 use serde_json::Value;
 
 fn json(arguments: &[&str]) -> Value {

@@ -1,9 +1,7 @@
 //! What the README and the book show is run: the program's commands in their order, which say what is shown below them, and
 //! the Python that reads their files. That needs pandas and polars (`PYTHON`, else python3 of the path); without, it is skipped.
 
-mod program;
-
-use program::{folder, shell, text};
+use crate::program::{folder, shell, text};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;

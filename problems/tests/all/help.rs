@@ -1,9 +1,7 @@
 //! The help: every command has examples, and they work.
 
-mod program;
-
 use lagrange_problems::file::TEMPLATE;
-use program::{folder, says, shell, text};
+use crate::program::{folder, says, shell, text};
 use std::fs;
 
 /// Commands that every `lagrange` has; `help` is clap's.

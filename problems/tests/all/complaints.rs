@@ -1,8 +1,6 @@
 //! What a user can get wrong at the command line: one line on stderr that says what to write instead, and an exit code.
 
-mod program;
-
-use program::{folder, lagrange, lagrange_in, refuses, text};
+use crate::program::{folder, lagrange, lagrange_in, refuses, text};
 use std::fs;
 use std::process::{Command, Stdio};
 

@@ -1,8 +1,6 @@
 //! `lagrange accuracy` as a user meets it: the table, the answer, the files, and what is refused.
 
-mod program;
-
-use program::{lagrange, refuses, says, text};
+use crate::program::{lagrange, refuses, says, text};
 use serde_json::Value;
 
 fn accuracy(scene: &str, arguments: &[&str]) -> Vec<String> {

@@ -1,8 +1,6 @@
 //! What a sweep has done is kept: whatever happens to it, the result is the same byte for byte as if nothing had.
 
-mod program;
-
-use program::{folder, lagrange, path, refuses, says, text};
+use crate::program::{folder, lagrange, path, refuses, says, text};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};

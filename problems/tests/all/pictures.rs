@@ -1,10 +1,7 @@
 //! Pictures as files: what is drawn, and what it becomes by the name of the file. What comes out is read by other decoders than
 //! wrote it, and compared with closed forms and single pictures.
-#![cfg(feature = "export")]
 
-mod program;
-
-use program::{folder, lagrange, lagrange_in, path, refuses, says, text};
+use crate::program::{folder, lagrange, lagrange_in, path, refuses, says, text};
 use std::fs::{self, File};
 use std::io::BufReader;
 use std::path::Path;

@@ -2,9 +2,7 @@
 //!
 //! Where there is no `mpirun` these tests say so and do nothing.
 
-mod program;
-
-use program::{folder, path, refuses, says, text};
+use crate::program::{folder, path, refuses, says, text};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};

@@ -1,5 +1,4 @@
-//! The program, called from tests. Each of them uses a part of this.
-#![allow(dead_code)]
+//! The program, called from tests.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,8 +1,6 @@
 //! Sweeps as a user runs them.
 
-mod program;
-
-use program::{folder, lagrange, path, refuses, says, text};
+use crate::program::{folder, lagrange, path, refuses, says, text};
 use serde_json::Value;
 use std::fs;
 use std::path::PathBuf;
@@ -120,10 +118,10 @@ fn failures_are_told_by_reason_and_place() {
     // If every run fails, so does the sweep.
     let scene = ["sweep", "rolling-slipping-sphere", "--quiet"];
     let failing = ["--vary", "mu_static=0.1..0.2:5", "--observe", "leave angle"];
-    let output = program::lagrange(&[&scene[..], &failing].concat());
+    let output = crate::program::lagrange(&[&scene[..], &failing].concat());
     assert_eq!(output.status.code(), Some(1));
-    assert!(program::text(&output.stdout).contains("5 failed"));
-    assert!(program::text(&output.stderr).contains("every run failed"));
+    assert!(crate::program::text(&output.stdout).contains("5 failed"));
+    assert!(crate::program::text(&output.stderr).contains("every run failed"));
 }
 
 #[test]
@@ -298,12 +296,12 @@ fn without_mpi_many_processes_do_not_all_do_the_same() {
     };
     let first = many("0", &[]);
     assert_eq!(first.status.code(), Some(2));
-    let said = program::text(&first.stderr);
+    let said = crate::program::text(&first.stderr);
     assert!(said.contains("built without MPI"), "{said}");
     // One says it for all.
     let other = many("7", &[]);
     assert_eq!(
-        (other.status.code(), program::text(&other.stderr)),
+        (other.status.code(), crate::program::text(&other.stderr)),
         (Some(2), "")
     );
     // With parts of its own each is on its own.

@@ -1,0 +1,28 @@
+//! All tests of the program and its catalogue, in one binary: it is linked once, and its tests share the processors.
+
+mod accuracy;
+mod book;
+mod browser;
+mod checks;
+mod command_line;
+mod complaints;
+mod declaration;
+mod frames;
+mod help;
+mod inspect;
+#[cfg(unix)]
+mod interrupt;
+mod large_scenes;
+mod markup;
+mod neighbours;
+mod outputs;
+#[cfg(feature = "export")]
+mod pictures;
+mod program;
+mod report;
+mod report_in_browser;
+mod smooth_scenes;
+mod sweep;
+mod sweep_kept;
+#[cfg(feature = "mpi")]
+mod sweep_mpi;
