@@ -10,8 +10,10 @@
 //! hand is refused; the core then looks for better ones.
 
 use crate::arithmetic::Pack;
+use crate::arithmetic::number::{Body, Number};
 pub use crate::program::{ROW, Row, STRIDE};
 use crate::program::{Selection, ValueRef};
+use core::marker::PhantomData;
 
 /// 1/k; of 0, 0.
 pub const INVERSES: [f64; STRIDE] = {
@@ -75,14 +77,78 @@ pub const LANES: usize = 4;
 /// The same for several motions.
 pub type LaneSeriesFn<T> = SeriesFn<Pack<T, LANES>>;
 
+/// The series of a mode, for any kind of number: what a [`SeriesFn`] does.
+pub trait ModeSeries<N> {
+    /// See [`SeriesFn`].
+    ///
+    /// # Errors
+    /// Where there is no series, or where it cannot be had in this way.
+    fn expand(
+        c: &[N],
+        held: &Selection,
+        order: usize,
+        state: Arguments<'_, N>,
+        rows: &mut [Row<N>],
+    ) -> Result<(), Refused>;
+}
+
+/// A series, compiled for the registers that numbers of this kind fill.
+///
+/// # Errors
+/// Those of the series; the processor may have no such registers.
+pub fn across<S: ModeSeries<N>, N: Number>(
+    c: &[N],
+    held: &Selection,
+    order: usize,
+    state: Arguments<'_, N>,
+    rows: &mut [Row<N>],
+) -> Result<(), Refused> {
+    N::across::<Expansion<S>, _>((c, held, order, state, rows)).unwrap_or(Err(Refused::NoLanes))
+}
+
 /// The arguments of a [`SeriesFn`] as one.
-pub type SeriesArguments<'a, N> = (
+type SeriesArguments<'a, N> = (
     &'a [N],
     &'a Selection<'a>,
     usize,
     Arguments<'a, N>,
     &'a mut [Row<N>],
 );
+
+/// A series as a function of one argument.
+struct Expansion<S>(PhantomData<S>);
+
+impl<N, S: ModeSeries<N>> Body<SeriesArguments<'_, N>> for Expansion<S> {
+    type Output = Result<(), Refused>;
+
+    #[inline(always)]
+    fn run((c, held, order, state, rows): SeriesArguments<'_, N>) -> Self::Output {
+        S::expand(c, held, order, state, rows)
+    }
+}
+
+/// The first `L` of several: as many as the description tells, so that reading one of them needs no check.
+#[inline(always)]
+pub fn first<const L: usize, X>(all: &[X]) -> &[X; L] {
+    match all.first_chunk() {
+        Some(first) => first,
+        None => shorter_than_described(),
+    }
+}
+
+/// The same, to write.
+#[inline(always)]
+pub fn first_mut<const L: usize, X>(all: &mut [X]) -> &mut [X; L] {
+    match all.first_chunk_mut() {
+        Some(first) => first,
+        None => shorter_than_described(),
+    }
+}
+
+#[cold]
+fn shorter_than_described() -> ! {
+    panic!("an argument is shorter than the description of the system says")
+}
 
 /// Why a series is not given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,9 +1,9 @@
 //! `lagrange inspect`: the program and the struct say the same, formats are what they are called, mistakes are one line.
 
+use crate::program::{refuses, says};
 use lagrange_core::prelude::*;
 use lagrange_problems::catalogue::scenes;
 use lagrange_problems::scenes::MassOnWheel;
-use crate::program::{refuses, says};
 use serde_json::Value;
 
 /// What the struct says of itself is what the program says of it.
@@ -81,7 +81,16 @@ fn modes_have_the_names_of_a_run() {
 fn the_emitted_rust_parses() {
     let rust = says(&["inspect", "mass-on-wheel", "--format", "rust"]);
     syn::parse_file(&rust).expect("Rust");
-    for part in ["fn value_0", "fn series_0", "// Program of `motion`:"] {
+    for part in ["fn value_0", "struct Series0", "// Program of `motion`:"] {
+        assert!(rust.contains(part), "{part}");
+    }
+    // What the declaration names keeps its name.
+    for part in [
+        "p_mass = self.mass;",
+        "q_theta.sin_cos()",
+        "a_theta",
+        "v_phi",
+    ] {
         assert!(rust.contains(part), "{part}");
     }
 }

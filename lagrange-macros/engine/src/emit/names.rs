@@ -1,11 +1,11 @@
 //! Names and small pieces that all emitted code shares. Locals are hygienic: no name of the user can meet them.
 
 use crate::model::{Parameter, System};
-use crate::plan::{Coefficient, OutputMask, Tape, Value, ValueRef};
+use crate::plan::{Coefficient, Operation, OutputMask, Tape, Value, ValueRef};
 use crate::symbolic::Rational;
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A local variable.
 pub fn local(name: &str) -> Ident {
@@ -17,9 +17,64 @@ pub fn plain(name: &str) -> Ident {
     Ident::new(name, Span::call_site())
 }
 
-/// The local that holds a value.
-pub fn value(value: Value) -> Ident {
-    local(&format!("n{}", value.0))
+/// The locals that hold the values of a program: an input is called what the declaration calls it, a result by its number.
+pub struct Locals {
+    inputs: Vec<String>,
+    /// What some results are called before their number.
+    kinds: BTreeMap<Value, &'static str>,
+}
+
+impl Locals {
+    /// For inputs of these names, which begin with a letter and `_`, so that no item of the user is one of them.
+    pub fn new(names: impl Iterator<Item = String>) -> Locals {
+        let mut inputs: Vec<String> = Vec::new();
+        for name in names {
+            let plain = |c: char| {
+                if c.is_ascii_alphanumeric() {
+                    c.to_ascii_lowercase()
+                } else {
+                    '_'
+                }
+            };
+            let name: String = name.chars().map(plain).collect();
+            let name = name.trim_end_matches('_');
+            // Names that differ in other letters only are told apart by their number.
+            let is_taken = name.len() < 2 || inputs.iter().any(|other| other == name);
+            let number = inputs.len();
+            inputs.push(match is_taken {
+                true => format!("{name}_{number}"),
+                false => name.to_owned(),
+            });
+        }
+        let kinds = BTreeMap::new();
+        Locals { inputs, kinds }
+    }
+
+    /// Sines and cosines of this tape are called so.
+    pub fn naming_pairs(mut self, tape: &Tape) -> Locals {
+        for step in tape.blocks.iter().flat_map(|block| &block.steps) {
+            let kinds = match step.operation {
+                Operation::SinCos(_) => ["sin_", "cos_"],
+                Operation::SinhCosh(_) => ["sinh_", "cosh_"],
+                _ => continue,
+            };
+            let values = [step.value, Value(step.value.0 + 1)];
+            self.kinds.extend(values.into_iter().zip(kinds));
+        }
+        self
+    }
+
+    /// What all names of a value begin with.
+    pub fn stem(&self, value: Value) -> String {
+        let kind = self.kinds.get(&value).copied().unwrap_or("n");
+        let input = self.inputs.get(value.0).cloned();
+        input.unwrap_or_else(|| format!("{kind}{}", value.0))
+    }
+
+    /// The local that holds a value.
+    pub fn value(&self, value: Value) -> Ident {
+        local(&self.stem(value))
+    }
 }
 
 /// The local that an output is summed in.
@@ -39,7 +94,7 @@ pub fn float(number: Rational) -> TokenStream {
 
 /// A number.
 pub fn f64(number: f64) -> TokenStream {
-    let size = Literal::f64_suffixed(number.abs());
+    let size = Literal::f64_unsuffixed(number.abs());
     if number < 0.0 {
         quote!(-#size)
     } else {
@@ -73,15 +128,14 @@ pub fn read_tables(core: &TokenStream) -> TokenStream {
 
 /// A number that is fixed during a run, as a scalar.
 pub fn coefficient(system: &System, coefficient: Coefficient) -> TokenStream {
-    let core = &system.core;
     match coefficient {
         Coefficient::Number(number) => {
             let number = float(number);
-            quote!(<Self::Scalar as #core::arithmetic::Scalar>::from_f64(#number))
+            quote!(<Self::Scalar>::from_f64(#number))
         }
         Coefficient::Pi(multiple) => {
             let number = f64(Coefficient::multiple_of_pi(multiple));
-            quote!(<Self::Scalar as #core::arithmetic::Scalar>::from_f64(#number))
+            quote!(<Self::Scalar>::from_f64(#number))
         }
         Coefficient::Parameter(parameter) => field(&system.parameters[parameter]),
         Coefficient::Constant(constant) => {
@@ -112,16 +166,7 @@ pub fn needs(program_needs: usize) -> TokenStream {
         local("held"),
         index(program_needs.div_ceil(64).max(1)),
     );
-    array(&needs, quote!(#held.needs.first_chunk::<#words>()))
-}
-
-/// Binds an array of known length, so that indexing it needs no checks.
-pub fn array(name: &Ident, chunk: TokenStream) -> TokenStream {
-    quote! {
-        let ::core::option::Option::Some(#name) = #chunk else {
-            ::core::panic!("the length of a tape's argument is not that of the description")
-        };
-    }
+    quote!(let #needs = first::<#words, _>(#held.needs);)
 }
 
 /// Values that are read by a step or written to an output.

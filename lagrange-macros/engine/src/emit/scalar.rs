@@ -1,6 +1,6 @@
 //! Programs on plain scalars: the constants of modes, the starts, and access to the parameters.
 
-use super::names::{self, local};
+use super::names::{self, Locals, local};
 use crate::model::System;
 use crate::plan::{Mode, Operation, Program, StartTarget, Tape, Value};
 use proc_macro2::TokenStream;
@@ -28,29 +28,40 @@ pub fn access(system: &System) -> TokenStream {
     }
 }
 
+/// Names of the parameters.
+pub fn parameter_names(system: &System) -> impl Iterator<Item = String> + '_ {
+    let parameters = system.parameters.iter();
+    parameters.map(|parameter| format!("p_{}", parameter.name))
+}
+
 /// A masked program whose outputs are the constants `c`.
-pub fn masked(program: &Program, tape: &Tape, input: impl Fn(usize) -> TokenStream) -> TokenStream {
+pub fn masked(
+    program: &Program,
+    tape: &Tape,
+    locals: &Locals,
+    input: impl Fn(usize) -> TokenStream,
+) -> TokenStream {
     let system = &program.equations.system;
     let c = local("c");
     let outputs = names::index(tape.outputs);
-    let outputs = names::array(&c, quote!(#c.first_chunk_mut::<#outputs>()));
     let needs = names::needs(program.equations.needs.len());
     let crossing = names::crossing(tape);
-    let declared = crossing.iter().map(|value| names::value(*value));
+    let declared = crossing.iter().map(|value| locals.value(*value));
     let read = names::read(tape);
     let inputs = (0..tape.inputs).filter(|at| read.contains(&Value(*at)));
     let inputs = inputs.map(|at| {
-        let (name, input) = (names::value(Value(at)), input(at));
+        let (name, input) = (locals.value(Value(at)), input(at));
         quote!(let #name = #input;)
     });
     let blocks = tape.blocks.iter().map(|block| {
         let steps = steps(
             system,
+            locals,
             block.steps.iter().map(|step| (step.value, step.operation)),
             &crossing,
         );
         let writes = block.writes.iter().map(|write| {
-            let (output, value) = (names::index(write.output), names::value(write.value));
+            let (output, value) = (names::index(write.output), locals.value(write.value));
             match write.mode {
                 Mode::Set => quote!(#c[#output] = #value;),
                 Mode::Add => quote!(#c[#output] += #value;),
@@ -58,14 +69,14 @@ pub fn masked(program: &Program, tape: &Tape, input: impl Fn(usize) -> TokenStre
             }
         });
         let body = quote!(#steps #(#writes)*);
-        if block.needs.is_always() {
+        if block.needs.is_always() || body.is_empty() {
             return body;
         }
         let condition = names::condition(&block.needs);
         quote!(if #condition { #body })
     });
     quote! {
-        #outputs
+        let #c = first_mut::<#outputs, _>(#c);
         #needs
         #(#inputs)*
         #(let mut #declared = <Self::Scalar as ::core::default::Default>::default();)*
@@ -76,14 +87,17 @@ pub fn masked(program: &Program, tape: &Tape, input: impl Fn(usize) -> TokenStre
 /// `fn start`.
 pub fn starts(program: &Program) -> TokenStream {
     let system = &program.equations.system;
+    let core = &system.core;
     let (at, t, q, v) = (local("index"), local("t"), local("q"), local("v"));
     let arms = program.starts.iter().enumerate().map(|(number, start)| {
         let number = names::index(number);
-        let inputs = parameters(system, &start.tape);
-        let time = names::value(Value(start.tape.inputs - 1));
+        let locals = Locals::new(parameter_names(system).chain(["t_start".to_owned()]));
+        let inputs = parameters(system, &locals, &start.tape);
+        let time = locals.value(Value(start.tape.inputs - 1));
         let all = start.tape.blocks.iter().flat_map(|block| &block.steps);
         let steps = steps(
             system,
+            &locals,
             all.map(|step| (step.value, step.operation)),
             &BTreeSet::new(),
         );
@@ -93,7 +107,7 @@ pub fn starts(program: &Program) -> TokenStream {
             .iter()
             .flat_map(|block| &block.writes)
             .map(|write| {
-                let value = names::value(write.value);
+                let value = locals.value(write.value);
                 match start.targets[write.output] {
                     StartTarget::Position(at) => {
                         let at = names::index(at);
@@ -116,6 +130,7 @@ pub fn starts(program: &Program) -> TokenStream {
     });
     quote! {
         fn start(&self, #at: usize, #t: Self::Scalar, #q: &mut [Self::Scalar], #v: &mut [Self::Scalar]) {
+            use #core::arithmetic::Scalar;
             #q.fill(<Self::Scalar as ::core::default::Default>::default());
             #v.fill(<Self::Scalar as ::core::default::Default>::default());
             match #at {
@@ -127,7 +142,7 @@ pub fn starts(program: &Program) -> TokenStream {
 }
 
 /// Binds the parameters that a program reads.
-fn parameters(system: &System, tape: &Tape) -> TokenStream {
+fn parameters(system: &System, locals: &Locals, tape: &Tape) -> TokenStream {
     let read = names::read(tape);
     let bindings = system
         .parameters
@@ -135,7 +150,7 @@ fn parameters(system: &System, tape: &Tape) -> TokenStream {
         .enumerate()
         .filter(|(index, _)| read.contains(&Value(*index)));
     let bindings = bindings.map(|(index, parameter)| {
-        let (name, field) = (names::value(Value(index)), names::field(parameter));
+        let (name, field) = (locals.value(Value(index)), names::field(parameter));
         quote!(let #name = #field;)
     });
     quote!(#(#bindings)*)
@@ -143,12 +158,13 @@ fn parameters(system: &System, tape: &Tape) -> TokenStream {
 
 fn steps(
     system: &System,
+    locals: &Locals,
     steps: impl Iterator<Item = (Value, Operation)>,
     crossing: &BTreeSet<Value>,
 ) -> TokenStream {
     let lines = steps.map(|(first, operation)| {
-        let result = expression(system, operation);
-        let (one, two) = (names::value(first), names::value(Value(first.0 + 1)));
+        let result = expression(system, locals, operation);
+        let (one, two) = (locals.value(first), locals.value(Value(first.0 + 1)));
         match (operation.values(), crossing.contains(&first)) {
             (1, false) => quote!(let #one = #result;),
             (1, true) => quote!(#one = #result;),
@@ -159,14 +175,12 @@ fn steps(
     quote!(#(#lines)*)
 }
 
-fn expression(system: &System, operation: Operation) -> TokenStream {
-    let core = &system.core;
-    let scalar = quote!(#core::arithmetic::Scalar);
-    let n = names::value;
+fn expression(system: &System, locals: &Locals, operation: Operation) -> TokenStream {
+    let n = |value| locals.value(value);
     let fixed = |c| names::coefficient(system, c);
     let call = |method: &str, x: Value| {
         let (method, x) = (names::plain(method), n(x));
-        quote!(#scalar::#method(#x))
+        quote!(Scalar::#method(#x))
     };
     match operation {
         Operation::Constant(c) => fixed(c),
@@ -209,7 +223,7 @@ fn expression(system: &System, operation: Operation) -> TokenStream {
         Operation::Sqrt(x) => call("sqrt", x),
         Operation::Powf(x, c) => {
             let (x, c) = (n(x), names::float(c));
-            quote!(#scalar::powf(#x, #c))
+            quote!(Scalar::powf(#x, #c))
         }
         Operation::Exp(x) => call("exp", x),
         Operation::Ln(x) => call("ln", x),
@@ -222,11 +236,11 @@ fn expression(system: &System, operation: Operation) -> TokenStream {
         Operation::Atan(x) => call("atan", x),
         Operation::Atan2(y, x) => {
             let (y, x) = (n(y), n(x));
-            quote!(#scalar::atan2(#y, #x))
+            quote!(Scalar::atan2(#y, #x))
         }
         Operation::Choose(guard, x, y) => {
             let (guard, x, y) = (n(guard), n(x), n(y));
-            quote!(if #scalar::value(#guard) >= 0.0 { #x } else { #y })
+            quote!(if Scalar::value(#guard) >= 0.0 { #x } else { #y })
         }
         Operation::Select(..) => unreachable!("only tapes select by branch"),
     }

@@ -5,19 +5,14 @@ mod solve;
 mod value;
 mod writer;
 
-use super::names::{self, index, local, plain};
+use super::names::{self, Locals, index, local, plain};
 use super::scalar;
 use crate::derive::Stage;
 use crate::modes::FrictionState;
 use crate::plan::mode::{ModeProgram, Phase, products};
 use crate::plan::{Program, ValueRef};
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::TokenStream;
 use quote::quote;
-
-/// The type parameter of emitted functions.
-fn number() -> Ident {
-    plain("LagrangeNumber")
-}
 
 /// Everything of `impl System` that belongs to modes; nothing if no mode is emitted.
 pub fn equations(program: &Program) -> TokenStream {
@@ -25,7 +20,7 @@ pub fn equations(program: &Program) -> TokenStream {
         return TokenStream::new();
     }
     let core = &program.equations.system.core;
-    let number = number();
+    let number = writer::number(&program.equations.system);
     let (mut structures, mut constants) = (Vec::new(), Vec::new());
     let (mut values, mut value_entries) = (Vec::new(), Vec::new());
     let (mut series, mut series_entries) = (Vec::new(), Vec::new());
@@ -35,29 +30,24 @@ pub fn equations(program: &Program) -> TokenStream {
         let body = mode_constants(program, mode);
         let at_index = index(at);
         constants.push(quote!(#at_index => { #body }));
-        let (value, one_series) = (
-            plain(&format!("value_{at}")),
-            plain(&format!("series_{at}")),
-        );
+        let (value, one_series) = (plain(&format!("value_{at}")), plain(&format!("Series{at}")));
         let words = mode.mode.name(&program.equations.system);
         let heading = format!(
             " {words}: {} operations.",
             mode.operations(Phase::Accelerations)
         );
         values.push(value::function(&value, &heading, program, mode, &plan));
-        value_entries
-            .push(quote!(#value::<#number> as #core::__private::equations::ValueFn<#number>));
+        value_entries.push(quote!(#value::<#number> as ValueFn<#number>));
         let sums = plan.convolutions();
         let heading = format!(" {words}: {sums} sums over earlier coefficients for each new one.");
-        series.push(series::function(
+        series.push(series::implementation(
             &one_series,
             &heading,
             program,
             mode,
             &plan,
         ));
-        series_entries
-            .push(quote!(#one_series::<#number> as #core::__private::equations::SeriesFn<#number>));
+        series_entries.push(quote!(across::<#one_series, #number> as SeriesFn<#number>));
     }
     let (mode, held, signs, c) = (local("mode"), local("held"), local("signs"), local("c"));
     quote! {
@@ -70,6 +60,8 @@ pub fn equations(program: &Program) -> TokenStream {
             #signs: &[Self::Scalar],
             #c: &mut [Self::Scalar],
         ) -> bool {
+            use #core::__private::equations::{first, first_mut};
+            use #core::arithmetic::Scalar;
             match #mode {
                 #(#constants)*
                 _ => false,
@@ -78,12 +70,18 @@ pub fn equations(program: &Program) -> TokenStream {
 
         fn mode_values<#number: #core::__private::Number>(
         ) -> &'static [#core::__private::equations::ValueFn<#number>] {
+            use #core::__private::equations::{Arguments, ValueFn, first, first_mut};
+            use #core::__private::{Number, program::Selection};
             #(#values)*
             const { &[#(#value_entries),*] }
         }
 
         fn mode_series<#number: #core::__private::Number>(
         ) -> &'static [#core::__private::equations::SeriesFn<#number>] {
+            use #core::__private::equations::{
+                Arguments, INVERSES, ModeSeries, Refused, Row, SeriesFn, across, first, first_mut,
+            };
+            use #core::__private::{Number, program::Selection};
             #(#series)*
             const { &[#(#series_entries),*] }
         }
@@ -142,7 +140,6 @@ fn structure(program: &Program, mode: &ModeProgram, plan: &products::Plan) -> To
 fn mode_constants(program: &Program, mode: &ModeProgram) -> TokenStream {
     let system = &program.equations.system;
     let core = &system.core;
-    let scalar = quote!(#core::arithmetic::Scalar);
     let fields: Vec<_> = system.parameters.iter().map(names::field).collect();
     let parameters = fields.len();
     let signs = local("signs");
@@ -153,12 +150,18 @@ fn mode_constants(program: &Program, mode: &ModeProgram) -> TokenStream {
             quote!(#signs[#at])
         }
     };
-    let body = scalar::masked(program, &mode.constants, input);
+    let frictions = system.frictions.iter();
+    let signs_of = frictions.flat_map(|friction| {
+        let of = |what: &str| format!("s_{}_{what}", friction.name.text);
+        [of("direction"), of("pressing")]
+    });
+    let locals = Locals::new(scalar::parameter_names(system).chain(signs_of));
+    let body = scalar::masked(program, &mode.constants, &locals, input);
     let c = local("c");
     let place = |place: &ValueRef| match place {
         ValueRef::Constant(at) => {
             let at = index(*at);
-            quote!(#scalar::value(#c[#at]).abs())
+            quote!(Scalar::value(#c[#at]).abs())
         }
         ValueRef::Zero | ValueRef::Node(_) => quote!(0.0),
     };
@@ -171,11 +174,15 @@ fn mode_constants(program: &Program, mode: &ModeProgram) -> TokenStream {
         let inertia = match place {
             ValueRef::Constant(at) => {
                 let at = index(*at);
-                quote!(#scalar::value(#c[#at]))
+                quote!(Scalar::value(#c[#at]))
             }
             ValueRef::Zero | ValueRef::Node(_) => quote!(0.0),
         };
         quote!(#inertia > 0.0)
     });
-    quote!(#body true #(&& #tests)* #(&& #positive)*)
+    let mut conditions: Vec<TokenStream> = tests.chain(positive).collect();
+    if conditions.is_empty() {
+        conditions.push(quote!(true));
+    }
+    quote!(#body #(#conditions)&&*)
 }

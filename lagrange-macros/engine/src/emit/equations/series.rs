@@ -7,13 +7,12 @@
 //! The sums over earlier coefficients come first, all in one loop; one factorization serves every order. Rules: Jorba & Zou
 //! 2005, Experimental Mathematics 14, section 2; Griewank & Walther 2008, section 13.2.
 
-use super::super::names::{self, index, local, plain};
-use super::number;
+use super::super::names::{self, index, local};
 use super::solve::Elimination;
 use super::value;
-use super::writer::{Writer, coefficient};
+use super::writer::Writer;
 use crate::ast::Emit;
-use crate::plan::mode::products::{Plan, Product, Row, force_row};
+use crate::plan::mode::products::{Plan, Product, Row};
 use crate::plan::mode::{ModeProgram, Phase};
 use crate::plan::{Block, Coefficient, Mode, Operation, Program, Step, Value, ValueRef};
 use proc_macro2::{Ident, TokenStream};
@@ -34,36 +33,16 @@ struct Expansion<'a> {
 /// Coefficients up to this order have code of their own in unrolled series; it is that of a tolerance of about 1e-13.
 const UNROLLED: usize = 21;
 
-fn coefficient_of(value: Value) -> Ident {
-    local(&format!("d{}", value.0))
-}
-
-fn auxiliary(value: Value) -> Ident {
-    local(&format!("u{}", value.0))
-}
-
-fn auxiliary_coefficient(value: Value) -> Ident {
-    local(&format!("e{}", value.0))
-}
-
-fn inverse(value: Value) -> Ident {
-    local(&format!("i{}", value.0))
-}
-
 fn sum_coefficient(output: usize) -> Ident {
-    local(&format!("dsum{output}"))
-}
-
-fn product(value: Value, at: usize) -> Ident {
-    local(&format!("s{}_{at}", value.0))
+    local(&format!("sum{output}_k"))
 }
 
 fn system_product(i: usize, j: usize) -> Ident {
-    local(&format!("t{i}_{j}"))
+    local(&format!("k{i}_{j}_earlier"))
 }
 
-/// `fn series_…`
-pub fn function(
+/// `impl ModeSeries for …`
+pub fn implementation(
     name: &Ident,
     heading: &str,
     program: &Program,
@@ -71,7 +50,6 @@ pub fn function(
     plan: &Plan,
 ) -> TokenStream {
     let system = &program.equations.system;
-    let core = &system.core;
     let blocks = mode
         .tape
         .blocks
@@ -81,20 +59,15 @@ pub fn function(
     let declared = steps
         .flat_map(|step| (0..step.operation.values()).map(|offset| Value(step.value.0 + offset)));
     let mut expansion = Expansion {
-        writer: Writer {
-            system,
-            mode,
-            declared: declared.collect(),
-            sums: value::sums(mode),
-        },
+        writer: Writer::new(system, mode, declared.collect()),
         plan,
         mode,
         crossing: names::crossing(&mode.tape),
         only: None,
     };
-    let number = number();
+    let number = expansion.writer.number.clone();
     let elimination = Elimination::new(&expansion.writer, &mode.system);
-    let first = expansion.first(&elimination, core);
+    let first = expansion.first(&elimination);
     let mut next = TokenStream::new();
     let mut looped = 1;
     if system.emit == Emit::Unrolled {
@@ -110,54 +83,94 @@ pub fn function(
     let (t, q, v) = (local("t"), local("q"), local("v"));
     let prologue = expansion.writer.prologue();
     let needs = names::needs(program.equations.needs.len());
-    let count = index(plan.rows);
-    let bound = names::array(&rows, quote!(#rows.first_chunk_mut::<#count>()));
-    let (body, state) = (plain("Coefficients"), local("state"));
-    let result = quote!(::core::result::Result<(), #core::__private::equations::Refused>);
+    let all = expansion.rows();
+    let result = quote!(::core::result::Result<(), Refused>);
     quote! {
         #[doc = #heading]
-        fn #name<#number: #core::__private::Number>(
-            #c: &[#number],
-            #held: &#core::__private::program::Selection,
-            #order: usize,
-            #state: #core::__private::equations::Arguments<#number>,
-            #rows: &mut [#core::__private::equations::Row<#number>],
-        ) -> #result {
-            struct #body;
-            impl<#number: #core::__private::Number>
-                #core::__private::Body<#core::__private::equations::SeriesArguments<'_, #number>> for #body
-            {
-                type Output = #result;
-                #[inline(always)]
-                fn run(
-                    (#c, #held, #order, (#t, #q, #v), #rows):
-                        #core::__private::equations::SeriesArguments<'_, #number>,
-                ) -> #result {
-                    #prologue
-                    #bound
-                    #needs
-                    #first
-                    #next
-                    ::core::result::Result::Ok(())
-                }
+        struct #name;
+        impl<#number: Number> ModeSeries<#number> for #name {
+            #[inline(always)]
+            fn expand(
+                #c: &[#number],
+                #held: &Selection,
+                #order: usize,
+                (#t, #q, #v): Arguments<'_, #number>,
+                #rows: &mut [Row<#number>],
+            ) -> #result {
+                #prologue
+                let [#(#all),*] = first_mut(#rows);
+                #needs
+                #first
+                #next
+                ::core::result::Result::Ok(())
             }
-            #number::across::<#body, _>((#c, #held, #order, #state, #rows))
-                .unwrap_or(::core::result::Result::Err(#core::__private::equations::Refused::NoLanes))
         }
     }
 }
 
 impl Expansion<'_> {
-    /// `rows[row][at] = value;`
-    fn store(&self, row: usize, at: TokenStream, value: TokenStream) -> TokenStream {
-        let (rows, row) = (local("rows"), index(row));
-        quote!(#rows[#row][#at] = #value;)
+    /// A local that belongs to a value.
+    fn of(&self, value: Value, what: &str) -> Ident {
+        local(&format!("{}_{what}", self.writer.locals.stem(value)))
+    }
+
+    /// Coefficient k of a value.
+    fn coefficient_of(&self, value: Value) -> Ident {
+        self.of(value, "k")
+    }
+
+    /// What the rule of a function needs beside its value.
+    fn auxiliary(&self, value: Value) -> Ident {
+        self.of(value, "u")
+    }
+
+    /// What the rule of an operation divides by, inverted.
+    fn inverse(&self, value: Value) -> Ident {
+        self.of(value, "inverse")
+    }
+
+    /// Σ xⱼ yₖ₋ⱼ of a product, of several that with this number.
+    fn product(&self, value: Value, at: usize) -> Ident {
+        match at {
+            0 => self.of(value, "earlier"),
+            _ => self.of(value, &format!("earlier{at}")),
+        }
+    }
+
+    /// The array of all coefficients of a series that is kept.
+    fn row(&self, row: Row) -> Ident {
+        match row {
+            Row::Value(value) => self.of(value, "row"),
+            Row::Weighted(value) => self.of(value, "weighted"),
+            Row::Auxiliary(value) => self.of(value, "u_row"),
+            Row::Sum(output) => local(&format!("sum{output}_row")),
+            Row::Fixed(constant) => local(&format!("c{constant}_row")),
+        }
+    }
+
+    /// A pattern for each row, in their order.
+    fn rows(&self) -> Vec<TokenStream> {
+        let mut all = vec![quote!(_); self.plan.rows];
+        for (&row, &at) in self.plan.kept() {
+            let name = self.row(row);
+            all[at] = quote!(#name);
+        }
+        all
+    }
+
+    /// `row[at] = value;`, if the row is kept.
+    fn store(&self, row: Row, at: TokenStream, value: TokenStream) -> TokenStream {
+        if self.plan.row(row).is_none() {
+            return TokenStream::new();
+        }
+        let row = self.row(row);
+        quote!(#row[#at] = #value;)
     }
 
     /// The coefficient of a value, if it has any.
     fn d(&self, value: Value) -> Option<TokenStream> {
         self.plan.varying[value.0].then(|| {
-            let name = coefficient_of(value);
+            let name = self.coefficient_of(value);
             quote!(#name)
         })
     }
@@ -178,9 +191,9 @@ impl Expansion<'_> {
     }
 
     /// Order 0 of everything.
-    fn first(&self, elimination: &Elimination, core: &TokenStream) -> TokenStream {
+    fn first(&self, elimination: &Elimination) -> TokenStream {
         let (writer, mode, plan) = (&self.writer, self.mode, self.plan);
-        let number = number();
+        let number = &self.writer.number;
         let zero = quote!(0);
         let mut code = writer.declarations();
         code.extend(self.auxiliary_declarations());
@@ -188,27 +201,31 @@ impl Expansion<'_> {
         let (q, v) = (local("q"), local("v"));
         for j in 0..n {
             let at = index(j);
-            code.extend(self.store(j, zero.clone(), quote!(#q[#at])));
-            code.extend(self.store(n + j, zero.clone(), quote!(#v[#at])));
+            code.extend(self.store(
+                Row::Value(mode.inputs.position(j)),
+                zero.clone(),
+                quote!(#q[#at]),
+            ));
+            code.extend(self.store(
+                Row::Value(mode.inputs.velocity(j)),
+                zero.clone(),
+                quote!(#v[#at]),
+            ));
         }
-        if let Some(row) = plan.row(Row::Value(Value(0))) {
-            let time = names::value(Value(0));
-            code.extend(self.store(row, zero.clone(), quote!(#time)));
-            code.extend(self.store(row, quote!(1), quote!(#number::of(1.0))));
+        let (time, one) = (local("t"), quote!(#number::of(1.0)));
+        code.extend(self.store(Row::Value(Value(0)), zero.clone(), quote!(#time)));
+        code.extend(self.store(Row::Value(Value(0)), quote!(1), one.clone()));
+        code.extend(self.store(Row::Weighted(Value(0)), quote!(1), one));
+        for constant in plan.fixed() {
+            let value = writer.coefficient(Coefficient::Constant(constant));
+            code.extend(self.store(Row::Fixed(constant), zero.clone(), value));
         }
-        if let Some(row) = plan.row(Row::Weighted(Value(0))) {
-            code.extend(self.store(row, quote!(1), quote!(#number::of(1.0))));
-        }
-        for (constant, row) in plan.fixed() {
-            let value = coefficient(Coefficient::Constant(constant));
-            code.extend(self.store(row, zero.clone(), value));
-        }
-        code.extend(self.first_of(Phase::Assembly, core));
+        code.extend(self.first_of(Phase::Assembly));
         code.extend(elimination.code.clone());
         let safe = local("safe");
         code.extend(quote! {
             if !#safe {
-                return ::core::result::Result::Err(#core::__private::equations::Refused::Pivot);
+                return ::core::result::Result::Err(Refused::Pivot);
             }
         });
         let right = mode.system.right.iter().map(|place| match place {
@@ -229,37 +246,35 @@ impl Expansion<'_> {
         }
         for (i, x) in solution.iter().enumerate() {
             let value = mode.inputs.unknown(i);
-            let name = names::value(value);
+            let name = self.writer.value(value);
             code.extend(quote!(let #name = #x;));
             code.extend(self.keep_first(value));
         }
-        code.extend(self.first_of(Phase::Accelerations, core));
+        code.extend(self.first_of(Phase::Accelerations));
         for (j, place) in mode.accelerations.iter().enumerate() {
             if *place != ValueRef::Zero {
                 let value = writer.place(*place);
-                code.extend(self.store(n + j, quote!(1), value));
+                code.extend(self.store(Row::Value(mode.inputs.velocity(j)), quote!(1), value));
             }
         }
-        code.extend(self.first_of(Phase::Forces, core));
+        code.extend(self.first_of(Phase::Forces));
         for (r, place) in mode.forces.iter().enumerate() {
             if let Some(place) = place {
                 let value = writer.place(*place);
-                code.extend(self.store(force_row(mode, r), zero.clone(), value));
+                code.extend(self.store(Row::Value(mode.inputs.force(r)), zero.clone(), value));
             }
         }
         for (value, place) in value::results(mode) {
-            let (name, result) = (names::value(value), writer.place(place));
+            let (name, result) = (self.writer.value(value), writer.place(place));
             code.extend(quote!(let #name = #result;));
             if value.0 < mode.inputs.force(0).0 {
                 code.extend(self.keep_first(value));
             }
         }
-        code.extend(self.first_of(Phase::Outputs, core));
+        code.extend(self.first_of(Phase::Outputs));
         for &output in plan.sums.keys() {
-            if let Some(row) = plan.row(Row::Sum(output)) {
-                let sum = names::sum(output);
-                code.extend(self.store(row, zero.clone(), quote!(#sum)));
-            }
+            let sum = names::sum(output);
+            code.extend(self.store(Row::Sum(output), zero.clone(), quote!(#sum)));
         }
         code
     }
@@ -270,23 +285,25 @@ impl Expansion<'_> {
         let steps = blocks
             .filter(|block| !block.needs.is_always())
             .flat_map(|block| &block.steps);
-        let idle = names::value(Value(0));
+        let number = &self.writer.number;
         let lines = steps
             .filter(|step| self.plan.varying[step.value.0])
             .map(|step| {
-                let (u, i) = (auxiliary(step.value), inverse(step.value));
-                let second = needs_auxiliary(step.operation).then(|| quote!(let mut #u = #idle;));
-                let inverse = needs_inverse(step.operation).then(|| quote!(let mut #i = #idle;));
+                let (u, i) = (self.auxiliary(step.value), self.inverse(step.value));
+                let second =
+                    needs_auxiliary(step.operation).then(|| quote!(let mut #u = #number::of(0.0);));
+                let inverse =
+                    needs_inverse(step.operation).then(|| quote!(let mut #i = #number::of(0.0);));
                 quote!(#second #inverse)
             });
         quote!(#(#lines)*)
     }
 
     /// The values of a phase, what rules of differentiation need beside them, and what is kept.
-    fn first_of(&self, phase: Phase, core: &TokenStream) -> TokenStream {
+    fn first_of(&self, phase: Phase) -> TokenStream {
         let blocks = self.mode.blocks(phase).map(|block| {
             let steps = block.steps.iter().map(|step| {
-                let (before, after) = self.beside(step, core);
+                let (before, after) = self.beside(step);
                 let value = self.writer.step(step);
                 let kept = (0..step.operation.values())
                     .map(|offset| self.keep_first(Value(step.value.0 + offset)));
@@ -294,7 +311,7 @@ impl Expansion<'_> {
             });
             let writes = self.writer.writes(block);
             let body = quote!(#(#steps)* #writes);
-            if block.needs.is_always() {
+            if block.needs.is_always() || body.is_empty() {
                 return body;
             }
             let condition = names::condition(&block.needs);
@@ -304,27 +321,22 @@ impl Expansion<'_> {
     }
 
     fn keep_first(&self, value: Value) -> TokenStream {
-        match self.plan.row(Row::Value(value)) {
-            Some(row) => {
-                let name = names::value(value);
-                self.store(row, quote!(0), quote!(#name))
-            }
-            None => TokenStream::new(),
-        }
+        let name = self.writer.value(value);
+        self.store(Row::Value(value), quote!(0), quote!(#name))
     }
 
     /// What a step needs besides its value: whether its series exists, an inverse, an auxiliary value.
-    fn beside(&self, step: &Step, core: &TokenStream) -> (TokenStream, TokenStream) {
+    fn beside(&self, step: &Step) -> (TokenStream, TokenStream) {
         if !self.plan.varying[step.value.0] {
             return (TokenStream::new(), TokenStream::new());
         }
-        let n = names::value;
-        let number = number();
+        let n = |value| self.writer.value(value);
+        let number = &self.writer.number;
         let z = step.value;
         let refuse = |condition: TokenStream| {
             quote! {
                 if #condition {
-                    return ::core::result::Result::Err(#core::__private::equations::Refused::NoSeries);
+                    return ::core::result::Result::Err(Refused::NoSeries);
                 }
             }
         };
@@ -340,56 +352,62 @@ impl Expansion<'_> {
         match step.operation {
             Operation::Div(_, y) | Operation::Ratio(_, y) => {
                 let name = n(y);
-                let check = refuse(quote!(#number::any_zero(#name)));
-                (check, set(inverse(z), quote!(#number::of(1.0) / #name)))
+                let check = refuse(quote!(#name.any_zero()));
+                (
+                    check,
+                    set(self.inverse(z), quote!(#number::of(1.0) / #name)),
+                )
             }
             Operation::Sqrt(x) => {
                 let (x, root) = (n(x), n(z));
-                let check = refuse(quote!(!#number::all_positive(#x)));
-                (check, set(inverse(z), quote!(#number::of(0.5) / #root)))
+                let check = refuse(quote!(!#x.all_positive()));
+                (
+                    check,
+                    set(self.inverse(z), quote!(#number::of(0.5) / #root)),
+                )
             }
             Operation::Powf(x, _) | Operation::Ln(x) => {
                 let x = n(x);
-                let check = refuse(quote!(!#number::all_positive(#x)));
-                (check, set(inverse(z), quote!(#number::of(1.0) / #x)))
+                let check = refuse(quote!(!#x.all_positive()));
+                (check, set(self.inverse(z), quote!(#number::of(1.0) / #x)))
             }
             Operation::Tan(_) => {
                 let z_value = n(z);
                 let u = quote!(#number::of(1.0) + #z_value * #z_value);
-                let u = self.keep_auxiliary(z, set(auxiliary(z), u));
+                let u = self.keep_auxiliary(z, set(self.auxiliary(z), u));
                 (none, u)
             }
             Operation::Tanh(_) => {
                 let z_value = n(z);
                 let u = quote!(#number::of(1.0) - #z_value * #z_value);
-                (none, self.keep_auxiliary(z, set(auxiliary(z), u)))
+                (none, self.keep_auxiliary(z, set(self.auxiliary(z), u)))
             }
             Operation::Asin(x) | Operation::Acos(x) => {
                 let x = n(x);
-                let check = refuse(quote!(!#number::all_inside_unit(#x)));
+                let check = refuse(quote!(!#x.all_inside_unit()));
                 let u = set(
-                    auxiliary(z),
-                    quote!(#number::sqrt(#number::of(1.0) - #x * #x)),
+                    self.auxiliary(z),
+                    quote!((#number::of(1.0) - #x * #x).sqrt()),
                 );
-                let name = auxiliary(z);
-                let inverse = set(inverse(z), quote!(#number::of(1.0) / #name));
+                let name = self.auxiliary(z);
+                let inverse = set(self.inverse(z), quote!(#number::of(1.0) / #name));
                 let u = self.keep_auxiliary(z, u);
                 (check, quote!(#u #inverse))
             }
             Operation::Atan(x) => {
                 let x = n(x);
-                let u = set(auxiliary(z), quote!(#number::of(1.0) + #x * #x));
-                let name = auxiliary(z);
-                let inverse = set(inverse(z), quote!(#number::of(1.0) / #name));
+                let u = set(self.auxiliary(z), quote!(#number::of(1.0) + #x * #x));
+                let name = self.auxiliary(z);
+                let inverse = set(self.inverse(z), quote!(#number::of(1.0) / #name));
                 let u = self.keep_auxiliary(z, u);
                 (none, quote!(#u #inverse))
             }
             Operation::Atan2(y, x) => {
                 let (y, x) = (n(y), n(x));
-                let u = set(auxiliary(z), quote!(#y * #y + #x * #x));
-                let name = auxiliary(z);
-                let check = refuse(quote!(#number::any_zero(#name)));
-                let inverse = set(inverse(z), quote!(#number::of(1.0) / #name));
+                let u = set(self.auxiliary(z), quote!(#y * #y + #x * #x));
+                let name = self.auxiliary(z);
+                let check = refuse(quote!(#name.any_zero()));
+                let inverse = set(self.inverse(z), quote!(#number::of(1.0) / #name));
                 let u = self.keep_auxiliary(z, u);
                 (none, quote!(#u #check #inverse))
             }
@@ -398,10 +416,8 @@ impl Expansion<'_> {
     }
 
     fn keep_auxiliary(&self, value: Value, set: TokenStream) -> TokenStream {
-        let store = self.plan.row(Row::Auxiliary(value)).map(|row| {
-            let name = auxiliary(value);
-            self.store(row, quote!(0), quote!(#name))
-        });
+        let name = self.auxiliary(value);
+        let store = self.store(Row::Auxiliary(value), quote!(0), quote!(#name));
         quote!(#set #store)
     }
 
@@ -435,11 +451,9 @@ impl Expansion<'_> {
     /// Coefficient k of everything.
     fn next(&self, elimination: &Elimination) -> TokenStream {
         let (mode, plan) = (self.mode, self.plan);
-        let number = number();
-        let core = &self.writer.system.core;
+        let number = &self.writer.number;
         let n = mode.inputs.coordinates;
         let (k, p, weight, share) = (local("k"), local("p"), local("weight"), local("share"));
-        let rows = local("rows");
         let mut body = TokenStream::new();
         // Sums over earlier coefficients.
         let mut products = Vec::new();
@@ -457,13 +471,13 @@ impl Expansion<'_> {
         body.extend(self.sums(&products));
         let crossing = self.crossing.iter().filter(|value| plan.varying[value.0]);
         for value in crossing {
-            let name = coefficient_of(*value);
+            let name = self.coefficient_of(*value);
             body.extend(quote!(let mut #name = #number::of(0.0);));
         }
         // Coefficient k of the inputs.
         let read = names::read(&mode.tape);
         if read.contains(&Value(0)) {
-            let name = coefficient_of(Value(0));
+            let name = self.coefficient_of(Value(0));
             body.extend(quote!(let #name = #number::of(if #k == 1 { 1.0 } else { 0.0 });));
         }
         for j in 0..n {
@@ -471,28 +485,23 @@ impl Expansion<'_> {
             if !plan.varying[q.0] {
                 continue;
             }
-            let (dq, dv) = (coefficient_of(q), coefficient_of(v));
-            let velocity = index(n + j);
-            body.extend(quote!(let #dq = #rows[#velocity][(#k - 1) & 31] * #share;));
-            body.extend(self.store(j, quote!(#p), quote!(#dq)));
+            let (dq, dv) = (self.coefficient_of(q), self.coefficient_of(v));
+            let velocity = self.row(Row::Value(v));
+            body.extend(quote!(let #dq = #velocity[(#k - 1) & 31] * #share;));
+            body.extend(self.store(Row::Value(q), quote!(#p), quote!(#dq)));
             if read.contains(&v) || plan.row(Row::Weighted(v)).is_some() {
-                body.extend(quote!(let #dv = #rows[#velocity][#p];));
+                body.extend(quote!(let #dv = #velocity[#p];));
             }
             for value in [q, v] {
-                if let Some(row) = plan.row(Row::Weighted(value)) {
-                    let d = coefficient_of(value);
-                    body.extend(self.store(row, quote!(#p), quote!(#d * #weight)));
-                }
+                let d = self.coefficient_of(value);
+                body.extend(self.store(Row::Weighted(value), quote!(#p), quote!(#d * #weight)));
             }
         }
         body.extend(self.next_of(Phase::Assembly));
         for (&output, &varies) in &plan.sums {
-            if let Some(row) = plan
-                .row(Row::Sum(output))
-                .filter(|_| varies && self.is_in(output, Phase::Assembly))
-            {
+            if varies && self.is_in(output, Phase::Assembly) {
                 let d = sum_coefficient(output);
-                body.extend(self.store(row, quote!(#p), quote!(#d)));
+                body.extend(self.store(Row::Sum(output), quote!(#p), quote!(#d)));
             }
         }
         // The linear system.
@@ -503,7 +512,7 @@ impl Expansion<'_> {
             .map(|place| self.d_of_place(*place))
             .collect();
         for (i, j, _) in plan.system_products(mode) {
-            let w = names::value(mode.inputs.unknown(j));
+            let w = self.writer.value(mode.inputs.unknown(j));
             let Some(d) = self.d_of_place(mode.system.matrix[i][j]) else {
                 continue;
             };
@@ -517,28 +526,28 @@ impl Expansion<'_> {
         body.extend(solve);
         for (i, x) in solution.iter().enumerate() {
             let value = mode.inputs.unknown(i);
-            let name = coefficient_of(value);
+            let name = self.coefficient_of(value);
             body.extend(quote!(let #name = #x;));
             body.extend(self.keep_next(value));
         }
         body.extend(self.next_of(Phase::Accelerations));
         for (j, place) in mode.accelerations.iter().enumerate() {
             if let Some(d) = self.d_of_place(*place) {
-                let velocity = index(n + j);
+                let velocity = self.row(Row::Value(mode.inputs.velocity(j)));
                 body.extend(quote! {
-                    #rows[#velocity][(#k + 1) & 31] = #d * #number::of(#core::__private::equations::INVERSES[(#k + 1) & 31]);
+                    #velocity[(#k + 1) & 31] = #d * #number::of(INVERSES[(#k + 1) & 31]);
                 });
             }
         }
         body.extend(self.next_of(Phase::Forces));
         for (r, place) in mode.forces.iter().enumerate() {
             if let Some(d) = place.and_then(|place| self.d_of_place(place)) {
-                body.extend(self.store(force_row(mode, r), quote!(#p), d));
+                body.extend(self.store(Row::Value(mode.inputs.force(r)), quote!(#p), d));
             }
         }
         for (value, place) in value::results(mode) {
             if let Some(d) = self.d_of_place(place) {
-                let name = coefficient_of(value);
+                let name = self.coefficient_of(value);
                 body.extend(quote!(let #name = #d;));
                 if value.0 < mode.inputs.force(0).0 {
                     body.extend(self.keep_next(value));
@@ -547,18 +556,15 @@ impl Expansion<'_> {
         }
         body.extend(self.next_of(Phase::Outputs));
         for (&output, &varies) in &plan.sums {
-            if let Some(row) = plan
-                .row(Row::Sum(output))
-                .filter(|_| varies && !self.is_in(output, Phase::Assembly))
-            {
+            if varies && !self.is_in(output, Phase::Assembly) {
                 let d = sum_coefficient(output);
-                body.extend(self.store(row, quote!(#p), quote!(#d)));
+                body.extend(self.store(Row::Sum(output), quote!(#p), quote!(#d)));
             }
         }
         quote! {
             let #p = #k & 31;
             let #weight = #number::of(#k as f64);
-            let #share = #number::of(#core::__private::equations::INVERSES[#p]);
+            let #share = #number::of(INVERSES[#p]);
             #body
         }
     }
@@ -573,7 +579,7 @@ impl Expansion<'_> {
         let steps = block.steps.iter();
         let all = steps.flat_map(|step| {
             let products = self.plan.products(step).into_iter().enumerate();
-            products.map(|(at, product_of)| (product(step.value, at), product_of))
+            products.map(|(at, product_of)| (self.product(step.value, at), product_of))
         });
         all.collect()
     }
@@ -583,14 +589,13 @@ impl Expansion<'_> {
         if products.is_empty() {
             return TokenStream::new();
         }
-        let number = number();
-        let (k, j, i, rows) = (local("k"), local("j"), local("i"), local("rows"));
+        let number = &self.writer.number;
+        let (k, j, i) = (local("k"), local("j"), local("i"));
         let (mut pairs, mut doubled, mut middles) = (Vec::new(), Vec::new(), Vec::new());
         for (name, (x, y)) in products {
-            let at = |row: &Row| index(self.plan.row(*row).unwrap_or_default());
             let is_square = x == y;
-            let (x, y) = (at(x), at(y));
-            let term = |j: &Ident, i: &Ident| quote!(#name = #number::mul_add(#rows[#x][#j], #rows[#y][#i], #name););
+            let (x, y) = (self.row(*x), self.row(*y));
+            let term = |j: &Ident, i: &Ident| quote!(#name = #x[#j].mul_add(#y[#i], #name););
             pairs.push(term(&j, &i));
             if is_square {
                 doubled.push(quote!(#name = #name + #name;));
@@ -639,7 +644,7 @@ impl Expansion<'_> {
             });
             let writes = self.next_writes(block);
             let body = quote!(#sums #(#steps)* #writes);
-            if !conditional {
+            if !conditional || body.is_empty() {
                 return body;
             }
             let condition = names::condition(&block.needs);
@@ -649,7 +654,7 @@ impl Expansion<'_> {
     }
 
     fn next_writes(&self, block: &Block) -> TokenStream {
-        let number = number();
+        let number = &self.writer.number;
         let writes = block.writes.iter();
         let writes = writes.filter(|write| self.plan.sums.get(&write.output) == Some(&true));
         let lines = writes.map(|write| {
@@ -669,11 +674,9 @@ impl Expansion<'_> {
         if !self.plan.varying[value.0] {
             return TokenStream::new();
         }
-        let (d, p, weight) = (coefficient_of(value), local("p"), local("weight"));
-        let plain = self.plan.row(Row::Value(value));
-        let plain = plain.map(|row| self.store(row, quote!(#p), quote!(#d)));
-        let weighted = self.plan.row(Row::Weighted(value));
-        let weighted = weighted.map(|row| self.store(row, quote!(#p), quote!(#d * #weight)));
+        let (d, p, weight) = (self.coefficient_of(value), local("p"), local("weight"));
+        let plain = self.store(Row::Value(value), quote!(#p), quote!(#d));
+        let weighted = self.store(Row::Weighted(value), quote!(#p), quote!(#d * #weight));
         quote!(#plain #weighted)
     }
 
@@ -682,16 +685,16 @@ impl Expansion<'_> {
         if !self.plan.varying[step.value.0] {
             return TokenStream::new();
         }
-        let number = number();
-        let n = names::value;
+        let number = &self.writer.number;
+        let n = |value| self.writer.value(value);
         let share = local("share");
         let z = step.value;
-        let s = |at: usize| product(z, at);
+        let s = |at: usize| self.product(z, at);
         let d = |x: Value| self.d(x);
-        let i = inverse(z);
+        let i = self.inverse(z);
         let zero = || quote!(#number::of(0.0));
         let bind = |value: Value, result: TokenStream| {
-            let name = coefficient_of(value);
+            let name = self.coefficient_of(value);
             if self.crossing.contains(&value) {
                 quote!(#name = #result;)
             } else {
@@ -720,7 +723,7 @@ impl Expansion<'_> {
                 quote!(#x)
             }
             Operation::Scale(c, x) => {
-                let (c, x) = (coefficient(c), d(x));
+                let (c, x) = (self.writer.coefficient(c), d(x));
                 quote!(#c * #x)
             }
             Operation::Mul(x, y) => {
@@ -728,7 +731,7 @@ impl Expansion<'_> {
                 match (d(x), d(y)) {
                     (Some(dx), Some(dy)) => {
                         let s = s(0);
-                        quote!(#number::mul_add(#x0, #dy, #number::mul_add(#dx, #y0, #s)))
+                        quote!(#x0.mul_add(#dy, #dx.mul_add(#y0, #s)))
                     }
                     (Some(dx), None) => quote!(#dx * #y0),
                     (None, Some(dy)) => quote!(#x0 * #dy),
@@ -737,7 +740,7 @@ impl Expansion<'_> {
             }
             Operation::Square(x) => {
                 let (x0, dx, s) = (n(x), d(x), s(0));
-                quote!(#number::mul_add(#x0 + #x0, #dx, #s))
+                quote!((#x0 + #x0).mul_add(#dx, #s))
             }
             Operation::Div(x, y) => {
                 let z0 = n(z);
@@ -745,14 +748,14 @@ impl Expansion<'_> {
                     (dx, Some(dy)) => {
                         let s = s(0);
                         let dx = dx.unwrap_or_else(zero);
-                        quote!((#dx - #number::mul_add(#z0, #dy, #s)) * #i)
+                        quote!((#dx - #z0.mul_add(#dy, #s)) * #i)
                     }
                     (dx, None) => quote!(#dx * #i),
                 }
             }
             Operation::Ratio(_, y) => {
                 let (z0, dy, s) = (n(z), d(y), s(0));
-                quote!(-#number::mul_add(#z0, #dy, #s) * #i)
+                quote!(-#z0.mul_add(#dy, #s) * #i)
             }
             Operation::Sqrt(x) => {
                 let (dx, s) = (d(x), s(0));
@@ -765,7 +768,7 @@ impl Expansion<'_> {
             }
             Operation::Exp(x) => {
                 let (z0, dx, s) = (n(z), d(x), s(0));
-                quote!(#number::mul_add(#z0, #dx, #s * #share))
+                quote!(#z0.mul_add(#dx, #s * #share))
             }
             Operation::Ln(x) => {
                 let (dx, s) = (d(x), s(0));
@@ -775,8 +778,8 @@ impl Expansion<'_> {
                 let second = Value(z.0 + 1);
                 let (z0, u0, dx) = (n(z), n(second), d(x));
                 let (one, two) = (s(0), s(1));
-                let first = bind(z, quote!(#number::mul_add(#u0, #dx, #one * #share)));
-                let other = quote!(#number::mul_add(#z0, #dx, #two * #share));
+                let first = bind(z, quote!(#u0.mul_add(#dx, #one * #share)));
+                let other = quote!(#z0.mul_add(#dx, #two * #share));
                 let other = match step.operation {
                     Operation::SinCos(_) => bind(second, quote!(-#other)),
                     _ => bind(second, other),
@@ -784,9 +787,9 @@ impl Expansion<'_> {
                 return quote!(#first #other);
             }
             Operation::Tan(x) | Operation::Tanh(x) => {
-                let (z0, u0, dx, one, two) = (n(z), auxiliary(z), d(x), s(0), s(1));
-                let first = bind(z, quote!(#number::mul_add(#u0, #dx, #one * #share)));
-                let dz = coefficient_of(z);
+                let (z0, u0, dx, one, two) = (n(z), self.auxiliary(z), d(x), s(0), s(1));
+                let first = bind(z, quote!(#u0.mul_add(#dx, #one * #share)));
+                let dz = self.coefficient_of(z);
                 let half = twice(quote!(#z0 * #dz));
                 let change = match step.operation {
                     Operation::Tan(_) => quote!(#half + #two),
@@ -836,9 +839,8 @@ impl Expansion<'_> {
     }
 
     fn auxiliary_next(&self, value: Value, result: TokenStream) -> TokenStream {
-        let (name, p) = (auxiliary_coefficient(value), local("p"));
-        let row = self.plan.row(Row::Auxiliary(value));
-        let store = row.map(|row| self.store(row, quote!(#p), quote!(#name)));
+        let (name, p) = (self.of(value, "u_k"), local("p"));
+        let store = self.store(Row::Auxiliary(value), quote!(#p), quote!(#name));
         quote!(let #name = #result; #store)
     }
 }

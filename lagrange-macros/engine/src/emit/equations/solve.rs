@@ -7,7 +7,6 @@
 //! Where a test fails the core's own solver, which looks for the best pivots, takes over.
 
 use super::super::names::local;
-use super::number;
 use super::writer::Writer;
 use crate::plan::ValueRef;
 use crate::plan::mode::LinearSystem;
@@ -61,7 +60,7 @@ impl<'a> Elimination<'a> {
     pub fn new(writer: &Writer, system: &'a LinearSystem) -> Elimination<'a> {
         let size = system.matrix.len();
         let order = order(system);
-        let number = number();
+        let number = &writer.number;
         let mut m: Vec<Vec<Element>> = system
             .matrix
             .iter()
@@ -185,7 +184,7 @@ impl<'a> Elimination<'a> {
         right: Vec<Option<TokenStream>>,
         prefix: &str,
     ) -> (TokenStream, Vec<Ident>) {
-        let number = number();
+        let number = &writer.number;
         let mut code = TokenStream::new();
         let mut b = right;
         let name = |kind: &str, i: usize, step: usize| local(&format!("{prefix}{kind}{i}_{step}"));
@@ -243,7 +242,6 @@ impl<'a> Elimination<'a> {
 
     /// What rounding leaves of b − K w, row by row.
     pub fn residuals(&self, writer: &Writer, solution: &[Ident]) -> Vec<Option<TokenStream>> {
-        let number = number();
         let rows = self
             .system
             .matrix
@@ -258,7 +256,7 @@ impl<'a> Elimination<'a> {
             for (place, x) in row.iter().zip(solution) {
                 if *place != ValueRef::Zero {
                     let element = writer.place(*place);
-                    sum = quote!(#number::mul_add(-#element, #x, #sum));
+                    sum = quote!((-#element).mul_add(#x, #sum));
                 }
             }
             Some(sum)

@@ -1,7 +1,6 @@
 //! `value`: accelerations, and forces and what guards read if they are asked for, at one state.
 
 use super::super::names::{self, index, local};
-use super::number;
 use super::solve::Elimination;
 use super::writer::Writer;
 use crate::plan::mode::products::{Plan, force_row, zero_row};
@@ -29,13 +28,7 @@ pub fn function(
     plan: &Plan,
 ) -> TokenStream {
     let system = &program.equations.system;
-    let core = &system.core;
-    let writer = Writer {
-        system,
-        mode,
-        declared: names::crossing(&mode.tape),
-        sums: sums(mode),
-    };
+    let writer = Writer::new(system, mode, names::crossing(&mode.tape));
     let elimination = Elimination::new(&writer, &mode.system);
     let right = mode.system.right.iter().map(|place| match place {
         ValueRef::Zero => None,
@@ -44,7 +37,7 @@ pub fn function(
     let (solve, solution) = elimination.solve(&writer, right.collect(), "");
     let factors = &elimination.code;
     let unknowns = solution.iter().enumerate().map(|(i, x)| {
-        let name = names::value(mode.inputs.unknown(i));
+        let name = writer.value(mode.inputs.unknown(i));
         quote!(let #name = #x;)
     });
     let nothing = |_: &Block| TokenStream::new();
@@ -60,7 +53,7 @@ pub fn function(
         Some(quote!(#values[#row] = #value;))
     });
     let results = results(mode).into_iter().map(|(value, place)| {
-        let (name, result) = (names::value(value), writer.place(place));
+        let (name, result) = (writer.value(value), writer.place(place));
         quote!(let #name = #result;)
     });
     let kept = kept(mode, plan);
@@ -85,25 +78,23 @@ pub fn function(
     let whole = whole.map(|(place, row)| store(*row, *place));
     let (c, held) = (local("c"), local("held"));
     let (t, q, v) = (local("t"), local("q"), local("v"));
-    let number = number();
+    let number = &writer.number;
     let prologue = writer.prologue();
     let declarations = writer.declarations();
     let needs = names::needs(program.equations.needs.len());
     let (count, rows) = (index(mode.inputs.coordinates), index(plan.rows));
-    let bound = names::array(&rates, quote!(#rates.first_chunk_mut::<#count>()));
-    let bound_values = names::array(&values, quote!(#values.first_chunk_mut::<#rows>()));
     let safe = local("safe");
     quote! {
         #[doc = #heading]
-        fn #name<#number: #core::__private::Number>(
+        fn #name<#number: Number>(
             #c: &[#number],
-            #held: &#core::__private::program::Selection,
-            (#t, #q, #v): (#number, &[#number], &[#number]),
+            #held: &Selection,
+            (#t, #q, #v): Arguments<'_, #number>,
             #rates: &mut [#number],
             #values: ::core::option::Option<&mut [#number]>,
         ) -> bool {
             #prologue
-            #bound
+            let #rates = first_mut::<#count, _>(#rates);
             #needs
             #declarations
             #assembly
@@ -113,7 +104,7 @@ pub fn function(
             #accelerations
             #(#rates_of)*
             if let ::core::option::Option::Some(#values) = #values {
-                #bound_values
+                let #values = first_mut::<#rows, _>(#values);
                 #forces
                 #(#of_rows)*
                 #(#results)*
@@ -141,7 +132,7 @@ fn blocks(writer: &Writer, phase: Phase, then: impl Fn(&Block) -> TokenStream) -
         let writes = writer.writes(block);
         let end = then(block);
         let body = quote!(#(#steps)* #writes #end);
-        if block.needs.is_always() {
+        if block.needs.is_always() || body.is_empty() {
             return body;
         }
         let condition = names::condition(&block.needs);

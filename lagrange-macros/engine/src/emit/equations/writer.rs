@@ -1,88 +1,153 @@
 //! Order 0: every operation as a line of Rust on numbers.
 
-use super::super::names::{self, index, local};
-use super::number;
+use super::super::names::{self, Locals, index, local, plain};
 use crate::model::System;
 use crate::plan::mode::ModeProgram;
 use crate::plan::{Block, Coefficient, Mode, Operation, Step, Value, ValueRef};
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Writes values.
 pub struct Writer<'a> {
-    pub system: &'a System,
     pub mode: &'a ModeProgram,
+    pub locals: Locals,
+    /// The type parameter of the function.
+    pub number: Ident,
     /// Declared before all blocks, since code outside their own block reads them.
     pub declared: BTreeSet<Value>,
     /// Outputs that several writes enter.
     pub sums: BTreeSet<usize>,
 }
 
-/// A number that is fixed during a run.
-pub fn coefficient(coefficient: Coefficient) -> TokenStream {
-    let number = number();
-    match coefficient {
-        Coefficient::Number(value) => {
-            let value = names::float(value);
-            quote!(#number::of(#value))
-        }
-        Coefficient::Pi(multiple) => {
-            let value = names::f64(Coefficient::multiple_of_pi(multiple));
-            quote!(#number::of(#value))
-        }
-        Coefficient::Constant(at) => {
-            let (c, at) = (local("c"), index(at));
-            quote!(#c[#at])
-        }
-        Coefficient::Parameter(_) => unreachable!("a mode reads its own constants only"),
-    }
+/// The type parameter of emitted functions: not that of the struct.
+pub fn number(system: &System) -> Ident {
+    let taken = system.scalar.as_ref().is_some_and(|scalar| scalar == "N");
+    plain(if taken { "M" } else { "N" })
 }
 
-impl Writer<'_> {
+/// What the inputs of a mode are called: `q_theta`, `v_theta`, `a_theta` whether it is an unknown of the linear system or read after it
+/// has been solved, and forces by their rows.
+fn locals(system: &System, mode: &ModeProgram) -> Locals {
+    let of_coordinates = |kind: char| {
+        let coordinates = system.coordinates.iter();
+        coordinates.map(move |coordinate| format!("{kind}_{}", coordinate.name.text))
+    };
+    let writes = mode.tape.blocks.iter().flat_map(|block| &block.writes);
+    let written: BTreeMap<usize, Value> = writes.map(|write| (write.output, write.value)).collect();
+    let unknowns = (0..mode.inputs.unknowns).map(|i| {
+        let is_found = |place: &ValueRef| match place {
+            ValueRef::Node(output) => written.get(output) == Some(&mode.inputs.unknown(i)),
+            ValueRef::Zero | ValueRef::Constant(_) => false,
+        };
+        match mode.accelerations.iter().position(is_found) {
+            Some(j) => format!("a_{}", system.coordinates[j].name.text),
+            None => format!("x_{i}"),
+        }
+    });
+    let slips = system.frictions.iter().flat_map(|friction| {
+        let components = friction.slip.len();
+        (0..components).map(move |i| match components {
+            1 => format!("f_{}", friction.name.text),
+            _ => format!("f_{}_{}", friction.name.text, i + 1),
+        })
+    });
+    let constraints = system
+        .constraints
+        .iter()
+        .map(|item| format!("f_{}", item.name.text));
+    let contacts = system
+        .contacts
+        .iter()
+        .map(|item| format!("f_{}", item.name.text));
+    let time = core::iter::once("t_now".to_owned());
+    let state = time.chain(of_coordinates('q')).chain(of_coordinates('v'));
+    let results = of_coordinates('a')
+        .chain(constraints)
+        .chain(contacts)
+        .chain(slips);
+    Locals::new(state.chain(unknowns).chain(results)).naming_pairs(&mode.tape)
+}
+
+impl<'a> Writer<'a> {
+    /// Of the functions of a mode.
+    pub fn new(system: &System, mode: &'a ModeProgram, declared: BTreeSet<Value>) -> Writer<'a> {
+        Writer {
+            mode,
+            locals: locals(system, mode),
+            number: number(system),
+            declared,
+            sums: super::value::sums(mode),
+        }
+    }
+
+    /// The local that holds a value.
+    pub fn value(&self, value: Value) -> Ident {
+        self.locals.value(value)
+    }
+
+    /// A number that is fixed during a run.
+    pub fn coefficient(&self, coefficient: Coefficient) -> TokenStream {
+        let number = &self.number;
+        match coefficient {
+            Coefficient::Number(value) => {
+                let value = names::float(value);
+                quote!(#number::of(#value))
+            }
+            Coefficient::Pi(multiple) => {
+                let value = names::f64(Coefficient::multiple_of_pi(multiple));
+                quote!(#number::of(#value))
+            }
+            Coefficient::Constant(at) => {
+                let (c, at) = (local("c"), index(at));
+                quote!(#c[#at])
+            }
+            Coefficient::Parameter(_) => unreachable!("a mode reads its own constants only"),
+        }
+    }
+
     /// Binds arguments to names: inputs that are read, constants, needs.
     pub fn prologue(&self) -> TokenStream {
         let read = names::read(&self.mode.tape);
         let (t, c) = (local("t"), local("c"));
         let n = self.mode.inputs.coordinates;
-        let time = names::value(Value(0));
+        let time = self.value(Value(0));
         let names = |first: usize| {
             let inputs = (first..first + n).map(|input| {
-                let name = names::value(Value(input));
+                let name = self.value(Value(input));
                 if read.contains(&Value(input)) {
                     quote!(#name)
                 } else {
                     quote!(_)
                 }
             });
-            quote!(&[#(#inputs,)* ..])
+            quote!(&[#(#inputs),*])
         };
         let (q, v) = (local("q"), local("v"));
         let (positions, velocities) = (names(1), names(1 + n));
         let count = index(self.mode.constants.outputs);
-        let c = names::array(&c, quote!(#c.first_chunk::<#count>()));
+        let time = read.contains(&Value(0)).then(|| quote!(let #time = #t;));
         quote! {
-            let #time = #t;
-            let (#positions, #velocities) = (#q, #v) else {
-                ::core::panic!("the length of a state is not that of the description")
-            };
-            #c
+            #time
+            let #positions = first(#q);
+            let #velocities = first(#v);
+            let #c = first::<#count, _>(#c);
         }
     }
 
     /// Declares what leaves its block.
     pub fn declarations(&self) -> TokenStream {
-        let idle = names::value(Value(0));
-        let declared = self.declared.iter().map(|value| names::value(*value));
-        quote!(#(let mut #declared = #idle;)*)
+        let number = &self.number;
+        let declared = self.declared.iter().map(|value| self.value(*value));
+        quote!(#(let mut #declared = #number::of(0.0);)*)
     }
 
     /// An output of the tape, or a constant.
     pub fn place(&self, place: ValueRef) -> TokenStream {
-        let number = number();
+        let number = &self.number;
         match place {
             ValueRef::Zero => quote!(#number::of(0.0)),
-            ValueRef::Constant(at) => coefficient(Coefficient::Constant(at)),
+            ValueRef::Constant(at) => self.coefficient(Coefficient::Constant(at)),
             ValueRef::Node(output) => {
                 let name = self.output(output);
                 quote!(#name)
@@ -99,12 +164,12 @@ impl Writer<'_> {
         let mut set = writes
             .filter(|write| write.output == output)
             .map(|write| write.value);
-        names::value(set.next().unwrap_or(Value(0)))
+        self.value(set.next().unwrap_or(Value(0)))
     }
 
     /// `name = value;`, with `let` unless it is declared.
     pub fn bind(&self, value: Value, result: TokenStream) -> TokenStream {
-        let name = names::value(value);
+        let name = self.value(value);
         if self.declared.contains(&value) {
             quote!(#name = #result;)
         } else {
@@ -119,7 +184,7 @@ impl Writer<'_> {
             return self.bind(step.value, result);
         }
         let second = Value(step.value.0 + 1);
-        let (one, two) = (names::value(step.value), names::value(second));
+        let (one, two) = (self.value(step.value), self.value(second));
         match (
             self.declared.contains(&step.value),
             self.declared.contains(&second),
@@ -136,7 +201,7 @@ impl Writer<'_> {
             .iter()
             .filter(|write| self.sums.contains(&write.output));
         let lines = writes.map(|write| {
-            let (sum, value) = (names::sum(write.output), names::value(write.value));
+            let (sum, value) = (names::sum(write.output), self.value(write.value));
             match write.mode {
                 Mode::Set => quote!(let mut #sum = #value;),
                 Mode::Add => quote!(#sum = #sum + #value;),
@@ -147,11 +212,11 @@ impl Writer<'_> {
     }
 
     fn operation(&self, operation: Operation) -> TokenStream {
-        let n = names::value;
-        let number = number();
+        let n = |value| self.value(value);
+        let coefficient = |c| self.coefficient(c);
         let call = |name: &str, x: Value| {
-            let (name, x) = (names::plain(name), n(x));
-            quote!(#number::#name(#x))
+            let (name, x) = (plain(name), n(x));
+            quote!(#x.#name())
         };
         let infix = |x: TokenStream, sign: TokenStream, y: Value| {
             let y = n(y);
@@ -178,7 +243,7 @@ impl Writer<'_> {
             Operation::Sqrt(x) => call("sqrt", x),
             Operation::Powf(x, c) => {
                 let (x, c) = (n(x), names::float(c));
-                quote!(#number::powf(#x, #c))
+                quote!(#x.powf(#c))
             }
             Operation::Exp(x) => call("exp", x),
             Operation::Ln(x) => call("ln", x),
@@ -191,7 +256,7 @@ impl Writer<'_> {
             Operation::Atan(x) => call("atan", x),
             Operation::Atan2(y, x) => {
                 let (y, x) = (n(y), n(x));
-                quote!(#number::atan2(#y, #x))
+                quote!(#y.atan2(#x))
             }
             Operation::Select(branch, x, y) => {
                 let (held, branch, x, y) = (local("held"), index(branch), n(x), n(y));

@@ -130,10 +130,15 @@ impl Plan {
         self.rows_of.get(&row).copied()
     }
 
-    /// The numbers that do not change and are kept: (constant, row).
-    pub fn fixed(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
-        self.rows_of.iter().filter_map(|(row, &at)| match row {
-            Row::Fixed(constant) => Some((*constant, at)),
+    /// All series that are kept, and where.
+    pub fn kept(&self) -> impl Iterator<Item = (&Row, &usize)> {
+        self.rows_of.iter()
+    }
+
+    /// The numbers that do not change and are kept.
+    pub fn fixed(&self) -> impl Iterator<Item = usize> + '_ {
+        self.rows_of.keys().filter_map(|row| match row {
+            Row::Fixed(constant) => Some(*constant),
             _ => None,
         })
     }
