@@ -116,12 +116,14 @@ impl Force {
     }
 }
 
-/// The forces of a scene, in order of declaration: constraints, contacts, frictions.
+/// The forces of a scene, in order of declaration: constraints, contacts, frictions. What keeps the quaternion of an attitude at
+/// unit length is no force.
 pub fn forces(description: &Description) -> Vec<Force> {
     let constraints = description
         .constraints
         .iter()
         .enumerate()
+        .filter(|(_, constraint)| constraint.attitude.is_none())
         .map(|(i, constraint)| Force {
             name: constraint.name.to_owned(),
             row: constraint.row,
