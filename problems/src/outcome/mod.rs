@@ -215,7 +215,7 @@ impl Outcome {
             events: events.to_vec(),
             phases: trajectory.phases(),
             around: match request.samples {
-                0 => Vec::new(),
+                0 if trajectory.description().observes.is_empty() => Vec::new(),
                 _ => sampling::around(trajectory),
             },
             certificate: trajectory

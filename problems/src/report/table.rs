@@ -98,9 +98,10 @@ fn entries(outcome: &Outcome, items: &[Force]) -> Vec<Line> {
         mode: sample.mode.display(description).to_string(),
     };
     let happening = |(index, event): (usize, &Event<f64>)| {
+        let told = |mode: &Mode, other| mode.display_beside(other, description).to_string();
         let (before, after) = (
-            event.before.display(description).to_string(),
-            event.after.display(description).to_string(),
+            told(&event.before, &event.after),
+            told(&event.after, &event.before),
         );
         let changes = before != after;
         let impulse = event.kind == EventKind::Impact;
@@ -130,7 +131,7 @@ fn entries(outcome: &Outcome, items: &[Force]) -> Vec<Line> {
             mode: if changes {
                 format!("{before}\n→ {after}")
             } else {
-                before
+                event.before.display(description).to_string()
             },
         }
     };
