@@ -1,0 +1,9 @@
+// Two points that are one: an equation for each coordinate
+#[lagrange(
+    coordinates(x, y, theta),
+    define(tip = [length * sin(theta), -length * cos(theta)], bob = [x, y]),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2),
+    potential = mass * gravity * y,
+    constraint(joint: bob == tip),
+)]
+struct S { mass: f64, gravity: f64, length: f64 }
