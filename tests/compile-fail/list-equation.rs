@@ -7,3 +7,4 @@
     constraint(joint: bob == tip),
 )]
 struct S { mass: f64, gravity: f64, length: f64 }
+//~ 7:23 E302 a list of 2 where a single value is expected; write an equation for each element, `joint[k in 0..2]: bob[k] == tip[k]`

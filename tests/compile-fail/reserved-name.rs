@@ -5,3 +5,4 @@
     potential = mass * gravity * (y - along) + along * x^2,
 )]
 struct S { mass: f64, gravity: f64, along: f64 }
+//~ 7:37 E203 `along` is a word of the language; choose another name

@@ -1,9 +1,9 @@
 //! A declaration in a file is a scene to every command.
 
+use crate::program::{folder, lagrange_in, text};
 use expect_test::expect_file;
 use lagrange_core::prelude::*;
 use lagrange_problems::file::TEMPLATE;
-use crate::program::{folder, lagrange_in, text};
 use std::fs;
 use std::io::{BufRead, BufReader};
 use std::path::Path;

@@ -1,10 +1,10 @@
 //! `lagrange report` for slides: numbered frames, and a picture that moves by itself.
 
+use crate::markup::unclosed;
+use crate::program::{refuses, says};
 use lagrange_problems::catalogue::scenes;
 use lagrange_problems::report::frames::{Clock, Panel, animated, stills};
 use lagrange_problems::request::Request;
-use crate::markup::unclosed;
-use crate::program::{refuses, says};
 
 #[test]
 fn every_scene_moves_in_a_file_that_is_whole_and_small() {

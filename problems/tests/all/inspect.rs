@@ -1,9 +1,9 @@
 //! `lagrange inspect`: the program and the struct say the same, formats are what they are called, mistakes are one line.
 
+use crate::program::{refuses, says};
 use lagrange_core::prelude::*;
 use lagrange_problems::catalogue::scenes;
 use lagrange_problems::scenes::MassOnWheel;
-use crate::program::{refuses, says};
 use serde_json::Value;
 
 /// What the struct says of itself is what the program says of it.

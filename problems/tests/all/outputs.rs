@@ -1,8 +1,8 @@
 //! A run as a table: JSON lines and Parquet say the same as CSV, in order of time, with the same names.
 
+use crate::program::{folder, lagrange_in, says, text};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
-use crate::program::{folder, lagrange_in, says, text};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs::{self, File};

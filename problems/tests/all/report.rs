@@ -1,12 +1,12 @@
 //! `lagrange report`: pages are whole, hold the numbers of the run, need no network, and stay small.
 
+use crate::markup::unclosed;
+use crate::program::{refuses, says};
 use expect_test::expect_file;
 use lagrange_problems::catalogue::{Scene, find, scenes};
 use lagrange_problems::report::html::{self, Shown};
 use lagrange_problems::request::Request;
 use lagrange_problems::space::{Solid, Space};
-use crate::markup::unclosed;
-use crate::program::{refuses, says};
 use serde_json::Value;
 
 /// The page of a scene as the program writes it.

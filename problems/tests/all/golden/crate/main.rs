@@ -19,7 +19,10 @@ mod tests {
 
     #[test]
     fn without_friction_the_energy_stays() -> Result<(), Box<dyn std::error::Error>> {
-        let pendulum = Pendulum { damping: 0.0, ..Pendulum::default() };
+        let pendulum = Pendulum {
+            damping: 0.0,
+            ..Pendulum::default()
+        };
         let run = Simulation::new(&pendulum).run(pendulum.at(Pendulum::RELEASED), 0.0..10.0)?;
         let mut sampler = run.sampler();
         let (start, end) = (sampler.at(0.0)?.energy(), sampler.at(10.0)?.energy());
