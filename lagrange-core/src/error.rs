@@ -302,8 +302,9 @@ impl fmt::Display for Error {
                 tried,
             } => write!(
                 f,
-                "t = {time} ({mode}): none of {tried} modes continues the motion at `{item}` \
-                 (a paradox of rigid friction, Painlevé 1895); lower the friction coefficient or make the contact compliant"
+                "t = {time} ({mode}): none of {tried} modes continues the motion at `{item}`; \
+                 rigid friction may have no solution (Painlevé 1895): lower its coefficient or make the contact compliant; \
+                 a force that jumps with the sign of a velocity is declared as a friction; else ask for a smaller tolerance"
             ),
             Error::EndlessImpacts {
                 time,

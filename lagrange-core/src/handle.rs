@@ -62,7 +62,7 @@ impl Subject {
         match self {
             Subject::Contact(i) => description.contacts[i].name,
             Subject::Friction(i) => description.frictions[i].name,
-            Subject::Branch(i) => description.branches[i].text,
+            Subject::Branch(i) => description.branches[i].then,
             Subject::Stop(i) => description.stops[i].name,
             Subject::Mark(i) => description.marks[i].name,
         }

@@ -219,11 +219,51 @@ impl Mode {
         }
     }
 
+    /// What holds on the side of each branch that the motion depends on, `x >= 0`. A run does not watch a branch that outputs
+    /// alone contain, so that a mode does not know its side.
+    pub fn sides<'a>(
+        &'a self,
+        description: &'a Description,
+    ) -> impl Iterator<Item = &'static str> + 'a {
+        let reported = |need: &usize| {
+            description
+                .observes
+                .iter()
+                .any(|output| output.need == *need)
+        };
+        let branches = description.branches.iter().enumerate();
+        let moving = branches.filter(move |(_, branch)| !branch.users.iter().all(reported));
+        moving.map(|(i, _)| self.side(description, i))
+    }
+
+    /// What holds on the side of branch `index`, `x >= 0`.
+    pub(crate) fn side(&self, description: &Description, index: usize) -> &'static str {
+        let branch = &description.branches[index];
+        match self.branch(index) {
+            true => branch.then,
+            false => branch.otherwise,
+        }
+    }
+
     /// The mode in words: `rim closed, grip sticks`.
     pub fn display<'a>(&'a self, description: &'a Description) -> impl fmt::Display + 'a {
         Named {
             mode: self,
             description,
+            beside: None,
+        }
+    }
+
+    /// The mode in words beside another one: of the sides of branches, those alone on which they differ.
+    pub fn display_beside<'a>(
+        &'a self,
+        other: &'a Mode,
+        description: &'a Description,
+    ) -> impl fmt::Display + 'a {
+        Named {
+            mode: self,
+            description,
+            beside: Some(other),
         }
     }
 }
@@ -231,6 +271,7 @@ impl Mode {
 struct Named<'a> {
     mode: &'a Mode,
     description: &'a Description,
+    beside: Option<&'a Mode>,
 }
 
 impl fmt::Display for Named<'_> {
@@ -258,9 +299,13 @@ impl fmt::Display for Named<'_> {
             write!(f, "{separator}{} {verb}", friction.name)?;
             separator = ", ";
         }
-        for (i, branch) in self.description.branches.iter().enumerate() {
-            let side = if self.mode.branch(i) { '+' } else { '-' };
-            write!(f, "{separator}{}: {side}", branch.text)?;
+        let other = self.beside.into_iter();
+        let mut others = other.flat_map(|other| other.sides(self.description));
+        for side in self.mode.sides(self.description) {
+            if others.next() == Some(side) {
+                continue;
+            }
+            write!(f, "{separator}{side}")?;
             separator = ", ";
         }
         if separator.is_empty() {

@@ -7,4 +7,4 @@
     contact(rod: y >= 0),
 )]
 struct S { mass: f64, gravity: f64, length: f64 }
-//~ 7:13 E202 `rod` is already the name of a constraint; fields, coordinates, definitions and items share their names; choose another
+//~ 7:13 E202 `rod` is already the name of a constraint; parameters, coordinates, definitions and items share their names; choose another

@@ -6,4 +6,4 @@
     force(push: mass = 1),
 )]
 struct S { mass: f64, gravity: f64, length: f64 }
-//~ 6:17 E206 `mass` is a field, not a coordinate; coordinates are `x`, `y`
+//~ 6:17 E206 `mass` is a parameter, not a coordinate; coordinates are `x`, `y`

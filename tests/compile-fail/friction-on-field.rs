@@ -6,4 +6,4 @@
     friction(grip on mass: slip = der(x), static = 1),
 )]
 struct S { mass: f64, gravity: f64, length: f64 }
-//~ 6:22 E206 `mass` is a field, not a contact or constraint; declare a contact
+//~ 6:22 E206 `mass` is a parameter, not a contact or constraint; declare a contact

@@ -5,4 +5,4 @@
     draw(rod: list(mass in 0..3: (x, y))),
 )]
 struct S { mass: f64, inertia: f64, radius: f64 }
-//~ 5:20 E204 the index `mass` hides the field of that name; choose another letter
+//~ 5:20 E204 the index `mass` hides the parameter of that name; choose another letter

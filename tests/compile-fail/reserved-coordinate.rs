@@ -5,4 +5,3 @@
 )]
 struct S { mass: f64, gravity: f64, length: f64 }
 //~ 3:17 E203 `sin` is a word of the language; choose another name
-//~ 4:28 E206 `sin` is a function, not a value; write `sin(…)`

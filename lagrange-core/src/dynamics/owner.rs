@@ -27,7 +27,7 @@ impl Shape {
         let mut branches = branches.filter(|branch| among(&self.nodes, branch.guard));
         let mut of_motion = numbers(d).filter(|(_, place)| among(&self.nodes, *place));
         let motion = of_motion.next().map(|(name, _)| name);
-        let branch = branches.next().map(|branch| branch.text);
+        let branch = branches.next().map(|branch| branch.then);
         motion.or(branch).or(watches.map(|watch| watch.name))
     }
 }

@@ -120,6 +120,7 @@ fn random_system(seed: u64) -> (Description, Builder) {
         name: "constraint",
         row: 0,
         while_contact: None,
+        attitude: None,
     };
     let contact = |row| Contact {
         name: "contact",

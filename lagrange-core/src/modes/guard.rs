@@ -74,7 +74,7 @@ impl Guard {
             | Guard::StickCone(f)
             | Guard::Slip(f)
             | Guard::NormalForceSign(f) => Some(d.frictions[f].name),
-            Guard::Branch(b) => Some(d.branches[b].text),
+            Guard::Branch(b) => Some(d.branches[b].then),
             Guard::Stop(i, _) => Some(d.stops[i].name),
             Guard::Mark(i, _) => Some(d.marks[i].name),
             Guard::Composite(_) => None,

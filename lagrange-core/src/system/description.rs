@@ -223,6 +223,9 @@ pub struct Constraint {
     pub row: usize,
     /// The contact without which it does not hold.
     pub while_contact: Option<usize>,
+    /// The first of the four coordinates of a body's `attitude`, if it only keeps their quaternion at unit length: its multiplier
+    /// is then no force that anything could feel.
+    pub attitude: Option<usize>,
 }
 
 /// A one-sided contact: gap = `rows[row].position` ≥ 0.

@@ -76,8 +76,10 @@ pub struct Branch {
     pub after_solve: bool,
     /// Needs of which any one makes the branch matter.
     pub users: &'static [usize],
-    /// As the user wrote it.
-    pub text: &'static str,
+    /// What holds on the `then` side, in the words of the user: `x >= 0`.
+    pub then: &'static str,
+    /// What holds on the other side, `x < 0`.
+    pub otherwise: &'static str,
 }
 
 /// Energies; all in the report tape.

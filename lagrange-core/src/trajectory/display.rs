@@ -3,12 +3,16 @@
 use super::debug::rows;
 use super::{Event, EventKind, Instant, Trajectory};
 use crate::arithmetic::Scalar;
+use crate::handle::Subject;
 use core::fmt::{Display, Formatter, Result};
 
 /// The event as a sentence, `t = 2.461759150 s: grip starts to slip`.
 impl<T: Scalar> Display for Event<T> {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
-        let name = self.subject.name(self.owner.0);
+        let name = match self.subject {
+            Subject::Branch(i) => self.after.side(self.owner.0, i),
+            subject => subject.name(self.owner.0),
+        };
         let what = match self.kind {
             EventKind::Lost => "lets go",
             EventKind::Closed => "closes and holds",
@@ -17,7 +21,7 @@ impl<T: Scalar> Display for Event<T> {
             EventKind::Slips => "starts to slip",
             EventKind::Sticks => "sticks",
             EventKind::Reverses => "reverses its slip",
-            EventKind::Branches => "changes branch",
+            EventKind::Branches => "from now on",
             EventKind::Ambiguous => "could go on otherwise",
             EventKind::Stop => "ends the run",
             EventKind::Mark => "is reached",

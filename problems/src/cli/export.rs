@@ -42,11 +42,54 @@ impl Export {
 
 /// What to write in `main.rs`, where the struct stands in `path`.
 fn hint(path: &Path, file: &str, Exported { system, until, .. }: &Exported) -> String {
-    let stem = |path: &Path| path.file_stem().unwrap_or_default().display().to_string();
-    let (module, scene) = (stem(path), stem(Path::new(file)));
+    let scene = stem(Path::new(file));
+    let (line, module) = module(path);
     format!(
-        "{} is written; for a program with it, write in main.rs\n    mod {module};\n    \
+        "{} is written; for a program with it, write in main.rs\n    {line}\n    \
          .scene(Entry::<{module}::{system}>::new({scene:?}, {until:?}))",
         path.display()
     )
+}
+
+fn stem(path: &Path) -> String {
+    path.file_stem().unwrap_or_default().display().to_string()
+}
+
+/// The line that declares a file as a module, and the name of the module: that of the file where Rust takes it.
+fn module(path: &Path) -> (String, String) {
+    let stem = stem(path);
+    let is_name = |name: &String| syn::parse_str::<syn::Ident>(name).is_ok();
+    if is_name(&stem) {
+        return (format!("mod {stem};"), stem);
+    }
+    let plain = stem.replace(|c: char| !c.is_alphanumeric(), "_");
+    let name = [plain.clone(), format!("system_{plain}")]
+        .into_iter()
+        .find(is_name);
+    let name = name.unwrap_or_else(|| "system".to_owned());
+    let file = path.file_name().unwrap_or_default().display().to_string();
+    (format!("#[path = {file:?}] mod {name};"), name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_of_any_name_becomes_a_module() {
+        let declared = |path: &str| module(Path::new(path)).0;
+        assert_eq!(declared("src/arm.rs"), "mod arm;");
+        assert_eq!(
+            declared("src/my-arm.rs"),
+            "#[path = \"my-arm.rs\"] mod my_arm;"
+        );
+        assert_eq!(
+            declared("2link.rs"),
+            "#[path = \"2link.rs\"] mod system_2link;"
+        );
+        assert_eq!(
+            declared("move.rs"),
+            "#[path = \"move.rs\"] mod system_move;"
+        );
+    }
 }

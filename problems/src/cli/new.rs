@@ -35,6 +35,25 @@ fn main() -> ExitCode {
         .scene(Entry::<Pendulum>::new(\"pendulum\", 10.0))
         .main()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Pendulum;
+    use lagrange_core::prelude::*;
+
+    #[test]
+    fn without_friction_the_energy_stays() -> Result<(), Box<dyn std::error::Error>> {
+        let pendulum = Pendulum {
+            damping: 0.0,
+            ..Pendulum::default()
+        };
+        let run = Simulation::new(&pendulum).run(pendulum.at(Pendulum::RELEASED), 0.0..10.0)?;
+        let mut sampler = run.sampler();
+        let (start, end) = (sampler.at(0.0)?.energy(), sampler.at(10.0)?.energy());
+        assert!((end - start).abs() < 1e-6);
+        Ok(())
+    }
+}
 ";
 
 impl New {
@@ -57,7 +76,7 @@ impl New {
             return super::print(|out| {
                 writeln!(
                     out,
-                    "{shown} is written; in it: cargo run --release -- run pendulum"
+                    "{shown} is written; in it: cargo run --release -- run pendulum, and cargo test"
                 )
             });
         }

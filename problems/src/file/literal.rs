@@ -186,13 +186,13 @@ structs! {
     RowNeeds { jacobian bias position velocity }
     Coupling { coordinate row factor need }
     Effect { name need optional }
-    Constraint { name row while_contact }
+    Constraint { name row while_contact attitude }
     Contact { name row normal_factor restitution restitution_need restitution_parameters region }
     Friction {
         name row components normal static_coefficient kinetic_coefficient coefficients_need static_parameters kinetic_parameters
     }
     Load { name need value power report_need }
-    Branch { guard need after_solve users text }
+    Branch { guard need after_solve users then otherwise }
     Energy { kinetic potential jacobi time_power need }
     Momenta { places need }
     Observe { name place need unit }

@@ -220,7 +220,7 @@ fn what_only_a_file_has_is_checked() {
         ),
         (
             format!("parameters(a = 1, a = 2), {rest}"),
-            "1:19: `a` is already the name of a field",
+            "1:19: `a` is already the name of a parameter",
         ),
         (
             format!("parameters(a[9999999] = 1), {rest}"),

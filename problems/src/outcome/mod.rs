@@ -116,12 +116,14 @@ impl Force {
     }
 }
 
-/// The forces of a scene, in order of declaration: constraints, contacts, frictions.
+/// The forces of a scene, in order of declaration: constraints, contacts, frictions. What keeps the quaternion of an attitude at
+/// unit length is no force.
 pub fn forces(description: &Description) -> Vec<Force> {
     let constraints = description
         .constraints
         .iter()
         .enumerate()
+        .filter(|(_, constraint)| constraint.attitude.is_none())
         .map(|(i, constraint)| Force {
             name: constraint.name.to_owned(),
             row: constraint.row,
@@ -213,7 +215,7 @@ impl Outcome {
             events: events.to_vec(),
             phases: trajectory.phases(),
             around: match request.samples {
-                0 => Vec::new(),
+                0 if trajectory.description().observes.is_empty() => Vec::new(),
                 _ => sampling::around(trajectory),
             },
             certificate: trajectory

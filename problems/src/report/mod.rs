@@ -137,6 +137,23 @@ pub fn is_angle(coordinate: &Coordinate) -> bool {
     LETTERS.contains(&stem)
 }
 
+/// The coordinates that say something by themselves: all but the quaternions of bodies, unless there is nothing else.
+fn telling(description: &Description) -> Vec<usize> {
+    let attitudes = description.constraints.iter();
+    let quaternions: Vec<_> = attitudes
+        .filter_map(|c| Some(c.attitude?..c.attitude? + 4))
+        .collect();
+    let all = 0..description.coordinates.len();
+    let telling: Vec<usize> = all
+        .clone()
+        .filter(|i| !quaternions.iter().any(|four| four.contains(i)))
+        .collect();
+    match telling.is_empty() && description.observes.is_empty() {
+        true => all.collect(),
+        false => telling,
+    }
+}
+
 /// The unit of a velocity: `m/s`, `rad/s`; empty for a coordinate without a unit.
 pub(crate) fn rate_unit(unit: &str) -> String {
     match unit {

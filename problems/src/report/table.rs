@@ -3,19 +3,23 @@
 //! Each event has two lines: above, the forces and the mode just before; below, just after. An impact shows
 //! impulses instead. Numbers of a column have the same number of decimals, so that they can be compared by eye.
 
-use super::{is_angle, symbol};
-use crate::outcome::{Force, Outcome, forces};
+use super::{is_angle, symbol, telling};
+use crate::outcome::{Force, Outcome, Sample, forces};
 use comfy_table::{
     CellAlignment, ColumnConstraint, ContentArrangement, LineStyle, Table, TableStyle, Width,
 };
 use core::iter::repeat;
 use lagrange_core::mode::Mode;
 use lagrange_core::prelude::*;
+use lagrange_core::system::Description;
 use lagrange_core::trajectory::Entry;
 use std::io::{self, Write};
 
 /// Columns of the page.
 const WIDTH: u16 = 100;
+
+/// So many numbers, forces among them, stand in a line of the story beside its mode.
+const NUMBERS: usize = 6;
 
 /// Writes the story of `outcome`.
 pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
@@ -62,7 +66,8 @@ struct Line {
     /// How far off the time is, s.
     error: Option<f64>,
     event: String,
-    q: Vec<f64>,
+    /// Coordinates and outputs; `None` between two events of one instant, where outputs are not known.
+    state: Vec<Option<f64>>,
     /// Force or impulse per force, above and below; `None` where it does not act.
     upper: Vec<Option<f64>>,
     lower: Vec<Option<f64>>,
@@ -78,20 +83,25 @@ fn entries(outcome: &Outcome, items: &[Force]) -> Vec<Line> {
             .map(|item| item.acts(description, mode).then(|| rows[item.row]))
             .collect()
     };
-    let instant = |sample: &crate::outcome::Sample, event: &str| Line {
+    let known = |q: &[f64], sample: Option<&Sample>| -> Vec<Option<f64>> {
+        let outputs = (0..description.observes.len()).map(|i| Some(sample?.observes[i]));
+        q.iter().copied().map(Some).chain(outputs).collect()
+    };
+    let instant = |sample: &Sample, event: &str| Line {
         time: sample.time,
         error: None,
         event: event.to_owned(),
-        q: sample.state.q.clone(),
+        state: known(&sample.state.q, Some(sample)),
         upper: acting(&sample.forces, &sample.mode),
         lower: Vec::new(),
         impulse: false,
         mode: sample.mode.display(description).to_string(),
     };
-    let happening = |event: &Event<f64>| {
+    let happening = |(index, event): (usize, &Event<f64>)| {
+        let told = |mode: &Mode, other| mode.display_beside(other, description).to_string();
         let (before, after) = (
-            event.before.display(description).to_string(),
-            event.after.display(description).to_string(),
+            told(&event.before, &event.after),
+            told(&event.after, &event.before),
         );
         let changes = before != after;
         let impulse = event.kind == EventKind::Impact;
@@ -99,7 +109,13 @@ fn entries(outcome: &Outcome, items: &[Force]) -> Vec<Line> {
             time: event.time,
             error: None,
             event: format!("{} {}", event.subject.name(description), event.kind),
-            q: event.state.q.clone(),
+            state: known(
+                &event.state.q,
+                outcome
+                    .around
+                    .get(index)
+                    .and_then(|[before, _]| before.as_ref()),
+            ),
             upper: match impulse {
                 true => items
                     .iter()
@@ -115,7 +131,7 @@ fn entries(outcome: &Outcome, items: &[Force]) -> Vec<Line> {
             mode: if changes {
                 format!("{before}\n→ {after}")
             } else {
-                before
+                event.before.display(description).to_string()
             },
         }
     };
@@ -133,6 +149,7 @@ fn entries(outcome: &Outcome, items: &[Force]) -> Vec<Line> {
         outcome
             .events
             .iter()
+            .enumerate()
             .zip(errors)
             .map(|(event, error)| Line {
                 error,
@@ -154,25 +171,67 @@ fn entries(outcome: &Outcome, items: &[Force]) -> Vec<Line> {
     lines
 }
 
+/// A coordinate or an output in the story.
+struct Column {
+    head: String,
+    /// Place in [`Line::state`].
+    place: usize,
+    scale: f64,
+}
+
+impl Column {
+    fn of(&self, line: &Line) -> Option<f64> {
+        Some(line.state[self.place]? * self.scale)
+    }
+}
+
+/// Angles, or all coordinates if none is an angle; then outputs, and then the other coordinates, where there is room beside the forces.
+fn shown(description: &Description, forces: usize) -> Vec<Column> {
+    let coordinates = description.coordinates;
+    let telling = telling(description);
+    let (angles, others): (Vec<usize>, Vec<usize>) =
+        telling.iter().partition(|&&i| is_angle(&coordinates[i]));
+    let first = if angles.is_empty() { &others } else { &angles };
+    let mut places = first.clone();
+    let outputs = (0..description.observes.len()).map(|i| coordinates.len() + i);
+    for more in [outputs.collect(), others] {
+        let new: Vec<usize> = more
+            .into_iter()
+            .filter(|place| !places.contains(place))
+            .collect();
+        if forces + places.len() + new.len() <= NUMBERS {
+            places.extend(new);
+        }
+    }
+    places.sort_unstable();
+    let column = |place: usize| match coordinates.get(place) {
+        Some(coordinate) if is_angle(coordinate) => Column {
+            head: format!("{}\n°", symbol(coordinate.name)),
+            place,
+            scale: 180.0 / core::f64::consts::PI,
+        },
+        Some(coordinate) => Column {
+            head: format!("{}\n{}", symbol(coordinate.name), coordinate.unit),
+            place,
+            scale: 1.0,
+        },
+        None => {
+            let output = &description.observes[place - coordinates.len()];
+            Column {
+                head: format!("{}\n{}", symbol(output.name), output.unit),
+                place,
+                scale: 1.0,
+            }
+        }
+    };
+    places.into_iter().map(column).collect()
+}
+
 fn story(outcome: &Outcome) -> Table {
     let items = forces(outcome.description);
     let lines = entries(outcome, &items);
-    let (coordinates, units) = (outcome.description.coordinates, &outcome.description.units);
-    let angles: Vec<usize> = (0..coordinates.len())
-        .filter(|&i| is_angle(&coordinates[i]))
-        .collect();
-    let shown = if angles.is_empty() {
-        (0..coordinates.len()).collect()
-    } else {
-        angles.clone()
-    };
-    let scale = |i: usize| {
-        if angles.contains(&i) {
-            180.0 / core::f64::consts::PI
-        } else {
-            1.0
-        }
-    };
+    let units = &outcome.description.units;
+    let shown = shown(outcome.description, items.len());
 
     let mut table = page();
     let estimated = lines.iter().any(|line| line.error.is_some());
@@ -182,14 +241,7 @@ fn story(outcome: &Outcome) -> Table {
     }
     let texts = header.len();
     header.push("event".to_owned());
-    header.extend(shown.iter().map(|&i| {
-        let unit = if angles.contains(&i) {
-            "°"
-        } else {
-            coordinates[i].unit
-        };
-        format!("{}\n{unit}", symbol(coordinates[i].name))
-    }));
+    header.extend(shown.iter().map(|column| column.head.clone()));
     header.extend(
         items
             .iter()
@@ -200,7 +252,7 @@ fn story(outcome: &Outcome) -> Table {
 
     let of_coordinates: Vec<Decimals> = shown
         .iter()
-        .map(|&i| Decimals::of(lines.iter().map(|line| line.q[i] * scale(i))))
+        .map(|column| Decimals::of(lines.iter().filter_map(|line| column.of(line))))
         .collect();
     let of_forces: Vec<Decimals> = (0..items.len())
         .map(|k| {
@@ -225,10 +277,9 @@ fn story(outcome: &Outcome) -> Table {
         }
         row.push(line.event.clone());
         row.extend(
-            shown
-                .iter()
-                .zip(&of_coordinates)
-                .map(|(&i, decimals)| decimals.show(line.q[i] * scale(i))),
+            shown.iter().zip(&of_coordinates).map(|(column, decimals)| {
+                column.of(line).map_or(String::new(), |x| decimals.show(x))
+            }),
         );
         row.extend((0..items.len()).map(|k| {
             let show = |values: &[Option<f64>]| match values.get(k).copied().flatten() {
@@ -287,12 +338,16 @@ fn energy(ledger: &Ledger, unit: &str) -> Table {
             end.kinetic + end.potential,
         ),
     ];
-    // Whoever did nothing that counts is left out; friction is worth a line even then.
-    let counts =
-        |entry: &&Entry| entry.kind == "friction" || entry.work.abs() > 1e-12 * ledger.scale;
-    let shown: Vec<&Entry> = ledger.work.iter().filter(counts).collect();
-    let works = shown.iter().map(|entry| entry.work);
+    let works = ledger.work.iter().map(|entry| entry.work);
     let decimals = Decimals::of(lines.iter().flat_map(|(_, a, b)| [*a, *b]).chain(works));
+    // Whoever did nothing that the digits show is left out; friction is worth a line even then.
+    let counts = |entry: &&Entry| {
+        entry.kind == "friction"
+            || decimals
+                .show(entry.work)
+                .contains(|digit| matches!(digit, '1'..='9'))
+    };
+    let shown: Vec<&Entry> = ledger.work.iter().filter(counts).collect();
     let mut table = page();
     let heading = match unit {
         "" => "energy".to_owned(),

@@ -28,11 +28,7 @@ pub(crate) fn brief(mode: &Mode, description: &Description) -> String {
     });
     let mut told = together(&contacts.collect::<Vec<_>>(), "contacts");
     told.extend(together(&frictions.collect::<Vec<_>>(), "frictions"));
-    let branches = description.branches.iter().enumerate();
-    told.extend(branches.map(|(i, branch)| {
-        let side = if mode.branch(i) { '+' } else { '-' };
-        format!("{}: {side}", branch.text)
-    }));
+    told.extend(mode.sides(description).map(str::to_owned));
     match told.is_empty() {
         true => "smooth".to_owned(),
         false => told.join(", "),

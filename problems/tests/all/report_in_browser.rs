@@ -272,6 +272,31 @@ fn a_scene_in_space_is_turned_moved_and_zoomed() {
 }
 
 #[test]
+fn a_scene_that_goes_far_in_a_plane_is_followed() {
+    let Some(mut browser) = Browser::start() else {
+        return;
+    };
+    let page = Written::report("far.html", &["backspin-ball"]);
+    browser.open(&page.0, AT_A_DESK);
+    let window = "document.querySelector('.stage > svg').getAttribute('viewBox')";
+    let part = |browser: &mut Browser, k: usize| {
+        let number = browser.evaluate(&format!("Number({window}.split(' ')[{k}])"));
+        number.as_f64().expect("a number")
+    };
+    let follow = "document.querySelector('.views button').click()";
+    let whole = browser.evaluate(window);
+    browser.evaluate(follow);
+    assert!(part(&mut browser, 2) < 600.0, "it is enlarged");
+    let left = part(&mut browser, 0);
+    browser.press("End");
+    let moved = (part(&mut browser, 0) - left).abs();
+    assert!(moved > 100.0, "{moved}");
+    browser.evaluate(follow);
+    assert_eq!(browser.evaluate(window), whole);
+    assert_eq!(browser.complaints, Vec::<String>::new());
+}
+
+#[test]
 fn runs_are_compared_on_one_clock() {
     let Some(mut browser) = Browser::start() else {
         return;

@@ -43,6 +43,8 @@ const PAGE: &[(&str, &[&str])] = &[
             "handle-clash",
             "index-outside",
             "list-as-potential",
+            "list-equation",
+            "reserved-name",
             "no-value",
             "generics-lifetime",
         ],

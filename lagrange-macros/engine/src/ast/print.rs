@@ -32,6 +32,16 @@ fn within(expr: &Expr, least: Strength, f: &mut Formatter<'_>) -> fmt::Result {
     }
 }
 
+impl Expr {
+    /// As an index may follow it, in parentheses if it is no atom: `(a + b)`.
+    pub fn as_base(&self) -> String {
+        match strength(self) {
+            Strength::Atom => self.to_string(),
+            _ => format!("({self})"),
+        }
+    }
+}
+
 fn list(elements: &[Expr], f: &mut Formatter<'_>) -> fmt::Result {
     for (i, element) in elements.iter().enumerate() {
         write!(f, "{}{element}", if i == 0 { "" } else { ", " })?;

@@ -72,7 +72,7 @@ table! {
     NoDeclaration "E105" "nothing is declared" "add `#[lagrange(coordinates(…), kinetic = …, potential = …)]` to the struct";
 
     UnknownName "E201" "`{0}` is not known" "{1}";
-    DuplicateName "E202" "`{0}` is already the name of a {1}" "fields, coordinates, definitions and items share their names; choose another";
+    DuplicateName "E202" "`{0}` is already the name of a {1}" "parameters, coordinates, definitions and items share their names; choose another";
     ReservedName "E203" "`{0}` is a word of the language" "choose another name";
     IndexShadows "E204" "the index `{0}` hides the {1} of that name" "choose another letter";
     Circular "E205" "`{0}` is defined through itself" "break the circle: {1}";
@@ -82,7 +82,7 @@ table! {
     HandleClash "E208" "`{0}` and `{1}` become one constant, `{2}`" "names of coordinates and items become constants in capitals: choose another";
 
     ArgumentCount "E301" "`{0}` takes {1}, not {2}" "";
-    ListForScalar "E302" "a list of {0} where a single value is expected" "take one element `e[i]`, or `dot`, `norm`, `sum`";
+    ListForScalar "E302" "a list of {0} where a single value is expected" "{1}";
     ScalarForList "E303" "a single value where a list is expected" "{0}";
     Lengths "E304" "lists of {0} and {1} elements do not fit" "both sides need as many elements";
     IndexRange "E305" "the index {0} is outside {1}..{2}" "indices start at the lower bound, and the upper bound is left out";

@@ -68,8 +68,8 @@ impl Work<'_> {
         }
         for branch in self.system().branches.iter().take(MOST_BRANCHES) {
             notes.push(format!(
-                "Piecewise: {} has two sides; each side is smooth, and changing sides is an event.",
-                branch.text
+                "Piecewise: the sides {} and {} are smooth each, and to change from one to the other is an event.",
+                branch.then, branch.otherwise
             ));
         }
         notes

@@ -78,6 +78,7 @@ impl Elaboration<'_> {
                 level: Level::Position,
                 residual,
                 while_contact: None,
+                attitude: Some(first),
                 force,
             });
             Some(this.system.constraints.len() - 1)

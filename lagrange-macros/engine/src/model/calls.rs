@@ -67,18 +67,14 @@ impl Elaboration<'_> {
                 }
                 Some(Value::Scalar(match text {
                     "sqrt" => self.system.pool.sqrt(u),
-                    "abs" => self.absolute(u, &expr.to_string(), expr.extent),
-                    _ => self.sign(u, &expr.to_string(), expr.extent),
+                    "abs" => self.absolute(u, &arguments[0]),
+                    _ => self.sign(u, &arguments[0]),
                 }))
             }
             "min" | "max" => {
                 self.arity(name, arguments, 2..=usize::MAX, "2 or more arguments")?;
                 let values = self.scalars(arguments, context)?;
-                let printed = expr.to_string();
-                let extreme = values[1..].iter().fold(values[0], |a, &b| match text {
-                    "min" => self.minimum(a, b, &printed, expr.extent),
-                    _ => self.maximum(a, b, &printed, expr.extent),
-                });
+                let extreme = self.extreme(text, arguments, &values, expr.extent);
                 Some(Value::Scalar(extreme))
             }
             "dot" | "cross" | "norm" => self.of_lists(name, arguments, context),

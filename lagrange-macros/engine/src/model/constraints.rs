@@ -3,9 +3,11 @@
 use super::elaborate::Elaboration;
 use super::names::Kind;
 use super::reach::{Context, Depth, Reach};
+use super::value::Value;
 use super::{Constraint, Level};
 use crate::ast;
 use crate::diagnostics::{Code, Extent};
+use crate::symbolic::ExprId;
 
 const CONSTRAINT: Context = Context::new(Reach::Motion, "a constraint");
 
@@ -15,8 +17,7 @@ impl Elaboration<'_> {
         self.each(&declared.head, |this, name| {
             let contact = declared.while_contact.as_ref().map(|(_, contact)| contact);
             let while_contact = contact.map(|contact| this.item(contact, &[Kind::Contact]));
-            let (left, right) = (this.scalar(&declared.left, CONSTRAINT), this.scalar(&declared.right, CONSTRAINT));
-            let residual = this.system.pool.sub(left?, right?);
+            let residual = this.equation(declared)?;
             let level = match this.depth(&[residual]) {
                 Depth::Parameter => {
                     let hint = "write an equation between coordinates or velocities";
@@ -47,20 +48,39 @@ impl Elaboration<'_> {
                 level,
                 residual,
                 while_contact,
+                attitude: None,
                 force,
             });
             Some(this.system.constraints.len() - 1)
         });
     }
 
+    /// left − right; an equation between lists is one for each of their elements.
+    fn equation(&mut self, declared: &ast::Constraint) -> Option<ExprId> {
+        let (left, right) = (&declared.left, &declared.right);
+        let values = (self.value(left, CONSTRAINT), self.value(right, CONSTRAINT));
+        let (a, b) = (values.0?, values.1?);
+        if let (Value::List(a), Value::List(b), None) = (&a, &b, &declared.head.index)
+            && a.len() == b.len()
+        {
+            let hint = format!(
+                "write an equation for each element, `{name}[k in 0..{count}]: {left}[k] == {right}[k]`",
+                name = declared.head.name.text,
+                count = a.len(),
+                left = left.as_base(),
+                right = right.as_base(),
+            );
+            let at = Extent::new(left.extent, right.extent);
+            self.sink
+                .report(Code::ListForScalar, at, &[&a.len(), &hint]);
+            return None;
+        }
+        let (a, b) = (self.single(a, left.extent), self.single(b, right.extent));
+        Some(self.system.pool.sub(a?, b?))
+    }
+
     /// Reports an expression that is not linear in the velocities.
-    pub fn linear(
-        &mut self,
-        e: crate::symbolic::ExprId,
-        what: &str,
-        hint: &str,
-        at: Extent,
-    ) -> Option<()> {
+    pub fn linear(&mut self, e: ExprId, what: &str, hint: &str, at: Extent) -> Option<()> {
         let velocities = self.velocities();
         let Some(velocity) = self.nonlinear_in(e, &velocities) else {
             return Some(());

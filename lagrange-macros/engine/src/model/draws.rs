@@ -456,7 +456,23 @@ impl Elaboration<'_> {
         let rows = draw.parts.iter().map(|(row, _)| rows[*row]);
         let mut names: Vec<&str> = rows.chain(loads).map(|name| name.text.as_str()).collect();
         names.dedup();
-        names.join(" + ")
+        // Several elements of one item are together called as the item.
+        let stem = |name: &str| name.split('[').next().unwrap_or_default().to_string();
+        let mut called: Vec<String> = names
+            .iter()
+            .map(|name| {
+                match names
+                    .iter()
+                    .filter(|other| stem(other) == stem(name))
+                    .count()
+                {
+                    1 => name.to_string(),
+                    _ => stem(name),
+                }
+            })
+            .collect();
+        called.dedup();
+        called.join(" + ")
     }
 }
 

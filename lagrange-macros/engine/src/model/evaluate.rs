@@ -21,8 +21,9 @@ impl Elaboration<'_> {
         match value {
             Value::Scalar(e) => Some(e),
             Value::List(elements) => {
+                let hint = "take one element `e[i]`, or `dot`, `norm`, `sum`";
                 self.sink
-                    .report(Code::ListForScalar, at, &[&elements.len()]);
+                    .report(Code::ListForScalar, at, &[&elements.len(), &hint]);
                 None
             }
         }

@@ -129,8 +129,7 @@ impl Elaboration<'_> {
         if pool.extract_root(e, square, mark) == e {
             return e;
         }
-        let text = format!("abs({declared})");
-        let speed = self.absolute(s, &text, declared.extent);
+        let speed = self.absolute(s, declared);
         self.system.pool.extract_root(e, square, speed)
     }
 

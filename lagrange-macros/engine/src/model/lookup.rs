@@ -7,6 +7,7 @@ use super::reach::{Context, Reach};
 use super::value::Value;
 use crate::ast::{Expr, ExprKind, Name, Reference};
 use crate::diagnostics::Code;
+use crate::parse::FUNCTIONS;
 
 impl Elaboration<'_> {
     /// `pi`, `t`, an index, `energy`, or a name of the namespace.
@@ -25,13 +26,16 @@ impl Elaboration<'_> {
         if let Some(&(_, index)) = self.indices.iter().rev().find(|(known, _)| known == text) {
             return Some(Value::Scalar(self.system.pool.integer(index)));
         }
-        if super::names::is_reserved(text) {
+        if super::names::is_reserved(text) && !self.names.contains_key(text) {
             let hint = format!("write `{text}(…)`");
-            self.sink.report(
-                Code::WrongKind,
-                name,
-                &[&text, &"function", &"value", &hint],
-            );
+            match FUNCTIONS.contains(&text) {
+                true => self.sink.report(
+                    Code::WrongKind,
+                    name,
+                    &[&text, &"function", &"value", &hint],
+                ),
+                false => self.sink.report(Code::ReservedName, name, &[&text]),
+            }
             return None;
         }
         self.meaning(name, context).map(|(value, _)| value)

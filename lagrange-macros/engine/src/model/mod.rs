@@ -297,6 +297,8 @@ pub struct Constraint {
     pub residual: ExprId,
     /// Index of the contact without which it does not hold (velocity level then).
     pub while_contact: Option<usize>,
+    /// The first of four coordinates, if it keeps the quaternion of an attitude at unit length.
+    pub attitude: Option<usize>,
     /// Symbol of its multiplier in outputs and forces.
     pub force: Symbol,
 }
@@ -389,8 +391,10 @@ pub struct Dissipation {
 pub struct Branch {
     /// ≥ 0 selects `then`.
     pub guard: ExprId,
-    /// As the user wrote it, `abs(x - y)`.
-    pub text: String,
+    /// What holds on the `then` side, in the words of the user: `x - y >= 0`.
+    pub then: String,
+    /// What holds on the other side, `x - y < 0`.
+    pub otherwise: String,
     /// Where.
     pub span: Span,
 }

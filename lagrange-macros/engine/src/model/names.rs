@@ -59,7 +59,7 @@ impl Kind {
     /// For messages.
     pub fn text(self) -> &'static str {
         match self {
-            Kind::Field => "field",
+            Kind::Field => "parameter",
             Kind::Coordinate => "coordinate",
             Kind::Definition => "definition",
             Kind::Output => "quantity of `observe`",
@@ -126,11 +126,13 @@ pub(super) struct Entry {
 pub(super) type Names = BTreeMap<String, Entry>;
 
 impl Elaboration<'_> {
-    /// Enters a name; a reserved word or second use of a name is reported.
+    /// Enters a name; a reserved word or second use of a name is reported. Where the word is then used as a name, nothing more is said.
     pub fn enter(&mut self, name: &Name, kind: Kind, meaning: Meaning) -> Option<()> {
         let text = name.text.as_str();
         if is_reserved(text) {
             self.sink.report(Code::ReservedName, name, &[&text]);
+            let meaning = Meaning::Poisoned;
+            self.names.insert(text.to_string(), Entry { kind, meaning });
             return None;
         }
         if let Some(first) = self.names.get(text) {

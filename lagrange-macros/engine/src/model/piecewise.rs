@@ -4,9 +4,23 @@ use super::Branch;
 use super::elaborate::Elaboration;
 use super::reach::Context;
 use super::value::Value;
-use crate::ast::{Comparison, Expr};
+use crate::ast::{Comparison, Expr, Relation};
 use crate::diagnostics::{Code, Extent};
 use crate::symbolic::ExprId;
+use core::fmt::Display;
+
+/// What holds on the `then` side and on the other one, `x >= 0` and `x < 0`.
+pub(super) struct Sides([String; 2]);
+
+impl Sides {
+    /// `left >= right` or `left <= right` holds on the `then` side.
+    pub fn of(left: &dyn Display, relation: Relation, right: &dyn Display) -> Self {
+        Self(match relation {
+            Relation::AtLeast => [format!("{left} >= {right}"), format!("{left} < {right}")],
+            Relation::AtMost => [format!("{left} <= {right}"), format!("{left} > {right}")],
+        })
+    }
+}
 
 impl Elaboration<'_> {
     /// `then` while guard ≥ 0; equal guards share a branch, and a guard that is a number decides at once.
@@ -15,54 +29,80 @@ impl Elaboration<'_> {
         guard: ExprId,
         then: ExprId,
         otherwise: ExprId,
-        text: &str,
+        sides: Sides,
         at: Extent,
     ) -> ExprId {
         match self.system.pool.as_number(guard) {
             Some(number) if number.is_negative() => otherwise,
             Some(_) => then,
             None => {
-                let branch = self.branch(guard, text, at);
+                let branch = self.branch(guard, sides, at);
                 self.system.pool.select(branch, then, otherwise)
             }
         }
     }
 
-    fn branch(&mut self, guard: ExprId, text: &str, at: Extent) -> usize {
+    fn branch(&mut self, guard: ExprId, Sides([then, otherwise]): Sides, at: Extent) -> usize {
         let branches = &mut self.system.branches;
         if let Some(same) = branches.iter().position(|branch| branch.guard == guard) {
             return same;
         }
         branches.push(Branch {
             guard,
-            text: text.to_string(),
+            then,
+            otherwise,
             span: at.start,
         });
         branches.len() - 1
     }
 
     /// abs(u): u, −u by u.
-    pub fn absolute(&mut self, u: ExprId, text: &str, at: Extent) -> ExprId {
+    pub fn absolute(&mut self, u: ExprId, declared: &Expr) -> ExprId {
         let minus = self.system.pool.neg(u);
-        self.select(u, u, minus, text, at)
+        self.select(
+            u,
+            u,
+            minus,
+            Sides::of(declared, Relation::AtLeast, &0),
+            declared.extent,
+        )
     }
 
     /// sign(u): 1, −1 by u.
-    pub fn sign(&mut self, u: ExprId, text: &str, at: Extent) -> ExprId {
+    pub fn sign(&mut self, u: ExprId, declared: &Expr) -> ExprId {
         let (plus, minus) = (self.system.pool.integer(1), self.system.pool.integer(-1));
-        self.select(u, plus, minus, text, at)
+        self.select(
+            u,
+            plus,
+            minus,
+            Sides::of(declared, Relation::AtLeast, &0),
+            declared.extent,
+        )
     }
 
-    /// max(a, b): a, b by a − b.
-    pub fn maximum(&mut self, a: ExprId, b: ExprId, text: &str, at: Extent) -> ExprId {
-        let guard = self.system.pool.sub(a, b);
-        self.select(guard, a, b, text, at)
-    }
-
-    /// min(a, b): a, b by b − a.
-    pub fn minimum(&mut self, a: ExprId, b: ExprId, text: &str, at: Extent) -> ExprId {
-        let guard = self.system.pool.sub(b, a);
-        self.select(guard, a, b, text, at)
+    /// max(a, b, …): a, b by a − b; min(a, b, …): a, b by b − a.
+    pub fn extreme(
+        &mut self,
+        name: &str,
+        declared: &[Expr],
+        values: &[ExprId],
+        at: Extent,
+    ) -> ExprId {
+        let mut extreme = values[0];
+        for (k, &value) in values.iter().enumerate().skip(1) {
+            let (guard, relation) = match name {
+                "min" => (self.system.pool.sub(value, extreme), Relation::AtMost),
+                _ => (self.system.pool.sub(extreme, value), Relation::AtLeast),
+            };
+            let before: Vec<String> = declared[..k].iter().map(Expr::to_string).collect();
+            let before = match before.as_slice() {
+                [only] => only.clone(),
+                several => format!("{name}({})", several.join(", ")),
+            };
+            let sides = Sides::of(&before, relation, &declared[k]);
+            extreme = self.select(guard, extreme, value, sides, at);
+        }
+        extreme
     }
 
     /// if(a >= b, then, otherwise); where the condition is known, the other side is not looked at.
@@ -87,9 +127,14 @@ impl Elaboration<'_> {
         }
         let (first, second) = (self.value(then, context), self.value(otherwise, context));
         let (first, second) = (first?, second?);
-        let text = expr.to_string();
+        let Comparison {
+            left,
+            relation,
+            right,
+        } = condition;
         let selected = first.zip(&second, &mut |a, b| {
-            self.select(guard, a, b, &text, expr.extent)
+            let sides = Sides::of(left, *relation, right);
+            self.select(guard, a, b, sides, expr.extent)
         });
         if selected.is_none() {
             let count = |value: &Value| value.length().unwrap_or(1);

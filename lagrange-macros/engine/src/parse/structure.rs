@@ -146,7 +146,7 @@ fn field_attribute(part: &mut Cursor, field: &mut Field, sink: &mut Diagnostics)
     let keys = ["tex", "unit", "symbol", "domain"];
     let key = item::key(part, "a field", &keys, sink)?;
     let extent = part.here();
-    let text = item::text(part, sink)?;
+    let text = item::text(part, "a text in quotation marks", sink)?;
     let given = match key.text.as_str() {
         "tex" => !field.tex.is_empty(),
         "unit" => field.unit.is_some(),

@@ -83,7 +83,7 @@ pub(super) fn plots(film: &Film) -> Vec<Plot> {
     plots
 }
 
-/// Each friction beside what it can hold.
+/// Each friction that acts at some time beside what it can hold.
 fn frictions(outcome: &Outcome) -> Vec<Plot> {
     let description = outcome.description;
     let plot = |(i, friction): (usize, &Friction)| {
@@ -103,7 +103,13 @@ fn frictions(outcome: &Outcome) -> Vec<Plot> {
         }
     };
     let list = description.frictions.iter().enumerate();
-    let present = list.filter(|(i, _)| outcome.includes(Source::Friction(*i)));
+    let acts = |i: usize| {
+        outcome
+            .samples
+            .iter()
+            .any(|sample| sample.limits[i].is_some())
+    };
+    let present = list.filter(|(i, _)| outcome.includes(Source::Friction(*i)) && acts(*i));
     present.map(plot).collect()
 }
 

@@ -29,8 +29,9 @@ pub struct Shown {
 
 const PAGE: &str = include_str!("page.html");
 const STYLE: &str = include_str!("style.css");
-const SCRIPTS: [&str; 12] = [
+const SCRIPTS: [&str; 13] = [
     include_str!("elements.js"),
+    include_str!("follow.js"),
     include_str!("picture.js"),
     include_str!("plots.js"),
     include_str!("equations.js"),

@@ -30,6 +30,18 @@ function picture(stage, run) {
     return (n) => forms[mark.form](shape, n);
   });
 
+  // The window that goes along, and the window that is seen.
+  const along = windowAlong(run.picture, run.time.length), whole = [0, 0, 1000, height];
+  let seen = whole, following = false;
+  // Arrows are as long in a small window as in the whole.
+  const shrunk = () => seen[2] / 1000;
+  // A ruler that has room in the window: an arrow's for the forces there, and of lengths a round part of it.
+  const fitting = ({ length, text }, arrow) => {
+    if (arrow) return { length: length * shrunk(), text };
+    const parts = [1, 2, 5, 10, 20, 50, 100].find((part) => length / part <= seen[2] / 4) || 100, [value, unit] = text.split(" ");
+    return { length: length / parts, text: `${digits(value / parts)} ${unit}` };
+  };
+
   // Letters are as large as those of the page, whatever the size of the picture.
   let letter = 16;
   const scales = svg("g", {}, root);
@@ -39,8 +51,9 @@ function picture(stage, run) {
     root.style.fontSize = `${letter}px`;
     scales.replaceChildren();
     let x = letter;
-    const y = height - 0.7 * letter, up = 0.35 * letter;
-    rulers.forEach(({ length, text }, i) => {
+    const y = seen[3] - 0.7 * letter, up = 0.35 * letter;
+    rulers.forEach((ruler, i) => {
+      const { length, text } = fitting(ruler, i > 0);
       const end = x + length;
       const ends = i ? `M${end - up} ${y - up}L${end} ${y}L${end - up} ${y + up}` : `M${x} ${y - up}V${y + up}M${end} ${y - up}V${y + up}`;
       svg("path", { class: "ruler", d: `M${x} ${y}H${end}${ends}` }, scales);
@@ -57,20 +70,21 @@ function picture(stage, run) {
     name.textContent = arrow.name;
     const value = entry(legend, arrow.impulse ? arrow.name : `force ${arrow.name}`, colour(i));
     return (where, taken) => {
-      const [x1, y1, dx, dy] = arrow.numbers.map((column) => at(column, where)), [x2, y2] = [x1 + dx, y1 + dy];
+      const [x1, y1, dx, dy] = arrow.numbers.map((column) => at(column, where)), [x2, y2] = [x1 + dx * shrunk(), y1 + dy * shrunk()];
       value.textContent = `${digits(at(arrow.size, where))} ${arrow.impulse ? "Ns" : "N"}`;
       const length = Math.hypot(x2 - x1, y2 - y1);
-      shape.style.display = length < 2 ? "none" : "";
+      shape.style.display = length < 2 * shrunk() ? "none" : "";
       name.style.display = "none";
-      if (length < 2) return;
+      if (length < 2 * shrunk()) return;
       const [ux, uy] = [(x2 - x1) / length, (y2 - y1) / length];
       const thick = letter / 16, tip = Math.min(0.5 * length, 12 * thick), neck = length - tip;
       const corners = [[0, thick], [neck, thick], [neck, 0.45 * tip], [length, 0], [neck, -0.45 * tip], [neck, -thick], [0, -thick]];
       set(shape, { points: pairs(corners.flatMap(([along, left]) => [x1 + along * ux - left * uy, y1 + along * uy + left * ux])) });
-      const half = 0.3 * letter * arrow.name.length, within = (v, most, margin) => Math.max(Math.min(v, most - margin), margin);
+      const half = 0.3 * letter * arrow.name.length, within = (v, from, most, margin) => Math.max(Math.min(v, from + most - margin), from + margin);
       // Beyond the end where it does not act.
       const [u, v, out] = arrow.impulse ? [x1, y1, -1] : [x2, y2, 1];
-      const x = within(u + out * ux * (half + 6), 1000, half), y = within(v + out * uy * (0.5 * letter + 6), height, 0.6 * letter) + 0.35 * letter;
+      const [left, top, wide, high] = seen, gap = 6 * shrunk();
+      const x = within(u + out * ux * (half + gap), left, wide, half), y = within(v + out * uy * (0.5 * letter + gap), top, high, 0.6 * letter) + 0.35 * letter;
       set(name, { x, y });
       // A name that would cover another one is left to the legend.
       if (length < 0.5 * letter || taken.some(([a, b, wide]) => Math.abs(x - a) < half + wide && Math.abs(y - b) < letter)) return;
@@ -87,10 +101,27 @@ function picture(stage, run) {
   };
   const show = (where, pushing) => {
     last = where;
+    if (following) look(along(where));
     marks.forEach((mark, i) => drawn[i](mark.numbers.map((column) => at(column, where)), where));
     point(where);
     pushes.style.display = pushing ? "" : "none";
   };
+  function look(window) {
+    const [, , wide] = seen;
+    seen = window;
+    set(root, { viewBox: seen.join(" ") });
+    set(scales, { transform: `translate(${seen[0]} ${seen[1]})` });
+    if (wide !== seen[2]) fit();
+  }
+  if (along) {
+    const views = html("div", { class: "views" }, stage), chase = html("button", { type: "button", "aria-pressed": false }, views, "Follow");
+    chase.addEventListener("click", () => {
+      following = !following;
+      chase.setAttribute("aria-pressed", following);
+      look(following ? along(last) : whole);
+      point(last);
+    });
+  }
   new ResizeObserver(() => { fit(); point(last); }).observe(root);
   fit();
   return show;

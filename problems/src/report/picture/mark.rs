@@ -118,7 +118,12 @@ pub(super) fn marks(drawings: &[Drawing], frame: &Frame) -> Vec<Mark> {
             }
             Shape::Spring(..) => {
                 let before = Cell::new(0.0);
-                add("rod", spring(frame), &|shape| match shape {
+                let lengths = shapes().map(|shape| match shape {
+                    Shape::Spring([x1, y1], [x2, y2]) => (x2 - x1).hypot(y2 - y1),
+                    _ => 0.0,
+                });
+                let longest = lengths.fold(0.0, f64::max);
+                add("rod", spring(frame, longest), &|shape| match shape {
                     Shape::Spring([x1, y1], [x2, y2]) => {
                         let (dx, dy) = (x2 - x1, y1 - y2);
                         let angle = dy.atan2(dx).to_degrees();
@@ -151,9 +156,9 @@ fn spoke() -> Form {
     }
 }
 
-/// A zigzag of the same width however long it is.
-fn spring(frame: &Frame) -> Form {
-    let wide = hundredths(0.025 * frame.size * frame.scale);
+/// A zigzag of the same width however long it is at the time; one that is always short beside the picture is narrow.
+fn spring(frame: &Frame, longest: f64) -> Form {
+    let wide = hundredths((0.025 * frame.size).min(longest / 6.0) * frame.scale);
     let joint = |i: usize| {
         let side = match i {
             0 | TURNS => 0.0,

@@ -2,6 +2,7 @@
 
 use super::quantity::Quantity;
 use crate::outcome::{Outcome, Sample};
+use crate::report::telling;
 use crate::report::words::brief;
 use crate::request::Refusal;
 use lagrange_core::system::Description;
@@ -88,10 +89,16 @@ pub(super) fn usual(outcomes: &[&Outcome], d: &Description) -> Vec<Panel> {
         .filter(|curve| acts(&curve.quantity))
         .collect();
     let mut panels = by_unit(d, &Quantity::Time, forces);
-    let positions = (0..d.coordinates.len()).map(Quantity::Position);
+    let told = telling(d);
+    // Outputs say what the quaternions that are left out would have said.
+    let outputs = match told.len() < d.coordinates.len() {
+        true => (0..d.observes.len()).map(Quantity::Output).collect(),
+        false => Vec::new(),
+    };
+    let positions = told.into_iter().map(Quantity::Position);
     let (angles, others): (Vec<_>, Vec<_>) = positions.partition(|q| q.kind(d) == "angle");
-    for positions in [angles, others] {
-        panels.extend(by_unit(d, &Quantity::Time, coloured(positions)));
+    for quantities in [angles, others, outputs] {
+        panels.extend(by_unit(d, &Quantity::Time, coloured(quantities)));
     }
     panels
 }

@@ -105,6 +105,7 @@ impl Build {
             level,
             residual,
             while_contact: None,
+            attitude: None,
             force,
         });
         self

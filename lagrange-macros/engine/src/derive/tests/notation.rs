@@ -135,7 +135,8 @@ impl Parser<'_> {
                 let branch = self.system.branches.len();
                 self.system.branches.push(Branch {
                     guard: arguments[0],
-                    text: "if".to_owned(),
+                    then: "if".to_owned(),
+                    otherwise: String::new(),
                     span: Span::call_site(),
                 });
                 self.pool().select(branch, arguments[1], arguments[2])

@@ -19,14 +19,19 @@ impl Writer<'_> {
         let constraints = self.program.equations.system.constraints.iter().enumerate();
         let constraints = constraints.map(|(row, constraint)| {
             let (name, row) = (&constraint.name.text, index(row));
-            let while_contact = match constraint.while_contact {
-                Some(contact) => {
-                    let contact = index(contact);
-                    quote!(::core::option::Option::Some(#contact))
+            let [while_contact, attitude] =
+                [constraint.while_contact, constraint.attitude].map(|place| match place {
+                    Some(place) => {
+                        let place = index(place);
+                        quote!(::core::option::Option::Some(#place))
+                    }
+                    None => quote!(::core::option::Option::None),
+                });
+            quote! {
+                #core::system::Constraint {
+                    name: #name, row: #row, while_contact: #while_contact, attitude: #attitude,
                 }
-                None => quote!(::core::option::Option::None),
-            };
-            quote!(#core::system::Constraint { name: #name, row: #row, while_contact: #while_contact })
+            }
         });
         constraints.collect()
     }
@@ -143,10 +148,11 @@ impl Writer<'_> {
                 numbers.after_solve,
             );
             let users = numbers.users.iter().map(|user| index(user.0));
-            let text = &branch.text;
+            let (then, otherwise) = (&branch.then, &branch.otherwise);
             quote! {
                 #core::__private::places::Branch {
-                    guard: #guard, need: #need, after_solve: #after_solve, users: &[#(#users),*], text: #text,
+                    guard: #guard, need: #need, after_solve: #after_solve, users: &[#(#users),*],
+                    then: #then, otherwise: #otherwise,
                 }
             }
         })

@@ -15,6 +15,12 @@ fn mistakes_point_at_their_token() {
         ("contact(sin: x >= 0)", "2:9 E203"),
         ("define(der = x)", "2:8 E203"),
         ("define(t = x)", "2:8 E203"),
+        (
+            "define(along = x), potential = a*along + along^2",
+            "2:8 E203",
+        ),
+        ("potential = a*along", "2:15 E203"),
+        ("constraint(c: [x, y] == [y, a])", "2:15 E302"),
         ("define(u = sum(a in 0..2: x))", "2:16 E204"),
         ("define(u = w, w = u)", "2:19 E205"),
         ("friction(f on x: slip = der(x), static = a)", "2:15 E206"),
@@ -143,6 +149,20 @@ fn hints_say_what_to_do() {
         found,
         "2:15 E206 `x` is a coordinate, not a contact or constraint; known are `rim`"
     );
+}
+
+#[test]
+fn an_equation_between_lists_is_told_how_to_be_written() {
+    let found = with("constraint(joint: [x, y] == [y, a] + [a, x])")
+        .err()
+        .unwrap();
+    assert_eq!(
+        found,
+        "2:19 E302 a list of 2 where a single value is expected; write an equation for each element, \
+         `joint[k in 0..2]: [x, y][k] == ([y, a] + [a, x])[k]`"
+    );
+    // What is advised can be read.
+    with("constraint(joint[k in 0..2]: [x, y][k] == ([y, a] + [a, x])[k])").unwrap();
 }
 
 #[test]

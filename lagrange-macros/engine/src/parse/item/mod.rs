@@ -318,15 +318,15 @@ pub(super) fn key(
     Some(key)
 }
 
-/// A string.
-pub(super) fn text(part: &mut Cursor, sink: &mut Diagnostics) -> Option<String> {
+/// A string; `what` is said to be expected where there is none.
+pub(super) fn text(part: &mut Cursor, what: &str, sink: &mut Diagnostics) -> Option<String> {
     if let Some(TokenTree::Literal(literal)) = part.peek()
         && let Ok(text) = syn::parse_str::<syn::LitStr>(&literal.to_string())
     {
         part.next();
         return Some(text.value());
     }
-    part.expected("a text in quotation marks", sink);
+    part.expected(what, sink);
     None
 }
 

@@ -62,7 +62,7 @@ fn parameter(part: &mut Cursor, sink: &mut Diagnostics) -> Option<(Field, Expr)>
     let mut field = structure::described(name, length, &attributes, sink);
     if let Some(colon) = part.take(":") {
         let extent = part.here();
-        let text = text(part, sink)?;
+        let text = text(part, "a unit, as in `mass: \"kg\" = 1`", sink)?;
         if field.unit.is_some() {
             sink.report(Code::RepeatedPart, colon, &[&"unit"]);
         }

@@ -33,7 +33,7 @@ pub(super) fn coordinates(parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<
             None => None,
             Some(_) => {
                 let extent = part.here();
-                let text = text(part, sink)?;
+                let text = text(part, "a unit, as in `x: \"m\"`", sink)?;
                 Some(Unit { text, extent })
             }
         };

@@ -33,7 +33,8 @@ pub fn random_equations(dice: &mut Dice) -> (Equations, Vec<Symbol>) {
         let guard = system.pool.leaf(system.time);
         system.branches.push(Branch {
             guard,
-            text: text.to_owned(),
+            then: text.to_owned(),
+            otherwise: String::new(),
             span: Span::call_site(),
         });
     }
