@@ -60,33 +60,54 @@ impl Elaboration<'_> {
                 slide,
             } => {
                 let normal = normal.as_ref().map(|normal| self.scalar(normal, NORMAL));
-                let stick = self.scalar(stick, COEFFICIENT);
+                let stick_at_rest = self.at_rest(|this| this.scalar(stick, COEFFICIENT));
                 let slide = match slide {
-                    None => stick,
+                    None if !mentions_slip(stick) => stick_at_rest,
+                    None => stick_at_rest.and_then(|_| self.scalar(stick, COEFFICIENT)),
                     Some(slide) => self.scalar(slide, COEFFICIENT),
                 };
                 let normal = match normal {
                     None => None,
                     Some(normal) => Some(normal?),
                 };
-                Some((normal, stick?, slide?))
+                Some((normal, stick_at_rest?, slide?))
             }
             FrictionLaw::Limit(limit) => {
                 let one = self.system.pool.integer(1);
-                match self.value(limit, LIMIT)? {
-                    Value::Scalar(force) => Some((Some(one), force, force)),
-                    list => match list.vector().as_deref() {
-                        Some(&[stick, slide]) => Some((Some(one), stick, slide)),
-                        _ => {
-                            let hint = "a limit is one force, or two: `(static, kinetic)`";
-                            self.sink
-                                .report(Code::ScalarForList, limit.extent, &[&hint]);
-                            None
-                        }
-                    },
+                let (stick, slide) = self.limit(limit)?;
+                if !mentions_slip(limit) {
+                    return Some((Some(one), stick, slide));
                 }
+                let (stick, _) = self.at_rest(|this| this.limit(limit))?;
+                Some((Some(one), stick, slide))
             }
         }
+    }
+
+    /// The static and the kinetic force.
+    fn limit(&mut self, limit: &Expr) -> Option<(ExprId, ExprId)> {
+        match self.value(limit, LIMIT)? {
+            Value::Scalar(force) => Some((force, force)),
+            list => match list.vector().as_deref() {
+                Some(&[stick, slide]) => Some((stick, slide)),
+                _ => {
+                    let hint = "a limit is one force, or two: `(static, kinetic)`";
+                    self.sink
+                        .report(Code::ScalarForList, limit.extent, &[&hint]);
+                    None
+                }
+            },
+        }
+    }
+
+    /// Reads what holds while a friction sticks: `slip` is zero.
+    fn at_rest<R>(&mut self, read: impl FnOnce(&mut Self) -> R) -> R {
+        let zero = self.system.pool.integer(0);
+        let none = self.slip.as_ref().map(|slip| slip.map(&mut |_| zero));
+        let slip = std::mem::replace(&mut self.slip, none);
+        let found = read(self);
+        self.slip = slip;
+        found
     }
 
     /// Whether coefficients that are numbers can be meant: not negative, and kinetic at most static.
@@ -168,4 +189,11 @@ impl Elaboration<'_> {
         }
         Some(found)
     }
+}
+
+/// Whether a coefficient is written with the slip of its friction.
+fn mentions_slip(coefficient: &Expr) -> bool {
+    let mut names = Vec::new();
+    coefficient.names_into(&mut names);
+    names.contains(&"slip")
 }

@@ -196,3 +196,57 @@ fn a_slip_in_space_does_not_come_to_rest() {
         }
     }
 }
+
+/// A crate on a spring, on a moving belt, whose one coefficient is a function of the slip.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2 / 2,
+    potential = stiffness/2 * x^2,
+    friction(rub: slip = der(x) - belt, normal = gravity, static = dry * exp(-abs(slip)) + wet * sqrt(slip^2)),
+)]
+struct Crate {
+    stiffness: f64,
+    gravity: f64,
+    belt: f64,
+    dry: f64,
+    wet: f64,
+}
+
+/// `static` stands for both coefficients, and while a friction sticks its slip is zero.
+#[test]
+fn one_coefficient_that_depends_on_the_slip() {
+    let held = Crate {
+        stiffness: 4.0,
+        gravity: G,
+        belt: 0.1,
+        dry: 0.3,
+        wet: 0.02,
+    };
+    // A crate that is carried along is torn off where the spring pulls with the static coefficient at rest.
+    let torn = held.dry * G / held.stiffness;
+    let viscous = Crate {
+        belt: 0.0,
+        dry: 0.0,
+        ..held.clone()
+    };
+    let decay = 0.5 * viscous.wet * G;
+    let rate = (viscous.stiffness - decay * decay).sqrt();
+    let until: f64 = 10.0;
+    let (sin, cos) = (rate * until).sin_cos();
+    let x = (-decay * until).exp() * (cos + decay / rate * sin);
+    for (method, times) in METHODS {
+        for tolerance in [1e-6, 1e-9, 1e-12] {
+            let what = format!("{method} at {tolerance:e}");
+            let allowed = (times * tolerance).max(FIXED);
+            let start = state(&[0.0], &[held.belt]);
+            let run = run_by(&held, (method, tolerance), start, 10.0);
+            let first = &run.events()[0];
+            assert_eq!(first.kind.word(), "slips", "{what}");
+            agree(&what, first.q(Crate::X), torn, allowed);
+            let start = state(&[1.0], &[0.0]);
+            let run = run_by(&viscous, (method, tolerance), start, until);
+            agree(&what, run.final_state().q(Crate::X), x, allowed);
+        }
+    }
+}
