@@ -398,6 +398,7 @@ fn shape<T: Scalar>(d: &Description, compiled: &Compiled<T>, asked: &Asked, valu
     let matrix = pattern.entries.iter().map(|e| ValueRef::Node(e.node));
     let system = matrix
         .chain(pattern.cancelling())
+        .chain(pattern.taking())
         .filter_map(|place| match place {
             ValueRef::Node(node) => Some(nodes[node]),
             ValueRef::Zero | ValueRef::Constant(_) => None,

@@ -331,6 +331,9 @@ fn factor<T: Scalar>(compiled: &mut Compiled<T>) -> Result<(), SolveError> {
             row.fill(T::default());
         }
     }
+    for (row, size) in pattern.taken(read) {
+        solver.note_taken(row, size);
+    }
     let inertia = if pattern.elimination.symmetric {
         Inertia::Symmetric
     } else {

@@ -1,18 +1,21 @@
 //! Forces that are not determined: of all that have the same effect, those of least norm.
 //!
-//! Where rows depend on one another, C λ = Q leaves λ open. With B an independent subset of the rows of C that spans them all,
+//! Where rows depend on one another, C λ = Q leaves λ open. Any λ with that effect, projected onto the space that the rows of C span,
+//! is the one of least norm. With an orthogonal basis b of that space
 //!
 //! ```text
-//! λ = Bᵀ (B Bᵀ)⁻¹ Q_B        λᵢ is determined where (Bᵀ (B Bᵀ)⁻¹ B)ᵢᵢ = 1, that is Pᵢᵢ = 0
+//! λ₀ = Σ b (b·λ)/(b·b)        P = 1 − Σ b bᵀ/(b·b)        λᵢ is determined where Pᵢᵢ = 0
 //! ```
 //!
-//! Reference: Golub & Van Loan 2013, Matrix Computations, section 5.6.
+//! The basis is orthogonalized twice (Gram–Schmidt). Normal equations would square the condition: links that are nearly in line would seem
+//! to leave their forces open.
+//! Reference: Golub & Van Loan 2013, Matrix Computations, sections 5.2.9 and 5.6.
 
 use super::direct::dot;
 use super::lu::Lu;
 use crate::arithmetic::Scalar;
 
-/// Forces that have no effect, as the row-major projector P = 1 − Bᵀ (B Bᵀ)⁻¹ B onto them: λ is as good as λ + P y.
+/// Forces that have no effect, as the row-major projector P onto them: λ is as good as λ + P y.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Freedom {
     size: usize,
@@ -65,38 +68,33 @@ pub(crate) fn least_norm<T: Scalar>(
         _ => T::zero(),
     });
     lu.factor(wide, padded);
-    let basis: Vec<usize> = lu.independent_rows().collect();
-    let rank = basis.len();
-    // By columns.
-    let mut b = Vec::with_capacity(rank * m);
-    for j in 0..m {
-        b.extend(basis.iter().map(|&i| scales[i] * element(i, j)));
-    }
-    let mut gram = vec![T::zero(); rank * rank];
-    let mut effect = vec![T::zero(); rank];
-    for (column, &force) in b.chunks_exact(rank.max(1)).zip(&*forces) {
-        for (i, &x) in column.iter().enumerate().filter(|(_, x)| !x.is_zero()) {
-            effect[i] += x * force;
-            for (sum, &y) in gram[i * rank..].iter_mut().zip(column) {
-                *sum += x * y;
-            }
+    // Each row of the basis with its square.
+    let mut basis: Vec<(Vec<T>, T)> = Vec::with_capacity(n);
+    for i in lu.independent_rows() {
+        let mut row: Vec<T> = (0..m).map(|j| scales[i] * element(i, j)).collect();
+        for (other, square) in basis.iter().chain(&basis) {
+            let part = dot(other, &row) / *square;
+            row.iter_mut().zip(other).for_each(|(x, &y)| *x -= part * y);
         }
+        let square = dot(&row, &row);
+        basis.push((row, square));
     }
-    lu.factor(rank, gram.into_iter());
-    lu.solve(&mut effect);
+    let parts: Vec<T> = basis
+        .iter()
+        .map(|(row, square)| dot(row, forces) / *square)
+        .collect();
     let mut freedom = Freedom {
         size: m,
         projector: vec![0.0; m * m],
     };
-    let mut solved = vec![T::zero(); rank];
-    for (j, force) in forces.iter_mut().enumerate() {
-        let column = &b[j * rank..(j + 1) * rank];
-        *force = dot(column, &effect);
-        solved.copy_from_slice(column);
-        lu.solve(&mut solved);
-        for i in 0..m {
-            let share = dot(&b[i * rank..(i + 1) * rank], &solved).value();
-            freedom.projector[i * m + j] = if i == j { 1.0 - share } else { -share };
+    for (i, force) in forces.iter_mut().enumerate() {
+        freedom.projector[i * m + i] = 1.0;
+        *force = T::zero();
+        for ((row, square), &part) in basis.iter().zip(&parts) {
+            *force += part * row[i];
+            let share = (row[i] / *square).value();
+            let others = freedom.projector[i * m..].iter_mut().zip(row);
+            others.for_each(|(x, y)| *x -= share * y.value());
         }
     }
     freedom
@@ -122,5 +120,28 @@ mod tests {
         for (found, expected) in freedom.row(0).iter().zip([0.8, -0.4, 0.0, 0.0]) {
             assert!((found - expected).abs() < 1e-14);
         }
+    }
+    #[test]
+    fn forces_of_links_nearly_in_line_are_determined() {
+        // A pin and two that share a load pull at a flat joint: across it by 1e-5 of their size.
+        let flat = 1e-5_f64;
+        let columns = [-0.4, 1.0, 0.0, flat, flat, 0.7, 0.0, 0.0, 1.0];
+        let pull = [3.0_f64, 2.0, 5.0];
+        let mut forces = pull;
+        let freedom = least_norm(&columns, 3, &mut forces);
+        assert_eq!(freedom.dimension(), 0);
+        assert!((0..3).all(|i| freedom.row(i).iter().all(|x| x.abs() < 1e-14)));
+        let off = forces.iter().zip(pull).map(|(x, y)| (x - y).abs());
+        assert!(off.fold(0.0, f64::max) < 1e-14, "{forces:?}");
+        // The same with a third of the load on each of three.
+        let columns: [f64; 15] =
+            core::array::from_fn(|i| columns[if i < 9 { i } else { i % 3 + 6 }]);
+        let mut forces = [3.0_f64, 2.0, 5.0, 4.0, 0.0];
+        let freedom = least_norm(&columns, 3, &mut forces);
+        assert_eq!(freedom.dimension(), 2);
+        assert!(freedom.is_determined(0) && freedom.is_determined(1) && !freedom.is_determined(2));
+        let off = forces.iter().zip([3.0, 2.0, 3.0, 3.0, 3.0]);
+        let off = off.map(|(x, y)| (x - y).abs());
+        assert!(off.fold(0.0, f64::max) < 1e-14, "{forces:?}");
     }
 }

@@ -81,6 +81,8 @@ pub(crate) struct KktPattern<T> {
     /// Terms of kept rows that elimination may cancel, by row: (row, first, end) of `cancelling`.
     pub reduced: Vec<(usize, usize, usize)>,
     cancelling: Vec<(T, ValueRef)>,
+    /// Elements of kept rows that elimination takes away: (row, element, inertia of its coordinate).
+    taken: Vec<(usize, ValueRef, ValueRef)>,
     /// How accelerations follow from those that are left.
     pub elimination: Elimination<T>,
     collected: KktTerms,
@@ -149,6 +151,7 @@ impl<T: Scalar> KktPattern<T> {
             && same_zeros(&self.constant_load, &other.constant_load)
             && self.reduced == other.reduced
             && self.cancelling().eq(other.cancelling())
+            && self.taking().eq(other.taking())
             && self.loads.len() == other.loads.len()
             && loads.all(|(x, y)| (x.row, x.node) == (y.row, y.node))
             && self.program.is_like(&other.program)
@@ -251,6 +254,7 @@ impl<T: Scalar> KktPattern<T> {
             eliminated,
             reduced,
             cancelling,
+            taken,
             ..
         } = self;
         let acting = &collected.acting;
@@ -259,6 +263,7 @@ impl<T: Scalar> KktPattern<T> {
         terms.clear();
         reduced.clear();
         cancelling.clear();
+        taken.clear();
         let minus = -T::one();
         let symmetric = elimination.symmetric;
         let mut mass = |i: usize, j: usize, place: ValueRef| {
@@ -300,7 +305,11 @@ impl<T: Scalar> KktPattern<T> {
             let mut combined = false;
             for &(j, place) in row.jacobian {
                 let parts = elimination.right.row(j);
-                combined |= !matches!(parts, [(_, one)] if *one == T::one());
+                if !matches!(parts, [(_, one)] if *one == T::one()) {
+                    combined = true;
+                    let inertia = description.mass.iter().find(|m| (m.0, m.1) == (j, j));
+                    taken.extend(inertia.map(|&(_, _, inertia)| (free + index, place, inertia)));
+                }
                 for &(column, factor) in parts {
                     terms.push(Term {
                         row: free + index,
@@ -409,6 +418,24 @@ impl<T: Scalar> KktPattern<T> {
     /// The numbers that [`Self::cancelled`] reads.
     pub(crate) fn cancelling(&self) -> impl Iterator<Item = ValueRef> + '_ {
         self.cancelling.iter().map(|&(_, place)| place)
+    }
+
+    /// The numbers that [`Self::taken`] reads.
+    pub(crate) fn taking(&self) -> impl Iterator<Item = ValueRef> + '_ {
+        let taken = self.taken.iter();
+        taken.flat_map(|&(_, element, inertia)| [element, inertia])
+    }
+
+    /// What elimination takes from kept rows: (row, the element over the root of the inertia of its coordinate).
+    pub(crate) fn taken<'a>(
+        &'a self,
+        read: impl Fn(ValueRef) -> T + 'a,
+    ) -> impl Iterator<Item = (usize, f64)> + 'a {
+        let sizes = self.taken.iter().map(move |&(row, element, inertia)| {
+            let inertia = read(inertia).value();
+            (row, (read(element).value() / inertia.sqrt()).abs())
+        });
+        sizes.filter(|(_, size)| size.is_finite())
     }
 
     /// The size of the terms of each kept row that elimination may cancel: (row, largest term).

@@ -17,6 +17,10 @@ fn consistent<T: Scalar>() -> f64 {
 /// So many times the compliance of all others is more than a scaled row can have beside them: half of the digits.
 const LIGHT: f64 = 1e7;
 
+/// Among dependent rows one of which little is left is chosen last. It counts by this much at least, or it would seem to depend on the
+/// others where it does not.
+const LITTLE: f64 = 1e-4;
+
 /// Accelerations of this size are none.
 const SQUARE_OF_ROUNDING: f64 = 1e-20;
 
@@ -60,6 +64,8 @@ pub(crate) struct Solver<T> {
     factors: Factors,
     direct: Direct<T>,
     lu: Lu<T>,
+    /// Sizes of what was taken from the rows before, in the scale of inertia.
+    taken: Vec<f64>,
     /// Rows set aside because they depend on the others.
     aside: Vec<bool>,
     /// Whether they stay aside, wherever the matrix is next.
@@ -82,6 +88,7 @@ impl<T: Scalar> Solver<T> {
         let size = coordinates + rows;
         self.matrix.reserve(size * size);
         self.scale.reserve(size);
+        self.taken.reserve(rows);
         self.aside.reserve(rows);
         self.work.reserve(size);
         self.direct.reserve(size);
@@ -94,7 +101,15 @@ impl<T: Scalar> Solver<T> {
         self.size = size;
         self.matrix.clear();
         self.matrix.extend_from_slice(constant);
+        self.taken.clear();
+        self.taken.resize(size - coordinates, 0.0);
         &mut self.matrix
+    }
+
+    /// Equation `row` had an element of this `size`, over the root of its inertia, before other rows were eliminated.
+    pub(crate) fn note_taken(&mut self, row: usize, size: f64) {
+        let taken = &mut self.taken[row - self.coordinates];
+        *taken = taken.max(size);
     }
 
     /// Whether a row was set aside.
@@ -212,15 +227,20 @@ impl<T: Scalar> Solver<T> {
 
     /// Chooses an independent subset of the rows of A: elimination with complete pivoting. A row that differs from a combination of
     /// others by δ adds a pivot of δ² to the whole matrix.
+    ///
+    /// Of rows from which others were eliminated rounding or a tolerated error may be all that is left: the slip of a second point of a
+    /// rod that lies flat turns it by nothing, and must not stand for the contact that does.
     fn set_dependent_rows_aside(&mut self) {
         let (n, size) = (self.coordinates, self.size);
         let rows = size - n;
         // Square with zeros, so that the same factorization serves.
         let wide = n.max(rows);
-        let (matrix, scale) = (&self.matrix, &self.scale);
+        let (matrix, scale, taken) = (&self.matrix, &self.scale, &self.taken);
+        let weight = |i: usize| (1.0 / (taken[i] * scale[n + i])).clamp(LITTLE, 1.0);
         let element = |i: usize, j: usize| {
             if i < rows && j < n {
-                matrix[(n + i) * size + j] * T::from_f64(scale[n + i] * scale[j])
+                let scale = scale[n + i] * scale[j] * weight(i);
+                matrix[(n + i) * size + j] * T::from_f64(scale)
             } else {
                 T::zero()
             }

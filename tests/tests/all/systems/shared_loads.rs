@@ -98,3 +98,74 @@ fn a_motion_that_depends_on_undetermined_forces_is_ambiguous() {
         }
     }
 }
+
+/// A mat of three hinged rods, dropped flat onto a rough floor.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, a[3]),
+    define(
+        px[k in 0..4] = x + sum(i in 0..k: length * cos(a[i])),
+        py[k in 0..4] = y + sum(i in 0..k: length * sin(a[i])),
+    ),
+    kinetic = sum(k in 0..3: mass/2 * ((der(px[k] + px[k+1])^2 + der(py[k] + py[k+1])^2)/4 + length^2/12 * der(a[k])^2)),
+    potential = sum(k in 0..3: mass * gravity * (py[k] + py[k+1])/2),
+    contact(floor[k in 0..4]: py[k] >= 0),
+    friction(grip[k in 0..4] on floor[k]: slip = der(px[k]), static = mu),
+)]
+struct Mat {
+    mass: f64,
+    length: f64,
+    gravity: f64,
+    mu: f64,
+}
+
+/// It slides and comes to rest on four points, of whose slips one is enough: the others turn the rods by what rounding leaves.
+#[test]
+fn a_mat_lies_flat() {
+    let mat = Mat {
+        mass: 0.5,
+        length: 0.3,
+        gravity: 9.81,
+        mu: 0.2,
+    };
+    let (height, speed): (f64, f64) = (0.2, 1.5);
+    let (fall, braking) = ((2.0 * height / mat.gravity).sqrt(), mat.mu * mat.gravity);
+    // The impact brakes it as well.
+    let slides = speed - braking * fall;
+    let (rest, x) = (
+        fall + slides / braking,
+        speed * fall + slides * slides / (2.0 * braking),
+    );
+    for method in ["auto", "dop853", "dopri5", "verner98", "radau5"] {
+        for tolerance in [1e-6, 1e-9, 1e-12] {
+            let what = format!("{method} at {tolerance:e}");
+            let start = |y, v, tilt: [f64; 3]| {
+                let q = [&[0.0, y], &tilt[..]].concat();
+                State::new(q, vec![v, 0.0, 0.0, 0.0, 0.0])
+            };
+            let run = run_by(
+                &mat,
+                (method, tolerance),
+                start(height, speed, [0.0; 3]),
+                4.0,
+            );
+            let bound = (100.0 * tolerance).max(1e-11);
+            let (sticks, end) = (event(&run, "grip[0]", "sticks"), run.final_state());
+            agree(&what, sticks.time, rest, bound);
+            agree(&what, end.q(Mat::X), x, bound);
+            let run = run_by(
+                &mat,
+                (method, tolerance),
+                start(0.4, 0.5, [-0.2, 0.3, 0.1]),
+                4.0,
+            );
+            let end = run.final_state();
+            for q in &end.q[1..] {
+                agree(&what, *q, 0.0, bound);
+            }
+            let last = run.events().last().expect("it lands");
+            let loads = (0..4).map(|k| last.force_after(Mat::FLOOR[k]));
+            agree(&what, loads.sum(), 3.0 * mat.mass * mat.gravity, bound);
+        }
+    }
+}
