@@ -158,7 +158,7 @@ impl<T: Scalar> Run<T> {
     /// Where a guard of the mode falls through zero: (part of the step, half width of the enclosure).
     fn fall(&self, guard: Guard, curve: &[f64]) -> Option<(f64, f64)> {
         if is_edge_in_flight(guard, &self.now.mode) {
-            return None;
+            return self.comes_onto(guard, curve);
         }
         let curve = self.judged(guard, curve)?;
         if falls_at_once(curve) && !self.is_below(guard) && self.within_region(guard, 0.0) {
@@ -190,6 +190,12 @@ impl<T: Scalar> Run<T> {
             // At its limit a force begins at zero, whatever rounding makes of it.
             let change: f64 = curve.iter().map(|c| c.abs()).sum();
             return (change > CLEAR * size).then(|| deflate(curve, 1));
+        }
+        if let Guard::Composite(_) = guard
+            && curve.iter().map(|c| c.abs()).sum::<f64>() <= CLEAR
+        {
+            // It is relative to what makes it: that of a friction whose coefficient is 0 is always rounding.
+            return None;
         }
         let judged = deflate(curve, known);
         if let (0, [start, rate, ..]) = (known, judged)

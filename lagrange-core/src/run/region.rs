@@ -3,12 +3,13 @@
 //! Such a contact exists only where its region ≥ 0. A closed one whose region falls through zero opens, and its frictions end.
 //! The surface has one side: a gap that closes within the region is an impact, one that closes outside it is not, and then the
 //! motion is below the surface, until the gap has opened again, wherever that is. Below it may enter the region freely, and
-//! come up through it.
+//! come up through it. Where it enters the region on the surface, as a wheel that climbs a kerb, the contact closes.
 
 use super::Run;
 use super::hits::value;
 use crate::arithmetic::Scalar;
 use crate::effects::Item;
+use crate::events::{Direction, first_root};
 use crate::mode::Mode;
 use crate::modes::guard::Guard;
 use crate::system::{Contact, ValueRef};
@@ -38,6 +39,23 @@ impl<T: Scalar> Run<T> {
             .is_none_or(|curve| value(curve, s) >= 0.0)
     }
 
+    /// Where the motion enters the region of an open contact whose gap vanishes there: (part of the step, half width).
+    pub(super) fn comes_onto(&self, edge: Guard, curve: &[f64]) -> Option<(f64, f64)> {
+        let Guard::Region(c) = edge else {
+            return None;
+        };
+        let gap = self.locator.polynomials.of(Guard::Gap(c))?;
+        let root = first_root(self.judged(edge, curve)?, 0.0)?;
+        let enters = root.direction == Direction::Rising && !root.grazing;
+        let (s, width) = self.place(edge, &root);
+        (enters && value(gap, s).abs() <= self.touching()).then_some((s, width))
+    }
+
+    /// A gap of this size vanishes.
+    fn touching(&self) -> f64 {
+        self.settings.tolerance.max(1e-13)
+    }
+
     /// Remembers which surfaces the motion is below at part `end` of the step.
     pub(super) fn remember_regions(&mut self, end: f64) {
         let limited = |contact: &Contact| contact.region.is_some();
@@ -63,7 +81,8 @@ impl<T: Scalar> Run<T> {
         self.now.below = below;
     }
 
-    /// At an edge the next surface may begin without a step: closes contacts whose gaps vanish where their regions begin.
+    /// At an edge the next surface may begin without a step: closes contacts whose gaps vanish where their regions begin. So they do where
+    /// the motion has come onto the edge of a surface.
     pub(super) fn hand_over(&mut self) {
         let d = self.description();
         if !self
@@ -74,13 +93,13 @@ impl<T: Scalar> Run<T> {
         {
             return;
         }
-        let small = self.settings.tolerance.max(1e-13);
+        let small = self.touching();
         for (c, contact) in d.contacts.iter().enumerate() {
             let Some(region) = contact.region else {
                 continue;
             };
-            let left = self.locator.fallen.contains(&Guard::Region(c)) || self.now.mode.contacts[c];
-            if left || !self.dynamics.effects().includes(d, Item::Contact(c)) {
+            let was_closed = self.now.mode.contacts[c];
+            if was_closed || !self.dynamics.effects().includes(d, Item::Contact(c)) {
                 continue;
             }
             let number = |place: ValueRef| self.dynamics.motion(place).value();

@@ -16,6 +16,9 @@ use crate::modes::table::Table;
 use crate::pool::Pool;
 use crate::system::{Description, Normal};
 
+/// A gap that changes by no more than so many tolerances per second where its region begins neither closes nor opens there.
+const ENTERS: f64 = 10.0;
+
 /// What decides how the motion goes on.
 #[derive(Debug)]
 pub(super) struct Switcher<T> {
@@ -186,11 +189,19 @@ impl<T: Scalar> Run<T> {
         let d = self.description();
         self.evaluate_all_rows()?;
         for c in (0..d.contacts.len()).filter(|&c| !self.now.mode.contacts[c]) {
-            // A gap that rounding has left below zero may be growing.
+            if !facts.arriving[c] {
+                continue;
+            }
             let (rate, size) = self.rate(d.contacts[c].row);
-            if facts.arriving[c] && rate > 1e-12 * size {
+            let enters = facts.located.contains(&Guard::Region(c));
+            if enters && rate.abs() <= ENTERS * self.settings.tolerance * size {
+                // It rolls onto the surface.
+                facts.arriving[c] = false;
+            } else if rate > 1e-12 * size {
+                // A gap that rounding has left below zero may be growing.
                 (facts.touching[c], facts.arriving[c], facts.parting[c]) = (false, false, true);
-                facts.located.retain(|guard| *guard != Guard::Gap(c));
+                let of_contact = [Guard::Gap(c), Guard::Region(c)];
+                facts.located.retain(|guard| !of_contact.contains(guard));
             }
         }
         if !(0..d.contacts.len()).any(|c| facts.arriving[c] && self.approaching(c)) {

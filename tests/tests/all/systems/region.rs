@@ -1,7 +1,7 @@
 //! Contacts limited to a region: a table with an edge, a wall with a hole, two tables in a row.
 
 use lagrange_core::prelude::*;
-use lagrange_tests::{agree, run};
+use lagrange_tests::{agree, run, run_by};
 
 const G: f64 = 9.81;
 
@@ -195,5 +195,67 @@ fn a_certificate_knows_what_passes_outside_a_region() {
     for seed in 0..20 {
         let certificate = run.verify(seed).expect("recorded");
         assert!(certificate.holds(), "{seed}: {certificate}");
+    }
+}
+
+/// A wheel that rolls against a kerb, turns about its edge, and rolls on upon the pavement.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, phi),
+    define(far = sqrt((x - place)^2 + (y - height)^2)),
+    kinetic   = mass/2 * (der(x)^2 + der(y)^2) + inertia/2 * der(phi)^2,
+    potential = mass * gravity * y,
+    contact(road: y >= radius, where x <= place),
+    contact(edge: far >= radius),
+    contact(pavement: y >= radius + height, where x >= place),
+    friction(on_road on road: slip = der(x) - radius * der(phi), static = mu),
+    friction(on_edge on edge: slip = ((y - height) * der(x) - (x - place) * der(y))/far - radius * der(phi), static = mu),
+    friction(on_pavement on pavement: slip = der(x) - radius * der(phi), static = mu),
+)]
+struct Kerb {
+    mass: f64,
+    inertia: f64,
+    radius: f64,
+    gravity: f64,
+    height: f64,
+    place: f64,
+    mu: f64,
+}
+
+/// Where the wheel stands upon the edge the gap above the pavement is zero to rounding, on either side of it.
+#[test]
+fn a_wheel_climbs_a_kerb_and_stays_on_top() {
+    let kerb = Kerb {
+        mass: 4.0,
+        inertia: 0.1,
+        radius: 0.3,
+        gravity: G,
+        height: 0.04,
+        place: 1.0,
+        mu: 2.0,
+    };
+    for speed in [1.3, 1.35, 1.4, 1.5] {
+        // The angular momentum about the edge is kept when it is met, the energy while the wheel turns about it.
+        let (m, j, r, h) = (kerb.mass, kerb.inertia, kerb.radius, kerb.height);
+        let about = j + m * r * r;
+        let rate = (j + m * r * (r - h)) * speed / (r * about);
+        let left = r * (rate * rate - 2.0 * m * G * h / about).sqrt();
+        for method in ["auto", "dop853", "dopri5", "verner98", "radau5"] {
+            for tolerance in [1e-6, 1e-9, 1e-12] {
+                let start = State::new(vec![0.0, r, 0.0], vec![speed, 0.0, speed / r]);
+                let run = run_by(&kerb, (method, tolerance), start, 1.5);
+                let what = format!("{speed} by {method} at {tolerance:e}");
+                assert!(
+                    run.final_mode().closed(Kerb::PAVEMENT),
+                    "{what}: {:?}",
+                    story(&run)
+                );
+                assert!(run.final_mode().sticks(Kerb::ON_PAVEMENT), "{what}");
+                let end = run.final_state();
+                let bound = (100.0 * tolerance).max(1e-11);
+                agree(&what, end.v(Kerb::X), left, bound);
+                agree(&what, end.q(Kerb::Y), r + h, bound);
+            }
+        }
     }
 }
