@@ -21,6 +21,9 @@ const BORDER: f64 = 1e-3;
 /// How far ahead guards at their border are looked at, in parts of the step.
 const AHEAD: f64 = 1e-2;
 
+/// What is no larger than so many times a residue is one.
+const RESIDUES: f64 = 10.0;
+
 /// So many composite guards at most begin at their border.
 const MOST_JOINTS: usize = 20;
 
@@ -191,6 +194,7 @@ impl<T: Scalar> Decider<T> {
     /// Answers the questions that values answer: what remains is asked of the series.
     fn ask_values(&mut self, dynamics: &Dynamics<T>, here: SwitchContext<'_, T>) {
         let facts = here.facts;
+        let exactly = here.moment.tolerance == 0.0;
         let Self {
             sizes,
             questions,
@@ -217,7 +221,10 @@ impl<T: Scalar> Decider<T> {
                 1e-6
             };
             let size = sizes.of(guard, dynamics);
-            let incomparable = matches!(guard, Guard::NormalForceSign(_)) && size <= value.abs();
+            let incomparable = match guard {
+                Guard::NormalForceSign(_) => size <= value.abs(),
+                _ => exactly && size <= RESIDUES * value.abs(),
+            };
             if incomparable && concerns(guard, composites, facts) {
                 // All forces may vanish at this instant.
                 return true;

@@ -132,7 +132,18 @@ impl<T: Scalar> Decider<T> {
         let scratch = &mut self.decision.mode;
         (self.tried, self.sized) = (0, false);
         let outcome = match listings.list(dynamics, here, &self.rows, scratch) {
-            Some(candidates) => self.best(dynamics, table, here, candidates),
+            Some(candidates) => match self.best(dynamics, table, here, candidates) {
+                Ok(true) => Ok(true),
+                refused => {
+                    // What decides may be smaller than errors are allowed to be.
+                    let mut exactly = here;
+                    exactly.moment.tolerance = 0.0;
+                    match self.best(dynamics, table, exactly, candidates) {
+                        Ok(true) => Ok(true),
+                        _ => refused,
+                    }
+                }
+            },
             None => self.pivot(dynamics, table, here),
         };
         self.listings = listings;
@@ -240,6 +251,7 @@ impl<T: Scalar> Decider<T> {
         here: SwitchContext<'_, T>,
         candidates: &Candidates,
     ) -> Result<bool, EvaluationError> {
+        self.tried = 0;
         let (mut best, mut failure) = (None, None);
         // Without friction the accelerations are the only ones that Gauss's principle allows: no other mode has others.
         let idle = |mode: &Mode| mode.frictions.iter().all(|f| *f == FrictionMode::Inactive);
