@@ -222,6 +222,11 @@ pub enum Verdict {
     },
 }
 
+/// By which factor a step may be longer than one that had this [`defect`].
+pub fn stretch(defect: f64, order: usize) -> f64 {
+    (0.9 * defect.powf(-1.0 / (order + 1) as f64)).min(5.0)
+}
+
 /// Judges defects, and notices when a smaller step does not help because what remains is rounding.
 #[derive(Clone, Debug, Default)]
 pub struct DefectControl {
@@ -241,7 +246,7 @@ impl DefectControl {
         }
         let factor = if defect.is_finite() {
             self.previous = Some(defect);
-            (0.9 * defect.powf(-1.0 / (order + 1) as f64)).clamp(0.1, 0.7)
+            stretch(defect, order).clamp(0.1, 0.7)
         } else {
             0.1
         };

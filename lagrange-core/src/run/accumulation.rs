@@ -23,6 +23,9 @@ const FEWEST: usize = 3;
 /// Intervals that are remembered.
 const REMEMBERED: usize = 128;
 
+/// A flight that rises no higher than this, in the unit of the gap, is too low for a gap that is rounded at each of its samples.
+const LOW: f64 = 1e-9;
+
 /// Time intervals below this share of the time itself cannot be told apart.
 const RESOLUTION: f64 = 64.0 * f64::EPSILON;
 
@@ -41,6 +44,8 @@ pub(super) struct Impacts<T> {
     left: f64,
     /// The last three times, the latest first.
     times: [T; 3],
+    /// How high the contact opened before the last one.
+    height: f64,
     /// How many of the last intervals were below the resolution of time.
     unresolved: usize,
     /// The intervals before the last `REMEMBERED` of the `count` impacts, in a ring.
@@ -56,6 +61,7 @@ impl<T: Scalar> Default for Impacts<T> {
             ratio: 0.0,
             left: f64::INFINITY,
             times: [T::zero(); 3],
+            height: f64::INFINITY,
             unresolved: 0,
             intervals: [0.0; REMEMBERED],
         }
@@ -67,12 +73,13 @@ impl<T: Scalar> Impacts<T> {
     pub(super) fn restart(&mut self) {
         (self.count, self.unresolved) = (0, 0);
         (self.last, self.interval, self.ratio) = (0.0, 0.0, 0.0);
-        self.left = f64::INFINITY;
+        (self.left, self.height) = (f64::INFINITY, f64::INFINITY);
         self.times = [T::zero(); 3];
     }
 
-    /// Books an impact; returns how long all further ones will last, if they shrink geometrically, and how uncertain that is.
-    fn book(&mut self, time: T) -> Option<(T, f64)> {
+    /// Books an impact at which the gap closed at this `rate`; returns how long all further ones will last, if they shrink
+    /// geometrically, and how uncertain that is.
+    fn book(&mut self, time: T, rate: f64) -> Option<(T, f64)> {
         let [last, earlier, _] = self.times;
         self.times = [time, last, earlier];
         let time = time.value();
@@ -86,6 +93,8 @@ impl<T: Scalar> Impacts<T> {
             1
         };
         (self.last, self.interval, self.ratio) = (time, interval, ratio);
+        // Under a constant force.
+        self.height = 0.25 * rate.abs() * interval;
         self.intervals[self.count % REMEMBERED] = interval;
         self.unresolved = if interval <= RESOLUTION * time.abs() {
             self.unresolved + 1
@@ -211,7 +220,8 @@ impl<T: Scalar> Run<T> {
     /// After an impact of contact `c`: closes it if the impacts to come are below the tolerance. Returns the number of
     /// impacts that led here, and how long the others last.
     fn accumulate(&mut self, c: usize, facts: &mut SwitchFacts) -> Option<(usize, T)> {
-        let (remaining, uncertain) = self.switcher.impacts[c].book(self.now.t)?;
+        let (rate, _) = self.rate(self.description().contacts[c].row);
+        let (remaining, uncertain) = self.switcher.impacts[c].book(self.now.t, rate)?;
         let certain = uncertain <= self.settings.tolerance * self.now.t.value().abs().max(1.0)
             || remaining.value() <= RESOLUTION * self.now.t.value().abs();
         if !(certain && self.is_over(remaining.value())) {
@@ -256,6 +266,16 @@ impl<T: Scalar> Run<T> {
         // Below the resolution of time nothing can be told apart.
         let resolved = remaining > RESOLUTION * self.now.t.value().abs();
         !(resolved && q.iter().zip(v).enumerate().any(moves))
+    }
+
+    /// Whether a contact is open for a flight so low that samples of its gap do not tell when it ends, while Taylor series do.
+    pub(super) fn flies_low(&self) -> bool {
+        let contacts = self.now.mode.contacts.iter().zip(&self.switcher.impacts);
+        let mut flights = contacts.filter(|(closed, _)| !**closed);
+        flights.any(|(_, impacts)| {
+            let lasts = self.now.t.value() - impacts.last;
+            impacts.height <= LOW && lasts <= 2.0 * impacts.interval
+        })
     }
 
     /// Whether the gap of contact `c` is below the tolerance.
@@ -315,6 +335,10 @@ impl<T: Scalar> Run<T> {
         }
         near.iter()
             .for_each(|&c| self.switcher.scratch_mode.contacts[c] = true);
+        // What comes to rest here does so together with what it lifts.
+        rubbing().filter(|&f| rest.sticks[f]).for_each(|f| {
+            self.switcher.scratch_mode.frictions[f] = FrictionMode::Stick;
+        });
         self.dynamics.set_mode(&self.switcher.scratch_mode);
         self.project(true)?;
         self.evaluate_all_rows()?;

@@ -35,6 +35,8 @@ pub(super) struct Stepper<T> {
     pub(super) other: Option<Box<Integrator<T>>>,
     /// and the step that it would like to take.
     pub(super) wanted: Option<f64>,
+    /// Longest step of Taylor series for which guards that bend more than the motion are good, while they are what bounds the steps.
+    guarded: Option<f64>,
     pub(super) stiffness: Stiffness<T>,
     pub(super) step: StepPolynomial<T>,
     /// Of the length of the step.
@@ -54,6 +56,7 @@ impl<T: Scalar> Stepper<T> {
             control: DefectControl::default(),
             other: Integrator::new(settings.method, n).map(Box::new),
             wanted: None,
+            guarded: None,
             stiffness: Stiffness::new(settings.method),
             step: StepPolynomial::new(n, 1),
             powers: Vec::new(),
@@ -70,7 +73,7 @@ impl<T: Scalar> Stepper<T> {
     /// Forgets what belongs to another motion; the method is the one that was asked for.
     pub(super) fn restart(&mut self) {
         self.control = DefectControl::default();
-        self.wanted = None;
+        (self.wanted, self.guarded) = (None, None);
         if let Some(method) = &mut self.other {
             method.restart();
         }
@@ -97,9 +100,11 @@ impl<T: Scalar> Run<T> {
     fn taylor_step(&mut self) -> Result<Hit, Error> {
         self.expand()?;
         let longest = self.end - self.now.t.value();
-        let mut h = taylor::step_size(&self.dynamics, self.stepper.order, self.settings.per_step())
+        let moves = taylor::step_size(&self.dynamics, self.stepper.order, self.settings.per_step())
             .ok_or_else(|| self.not_finite("a Taylor coefficient"))?
             .min(longest);
+        let mut h = self.stepper.guarded.map_or(moves, |h| h.min(moves));
+        let mut guarded = h < moves;
         let mut closer = 0;
         let mut corrections = 0;
         loop {
@@ -167,6 +172,8 @@ impl<T: Scalar> Run<T> {
                         continue;
                     }
                     self.now.distance = distance;
+                    self.stepper.guarded =
+                        guarded.then(|| h * looked * taylor::stretch(guards, self.stepper.order));
                     if looked != end {
                         self.state_at_end(end);
                     }
@@ -174,6 +181,7 @@ impl<T: Scalar> Run<T> {
                 }
                 Verdict::Redo { h: smaller } => {
                     self.recorder.trajectory.work.rejected += 1;
+                    guarded |= motion <= 1.0;
                     if motion <= 1.0 && smaller <= self.resolution() {
                         return self.pass_break();
                     }
@@ -304,6 +312,9 @@ impl<T: Scalar> Run<T> {
             self.dynamics.hold_rows_aside(false);
             self.evaluate()?;
             self.dynamics.hold_rows_aside(!self.is_undecided());
+        }
+        if self.flies_low() {
+            return self.taylor_step();
         }
         let longest = self.end - self.now.t.value();
         let Some(method) = &mut self.stepper.other else {
