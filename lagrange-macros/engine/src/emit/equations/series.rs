@@ -83,7 +83,7 @@ pub fn implementation(
     let (t, q, v) = (local("t"), local("q"), local("v"));
     let prologue = expansion.writer.prologue();
     let needs = names::needs(program.equations.needs.len());
-    let all = expansion.rows();
+    let (row_names, count) = (expansion.row_names(), index(plan.rows));
     let result = quote!(::core::result::Result<(), Refused>);
     quote! {
         #[doc = #heading]
@@ -98,7 +98,8 @@ pub fn implementation(
                 #rows: &mut [Row<#number>],
             ) -> #result {
                 #prologue
-                let [#(#all),*] = first_mut(#rows);
+                #row_names
+                let #rows = first_mut::<#count, _>(#rows);
                 #needs
                 #first
                 #next
@@ -137,28 +138,37 @@ impl Expansion<'_> {
         }
     }
 
-    /// The array of all coefficients of a series that is kept.
-    fn row(&self, row: Row) -> Ident {
-        match row {
-            Row::Value(value) => self.of(value, "row"),
-            Row::Weighted(value) => self.of(value, "weighted"),
-            Row::Auxiliary(value) => self.of(value, "u_row"),
-            Row::Sum(output) => local(&format!("sum{output}_row")),
-            Row::Fixed(constant) => local(&format!("c{constant}_row")),
-        }
+    /// The number of the row of a series that is kept, as a constant.
+    fn row_name(&self, row: Row) -> Ident {
+        let stem = |value: Value| self.writer.locals.stem(value);
+        let name = match row {
+            Row::Value(value) => stem(value),
+            Row::Weighted(value) => format!("{}_weighted", stem(value)),
+            Row::Auxiliary(value) => format!("{}_u", stem(value)),
+            Row::Sum(output) => format!("sum{output}"),
+            Row::Fixed(constant) => format!("c{constant}"),
+        };
+        local(&name.to_uppercase())
     }
 
-    /// A pattern for each row, in their order.
-    fn rows(&self) -> Vec<TokenStream> {
-        let mut all = vec![quote!(_); self.plan.rows];
-        for (&row, &at) in self.plan.kept() {
-            let name = self.row(row);
-            all[at] = quote!(#name);
-        }
-        all
+    /// All coefficients of a series that is kept.
+    fn row(&self, row: Row) -> TokenStream {
+        let (rows, name) = (local("rows"), self.row_name(row));
+        quote!(#rows[#name])
     }
 
-    /// `row[at] = value;`, if the row is kept.
+    /// Names the rows, in their order.
+    fn row_names(&self) -> TokenStream {
+        let mut kept: Vec<(usize, Row)> = self.plan.kept().map(|(&row, &at)| (at, row)).collect();
+        kept.sort_unstable();
+        let lines = kept.into_iter().map(|(at, row)| {
+            let (name, at) = (self.row_name(row), index(at));
+            quote!(const #name: usize = #at;)
+        });
+        quote!(#(#lines)*)
+    }
+
+    /// `rows[row][at] = value;`, if the row is kept.
     fn store(&self, row: Row, at: TokenStream, value: TokenStream) -> TokenStream {
         if self.plan.row(row).is_none() {
             return TokenStream::new();
