@@ -147,6 +147,11 @@ impl<T: Scalar> Decider<T> {
             None => self.pivot(dynamics, table, here),
         };
         self.listings = listings;
+        let outcome = match outcome {
+            Ok(true) => Ok(true),
+            _ if self.goes_on(dynamics, table, here) => Ok(true),
+            refused => refused,
+        };
         let time = here.moment.t.value();
         match outcome {
             Ok(true) => {
@@ -291,6 +296,33 @@ impl<T: Scalar> Decider<T> {
             }
             _ => Ok(best.is_some()),
         }
+    }
+
+    /// Whether the present mode, of which a force was located as zero, goes on because that force is still clearly positive: the root has
+    /// an error larger than what decides, and from here it will be located anew. If so, the mode is left in `self.best`.
+    fn goes_on(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        table: &mut Table,
+        here: SwitchContext<'_, T>,
+    ) -> bool {
+        let located = &here.facts.located;
+        if !here.ends(here.present) || !located.iter().all(|guard| guard.is_force()) {
+            return false;
+        }
+        let mut exactly = here;
+        exactly.moment.tolerance = 0.0;
+        self.decision.expanded = false;
+        let feasible = matches!(
+            self.examine(dynamics, table, exactly, here.present),
+            Ok(true)
+        );
+        let goes_on = feasible && self.zeros.iter().all(|(guard, _)| !located.contains(guard));
+        if goes_on {
+            self.decision.ambiguous = false;
+            self.keep(dynamics);
+        }
+        goes_on
     }
 
     /// Keeps the candidate examined last, which is feasible.

@@ -111,3 +111,45 @@ fn what_rubs_does_not_stick_in_its_dead_centre() {
         );
     }
 }
+
+/// A crank that rubs by the way of its pin across, at the side where the pin turns.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(theta),
+    kinetic = inertia/2 * der(theta)^2,
+    friction(rub: slip = der(crank * sin(theta)), limit = dry),
+    force(motor: theta = torque),
+)]
+struct Pin {
+    inertia: f64,
+    crank: f64,
+    dry: f64,
+    torque: f64,
+}
+
+/// The cosine of π/2 is 6e-17 in numbers: a friction that stuck would have to be torque/(crank 6e-17). None is reported.
+#[test]
+fn no_friction_sticks_where_rounding_is_all_that_it_acts_by() {
+    let pin = Pin {
+        inertia: 0.3,
+        crank: 0.5,
+        dry: 1.5,
+        torque: 2.0,
+    };
+    for tolerance in [1e-12, 1e-6] {
+        let start = state(&[0.5 * PI], &[0.0]);
+        let run = run_by(&pin, ("taylor", tolerance), start, 1.0);
+        for event in run.events() {
+            let forces = event.forces.iter().chain(&event.forces_after);
+            let largest = forces.fold(0.0_f64, |largest, f| largest.max(f.abs()));
+            assert!(largest <= pin.dry * (1.0 + 1e-12), "{largest} N");
+        }
+        let end = run.final_state();
+        let (theta, rate) = (end.q(Pin::THETA), end.v(Pin::THETA));
+        assert!(theta > 2.5 && theta < 1.5 * PI, "{theta}");
+        let way = pin.crank * (1.0 - theta.sin());
+        let work = pin.torque * (theta - 0.5 * PI) - pin.dry * way;
+        let kinetic = 0.5 * pin.inertia * rate * rate;
+        agree("energy", kinetic / work, 1.0, 10.0 * tolerance);
+    }
+}

@@ -29,6 +29,7 @@ mod kepler;
 mod landings;
 mod last_bounces;
 mod late;
+mod lifts;
 mod metric;
 mod multiples_of_pi;
 mod onset;
