@@ -161,12 +161,6 @@ impl Mode {
             && self.frictions.iter().zip(&other.frictions).all(same)
     }
 
-    /// The frictions that stick.
-    pub(crate) fn sticking(&self) -> impl Iterator<Item = usize> + '_ {
-        let frictions = self.frictions.iter().enumerate();
-        frictions.filter_map(|(f, state)| (*state == FrictionMode::Stick).then_some(f))
-    }
-
     /// Lets go of what sticks; whether anything did.
     pub(crate) fn release_sticking(&mut self) -> bool {
         let sticking = self.frictions.iter_mut();

@@ -2,7 +2,6 @@
 
 mod accumulation;
 mod cause;
-mod dead_centre;
 mod fading;
 mod feasible;
 mod guard_polynomials;
@@ -273,14 +272,10 @@ impl<T: Scalar> Run<T> {
         (self.now.series, self.now.valued) = (Progress::None, false);
         self.now.mode.clone_from(&self.switcher.status.mode);
         self.hold_guards();
-        if self.evaluate().is_err() {
+        if self.evaluate().is_err() && self.now.mode.release_sticking() {
             // What is at rest for an instant, as a slider at its dead centre, may be held there by nothing.
-            if self.now.mode.release_sticking() {
-                self.dynamics.set_mode(&self.now.mode);
-                self.hold_guards();
-            }
-        } else if self.overcomes_a_friction() {
-            self.release_dead_centres();
+            self.dynamics.set_mode(&self.now.mode);
+            self.hold_guards();
         }
         self.recorder.trajectory.modes.clear();
         self.recorder.trajectory.modes.push(&self.now.mode);

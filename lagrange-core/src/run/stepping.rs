@@ -2,7 +2,7 @@
 
 use super::hits::Hit;
 use super::rest::JUST_BEFORE;
-use super::singular::{LEAST_DEGREE, MOST_RETREATS, RETREAT};
+use super::singular::{MOST_RETREATS, RETREAT};
 use super::stiffness::Stiffness;
 use super::{Progress, Run};
 use crate::arithmetic::Scalar;
@@ -100,10 +100,9 @@ impl<T: Scalar> Run<T> {
     fn taylor_step(&mut self) -> Result<Hit, Error> {
         self.expand()?;
         let longest = self.end - self.now.t.value();
-        let (moves, order) = self
-            .longest_series()
-            .ok_or_else(|| self.not_finite("a Taylor coefficient"))?;
-        let moves = moves.min(longest);
+        let moves = taylor::step_size(&self.dynamics, self.stepper.order, self.settings.per_step())
+            .ok_or_else(|| self.not_finite("a Taylor coefficient"))?
+            .min(longest);
         let mut h = self.stepper.guarded.map_or(moves, |h| h.min(moves));
         let mut guarded = h < moves;
         let mut closer = 0;
@@ -112,7 +111,7 @@ impl<T: Scalar> Run<T> {
             if self.now.t.value() + h <= self.now.t.value() {
                 return Err(self.step_too_small(h));
             }
-            self.write_polynomial(h, order);
+            self.write_polynomial(h, self.stepper.order);
             self.locator.polynomials.take_series(
                 &self.dynamics,
                 &self.now.mode,
@@ -167,14 +166,14 @@ impl<T: Scalar> Run<T> {
             }
             let control = &mut self.stepper.control;
             // The polynomial is as good at its root however long the step: the next try ends before it.
-            match control.judge(h * end, defect, order) {
+            match control.judge(h * end, defect, self.stepper.order) {
                 Verdict::Accept => {
                     if self.corrects_composites(&hit, looked, &mut corrections) {
                         continue;
                     }
                     self.now.distance = distance;
                     self.stepper.guarded =
-                        guarded.then(|| h * looked * taylor::stretch(guards, order));
+                        guarded.then(|| h * looked * taylor::stretch(guards, self.stepper.order));
                     if looked != end {
                         self.state_at_end(end);
                     }
@@ -190,15 +189,6 @@ impl<T: Scalar> Run<T> {
                 }
             }
         }
-    }
-
-    /// The step that the series at hand allows, and the order up to which it is used: close to where a slip vanishes that turns, the
-    /// last coefficients are larger than numbers can be.
-    fn longest_series(&self) -> Option<(f64, usize)> {
-        let step = |order| taylor::step_size(&self.dynamics, order, self.settings.per_step());
-        let highest = self.stepper.order;
-        let mut orders = (LEAST_DEGREE.min(highest)..=highest).rev();
-        orders.find_map(|order| Some((step(order)?, order)))
     }
 
     /// Shorter steps do not advance time clearly.

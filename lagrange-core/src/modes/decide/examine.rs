@@ -5,7 +5,7 @@ use super::{Decider, EvaluationPoint, SwitchContext};
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError, OutputMask};
 use crate::integrate::{Tolerance, taylor};
-use crate::mode::Mode;
+use crate::mode::{FrictionMode, Mode};
 use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
 use crate::modes::redundant::{self, CompositeGuard};
@@ -131,7 +131,9 @@ impl<T: Scalar> Decider<T> {
     ) -> Result<bool, EvaluationError> {
         let d = dynamics.description();
         let moment = here.moment;
-        let sticking: Vec<usize> = self.posed.sticking().collect();
+        let frictions = self.posed.frictions.iter().enumerate();
+        let sticking = frictions.filter(|(_, friction)| **friction == FrictionMode::Stick);
+        let sticking: Vec<usize> = sticking.map(|(f, _)| f).collect();
         if sticking.is_empty() {
             return Ok(false);
         }

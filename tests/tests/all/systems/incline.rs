@@ -196,19 +196,3 @@ fn all_methods_come_to_rest() {
         );
     }
 }
-
-/// The last coefficients are beyond all numbers where the slip has nearly vanished. With n = μ g cos α and a = g sin α,
-/// n v + a v cos ψ falls by n² − a² per second.
-#[test]
-fn slips_that_turn_come_to_rest_at_the_tightest_tolerance() {
-    let block = block(3.6);
-    let (a, n) = (9.81 * SLOPE.sin(), 3.6 * 9.81 * SLOPE.sin());
-    for [across, down] in [[2.0, 0.5], [2.0, -1.5]] {
-        let start = state(&[0.0; 3], &[across, down, 0.0]);
-        let trajectory = run_by(&block, ("taylor", 1e-16), start, 3.0);
-        assert_eq!(words(&trajectory), ["grip sticks"]);
-        let speed = f64::hypot(across, down);
-        let time = (n * speed + a * down) / (n * n - a * a);
-        agree("rest", trajectory.events()[0].time, time, 1e-14);
-    }
-}
