@@ -1,13 +1,13 @@
 //! A headless Chromium, driven from tests through its debugging protocol.
 
 use serde_json::{Value, json};
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, ErrorKind};
 use std::net::TcpStream;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
-use tungstenite::{Message, WebSocket, client};
+use tungstenite::{Error, Message, WebSocket, client};
 
 /// The longest that anything may take.
 const PATIENCE: Duration = Duration::from_secs(20);
@@ -109,8 +109,14 @@ impl Browser {
         browser
     }
 
-    /// Asks for something and waits for the answer; what the page complains of meanwhile is kept.
+    /// Asks for something that is answered.
     fn call(&mut self, method: &str, params: Value) -> Value {
+        let answer = self.ask(method, params);
+        answer.unwrap_or_else(|refused| panic!("{method}: {refused}"))
+    }
+
+    /// Asks for something and waits for the answer, or why there is none; what the page complains of meanwhile is kept.
+    fn ask(&mut self, method: &str, params: Value) -> Result<Value, Value> {
         self.calls += 1;
         let mut message = json!({ "id": self.calls, "method": method, "params": params });
         if !self.session.is_empty() {
@@ -120,8 +126,12 @@ impl Browser {
             .send(Message::text(message.to_string()))
             .expect("a connection");
         loop {
-            let Message::Text(text) = self.socket.read().expect("an answer") else {
-                continue;
+            let text = match self.socket.read() {
+                Ok(Message::Text(text)) => text,
+                Ok(_) => continue,
+                // A signal to this process is no answer.
+                Err(Error::Io(error)) if error.kind() == ErrorKind::Interrupted => continue,
+                Err(error) => panic!("{method}: {error}"),
             };
             let answer: Value = serde_json::from_str(&text).expect("JSON");
             let said = [
@@ -133,8 +143,10 @@ impl Browser {
                 self.complaints.push(answer["params"].to_string());
             }
             if answer["id"] == self.calls {
-                assert_eq!(answer["error"], Value::Null, "{method}");
-                return answer["result"].clone();
+                return match &answer["error"] {
+                    Value::Null => Ok(answer["result"].clone()),
+                    refused => Err(refused.clone()),
+                };
             }
         }
     }
@@ -168,17 +180,30 @@ impl Browser {
 
     /// The value of an expression in the page.
     pub fn evaluate(&mut self, script: &str) -> Value {
-        let params = json!({ "expression": script, "returnByValue": true, "awaitPromise": true });
-        let answer = self.call("Runtime.evaluate", params);
-        assert_eq!(answer["exceptionDetails"], Value::Null, "{script}");
-        answer["result"]["value"].clone()
+        let value = self.value(script);
+        value.unwrap_or_else(|refused| panic!("{script}: {refused}"))
     }
 
-    /// Waits until an expression is neither 0, false nor empty.
+    /// The value of an expression, or why the page does not tell it.
+    fn value(&mut self, script: &str) -> Result<Value, Value> {
+        let params = json!({ "expression": script, "returnByValue": true, "awaitPromise": true });
+        let answer = self.ask("Runtime.evaluate", params)?;
+        assert_eq!(answer["exceptionDetails"], Value::Null, "{script}");
+        Ok(answer["result"]["value"].clone())
+    }
+
+    /// Reads the page once more.
+    pub fn reload(&mut self) {
+        self.evaluate("window.isLeft = true");
+        self.call("Page.reload", json!({}));
+        self.wait("!window.isLeft && document.readyState === 'complete'");
+    }
+
+    /// Waits until an expression is neither 0, false nor empty. A page that is being left tells nothing.
     pub fn wait(&mut self, script: &str) -> Value {
         let begin = Instant::now();
         loop {
-            let value = self.evaluate(script);
+            let value = self.value(script).unwrap_or_default();
             let empty = [json!(0), json!(false), json!(""), Value::Null];
             if !empty.contains(&value) && value.as_f64() != Some(0.0) {
                 return value;

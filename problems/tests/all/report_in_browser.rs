@@ -86,7 +86,8 @@ fn colours(canvas: &str) -> String {
 fn open_drawn(browser: &mut Browser, page: &Written, way: &str, context: &str) -> bool {
     browser.open(&page.0, AT_A_DESK);
     // What `location.hash` is when the page is read decides.
-    browser.evaluate(&format!("(location.hash = '{way}', location.reload())"));
+    browser.evaluate(&format!("location.hash = '{way}'"));
+    browser.reload();
     let canvas = "document.querySelector('.view canvas')";
     browser.wait(&format!("location.hash === '#{way}' && !!{canvas}"));
     browser.evaluate(&format!("!!{canvas}.getContext('{context}')")) == true
