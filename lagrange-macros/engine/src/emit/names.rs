@@ -37,14 +37,12 @@ impl Locals {
                 }
             };
             let name: String = name.chars().map(plain).collect();
-            let name = name.trim_end_matches('_');
+            let mut name = name.trim_end_matches('_').to_owned();
             // Names that differ in other letters only are told apart by their number.
-            let is_taken = name.len() < 2 || inputs.iter().any(|other| other == name);
-            let number = inputs.len();
-            inputs.push(match is_taken {
-                true => format!("{name}_{number}"),
-                false => name.to_owned(),
-            });
+            while name.len() < 2 || inputs.contains(&name) {
+                name = format!("{name}_{}", inputs.len());
+            }
+            inputs.push(name);
         }
         let kinds = BTreeMap::new();
         Locals { inputs, kinds }

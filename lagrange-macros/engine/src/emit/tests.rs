@@ -121,3 +121,23 @@ fn a_picture_is_no_equation() {
     assert_eq!(plain.description.to_string(), drawn.description.to_string());
     assert_ne!(plain.declaration.to_string(), drawn.declaration.to_string());
 }
+
+/// A coordinate may be called what an emitted name of another one could end in: nothing hides its value.
+#[test]
+fn no_local_hides_a_declared_name() {
+    let declaration = quote! {
+        #[lagrange(
+            coordinates(x, x_k, x_u, x_earlier, x_inverse),
+            kinetic = (der(x)^2 + der(x_k)^2 + der(x_u)^2 + der(x_earlier)^2 + der(x_inverse)^2) / 2,
+            potential = x * x_k * x_u * x_earlier * x_inverse + ln(1 + x^2) / tan(x),
+        )]
+        struct Chain {}
+    };
+    let emitted = crate::expand(declaration).to_string();
+    assert!(emitted.contains("let dq_x ="));
+    for name in ["x", "x_k", "x_u", "x_earlier", "x_inverse"] {
+        for bound in [format!("let q_{name} ="), format!("let mut q_{name} =")] {
+            assert!(!emitted.contains(&bound), "{bound}");
+        }
+    }
+}

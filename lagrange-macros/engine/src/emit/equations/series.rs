@@ -34,11 +34,11 @@ struct Expansion<'a> {
 const UNROLLED: usize = 21;
 
 fn sum_coefficient(output: usize) -> Ident {
-    local(&format!("sum{output}_k"))
+    local(&format!("dsum{output}"))
 }
 
 fn system_product(i: usize, j: usize) -> Ident {
-    local(&format!("k{i}_{j}_earlier"))
+    local(&format!("earlier_k{i}_{j}"))
 }
 
 /// `impl ModeSeries for …`
@@ -110,31 +110,31 @@ pub fn implementation(
 }
 
 impl Expansion<'_> {
-    /// A local that belongs to a value.
-    fn of(&self, value: Value, what: &str) -> Ident {
-        local(&format!("{}_{what}", self.writer.locals.stem(value)))
+    /// A local that belongs to a value. What it is stands before the name: behind it, it could be a part of a declared one.
+    fn of(&self, what: &str, value: Value) -> Ident {
+        local(&format!("{what}{}", self.writer.locals.stem(value)))
     }
 
     /// Coefficient k of a value.
     fn coefficient_of(&self, value: Value) -> Ident {
-        self.of(value, "k")
+        self.of("d", value)
     }
 
     /// What the rule of a function needs beside its value.
     fn auxiliary(&self, value: Value) -> Ident {
-        self.of(value, "u")
+        self.of("u_", value)
     }
 
     /// What the rule of an operation divides by, inverted.
     fn inverse(&self, value: Value) -> Ident {
-        self.of(value, "inverse")
+        self.of("inverse_", value)
     }
 
     /// Σ xⱼ yₖ₋ⱼ of a product, of several that with this number.
     fn product(&self, value: Value, at: usize) -> Ident {
         match at {
-            0 => self.of(value, "earlier"),
-            _ => self.of(value, &format!("earlier{at}")),
+            0 => self.of("earlier_", value),
+            _ => self.of(&format!("earlier{at}_"), value),
         }
     }
 
@@ -143,8 +143,8 @@ impl Expansion<'_> {
         let stem = |value: Value| self.writer.locals.stem(value);
         let name = match row {
             Row::Value(value) => stem(value),
-            Row::Weighted(value) => format!("{}_weighted", stem(value)),
-            Row::Auxiliary(value) => format!("{}_u", stem(value)),
+            Row::Weighted(value) => format!("weighted_{}", stem(value)),
+            Row::Auxiliary(value) => format!("u_{}", stem(value)),
             Row::Sum(output) => format!("sum{output}"),
             Row::Fixed(constant) => format!("c{constant}"),
         };
@@ -849,7 +849,7 @@ impl Expansion<'_> {
     }
 
     fn auxiliary_next(&self, value: Value, result: TokenStream) -> TokenStream {
-        let (name, p) = (self.of(value, "u_k"), local("p"));
+        let (name, p) = (self.of("du_", value), local("p"));
         let store = self.store(Row::Auxiliary(value), quote!(#p), quote!(#name));
         quote!(let #name = #result; #store)
     }
