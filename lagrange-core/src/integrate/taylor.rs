@@ -2,8 +2,8 @@
 //!
 //! The step is the one at which the last term is e⁻² of the allowed error (Jorba & Zou, "A software package for the
 //! numerical integration of ODEs by means of high-order Taylor methods", Experimental Mathematics 14 (2005), section 3).
-//! They take the order ⌈−½ ln ε⌉ + 1, the best one if a series costs order²; what a step costs besides (events, a check)
-//! makes a few orders more and fewer steps cheaper, measured on the scenes by 10 % and more.
+//! They take the order ⌈−½ ln ε⌉ + 1, the best one if a step costs nothing but its series. What it costs besides (events, a
+//! check) makes more orders and fewer steps cheaper, the more so the fewer products the series have: [`order`].
 //!
 //! Their step reads the last two coefficients. Those can vanish by symmetry: a pendulum that starts from rest at exactly
 //! π/2 has q₂, q₆, q₁₀ … only, and any order divides badly into such gaps. Here the upper half of the coefficients is
@@ -18,11 +18,28 @@ use crate::arithmetic::Scalar;
 pub const MAX_ORDER: usize = 28;
 const MIN_ORDER: usize = 4;
 
-/// Order for a tolerance: ⌈3 − 0.6 ln ε⌉, between 4 and [`MAX_ORDER`].
-pub fn order(tolerance: Tolerance) -> usize {
-    // A tolerance of 0 asks for infinitely many, a NaN (which casts to 0) for none.
-    let order = (3.0 - 0.6 * tolerance.strictness().ln()).ceil() as usize;
-    order.clamp(MIN_ORDER, MAX_ORDER)
+/// Order for a tolerance ε and series of so many products, between 4 and [`MAX_ORDER`].
+///
+/// A step of the order p costs F + C p², and its length is proportional to ε^(1/p). The motion is cheapest where
+/// p³ = −½ ln ε (p² + F/C). C grows with the number of products; F/C is fitted to the instructions of the scenes. Series of
+/// many products have a large part that is linear in p: for them ⌈3 − 0.6 ln ε⌉ is best, and so it is above 16, where more
+/// orders gain little and the coefficients beside a singular point grow out of range.
+pub fn order(tolerance: Tolerance, products: usize) -> usize {
+    /// F/C of a series without products, times [`BESIDE`].
+    const FIXED: f64 = 4500.0;
+    /// What every series costs, in products.
+    const BESIDE: f64 = 8.0;
+    /// More orders than for series of many products are taken up to this one.
+    const MOST_BESIDE: f64 = 16.0;
+    let digits = -tolerance.strictness().ln();
+    let fixed = FIXED / (BESIDE + products as f64);
+    // A tolerance of 0 asks for infinitely many orders.
+    let dear = |&p: &usize| {
+        let p = p as f64;
+        let best = p * p * p >= 0.5 * digits * (p * p + fixed) || p >= MOST_BESIDE;
+        best && p >= 3.0 + 0.6 * digits
+    };
+    (MIN_ORDER..MAX_ORDER).find(dear).unwrap_or(MAX_ORDER)
 }
 
 /// Taylor coefficients of a solution about the start of a step, in powers of the time (not scaled by h).

@@ -102,9 +102,26 @@ impl Encoded {
             .collect()
     }
 
+    /// Products and functions of what varies along a motion, in all blocks: each is a sum over earlier coefficients for every new
+    /// one of a Taylor series.
+    pub(crate) fn products(&self) -> usize {
+        let mut products = 0;
+        self.read_blocks(|_| true, |_, word| products += word.products());
+        products
+    }
+
     /// Reads the blocks that one of the needs held asks for: to `take` go the words, each with the number of the value that it
     /// computes, if it does.
-    pub(crate) fn read(&self, held: &Selection, mut take: impl FnMut(usize, Word)) {
+    pub(crate) fn read(&self, held: &Selection, take: impl FnMut(usize, Word)) {
+        let asks = |(place, mask): (usize, u64)| {
+            let held = held.needs.get(place);
+            held.is_some_and(|held| held & mask != 0)
+        };
+        self.read_blocks(asks, take);
+    }
+
+    /// Reads the blocks of which a word of the mask of needs, given with its place, asks for it, and those without needs.
+    fn read_blocks(&self, asks: impl Fn((usize, u64)) -> bool, mut take: impl FnMut(usize, Word)) {
         let (words, _) = self.words.as_chunks::<4>();
         let mut words = words.iter().map(|word| u32::from_le_bytes(*word));
         while let Some(count) = words.next() {
@@ -112,7 +129,7 @@ impl Encoded {
             for place in 0..count as usize {
                 let (low, high) = (words.next(), words.next());
                 let needs = u64::from(low.unwrap_or(0)) | u64::from(high.unwrap_or(0)) << 32;
-                runs |= held.needs.get(place).is_some_and(|held| held & needs != 0);
+                runs |= asks((place, needs));
             }
             let (length, first) = (words.next().unwrap_or(0), words.next().unwrap_or(0));
             if !runs {
@@ -161,6 +178,19 @@ fn word(code: u32, x: u32, y: u32) -> Word {
 }
 
 impl Word {
+    /// Sums over earlier coefficients for each new one of a series.
+    fn products(self) -> usize {
+        match self {
+            Word::Ratio(..) | Word::Powf(..) => 1,
+            Word::Apply(number, ..) => match Op::of_format(number) {
+                Op::Add | Op::Sub | Op::Neg => 0,
+                op if op.is_pair() => 2,
+                _ => 1,
+            },
+            _ => 0,
+        }
+    }
+
     /// Number of values that it computes.
     fn values(self) -> usize {
         match self {

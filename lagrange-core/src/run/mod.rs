@@ -125,7 +125,7 @@ impl<T: Scalar> Run<T> {
         let mode = Mode::open(d);
         let mut run = Run {
             dynamics: Dynamics::of(system.clone(), &settings.effects),
-            stepper: Stepper::new(settings, &state),
+            stepper: Stepper::new(settings, d, &state),
             rank: Rank::new(d, &settings.effects),
             locator: Locator::new(d, settings, &mode),
             switcher: Switcher::new(d, &mode),

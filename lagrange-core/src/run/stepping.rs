@@ -12,6 +12,7 @@ use crate::integrate::taylor::{self, DefectControl, Verdict};
 use crate::integrate::{Integrator, Method, StepError, StepPolynomial, onto_step};
 use crate::modes::guard::Guard;
 use crate::settings::Settings;
+use crate::system::Description;
 use crate::trajectory::State;
 
 /// Where rounding hides how a guard begins, the step is made shorter by this.
@@ -49,10 +50,10 @@ pub(super) struct Stepper<T> {
 
 impl<T: Scalar> Stepper<T> {
     /// Room for the steps of states like this one.
-    pub(super) fn new(settings: &Settings, state: &State<T>) -> Self {
+    pub(super) fn new(settings: &Settings, d: &Description, state: &State<T>) -> Self {
         let n = state.q.len();
         Stepper {
-            order: taylor::order(settings.per_step()),
+            order: taylor::order(settings.per_step(), d.motion.products()),
             control: DefectControl::default(),
             other: Integrator::new(settings.method, n).map(Box::new),
             wanted: None,

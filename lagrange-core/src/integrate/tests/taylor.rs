@@ -7,9 +7,12 @@ use super::runge_kutta::Run;
 use crate::integrate::taylor::{DefectControl, Verdict, defect, order, step_size};
 use crate::integrate::{StepPolynomial, Tolerance};
 
+/// Of the series of an orbit.
+const PRODUCTS: usize = 7;
+
 /// Integrates to `until` with series from the problem.
 pub fn run<P: Problem>(problem: &mut P, tolerance: Tolerance, until: f64, h_max: f64) -> Run {
-    let order = order(tolerance);
+    let order = order(tolerance, PRODUCTS);
     let n = P::COORDINATES;
     let mut step = StepPolynomial::new(n, order);
     let (mut q, mut v) = problem.solution(0.0);
@@ -55,13 +58,13 @@ fn fill(step: &mut StepPolynomial<f64>, coefficients: &Coefficients, t: f64, h: 
 }
 
 #[test]
-fn the_order_follows_the_digits() {
-    let at = |tolerance| order(Tolerance::both(tolerance));
-    assert_eq!(
-        [at(1e-3), at(1e-6), at(1e-9), at(1e-12), at(1e-16)],
-        [8, 12, 16, 20, 26]
-    );
-    assert_eq!([at(1.0), at(100.0), at(0.0), at(f64::NAN)], [4, 4, 28, 4]);
+fn the_order_follows_the_digits_and_the_cost_of_a_series() {
+    let at = |tolerance, products| order(Tolerance::both(tolerance), products);
+    let few = [1e-3, 1e-6, 1e-9, 1e-12, 1e-16].map(|tolerance| at(tolerance, PRODUCTS));
+    assert_eq!(few, [12, 16, 16, 20, 26]);
+    let many = [1e-3, 1e-6, 1e-9, 1e-12, 1e-16].map(|tolerance| at(tolerance, 1000));
+    assert_eq!(many, [8, 12, 16, 20, 26]);
+    assert_eq!([at(1.0, 7), at(100.0, 7), at(0.0, 7)], [4, 4, 28]);
 }
 
 #[test]
@@ -95,7 +98,7 @@ fn steps_are_not_wasted() {
     for digits in [4, 8, 12] {
         let tolerance = Tolerance::both(10f64.powi(-digits));
         let mut orbit = Kepler { eccentricity: 0.5 };
-        let order = order(tolerance);
+        let order = order(tolerance, PRODUCTS);
         let mut step = StepPolynomial::new(2, order);
         for i in 0..12 {
             let t = 0.5 * f64::from(i);
