@@ -2,16 +2,19 @@
 
 use super::{domain, status::ConstraintStatus};
 use crate::arithmetic::Scalar;
-use crate::dynamics::Dynamics;
-use crate::error::Error;
+use crate::dynamics::{Dynamics, row_name};
+use crate::error::{Error, Level};
 use crate::state::{FixedComponents, State};
+
+/// Velocities are changed by no more than this, relative to their size, unless a start is to be moved.
+const MOST_CHANGE: f64 = 1e-6;
 
 /// Looks at a start: leaves `dynamics` in the mode with every touching contact closed and every vanishing slip at
 /// rest, and says in `status` what is known.
 ///
 /// # Errors
-/// [`Error::Domain`] for a number without meaning, [`Error::Start`] where a constraint is violated and
-/// [`Error::Penetrates`] where a contact is penetrated (unless `project`).
+/// [`Error::Domain`] for a number without meaning, [`Error::Start`] where a constraint is violated or other velocities alone satisfy it,
+/// and [`Error::Penetrates`] where a contact is penetrated (unless `project`).
 pub fn begin<T: Scalar>(
     dynamics: &mut Dynamics<T>,
     t: T,
@@ -27,6 +30,9 @@ pub fn begin<T: Scalar>(
         status.refuse_violations(dynamics.description(), tolerance)?;
     }
     dynamics.set_mode(&status.mode);
+    if !project {
+        refuse_other_velocities(dynamics, t, state)?;
+    }
     let moved = dynamics.project(t, &mut state.q, &mut state.v, 0.0);
     let moved = moved
         .map_err(|e| Error::from_evaluation(e, t.value(), &status.mode, dynamics.description()))?;
@@ -35,6 +41,25 @@ pub fn begin<T: Scalar>(
         dynamics.set_mode(&status.mode);
     }
     Ok(())
+}
+
+/// A residual may be small because its row is, close to a position where constraints lose rank: to take it away there is to make another
+/// motion of the start.
+fn refuse_other_velocities<T: Scalar>(
+    dynamics: &mut Dynamics<T>,
+    t: T,
+    state: &State<T>,
+) -> Result<(), Error> {
+    let (_, rate) = dynamics.residuals(t, &state.q, &state.v);
+    if !(rate.relative > MOST_CHANGE) {
+        return Ok(());
+    }
+    Err(Error::Start {
+        item: row_name(dynamics.description(), rate.row),
+        level: Level::Velocity,
+        residual: rate.value,
+        tolerance: MOST_CHANGE * rate.value.abs() / rate.relative,
+    })
 }
 
 /// See [`crate::Simulation::consistent`].

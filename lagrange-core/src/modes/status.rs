@@ -144,9 +144,12 @@ impl ConstraintStatus {
         if matches!(friction.normal, Normal::Contact(c) if !self.mode.contacts[c]) {
             return;
         }
-        let mut rows = friction.row..friction.row + friction.components;
+        let rows = friction.row..friction.row + friction.components;
         let slip = |row: usize| view.number(d.rows[row].velocity);
-        if rows.all(|row| slip(row).abs() <= view.near * view.speed(row)) {
+        // In a dead centre the slip is small however fast the motion is: that is no rest.
+        let fastest = rows.clone().map(|row| view.fastest(row)).sum::<f64>();
+        let rests = |row| slip(row).abs() <= view.near * view.speed(row).min(fastest);
+        if rows.clone().all(rests) {
             self.facts.resting[f] = true;
             self.mode.frictions[f] = FrictionMode::Stick;
             return;
@@ -200,6 +203,14 @@ impl<T: Scalar> View<'_, T> {
         terms
             .map(|&(j, place)| (self.number(place) * self.state.v[j].value()).abs())
             .fold(1.0_f64, f64::max)
+    }
+
+    /// What velocities of their size, at least 1, make of a row at most.
+    fn fastest(&self, row: usize) -> f64 {
+        let terms = self.dynamics.description().rows[row].jacobian.iter();
+        let size = |j: usize| self.state.v[j].value().abs().max(1.0);
+        let terms = terms.map(|&(j, place)| self.number(place).abs() * size(j));
+        terms.sum()
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod accumulation;
 mod cause;
+mod dead_centre;
 mod fading;
 mod feasible;
 mod guard_polynomials;
@@ -272,7 +273,9 @@ impl<T: Scalar> Run<T> {
         (self.now.series, self.now.valued) = (Progress::None, false);
         self.now.mode.clone_from(&self.switcher.status.mode);
         self.hold_guards();
-        if self.evaluate().is_err() && self.now.mode.release_sticking() {
+        if self.evaluate().is_ok() {
+            self.release_dead_centres();
+        } else if self.now.mode.release_sticking() {
             // What is at rest for an instant, as a slider at its dead centre, may be held there by nothing.
             self.dynamics.set_mode(&self.now.mode);
             self.hold_guards();
