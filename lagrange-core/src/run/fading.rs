@@ -1,68 +1,111 @@
-//! Slips whose friction fades with them: they decay as by viscous friction, and do not come to rest.
+//! Slips that decay as by viscous friction, and do not come to rest.
 //!
-//! With μₛ = 0 and a μₖ that vanishes with the slip, nothing holds at rest. A slip of one component that has decayed to the size
-//! of errors passes zero by them, again and again: that is no reversal. It keeps its direction, and its guard is the slip plus a
-//! margin from then on, until the slip is clear of zero again; |s| in the law goes on as ±s, which is analytic there. A slip of
-//! two components has no guard, and is not looked at for its rest ([`super::rest`]).
+//! With μₛ = 0 and a μₖ that vanishes with the slip, nothing holds at rest. And what a spring and a dashpot move against a friction that
+//! could hold it creeps to the edge of its dead band: there the friction is exactly at its limit. A slip of one component that has
+//! decayed to the size of errors passes zero by them, again and again: that is no reversal, and no rest. It keeps its direction, and its
+//! guard is the slip plus a margin from then on, until the slip is clear of zero again; |s| in the law goes on as ±s, which is analytic
+//! there. A slip of two components has no guard, and is not looked at for its rest ([`super::rest`]).
 
 use super::Run;
 use super::hits::value;
 use crate::arithmetic::Scalar;
+use crate::error::Error;
 use crate::integrate::{Method, polynomial_derivative as slope};
 use crate::modes::guard::{self, Guard};
 
-/// A slip that passes zero more slowly per step than so many tolerances, or is smaller at both ends of the step, passes by its
-/// error.
-const MARGIN: f64 = 100.0;
+/// A slip that passes zero more slowly per step than so many errors, or is smaller at both ends of the step, passes by its error.
+const MARGIN: f64 = 10.0;
 /// Error of a slip that has decayed to rounding, of the size of the velocities that make it.
 const ROUNDING: f64 = 1e-12;
+/// A friction that is so many errors from its limit, relative, is at it,
+const AT_LIMIT: f64 = 1e3;
+/// but not if it is as far as this.
+const OFF_LIMIT: f64 = 1e-2;
 /// Two guards are multiples of each other to this share.
 const SAME: f64 = 1e-6;
 
 impl<T: Scalar> Run<T> {
-    /// Takes out of the guards that have fallen at part `end` of the step the slips that have only decayed, with the branches that
-    /// turn with them.
+    /// Takes out of the guards that have fallen at part `end` of the step the slips of frictions that cannot hold, where they have only
+    /// decayed, with the branches that turn with them.
     pub(super) fn tell_reversal_from_decay(&mut self, end: f64) {
         for f in 0..self.now.mode.frictions.len() {
-            let falls = Guard::Slip(f);
-            let Some(slip) = self.locator.polynomials.of(falls) else {
-                continue;
-            };
-            // Fixed steps do not grow until they are bounded by stability: their slips decay to rounding.
-            let margin = match self.settings.method {
-                Method::RungeKutta4 { .. } | Method::Gauss6 { .. } => MARGIN * ROUNDING,
-                _ => MARGIN * self.settings.tolerance,
-            };
-            let small = |s: f64| value(slip, s).abs() <= margin;
-            let passes_by_error = slope(slip, end).abs() <= margin || small(0.0) && small(1.0);
-            if !passes_by_error
-                || self.locator.polynomials.is_lowered(falls)
-                || !guard::fades(f, &self.dynamics)
-            {
-                continue;
+            if self.passes_by_error(f, end) && guard::fades(f, &self.dynamics) {
+                self.let_pass(f);
             }
-            let turns = |(guard, curve): (Guard, &[f64])| match guard {
-                Guard::Slip(g) if g == f => Some((guard, margin)),
-                Guard::Branch(_) => multiple(curve, slip).map(|times| (guard, times * margin)),
-                _ => None,
-            };
-            let together: Vec<_> = self
-                .locator
-                .polynomials
-                .of_mode()
-                .filter_map(turns)
-                .collect();
-            if together
-                .iter()
-                .any(|(guard, _)| self.locator.fallen.contains(guard))
-            {
-                self.locator
-                    .fallen
-                    .retain(|guard| together.iter().all(|(other, _)| other != guard));
-                for (guard, margin) in together {
-                    self.locator.polynomials.lower(guard, margin);
-                }
+        }
+    }
+
+    /// The same, after the step, of frictions that could hold, where they are at their limit. Whether nothing else has fallen.
+    ///
+    /// # Errors
+    /// The end of the step cannot be evaluated.
+    pub(super) fn only_creeps(&mut self, end: f64) -> Result<bool, Error> {
+        for f in 0..self.now.mode.frictions.len() {
+            if self.passes_by_error(f, end) && self.is_at_its_limit(f, end)? {
+                self.let_pass(f);
             }
+        }
+        Ok(self.locator.fallen.is_empty())
+    }
+
+    /// Error of velocities. Fixed steps do not grow until they are bounded by stability: their slips decay to rounding.
+    fn error_of_velocities(&self) -> f64 {
+        match self.settings.method {
+            Method::RungeKutta4 { .. } | Method::Gauss6 { .. } => ROUNDING,
+            _ => self.settings.tolerance,
+        }
+    }
+
+    /// Whether the slip of friction `f`, or a branch that turns with it, falls through zero at part `end` of the step by its error.
+    fn passes_by_error(&self, f: usize, end: f64) -> bool {
+        let falls = Guard::Slip(f);
+        let polynomials = &self.locator.polynomials;
+        let Some(slip) = polynomials.of(falls) else {
+            return false;
+        };
+        let turns = |guard: &Guard| match *guard {
+            Guard::Branch(_) => polynomials
+                .of(*guard)
+                .and_then(|curve| multiple(curve, slip))
+                .is_some(),
+            guard => guard == falls,
+        };
+        let margin = MARGIN * self.error_of_velocities();
+        let small = |s: f64| value(slip, s).abs() <= margin;
+        (slope(slip, end).abs() <= margin || small(0.0) && small(1.0))
+            && !polynomials.is_lowered(falls)
+            && self.locator.fallen.iter().any(turns)
+    }
+
+    /// Whether the slip of friction `f`, which is zero at part `end` of the step, where the motion is now, does not change beside what
+    /// the forces along it would do: the friction that would hold it is at its limit.
+    fn is_at_its_limit(&mut self, f: usize, end: f64) -> Result<bool, Error> {
+        if !self.now.valued {
+            self.evaluate()?;
+        }
+        let falls = Guard::Slip(f);
+        let slip = self.locator.polynomials.of(falls).unwrap_or_default();
+        let change = slope(slip, end) / self.stepper.step.h.value();
+        let (mode, decider) = (&self.now.mode, &mut self.switcher.decider);
+        let (_, size) = decider.force(&mut self.dynamics, mode, falls);
+        let near = (AT_LIMIT * self.error_of_velocities()).min(OFF_LIMIT);
+        Ok(change.abs() <= near * size)
+    }
+
+    /// Takes the slip of friction `f` out of the fallen guards, with the branches that turn with it, and gives them their margin.
+    fn let_pass(&mut self, f: usize) {
+        let margin = MARGIN * self.error_of_velocities();
+        let polynomials = &self.locator.polynomials;
+        let slip = polynomials.of(Guard::Slip(f)).unwrap_or_default();
+        let turns = |(guard, curve): (Guard, &[f64])| match guard {
+            Guard::Slip(g) if g == f => Some((guard, margin)),
+            Guard::Branch(_) => multiple(curve, slip).map(|times| (guard, times * margin)),
+            _ => None,
+        };
+        let together: Vec<_> = polynomials.of_mode().filter_map(turns).collect();
+        for (guard, margin) in together {
+            self.locator.fallen.retain(|&fallen| fallen != guard);
+            self.locator.polynomials.lower(guard, margin);
         }
     }
 }

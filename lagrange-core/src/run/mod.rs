@@ -379,9 +379,11 @@ impl<T: Scalar> Run<T> {
                 self.finish(stop);
             }
             Hit::Guards(_) => {
-                self.count_switch()?;
-                self.leave_stiffness();
-                self.switch()?;
+                if !self.only_creeps(end)? {
+                    self.count_switch()?;
+                    self.leave_stiffness();
+                    self.switch()?;
+                }
             }
         }
         self.recorder.finished |= self.has_seen_all();

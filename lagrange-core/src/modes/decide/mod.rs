@@ -134,15 +134,10 @@ impl<T: Scalar> Decider<T> {
         let outcome = match listings.list(dynamics, here, &self.rows, scratch) {
             Some(candidates) => match self.best(dynamics, table, here, candidates) {
                 Ok(true) => Ok(true),
-                refused => {
-                    // What decides may be smaller than errors are allowed to be.
-                    let mut exactly = here;
-                    exactly.moment.tolerance = 0.0;
-                    match self.best(dynamics, table, exactly, candidates) {
-                        Ok(true) => Ok(true),
-                        _ => refused,
-                    }
-                }
+                refused => match self.best_exactly(dynamics, table, here, candidates) {
+                    Ok(true) => Ok(true),
+                    _ => refused,
+                },
             },
             None => self.pivot(dynamics, table, here),
         };
@@ -298,8 +293,35 @@ impl<T: Scalar> Decider<T> {
         }
     }
 
-    /// Whether the present mode, of which a force was located as zero, goes on because that force is still clearly positive: the root has
-    /// an error larger than what decides, and from here it will be located anew. If so, the mode is left in `self.best`.
+    /// The same with all numbers taken for what they are: what decides may be smaller than errors are allowed to be, and in the end
+    /// smaller than what evaluation leaves of the forces located.
+    fn best_exactly(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        table: &mut Table,
+        here: SwitchContext<'_, T>,
+        candidates: &Candidates,
+    ) -> Result<bool, EvaluationError> {
+        let mut exactly = here;
+        exactly.moment.tolerance = 0.0;
+        let outcome = self.best(dynamics, table, exactly, candidates);
+        if here.facts.residue == 0.0 || matches!(outcome, Ok(true)) {
+            return outcome;
+        }
+        let facts = SwitchFacts {
+            residue: 0.0,
+            ..here.facts.clone()
+        };
+        let exactly = SwitchContext {
+            facts: &facts,
+            ..exactly
+        };
+        self.best(dynamics, table, exactly, candidates)
+    }
+
+    /// Whether the present mode goes on, although guards of it were located as zero: a force is still clearly positive, or a slip or branch rises
+    /// from zero. The root has an error larger than what decides, and from here it will be located anew. If so, the mode is left in
+    /// `self.best`.
     fn goes_on(
         &mut self,
         dynamics: &mut Dynamics<T>,
@@ -307,7 +329,9 @@ impl<T: Scalar> Decider<T> {
         here: SwitchContext<'_, T>,
     ) -> bool {
         let located = &here.facts.located;
-        if !here.ends(here.present) || !located.iter().all(|guard| guard.is_force()) {
+        let can =
+            |guard: &Guard| guard.is_force() || matches!(guard, Guard::Slip(_) | Guard::Branch(_));
+        if !here.ends(here.present) || !located.iter().all(can) {
             return false;
         }
         let mut exactly = here;
@@ -317,7 +341,8 @@ impl<T: Scalar> Decider<T> {
             self.examine(dynamics, table, exactly, here.present),
             Ok(true)
         );
-        let goes_on = feasible && self.zeros.iter().all(|(guard, _)| !located.contains(guard));
+        let vanishes = |guard: &Guard| guard.is_force() && located.contains(guard);
+        let goes_on = feasible && !self.zeros.iter().any(|(guard, _)| vanishes(guard));
         if goes_on {
             self.decision.ambiguous = false;
             self.keep(dynamics);

@@ -13,6 +13,7 @@ mod cart_pole;
 mod chain;
 mod choices;
 mod cradle;
+mod creeping;
 mod crowd;
 mod cue_ball;
 mod damped;
