@@ -264,8 +264,8 @@ impl GuardPolynomials {
         value + curve.margin
     }
 
-    /// How far the polynomials are off at part `s` of the step, in units of what is allowed; `dynamics` holds the values of
-    /// the state there, `located` tells the guards whose root it is.
+    /// How far the polynomials are off at part `s` of the step, in units of what is allowed by the tolerance and, of forces, by their blur;
+    /// `dynamics` holds the values of the state there, `located` tells the guards whose root it is.
     ///
     /// The step is chosen for the coordinates, but a guard is a function of them whose series may converge no further than
     /// a part of it: in free flight the coordinates are polynomials, the distance √(x² + y²) is not. Where the flight passes
@@ -276,7 +276,7 @@ impl GuardPolynomials {
         dynamics: &mut Dynamics<T>,
         mode: &Mode,
         s: f64,
-        tolerance: f64,
+        [tolerance, blur]: [f64; 2],
         located: impl Fn(Guard) -> bool,
     ) -> f64 {
         if !self.watches.is_empty() {
@@ -289,7 +289,8 @@ impl GuardPolynomials {
         {
             let located = located(curve.guard);
             let (share, floor) = allowance(curve.guard, located);
-            let allowed = (share * tolerance).max(floor);
+            let blur = if curve.guard.is_force() { blur } else { 0.0 };
+            let allowed = (share * tolerance).max(floor).max(blur);
             let value = self.value(index, mode, dynamics);
             let found = if s == 1.0 { curve.sums.end } else { at(c, s) };
             // Not all coefficients: where the series has stopped converging they are large and cancel.

@@ -24,6 +24,10 @@ const LEFT: f64 = 1.0;
 const LEFT_TOGETHER: f64 = 1e3;
 /// A slip that is no larger, beside what it is made of, is none.
 const NOTHING: f64 = 1e-13;
+/// A slip is off by so much of what it is made of,
+const ROUNDING: f64 = 1e-15;
+/// and forces by so many times that of its direction.
+const BLUR: f64 = 16.0;
 /// Other methods leave a step to Taylor series if it would be longer than this part of the time to rest.
 const NEAR: f64 = 0.5;
 
@@ -165,7 +169,8 @@ impl<T: Scalar> Run<T> {
         let change = [now[0] - before[0], now[1] - before[1]];
         let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
         let (speed, fall) = (dot(now, now).sqrt(), dot(change, change).sqrt());
-        let rounding = 1e-15 * self.dynamics.slip_size(f, &self.stepper.scratch.v);
+        let size = self.dynamics.slip_size(f, &self.stepper.scratch.v);
+        let rounding = ROUNDING * size;
         if !(fall > 0.0) || (speed > rounding && dot(now, change) > 0.0) {
             return None;
         }
@@ -176,7 +181,7 @@ impl<T: Scalar> Run<T> {
         };
         let velocities = self.stepper.scratch.v.iter();
         let mut velocities = velocities.zip(&self.locator.earlier).enumerate();
-        if speed > rounding && velocities.any(changes) {
+        if speed > NOTHING * size && velocities.any(changes) {
             return None;
         }
         let Self {
@@ -196,6 +201,23 @@ impl<T: Scalar> Run<T> {
             left: -dot(now, change) / (fall * fall) * interval,
             slope: dot(along, change) / interval,
         })
+    }
+
+    /// How far forces are off, relative, because the directions of slips are: what rounding leaves of one that has nearly vanished. The
+    /// values are those of the state in `scratch`.
+    pub(super) fn blur_of_directions(&mut self) -> f64 {
+        let frictions = 0..self.description().frictions.len();
+        if !frictions.clone().any(|f| self.turns(f)) {
+            return 0.0;
+        }
+        self.dynamics.complete_outputs();
+        let turning = frictions.filter(|&f| self.turns(f));
+        let blurs = turning.map(|f| {
+            let slip = self.dynamics.slip(f).map(|s| s.value());
+            let size = self.dynamics.slip_size(f, &self.stepper.scratch.v);
+            BLUR * ROUNDING * size / slip[0].hypot(slip[1])
+        });
+        blurs.fold(0.0, f64::max).min(1.0)
     }
 
     /// The state at rest exactly, and the forces just before, in the directions that the slips had.

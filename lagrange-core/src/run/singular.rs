@@ -23,7 +23,7 @@ const CLOSE: f64 = 0.2;
 /// Else it is tried this much longer, over that position,
 const LEAPS: [f64; 4] = [1.25, 1.5, 1.8, 2.2];
 /// with any degree from this on,
-const LEAST_DEGREE: usize = 6;
+pub(super) const LEAST_DEGREE: usize = 6;
 /// and then this much shorter,
 pub(super) const RETREAT: f64 = 0.75;
 /// so many times.

@@ -2,7 +2,7 @@
 
 use super::hits::Hit;
 use super::rest::JUST_BEFORE;
-use super::singular::{MOST_RETREATS, RETREAT};
+use super::singular::{LEAST_DEGREE, MOST_RETREATS, RETREAT};
 use super::stiffness::Stiffness;
 use super::{Progress, Run};
 use crate::arithmetic::Scalar;
@@ -101,9 +101,10 @@ impl<T: Scalar> Run<T> {
     fn taylor_step(&mut self) -> Result<Hit, Error> {
         self.expand()?;
         let longest = self.end - self.now.t.value();
-        let moves = taylor::step_size(&self.dynamics, self.stepper.order, self.settings.per_step())
-            .ok_or_else(|| self.not_finite("a Taylor coefficient"))?
-            .min(longest);
+        let (moves, order) = self
+            .longest_series()
+            .ok_or_else(|| self.not_finite("a Taylor coefficient"))?;
+        let moves = moves.min(longest);
         let mut h = self.stepper.guarded.map_or(moves, |h| h.min(moves));
         let mut guarded = h < moves;
         let mut closer = 0;
@@ -112,7 +113,7 @@ impl<T: Scalar> Run<T> {
             if self.now.t.value() + h <= self.now.t.value() {
                 return Err(self.step_too_small(h));
             }
-            self.write_polynomial(h, self.stepper.order);
+            self.write_polynomial(h, order);
             self.locator.polynomials.take_series(
                 &self.dynamics,
                 &self.now.mode,
@@ -167,14 +168,14 @@ impl<T: Scalar> Run<T> {
             }
             let control = &mut self.stepper.control;
             // The polynomial is as good at its root however long the step: the next try ends before it.
-            match control.judge(h * end, defect, self.stepper.order) {
+            match control.judge(h * end, defect, order) {
                 Verdict::Accept => {
                     if self.corrects_composites(&hit, looked, &mut corrections) {
                         continue;
                     }
                     self.now.distance = distance;
                     self.stepper.guarded =
-                        guarded.then(|| h * looked * taylor::stretch(guards, self.stepper.order));
+                        guarded.then(|| h * looked * taylor::stretch(guards, order));
                     if looked != end {
                         self.state_at_end(end);
                     }
@@ -184,12 +185,27 @@ impl<T: Scalar> Run<T> {
                     self.recorder.trajectory.work.rejected += 1;
                     guarded |= motion <= 1.0;
                     if motion <= 1.0 && smaller <= self.resolution() {
-                        return self.pass_break();
+                        if self.locator.rests.is_empty() {
+                            return self.pass_break();
+                        }
+                        // What is left of the slip has no direction.
+                        (self.now.distance, self.stepper.guarded) = (distance, None);
+                        self.state_at_end(end);
+                        return Ok(hit);
                     }
                     h = smaller;
                 }
             }
         }
+    }
+
+    /// The step that the series at hand allows, and the order up to which it is used: close to where a slip vanishes that turns, the last
+    /// coefficients are beyond all numbers.
+    fn longest_series(&self) -> Option<(f64, usize)> {
+        let step = |order| taylor::step_size(&self.dynamics, order, self.settings.per_step());
+        let highest = self.stepper.order;
+        let mut orders = (LEAST_DEGREE.min(highest)..=highest).rev();
+        orders.find_map(|order| Some((step(order)?, order)))
     }
 
     /// Shorter steps do not advance time clearly.
@@ -242,6 +258,18 @@ impl<T: Scalar> Run<T> {
 
     /// The same of the guards.
     fn guard_defect(&mut self, hit: &Hit, looked: f64) -> f64 {
+        let defect = self.guard_defect_beyond(0.0, hit, looked);
+        if defect <= 1.0 {
+            return defect;
+        }
+        match self.blur_of_directions() {
+            0.0 => defect,
+            blur => self.guard_defect_beyond(blur, hit, looked),
+        }
+    }
+
+    /// The same where forces are known to within `blur` only, relative.
+    fn guard_defect_beyond(&mut self, blur: f64, hit: &Hit, looked: f64) -> f64 {
         let (curves, fallen) = (&self.locator.polynomials, &self.locator.fallen);
         let stops = matches!(hit, Hit::Stop(..));
         let located = |g| fallen.contains(&g) || stops && matches!(g, Guard::Stop(..));
@@ -250,7 +278,7 @@ impl<T: Scalar> Run<T> {
             &mut self.dynamics,
             &self.now.mode,
             looked,
-            tolerance,
+            [tolerance, blur],
             located,
         )
     }

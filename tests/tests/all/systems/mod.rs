@@ -12,6 +12,7 @@ mod breaks;
 mod cart_pole;
 mod chain;
 mod choices;
+mod chute;
 mod cradle;
 mod creeping;
 mod crowd;
