@@ -1,7 +1,7 @@
 //! The beginning of a run: states that satisfy the constraints.
 
 use super::{domain, status::ConstraintStatus};
-use crate::arithmetic::Scalar;
+use crate::arithmetic::{Scalar, epsilon};
 use crate::dynamics::{Dynamics, row_name};
 use crate::error::{Error, Level};
 use crate::state::{FixedComponents, State};
@@ -51,14 +51,15 @@ fn refuse_other_velocities<T: Scalar>(
     state: &State<T>,
 ) -> Result<(), Error> {
     let (_, rate) = dynamics.residuals(t, &state.q, &state.v);
-    if !(rate.relative > MOST_CHANGE) {
+    let most = MOST_CHANGE.max(64.0 * epsilon::<T>());
+    if !(rate.relative > most) {
         return Ok(());
     }
     Err(Error::Start {
         item: row_name(dynamics.description(), rate.row),
         level: Level::Velocity,
         residual: rate.value,
-        tolerance: MOST_CHANGE * rate.value.abs() / rate.relative,
+        tolerance: most * rate.value.abs() / rate.relative,
     })
 }
 

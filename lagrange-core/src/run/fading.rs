@@ -35,17 +35,33 @@ impl<T: Scalar> Run<T> {
         }
     }
 
-    /// The same, after the step, of frictions that could hold, where they are at their limit. Whether nothing else has fallen.
+    /// Whether nothing has fallen at part `end` of the step, where the motion is now, but slips of frictions that could hold and are at
+    /// their limit, by their errors: these go on.
     ///
     /// # Errors
     /// The end of the step cannot be evaluated.
     pub(super) fn only_creeps(&mut self, end: f64) -> Result<bool, Error> {
-        for f in 0..self.now.mode.frictions.len() {
-            if self.passes_by_error(f, end) && self.is_at_its_limit(f, end)? {
+        let frictions = 0..self.now.mode.frictions.len();
+        // What begins to fall from zero, as t² does, is clear of it at the end of the step.
+        let passes = |run: &Self, f: usize| run.passes_by_error(f, end) && run.is_small(f, 1.0);
+        let creeps = |&guard: &Guard| {
+            let mut frictions = frictions.clone();
+            frictions.any(|f| self.turns_with(f, guard) && passes(self, f))
+        };
+        if !self.locator.rests.is_empty() || !self.locator.fallen.iter().all(creeps) {
+            return Ok(false);
+        }
+        for f in frictions.clone() {
+            if passes(self, f) && !self.is_at_its_limit(f, end)? {
+                return Ok(false);
+            }
+        }
+        for f in frictions {
+            if passes(self, f) {
                 self.let_pass(f);
             }
         }
-        Ok(self.locator.fallen.is_empty())
+        Ok(true)
     }
 
     /// Error of velocities. Fixed steps do not grow until they are bounded by stability: their slips decay to rounding.
@@ -56,25 +72,37 @@ impl<T: Scalar> Run<T> {
         }
     }
 
+    /// How far a slip passes zero by its error.
+    fn margin(&self) -> f64 {
+        MARGIN * self.error_of_velocities()
+    }
+
     /// Whether the slip of friction `f`, or a branch that turns with it, falls through zero at part `end` of the step by its error.
     fn passes_by_error(&self, f: usize, end: f64) -> bool {
-        let falls = Guard::Slip(f);
         let polynomials = &self.locator.polynomials;
-        let Some(slip) = polynomials.of(falls) else {
+        let Some(slip) = polynomials.of(Guard::Slip(f)) else {
             return false;
         };
-        let turns = |guard: &Guard| match *guard {
-            Guard::Branch(_) => polynomials
-                .of(*guard)
-                .and_then(|curve| multiple(curve, slip))
-                .is_some(),
-            guard => guard == falls,
-        };
-        let margin = MARGIN * self.error_of_velocities();
-        let small = |s: f64| value(slip, s).abs() <= margin;
-        (slope(slip, end).abs() <= margin || small(0.0) && small(1.0))
-            && !polynomials.is_lowered(falls)
-            && self.locator.fallen.iter().any(turns)
+        let mut fallen = self.locator.fallen.iter();
+        (slope(slip, end).abs() <= self.margin() || self.is_small(f, 0.0) && self.is_small(f, 1.0))
+            && !polynomials.is_lowered(Guard::Slip(f))
+            && fallen.any(|&guard| self.turns_with(f, guard))
+    }
+
+    /// Whether the slip of friction `f` is of the size of its errors at part `s` of the step.
+    fn is_small(&self, f: usize, s: f64) -> bool {
+        let slip = self.locator.polynomials.of(Guard::Slip(f));
+        slip.is_some_and(|slip| value(slip, s).abs() <= self.margin())
+    }
+
+    /// Whether a guard is that of the slip of friction `f`, or that of a branch which turns with it.
+    fn turns_with(&self, f: usize, guard: Guard) -> bool {
+        let polynomial = |guard| self.locator.polynomials.of(guard);
+        let slip = Guard::Slip(f);
+        match (guard, polynomial(guard), polynomial(slip)) {
+            (Guard::Branch(_), Some(curve), Some(slip)) => multiple(curve, slip).is_some(),
+            _ => guard == slip,
+        }
     }
 
     /// Whether the slip of friction `f`, which is zero at part `end` of the step, where the motion is now, does not change beside what
@@ -94,7 +122,7 @@ impl<T: Scalar> Run<T> {
 
     /// Takes the slip of friction `f` out of the fallen guards, with the branches that turn with it, and gives them their margin.
     fn let_pass(&mut self, f: usize) {
-        let margin = MARGIN * self.error_of_velocities();
+        let margin = self.margin();
         let polynomials = &self.locator.polynomials;
         let slip = polynomials.of(Guard::Slip(f)).unwrap_or_default();
         let turns = |(guard, curve): (Guard, &[f64])| match guard {

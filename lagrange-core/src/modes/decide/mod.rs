@@ -319,9 +319,9 @@ impl<T: Scalar> Decider<T> {
         self.best(dynamics, table, exactly, candidates)
     }
 
-    /// Whether the present mode goes on, although guards of it were located as zero: a force is still clearly positive, or a slip or branch rises
-    /// from zero. The root has an error larger than what decides, and from here it will be located anew. If so, the mode is left in
-    /// `self.best`.
+    /// Whether the present mode goes on, although guards of it were located as zero: a force is still clearly positive or only touches
+    /// zero, or a slip or branch rises from it. The root has an error larger than what decides, and from here it will be located anew.
+    /// If so, the mode is left in `self.best`.
     fn goes_on(
         &mut self,
         dynamics: &mut Dynamics<T>,
@@ -341,8 +341,11 @@ impl<T: Scalar> Decider<T> {
             self.examine(dynamics, table, exactly, here.present),
             Ok(true)
         );
-        let vanishes = |guard: &Guard| guard.is_force() && located.contains(guard);
-        let goes_on = feasible && !self.zeros.iter().any(|(guard, _)| vanishes(guard));
+        // A force that stays zero does not go on; one that only touches zero does.
+        let stays_zero = |&(guard, order): &(Guard, usize)| {
+            guard.is_force() && order >= guard::LENGTH && located.contains(&guard)
+        };
+        let goes_on = feasible && !self.zeros.iter().any(stays_zero);
         if goes_on {
             self.decision.ambiguous = false;
             self.keep(dynamics);
