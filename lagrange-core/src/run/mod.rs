@@ -350,7 +350,11 @@ impl<T: Scalar> Run<T> {
             {
                 self.now.t = T::from_f64(self.end);
             }
-            self.switcher.stuck.clear();
+            // Time may be too coarse for the step.
+            let (before, now) = (self.stepper.step.t.value(), self.now.t.value());
+            if now - before > 2.0 * f64::EPSILON * now.abs() {
+                self.switcher.stuck.clear();
+            }
             self.forget_zeros();
             let steps = self.recorder.trajectory.work.steps;
             let stays = self.stepper.is_taylor() && !self.now.drifts;

@@ -98,6 +98,7 @@ impl<T: Scalar> Run<T> {
         self.hand_over();
         let facts = &mut self.switcher.status.facts;
         facts.located.extend_from_slice(&self.locator.fallen);
+        facts.again = self.switcher.stuck.len() > 1;
         for guard in &self.locator.fallen {
             if let Guard::Composite(k) = *guard {
                 let parts = self.locator.polynomials.composites[k]

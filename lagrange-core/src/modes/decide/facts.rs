@@ -21,6 +21,8 @@ pub struct SwitchFacts {
     pub jumped: bool,
     /// Guards of the present mode that have just been located as roots: the present mode cannot go on.
     pub located: Vec<Guard>,
+    /// Time has not advanced since the last switch: what has been located now is zero as exactly as time can tell.
+    pub again: bool,
     /// What evaluation leaves of the forces that have been located as zero, relative to the terms that they are made of.
     pub residue: f64,
 }
@@ -38,6 +40,7 @@ impl SwitchFacts {
         self.balanced.resize(d.branches.len(), false);
         self.jumped = false;
         self.located.clear();
+        self.again = false;
         self.residue = 0.0;
     }
 }

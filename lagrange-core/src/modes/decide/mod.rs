@@ -331,7 +331,7 @@ impl<T: Scalar> Decider<T> {
         let located = &here.facts.located;
         let can =
             |guard: &Guard| guard.is_force() || matches!(guard, Guard::Slip(_) | Guard::Branch(_));
-        if !here.ends(here.present) || !located.iter().all(can) {
+        if here.facts.again || !here.ends(here.present) || !located.iter().all(can) {
             return false;
         }
         let mut exactly = here;

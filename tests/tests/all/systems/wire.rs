@@ -320,7 +320,8 @@ fn two_slides_on_a_slanting_rod() {
     );
 }
 
-/// Two answers while the rod is pulled, none once it is pushed: the run ends where the thrust turns.
+/// Two answers while the rod is pulled, none once it is pushed: the run ends where the thrust turns. The last root lies closer than
+/// time resolves, and a mode that went on from there for ever would never say so.
 #[test]
 fn a_paradox_in_the_middle_of_a_run_keeps_the_trajectory() {
     let scene = Slides {
@@ -332,15 +333,19 @@ fn a_paradox_in_the_middle_of_a_run_keeps_the_trajectory() {
         thrust: -3.0,
         rate: 2.0,
     };
-    let failure = Simulation::new(&scene)
-        .tolerance(1e-12)
-        .run(state(&[0.0, 0.0, 0.3], &[1.0, 0.0, 1.0]), 0.0..2.0)
-        .expect_err("no answer");
-    let Error::NoMode { time, item, .. } = failure.error else {
-        panic!("{failure}")
-    };
-    assert_eq!(item, "rub");
-    agree("time of the paradox", time, PI / 4.0, 1e-11);
-    assert_eq!(failure.trajectory.last_time(), time);
-    assert!(failure.trajectory.work().steps > 0);
+    for digits in 5..=16 {
+        let tolerance = 10f64.powi(-digits);
+        let failure = Simulation::new(&scene)
+            .tolerance(tolerance)
+            .max_steps(1000)
+            .run(state(&[0.0, 0.0, 0.3], &[1.0, 0.0, 1.0]), 0.0..2.0)
+            .expect_err("no answer");
+        let Error::NoMode { time, item, .. } = failure.error else {
+            panic!("{tolerance:e}: {failure}")
+        };
+        assert_eq!(item, "rub");
+        agree("time of the paradox", time, PI / 4.0, tolerance.max(1e-11));
+        assert_eq!(failure.trajectory.last_time(), time);
+        assert!(failure.trajectory.work().steps > 0);
+    }
 }
