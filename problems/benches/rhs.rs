@@ -13,8 +13,8 @@ mod hand;
 
 use criterion::Criterion;
 use lagrange_core::prelude::*;
-use lagrange_problems::cost::{MOVE, Place, RightSide, places};
 use lagrange_problems::scenes::*;
+use lagrange_program::cost::{MOVE, Place, RightSide, places};
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 

@@ -1,5 +1,5 @@
 //! The program `lagrange`.
 
 fn main() -> std::process::ExitCode {
-    lagrange_problems::Program::of_the_catalogue().main()
+    lagrange_program::Program::from(lagrange_problems::catalogue::all()).main()
 }

@@ -10,8 +10,8 @@ use crate::families::supports::{Beam, CartPole, Cranks};
 use lagrange_core::certificate::Certificate;
 use lagrange_core::effects::Item;
 use lagrange_core::prelude::*;
-use lagrange_problems::catalogue::Scene;
-use lagrange_problems::request::Request;
+use lagrange_program::request::Request;
+use lagrange_program::scene::Scene;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 

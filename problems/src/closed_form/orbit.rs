@@ -1,9 +1,9 @@
 //! Motion around a centre that attracts with μ/r² (Kepler 1609; Danby 1988, chapter 6).
 
-use super::ClosedForm;
 use super::double_double::DoubleDouble;
 use core::f64::consts::{PI, TAU};
 use lagrange_core::prelude::State;
+use lagrange_program::closed_form::ClosedForm;
 
 /// The state at `until` of a body that starts from `start` (x and y) at time 0; none if the orbit does not close.
 ///

@@ -1,10 +1,10 @@
 //! The plane pendulum, swinging or going round (Jacobi 1829; Whittaker 1937, section 44).
 
-use super::ClosedForm;
 use super::double_double::DoubleDouble;
 use super::elliptic::{amplitude, first_kind, quarter_period};
 use core::f64::consts::{FRAC_PI_2, PI};
 use lagrange_core::prelude::State;
+use lagrange_program::closed_form::ClosedForm;
 
 /// The state at `until` (x and y, upward) of a mass on a rod that starts from `start` at time 0; none if it would come
 /// to rest upside down, or so nearly that no digits are left.

@@ -1,8 +1,8 @@
 //! Down a round hill from rest, off it, and in a parabola to the ground.
 
-use super::ClosedForm;
 use super::elliptic::first_kind;
 use lagrange_core::prelude::State;
+use lagrange_program::closed_form::ClosedForm;
 
 /// A hill and what moves on it: R θ̈ = g′ sin θ, until N = 0.
 pub(crate) struct Hill {

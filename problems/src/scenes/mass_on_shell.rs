@@ -1,7 +1,8 @@
 //! Where does a mass that slides down a smooth sphere leave it?
 
-use crate::closed_form::{ClosedForm, slide};
+use crate::closed_form::slide;
 use lagrange_core::prelude::*;
+use lagrange_program::closed_form::ClosedForm;
 
 /// A point mass slides without friction down a fixed spherical shell, leaves it and falls.
 ///

@@ -1,7 +1,8 @@
 //! A ball rolls down a sphere: where does it leave?
 
-use crate::closed_form::{ClosedForm, slide};
+use crate::closed_form::slide;
 use lagrange_core::prelude::*;
+use lagrange_program::closed_form::ClosedForm;
 
 /// A solid sphere rolls without slipping down a fixed spherical shell, leaves it and falls, still spinning.
 ///

@@ -1,13 +1,13 @@
 //! Impacts: one after the other, at once, infinitely many.
 
 use super::kit::{closure, distance, event, relative, run, story, violation};
-use super::{Extent, Figure, Surprise};
 use crate::reference::{integral, root};
 use crate::scenes::hard::{
     BouncingBall, Cradle, FiveBallCradle, RockingBlock, StringPendulum, ThrownBall,
 };
 use core::f64::consts::FRAC_PI_2;
 use lagrange_core::prelude::EventKind;
+use lagrange_program::stability::{Extent, Figure, Surprise};
 
 pub fn bouncing_ball(_: Extent) -> Result<Vec<Figure>, Surprise> {
     let mut figures = Vec::new();

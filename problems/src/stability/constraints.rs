@@ -1,11 +1,11 @@
 //! Equations that are redundant, lose their gradient, or have to hold for long.
 
 use super::kit::{TOLERANCE, closure, relative, run, run_by, violation};
-use super::{Extent, Figure, Surprise};
 use crate::reference::{agm, over_a_turn};
 use crate::scenes::hard::{GardenSwing, LongPendulum, Parallelogram, SliderCrank};
 use core::f64::consts::TAU;
 use lagrange_core::prelude::*;
+use lagrange_program::stability::{Extent, Figure, Surprise};
 
 /// Time of a turn: a pendulum that goes round (Abramowitz & Stegun 16.1), T = 4 K(k)/ω₀, k = 2√(g/l)/ω₀.
 pub(super) fn turn(scene: &Parallelogram) -> f64 {

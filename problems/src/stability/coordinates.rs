@@ -1,11 +1,11 @@
 //! Coordinates that fail at a point, and attitudes.
 
 use super::kit::{TOLERANCE, cross, distance, relative, run, violation};
-use super::{Extent, Figure, Surprise};
 use crate::reference::{agm, jacobi, over_a_turn};
 use crate::scenes::hard::{PolarParticle, SphericalPendulum, TumblingBody};
 use core::f64::consts::{FRAC_PI_2, PI};
 use lagrange_core::prelude::*;
+use lagrange_program::stability::{Extent, Figure, Surprise};
 
 /// Demands that a run from a point where the coordinate `phi` has no meaning is refused, naming it.
 fn refused<S: System<Scalar = f64>>(scene: &S, start: StartId) -> Result<(), Surprise> {

@@ -1,11 +1,11 @@
 //! Contacts that open, frictions that stick and slip.
 
 use super::kit::{TOLERANCE, closure, distance, event, relative, run, story, violation};
-use super::{Extent, Figure, Surprise};
 use crate::reference::integral;
 use crate::scenes::hard::{BackspinBall, BeltOscillator, CoulombOscillator, Ladder, PainleveRod};
 use core::f64::consts::PI;
 use lagrange_core::prelude::*;
+use lagrange_program::stability::{Extent, Figure, Surprise};
 
 pub fn ladder(_: Extent) -> Result<Vec<Figure>, Surprise> {
     let scene = Ladder::default();

@@ -1,73 +1,9 @@
 //! Short ways to run a scene and to look at what it did.
 
-use core::fmt;
 use lagrange_core::__private::program::ValueRef;
 use lagrange_core::dynamics::OutputMask;
 use lagrange_core::prelude::*;
-
-/// Why a case could not be measured.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum Surprise {
-    /// The run failed.
-    Failed(Error),
-    /// It should have failed, with an error that is described.
-    NotRefused {
-        /// What was expected.
-        expected: &'static str,
-        /// The error that came instead, if any.
-        found: Option<Error>,
-    },
-    /// Other things happened.
-    Story {
-        /// Events found, `floor impact`.
-        found: Vec<String>,
-        /// Events expected.
-        expected: Vec<String>,
-    },
-    /// An event did not happen.
-    Missing {
-        /// `item kind`.
-        event: String,
-    },
-}
-
-impl fmt::Display for Surprise {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Surprise::Failed(error) => error.fmt(f),
-            Surprise::NotRefused {
-                expected,
-                found: None,
-            } => write!(f, "no error, instead of: {expected}"),
-            Surprise::NotRefused {
-                expected,
-                found: Some(error),
-            } => write!(f, "`{error}` instead of: {expected}"),
-            Surprise::Story { found, expected } => write!(
-                f,
-                "what happened: {}; expected: {}",
-                found.join(", "),
-                expected.join(", ")
-            ),
-            Surprise::Missing { event } => write!(f, "`{event}` did not happen"),
-        }
-    }
-}
-
-impl core::error::Error for Surprise {}
-
-impl From<Error> for Surprise {
-    fn from(error: Error) -> Self {
-        Surprise::Failed(error)
-    }
-}
-
-impl From<Failure> for Surprise {
-    fn from(failure: Failure) -> Self {
-        Surprise::Failed(failure.error)
-    }
-}
+use lagrange_program::stability::Surprise;
 
 /// The tolerance of every case.
 pub const TOLERANCE: f64 = 1e-12;

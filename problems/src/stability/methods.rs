@@ -3,10 +3,10 @@
 use super::bounces::throws;
 use super::constraints::turn;
 use super::kit::{TOLERANCE, distance, event, relative, run, run_by};
-use super::{Extent, Figure, Surprise};
 use crate::scenes::hard::{Parallelogram, StringPendulum, ThrownBall};
 use core::f64::consts::TAU;
 use lagrange_core::prelude::*;
+use lagrange_program::stability::{Extent, Figure, Surprise};
 
 const OTHERS: [Method; 4] = [
     Method::DormandPrince853,

@@ -1,7 +1,7 @@
 //! Hard cases: what breaks other programs, with an answer known by other means, and how far from it a run ends.
 //!
 //! A [`Case`] runs its scene (in [`scenes::hard`](crate::scenes::hard), whose documentation has the answer and its source)
-//! at tolerance 1e-12 and gives [`Figure`]s: errors, relative unless a unit is named, each with the bound that it must keep.
+//! at tolerance 1e-12.
 //! Bounds are 1e-9 or better; where one is larger, the case says why nothing better can be had.
 
 mod bounces;
@@ -15,84 +15,7 @@ mod scales;
 mod slips;
 mod supports;
 
-pub use kit::Surprise;
-
-/// How long the long cases run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Extent {
-    /// A few seconds in all.
-    Short,
-    /// A hundred thousand periods where the question is endurance.
-    Long,
-}
-
-/// One measured number and the bound that it must keep.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Figure {
-    /// What was measured; an error is relative unless it names a unit.
-    pub what: String,
-    /// The number found, ≥ 0.
-    pub value: f64,
-    /// Largest that will do.
-    pub bound: f64,
-}
-
-impl Figure {
-    fn new(what: impl Into<String>, value: f64, bound: f64) -> Self {
-        let what = what.into();
-        Self { what, value, bound }
-    }
-
-    /// Whether it keeps its bound; what is not a number does not.
-    pub fn holds(&self) -> bool {
-        self.value <= self.bound
-    }
-}
-
-type Measure = fn(Extent) -> Result<Vec<Figure>, Surprise>;
-
-/// A hard case.
-pub struct Case {
-    /// Name, for `--only`.
-    pub name: &'static str,
-    /// Scene in the catalogue.
-    pub scene: &'static str,
-    /// What usually goes wrong.
-    pub trouble: &'static str,
-    measure: Measure,
-}
-
-/// What a case came to.
-pub struct Report {
-    /// The case.
-    pub case: &'static Case,
-    /// Its figures; empty if it could not be measured.
-    pub figures: Vec<Figure>,
-    /// Why it could not be measured.
-    pub surprise: Option<Surprise>,
-}
-
-impl Report {
-    /// Whether everything was measured and keeps its bound.
-    pub fn holds(&self) -> bool {
-        self.surprise.is_none() && self.figures.iter().all(Figure::holds)
-    }
-}
-
-impl Case {
-    /// Runs it.
-    pub fn run(&'static self, extent: Extent) -> Report {
-        let (figures, surprise) = match (self.measure)(extent) {
-            Ok(figures) => (figures, None),
-            Err(surprise) => (Vec::new(), Some(surprise)),
-        };
-        Report {
-            case: self,
-            figures,
-            surprise,
-        }
-    }
-}
+use lagrange_program::stability::Case;
 
 /// Every case, in the order of the table.
 pub static CASES: &[Case] = &[

@@ -1,11 +1,11 @@
 //! Rolling bodies: conditions on velocities that no condition on positions replaces.
 
 use super::kit::{Vector, closure, cross, distance, relative, run, violation};
-use super::{Extent, Figure, Surprise};
 use crate::reference::extrapolate;
 use crate::scenes::hard::{Rattleback, RollingDisk, Turntable};
 use core::f64::consts::TAU;
 use lagrange_core::prelude::*;
+use lagrange_program::stability::{Extent, Figure, Surprise};
 
 pub fn rolling_disk(_: Extent) -> Result<Vec<Figure>, Surprise> {
     let scene = RollingDisk::default();

@@ -1,10 +1,10 @@
 //! Scales eight powers of ten apart.
 
 use super::kit::{TOLERANCE, closure, distance, relative, run, run_by};
-use super::{Extent, Figure, Surprise};
 use crate::reference::extrapolate;
 use crate::scenes::hard::{OverdampedOscillator, SpringPendulum, UnequalPendulum};
 use lagrange_core::prelude::*;
+use lagrange_program::stability::{Extent, Figure, Surprise};
 
 pub fn spring_pendulum(_: Extent) -> Result<Vec<Figure>, Surprise> {
     let scene = SpringPendulum::default();

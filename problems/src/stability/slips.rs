@@ -1,10 +1,10 @@
 //! Friction in space, and friction on a constraint.
 
 use super::kit::{closure, distance, event, relative, run, story};
-use super::{Extent, Figure, Surprise};
 use crate::reference::{integral, root};
 use crate::scenes::hard::{CueBall, HoopBead, InclineBlock, RodSleeve, TurningPush};
 use core::f64::consts::PI;
+use lagrange_program::stability::{Extent, Figure, Surprise};
 
 pub fn incline_block(_: Extent) -> Result<Vec<Figure>, Surprise> {
     let scene = InclineBlock::default();

@@ -1,9 +1,9 @@
 //! More supports than balance can tell apart: forces that are not determined, and what happens all the same.
 
 use super::kit::{closure, event, relative, run, violation};
-use super::{Extent, Figure, Surprise};
 use crate::reference::root;
 use crate::scenes::hard::{BeamOnSupports, RodOnSupports, Sled, Table};
+use lagrange_program::stability::{Extent, Figure, Surprise};
 
 /// 1 unless `flags` are those expected.
 fn wrongly_flagged(flags: &[bool], expected: &[bool]) -> f64 {

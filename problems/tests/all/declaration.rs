@@ -3,7 +3,7 @@
 use crate::program::{folder, lagrange_in, text};
 use expect_test::expect_file;
 use lagrange_core::prelude::*;
-use lagrange_problems::file::TEMPLATE;
+use lagrange_program::file::TEMPLATE;
 use std::fs;
 use std::io::{BufRead, BufReader};
 use std::path::Path;

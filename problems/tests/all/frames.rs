@@ -3,8 +3,8 @@
 use crate::markup::unclosed;
 use crate::program::{refuses, says};
 use lagrange_problems::catalogue::scenes;
-use lagrange_problems::report::frames::{Clock, Panel, animated, stills};
-use lagrange_problems::request::Request;
+use lagrange_program::report::frames::{Clock, Panel, animated, stills};
+use lagrange_program::request::Request;
 
 #[test]
 fn every_scene_moves_in_a_file_that_is_whole_and_small() {
@@ -62,7 +62,7 @@ const MARBLE: &str = "
 /// In space an impulse is an arrow that ends in a dot where it acts; the wall of a bowl hides what lies in it.
 #[test]
 fn impulses_and_hidden_things_in_space() {
-    let scene = lagrange_problems::file::scene("marble.lagrange", MARBLE).expect("a declaration");
+    let scene = lagrange_program::file::scene("marble.lagrange", MARBLE).expect("a declaration");
     let film = scene
         .film(&Request {
             samples: 200,

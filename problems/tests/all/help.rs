@@ -1,7 +1,7 @@
 //! The help: every command has examples, and they work.
 
 use crate::program::{folder, says, shell, text};
-use lagrange_problems::file::TEMPLATE;
+use lagrange_program::file::TEMPLATE;
 use std::fs;
 
 /// Commands that every `lagrange` has; `help` is clap's.

@@ -7,6 +7,7 @@ mod checks;
 mod command_line;
 mod complaints;
 mod declaration;
+mod file;
 mod frames;
 mod help;
 mod inspect;
@@ -21,8 +22,10 @@ mod pictures;
 mod program;
 mod report;
 mod report_in_browser;
+mod scene_file;
 mod smooth_scenes;
 mod sweep;
 mod sweep_kept;
 #[cfg(feature = "mpi")]
 mod sweep_mpi;
+mod switches;

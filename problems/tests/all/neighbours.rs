@@ -2,9 +2,10 @@
 //! parameter, coordinate and velocity, bit for bit.
 
 use lagrange_core::prelude::Method;
-use lagrange_problems::catalogue::{Scene, find, scenes};
-use lagrange_problems::request::Request;
-use lagrange_problems::sweep::{Axis, Points, Sampling, Sweep};
+use lagrange_problems::catalogue::{self, scenes};
+use lagrange_program::request::Request;
+use lagrange_program::scene::Scene;
+use lagrange_program::sweep::{Axis, Points, Sampling, Sweep};
 
 /// A sweep over some values of a parameter, or of a coordinate or velocity of the start; none if the scene has no such starts.
 fn sweep(scene: &'static dyn Scene, method: Method, name: &str, value: f64) -> Option<Sweep> {
@@ -89,7 +90,10 @@ fn so_it_is_with_other_methods() {
         "five-link-chain",
     ] {
         for method in [Method::DormandPrince853, Method::Radau5] {
-            assert!(check(find(name).expect("a scene"), method) >= 5, "{name}");
+            assert!(
+                check(catalogue::all().find(name).expect("a scene"), method) >= 5,
+                "{name}"
+            );
         }
     }
 }

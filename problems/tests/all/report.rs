@@ -3,10 +3,11 @@
 use crate::markup::unclosed;
 use crate::program::{refuses, says};
 use expect_test::expect_file;
-use lagrange_problems::catalogue::{Scene, find, scenes};
-use lagrange_problems::report::html::{self, Shown};
-use lagrange_problems::request::Request;
-use lagrange_problems::space::{Solid, Space};
+use lagrange_problems::catalogue::{self, scenes};
+use lagrange_program::report::html::{self, Shown};
+use lagrange_program::request::Request;
+use lagrange_program::scene::Scene;
+use lagrange_program::space::{Solid, Space};
 use serde_json::Value;
 
 /// The page of a scene as the program writes it.
@@ -150,7 +151,11 @@ fn solids_rest_on_the_ground() {
             samples: 50,
             ..Request::default()
         };
-        let film = find(name).expect("a scene").film(&request).expect("a film");
+        let film = catalogue::all()
+            .find(name)
+            .expect("a scene")
+            .film(&request)
+            .expect("a film");
         for space in &film.spaces {
             let lowest = |solid: &Solid| {
                 let body = solid.places()[0].z - solid.reach().z;
@@ -221,7 +226,7 @@ fn a_page_holds_the_numbers_of_the_run() {
 /// What the player reads, of a short run with few samples.
 #[test]
 fn the_numbers_of_a_shell() {
-    let scene = find("mass-on-shell").expect("a scene");
+    let scene = catalogue::all().find("mass-on-shell").expect("a scene");
     let request = Request {
         samples: 6,
         ..Request::default()
@@ -240,7 +245,7 @@ fn the_numbers_of_a_shell() {
 /// Each mode that the run was in, and no other: its equations, and what ends it in words and as a formula.
 #[test]
 fn modes_of_the_run_are_written_out() {
-    let wheel = find("mass-on-wheel").expect("a scene");
+    let wheel = catalogue::all().find("mass-on-wheel").expect("a scene");
     let page = page(wheel);
     for part in [
         "<h4>rim closed, grip sticks</h4>\n<p>From 0 s to 2.46176 s.</p>",
@@ -270,7 +275,7 @@ fn modes_of_the_run_are_written_out() {
 /// A run without an item has the equations of a declaration without it.
 #[test]
 fn what_is_left_out_is_not_in_the_equations() {
-    let wheel = find("mass-on-wheel").expect("a scene");
+    let wheel = catalogue::all().find("mass-on-wheel").expect("a scene");
     let without = Request {
         effects: vec![("grip".to_owned(), false)],
         samples: 10,
@@ -286,7 +291,7 @@ fn what_is_left_out_is_not_in_the_equations() {
 /// On one picture scale, with the distance from the first run: 0 while both stick, exact to what a page shows.
 #[test]
 fn runs_of_a_scene_are_compared() {
-    let wheel = find("mass-on-wheel").expect("a scene");
+    let wheel = catalogue::all().find("mass-on-wheel").expect("a scene");
     let at = |tolerance| Request {
         samples: 200,
         tolerance,

@@ -12,7 +12,7 @@
 mod parts;
 
 use lagrange_core::prelude::*;
-use lagrange_problems::cost::{Place, RightSide};
+use lagrange_program::cost::{Place, RightSide};
 use lagrange_tests::modes::all;
 use lagrange_tests::pairs::{Pair, Visitor, visit};
 use std::process::Command;

@@ -3,12 +3,12 @@
 
 use lagrange_core::prelude::*;
 use lagrange_problems::catalogue::scenes;
-use lagrange_problems::outcome::Outcome;
-use lagrange_problems::request::{Refusal, Request};
+use lagrange_program::outcome::Outcome;
+use lagrange_program::request::{Refusal, Request};
 
 /// Runs a scene for a short while, perhaps with a constraint left out.
 fn run(
-    scene: &'static dyn lagrange_problems::catalogue::Scene,
+    scene: &'static dyn lagrange_program::scene::Scene,
     without: Option<&str>,
     equations: Equations,
 ) -> Result<Outcome, Refusal> {
@@ -40,7 +40,7 @@ fn story(outcome: &Outcome) -> (Vec<(String, f64)>, Vec<f64>) {
 }
 
 /// Both ways find the same events, and end alike, or are refused for the same reason.
-fn compare(scene: &'static dyn lagrange_problems::catalogue::Scene, without: Option<&str>) {
+fn compare(scene: &'static dyn lagrange_program::scene::Scene, without: Option<&str>) {
     let words = format!("{} without {without:?}", scene.name());
     let run = |equations| run(scene, without, equations);
     let (emitted, interpreted) = match (run(Equations::Emitted), run(Equations::Interpreted)) {

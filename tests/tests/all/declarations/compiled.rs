@@ -6,7 +6,7 @@ use super::written::each;
 use lagrange_core::dynamics::Dynamics;
 use lagrange_core::prelude::*;
 use lagrange_core::system::Derived;
-use lagrange_problems::file;
+use lagrange_program::file;
 use lagrange_tests::declarations::declaration;
 use lagrange_tests::{Random, all_agree, modes};
 

@@ -7,8 +7,8 @@ mod written;
 use lagrange_core::prelude::*;
 use lagrange_engine::ast::Form;
 use lagrange_engine::parse::{FUNCTIONS, KEYWORDS};
-use lagrange_problems::catalogue::Scene;
-use lagrange_problems::file::{self, Refused};
+use lagrange_program::file::{self, Refused};
+use lagrange_program::scene::Scene;
 use lagrange_tests::Random;
 use lagrange_tests::declarations::{Declared, declaration};
 

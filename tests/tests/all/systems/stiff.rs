@@ -4,7 +4,7 @@ use super::state;
 use lagrange_core::arithmetic::Dual;
 use lagrange_core::prelude::*;
 use lagrange_problems::catalogue::{HARD, SCENES};
-use lagrange_problems::request::Request;
+use lagrange_program::request::Request;
 use lagrange_tests::agree;
 
 /// A mass in a damper, driven by a spring, in front of a wall.

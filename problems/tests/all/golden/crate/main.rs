@@ -2,7 +2,7 @@
 
 mod pendulum;
 
-use lagrange_problems::{Entry, Program};
+use lagrange_program::{Entry, Program};
 use pendulum::Pendulum;
 use std::process::ExitCode;
 

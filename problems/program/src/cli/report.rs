@@ -1,0 +1,312 @@
+//! `lagrange report`: runs to look at, as a page, as frames for slides, or as a picture that moves.
+
+use super::Trouble;
+use super::compare::Comparison;
+use super::output::{ready, to_file, unwritten};
+use super::run_args::RunArgs;
+use super::terminal::{keep_what_is_done, patiently};
+use super::values::positive;
+use super::watch::watched;
+use crate::catalogue::Catalogue;
+use crate::progress::Progress;
+use crate::report::export::{Moving, Pace, Still};
+use crate::report::frames::{self, Clock, Panel};
+use crate::report::html::{self, Shown};
+use crate::request::Request;
+use crate::scene::{FILM_STAGES, Scene};
+use clap::{Args, ValueEnum};
+use rayon::prelude::*;
+use std::path::{Path, PathBuf};
+
+/// Heading of what is written, in the help.
+const RESULTS: &str = "Results";
+
+/// Run scenes and write a page that shows them.
+///
+/// Animation, forces and their limits, energy, events, equations. The page is one file and needs no network. For slides: a file
+/// that moves by itself (SVG, animated PNG, GIF, MP4), or numbered frames.
+#[derive(Args)]
+#[command(after_help = "Examples:
+  lagrange report mass-on-wheel --output wheel.html
+  lagrange report mass-on-wheel sticky.toml --output both.html     two runs side by side, on one clock
+  lagrange report mass-on-wheel --compare without:grip
+  lagrange report double-pendulum --compare tolerance:1e-3,method:dopri5
+  lagrange report mass-on-wheel --output wheel.svg                 moves by itself, in browsers and slides
+  lagrange report mass-on-wheel --output wheel.gif --fps 10        the same for everywhere else; .png, .mp4
+  lagrange report mass-on-wheel --frames frames --fps 25           frames/frame-0001.svg, …
+  lagrange report mass-on-wheel --frames frames --fps 5 --format png --width 1920")]
+pub(super) struct Report {
+    /// Scenes, declarations (….lagrange) and scene files (….toml); `lagrange list` shows the scenes.
+    #[arg(required = true, value_name = "SCENE")]
+    scenes: Vec<String>,
+    #[command(flatten)]
+    run: RunArgs,
+    /// Beside each scene, the same with something changed: without:ITEM, with:ITEM, set:NAME=VALUE, start:NAME=VALUE,
+    /// from:START, until:T, tolerance:X, method:M, or several of them with commas between. May be repeated.
+    #[arg(long, help_heading = RESULTS, value_name = "CHANGE", allow_hyphen_values = true)]
+    compare: Vec<Comparison>,
+    /// What to write [default: what the name of the output says, else html; of frames svg].
+    #[arg(long, help_heading = RESULTS, value_enum)]
+    format: Option<Form>,
+    /// The file to write: ….html, or a picture that moves, ….svg, ….png, ….gif, ….mp4 [default: report.html].
+    #[arg(long, help_heading = RESULTS, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Write numbered pictures into a folder instead: frame-0001.svg, frame-0002.svg, …, or with --format png
+    /// frame-0001.png, … What is there of an earlier, longer sequence is removed.
+    #[arg(long, help_heading = RESULTS, value_name = "DIR", conflicts_with = "output")]
+    frames: Option<PathBuf>,
+    /// Pixels from left to right of PNG, GIF and MP4 [default: 1048 for one run, 1000 more for each that stands beside it].
+    #[arg(long, help_heading = RESULTS, value_name = "N", value_parser = clap::value_parser!(u16).range(16..=8192))]
+    width: Option<u16>,
+    /// Pictures a second, of frames and of a picture that moves.
+    #[arg(long, help_heading = RESULTS, value_name = "N", default_value = "25", value_parser = positive, allow_hyphen_values = true)]
+    fps: f64,
+    /// How much faster than it happens it is shown [default: so that it takes some seconds].
+    #[arg(long, help_heading = RESULTS, value_name = "X", value_parser = positive, allow_hyphen_values = true)]
+    speed: Option<f64>,
+    /// Write it again whenever the file of a scene changes, until Ctrl-C.
+    #[arg(long)]
+    watch: bool,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum Form {
+    /// A page with everything.
+    Html,
+    /// A picture that moves, of shapes.
+    Svg,
+    /// A picture that moves, of pixels.
+    Png,
+    /// The same in 256 colours, which every program shows.
+    Gif,
+    /// A film; needs the program ffmpeg.
+    Mp4,
+}
+
+impl Form {
+    /// The end of a file's name.
+    fn ending(self) -> &'static str {
+        match self {
+            Form::Html => "html",
+            Form::Svg => "svg",
+            Form::Png => "png",
+            Form::Gif => "gif",
+            Form::Mp4 => "mp4",
+        }
+    }
+
+    /// What it becomes if it is of pixels.
+    fn moving(self) -> Option<Moving> {
+        match self {
+            Form::Html | Form::Svg => None,
+            Form::Png => Some(Moving::Png),
+            Form::Gif => Some(Moving::Gif),
+            Form::Mp4 => Some(Moving::Mp4),
+        }
+    }
+}
+
+impl Report {
+    pub(super) fn execute(self, catalogue: &Catalogue) -> Result<(), Trouble> {
+        watched(self.watch, &self.scenes, || self.once(catalogue))
+    }
+
+    fn once(&self, catalogue: &Catalogue) -> Result<(), Trouble> {
+        if let Some(moving) = self.form()?.moving() {
+            moving.ready(self.fps).map_err(Trouble::usage)?;
+        }
+        ready(self.output.as_deref(), &self.scenes)?;
+        let progress = Progress::default();
+        progress.expect(self.runs() * FILM_STAGES);
+        keep_what_is_done(&progress);
+        let runs: Vec<Shown> = patiently("running", &progress, || {
+            let names = self.scenes.iter().flat_map(|name| {
+                let comparisons = self.compare.iter().map(Some);
+                let all = core::iter::once(None).chain(comparisons);
+                all.map(move |comparison| (name, comparison))
+            });
+            let shown =
+                names.map(|(name, comparison)| self.shown(name, catalogue, comparison, &progress));
+            shown.collect::<Result<_, _>>()
+        })?;
+        self.write(&runs)?;
+        let failed = runs.into_iter().find_map(|run| run.film.outcome.failure);
+        failed.map_or(Ok(()), |error| Err(Trouble::ended(error)))
+    }
+
+    /// How many there are.
+    fn runs(&self) -> usize {
+        self.scenes.len() * (1 + self.compare.len())
+    }
+
+    /// What to write.
+    fn form(&self) -> Result<Form, Trouble> {
+        let ending = self.output.as_deref().and_then(Path::extension);
+        let ending = ending.and_then(|ending| ending.to_str());
+        let forms = Form::value_variants().iter().copied();
+        let form = match (self.format, ending) {
+            (Some(form), _) => form,
+            (None, None) if self.frames.is_some() => Form::Svg,
+            (None, Some("htm") | None) => Form::Html,
+            (None, Some(ending)) => forms.clone().find(|form| form.ending() == ending).ok_or_else(|| {
+                let endings: Vec<String> = forms.map(|form| format!(".{}", form.ending())).collect();
+                Trouble::usage(format_args!(
+                    "a report is no .{ending}: let the output end in one of {}, or give --format",
+                    endings.join(", ")
+                ))
+            })?,
+        };
+        match self.frames.is_some() && !matches!(form, Form::Svg | Form::Png) {
+            true => Err(Trouble::usage(
+                "frames are pictures: give --format svg or --format png",
+            )),
+            false => Ok(form),
+        }
+    }
+
+    fn write(&self, runs: &[Shown]) -> Result<(), Trouble> {
+        let form = self.form()?;
+        let usual = PathBuf::from(format!("report.{}", form.ending()));
+        let path = self.output.as_deref().unwrap_or(&usual);
+        if form == Form::Html {
+            let command = command(std::env::args());
+            return to_file(path, |out| {
+                html::write(runs, self.speed, Some(&command), out)
+            });
+        }
+        let panels: Vec<Panel> = runs.iter().map(Shown::panel).collect();
+        let clock = Clock::new(&panels, self.fps, self.speed).map_err(Trouble::usage)?;
+        if let Some(folder) = &self.frames {
+            return self.frames(&panels, &clock, form, folder);
+        }
+        let Some(moving) = form.moving() else {
+            let text = frames::animated(&panels, &clock);
+            return to_file(path, |out| out.write_all(text.as_bytes()));
+        };
+        let pace = Pace {
+            count: clock.instants.len(),
+            rate: clock.rate,
+            scale: self.scale(&panels),
+        };
+        moving
+            .write(|| frames::stills(&panels, &clock), pace, path)
+            .map_err(|error| unwritten(path, &error))
+    }
+
+    /// Pixels per unit of a picture.
+    fn scale(&self, panels: &[Panel]) -> f32 {
+        self.width.map_or(1.0, |width| {
+            f32::from(width) / frames::width(panels.len()) as f32
+        })
+    }
+
+    /// Writes numbered pictures.
+    fn frames(
+        &self,
+        panels: &[Panel],
+        clock: &Clock,
+        form: Form,
+        folder: &Path,
+    ) -> Result<(), Trouble> {
+        std::fs::create_dir_all(folder).map_err(|error| {
+            Trouble::failed(format_args!("cannot make {}: {error}", folder.display()))
+        })?;
+        let frame = |i: usize| folder.join(format!("frame-{:04}.{}", i + 1, form.ending()));
+        let pictures: Vec<(usize, String)> = frames::stills(panels, clock).enumerate().collect();
+        let scale = self.scale(panels);
+        pictures.into_par_iter().try_for_each(|(i, svg)| {
+            let still = if form == Form::Png {
+                Still::Png
+            } else {
+                Still::Svg
+            };
+            to_file(&frame(i), |out| still.write(&svg, scale, out))
+        })?;
+        // What is left of a longer sequence would be taken for its end.
+        let left = (clock.instants.len()..)
+            .map(frame)
+            .take_while(|path| path.exists());
+        for path in left {
+            std::fs::remove_file(&path).map_err(|error| {
+                Trouble::failed(format_args!("cannot remove {}: {error}", path.display()))
+            })?;
+        }
+        Ok(())
+    }
+
+    /// A scene's run or, with a comparison, the run that differs from it.
+    fn shown(
+        &self,
+        name: &str,
+        catalogue: &Catalogue,
+        comparison: Option<&Comparison>,
+        progress: &Progress,
+    ) -> Result<Shown, Trouble> {
+        let file = self.run.of(name, catalogue)?;
+        let request = match comparison {
+            Some(comparison) => comparison.of(file.request),
+            None => file.request,
+        };
+        let until = request.until.unwrap_or(file.scene.until());
+        let request = Request {
+            samples: html::intervals(file.scene.description(), until, self.runs()),
+            progress: Some(progress.clone()),
+            ..request
+        };
+        let film = file.scene.film(&request).map_err(Trouble::refused)?;
+        Ok(Shown {
+            title: title(name, file.scene, comparison),
+            film,
+            derivation: file.scene.derivation(),
+        })
+    }
+}
+
+/// The command that was given, for a shell: what it would take apart stands between quotes.
+fn command(arguments: impl Iterator<Item = String>) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,+@%".contains(c);
+    let quoted = arguments.skip(1).map(|argument| {
+        match argument.is_empty() || !argument.chars().all(plain) {
+            true => format!("'{}'", argument.replace('\'', "'\\''")),
+            false => argument,
+        }
+    });
+    let words: Vec<String> = core::iter::once("lagrange".to_owned())
+        .chain(quoted)
+        .collect();
+    words.join(" ")
+}
+
+/// The scene, with the name of the file that describes the run, and what is different.
+fn title(name: &str, scene: &dyn Scene, comparison: Option<&Comparison>) -> String {
+    let run = match name.strip_suffix(".toml") {
+        Some(path) => {
+            let stem = path.rsplit(['/', '\\']).next().unwrap_or(path);
+            format!("{} ({stem})", scene.name())
+        }
+        None => name.to_owned(),
+    };
+    match comparison {
+        Some(comparison) => format!("{run}, {comparison}"),
+        None => run,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::command;
+
+    #[test]
+    fn commands_can_be_given_to_a_shell_again() {
+        let given = [
+            "/usr/bin/lagrange",
+            "report",
+            "a b.toml",
+            "--set",
+            "name=it's",
+            "",
+        ];
+        let told = command(given.into_iter().map(str::to_owned));
+        assert_eq!(told, r"lagrange report 'a b.toml' --set 'name=it'\''s' ''");
+    }
+}

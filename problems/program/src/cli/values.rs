@@ -1,0 +1,137 @@
+//! `name=value` and numbers, as they come from the command line.
+
+use crate::count::count;
+use crate::report::export::Still;
+use crate::request::{ERRORS, MOST_SAMPLES, TOLERANCES};
+use std::path::PathBuf;
+
+/// `name=value` with a finite value.
+pub(super) fn named(text: &str) -> Result<(String, f64), String> {
+    let (name, value) = text
+        .split_once('=')
+        .ok_or("expected name=value, for example mass=2")?;
+    let name = name.trim();
+    if name.is_empty() {
+        return Err("expected a name before `=`, for example mass=2".to_owned());
+    }
+    Ok((name.to_owned(), finite(value)?))
+}
+
+/// `name=value`, the value above zero.
+pub(super) fn named_positive(text: &str) -> Result<(String, f64), String> {
+    match named(text)? {
+        (name, value) if value > 0.0 => Ok((name, value)),
+        (name, _) => Err(format!("the value of `{name}` must be above 0")),
+    }
+}
+
+/// A finite number.
+pub(super) fn finite(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        Ok(_) => Err("the value must be finite".to_owned()),
+        Err(_) => Err(format!("`{}` is not a number", text.trim())),
+    }
+}
+
+/// A finite number above zero.
+pub(super) fn positive(text: &str) -> Result<f64, String> {
+    match finite(text)? {
+        value if value > 0.0 => Ok(value),
+        _ => Err("the value must be above 0".to_owned()),
+    }
+}
+
+/// A number of intervals to sample a run at.
+pub(super) fn intervals(text: &str) -> Result<usize, String> {
+    match count(text) {
+        Some(count) if count <= MOST_SAMPLES => Ok(count),
+        Some(_) => Err(format!("at most {MOST_SAMPLES} intervals are sampled")),
+        None => Err(format!("`{}` is not a number of intervals", text.trim())),
+    }
+}
+
+/// A file for a picture, of a kind that can be written.
+pub(super) fn picture(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    let hint = match text.contains(" vs ") {
+        true => "; what to draw is said with --show",
+        false => "",
+    };
+    let known = Still::of(&path).map_err(|reason| format!("{reason}{hint}"));
+    known.map(|_| path)
+}
+
+/// A tolerance of an integration.
+pub(super) fn tolerance(text: &str) -> Result<f64, String> {
+    match positive(text)? {
+        tolerance if TOLERANCES.contains(&tolerance) => Ok(tolerance),
+        _ => Err("a tolerance is between 1e-17 and 0.1".to_owned()),
+    }
+}
+
+/// An error that a run is to keep.
+pub(super) fn error(text: &str) -> Result<f64, String> {
+    match positive(text)? {
+        error if ERRORS.contains(&error) => Ok(error),
+        _ => Err("an error is between 1e-15 and 0.1".to_owned()),
+    }
+}
+
+/// One tolerance, or every power of ten from one to another (`1e-3..1e-15`), loosest first.
+pub(super) fn tolerances(text: &str) -> Result<Vec<f64>, String> {
+    let Some((from, to)) = text.split_once("..") else {
+        return Ok(vec![tolerance(text)?]);
+    };
+    let power = |text: &str| -> Result<i32, String> {
+        let power = tolerance(text)?.log10();
+        match (power - power.round()).abs() < 1e-9 {
+            true => Ok(power.round() as i32),
+            false => Err("a range is between powers of ten, as 1e-3..1e-15".to_owned()),
+        }
+    };
+    let (from, to) = (power(from)?, power(to)?);
+    // Read from text: 10 to a power by multiplication is not the nearest double.
+    let powers = (from.min(to)..=from.max(to)).rev();
+    powers.map(|power| finite(&format!("1e{power}"))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_and_finite_numbers_pass() {
+        assert_eq!(
+            named("der(theta)=-2e-3"),
+            Ok(("der(theta)".to_owned(), -2e-3))
+        );
+        assert_eq!(named(" mass = 2 "), Ok(("mass".to_owned(), 2.0)));
+        for wrong in [
+            "mass",
+            "=2",
+            "mass=",
+            "mass=two",
+            "mass=nan",
+            "mass=inf",
+            "mass=1e999",
+        ] {
+            assert!(named(wrong).is_err(), "{wrong}");
+        }
+        assert!(positive("0").is_err() && positive("-1").is_err() && positive("1e-12").is_ok());
+        assert!(
+            tolerance("0.2").is_err() && tolerance("1e-18").is_err() && tolerance("0.1").is_ok()
+        );
+    }
+
+    #[test]
+    fn tolerances_alone_and_in_ranges() {
+        assert_eq!(tolerances("1e-9"), Ok(vec![1e-9]));
+        let three = Ok(vec![1e-3, 1e-4, 1e-5]);
+        assert_eq!(tolerances("1e-3..1e-5"), three);
+        assert_eq!(tolerances("1e-5..0.001"), three);
+        for wrong in ["2", "1e-18", "3e-4..1e-5", "1e-3..", "..", "x"] {
+            assert!(tolerances(wrong).is_err(), "{wrong}");
+        }
+    }
+}

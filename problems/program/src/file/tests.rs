@@ -1,0 +1,243 @@
+//! Values of a file are read; its mistakes are shown where they are; hostile files end in an error.
+
+use super::{Refused, TEMPLATE, scene, type_name};
+use crate::request::Request;
+
+#[test]
+fn names_of_files_become_names_of_types() {
+    for (path, name) in [
+        ("a/double-pendulum.lagrange", "DoublePendulum"),
+        ("3_bodies.lagrange", "System3Bodies"),
+        ("self.lagrange", "SystemSelf"),
+        ("çé.lagrange", "System"),
+    ] {
+        assert_eq!(type_name(path), name);
+    }
+}
+
+fn mistakes(text: &str) -> String {
+    match scene("spring.lagrange", text) {
+        Err(Refused::Mistakes(mistakes)) => mistakes.to_string(),
+        Err(other) => panic!("{other}"),
+        Ok(_) => panic!("nothing is wrong with\n{text}"),
+    }
+}
+
+#[test]
+fn mistakes_are_marked_where_they_are() {
+    let text = "//! A spring.\nparameters(mass: \"kg\" = 1, stiffness: \"N/m\" = 40),\n\
+                coordinates(x: \"m\"),\n\tkinetic = mass/2 * der(x)^2,\npotential = stifness/2 * x^2,\n";
+    expect_test::expect![[r#"
+        spring.lagrange:5:13: `stifness` is not known; did you mean `stiffness`? [E201]
+          5 | potential = stifness/2 * x^2,
+            |             ^^^^^^^^"#]]
+    .assert_eq(&mistakes(text));
+    expect_test::expect![[r#"
+        spring.lagrange:4:12: a kinetic energy is in J, and this is in kg² m²/s²; a factor in 1/kg is missing [E704]
+          4 | 	kinetic = mass^2/2 * der(x)^2,
+            | 	          ^^^^^^^^^^^^^^^^^^^"#]]
+    .assert_eq(&mistakes(&text.replace("stifness", "stiffness").replace("mass/2", "mass^2/2")));
+    // What to do is told as it is done in a file, which has no fields.
+    let number = text.replace("stifness/2 * x^2", "mass * 9.81 * x");
+    let told = mistakes(&number);
+    assert!(
+        told.contains(
+            r#"`9.81` is a plain number: make it a parameter, `parameters(name: "m/s²" = …)`"#
+        ),
+        "{told}"
+    );
+    let told = mistakes(&text.replace("stifness", "k"));
+    assert!(
+        told.contains("declare it as a parameter, `parameters(name = 1)`, a coordinate"),
+        "{told}"
+    );
+}
+
+#[test]
+fn what_only_a_file_has_is_checked() {
+    let rest = "coordinates(x), kinetic = der(x)^2";
+    for (text, expected) in [
+        (
+            format!("parameters(a), {rest}"),
+            "1:12: `a` has no value; add `= 1` [E018]",
+        ),
+        (
+            format!("parameters(a = b, b = 1), {rest}"),
+            "1:16: expected a number, as `3`, `-1/2` or `2*pi`, found `b` [E001]",
+        ),
+        (
+            format!("parameters(a = c), {rest}"),
+            "1:16: `c` is not known",
+        ),
+        (
+            format!("parameters(a[2] = [1, 2, 3]), {rest}"),
+            "1:19: lists of 2 and 3 elements do not fit",
+        ),
+        (
+            format!("parameters(a = sqrt(-1)), {rest}"),
+            "1:16: `sqrt(-1)` has no value",
+        ),
+        (
+            format!("parameters(a = 1, a = 2), {rest}"),
+            "1:19: `a` is already the name of a parameter",
+        ),
+        (
+            format!("parameters(a[9999999] = 1), {rest}"),
+            "1:12: 9999999 elements are too many",
+        ),
+        (
+            format!("parametres(a = 1), {rest}"),
+            "1:1: `parametres` is not an item; did you mean `parameters`?",
+        ),
+        (
+            format!("{rest}, until = 1, until = 2"),
+            "1:48: `until` is given twice",
+        ),
+        (format!("{rest}, until = x"), "1:45: `x` is not known"),
+        (String::new(), "1:1: nothing is written here"),
+        (
+            "kinetic = \"a".to_owned(),
+            "1:11: what begins here cannot be read",
+        ),
+        (
+            "kinetic = (1".to_owned(),
+            "1:11: what begins here cannot be read",
+        ),
+    ] {
+        let found = mistakes(&text);
+        assert!(
+            found.starts_with(&format!("spring.lagrange:{expected}")),
+            "{text}\n{found}"
+        );
+    }
+}
+
+#[test]
+fn values_are_numbers_written_as_expressions() {
+    let text = "parameters(a = 2*pi, b[2] = 1/4, c[2] = [1, -2], type = sqrt(4)), coordinates(x),\n\
+                kinetic = a * b[0] * c[0] * type * der(x)^2, until = 3/2";
+    let scene = scene("a.lagrange", text).unwrap_or_else(|refused| panic!("{refused}"));
+    let tau = 2.0 * std::f64::consts::PI;
+    assert_eq!(scene.defaults(), [tau, 0.25, 0.25, 1.0, -2.0, 2.0]);
+    assert_eq!(scene.until(), 1.5);
+}
+
+/// Whatever a file says, there is a scene or a mistake.
+#[track_caller]
+fn survives(text: &str) {
+    if let Err(Refused::Bug(reason)) = scene("hostile.lagrange", text) {
+        panic!("{reason}\n{text}");
+    }
+}
+
+#[test]
+fn garbage_is_refused() {
+    let mut random = fastrand::Rng::with_seed(1);
+    let words: Vec<&str> = "parameters coordinates kinetic potential contact friction constraint start stop mark check until define \
+        force observe x y der sum if min pi t 0 1 1/2 1e400 1e-9 0..8 ( ) [ ] { } , : = == >= <= + - * / ^ . .. ' \" # ! // \u{e9} \n"
+        .split(' ')
+        .collect();
+    for _ in 0..1000 {
+        let count = random.usize(..60);
+        let garbage: Vec<&str> = (0..count)
+            .map(|_| words[random.usize(..words.len())])
+            .collect();
+        survives(&garbage.join(" "));
+    }
+}
+
+#[test]
+fn mutations_of_a_good_file_are_read_or_refused() {
+    let mut random = fastrand::Rng::with_seed(2);
+    let good: Vec<char> = TEMPLATE.chars().collect();
+    for _ in 0..300 {
+        let mut text = good.clone();
+        for _ in 0..1 + random.usize(..4) {
+            let (at, from) = (random.usize(..text.len()), random.usize(..text.len()));
+            let length = random.usize(..20).min(text.len() - at.max(from));
+            match random.usize(..3) {
+                0 => drop(text.drain(at..at + length)),
+                1 => text[at] = good[random.usize(..good.len())],
+                _ => {
+                    let copy: Vec<char> = text[from..from + length].to_vec();
+                    text.splice(at..at, copy);
+                }
+            }
+        }
+        survives(&text.into_iter().collect::<String>());
+    }
+}
+
+#[test]
+fn bombs_do_not_go_off() {
+    let with = |value: &str| format!("coordinates(x), kinetic = der(x)^2 + {value}");
+    let many = 100_000;
+    for bomb in ["(", "[", "sin(", "-", "x^", "x+", "x*", "x.", "2^", "x/"] {
+        survives(&with(&(bomb.repeat(many) + "x")));
+    }
+    for (open, close) in [
+        ("(", ")"),
+        ("[", "]"),
+        ("sin(", ")"),
+        ("{", "}"),
+        ("max(x, ", ")"),
+    ] {
+        survives(&with(&(open.repeat(many) + "x" + &close.repeat(many))));
+    }
+    survives(&with(
+        "sum(i in 0..10000: sum(j in 0..10000: sum(k in 0..10000: x^i)))",
+    ));
+    survives(&with("9^999^999^999"));
+    survives(
+        "parameters(a[10000] = 1, b[99999999999999999999] = 2), coordinates(q[10000]), kinetic = der(q[0])^2",
+    );
+    survives(
+        "coordinates(q[300]), kinetic = sum(i in 0..300: sum(j in 0..300: cos(q[i]-q[j])*der(q[i])*der(q[j])))",
+    );
+    let doubled: String = (1..200)
+        .map(|k| format!("a{k} = a{}*sin(a{}) + a{},", k - 1, k - 1, k - 1))
+        .collect();
+    survives(&format!(
+        "define(a0 = x, {doubled}), coordinates(x), kinetic = a199*der(x)^2"
+    ));
+    survives(&" ".repeat(2 << 20));
+}
+
+#[test]
+fn what_a_parameter_may_be_is_kept_by_the_file_and_the_struct() {
+    let text = "parameters(mass: \"kg\" positive = 1, drag nonnegative = 0.5), coordinates(x),
+        kinetic = mass/2 * der(x)^2, dissipation(air: drag/2 * der(x)^2), start(moving: der(x) = 1)";
+    let declared = scene("falling.lagrange", text).expect("a scene");
+    for (name, value) in [("mass", 0.0), ("mass", -1.0), ("drag", -0.5)] {
+        let request = Request {
+            parameters: vec![(name.to_owned(), value)],
+            ..Request::default()
+        };
+        let outcome = declared.run(&request).expect("a request");
+        let error = outcome.failure.expect("outside its domain").to_string();
+        assert!(
+            error.contains(name) && error.contains("it must be"),
+            "{error}"
+        );
+    }
+    assert!(
+        declared
+            .run(&Request::default())
+            .is_ok_and(|run| run.failure.is_none())
+    );
+    let rust = super::export("falling.lagrange", text)
+        .expect("a struct")
+        .rust;
+    assert!(
+        rust.contains("#[lagrange(unit = \"kg\", domain = \"positive\")]"),
+        "{rust}"
+    );
+    assert!(
+        rust.contains("#[lagrange(domain = \"nonnegative\")]"),
+        "{rust}"
+    );
+    let wrong = scene("falling.lagrange", &text.replace("nonnegative", "small"));
+    assert!(
+        wrong.is_err_and(|refused| refused.to_string().contains("`positive` or `nonnegative`"))
+    );
+}

@@ -1,0 +1,32 @@
+//! The program `lagrange`: it runs, draws and reports systems of [one's own](Program), and those of `lagrange-problems`.
+//!
+//! Everything here works on the names and numbers that the derive macro puts in [`lagrange_core::system::Description`], so that it knows no
+//! scene.
+
+pub mod accuracy;
+pub mod catalogue;
+mod cli;
+pub mod closed_form;
+pub mod cost;
+pub mod count;
+pub mod drawing;
+mod drawn;
+pub mod feasible;
+pub mod file;
+pub mod film;
+pub mod names;
+pub mod outcome;
+mod program;
+pub mod progress;
+pub mod report;
+pub mod request;
+pub mod results;
+pub mod scene;
+pub mod scene_file;
+pub mod space;
+pub mod stability;
+pub mod sweep;
+
+pub use program::Program;
+pub use results::Results;
+pub use scene::Entry;

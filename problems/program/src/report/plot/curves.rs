@@ -1,0 +1,199 @@
+//! Which curves a picture has: what was asked for or, if nothing was, one panel of forces and one per unit of the coordinates.
+
+use super::quantity::Quantity;
+use crate::outcome::{Outcome, Sample};
+use crate::report::telling;
+use crate::report::words::brief;
+use crate::request::Refusal;
+use lagrange_core::system::Description;
+
+/// Some quantities over another one, as a user asks for them: `theta, rim vs t`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Show {
+    over: Quantity,
+    curves: Vec<Quantity>,
+}
+
+impl Show {
+    /// Names with commas between, and what they are drawn over (`vs x`), which is time if it is not said.
+    ///
+    /// # Errors
+    /// A name that the scene does not have.
+    pub fn new(text: &str, d: &Description) -> Result<Self, Refusal> {
+        let (curves, over) = text.split_once(" vs ").unwrap_or((text, "t"));
+        let curves = curves.split(',').map(|name| Quantity::find(name, d));
+        Ok(Self {
+            curves: curves.collect::<Result<_, _>>()?,
+            over: Quantity::find(over, d)?,
+        })
+    }
+}
+
+/// Curves that share both axes.
+pub(super) struct Panel {
+    pub title: String,
+    pub over: Quantity,
+    pub curves: Vec<Curve>,
+}
+
+/// A quantity and how it looks.
+pub(super) struct Curve {
+    pub quantity: Quantity,
+    /// Index into the colours.
+    pub colour: usize,
+    /// Index into the patterns of dashes.
+    pub dash: usize,
+}
+
+/// The phases as bands: (from, to, mode), and what each mode is called.
+pub(super) struct Bands {
+    pub spans: Vec<(f64, f64, usize)>,
+    pub names: Vec<String>,
+}
+
+pub(super) fn bands(outcome: &Outcome) -> Bands {
+    let mut names: Vec<String> = Vec::new();
+    let spans = outcome
+        .phases
+        .iter()
+        .map(|phase| {
+            let name = brief(&phase.mode, outcome.description);
+            let mode = names
+                .iter()
+                .position(|known| *known == name)
+                .unwrap_or_else(|| {
+                    names.push(name);
+                    names.len() - 1
+                });
+            (phase.from, phase.to, mode)
+        })
+        .collect();
+    Bands { spans, names }
+}
+
+/// What was asked for, a panel for each unit.
+pub(super) fn shown(d: &Description, shows: &[Show]) -> Vec<Panel> {
+    let of_one = |show: &Show| by_unit(d, &show.over, coloured(show.curves.clone()));
+    shows.iter().flat_map(of_one).collect()
+}
+
+/// Forces and coordinates over time. Forces that never act in any of the runs are left out.
+pub(super) fn usual(outcomes: &[&Outcome], d: &Description) -> Vec<Panel> {
+    let acts = |quantity: &Quantity| {
+        let mut samples = outcomes.iter().flat_map(|outcome| &outcome.samples);
+        samples.any(|sample| quantity.of(d, sample).is_some())
+    };
+    let forces = coloured(Quantity::all_forces(d));
+    let forces = forces
+        .into_iter()
+        .filter(|curve| acts(&curve.quantity))
+        .collect();
+    let mut panels = by_unit(d, &Quantity::Time, forces);
+    let told = telling(d);
+    // Outputs say what the quaternions that are left out would have said.
+    let outputs = match told.len() < d.coordinates.len() {
+        true => (0..d.observes.len()).map(Quantity::Output).collect(),
+        false => Vec::new(),
+    };
+    let positions = told.into_iter().map(Quantity::Position);
+    let (angles, others): (Vec<_>, Vec<_>) = positions.partition(|q| q.kind(d) == "angle");
+    for quantities in [angles, others, outputs] {
+        panels.extend(by_unit(d, &Quantity::Time, coloured(quantities)));
+    }
+    panels
+}
+
+/// Each its colour; a limit is dashed in the colour of the force before it.
+fn coloured(quantities: Vec<Quantity>) -> Vec<Curve> {
+    let mut curves: Vec<Curve> = Vec::new();
+    for quantity in quantities {
+        let next = curves.last().map_or(0, |last| last.colour + 1);
+        let bounds = |size: &Quantity| matches!((size, &quantity), (Quantity::Size(a), Quantity::Limit(b)) if a == b);
+        let limit = curves.last().is_some_and(|last| bounds(&last.quantity));
+        curves.push(Curve {
+            colour: if limit { next - 1 } else { next },
+            dash: usize::from(limit),
+            quantity,
+        });
+    }
+    curves
+}
+
+/// One panel for each unit.
+fn by_unit(d: &Description, over: &Quantity, curves: Vec<Curve>) -> Vec<Panel> {
+    let mut groups: Vec<(String, Vec<Curve>)> = Vec::new();
+    for curve in curves {
+        let unit = curve.quantity.unit(d);
+        match groups.iter_mut().find(|(known, _)| *known == unit) {
+            Some((_, group)) => group.push(curve),
+            None => groups.push((unit, vec![curve])),
+        }
+    }
+    let panel = |(unit, curves): (String, Vec<Curve>)| {
+        let mut kinds: Vec<&str> = curves.iter().map(|curve| curve.quantity.kind(d)).collect();
+        kinds.dedup();
+        Panel {
+            title: with_comma(&kinds.join(", "), &unit),
+            over: over.clone(),
+            curves,
+        }
+    };
+    groups.into_iter().map(panel).collect()
+}
+
+/// `force, N`
+pub(super) fn with_comma(name: &str, unit: &str) -> String {
+    match unit {
+        "" => name.to_owned(),
+        unit => format!("{name}, {unit}"),
+    }
+}
+
+/// A quantity over another one, broken where one of them does not exist or the phase changes.
+pub(super) fn pieces(
+    outcome: &Outcome,
+    over: &Quantity,
+    quantity: &Quantity,
+) -> Vec<Vec<(f64, f64)>> {
+    let d = outcome.description;
+    let mut pieces: Vec<Vec<(f64, f64)>> = Vec::new();
+    let mut phase = None;
+    let point = |sample: &Sample| Some((over.of(d, sample)?, quantity.of(d, sample)?));
+    for sample in &outcome.samples {
+        let Some(point) = point(sample) else {
+            phase = None;
+            continue;
+        };
+        if phase != Some(sample.phase) {
+            pieces.push(Vec::new());
+        }
+        phase = Some(sample.phase);
+        if let Some(piece) = pieces.last_mut() {
+            piece.push(point);
+        }
+    }
+    pieces
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::file;
+
+    #[test]
+    fn names_are_found_and_mistakes_told() {
+        let declared =
+            "coordinates(r, theta), kinetic = der(r)^2 + r^2 * der(theta)^2, contact(rim: r >= 1),
+            friction(grip on rim: slip = der(theta), static = 1)";
+        let scene = file::scene("wheel.lagrange", declared).expect("a declaration");
+        let d = scene.description();
+        let show = Show::new("theta, grip ,limit( grip ) vs der(theta)", d).expect("curves");
+        assert_eq!((show.curves.len(), &show.over), (3, &Quantity::Velocity(1)));
+        assert_eq!(Show::new("energy", d).expect("curves").over, Quantity::Time);
+        let said = |text: &str| Show::new(text, d).expect_err("a mistake").to_string();
+        assert!(said("thet vs t").contains("did you mean `theta`?"));
+        assert!(said("theta vs thetadot").contains("did you mean `der(theta)`?"));
+        assert!(said("limit(grib)").contains("did you mean `limit(grip)`?"));
+        assert!(said("theta,").contains("no quantity is called ``"));
+    }
+}

@@ -1,0 +1,110 @@
+//! A run → the scene file that gives it again.
+
+use super::Outputs;
+use crate::request::Request;
+use crate::scene::Scene;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+/// The file as it is written.
+#[derive(Serialize)]
+struct Record<'a> {
+    scene: &'a str,
+    until: f64,
+    #[serde(skip_serializing_if = "is_empty")]
+    end_after: &'a [String],
+    tolerance: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error: Option<f64>,
+    #[serde(skip_serializing_if = "is_false")]
+    estimate: bool,
+    method: String,
+    #[serde(skip_serializing_if = "is_false")]
+    project: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    impacts: Option<String>,
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    absolute_tolerance: BTreeMap<&'a str, f64>,
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    parameters: BTreeMap<&'a str, f64>,
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    start: BTreeMap<&'a str, toml::Value>,
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    effects: BTreeMap<&'a str, bool>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    outputs: Option<Results<'a>>,
+}
+
+/// Its table `outputs`.
+#[derive(Serialize)]
+struct Results<'a> {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    format: Option<String>,
+    #[serde(skip_serializing_if = "is_empty")]
+    output: &'a [PathBuf],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    plot: Option<&'a PathBuf>,
+    #[serde(skip_serializing_if = "is_empty")]
+    show: &'a [String],
+    #[serde(skip_serializing_if = "is_false")]
+    ledger: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    samples: Option<usize>,
+}
+
+fn is_false(flag: &bool) -> bool {
+    !flag
+}
+
+fn is_empty<T>(list: &&[T]) -> bool {
+    list.is_empty()
+}
+
+/// The scene file of a run; [`read`](super::read) gives the same run again.
+///
+/// # Errors
+/// What cannot be written in TOML, as a path that is not Unicode.
+pub fn write<'a>(
+    scene: &'a dyn Scene,
+    request: &'a Request,
+    outputs: &'a Outputs,
+) -> Result<String, toml::ser::Error> {
+    let numbers = request.start.iter();
+    let numbers = numbers.map(|(name, value)| (name.as_str(), toml::Value::Float(*value)));
+    let from = request.from.iter();
+    let from = from.map(|name| ("from", toml::Value::String(name.clone())));
+    let pairs = |list: &'a [(String, f64)]| {
+        let pairs = list.iter().map(|(name, value)| (name.as_str(), *value));
+        pairs.collect()
+    };
+    let results = Results {
+        format: outputs.format.map(|format| format.to_string()),
+        output: &outputs.output,
+        plot: outputs.plot.as_ref(),
+        show: &outputs.show,
+        ledger: request.ledger,
+        samples: outputs.samples,
+    };
+    let said = request.ledger || *outputs != Outputs::default();
+    toml::to_string(&Record {
+        scene: scene.name(),
+        until: request.until.unwrap_or(scene.until()),
+        end_after: &request.end_after,
+        tolerance: request.tolerance,
+        error: request.error,
+        estimate: request.estimate,
+        method: request.method.to_string(),
+        project: request.project,
+        impacts: request.impacts.map(|impacts| impacts.to_string()),
+        absolute_tolerance: pairs(&request.absolute),
+        parameters: pairs(&request.parameters),
+        start: from.chain(numbers).collect(),
+        effects: request
+            .effects
+            .iter()
+            .map(|(name, on)| (name.as_str(), *on))
+            .collect(),
+        outputs: said.then_some(results),
+    })
+}

@@ -1,0 +1,249 @@
+//! What is read from each run of a sweep.
+//!
+//! ```text
+//! theta at shell lost        a coordinate, velocity or force just before an event, `t` for its time
+//! theta at floor impact 2    … at its second occurrence
+//! count floor impact         how often
+//! theta                      at the end of the run
+//! modes                      the sequence of its switches
+//! ```
+
+use super::modes::Switches;
+use super::unit;
+use crate::outcome::{Force, forces};
+use crate::request::{Quantity, Refusal, find_state, velocity_name};
+use crate::scene::Scene;
+use lagrange_core::prelude::*;
+
+/// A number read from a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Observation {
+    /// As asked for: the name of its column.
+    pub name: String,
+    what: What,
+    at: At,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum What {
+    Time,
+    Position(usize),
+    Velocity(usize),
+    Force(usize),
+    Count,
+    Modes(Switches),
+}
+
+/// An event of a kind.
+#[derive(Clone, Debug, PartialEq)]
+struct Sought {
+    subject: Subject,
+    kind: EventKind,
+}
+
+impl Sought {
+    fn is(&self, event: &Event<f64>) -> bool {
+        event.subject == self.subject && event.kind.word() == self.kind.word()
+    }
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum At {
+    End,
+    Event(Sought, usize),
+}
+
+/// Kinds of events, as a user writes them.
+const KINDS: [EventKind; 10] = [
+    EventKind::Lost,
+    EventKind::Closed,
+    EventKind::Impact,
+    EventKind::Accumulates { impacts: 0 },
+    EventKind::Slips,
+    EventKind::Sticks,
+    EventKind::Reverses,
+    EventKind::Branches,
+    EventKind::Stop,
+    EventKind::Mark,
+];
+
+impl Observation {
+    /// Reads an observation of a scene, or the name of one of its results.
+    ///
+    /// # Errors
+    /// A name that is not known.
+    pub fn new(text: &str, scene: &dyn Scene) -> Result<Self, Refusal> {
+        let description = scene.description();
+        let asked = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        let name = scene.result(&asked);
+        let (what, at) = match (name.strip_prefix("count "), name.split_once(" at ")) {
+            _ if name == "modes" => (What::Modes(Switches::of(description)), At::End),
+            (Some(event), _) => (What::Count, event_of(event, description)?),
+            (None, Some((quantity, event))) => (
+                quantity_of(quantity, description)?,
+                event_of(event, description)?,
+            ),
+            (None, None) => (quantity_of(name, description)?, At::End),
+        };
+        Ok(Self {
+            name: asked.clone(),
+            what,
+            at,
+        })
+    }
+
+    /// Its unit; empty for a plain number.
+    pub(super) fn unit(&self, description: &Description) -> String {
+        match &self.what {
+            What::Time => "s".to_owned(),
+            What::Position(index) => unit(description, *index, Quantity::Position),
+            What::Velocity(index) => unit(description, *index, Quantity::Velocity),
+            What::Force(row) => description.units.row(*row).to_owned(),
+            What::Count | What::Modes(_) => String::new(),
+        }
+    }
+
+    /// A value in words, one for each switch, if it stands for a sequence of switches.
+    pub fn words(&self, value: f64) -> Option<Vec<&str>> {
+        match &self.what {
+            What::Modes(switches) if !value.is_nan() => Some(switches.words(value)),
+            _ => None,
+        }
+    }
+
+    /// Whether its values stand for sequences of switches: they can be told apart and nothing else.
+    pub fn is_sequence(&self) -> bool {
+        matches!(self.what, What::Modes(_))
+    }
+
+    /// The event after whose first occurrence a run has no more to say to this, if there is one.
+    pub fn ends_with(&self) -> Option<(Subject, EventKind)> {
+        match &self.at {
+            At::Event(event, 1) if self.what != What::Count => Some((event.subject, event.kind)),
+            _ => None,
+        }
+    }
+
+    /// Its value in a run; NaN if the run has no such event.
+    pub(crate) fn read(&self, trajectory: &Trajectory) -> f64 {
+        if let What::Modes(switches) = &self.what {
+            return switches.number(trajectory.events());
+        }
+        let (time, state, forces) = match &self.at {
+            At::End => {
+                let state = trajectory.final_state();
+                (trajectory.last_time(), state, None)
+            }
+            At::Event(sought, number) => {
+                let mut events = trajectory.events().iter().filter(|event| sought.is(event));
+                if self.what == What::Count {
+                    return events.count() as f64;
+                }
+                let Some(event) = events.nth(number - 1) else {
+                    return f64::NAN;
+                };
+                (event.time, &event.state, Some(&event.forces))
+            }
+        };
+        match &self.what {
+            What::Time => time,
+            What::Position(i) => state.q[*i],
+            What::Velocity(i) => state.v[*i],
+            What::Force(row) => forces.map_or(f64::NAN, |forces| forces[*row]),
+            What::Count | What::Modes(_) => 0.0,
+        }
+    }
+}
+
+fn quantity_of(name: &str, description: &'static Description) -> Result<What, Refusal> {
+    if name == "t" {
+        return Ok(What::Time);
+    }
+    if let Some(Force { row, .. }) = forces(description).iter().find(|force| force.name == name) {
+        return Ok(What::Force(*row));
+    }
+    let (index, level) = find_state(description, name).map_err(|_| unknown(name, description))?;
+    Ok(match level {
+        Quantity::Position => What::Position(index),
+        Quantity::Velocity => What::Velocity(index),
+    })
+}
+
+fn unknown(name: &str, description: &'static Description) -> Refusal {
+    let mut known = vec!["t".to_owned()];
+    for coordinate in description.coordinates {
+        known.extend([coordinate.name.to_owned(), velocity_name(coordinate.name)]);
+    }
+    known.extend(forces(description).into_iter().map(|force| force.name));
+    known.push("modes".to_owned());
+    Refusal::unknown(
+        "coordinate, velocity or force",
+        name,
+        known.iter().map(String::as_str),
+    )
+}
+
+/// What `item kind` names, an event at its first occurrence.
+pub(crate) fn event(
+    text: &str,
+    description: &'static Description,
+) -> Result<(Subject, EventKind), Refusal> {
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    match event_of(&words, description)? {
+        At::Event(event, 1) => Ok((event.subject, event.kind)),
+        _ => {
+            let first = words.trim_end_matches(|c: char| c.is_ascii_digit() || c == ' ');
+            Err(Refusal::unknown("first event", text, [first].into_iter()))
+        }
+    }
+}
+
+/// `item kind`, `item kind 2`
+fn event_of(text: &str, description: &'static Description) -> Result<At, Refusal> {
+    let words: Vec<&str> = text.split(' ').collect();
+    let (item, kind, number) = match words[..] {
+        [item] => (item, "", Some(1)),
+        [item, kind] => (item, kind, Some(1)),
+        [item, kind, number] => (item, kind, number.parse().ok().filter(|n| *n > 0)),
+        _ => (text, "", None),
+    };
+    let d = description;
+    let subjects: Vec<Subject> = (0..d.contacts.len())
+        .map(Subject::Contact)
+        .chain((0..d.frictions.len()).map(Subject::Friction))
+        .chain((0..d.stops.len()).map(Subject::Stop))
+        .chain((0..d.marks.len()).map(Subject::Mark))
+        .collect();
+    let names = || subjects.iter().map(|subject| subject.name(d));
+    let subject = subjects.iter().find(|subject| subject.name(d) == item);
+    let subject = *subject
+        .ok_or_else(|| Refusal::unknown("contact, friction, stop or mark", item, names()))?;
+    let suits = |kind: &&EventKind| match subject {
+        Subject::Contact(_) => matches!(
+            kind,
+            EventKind::Lost | EventKind::Closed | EventKind::Impact | EventKind::Accumulates { .. }
+        ),
+        Subject::Friction(_) => matches!(
+            kind,
+            EventKind::Slips | EventKind::Sticks | EventKind::Reverses
+        ),
+        Subject::Stop(_) => matches!(kind, EventKind::Stop),
+        Subject::Mark(_) => matches!(kind, EventKind::Mark),
+        Subject::Branch(_) => matches!(kind, EventKind::Branches),
+    };
+    let kinds = || KINDS.iter().filter(suits);
+    let found = match kind {
+        // A stop or a mark has one kind of event only.
+        "" if kinds().count() == 1 => kinds().next(),
+        _ => kinds().find(|known| known.word() == kind),
+    };
+    let kind = *found.ok_or_else(|| {
+        let known: Vec<String> = kinds()
+            .map(|kind| format!("{item} {}", kind.word()))
+            .collect();
+        Refusal::unknown("event", text, known.iter().map(String::as_str))
+    })?;
+    let number = number
+        .ok_or_else(|| Refusal::unknown("number of an event", text, ["1", "2"].into_iter()))?;
+    Ok(At::Event(Sought { subject, kind }, number))
+}

@@ -1,0 +1,242 @@
+//! A scene file says what a command line says; its mistakes are told at their places.
+
+use lagrange_core::prelude::Impacts;
+use lagrange_problems::catalogue;
+use lagrange_program::report::RunFormat;
+use lagrange_program::request::Request;
+use lagrange_program::scene_file::{self, Mistake, Outputs, SceneFile, write};
+
+/// Reads a scene file about a scene of the catalogue.
+fn read(text: &str) -> Result<SceneFile, Mistake> {
+    scene_file::read(text, &catalogue::all())
+}
+
+const FULL: &str = r#"
+scene = "mass-on-wheel"
+until = 5
+end_after = ["rim lost", "floor"]
+tolerance = 1e-12
+method = "dop853"
+project = true
+impacts = "in_turn"
+
+[parameters]
+mu_static = 10
+mass = 0.3
+
+[absolute_tolerance]
+x = 1e-15
+
+[start]
+from = "rest"
+theta = 0.1
+"der(theta)" = -1
+
+[effects]
+grip = false
+
+[outputs]
+format = "json"
+output = "wheel.json"
+plot = "wheel.svg"
+ledger = true
+samples = 1000
+"#;
+
+#[test]
+fn a_file_says_what_a_command_line_says() {
+    let file = read(FULL).expect("a scene file");
+    assert_eq!(file.scene.name(), "mass-on-wheel");
+    let pair = |name: &str, value: f64| (name.to_owned(), value);
+    let Request {
+        parameters,
+        from,
+        effects,
+        start,
+        until,
+        tolerance,
+        absolute,
+        method,
+        project,
+        impacts,
+        end_after,
+        ledger,
+        ..
+    } = file.request;
+    assert_eq!(parameters, [pair("mass", 0.3), pair("mu_static", 10.0)]);
+    assert_eq!(absolute, [pair("x", 1e-15)]);
+    assert_eq!(start, [pair("der(theta)", -1.0), pair("theta", 0.1)]);
+    assert_eq!(effects, [("grip".to_owned(), false)]);
+    assert_eq!(
+        (from.as_deref(), until, tolerance),
+        (Some("rest"), Some(5.0), 1e-12)
+    );
+    assert_eq!((method.to_string().as_str(), project), ("dop853", true));
+    assert_eq!(impacts, Some(Impacts::InTurn));
+    assert_eq!(
+        (end_after, ledger),
+        (vec!["rim lost".to_owned(), "floor".to_owned()], true)
+    );
+    let outputs = Outputs {
+        format: Some(RunFormat::Json),
+        output: vec!["wheel.json".into()],
+        plot: Some("wheel.svg".into()),
+        show: Vec::new(),
+        samples: Some(1000),
+    };
+    assert_eq!(file.outputs, outputs);
+}
+
+#[test]
+fn what_is_written_is_read_again() {
+    let file = read(FULL).expect("a scene file");
+    let text = write(file.scene, &file.request, &file.outputs).expect("it can be written");
+    let again = read(&text).expect("a scene file");
+    assert_eq!(
+        format!("{:?}", again.request),
+        format!("{:?}", file.request)
+    );
+    assert_eq!(again.outputs, file.outputs);
+}
+
+#[test]
+fn mistakes_are_told_at_their_place() {
+    let told = |text: &str| match read(text) {
+        Ok(_) => panic!("nothing is wrong with\n{text}"),
+        Err(mistake) => mistake.to_string(),
+    };
+    let in_wheel = |text: &str| told(&format!("scene = \"mass-on-wheel\"\n{text}"));
+    for (found, expected) in [
+        (
+            told("scene = \"mass-on-whele\""),
+            "1:9: no scene is called `mass-on-whele`; did you mean `mass-on-wheel`?",
+        ),
+        (
+            told("until = 2\n"),
+            "1:1: which scene? begin with scene = \"…\"",
+        ),
+        (told(""), "1:1: which scene?"),
+        (
+            told("scene = 3"),
+            "1:9: a text in quotes is expected here, not a number",
+        ),
+        (
+            in_wheel("[parameters]\nmu_statik = 2"),
+            "3:1: no parameter is called `mu_statik`; did you mean `mu_static`?",
+        ),
+        (
+            in_wheel("[parameters]\nmass = \"2\""),
+            "3:8: a number, without quotes, is expected here, not a text",
+        ),
+        (
+            in_wheel("[parameters]\nmass = inf"),
+            "3:8: the value must be finite",
+        ),
+        (
+            in_wheel("[parameters]\nmass = 1e999"),
+            "3:8: the value must be finite",
+        ),
+        (
+            in_wheel("[parameters]\nuntil = 2"),
+            "3:1: `until` stands above the first [table]",
+        ),
+        (
+            in_wheel("parameters = 2"),
+            "2:14: a table is expected here, not a number",
+        ),
+        (
+            in_wheel("tolerance = -1"),
+            "2:13: the value must be above 0",
+        ),
+        (in_wheel("tolerance = 1"), "2:13: a tolerance is between"),
+        (
+            in_wheel("[absolute_tolerance]\nz = 1e-12"),
+            "3:1: no coordinate is called `z`",
+        ),
+        (
+            in_wheel("[absolute_tolerance]\nx = 0"),
+            "3:5: the value must be above 0",
+        ),
+        (
+            in_wheel("method = \"tayler\""),
+            "2:10: no method is called `tayler`; did you mean `taylor`?",
+        ),
+        (in_wheel("method = \"rk4\""), "2:10: `rk4` has fixed steps"),
+        (
+            in_wheel("impacts = \"both\""),
+            "2:11: impacts are `together` or `in_turn`",
+        ),
+        (
+            in_wheel("end_after = \"rim lots\""),
+            "2:13: no event is called `rim lots`; did you mean `rim lost`?",
+        ),
+        (
+            in_wheel("end_after = [\"rim lost\", \"rmi lost\"]"),
+            "2:26: no contact, friction, stop or mark is called `rmi`; did you mean `rim`?",
+        ),
+        (
+            in_wheel("end_after = \"rim lost 2\""),
+            "2:13: no first event is called `rim lost 2`; did you mean `rim lost`?",
+        ),
+        (
+            in_wheel("[start]\nfrom = \"rset\""),
+            "3:8: no start is called `rset`; did you mean `rest`?",
+        ),
+        (
+            in_wheel("[start]\nform = \"rest\""),
+            "3:1: a named start is given as from",
+        ),
+        (
+            in_wheel("[start]\nthta = 1"),
+            "3:1: no coordinate or velocity is called `thta`; did you mean `theta`?",
+        ),
+        (
+            in_wheel("[start]\nder(theta) = 1"),
+            "a name with brackets stands in quotes: \"der(theta)\" = …",
+        ),
+        (
+            in_wheel("[effects]\ngripp = false"),
+            "3:1: no effect is called `gripp`; did you mean `grip`?",
+        ),
+        (
+            in_wheel("[effects]\ngrip = \"false\""),
+            "3:8: true or false, without quotes, is expected here",
+        ),
+        (
+            in_wheel("tolerence = 1e-9"),
+            "2:1: no key is called `tolerence`; did you mean `tolerance`?",
+        ),
+        (
+            in_wheel("[outputs]\nformat = \"jsn\""),
+            "3:10: no format is called `jsn`; did you mean `json`?",
+        ),
+        (
+            in_wheel("[outputs]\nouput = \"a.csv\""),
+            "3:1: no output is called `ouput`; did you mean `output`?",
+        ),
+        (
+            in_wheel("[outputs]\nsamples = 0.5"),
+            "3:11: a whole number from 1",
+        ),
+        (in_wheel("[parameters"), "2:"),
+        // Of several, the first in the file.
+        (in_wheel("until = -1\n[effects]\ngripp = false"), "2:9: "),
+    ] {
+        assert!(found.contains(expected), "{found}\nis not\n{expected}");
+    }
+}
+
+#[test]
+fn an_error_is_asked_for_and_kept() {
+    let file = read("scene = \"kepler\"\nerror = 1e-7\n").expect("a scene file");
+    assert_eq!(file.request.error, Some(1e-7));
+    let text = write(file.scene, &file.request, &file.outputs).expect("TOML");
+    let again = read(&text).expect("a scene file").request;
+    assert_eq!((again.error, again.estimate), (Some(1e-7), false));
+    let file = read("scene = \"kepler\"\nestimate = true\n").expect("a scene file");
+    assert!(file.request.estimate && file.request.error.is_none());
+    let mistakes = read("scene = \"kepler\"\nerror = 1\n")
+        .map(drop)
+        .expect_err("too large");
+    assert!(mistakes.to_string().contains("between 1e-15 and 0.1"));
+}
