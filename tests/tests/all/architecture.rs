@@ -1,4 +1,5 @@
-//! The modules of the engine and of the core stand on one another in this order, and none knows one above it.
+//! The modules of the engine and of the core stand on one another in this order, and none knows one above it; the program
+//! knows no scene.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -118,4 +119,16 @@ fn no_module_of_the_engine_knows_one_above() {
 #[test]
 fn no_module_of_the_core_knows_one_above() {
     check("lagrange-core/src", &CORE);
+}
+
+/// Not even its tests, as cargo would let them: a change of a scene would build the program again.
+#[test]
+fn the_program_knows_no_scene() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../problems/program");
+    let manifest = fs::read_to_string(root.join("Cargo.toml")).expect("a manifest");
+    assert!(manifest.contains("name = \"lagrange-program\""));
+    for above in ["lagrange-problems", "lagrange-tests"] {
+        let known = manifest.lines().any(|line| line.starts_with(above));
+        assert!(!known, "the program knows {above}");
+    }
 }
