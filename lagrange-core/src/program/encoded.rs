@@ -106,22 +106,22 @@ impl Encoded {
     /// one of a Taylor series.
     pub(crate) fn products(&self) -> usize {
         let mut products = 0;
-        self.read_blocks(|_| true, |_, word| products += word.products());
+        self.read_blocks(|_, _| true, |_, word| products += word.products());
         products
     }
 
     /// Reads the blocks that one of the needs held asks for: to `take` go the words, each with the number of the value that it
     /// computes, if it does.
     pub(crate) fn read(&self, held: &Selection, take: impl FnMut(usize, Word)) {
-        let asks = |(place, mask): (usize, u64)| {
+        let asks = |place: usize, mask: u64| {
             let held = held.needs.get(place);
             held.is_some_and(|held| held & mask != 0)
         };
         self.read_blocks(asks, take);
     }
 
-    /// Reads the blocks of which a word of the mask of needs, given with its place, asks for it, and those without needs.
-    fn read_blocks(&self, asks: impl Fn((usize, u64)) -> bool, mut take: impl FnMut(usize, Word)) {
+    /// Reads the blocks for which a word of their mask of needs, at its place, asks, and those without needs.
+    fn read_blocks(&self, asks: impl Fn(usize, u64) -> bool, mut take: impl FnMut(usize, Word)) {
         let (words, _) = self.words.as_chunks::<4>();
         let mut words = words.iter().map(|word| u32::from_le_bytes(*word));
         while let Some(count) = words.next() {
@@ -129,7 +129,7 @@ impl Encoded {
             for place in 0..count as usize {
                 let (low, high) = (words.next(), words.next());
                 let needs = u64::from(low.unwrap_or(0)) | u64::from(high.unwrap_or(0)) << 32;
-                runs |= asks((place, needs));
+                runs |= asks(place, needs);
             }
             let (length, first) = (words.next().unwrap_or(0), words.next().unwrap_or(0));
             if !runs {

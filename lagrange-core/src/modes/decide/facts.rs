@@ -19,7 +19,7 @@ pub struct SwitchFacts {
     pub balanced: Vec<bool>,
     /// Velocities have just jumped.
     pub jumped: bool,
-    /// Guards of the present mode that have just been located as roots: the present mode cannot go on.
+    /// Guards of the present mode that have just been located as roots: the present mode goes on only where nothing else does.
     pub located: Vec<Guard>,
     /// Time has not advanced since the last switch: what has been located now is zero as exactly as time can tell.
     pub again: bool,
@@ -71,7 +71,13 @@ pub struct SwitchContext<'a, T> {
     pub facts: &'a SwitchFacts,
 }
 
-impl<T> SwitchContext<'_, T> {
+impl<T: Copy> SwitchContext<'_, T> {
+    /// The same with a state that has no error.
+    pub fn exactly(mut self) -> Self {
+        self.moment.tolerance = 0.0;
+        self
+    }
+
     /// How far forces located as zero, and what follows from them, are from it, relative to what they are made of.
     pub fn blur(&self) -> f64 {
         // Where all forces vanish at once a residue has nothing to be compared with.

@@ -302,8 +302,7 @@ impl<T: Scalar> Decider<T> {
         here: SwitchContext<'_, T>,
         candidates: &Candidates,
     ) -> Result<bool, EvaluationError> {
-        let mut exactly = here;
-        exactly.moment.tolerance = 0.0;
+        let exactly = here.exactly();
         let outcome = self.best(dynamics, table, exactly, candidates);
         if here.facts.residue == 0.0 || matches!(outcome, Ok(true)) {
             return outcome;
@@ -334,11 +333,9 @@ impl<T: Scalar> Decider<T> {
         if here.facts.again || !here.ends(here.present) || !located.iter().all(can) {
             return false;
         }
-        let mut exactly = here;
-        exactly.moment.tolerance = 0.0;
         self.decision.expanded = false;
         let feasible = matches!(
-            self.examine(dynamics, table, exactly, here.present),
+            self.examine(dynamics, table, here.exactly(), here.present),
             Ok(true)
         );
         // A force that stays zero does not go on; one that only touches zero does.

@@ -1,23 +1,10 @@
 //! What a spring and a dashpot move against dry friction creeps to the edge of its dead band, where the friction is exactly at its limit:
 //! it slips for ever, and the errors of its slip are no events.
 
+use super::fading::{FIXED, METHODS};
 use super::state;
 use lagrange_core::prelude::*;
 use lagrange_tests::{agree, run_by, words};
-
-/// All methods, with the error that they keep over the run below.
-const METHODS: [(&str, f64); 8] = [
-    ("auto", 100.0),
-    ("taylor", 100.0),
-    ("dop853", 100.0),
-    ("dopri5", 100.0),
-    ("verner98", 100.0),
-    ("radau5", 300.0),
-    ("rk4:2e-3", 0.0),
-    ("gauss6:5e-3", 0.0),
-];
-/// What fixed steps keep.
-const FIXED: f64 = 1e-9;
 
 /// Two sleeves in oil, with a dashpot between them.
 #[derive(Lagrangian, Clone, Debug)]

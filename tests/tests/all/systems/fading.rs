@@ -6,8 +6,8 @@ use lagrange_tests::{agree, event, run_by, words};
 
 const G: f64 = 9.81;
 
-/// All methods, with the error that they keep over the runs below.
-const METHODS: [(&str, f64); 8] = [
+/// All methods, with the error that they keep over runs in which a slip decays.
+pub(super) const METHODS: [(&str, f64); 8] = [
     ("auto", 100.0),
     ("taylor", 100.0),
     ("dop853", 100.0),
@@ -18,7 +18,7 @@ const METHODS: [(&str, f64); 8] = [
     ("gauss6:5e-3", 0.0),
 ];
 /// What fixed steps keep.
-const FIXED: f64 = 1e-9;
+pub(super) const FIXED: f64 = 1e-9;
 
 /// A disc set down on a wet floor, which spins it up.
 #[derive(Lagrangian, Clone, Debug)]
