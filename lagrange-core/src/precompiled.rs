@@ -1,13 +1,15 @@
-//! What a program calls of the core, compiled once for machine numbers.
+//! What a program calls of the core, compiled once for `f64`.
 //!
-//! Everything here is generic over the scalar, so that a program would compile all of it once more for itself. The tables of
-//! machine numbers are made in this crate: programs that run on them call what is compiled already.
+//! Everything here is generic over the scalar, so that a program would compile all of it once more for itself. The table of `f64`
+//! is made in this crate: programs that run on it call what is compiled already. Another scalar is compiled where it is used, since
+//! each takes as long as this whole crate.
 
 use crate::arithmetic::{Dual, Scalar};
 use crate::certificate::{self, Certificate};
-use crate::dynamics::Dynamics;
+use crate::dynamics::{Dynamics, EvaluationError};
 use crate::effects::Effects;
 use crate::error::Error;
+use crate::integrate::Acceleration;
 use crate::run::Run;
 use crate::run::lockstep::{Member, Together, go_on};
 use crate::settings::Settings;
@@ -21,7 +23,7 @@ use std::sync::Arc;
 
 /// A scalar that runs are made of.
 ///
-/// The functions that a run consists of are called through a table, which this crate has for machine numbers. For a scalar of one's
+/// The functions that a run consists of are called through a table, which this crate has for `f64`. For a scalar of one's
 /// own an empty implementation will do: the table is made where it is used.
 pub trait Runnable: Scalar {
     /// The functions for this scalar.
@@ -31,19 +33,15 @@ pub trait Runnable: Scalar {
     }
 }
 
-macro_rules! compiled_here {
-    ($($type:ident)*) => {$(
-        impl Runnable for $type {
-            // Not inlined: what it names is compiled here, once.
-            #[inline(never)]
-            fn functions() -> &'static Functions<Self> {
-                &const { Functions::OWN }
-            }
-        }
-    )*};
+impl Runnable for f64 {
+    // Not inlined: what it names is compiled here, once.
+    #[inline(never)]
+    fn functions() -> &'static Functions<Self> {
+        &const { Functions::OWN }
+    }
 }
 
-compiled_here! { f64 f32 }
+impl Runnable for f32 {}
 
 impl<T: Runnable, const N: usize> Runnable for Dual<T, N> {}
 
@@ -64,7 +62,10 @@ pub struct Functions<T: Scalar> {
     pub(crate) ledgers: Book<T>,
     pub(crate) verify: fn(&Trajectory<T>, u64, f64) -> Result<Certificate, Error>,
     pub(crate) dynamics: fn(Erased<T>, &Effects) -> Dynamics<T>,
+    pub(crate) right_side: fn(&mut Dynamics<T>) -> &mut RightSide<T>,
 }
+
+type RightSide<T> = dyn Acceleration<T, Error = EvaluationError>;
 
 type Launch<T> = fn(&mut Run<T>, &State<T>, Range<f64>, &mut Trajectory<T>) -> Result<(), Error>;
 type Execute<T> = fn(
@@ -99,6 +100,7 @@ impl<T: Scalar> Functions<T> {
         ledgers: Trajectory::book,
         verify: certificate::verify,
         dynamics: Dynamics::of,
+        right_side: |dynamics| dynamics,
     };
 }
 
@@ -112,6 +114,11 @@ impl<T: Runnable> Dynamics<T> {
     /// The equations of a scene with all contacts open.
     pub fn new<S: System<Scalar = T>>(scene: &S, effects: &Effects) -> Self {
         (T::functions().dynamics)(Arc::new(scene.copy()), effects)
+    }
+
+    /// The accelerations as an integrator calls them.
+    pub fn right_side(&mut self) -> &mut dyn Acceleration<T, Error = EvaluationError> {
+        (T::functions().right_side)(self)
     }
 }
 

@@ -4,13 +4,12 @@
 //! the error of the first, to a percent. Unlike defects that are carried along variational equations this needs nothing but to
 //! run again: switches, impacts and accumulations are in it, and so is rounding, which the second run meets in another way.
 
-use super::Runner;
+use super::runner::Work;
 use crate::arithmetic::{Scalar, epsilon};
 use crate::error::Error;
 use crate::integrate::Method;
 use crate::precompiled::Runnable;
 use crate::settings::{Goal, Settings};
-use crate::system::System;
 use crate::trajectory::{Difference, Estimate, State, Summary};
 use core::ops::Range;
 
@@ -96,15 +95,11 @@ impl Settings {
     }
 }
 
-impl<S: System<Scalar: Runnable>> Runner<S> {
+impl<T: Runnable> Work<T> {
     /// Runs as asked, and once more to see how far off that is.
-    pub(super) fn run_twice(
-        &mut self,
-        start: &State<S::Scalar>,
-        span: Range<f64>,
-    ) -> Result<(), Error> {
+    pub(super) fn run_twice(&mut self, start: &State<T>, span: Range<f64>) -> Result<(), Error> {
         self.run_once(start, span.clone())?;
-        let settings = self.settings.second::<S::Scalar>();
+        let settings = self.settings.second::<T>();
         let (second, outcome) = self.another(&settings, start, span);
         if let Err(error @ Error::Interrupted { .. }) = outcome {
             return Err(error);
@@ -121,7 +116,7 @@ impl<S: System<Scalar: Runnable>> Runner<S> {
     pub(super) fn run_within(
         &mut self,
         error: f64,
-        start: &State<S::Scalar>,
+        start: &State<T>,
         span: Range<f64>,
     ) -> Result<(), Error> {
         if !(1e-15..=0.1).contains(&error) {
@@ -131,7 +126,7 @@ impl<S: System<Scalar: Runnable>> Runner<S> {
                 expected: "between 1e-15 and 0.1",
             });
         }
-        let mut settings = self.settings.first::<S::Scalar>(error);
+        let mut settings = self.settings.first::<T>(error);
         let (mut first, outcome) = self.another(&settings, start, span.clone());
         core::mem::swap(&mut self.trajectory, &mut first.trajectory);
         outcome?;
@@ -142,7 +137,7 @@ impl<S: System<Scalar: Runnable>> Runner<S> {
                 possible: best / SHARE,
                 reason,
             };
-            let finer = settings.finer::<S::Scalar>(factor);
+            let finer = settings.finer::<T>(factor);
             if finer.is_as_fine_as(&settings) || stays == PATIENCE {
                 let estimate = self.trajectory.estimate();
                 let reason = estimate.map(|estimate| reason(&estimate.difference, best));
@@ -175,12 +170,12 @@ impl<S: System<Scalar: Runnable>> Runner<S> {
     fn another(
         &self,
         settings: &Settings,
-        start: &State<S::Scalar>,
+        start: &State<T>,
         span: Range<f64>,
     ) -> (Self, Result<(), Error>) {
-        let mut runner = Runner::new(self.scene(), settings);
-        let outcome = runner.run_once(start, span);
-        (runner, outcome)
+        let mut work = Self::new(self.trajectory.system.clone(), settings);
+        let outcome = work.run_once(start, span);
+        (work, outcome)
     }
 
     fn difference(&self, other: &Self) -> Difference {

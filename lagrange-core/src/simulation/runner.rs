@@ -1,12 +1,13 @@
 //! Many runs of one system in the same memory.
 
+use crate::arithmetic::Scalar;
 use crate::error::Error;
 use crate::precompiled::Runnable;
 use crate::run::Run;
 use crate::run::lockstep::Member;
 use crate::settings::{Goal, Settings};
 use crate::state::FixedComponents;
-use crate::system::System;
+use crate::system::{Erased, System};
 use crate::trajectory::{Instant, State, Trajectory};
 use core::borrow::Borrow;
 use core::ops::Range;
@@ -20,19 +21,14 @@ use core::ops::Range;
 #[derive(Debug)]
 pub struct Runner<S: System> {
     scene: S,
-    run: Run<S::Scalar>,
-    pub(super) trajectory: Trajectory<S::Scalar>,
-    pub(super) settings: Settings,
+    work: Work<S::Scalar>,
 }
 
 impl<S: System<Scalar: Runnable>> Runner<S> {
     pub(crate) fn new(scene: &S, settings: &Settings) -> Self {
-        let run = (S::Scalar::functions().run)(scene.erased().system, settings);
         Self {
             scene: scene.copy(),
-            trajectory: run.record().clone(),
-            settings: settings.clone(),
-            run,
+            work: Work::new(scene.erased().system, settings),
         }
     }
 
@@ -46,13 +42,8 @@ impl<S: System<Scalar: Runnable>> Runner<S> {
         start: impl Borrow<State<S::Scalar>>,
         span: Range<f64>,
     ) -> Result<&Trajectory<S::Scalar>, Error> {
-        let start = start.borrow();
-        match self.settings.goal {
-            Goal::Tolerance => self.run_once(start, span),
-            Goal::Estimate => self.run_twice(start, span),
-            Goal::Error(error) => self.run_within(error, start, span),
-        }?;
-        Ok(&self.trajectory)
+        self.work.run(start.borrow(), span)?;
+        Ok(self.trajectory())
     }
 
     /// The same, with a memory of the motion that does not grow with its length: about every so many `bytes` what there is of it is
@@ -68,37 +59,11 @@ impl<S: System<Scalar: Runnable>> Runner<S> {
         bytes: usize,
         mut take: impl FnMut(&Trajectory<S::Scalar>),
     ) -> Result<(), Error> {
-        match self.settings.goal {
-            Goal::Tolerance => self.execute(start.borrow(), span, bytes, &mut take),
-            Goal::Estimate | Goal::Error(_) => self.run(start, span).map(|_| ()),
+        let start = start.borrow();
+        match self.work.settings.goal {
+            Goal::Tolerance => self.work.execute(start, span, bytes, &mut take),
+            Goal::Estimate | Goal::Error(_) => self.work.run(start, span),
         }
-    }
-
-    /// One run as the tolerance has it.
-    pub(super) fn run_once(
-        &mut self,
-        start: &State<S::Scalar>,
-        span: Range<f64>,
-    ) -> Result<(), Error> {
-        self.execute(start, span, usize::MAX, &mut |_| ())
-    }
-
-    fn execute(
-        &mut self,
-        start: &State<S::Scalar>,
-        span: Range<f64>,
-        bytes: usize,
-        take: &mut dyn FnMut(&Trajectory<S::Scalar>),
-    ) -> Result<(), Error> {
-        let execute = S::Scalar::functions().execute;
-        execute(
-            &mut self.run,
-            start,
-            span,
-            &mut self.trajectory,
-            bytes,
-            take,
-        )
     }
 
     /// Begins a run without going on with it.
@@ -107,26 +72,28 @@ impl<S: System<Scalar: Runnable>> Runner<S> {
         start: &State<S::Scalar>,
         span: Range<f64>,
     ) -> Result<(), Error> {
-        (S::Scalar::functions().launch)(&mut self.run, start, span, &mut self.trajectory)
+        let work = &mut self.work;
+        (S::Scalar::functions().launch)(&mut work.run, start, span, &mut work.trajectory)
     }
 
     /// Whether the run that has begun has more to do.
     pub(super) fn goes_on(&self) -> bool {
-        self.run.goes_on()
+        self.work.run.goes_on()
     }
 
     /// The run, among others.
     pub(super) fn member(&mut self) -> Member<'_, S::Scalar> {
         Member {
-            run: &mut self.run,
+            run: &mut self.work.run,
             outcome: None,
         }
     }
 
     /// Ends the run that has begun; its trajectory.
     pub(super) fn land(&mut self) -> &Trajectory<S::Scalar> {
-        (S::Scalar::functions().land)(&mut self.run, &mut self.trajectory);
-        &self.trajectory
+        let work = &mut self.work;
+        (S::Scalar::functions().land)(&mut work.run, &mut work.trajectory);
+        &work.trajectory
     }
 
     /// As [`Simulation::consistent`](crate::Simulation::consistent).
@@ -139,7 +106,7 @@ impl<S: System<Scalar: Runnable>> Runner<S> {
         reference: impl Borrow<State<S::Scalar>>,
         fixed: &FixedComponents<S::Scalar>,
     ) -> Result<State<S::Scalar>, Error> {
-        (S::Scalar::functions().consistent)(&mut self.run, time, reference.borrow(), fixed)
+        (S::Scalar::functions().consistent)(&mut self.work.run, time, reference.borrow(), fixed)
     }
 
     /// As [`Simulation::feasible_modes`](crate::Simulation::feasible_modes).
@@ -151,17 +118,17 @@ impl<S: System<Scalar: Runnable>> Runner<S> {
         time: f64,
         state: impl Borrow<State<S::Scalar>>,
     ) -> Result<Vec<Instant<S::Scalar>>, Error> {
-        (S::Scalar::functions().feasible_modes)(&mut self.run, time, state.borrow())
+        (S::Scalar::functions().feasible_modes)(&mut self.work.run, time, state.borrow())
     }
 
     /// The trajectory of the last run.
     pub fn trajectory(&self) -> &Trajectory<S::Scalar> {
-        &self.trajectory
+        &self.work.trajectory
     }
 
     /// The trajectory of the last run, to keep.
     pub fn into_trajectory(self) -> Trajectory<S::Scalar> {
-        self.trajectory
+        self.work.trajectory
     }
 
     /// The system.
@@ -173,7 +140,57 @@ impl<S: System<Scalar: Runnable>> Runner<S> {
     pub fn set_scene(&mut self, scene: &S) {
         let system = scene.erased().system;
         self.scene = scene.copy();
-        self.trajectory.system = system.clone();
-        (S::Scalar::functions().set_system)(&mut self.run, system);
+        self.work.trajectory.system = system.clone();
+        (S::Scalar::functions().set_system)(&mut self.work.run, system);
+    }
+}
+
+/// What runs of a system are made with. The type of the system is forgotten here, so that this is compiled once for all.
+#[derive(Debug)]
+pub(super) struct Work<T: Scalar> {
+    run: Run<T>,
+    pub(super) trajectory: Trajectory<T>,
+    pub(super) settings: Settings,
+}
+
+impl<T: Runnable> Work<T> {
+    pub(super) fn new(system: Erased<T>, settings: &Settings) -> Self {
+        let run = (T::functions().run)(system, settings);
+        Self {
+            trajectory: run.record().clone(),
+            settings: settings.clone(),
+            run,
+        }
+    }
+
+    /// See [`Runner::run`].
+    fn run(&mut self, start: &State<T>, span: Range<f64>) -> Result<(), Error> {
+        match self.settings.goal {
+            Goal::Tolerance => self.run_once(start, span),
+            Goal::Estimate => self.run_twice(start, span),
+            Goal::Error(error) => self.run_within(error, start, span),
+        }
+    }
+
+    /// One run as the tolerance has it.
+    pub(super) fn run_once(&mut self, start: &State<T>, span: Range<f64>) -> Result<(), Error> {
+        self.execute(start, span, usize::MAX, &mut |_| ())
+    }
+
+    fn execute(
+        &mut self,
+        start: &State<T>,
+        span: Range<f64>,
+        bytes: usize,
+        take: &mut dyn FnMut(&Trajectory<T>),
+    ) -> Result<(), Error> {
+        (T::functions().execute)(
+            &mut self.run,
+            start,
+            span,
+            &mut self.trajectory,
+            bytes,
+            take,
+        )
     }
 }

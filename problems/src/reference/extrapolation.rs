@@ -46,15 +46,3 @@ fn panel<const N: usize>(
     }
     table[COLUMNS - 1]
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn harmonic_motion() {
-        let y = extrapolate(|_, y: &[f64; 2]| [y[1], -y[0]], 0.0, 10.0, [1.0, 0.0], 40);
-        assert!((y[0] - 10.0_f64.cos()).abs() < 1e-13);
-        assert!((y[1] + 10.0_f64.sin()).abs() < 1e-13);
-    }
-}

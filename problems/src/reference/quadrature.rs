@@ -32,17 +32,3 @@ pub fn over_a_turn(f: impl Fn(f64) -> f64) -> f64 {
     };
     (0..SIDE).map(part).sum::<f64>() * step
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn known_integrals() {
-        let inverse_root = integral(|x| 1.0 / x.sqrt(), 0.0, 4.0);
-        assert!((inverse_root - 4.0).abs() < 1e-12);
-        // Bessel's I₀(1).
-        let mean = over_a_turn(|x| x.cos().exp()) / core::f64::consts::TAU;
-        assert!((mean - 1.266_065_877_752_008_3).abs() < 1e-15);
-    }
-}

@@ -20,6 +20,7 @@ mod outputs;
 #[cfg(feature = "export")]
 mod pictures;
 mod program;
+mod reference;
 mod report;
 mod report_in_browser;
 mod scene_file;
@@ -29,3 +30,8 @@ mod sweep_kept;
 #[cfg(feature = "mpi")]
 mod sweep_mpi;
 mod switches;
+
+/// Built once more for its unit tests, so that the scenes are not.
+#[path = "../../src/closed_form/mod.rs"]
+#[allow(dead_code)]
+mod closed_form;

@@ -85,6 +85,19 @@ const SCENES: [&str; 5] = [
     "kepler",
 ];
 
+/// Parquet has them in groups, of which each column has levels of its own.
+#[test]
+fn very_many_rows_are_the_same_in_csv_and_parquet() {
+    let folder = folder("very many rows");
+    let long = ["bouncing-ball", "--samples", "70000"];
+    let outputs = ["--output", "run.csv", "--output", "run.parquet"];
+    run(&folder, &[&long[..], &outputs].concat());
+    let table = csv_rows(&folder.join("run.csv"));
+    assert!(table.len() > 70_000);
+    // Not `assert_eq!`, which would print them.
+    assert!(table == parquet_rows(&folder.join("run.parquet")));
+}
+
 #[test]
 fn every_format_says_the_same() {
     let folder = folder("formats");

@@ -63,3 +63,23 @@ pub fn refuses(arguments: &[&str], code: i32, reason: &str) {
     assert_eq!(said.lines().count(), 1, "{arguments:?}: {said}");
     assert!(said.contains(reason), "{arguments:?}: {said}");
 }
+
+/// 9000 runs, in nine chunks.
+const SWEEP: &[&str] = &[
+    "sweep",
+    "rolling-slipping-sphere",
+    "--vary",
+    "mu_static=0.2..1:30",
+    "--vary",
+    "theta=0.01..0.4:300",
+    "--observe",
+    "leave angle",
+    "--observe",
+    "t at grip slips",
+    "--quiet",
+];
+
+/// This sweep with further arguments.
+pub fn sweep<'a>(more: &[&'a str]) -> Vec<&'a str> {
+    [SWEEP, more].concat()
+}

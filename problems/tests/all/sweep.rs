@@ -1,31 +1,13 @@
 //! Sweeps as a user runs them.
 
-use crate::program::{folder, lagrange, path, refuses, says, text};
+use crate::program::{folder, lagrange, path, refuses, says, sweep, text};
 use serde_json::Value;
 use std::fs;
 use std::path::PathBuf;
 
-const SWEEP: &[&str] = &[
-    "sweep",
-    "rolling-slipping-sphere",
-    "--vary",
-    "mu_static=0.2..1:30",
-    "--vary",
-    "theta=0.01..0.4:300",
-    "--observe",
-    "leave angle",
-    "--observe",
-    "t at grip slips",
-    "--quiet",
-];
-
 /// A file of this name in a folder of its own.
 fn place(name: &str) -> PathBuf {
     folder(&format!("sweep-{name}")).join(name)
-}
-
-fn sweep<'a>(more: &[&'a str]) -> Vec<&'a str> {
-    [SWEEP, more].concat()
 }
 
 #[test]

@@ -1,24 +1,10 @@
 //! What a sweep has done is kept: whatever happens to it, the result is the same byte for byte as if nothing had.
 
-use crate::program::{folder, lagrange, path, refuses, says, text};
+use crate::program::{folder, lagrange, path, refuses, says, sweep, text};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
-
-const SWEEP: &[&str] = &[
-    "sweep",
-    "rolling-slipping-sphere",
-    "--vary",
-    "mu_static=0.2..1:30",
-    "--vary",
-    "theta=0.01..0.4:300",
-    "--observe",
-    "theta at shell lost",
-    "--observe",
-    "t at grip slips",
-    "--quiet",
-];
 
 /// Chunks of the sweep.
 const CHUNKS: usize = 9;
@@ -26,10 +12,6 @@ const CHUNKS: usize = 9;
 /// A folder of its own, empty.
 fn place(name: &str) -> PathBuf {
     folder(&format!("kept-{name}"))
-}
-
-fn sweep<'a>(more: &[&'a str]) -> Vec<&'a str> {
-    [SWEEP, more].concat()
 }
 
 /// What a sweep writes that nothing happens to.

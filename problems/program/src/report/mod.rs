@@ -20,6 +20,7 @@ mod rows;
 pub mod stability;
 pub mod sweep;
 pub mod table;
+mod thrift;
 mod words;
 
 use crate::outcome::Outcome;

@@ -20,9 +20,7 @@ pub fn write(outcome: &Outcome, out: impl Write) -> io::Result<()> {
         .map(|column| (column.name.as_str(), column.kind));
     let what = serde_json::to_string(&summary(outcome))?;
     let metadata = [("lagrange", what.as_str()), ("PANDAS_ATTRS", what.as_str())];
-    // The writer wants to be sent between threads; what it writes to need not be.
-    let mut bytes = Vec::new();
-    let mut rows = Rows::new(&mut bytes, &names.collect::<Vec<_>>(), &metadata)?;
+    let mut rows = Rows::new(out, &names.collect::<Vec<_>>(), &metadata)?;
     for row in table.rows() {
         for (index, cell) in table.cells(&row).iter().enumerate() {
             match cell {
@@ -33,7 +31,5 @@ pub fn write(outcome: &Outcome, out: impl Write) -> io::Result<()> {
         }
         rows.end_row()?;
     }
-    rows.close()?;
-    let mut out = out;
-    out.write_all(&bytes)
+    rows.close()
 }

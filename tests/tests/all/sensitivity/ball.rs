@@ -1,6 +1,6 @@
 //! Derivatives of a bouncing ball: impacts, their limit, and second derivatives.
 
-use super::{USUAL, run, same_slopes, seeded};
+use super::{MOST, Slopes, USUAL, run, same_slopes, seeded};
 use lagrange_core::Runnable;
 use lagrange_core::arithmetic::Dual;
 use lagrange_core::prelude::*;
@@ -39,9 +39,7 @@ pub fn ball<T: Runnable>(
     run(&scene, scene.at(<Ball>::DROP), until, settings)
 }
 
-type Dual4 = Dual<f64, 4>;
-
-fn number(x: f64) -> Dual4 {
+fn number(x: f64) -> Slopes {
     Scalar::from_f64(x)
 }
 
@@ -53,7 +51,7 @@ fn impacts_of_a_bouncing_ball() {
         // t = √(2h/g) (1 + 2 Σ eⁱ)
         let [g, e, h, u] = seeded(p);
         let two = number(2.0);
-        let fall: Dual4 = (two * h / g).sqrt();
+        let fall: Slopes = (two * h / g).sqrt();
         let mut expected = fall;
         let mut power = e;
         let mut count = 0;
@@ -90,15 +88,15 @@ fn the_limit_of_infinitely_many_impacts() {
         let p = [9.81, 0.5, 1.0, speed];
         let motion = ball(seeded(p), 3.0, USUAL);
         let [g, e, h, _] = seeded(p);
-        let fall: Dual4 = (number(2.0) * h / g).sqrt();
+        let fall: Slopes = (number(2.0) * h / g).sqrt();
         let limit = fall * (number(1.0) + e) / (number(1.0) - e);
         let mut events = motion.events().iter();
         let rest = events
             .find(|e| e.kind.word() == "accumulates")
             .expect("comes to rest");
         same_slopes("limit", rest.time, limit, 1e-7);
-        assert_eq!(motion.final_state().q[1].derivative, [0.0; 4]);
-        assert_eq!(motion.final_state().v[1].derivative, [0.0; 4]);
+        assert_eq!(motion.final_state().q[1].derivative, [0.0; MOST]);
+        assert_eq!(motion.final_state().v[1].derivative, [0.0; MOST]);
         agree("dx/du", motion.final_state().q[0].derivative[3], 3.0, 1e-9);
     }
 }

@@ -37,14 +37,20 @@ fn all<T: Scalar>(record: &Trajectory<T>) -> Vec<T> {
     list
 }
 
-fn seeded<const N: usize>(p: [f64; N]) -> [Dual<f64, N>; N] {
+/// Most parameters that derivatives are by.
+pub const MOST: usize = 6;
+
+/// A number with its derivatives. For another number of them the whole core would be compiled once more.
+pub type Slopes = Dual<f64, MOST>;
+
+fn seeded<const N: usize>(p: [f64; N]) -> [Slopes; N] {
     core::array::from_fn(|i| Dual::variable(p[i], i))
 }
 
 /// Equal derivatives.
 #[track_caller]
-fn same_slopes<const N: usize>(what: &str, a: Dual<f64, N>, b: Dual<f64, N>, tolerance: f64) {
-    for k in 0..N {
+fn same_slopes(what: &str, a: Slopes, b: Slopes, tolerance: f64) {
+    for k in 0..MOST {
         agree(what, a.derivative[k], b.derivative[k], tolerance);
     }
 }
@@ -53,7 +59,7 @@ fn same_slopes<const N: usize>(what: &str, a: Dual<f64, N>, b: Dual<f64, N>, tol
 fn compare<const N: usize>(
     p: [f64; N],
     plain: impl Fn([f64; N]) -> Vec<f64>,
-    dual: &[Dual<f64, N>],
+    dual: &[Slopes],
     h: f64,
     tolerance: f64,
 ) {

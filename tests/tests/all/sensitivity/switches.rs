@@ -1,9 +1,8 @@
 //! Derivatives through the loss of a contact, and through stick and slip.
 
 use super::ball::ball;
-use super::{TIGHT, USUAL, all, compare, run, same_slopes, seeded};
+use super::{Slopes, TIGHT, USUAL, all, compare, run, same_slopes, seeded};
 use lagrange_core::Runnable;
-use lagrange_core::arithmetic::Dual;
 use lagrange_core::prelude::*;
 use lagrange_tests::agree;
 
@@ -164,7 +163,7 @@ fn friction_stops_a_puck() {
     let motion = run(&scene, scene.at(<Puck>::PUSH), 2.0, USUAL);
     let speed = (u * u + w * w).sqrt();
     let time = speed / (mu * g);
-    let half: Dual<f64, 4> = Scalar::from_f64(0.5);
+    let half: Slopes = Scalar::from_f64(0.5);
     let [event] = motion.events() else {
         panic!("{}", motion.events().len())
     };

@@ -1,7 +1,7 @@
 //! Steps that are bounded by stability are noticed, and by default made by another method.
 
 use super::state;
-use lagrange_core::arithmetic::Dual;
+use crate::sensitivity::Slopes;
 use lagrange_core::prelude::*;
 use lagrange_problems::catalogue::{HARD, SCENES};
 use lagrange_program::request::Request;
@@ -66,11 +66,11 @@ fn a_stiff_coupler_follows_its_drive() {
 
 #[test]
 fn sensitivities_pass_through_the_change_of_method() {
-    let number = Dual::<f64, 1>::constant;
+    let number = Slopes::constant;
     let scene = Coupler {
         mass: number(COUPLER.mass),
         stiffness: number(COUPLER.stiffness),
-        damping: Dual::variable(COUPLER.damping, 0),
+        damping: Slopes::variable(COUPLER.damping, 0),
         place: number(COUPLER.place),
     };
     let start = State::new(vec![number(0.5)], vec![number(0.0)]);
