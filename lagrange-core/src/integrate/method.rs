@@ -55,6 +55,14 @@ const FIXED: [(&str, WithStep); 2] = [
     ("gauss6", |step| Method::Gauss6 { step }),
 ];
 
+impl Method {
+    /// The names that text can begin with.
+    pub fn names() -> impl Iterator<Item = &'static str> {
+        let fixed = FIXED.iter().map(|(name, _)| *name);
+        NAMES.iter().map(|(name, _)| *name).chain(fixed)
+    }
+}
+
 impl fmt::Display for Method {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {

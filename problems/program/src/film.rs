@@ -2,8 +2,10 @@
 
 use crate::drawing::Drawing;
 use crate::drawn::{self, Pictures};
+use crate::outcome::pieces::PIECE;
 use crate::outcome::{Outcome, equal};
-use crate::request::Request;
+use crate::request::{Refusal, Request};
+use crate::scene::Scene;
 use crate::space::Space;
 use lagrange_core::__private::declaration::Declaration;
 use lagrange_core::prelude::*;
@@ -21,6 +23,24 @@ pub struct Film {
     /// Largest relative residual of what has to hold (constraints, closed contacts, slips that stick) at any sample; `None` if
     /// nothing ever has to.
     pub drift: Option<f64>,
+}
+
+impl dyn Scene + '_ {
+    /// Runs it to be looked at: as [`Outcome`], with pictures. Of a long motion it keeps what is looked at, as a run does.
+    ///
+    /// # Errors
+    /// As for a run.
+    pub fn film(&self, request: &Request) -> Result<Film, Refusal> {
+        self.film_in_pieces(request, PIECE)
+    }
+
+    pub(crate) fn film_in_pieces(&self, request: &Request, bytes: usize) -> Result<Film, Refusal> {
+        let reel = |piece: &Trajectory, failure, request: &Request, times: &[f64]| {
+            Reel::of(self.name(), piece, failure, request, times)
+        };
+        let reel = self.in_pieces(request, bytes, instants, reel, Reel::join)?;
+        Ok(reel.film())
+    }
 }
 
 /// What is kept of a run, or of a piece of one, to make a [`Film`] of it.

@@ -1,6 +1,5 @@
 //! Which name did they mean?
 
-use crate::accuracy::Family;
 use lagrange_core::integrate::ParseMethodError;
 use lagrange_core::prelude::Method;
 
@@ -37,21 +36,14 @@ fn rate<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
 /// # Errors
 /// What is wrong with the name, with the nearest one that is known.
 pub fn method(name: &str) -> Result<Method, String> {
-    name.parse().map_err(|error| method_meant(name, &error))
+    let known: Vec<&str> = Method::names().collect();
+    name.parse()
+        .map_err(|error| method_meant(name, &error, &known))
 }
 
-/// The method called `name` for a study at several tolerances.
-///
-/// # Errors
-/// As [`method`].
-pub fn family(name: &str) -> Result<Family, String> {
-    name.parse().map_err(|error| method_meant(name, &error))
-}
-
-fn method_meant(name: &str, error: &ParseMethodError) -> String {
-    let known = Family::ALL.map(|family| family.to_string());
-    let known: Vec<&str> = known.iter().map(String::as_str).collect();
-    match (error, nearest(name, &known)) {
+/// What is wrong with the name of a method, with the nearest of those that could be meant.
+pub(crate) fn method_meant(name: &str, error: &ParseMethodError, known: &[&str]) -> String {
+    match (error, nearest(name, known)) {
         (ParseMethodError::Unknown { name }, Some(near)) => {
             format!("no method is called `{name}`; did you mean `{near}`?")
         }

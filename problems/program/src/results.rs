@@ -1,12 +1,13 @@
 //! What the program makes of a run, for a run from code: its story, a plot, a page, its numbers.
 
 use crate::film::{Reel, instants};
+use crate::format::{RunFormat, Still};
 use crate::outcome::Outcome;
-use crate::report::export::{Moving, Pace, Still};
+use crate::quantity::Show;
+use crate::report::export::{Moving, Pace};
 use crate::report::frames::{self, Clock};
 use crate::report::html::{self, Shown};
-use crate::report::plot::{self, Show};
-use crate::report::{RunFormat, table};
+use crate::report::{plot, table};
 use crate::request::Request;
 use lagrange_core::prelude::*;
 use std::fs;

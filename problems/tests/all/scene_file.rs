@@ -2,7 +2,7 @@
 
 use lagrange_core::prelude::Impacts;
 use lagrange_problems::catalogue;
-use lagrange_program::report::RunFormat;
+use lagrange_program::format::RunFormat;
 use lagrange_program::request::Request;
 use lagrange_program::scene_file::{self, Mistake, Outputs, SceneFile, write};
 

@@ -1,5 +1,5 @@
-//! The modules of the engine and of the core stand on one another in this order, and none knows one above it; the program
-//! knows no scene.
+//! The modules of the engine, of the core and of the program stand on one another in this order, and none knows one above it; the
+//! program knows no scene.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -50,6 +50,36 @@ const CORE: [&str; 27] = [
     "simulation",
     "prelude",
     "book",
+];
+
+/// From the name of a scene to what is written of it; the lowest first.
+const PROGRAM: [&str; 26] = [
+    "closed_form",
+    "count",
+    "drawing",
+    "format",
+    "names",
+    "notation",
+    "progress",
+    "stability",
+    "space",
+    "request",
+    "scene",
+    "outcome",
+    "cost",
+    "feasible",
+    "drawn",
+    "quantity",
+    "film",
+    "file",
+    "catalogue",
+    "accuracy",
+    "scene_file",
+    "sweep",
+    "report",
+    "results",
+    "cli",
+    "program",
 ];
 
 /// Rust sources below a folder, but for tests.
@@ -119,6 +149,11 @@ fn no_module_of_the_engine_knows_one_above() {
 #[test]
 fn no_module_of_the_core_knows_one_above() {
     check("lagrange-core/src", &CORE);
+}
+
+#[test]
+fn no_module_of_the_program_knows_one_above() {
+    check("problems/program/src", &PROGRAM);
 }
 
 /// Not even its tests, as cargo would let them: a change of a scene would build the program again.

@@ -1,5 +1,6 @@
 //! Methods as a study takes them, and the settings that follow: a tolerance each, or a step for methods without.
 
+use crate::names::method_meant;
 use core::fmt;
 use core::str::FromStr;
 use lagrange_core::integrate::ParseMethodError;
@@ -135,6 +136,17 @@ pub(super) fn settings(methods: &[Family], tolerances: &[f64], scale: f64) -> Ve
         }
     }
     settings
+}
+
+/// The method called `name` for a study at several tolerances.
+///
+/// # Errors
+/// What is wrong with the name, with the nearest one that is known.
+pub fn family(name: &str) -> Result<Family, String> {
+    let known = Family::ALL.map(|family| family.to_string());
+    let known: Vec<&str> = known.iter().map(String::as_str).collect();
+    name.parse()
+        .map_err(|error| method_meant(name, &error, &known))
 }
 
 #[cfg(test)]

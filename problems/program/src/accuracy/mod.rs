@@ -12,15 +12,16 @@ mod motion;
 mod reference;
 mod timing;
 
-pub use family::{Family, ParseFamilyError, Setting};
+pub use family::{Family, ParseFamilyError, Setting, family};
 pub use reference::Reference;
 pub use timing::Timing;
 
-pub(crate) use motion::Motion;
+use motion::Motion;
 use timing::Timed;
 
 use crate::closed_form::ClosedForm;
 use crate::request::{Refusal, Request};
+use crate::scene::{Beginning, Scene};
 use lagrange_core::prelude::*;
 use lagrange_core::system::Description;
 use lagrange_core::trajectory::{Difference, Summary};
@@ -90,12 +91,43 @@ impl Measured {
 /// The first round in units of the others: it judges a run, and what takes long sits out the others.
 const FIRST: usize = 30;
 
+impl dyn Scene + '_ {
+    /// Measures what accuracy costs.
+    ///
+    /// # Errors
+    /// The request makes no sense, the start does not exist, or there is nothing to measure errors against.
+    pub fn accuracy(&self, study: &Study) -> Result<Accuracy, Refusal> {
+        let request = &study.request;
+        let Beginning {
+            system,
+            start,
+            until,
+        } = self.beginning(request)?;
+        let simulation = request.simulation(&system)?;
+        let effects = request.effects(system.description())?;
+        // A closed form is that of the whole declaration.
+        let whole = effects.left_out().next().is_none();
+        let closed_form = match whole {
+            true => self.closed_form(&system, &start, until),
+            false => None,
+        };
+        let motion = Motion {
+            system: &system,
+            simulation,
+            start,
+            until,
+            max_steps: 400_000,
+        };
+        measure(self.name(), &motion, study, closed_form)
+    }
+}
+
 /// Measures `study` on a scene. What fails half-way is a row that says why. If the progress of its request is stopped, there
 /// are the rows until then.
 ///
 /// # Errors
 /// Nothing to measure against: no run gets to the end, or two do not agree about what happens.
-pub(crate) fn measure(
+fn measure(
     scene: &'static str,
     motion: &Motion<'_>,
     study: &Study,

@@ -7,7 +7,7 @@ use super::Setting;
 use super::motion::Motion;
 use crate::closed_form::ClosedForm;
 use crate::request::Refusal;
-use crate::sweep::event;
+use crate::request::event::event;
 use lagrange_core::prelude::*;
 use lagrange_core::system::Description;
 use lagrange_core::trajectory::{Difference, Summary};

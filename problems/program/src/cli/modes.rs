@@ -6,7 +6,8 @@ use super::run_args::RunArgs;
 use super::values::positive;
 use crate::catalogue::Catalogue;
 use crate::feasible::Feasible;
-use crate::report::{Format, modes as report};
+use crate::format::Format;
+use crate::report::modes as report;
 use clap::Args;
 use std::io::{self, Write};
 

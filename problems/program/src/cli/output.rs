@@ -1,8 +1,7 @@
 //! Where results go.
 
 use super::Trouble;
-use crate::report::Format;
-use crate::report::export::Still;
+use crate::format::{Format, Still};
 use crate::results::{self, PLOTS};
 use clap::Args;
 use std::fs::{self, File, OpenOptions};

@@ -3,7 +3,8 @@
 use super::Trouble;
 use super::output::draw;
 use super::values::picture;
-use crate::report::{Format, sweep as report};
+use crate::format::Format;
+use crate::report::sweep as report;
 use crate::sweep::{Journal, Summary, Sweep};
 use clap::Args;
 use std::fs::{self, File};

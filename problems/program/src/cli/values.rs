@@ -1,7 +1,7 @@
 //! `name=value` and numbers, as they come from the command line.
 
 use crate::count::count;
-use crate::report::export::Still;
+use crate::format::Still;
 use crate::request::{ERRORS, MOST_SAMPLES, TOLERANCES};
 use std::path::PathBuf;
 

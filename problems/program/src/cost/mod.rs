@@ -5,9 +5,11 @@
 //! same mode without it; where that is nothing, the effect does not act there. All times are taken in turn, the shortest
 //! of the rounds counts.
 
-use crate::progress::Progress;
 mod right_side;
 
+use crate::progress::Progress;
+use crate::request::{Refusal, Request};
+use crate::scene::{Beginning, Scene};
 use core::hint::black_box;
 use lagrange_core::prelude::*;
 use lagrange_core::system::AnySystem;
@@ -65,11 +67,30 @@ pub struct Costs {
     pub run: f64,
 }
 
+impl dyn Scene + '_ {
+    /// Measures what each effect costs.
+    ///
+    /// # Errors
+    /// The request makes no sense, the start does not exist, or the run fails.
+    pub fn costs(&self, request: &Request) -> Result<Costs, Refusal> {
+        let Beginning {
+            system,
+            start,
+            until,
+        } = self.beginning(request)?;
+        let simulation = request.simulation(&system)?;
+        let effects = request.effects(system.description())?;
+        let progress = request.progress.clone().unwrap_or_default();
+        let run = (&start, until);
+        measure(self.name(), &system, &simulation, &effects, run, &progress).map_err(Refusal::Run)
+    }
+}
+
 /// Measures a run of `simulation`, with the effects given, from `start` until a time.
 ///
 /// # Errors
 /// The run fails.
-pub(crate) fn measure(
+fn measure(
     scene: &'static str,
     system: &AnySystem<f64>,
     simulation: &Simulation<'_, AnySystem<f64>>,

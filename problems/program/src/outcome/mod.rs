@@ -1,6 +1,7 @@
 //! A run as plain data: what every printer starts from, whatever the type of the scene was.
 
 mod join;
+pub(crate) mod pieces;
 mod sampling;
 
 use crate::request::Request;

@@ -2,9 +2,9 @@
 
 use super::certificate::{Verdict, verdict};
 use super::rows::Table;
-use super::{named_state, rate_unit, work_name};
+use super::{named_state, work_name};
+use crate::notation::{rate_unit, velocity_name};
 use crate::outcome::{Outcome, forces};
-use crate::request::velocity_name;
 use lagrange_core::prelude::*;
 use lagrange_core::system::Description;
 use serde::{Serialize, Serializer};

@@ -23,70 +23,13 @@ pub mod table;
 mod thrift;
 mod words;
 
+use crate::format::RunFormat;
 use crate::outcome::Outcome;
-use clap::ValueEnum;
-use core::fmt;
 use lagrange_core::prelude::Entry;
-use lagrange_core::system::{Coordinate, Description};
+use lagrange_core::system::Description;
 use std::io::{self, Write};
-use std::path::Path;
-
-/// In what form to print.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Format {
-    /// To read.
-    Table,
-    /// Every number in full precision.
-    Json,
-    /// One line each.
-    Csv,
-}
-
-impl Format {
-    /// The format that the name of a file says, if it says one.
-    pub fn of(path: &Path) -> Option<Self> {
-        Some(match path.extension()?.to_str()? {
-            "json" => Format::Json,
-            "csv" => Format::Csv,
-            "txt" => Format::Table,
-            _ => return None,
-        })
-    }
-}
-
-/// In what form to write a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum RunFormat {
-    /// To read.
-    Table,
-    /// Every number in full precision.
-    Json,
-    /// The same over time: a line per sample and event.
-    Jsonl,
-    /// A line per sample, two per event.
-    Csv,
-    /// The same for pandas, polars and the like.
-    Parquet,
-}
 
 impl RunFormat {
-    /// The format that the name of a file says, if it says one.
-    pub fn of(path: &Path) -> Option<Self> {
-        Some(match path.extension()?.to_str()? {
-            "json" => RunFormat::Json,
-            "jsonl" | "ndjson" => RunFormat::Jsonl,
-            "csv" => RunFormat::Csv,
-            "parquet" => RunFormat::Parquet,
-            "txt" => RunFormat::Table,
-            _ => return None,
-        })
-    }
-
-    /// Whether it says how the run was between its events.
-    pub fn is_sampled(self) -> bool {
-        matches!(self, RunFormat::Jsonl | RunFormat::Csv | RunFormat::Parquet)
-    }
-
     /// Writes a run.
     ///
     /// # Errors
@@ -99,13 +42,6 @@ impl RunFormat {
             RunFormat::Csv => csv::write(outcome, out),
             RunFormat::Parquet => parquet::write(outcome, out),
         }
-    }
-}
-
-impl fmt::Display for RunFormat {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let name = self.to_possible_value();
-        f.write_str(name.as_ref().map_or("", |name| name.get_name()))
     }
 }
 
@@ -122,21 +58,6 @@ enum Kind {
     MaybeText,
 }
 
-/// Whether a coordinate is an angle, so that people read it in degrees: its unit is declared as `rad`, or its
-/// name is that of a Greek letter customary for angles (`theta`, `phi2`, `psi_left`, `alpha[3]`).
-pub fn is_angle(coordinate: &Coordinate) -> bool {
-    const LETTERS: [&str; 7] = ["theta", "phi", "psi", "alpha", "beta", "gamma", "chi"];
-    if !coordinate.unit.is_empty() {
-        return coordinate.unit == "rad";
-    }
-    let stem = coordinate
-        .name
-        .split(|c: char| !c.is_ascii_alphabetic())
-        .next()
-        .unwrap_or_default();
-    LETTERS.contains(&stem)
-}
-
 /// The coordinates that say something by themselves: all but the quaternions of bodies, unless there is nothing else.
 fn telling(description: &Description) -> Vec<usize> {
     let attitudes = description.constraints.iter();
@@ -151,15 +72,6 @@ fn telling(description: &Description) -> Vec<usize> {
     match telling.is_empty() && description.observes.is_empty() {
         true => all.collect(),
         false => telling,
-    }
-}
-
-/// The unit of a velocity: `m/s`, `rad/s`; empty for a coordinate without a unit.
-pub(crate) fn rate_unit(unit: &str) -> String {
-    match unit {
-        "" => String::new(),
-        unit if unit.contains(['/', ' ']) => format!("({unit})/s"),
-        unit => format!("{unit}/s"),
     }
 }
 
@@ -184,30 +96,9 @@ pub(crate) fn named_state(description: &Description, q: &[f64], v: &[f64]) -> Ve
     let names = || description.coordinates.iter().map(|c| c.name);
     let positions = names().map(str::to_owned).zip(q.iter().copied());
     let velocities = names()
-        .map(crate::request::velocity_name)
+        .map(crate::notation::velocity_name)
         .zip(v.iter().copied());
     positions.chain(velocities).collect()
-}
-
-/// Greek letters for the names of Greek letters; other names as they are.
-pub(crate) fn symbol(name: &str) -> String {
-    const GREEK: [(&str, &str); 7] = [
-        ("theta", "θ"),
-        ("phi", "φ"),
-        ("psi", "ψ"),
-        ("alpha", "α"),
-        ("beta", "β"),
-        ("gamma", "γ"),
-        ("chi", "χ"),
-    ];
-    let split = name
-        .find(|c: char| !c.is_ascii_alphabetic())
-        .unwrap_or(name.len());
-    let (stem, rest) = name.split_at(split);
-    match GREEK.iter().find(|(word, _)| *word == stem) {
-        Some((_, letter)) => format!("{letter}{rest}"),
-        None => name.to_owned(),
-    }
 }
 
 /// Whether nothing in a scene can switch.

@@ -2,10 +2,10 @@
 
 use super::json::Numbers;
 use super::table::{Decimals, page};
-use super::{rate_unit, with_unit};
+use super::with_unit;
 use crate::feasible::Feasible;
+use crate::notation::{rate_unit, velocity_name};
 use crate::outcome::forces;
-use crate::request::velocity_name;
 use comfy_table::CellAlignment;
 use lagrange_core::prelude::Instant;
 use serde::Serialize;

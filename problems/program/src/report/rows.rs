@@ -4,9 +4,9 @@
 //! Between two events at one instant, and before one at the start, energies and what is observed are not known; work is not known
 //! just before an event.
 
-use super::{Kind, rate_unit, work_name};
+use super::{Kind, work_name};
+use crate::notation::{rate_unit, velocity_name};
 use crate::outcome::{Force, Outcome, Sample, forces};
-use crate::request::velocity_name;
 use lagrange_core::prelude::*;
 
 /// A column.

@@ -3,7 +3,8 @@
 //! Each event has two lines: above, the forces and the mode just before; below, just after. An impact shows
 //! impulses instead. Numbers of a column have the same number of decimals, so that they can be compared by eye.
 
-use super::{is_angle, symbol, telling};
+use super::telling;
+use crate::notation::{is_angle, symbol};
 use crate::outcome::{Force, Outcome, Sample, forces};
 use comfy_table::{
     CellAlignment, ColumnConstraint, ContentArrangement, LineStyle, Table, TableStyle, Width,

@@ -22,7 +22,7 @@ mod write;
 pub use read::read;
 pub use write::write;
 
-use crate::report::RunFormat;
+use crate::format::RunFormat;
 use crate::request::Request;
 use crate::scene::Scene;
 use core::fmt;

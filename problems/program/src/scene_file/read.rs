@@ -3,15 +3,14 @@
 use super::value::{Value, Wrong, flag, number, positive, table, text, texts};
 use super::{KEYS, Mistake, OUTPUTS, Outputs, SceneFile};
 use crate::catalogue::Catalogue;
+use crate::format::{RunFormat, Still};
 use crate::names::{self, nearest};
-use crate::report::RunFormat;
-use crate::report::export::Still;
-use crate::report::plot::Show;
+use crate::quantity::Show;
+use crate::request::event::event;
 use crate::request::{
     ERRORS, MOST_SAMPLES, Refusal, Request, TOLERANCES, find_coordinate, find_effect,
     find_parameter, find_start, find_state,
 };
-use crate::sweep::event;
 use clap::ValueEnum;
 use lagrange_core::prelude::{Impacts, Method};
 use lagrange_core::system::Description;

@@ -26,14 +26,12 @@ pub use axis::Axis;
 pub use failure::reason;
 pub use journal::{Journal, Missing, Trouble};
 pub use observe::Observation;
-pub(crate) use observe::event;
 pub use points::{Kind, Points, Sampling};
 pub use shard::Shard;
 pub use summary::{Column, Failed, QUANTILES, Sequence, Summary};
 pub use work::work;
-pub(crate) use worker::worker;
 
-use crate::report::rate_unit;
+use crate::notation::rate_unit;
 use crate::request::{Quantity, Refusal, Request, find_state};
 use crate::scene::Scene;
 use core::ops::Range;

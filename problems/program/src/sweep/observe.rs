@@ -10,8 +10,10 @@
 
 use super::modes::Switches;
 use super::unit;
+use crate::notation::velocity_name;
 use crate::outcome::{Force, forces};
-use crate::request::{Quantity, Refusal, find_state, velocity_name};
+use crate::request::event::{Sought, numbered};
+use crate::request::{Quantity, Refusal, find_state};
 use crate::scene::Scene;
 use lagrange_core::prelude::*;
 
@@ -34,38 +36,12 @@ enum What {
     Modes(Switches),
 }
 
-/// An event of a kind.
-#[derive(Clone, Debug, PartialEq)]
-struct Sought {
-    subject: Subject,
-    kind: EventKind,
-}
-
-impl Sought {
-    fn is(&self, event: &Event<f64>) -> bool {
-        event.subject == self.subject && event.kind.word() == self.kind.word()
-    }
-}
-
 #[derive(Clone, Debug, PartialEq)]
 enum At {
     End,
+    /// The event at its first, second … occurrence.
     Event(Sought, usize),
 }
-
-/// Kinds of events, as a user writes them.
-const KINDS: [EventKind; 10] = [
-    EventKind::Lost,
-    EventKind::Closed,
-    EventKind::Impact,
-    EventKind::Accumulates { impacts: 0 },
-    EventKind::Slips,
-    EventKind::Sticks,
-    EventKind::Reverses,
-    EventKind::Branches,
-    EventKind::Stop,
-    EventKind::Mark,
-];
 
 impl Observation {
     /// Reads an observation of a scene, or the name of one of its results.
@@ -78,11 +54,10 @@ impl Observation {
         let name = scene.result(&asked);
         let (what, at) = match (name.strip_prefix("count "), name.split_once(" at ")) {
             _ if name == "modes" => (What::Modes(Switches::of(description)), At::End),
-            (Some(event), _) => (What::Count, event_of(event, description)?),
-            (None, Some((quantity, event))) => (
-                quantity_of(quantity, description)?,
-                event_of(event, description)?,
-            ),
+            (Some(event), _) => (What::Count, at(event, description)?),
+            (None, Some((quantity, event))) => {
+                (quantity_of(quantity, description)?, at(event, description)?)
+            }
             (None, None) => (quantity_of(name, description)?, At::End),
         };
         Ok(Self {
@@ -155,6 +130,12 @@ impl Observation {
     }
 }
 
+/// `item kind`, `item kind 2`
+fn at(text: &str, description: &'static Description) -> Result<At, Refusal> {
+    let (sought, number) = numbered(text, description)?;
+    Ok(At::Event(sought, number))
+}
+
 fn quantity_of(name: &str, description: &'static Description) -> Result<What, Refusal> {
     if name == "t" {
         return Ok(What::Time);
@@ -181,69 +162,4 @@ fn unknown(name: &str, description: &'static Description) -> Refusal {
         name,
         known.iter().map(String::as_str),
     )
-}
-
-/// What `item kind` names, an event at its first occurrence.
-pub(crate) fn event(
-    text: &str,
-    description: &'static Description,
-) -> Result<(Subject, EventKind), Refusal> {
-    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    match event_of(&words, description)? {
-        At::Event(event, 1) => Ok((event.subject, event.kind)),
-        _ => {
-            let first = words.trim_end_matches(|c: char| c.is_ascii_digit() || c == ' ');
-            Err(Refusal::unknown("first event", text, [first].into_iter()))
-        }
-    }
-}
-
-/// `item kind`, `item kind 2`
-fn event_of(text: &str, description: &'static Description) -> Result<At, Refusal> {
-    let words: Vec<&str> = text.split(' ').collect();
-    let (item, kind, number) = match words[..] {
-        [item] => (item, "", Some(1)),
-        [item, kind] => (item, kind, Some(1)),
-        [item, kind, number] => (item, kind, number.parse().ok().filter(|n| *n > 0)),
-        _ => (text, "", None),
-    };
-    let d = description;
-    let subjects: Vec<Subject> = (0..d.contacts.len())
-        .map(Subject::Contact)
-        .chain((0..d.frictions.len()).map(Subject::Friction))
-        .chain((0..d.stops.len()).map(Subject::Stop))
-        .chain((0..d.marks.len()).map(Subject::Mark))
-        .collect();
-    let names = || subjects.iter().map(|subject| subject.name(d));
-    let subject = subjects.iter().find(|subject| subject.name(d) == item);
-    let subject = *subject
-        .ok_or_else(|| Refusal::unknown("contact, friction, stop or mark", item, names()))?;
-    let suits = |kind: &&EventKind| match subject {
-        Subject::Contact(_) => matches!(
-            kind,
-            EventKind::Lost | EventKind::Closed | EventKind::Impact | EventKind::Accumulates { .. }
-        ),
-        Subject::Friction(_) => matches!(
-            kind,
-            EventKind::Slips | EventKind::Sticks | EventKind::Reverses
-        ),
-        Subject::Stop(_) => matches!(kind, EventKind::Stop),
-        Subject::Mark(_) => matches!(kind, EventKind::Mark),
-        Subject::Branch(_) => matches!(kind, EventKind::Branches),
-    };
-    let kinds = || KINDS.iter().filter(suits);
-    let found = match kind {
-        // A stop or a mark has one kind of event only.
-        "" if kinds().count() == 1 => kinds().next(),
-        _ => kinds().find(|known| known.word() == kind),
-    };
-    let kind = *found.ok_or_else(|| {
-        let known: Vec<String> = kinds()
-            .map(|kind| format!("{item} {}", kind.word()))
-            .collect();
-        Refusal::unknown("event", text, known.iter().map(String::as_str))
-    })?;
-    let number = number
-        .ok_or_else(|| Refusal::unknown("number of an event", text, ["1", "2"].into_iter()))?;
-    Ok(At::Event(Sought { subject, kind }, number))
 }

@@ -3,8 +3,9 @@
 use super::failure::code;
 use super::{Sweep, Worker};
 use crate::request::{Quantity, Refusal, Start, find_parameter, find_state};
+use crate::scene::Scene;
 use lagrange_core::prelude::*;
-use lagrange_core::system::AnySystem;
+use lagrange_core::system::Description;
 
 /// Most events of a run.
 const MOST_EVENTS: usize = 10_000;
@@ -18,73 +19,75 @@ enum Target {
     Held(usize),
 }
 
-/// Runs the points of a sweep over a system, given with its default parameters, until a time if the request names none.
-pub(crate) fn worker(
-    sweep: &Sweep,
-    mut system: AnySystem<f64>,
-    until: f64,
-) -> Result<Worker<'_>, Refusal> {
-    let request = &sweep.request;
-    request.set_parameters(&mut system)?;
-    let description = system.description();
-    let mut start = Start::new(request, description)?;
-    let targets = targets(sweep, description, &mut start)?;
-    let mut simulation = request
-        .simulation(&system)?
-        .record(false)
-        .max_events(MOST_EVENTS);
-    let ends: Option<Vec<_>> = sweep.observed.iter().map(|o| o.ends_with()).collect();
-    for (subject, kind) in ends.unwrap_or_default() {
-        simulation = simulation.end_after((subject, kind));
-    }
-    let mut ensemble = simulation.ensemble();
-    let varies = targets
-        .iter()
-        .any(|target| matches!(target, Target::Parameter(_)));
-    let until = request.until.unwrap_or(until);
-    let mut point = vec![0.0; targets.len()];
-    Ok(Box::new(move |points, rows| {
-        let first = points.start;
-        rows.fill(f64::NAN);
-        let mut refused = Vec::new();
-        ensemble.run(
-            points.len(),
-            0.0..until,
-            |index, runner| {
-                sweep.points.write(first + index, &mut point);
-                for (&target, &value) in targets.iter().zip(&point) {
-                    match target {
-                        Target::Parameter(index) => system.set_parameter(index, value),
-                        Target::Held(index) => start.held[index].2 = value,
-                    }
-                }
-                if varies {
-                    runner.set_scene(&system);
-                }
-                let state = start.state(&system, |reference, fixed| {
-                    runner.consistent(0.0, reference, fixed)
-                });
-                state
-                    .map_err(|error| refused.push((index, code(&error))))
-                    .ok()
-            },
-            |index, outcome, trajectory| {
-                let row = &mut rows[index * sweep.width()..][..sweep.width()];
-                let Some((failed, observed)) = row.split_last_mut() else {
-                    return;
-                };
-                *failed = outcome.as_ref().err().map_or(0.0, code);
-                if outcome.is_ok() {
-                    for (value, observation) in observed.iter_mut().zip(&sweep.observed) {
-                        *value = observation.read(trajectory);
-                    }
-                }
-            },
-        );
-        for (index, code) in refused {
-            rows[(index + 1) * sweep.width() - 1] = code;
+impl dyn Scene + '_ {
+    /// What runs the points of a sweep.
+    ///
+    /// # Errors
+    /// The sweep makes no sense.
+    pub fn worker<'a>(&self, sweep: &'a Sweep) -> Result<Worker<'a>, Refusal> {
+        let request = &sweep.request;
+        let mut system = self.system();
+        request.set_parameters(&mut system)?;
+        let description = system.description();
+        let mut start = Start::new(request, description)?;
+        let targets = targets(sweep, description, &mut start)?;
+        let mut simulation = request
+            .simulation(&system)?
+            .record(false)
+            .max_events(MOST_EVENTS);
+        let ends: Option<Vec<_>> = sweep.observed.iter().map(|o| o.ends_with()).collect();
+        for (subject, kind) in ends.unwrap_or_default() {
+            simulation = simulation.end_after((subject, kind));
         }
-    }))
+        let mut ensemble = simulation.ensemble();
+        let varies = targets
+            .iter()
+            .any(|target| matches!(target, Target::Parameter(_)));
+        let until = request.until.unwrap_or(self.until());
+        let mut point = vec![0.0; targets.len()];
+        Ok(Box::new(move |points, rows| {
+            let first = points.start;
+            rows.fill(f64::NAN);
+            let mut refused = Vec::new();
+            ensemble.run(
+                points.len(),
+                0.0..until,
+                |index, runner| {
+                    sweep.points.write(first + index, &mut point);
+                    for (&target, &value) in targets.iter().zip(&point) {
+                        match target {
+                            Target::Parameter(index) => system.set_parameter(index, value),
+                            Target::Held(index) => start.held[index].2 = value,
+                        }
+                    }
+                    if varies {
+                        runner.set_scene(&system);
+                    }
+                    let state = start.state(&system, |reference, fixed| {
+                        runner.consistent(0.0, reference, fixed)
+                    });
+                    state
+                        .map_err(|error| refused.push((index, code(&error))))
+                        .ok()
+                },
+                |index, outcome, trajectory| {
+                    let row = &mut rows[index * sweep.width()..][..sweep.width()];
+                    let Some((failed, observed)) = row.split_last_mut() else {
+                        return;
+                    };
+                    *failed = outcome.as_ref().err().map_or(0.0, code);
+                    if outcome.is_ok() {
+                        for (value, observation) in observed.iter_mut().zip(&sweep.observed) {
+                            *value = observation.read(trajectory);
+                        }
+                    }
+                },
+            );
+            for (index, code) in refused {
+                rows[(index + 1) * sweep.width() - 1] = code;
+            }
+        }))
+    }
 }
 
 /// What each axis varies. What it varies at the start is held there.

@@ -16,48 +16,12 @@ mod raster;
 #[cfg(feature = "export")]
 use raster::Raster;
 
+use crate::format::{Still, WITHOUT};
 use std::io::{self, Write};
 use std::path::Path;
 use std::process::Command;
 
-/// What is said where the feature is off.
-const WITHOUT: &str = "this program was built without the feature `export`: its pictures are .svg";
-
-/// What a single picture can become.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Still {
-    /// Shapes and text, for browsers and editors.
-    Svg,
-    /// Pixels.
-    Png,
-    /// Shapes, for print.
-    Pdf,
-}
-
 impl Still {
-    /// What the name of a file says.
-    ///
-    /// # Errors
-    /// A sentence, if it says nothing or what this program cannot write.
-    pub fn of(path: &Path) -> Result<Self, String> {
-        let ending = path.extension().and_then(|ending| ending.to_str());
-        let still = match ending.map(str::to_lowercase).as_deref() {
-            Some("svg") => Still::Svg,
-            Some("png") => Still::Png,
-            Some("pdf") => Still::Pdf,
-            _ => {
-                let path = path.display();
-                return Err(format!(
-                    "let the name of a picture end in .svg, .png or .pdf, not {path}"
-                ));
-            }
-        };
-        match still == Still::Svg || cfg!(feature = "export") {
-            true => Ok(still),
-            false => Err(WITHOUT.to_owned()),
-        }
-    }
-
     /// Writes a picture, with so many pixels per unit if it becomes pixels.
     ///
     /// # Errors

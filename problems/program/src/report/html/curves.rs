@@ -1,8 +1,9 @@
 //! Film → plots: forces beside their limits, energies, work, and the phase plots.
 
-use super::super::{is_angle, rate_unit, significant, symbol, with_unit};
+use super::super::{significant, with_unit};
 use super::difference::difference;
 use crate::film::Film;
+use crate::notation::{is_angle, rate_unit, symbol};
 use crate::outcome::{Force, Outcome, Sample, Source, forces};
 use lagrange_core::system::Friction;
 use serde::Serialize;

@@ -1,9 +1,9 @@
 //! What a page says in tables: events, parameters, energy and accuracy.
 
 use super::{Shown, short};
+use crate::notation::{is_angle, symbol};
 use crate::outcome::{Force, forces};
 use crate::report::words::brief;
-use crate::report::{is_angle, symbol};
 use lagrange_core::prelude::*;
 use lagrange_engine::inspect::print::mathml::escaped;
 

@@ -1,33 +1,10 @@
 //! Which curves a picture has: what was asked for or, if nothing was, one panel of forces and one per unit of the coordinates.
 
-use super::quantity::Quantity;
 use crate::outcome::{Outcome, Sample};
+use crate::quantity::{Quantity, Show};
 use crate::report::telling;
 use crate::report::words::brief;
-use crate::request::Refusal;
 use lagrange_core::system::Description;
-
-/// Some quantities over another one, as a user asks for them: `theta, rim vs t`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Show {
-    over: Quantity,
-    curves: Vec<Quantity>,
-}
-
-impl Show {
-    /// Names with commas between, and what they are drawn over (`vs x`), which is time if it is not said.
-    ///
-    /// # Errors
-    /// A name that the scene does not have.
-    pub fn new(text: &str, d: &Description) -> Result<Self, Refusal> {
-        let (curves, over) = text.split_once(" vs ").unwrap_or((text, "t"));
-        let curves = curves.split(',').map(|name| Quantity::find(name, d));
-        Ok(Self {
-            curves: curves.collect::<Result<_, _>>()?,
-            over: Quantity::find(over, d)?,
-        })
-    }
-}
 
 /// Curves that share both axes.
 pub(super) struct Panel {

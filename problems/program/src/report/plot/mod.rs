@@ -10,16 +10,14 @@
 
 mod curves;
 mod panel;
-mod quantity;
 
 use crate::outcome::Outcome;
-pub use curves::Show;
+use crate::quantity::{Quantity, Show};
 use curves::{Bands, bands, shown, usual};
 use panel::Frame;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
-use quantity::Quantity;
 
 pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 pub(super) type Drawn<'a> =

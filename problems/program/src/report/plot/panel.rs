@@ -1,9 +1,9 @@
 //! One panel of curves over shaded bands, and the key of the modes.
 
 use super::curves::{Bands, Curve, Panel, pieces, with_comma};
-use super::quantity::Quantity;
 use super::{Area, COLOURS, Drawn, FINE, KEY_LINE, MARGIN, NAMES, TINTS, WIDTH, px, words};
 use crate::outcome::Outcome;
+use crate::quantity::Quantity;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 

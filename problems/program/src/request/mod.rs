@@ -1,10 +1,13 @@
 //! What to run, as a user asks for it by name, and how the start is found from it.
 
+pub(crate) mod event;
+
 use crate::names::nearest;
+use crate::notation::velocity_name;
 use crate::progress::Progress;
-use crate::sweep::event;
 use core::fmt;
 use core::ops::RangeInclusive;
+use event::event;
 use lagrange_core::effects::Item;
 use lagrange_core::prelude::*;
 use lagrange_core::system::{AnySystem, Description};
@@ -422,9 +425,4 @@ pub(crate) fn find_state(
         .map(|c| c.name)
         .chain(velocities.iter().map(String::as_str));
     Err(Refusal::unknown("coordinate or velocity", &plain, known))
-}
-
-/// How the velocity of a coordinate is written, `der(theta)`.
-pub fn velocity_name(coordinate: &str) -> String {
-    format!("der({coordinate})")
 }

@@ -1,14 +1,14 @@
 //! What of a run can be drawn, by name: `t`, a coordinate `theta`, its rate `der(theta)`, a force, `|grip|`, what a friction can
 //! hold `limit(grip)`, an output, `kinetic`, `potential`, `energy`.
 
+use crate::notation::{is_angle, rate_unit, symbol, velocity_name};
 use crate::outcome::{Force, Sample, Source, forces};
-use crate::report::{is_angle, rate_unit, symbol};
-use crate::request::{Refusal, velocity_name};
+use crate::request::Refusal;
 use lagrange_core::system::Description;
 
 /// A number that a run has at every instant, or while something acts.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Quantity {
+pub(crate) enum Quantity {
     Time,
     Position(usize),
     Velocity(usize),
@@ -56,7 +56,7 @@ impl Quantity {
     }
 
     /// The one called `name`, blanks ignored.
-    pub(super) fn find(name: &str, d: &Description) -> Result<Self, Refusal> {
+    pub(crate) fn find(name: &str, d: &Description) -> Result<Self, Refusal> {
         let plain: String = name.chars().filter(|c| !c.is_whitespace()).collect();
         let all = Self::all(d);
         let found = all.iter().find(|(known, _)| *known == plain);
@@ -70,7 +70,7 @@ impl Quantity {
     }
 
     /// As it is written beside a curve.
-    pub(super) fn name(&self, d: &Description) -> String {
+    pub(crate) fn name(&self, d: &Description) -> String {
         match self {
             Quantity::Time => "time".to_owned(),
             Quantity::Position(i) => symbol(d.coordinates[*i].name),
@@ -86,7 +86,7 @@ impl Quantity {
     }
 
     /// What several of them are called together.
-    pub(super) fn kind(&self, d: &Description) -> &'static str {
+    pub(crate) fn kind(&self, d: &Description) -> &'static str {
         match self {
             Quantity::Time => "time",
             Quantity::Position(i) if is_angle(&d.coordinates[*i]) => "angle",
@@ -118,12 +118,12 @@ impl Quantity {
     }
 
     /// Its unit on paper.
-    pub(super) fn unit(&self, d: &Description) -> String {
+    pub(crate) fn unit(&self, d: &Description) -> String {
         self.scaled_unit(d).0
     }
 
     /// Its value in that unit, `None` while it does not act.
-    pub(super) fn of(&self, d: &Description, sample: &Sample) -> Option<f64> {
+    pub(crate) fn of(&self, d: &Description, sample: &Sample) -> Option<f64> {
         let value = match self {
             Quantity::Time => sample.time,
             Quantity::Position(i) => sample.state.q[*i],
@@ -146,7 +146,7 @@ impl Quantity {
     }
 
     /// The forces of a scene, each friction followed by what it can hold.
-    pub(super) fn all_forces(d: &Description) -> Vec<Self> {
+    pub(crate) fn all_forces(d: &Description) -> Vec<Self> {
         let mut all = Vec::new();
         for force in forces(d) {
             match force.source {
@@ -159,5 +159,27 @@ impl Quantity {
             }
         }
         all
+    }
+}
+
+/// Some quantities over another one, as a user asks for them: `theta, rim vs t`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Show {
+    pub(crate) over: Quantity,
+    pub(crate) curves: Vec<Quantity>,
+}
+
+impl Show {
+    /// Names with commas between, and what they are drawn over (`vs x`), which is time if it is not said.
+    ///
+    /// # Errors
+    /// A name that the scene does not have.
+    pub fn new(text: &str, d: &Description) -> Result<Self, Refusal> {
+        let (curves, over) = text.split_once(" vs ").unwrap_or((text, "t"));
+        let curves = curves.split(',').map(|name| Quantity::find(name, d));
+        Ok(Self {
+            curves: curves.collect::<Result<_, _>>()?,
+            over: Quantity::find(over, d)?,
+        })
     }
 }

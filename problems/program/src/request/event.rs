@@ -1,0 +1,103 @@
+//! Which event is meant: `rim lost`, or `floor impact 2` for the second one.
+
+use super::Refusal;
+use lagrange_core::prelude::*;
+use lagrange_core::system::Description;
+
+/// An event of a kind.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Sought {
+    /// The item.
+    pub(crate) subject: Subject,
+    /// What happens to it.
+    pub(crate) kind: EventKind,
+}
+
+impl Sought {
+    /// Whether it is this event.
+    pub(crate) fn is(&self, event: &Event<f64>) -> bool {
+        event.subject == self.subject && event.kind.word() == self.kind.word()
+    }
+}
+
+/// Kinds of events, as a user writes them.
+const KINDS: [EventKind; 10] = [
+    EventKind::Lost,
+    EventKind::Closed,
+    EventKind::Impact,
+    EventKind::Accumulates { impacts: 0 },
+    EventKind::Slips,
+    EventKind::Sticks,
+    EventKind::Reverses,
+    EventKind::Branches,
+    EventKind::Stop,
+    EventKind::Mark,
+];
+
+/// What `item kind` names, an event at its first occurrence.
+pub(crate) fn event(
+    text: &str,
+    description: &'static Description,
+) -> Result<(Subject, EventKind), Refusal> {
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    match numbered(&words, description)? {
+        (event, 1) => Ok((event.subject, event.kind)),
+        _ => {
+            let first = words.trim_end_matches(|c: char| c.is_ascii_digit() || c == ' ');
+            Err(Refusal::unknown("first event", text, [first].into_iter()))
+        }
+    }
+}
+
+/// What `item kind` or `item kind 2` names: an event, and its number from 1.
+pub(crate) fn numbered(
+    text: &str,
+    description: &'static Description,
+) -> Result<(Sought, usize), Refusal> {
+    let words: Vec<&str> = text.split(' ').collect();
+    let (item, kind, number) = match words[..] {
+        [item] => (item, "", Some(1)),
+        [item, kind] => (item, kind, Some(1)),
+        [item, kind, number] => (item, kind, number.parse().ok().filter(|n| *n > 0)),
+        _ => (text, "", None),
+    };
+    let d = description;
+    let subjects: Vec<Subject> = (0..d.contacts.len())
+        .map(Subject::Contact)
+        .chain((0..d.frictions.len()).map(Subject::Friction))
+        .chain((0..d.stops.len()).map(Subject::Stop))
+        .chain((0..d.marks.len()).map(Subject::Mark))
+        .collect();
+    let names = || subjects.iter().map(|subject| subject.name(d));
+    let subject = subjects.iter().find(|subject| subject.name(d) == item);
+    let subject = *subject
+        .ok_or_else(|| Refusal::unknown("contact, friction, stop or mark", item, names()))?;
+    let suits = |kind: &&EventKind| match subject {
+        Subject::Contact(_) => matches!(
+            kind,
+            EventKind::Lost | EventKind::Closed | EventKind::Impact | EventKind::Accumulates { .. }
+        ),
+        Subject::Friction(_) => matches!(
+            kind,
+            EventKind::Slips | EventKind::Sticks | EventKind::Reverses
+        ),
+        Subject::Stop(_) => matches!(kind, EventKind::Stop),
+        Subject::Mark(_) => matches!(kind, EventKind::Mark),
+        Subject::Branch(_) => matches!(kind, EventKind::Branches),
+    };
+    let kinds = || KINDS.iter().filter(suits);
+    let found = match kind {
+        // A stop or a mark has one kind of event only.
+        "" if kinds().count() == 1 => kinds().next(),
+        _ => kinds().find(|known| known.word() == kind),
+    };
+    let kind = *found.ok_or_else(|| {
+        let known: Vec<String> = kinds()
+            .map(|kind| format!("{item} {}", kind.word()))
+            .collect();
+        Refusal::unknown("event", text, known.iter().map(String::as_str))
+    })?;
+    let number = number
+        .ok_or_else(|| Refusal::unknown("number of an event", text, ["1", "2"].into_iter()))?;
+    Ok((Sought { subject, kind }, number))
+}
