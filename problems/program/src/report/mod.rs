@@ -20,7 +20,6 @@ mod rows;
 pub mod stability;
 pub mod sweep;
 pub mod table;
-mod thrift;
 mod words;
 
 use crate::format::RunFormat;

@@ -20,7 +20,9 @@ pub fn write(outcome: &Outcome, out: impl Write) -> io::Result<()> {
         .map(|column| (column.name.as_str(), column.kind));
     let what = serde_json::to_string(&summary(outcome))?;
     let metadata = [("lagrange", what.as_str()), ("PANDAS_ATTRS", what.as_str())];
-    let mut rows = Rows::new(out, &names.collect::<Vec<_>>(), &metadata)?;
+    // The writer wants to be sent between threads; what it writes to need not be.
+    let mut bytes = Vec::new();
+    let mut rows = Rows::new(&mut bytes, &names.collect::<Vec<_>>(), &metadata)?;
     for row in table.rows() {
         for (index, cell) in table.cells(&row).iter().enumerate() {
             match cell {
@@ -31,5 +33,7 @@ pub fn write(outcome: &Outcome, out: impl Write) -> io::Result<()> {
         }
         rows.end_row()?;
     }
-    rows.close()
+    rows.close()?;
+    let mut out = out;
+    out.write_all(&bytes)
 }

@@ -1,111 +1,90 @@
 //! Apache Parquet: rows of numbers and texts, some of which may be missing (null), in groups.
-//!
-//! ```text
-//! "PAR1"  group …  metadata  length of the metadata  "PAR1"
-//! group:  of each column one page: header, levels, values
-//! ```
-//!
-//! Values are plain and not compressed. A level says of a row whether it has a value.
-//!
-//! Reference: Apache Parquet, "File format" and `parquet.thrift`, where the numbers of fields and members are from.
 
 use super::Kind;
-use super::thrift::{Struct, varint};
+use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
+use parquet::data_type::{ByteArray, ByteArrayType, DoubleType};
+use parquet::errors::ParquetError;
+use parquet::file::metadata::KeyValue;
+use parquet::file::properties::WriterProperties;
+use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
+use parquet::schema::types::Type;
 use std::io::{self, Write};
-use std::mem;
+use std::sync::Arc;
 
 /// Rows of a group.
 const GROUP: usize = 1 << 16;
 
-/// What a file begins and ends with.
-const MAGIC: &[u8] = b"PAR1";
-
-const DOUBLE: i32 = 5;
-const BYTE_ARRAY: i32 = 6;
-const REQUIRED: i32 = 0;
-const OPTIONAL: i32 = 1;
-const PLAIN: i32 = 0;
-const RUN_LENGTHS: i32 = 3;
-const UNCOMPRESSED: i32 = 0;
-const DATA_PAGE: i32 = 0;
-/// The text of a column in UTF-8, as older readers are told.
-const UTF8: i32 = 0;
-
 /// Rows on their way into a file.
-pub(super) struct Rows<W: Write> {
-    out: W,
-    /// Bytes written so far.
-    written: usize,
+pub(super) struct Rows<W: Write + Send> {
+    writer: SerializedFileWriter<W>,
     columns: Vec<Column>,
     /// Rows that are not written yet.
     waiting: usize,
-    groups: Vec<Group>,
-    metadata: Vec<(String, String)>,
 }
 
-/// What is not written yet of a column.
+/// What is not written yet of a column; of one with nulls, without them.
 struct Column {
-    name: String,
-    kind: Kind,
-    /// The values that there are, as the page has them.
-    values: Vec<u8>,
-    /// Rows in succession of which all or none have a value.
-    runs: Vec<(usize, bool)>,
+    values: Values,
+    /// Per row: 1 where there is a value; nothing for a column without nulls.
+    levels: Option<Vec<i16>>,
 }
 
-/// A group that is written.
-struct Group {
-    rows: usize,
-    /// Of each column, where its page begins and its length in bytes.
-    pages: Vec<(usize, usize)>,
+enum Values {
+    Numbers(Vec<f64>),
+    Texts(Vec<ByteArray>),
 }
 
-impl<W: Write> Rows<W> {
+impl<W: Write + Send> Rows<W> {
     /// A file with these columns, and texts by key that readers show as metadata of the file.
-    ///
-    /// # Errors
-    /// Those of `out`, here and below.
     pub(super) fn new(
-        mut out: W,
+        out: W,
         columns: &[(&str, Kind)],
         metadata: &[(&str, &str)],
     ) -> io::Result<Self> {
-        out.write_all(MAGIC)?;
-        let column = |&(name, kind): &(&str, Kind)| Column {
-            name: name.to_owned(),
-            kind,
-            values: Vec::new(),
-            runs: Vec::new(),
+        let texts = metadata
+            .iter()
+            .map(|(key, text)| KeyValue::new((*key).to_owned(), Some((*text).to_owned())));
+        let properties = WriterProperties::builder()
+            .set_compression(Compression::UNCOMPRESSED)
+            .set_created_by(concat!("lagrange ", env!("CARGO_PKG_VERSION")).to_owned())
+            .set_key_value_metadata(Some(texts.collect()))
+            .build();
+        let schema = Arc::new(schema(columns).map_err(file)?);
+        let column = |&(_, kind): &(&str, Kind)| Column {
+            values: match kind {
+                Kind::Number | Kind::MaybeNumber => Values::Numbers(Vec::new()),
+                Kind::Text | Kind::MaybeText => Values::Texts(Vec::new()),
+            },
+            levels: matches!(kind, Kind::MaybeNumber | Kind::MaybeText).then(Vec::new),
         };
-        let pair = |&(key, text): &(&str, &str)| (key.to_owned(), text.to_owned());
         Ok(Self {
-            out,
-            written: MAGIC.len(),
+            writer: SerializedFileWriter::new(out, schema, Arc::new(properties)).map_err(file)?,
             columns: columns.iter().map(column).collect(),
             waiting: 0,
-            groups: Vec::new(),
-            metadata: metadata.iter().map(pair).collect(),
         })
     }
 
     /// A number in a column of this row.
     pub(super) fn number(&mut self, column: usize, number: f64) {
         let column = &mut self.columns[column];
-        column.level(true);
-        column.values.extend(number.to_le_bytes());
+        column.level(1);
+        if let Values::Numbers(numbers) = &mut column.values {
+            numbers.push(number);
+        }
     }
 
     /// A text in a column of this row.
     pub(super) fn text(&mut self, column: usize, text: &str) {
         let column = &mut self.columns[column];
-        column.level(true);
-        column.values.extend((text.len() as u32).to_le_bytes());
-        column.values.extend(text.as_bytes());
+        column.level(1);
+        if let Values::Texts(texts) = &mut column.values {
+            texts.push(ByteArray::from(text));
+        }
     }
 
     /// Nothing in a column of this row.
     pub(super) fn nothing(&mut self, column: usize) {
-        self.columns[column].level(false);
+        self.columns[column].level(0);
     }
 
     /// Ends a row.
@@ -122,149 +101,75 @@ impl<W: Write> Rows<W> {
         if self.waiting > 0 {
             self.write_group()?;
         }
-        let metadata = self.metadata().end();
-        self.out.write_all(&metadata)?;
-        self.out.write_all(&length(metadata.len())?.to_le_bytes())?;
-        self.out.write_all(MAGIC)
-    }
-
-    fn write_group(&mut self) -> io::Result<()> {
-        let rows = mem::take(&mut self.waiting);
-        let mut pages = Vec::with_capacity(self.columns.len());
-        for column in &mut self.columns {
-            let levels = column.levels()?;
-            let body = length(levels.len() + column.values.len())?;
-            let header = page_header(length(rows)?, body).end();
-            for part in [&header, &levels, &column.values] {
-                self.out.write_all(part)?;
-            }
-            let size = header.len() + levels.len() + column.values.len();
-            pages.push((self.written, size));
-            self.written += size;
-            column.values.clear();
-            column.runs.clear();
-        }
-        self.groups.push(Group { rows, pages });
+        self.writer.close().map_err(file)?;
         Ok(())
     }
 
-    /// `FileMetaData`
-    fn metadata(&self) -> Struct {
-        let root = Struct::default()
-            .text(4, "rows")
-            .i32(5, self.columns.len() as i32);
-        let schema: Vec<_> = [root]
-            .into_iter()
-            .chain(self.columns.iter().map(Column::schema))
-            .collect();
-        let groups = self.groups.iter().map(|group| self.group(group));
-        let pair = |(key, text): &(String, String)| Struct::default().text(1, key).text(2, text);
-        let rows: usize = self.groups.iter().map(|group| group.rows).sum();
-        Struct::default()
-            .i32(1, 1)
-            .list(2, schema.into_iter())
-            .i64(3, rows as i64)
-            .list(4, groups)
-            .list(5, self.metadata.iter().map(pair))
-            .text(6, concat!("lagrange ", env!("CARGO_PKG_VERSION")))
-    }
-
-    /// `RowGroup`
-    fn group(&self, group: &Group) -> Struct {
-        let chunks = self.columns.iter().zip(&group.pages);
-        let chunk = |(column, &(start, size)): (&Column, &(usize, usize))| {
-            let metadata = Struct::default()
-                .i32(1, column.physical())
-                .i32s(2, &[PLAIN, RUN_LENGTHS])
-                .texts(3, &[&column.name])
-                .i32(4, UNCOMPRESSED)
-                .i64(5, group.rows as i64)
-                .i64(6, size as i64)
-                .i64(7, size as i64)
-                .i64(9, start as i64);
-            Struct::default().i64(2, start as i64).nested(3, metadata)
-        };
-        let size: usize = group.pages.iter().map(|&(_, size)| size).sum();
-        Struct::default()
-            .list(1, chunks.map(chunk))
-            .i64(2, size as i64)
-            .i64(3, group.rows as i64)
+    fn write_group(&mut self) -> io::Result<()> {
+        let mut group = self.writer.next_row_group().map_err(file)?;
+        for column in &mut self.columns {
+            column.write(&mut group).map_err(file)?;
+        }
+        group.close().map_err(file)?;
+        self.waiting = 0;
+        Ok(())
     }
 }
 
 impl Column {
-    fn level(&mut self, present: bool) {
-        match self.runs.last_mut() {
-            Some((rows, same)) if *same == present => *rows += 1,
-            _ => self.runs.push((1, present)),
+    fn level(&mut self, level: i16) {
+        if let Some(levels) = &mut self.levels {
+            levels.push(level);
         }
     }
 
-    fn is_optional(&self) -> bool {
-        matches!(self.kind, Kind::MaybeNumber | Kind::MaybeText)
-    }
-
-    /// `Type`
-    fn physical(&self) -> i32 {
-        match self.kind {
-            Kind::Number | Kind::MaybeNumber => DOUBLE,
-            Kind::Text | Kind::MaybeText => BYTE_ARRAY,
-        }
-    }
-
-    /// `SchemaElement`
-    fn schema(&self) -> Struct {
-        let repetition = if self.is_optional() {
-            OPTIONAL
-        } else {
-            REQUIRED
+    fn write<W: Write + Send>(
+        &mut self,
+        group: &mut SerializedRowGroupWriter<'_, W>,
+    ) -> Result<(), ParquetError> {
+        let Some(mut column) = group.next_column()? else {
+            return Ok(());
         };
-        let element = Struct::default()
-            .i32(1, self.physical())
-            .i32(3, repetition)
-            .text(4, &self.name);
-        match self.physical() {
-            BYTE_ARRAY => {
-                let string = Struct::default().nested(1, Struct::default());
-                element.i32(6, UTF8).nested(10, string)
+        let levels = self.levels.as_deref();
+        match &mut self.values {
+            Values::Numbers(numbers) => {
+                let typed = column.typed::<DoubleType>();
+                typed.write_batch(numbers, levels, None)?;
+                numbers.clear();
             }
-            _ => element,
+            Values::Texts(texts) => {
+                let typed = column.typed::<ByteArrayType>();
+                typed.write_batch(texts, levels, None)?;
+                texts.clear();
+            }
         }
-    }
-
-    /// The levels of a page, their length in bytes before them; a column that is not optional has none.
-    fn levels(&self) -> io::Result<Vec<u8>> {
-        if !self.is_optional() {
-            return Ok(Vec::new());
+        if let Some(levels) = &mut self.levels {
+            levels.clear();
         }
-        let mut runs = Vec::new();
-        for &(rows, present) in &self.runs {
-            // The lowest bit is zero: a level that is repeated, not levels one by one.
-            varint(&mut runs, (rows as u64) << 1);
-            runs.push(u8::from(present));
-        }
-        let mut levels = length(runs.len())?.to_le_bytes().to_vec();
-        levels.extend(runs);
-        Ok(levels)
+        column.close()
     }
 }
 
-/// `PageHeader` of a page with so many rows, and so many bytes after the header.
-fn page_header(rows: i32, bytes: i32) -> Struct {
-    let data = Struct::default()
-        .i32(1, rows)
-        .i32(2, PLAIN)
-        .i32(3, RUN_LENGTHS)
-        .i32(4, RUN_LENGTHS);
-    Struct::default()
-        .i32(1, DATA_PAGE)
-        .i32(2, bytes)
-        .i32(3, bytes)
-        .nested(5, data)
+fn schema(columns: &[(&str, Kind)]) -> Result<Type, ParquetError> {
+    let column = |&(name, kind): &(&str, Kind)| {
+        let (physical, logical) = match kind {
+            Kind::Number | Kind::MaybeNumber => (Physical::DOUBLE, None),
+            Kind::Text | Kind::MaybeText => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
+        };
+        let repetition = match kind {
+            Kind::Number | Kind::Text => Repetition::REQUIRED,
+            Kind::MaybeNumber | Kind::MaybeText => Repetition::OPTIONAL,
+        };
+        Type::primitive_type_builder(name, physical)
+            .with_repetition(repetition)
+            .with_logical_type(logical)
+            .build()
+            .map(Arc::new)
+    };
+    let fields = columns.iter().map(column).collect::<Result<_, _>>()?;
+    Type::group_type_builder("rows").with_fields(fields).build()
 }
 
-/// A length as the format has it.
-fn length(bytes: usize) -> io::Result<i32> {
-    i32::try_from(bytes)
-        .map_err(|_| io::Error::other(format!("a page of {bytes} bytes is too long for Parquet")))
+fn file(error: ParquetError) -> io::Error {
+    io::Error::other(error)
 }

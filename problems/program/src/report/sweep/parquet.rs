@@ -14,7 +14,7 @@ const RECIPE: &str = "lagrange.sweep";
 ///
 /// # Errors
 /// The journal is not complete; those of `out`.
-pub fn parquet(sweep: &Sweep, journal: &Journal, out: impl Write) -> Result<(), Failure> {
+pub fn parquet(sweep: &Sweep, journal: &Journal, out: impl Write + Send) -> Result<(), Failure> {
     let recipe = sweep
         .recipe()
         .map_err(|reason| Failure::File(io::Error::other(reason)))?;
