@@ -166,6 +166,27 @@ impl<T: Scalar> Dynamics<T> {
         outcome.map_err(|e| self.solve_error(e))
     }
 
+    /// Per coordinate how far its acceleration at a state is open where the elements of the matrix of the equations are known to within a
+    /// share, in units of that share.
+    pub(crate) fn open_accelerations(
+        &mut self,
+        t: T,
+        q: &[T],
+        v: &[T],
+    ) -> Result<Vec<f64>, EvaluationError> {
+        self.run(t, q, v, Extent::Everything, false)?;
+        let solution = &self.solution;
+        let (pattern, solver, _) = self.modes[self.current].parts();
+        let mut open = vec![0.0; pattern.free()];
+        solver.open(solution, &mut open);
+        let coordinates = 0..q.len();
+        let of_coordinate = |j: usize| {
+            let terms = pattern.elimination.right.row(j).iter();
+            terms.map(|&(k, factor)| factor.value().abs() * open[k]).sum()
+        };
+        Ok(coordinates.map(of_coordinate).collect())
+    }
+
     /// Right-hand sides from the registers.
     fn fill_right(&mut self) {
         let (_, _, interpreted) = self.modes[self.current].parts();

@@ -298,6 +298,27 @@ impl<T: Scalar> Solver<T> {
         }
     }
 
+    /// |K⁻¹| |K| |x| of the solution `x`, for each of the first unknowns as many as `open` has: what remains of them where the
+    /// elements of the matrix are known to within a share, in units of that share (Skeel 1979, J. ACM 26; Higham 2002, section 7.2).
+    pub(crate) fn open(&mut self, x: &[T], open: &mut [f64]) {
+        let size = self.size;
+        let sizes = self.matrix.chunks_exact(size.max(1)).map(|row| {
+            let terms = row.iter().zip(x).map(|(a, x)| (*a * *x).value().abs());
+            terms.sum()
+        });
+        let sizes: Vec<f64> = sizes.collect();
+        let mut column = Vec::with_capacity(size);
+        for (equation, terms) in sizes.iter().enumerate() {
+            column.clear();
+            column.resize(size, T::zero());
+            column[equation] = T::one();
+            self.solve(&mut column);
+            for (open, x) in open.iter_mut().zip(&column) {
+                *open += terms * x.value().abs();
+            }
+        }
+    }
+
     /// Whether the rows set aside agree with the solution `x` of the right-hand side `b`. Those that are held need not, away from the
     /// constraints.
     ///

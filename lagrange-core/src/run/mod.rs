@@ -12,6 +12,7 @@ pub(crate) mod lockstep;
 mod log;
 mod redundant;
 mod region;
+mod resolution;
 mod rest;
 mod samples;
 mod singular;
@@ -328,6 +329,7 @@ impl<T: Scalar> Run<T> {
         }
         self.watch_stiffness();
         let hit = self.accepted_step()?;
+        self.check_resolution()?;
         let end = hit.end();
         let exact = self.exact_end(&hit);
         if end > 0.0 {

@@ -1,6 +1,7 @@
 //! One accepted step: polynomials of the motion and of all guards, checked against an independent evaluation.
 
 use super::hits::Hit;
+use super::resolution::Resolution;
 use super::rest::JUST_BEFORE;
 use super::singular::{LEAST_DEGREE, MOST_RETREATS, RETREAT};
 use super::stiffness::Stiffness;
@@ -39,6 +40,7 @@ pub(super) struct Stepper<T> {
     /// Longest step of Taylor series for which guards that bend more than the motion are good, while they are what bounds the steps.
     guarded: Option<f64>,
     pub(super) stiffness: Stiffness<T>,
+    pub(super) resolution: Resolution,
     pub(super) step: StepPolynomial<T>,
     /// Of the length of the step.
     pub(super) powers: Vec<f64>,
@@ -59,6 +61,7 @@ impl<T: Scalar> Stepper<T> {
             wanted: None,
             guarded: None,
             stiffness: Stiffness::new(settings.method),
+            resolution: Resolution::default(),
             step: StepPolynomial::new(n, 1),
             powers: Vec::new(),
             scratch: state.clone(),
@@ -75,6 +78,7 @@ impl<T: Scalar> Stepper<T> {
     pub(super) fn restart(&mut self) {
         self.control = DefectControl::default();
         (self.wanted, self.guarded) = (None, None);
+        self.resolution = Resolution::default();
         if let Some(method) = &mut self.other {
             method.restart();
         }

@@ -1,0 +1,98 @@
+//! How well accelerations can be known: where the inertia is about to vanish, the rounding errors of its elements are all that is left of
+//! it.
+//!
+//! In M v̇ = f with elements known to within a share ε, v̇ is open by ε |K⁻¹| |K| |v̇|, K the whole matrix with the rows that act (Skeel
+//! 1979, J. ACM 26; Higham 2002, section 7.2). No residual shows that: the accelerations satisfy equations that differ by rounding. Nor
+//! does the error of a step: a method takes the noise for an error of its own, and makes its steps so short that each of them looks right.
+//! What counts is how far velocities are off when they have changed by their own size.
+//!
+//! The matrix is looked at where steps become short. Beside a singular point the motion changes as fast as the matrix does, so
+//! steps shrink before accelerations are lost.
+
+use super::Run;
+use crate::arithmetic::{Scalar, epsilon};
+use crate::error::Error;
+use crate::integrate::least_size;
+use crate::trajectory::State;
+
+/// Steps are short from this share of the longest one so far on,
+const SHORT: f64 = 1.0 / 16.0;
+/// and looked at again where they are shorter by this.
+const SHORTER: f64 = 0.5;
+
+/// The elements of the matrix are sums of a few products, known to within this many units in the last place.
+const UNITS: f64 = 4.0;
+/// Every linear system loses a few digits; so many units are not a loss of inertia.
+const ORDINARY: f64 = 4096.0;
+
+/// Velocities may be off by this many times the tolerance, because estimates of errors only estimate.
+const MARGIN: f64 = 16.0;
+
+/// Which steps have been looked at.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Resolution {
+    /// The longest step so far,
+    longest: f64,
+    /// and the shortest that was looked at.
+    examined: f64,
+}
+
+impl Resolution {
+    /// Whether a step of this length is to be looked at.
+    fn examines(&mut self, h: f64) -> bool {
+        if h > self.longest {
+            (self.longest, self.examined) = (h, SHORT * h);
+        }
+        let examines = h <= SHORTER * self.examined;
+        if examines {
+            self.examined = h;
+        }
+        examines
+    }
+}
+
+impl<T: Scalar> Run<T> {
+    /// Looks whether rounding leaves the accelerations at the start of the step at hand known to within the tolerance.
+    ///
+    /// # Errors
+    /// [`Error::Singular`] if it does not.
+    #[inline]
+    pub(super) fn check_resolution(&mut self) -> Result<(), Error> {
+        match self.stepper.resolution.examines(self.stepper.step.h.value()) {
+            true => self.resolve_accelerations(),
+            false => Ok(()),
+        }
+    }
+
+    #[cold]
+    fn resolve_accelerations(&mut self) -> Result<(), Error> {
+        let State { q, v, .. } = &self.now.state;
+        let Ok(open) = self.dynamics.open_accelerations(self.now.t, q, v) else {
+            return Ok(());
+        };
+        let sizes = &self.settings.sizes;
+        let share = |(i, rate): (usize, f64)| rate / (least_size(sizes, i) + v[i].value().abs());
+        let step = &self.stepper.step;
+        let accelerations = (0..v.len()).map(|i| step.acceleration(i, T::zero()).value().abs());
+        let fastest = accelerations.enumerate().map(share).fold(0.0, f64::max);
+        let shares = open.into_iter().enumerate().map(|pair| (pair.0, share(pair)));
+        let (coordinate, most) = shares.fold((0, 0.0), |most, pair| {
+            if pair.1 > most.1 { pair } else { most }
+        });
+        let unknown = UNITS * epsilon::<T>() * most / fastest;
+        let allowed = MARGIN * self.settings.tolerance;
+        if !(unknown > allowed.max(ORDINARY * epsilon::<T>())) {
+            return Ok(());
+        }
+        let d = self.description();
+        Err(Error::Singular {
+            time: self.now.t.value(),
+            mode: self.now.mode.display(d).to_string(),
+            items: vec![d.coordinates[coordinate].name],
+            reason: format!(
+                "there is nearly no inertia here, and rounding leaves accelerations known to within {unknown:.1e} of their size only; \
+                 ask for a larger tolerance, or give more inertia to"
+            ),
+        })
+    }
+}
