@@ -466,19 +466,23 @@ impl Equations {
         (along, square)
     }
 
-    /// The second rate of a value of position level or the first of one of velocity level, and the size of its terms.
+    /// The second rate of a value of position level or the first of one of velocity level, and the size of its terms; where that is
+    /// not enough, with what the forces of the state could make of accelerations, and velocities rounded beside 1: those of a body that
+    /// impacts have brought to rest are the rounding errors of what they were.
     pub fn acceleration(&mut self, value: usize, level: Level, at: Situation<'_>) -> (f64, f64) {
         self.swiftness.fill(0.0);
-        let (error, size) = self.acceleration_at_sight(value, level, at);
+        let (error, size) = self.acceleration_beside(0.0, value, level, at);
         if error.abs() <= self.exact * size {
             return (error, size);
         }
         self.measure_swiftness(at);
-        self.acceleration_at_sight(value, level, at)
+        self.acceleration_beside(1.0, value, level, at)
     }
 
-    fn acceleration_at_sight(
+    /// The same where velocities v have the sizes `least` + |v|.
+    fn acceleration_beside(
         &mut self,
+        least: f64,
         value: usize,
         level: Level,
         at: Situation<'_>,
@@ -492,7 +496,7 @@ impl Equations {
         let mut size = 0.0;
         for (i, [_, by_velocity, by_acceleration]) in self.sizes_along.iter().enumerate() {
             let swift = at.acceleration[i].abs() + self.swiftness[i];
-            size += by_velocity * at.v[i].abs() + 0.5 * by_acceleration * swift;
+            size += by_velocity * (least + at.v[i].abs()) + 0.5 * by_acceleration * swift;
         }
         (
             factor * self.values.coefficient(value, power),

@@ -182,7 +182,9 @@ impl<T: Scalar> Dynamics<T> {
         let coordinates = 0..q.len();
         let of_coordinate = |j: usize| {
             let terms = pattern.elimination.right.row(j).iter();
-            terms.map(|&(k, factor)| factor.value().abs() * open[k]).sum()
+            terms
+                .map(|&(k, factor)| factor.value().abs() * open[k])
+                .sum()
         };
         Ok(coordinates.map(of_coordinate).collect())
     }

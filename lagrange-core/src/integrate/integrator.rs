@@ -43,6 +43,11 @@ impl<T: Scalar> Integrator<T> {
         }
     }
 
+    /// Whether it is explicit and chooses its steps by their errors.
+    pub fn is_explicit_and_adaptive(&self) -> bool {
+        matches!(self, Self::RungeKutta(method) if method.is_adaptive())
+    }
+
     /// Forgets earlier steps: the system or its state is another one from here on.
     pub fn restart(&mut self) {
         match self {

@@ -414,10 +414,11 @@ impl GuardPolynomials {
         worst
     }
 
-    /// Two parts of a step between the samples of its guards.
-    pub(super) fn between_samples(&self) -> [f64; 2] {
+    /// Two parts of a step between the samples of its guards; nothing where none is sampled.
+    pub(super) fn between_samples(&self) -> Option<[f64; 2]> {
+        self.get(0)?;
         let m = self.nodes.len();
-        [m / 4, 2 * m / 3].map(|j| 0.5 * (self.nodes[j] + self.nodes[j + 1]))
+        Some([m / 4, 2 * m / 3].map(|j| 0.5 * (self.nodes[j] + self.nodes[j + 1])))
     }
 
     /// Chebyshev–Lobatto points on [0, 1] and the inverse of their Vandermonde matrix.

@@ -1,10 +1,10 @@
-//! How well accelerations can be known: where the inertia is about to vanish, the rounding errors of its elements are all that is left of
-//! it.
+//! How well accelerations can be known: where an inertia is about to vanish, or constraints to lose their rank, the rounding errors of the
+//! elements are all that is left of it.
 //!
 //! In M v̇ = f with elements known to within a share ε, v̇ is open by ε |K⁻¹| |K| |v̇|, K the whole matrix with the rows that act (Skeel
 //! 1979, J. ACM 26; Higham 2002, section 7.2). No residual shows that: the accelerations satisfy equations that differ by rounding. Nor
 //! does the error of a step: a method takes the noise for an error of its own, and makes its steps so short that each of them looks right.
-//! What counts is how far velocities are off when they have changed by their own size.
+//! What counts is how far velocities are off after the time in which they change by their own size, or that of a long step.
 //!
 //! The matrix is looked at where steps become short. Beside a singular point the motion changes as fast as the matrix does, so
 //! steps shrink before accelerations are lost.
@@ -58,7 +58,11 @@ impl<T: Scalar> Run<T> {
     /// [`Error::Singular`] if it does not.
     #[inline]
     pub(super) fn check_resolution(&mut self) -> Result<(), Error> {
-        match self.stepper.resolution.examines(self.stepper.step.h.value()) {
+        match self
+            .stepper
+            .resolution
+            .examines(self.stepper.step.h.value())
+        {
             true => self.resolve_accelerations(),
             false => Ok(()),
         }
@@ -75,11 +79,18 @@ impl<T: Scalar> Run<T> {
         let step = &self.stepper.step;
         let accelerations = (0..v.len()).map(|i| step.acceleration(i, T::zero()).value().abs());
         let fastest = accelerations.enumerate().map(share).fold(0.0, f64::max);
-        let shares = open.into_iter().enumerate().map(|pair| (pair.0, share(pair)));
-        let (coordinate, most) = shares.fold((0, 0.0), |most, pair| {
-            if pair.1 > most.1 { pair } else { most }
-        });
-        let unknown = UNITS * epsilon::<T>() * most / fastest;
+        let shares = open
+            .into_iter()
+            .enumerate()
+            .map(|pair| (pair.0, share(pair)));
+        let (coordinate, most) = shares.fold(
+            (0, 0.0),
+            |most, pair| {
+                if pair.1 > most.1 { pair } else { most }
+            },
+        );
+        let time = self.stepper.resolution.longest.min(1.0 / fastest);
+        let unknown = UNITS * epsilon::<T>() * most * time;
         let allowed = MARGIN * self.settings.tolerance;
         if !(unknown > allowed.max(ORDINARY * epsilon::<T>())) {
             return Ok(());
@@ -90,8 +101,8 @@ impl<T: Scalar> Run<T> {
             mode: self.now.mode.display(d).to_string(),
             items: vec![d.coordinates[coordinate].name],
             reason: format!(
-                "there is nearly no inertia here, and rounding leaves accelerations known to within {unknown:.1e} of their size only; \
-                 ask for a larger tolerance, or give more inertia to"
+                "the equations of motion are nearly singular here, and rounding leaves velocities known to within {unknown:.1e} of their \
+                 size only; ask for a larger tolerance, or give inertia to what has hardly any"
             ),
         })
     }

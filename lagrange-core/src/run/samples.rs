@@ -9,10 +9,13 @@ use crate::arithmetic::Scalar;
 use crate::dynamics::EvaluationError;
 use crate::events::{Direction, Root, RootList, roots};
 use crate::integrate::polynomial_derivative as slope;
+use crate::integrate::taylor::defect;
 use crate::modes::guard::Guard;
 
 /// What the next step aims at, in units of what is allowed.
 const AIM: f64 = 0.3;
+/// Parts of a step at which the dense output is compared with the equations, where no guard is sampled.
+const BETWEEN: [f64; 2] = [0.3, 0.7];
 /// Step sizes change by these factors at most.
 const FACTORS: [f64; 2] = [0.1, 5.0];
 
@@ -29,19 +32,34 @@ pub(super) struct SampledRoot {
 }
 
 impl<T: Scalar> Run<T> {
-    /// How far the interpolated guards are off between their samples, in units of what is allowed.
+    /// How far the dense output and the interpolated guards are off between their samples, in units of what is allowed.
+    ///
+    /// The error estimate of an explicit method is that of the end of the step. Where stability bounds the steps, fast motions are damped
+    /// there that the dense output does not follow.
     pub(super) fn interpolation_defect(&mut self) -> Result<f64, EvaluationError> {
-        if self.locator.polynomials.get(0).is_none() {
+        let explicit = self.stepper.is_explicit();
+        let guarded = self.locator.polynomials.get(0).is_some();
+        if !guarded && !explicit {
             return Ok(0.0);
         }
         let mut worst = 0.0_f64;
-        for s in self.locator.polynomials.between_samples() {
-            self.evaluate_end(s)?;
-            let (curves, tolerance) = (&self.locator.polynomials, self.settings.tolerance);
-            let defect =
-                curves.interpolation_defect(&mut self.dynamics, &self.now.mode, s, tolerance);
+        let mut note = |defect: f64| {
             // Not the larger of a number and a NaN, which would be the number.
             worst = if defect <= worst { worst } else { defect };
+        };
+        let places = self.locator.polynomials.between_samples();
+        for s in places.unwrap_or(BETWEEN) {
+            self.evaluate_end(s)?;
+            if explicit {
+                let accelerations = self.dynamics.acceleration();
+                let tolerance = self.settings.per_step();
+                note(defect(&self.stepper.step, s, accelerations, tolerance));
+            }
+            if guarded {
+                let (curves, tolerance) = (&self.locator.polynomials, self.settings.tolerance);
+                let mode = &self.now.mode;
+                note(curves.interpolation_defect(&mut self.dynamics, mode, s, tolerance));
+            }
         }
         Ok(worst)
     }
@@ -49,7 +67,8 @@ impl<T: Scalar> Run<T> {
     /// By which factor a step with this defect of its guards may be longer, or has to be shorter.
     pub(super) fn stretch(&self, defect: f64) -> f64 {
         let [least, most] = FACTORS;
-        let degree = self.locator.polynomials.get(0).map_or(1, |(_, c)| c.len());
+        let sampled = self.locator.polynomials.get(0).map(|(_, c)| c.len());
+        let degree = sampled.unwrap_or(self.stepper.step.degree);
         let factor = (AIM / defect).powf(1.0 / degree as f64);
         if factor.is_nan() {
             least

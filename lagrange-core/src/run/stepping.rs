@@ -74,6 +74,12 @@ impl<T: Scalar> Stepper<T> {
         self.other.is_none()
     }
 
+    /// Whether an explicit method chooses the steps.
+    pub(super) fn is_explicit(&self) -> bool {
+        let method = self.other.as_deref();
+        method.is_some_and(Integrator::is_explicit_and_adaptive)
+    }
+
     /// Forgets what belongs to another motion; the method is the one that was asked for.
     pub(super) fn restart(&mut self) {
         self.control = DefectControl::default();

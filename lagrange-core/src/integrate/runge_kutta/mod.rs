@@ -87,6 +87,11 @@ impl<T: Scalar> RungeKutta<T> {
         }
     }
 
+    /// Whether it chooses its steps by their errors.
+    pub fn is_adaptive(&self) -> bool {
+        self.fixed_step.is_none()
+    }
+
     /// Forgets earlier steps: the system or its state is another one from here on.
     pub fn restart(&mut self) {
         self.controller.restart();
