@@ -249,27 +249,27 @@ impl Equations {
     pub fn balance_with_sizes(&mut self, at: Situation<'_>, mode: &Mode) {
         /// Changes of the state, whose rounding errors do not matter and which are small enough to be linear.
         const CHANGE: f64 = 1.0 / 1_048_576.0;
-        let changed = |x: &[f64], least: f64| -> Vec<f64> {
+        let changed = |x: &[f64]| -> Vec<f64> {
             let signs = [1.0, -1.0, 1.0, 1.0, -1.0].into_iter().cycle();
             let signed = x.iter().zip(signs);
             signed
-                .map(|(x, s)| x + s * CHANGE * (least + x.abs()))
+                .map(|(x, s)| x + s * CHANGE * (1.0 + x.abs()))
                 .collect()
         };
-        let (q, v) = (changed(at.q, 1.0), changed(at.v, 1.0));
-        // Accelerations are rounded beside their own size: huge ones that cancel where the inertia nearly vanishes.
-        let acceleration = changed(at.acceleration, 0.0);
-        let states = [
-            Situation { q: &q, v: &v, ..at },
-            Situation {
+        let (q, v) = (changed(at.q), changed(at.v));
+        self.balance(Situation { q: &q, v: &v, ..at });
+        let mut beside = vec![self.residual.clone()];
+        // Accelerations are rounded beside their own size, each for itself: huge ones that cancel where the inertia nearly vanishes.
+        let mut acceleration = at.acceleration.to_vec();
+        for (j, &own) in at.acceleration.iter().enumerate() {
+            acceleration[j] = (1.0 + CHANGE) * own;
+            self.balance(Situation {
                 acceleration: &acceleration,
                 ..at
-            },
-        ];
-        let beside = states.map(|state| {
-            self.balance(state);
-            self.residual.clone()
-        });
+            });
+            beside.push(self.residual.clone());
+            acceleration[j] = own;
+        }
         self.take(at);
         self.balance(at);
         for beside in beside {

@@ -360,9 +360,11 @@ impl<T: Scalar> Dynamics<T> {
         let is_held = |j: usize| held.get(j).copied().unwrap_or(false);
         let compiled = &self.modes[self.current];
         let constants = &compiled.constants;
-        // Rows that are held aside follow from the others.
+        let has_place = |row: &usize| Self::residual_place(&d.rows[*row], level).is_some();
+        // Rows that are held aside follow from the others. But a gap may follow from a friction that sticks, whose row has no position.
+        let follow = compiled.acting.iter().all(has_place);
         let rows = compiled.acting.iter().copied();
-        let rows = rows.filter(|&row| !compiled.holds_aside(row));
+        let rows = rows.filter(|&row| !(follow && compiled.holds_aside(row)));
         let rows = rows.filter_map(|row| Some((row, Self::residual_place(&d.rows[row], level)?)));
         let size = n + rows.clone().count();
         for without_inertia in [false, true] {

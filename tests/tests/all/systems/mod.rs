@@ -49,6 +49,7 @@ mod skate;
 mod sling;
 mod slips;
 mod stiff;
+mod stretched;
 mod striking_rod;
 mod turntable;
 mod wire;
