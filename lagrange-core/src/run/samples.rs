@@ -1,4 +1,5 @@
-//! Guards that are known by samples: their interpolation is compared with the guards themselves.
+//! What is known between the stages of a step by interpolation: the dense output is compared with the equations, and guards that are known
+//! by samples with the guards themselves.
 //!
 //! A step of a Runge–Kutta method is chosen for the motion, and the motion of a ball in free flight allows any step. The
 //! gap above a table that shakes does not: where the interpolation is off between its samples the step is made shorter.
@@ -64,7 +65,7 @@ impl<T: Scalar> Run<T> {
         Ok(worst)
     }
 
-    /// By which factor a step with this defect of its guards may be longer, or has to be shorter.
+    /// By which factor a step with this defect may be longer, or has to be shorter.
     pub(super) fn stretch(&self, defect: f64) -> f64 {
         let [least, most] = FACTORS;
         let sampled = self.locator.polynomials.get(0).map(|(_, c)| c.len());
