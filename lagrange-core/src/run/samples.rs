@@ -15,8 +15,8 @@ use crate::modes::guard::Guard;
 
 /// What the next step aims at, in units of what is allowed.
 const AIM: f64 = 0.3;
-/// Parts of a step at which the dense output is compared with the equations, where no guard is sampled.
-const BETWEEN: [f64; 2] = [0.3, 0.7];
+/// Part of a step at which the dense output is compared with the equations, where no guard is sampled.
+const WITHIN: [f64; 1] = [0.4];
 /// Step sizes change by these factors at most.
 const FACTORS: [f64; 2] = [0.1, 5.0];
 
@@ -49,7 +49,7 @@ impl<T: Scalar> Run<T> {
             worst = if defect <= worst { worst } else { defect };
         };
         let places = self.locator.polynomials.between_samples();
-        for s in places.unwrap_or(BETWEEN) {
+        for &s in places.as_ref().map_or(&WITHIN[..], |places| places) {
             self.evaluate_end(s)?;
             if explicit {
                 let accelerations = self.dynamics.acceleration();

@@ -43,8 +43,8 @@ fn work_on_the_wheel_does_not_grow() {
         &expect![[r#"
             method        steps  rejected  evaluations  series  factorizations  projections
             taylor           13         1           20      14               0            0
-            dop853           20         0          545       4               0            0
-            dopri5           91         0         1572       4               0            0
+            dop853           22         2          653       4               0            0
+            dopri5           96         0         1657       4               0            0
             verner98         17         0          571       4               0            0
             radau5          281         0         5098       4               9            0
             rk4:0.005       603         0         9670       4               0            0
@@ -61,12 +61,12 @@ fn work_on_the_cartesian_pendulum_does_not_grow() {
         &expect![[r#"
             method        steps  rejected  evaluations  series  factorizations  projections
             taylor           85         0           87      85              76           75
-            dop853          167         6         3193       3             192          117
-            dopri5          734         0         7164      12             828          554
-            verner98        119         0         2783       2              51           42
+            dop853          167         6         3360       3             192          117
+            dopri5          765         0         8222      12             818          568
+            verner98        119         0         2902       2              51           42
             radau5         3077         0        30988       1             207            2
             rk4:0.005      2000         0        17886       1            2015         1884
-            gauss6:0.01    1001         0        19096       1               0            0
+            gauss6:0.01    1001         0        19096       1               1            0
         "#]],
     );
 }
