@@ -15,7 +15,7 @@
 //! takes ∂L/∂q and ∂L/∂v along.
 
 use super::real::Real;
-use super::series::{Series, function, power};
+use super::series::{COSH, EXP, SINH, Series, TANH, function, power};
 use super::{Declaration, op};
 use core::ops::AddAssign;
 
@@ -146,15 +146,8 @@ impl<N: Real> Evaluator<N> {
         parameters: &[f64],
         wanted: impl IntoIterator<Item = usize>,
     ) -> Self {
-        let words = declaration.words.chunks_exact(12).enumerate();
-        let all: Vec<Operation> = words.map(operation).collect();
-        let mut needed = vec![false; all.len()];
-        wanted.into_iter().for_each(|value| needed[value] = true);
-        for operation in all.iter().rev() {
-            if needed[operation.value] {
-                operation.operands().for_each(|x| needed[x] = true);
-            }
-        }
+        let all = operations(declaration);
+        let needed = needed(&all, wanted);
         let mut evaluator = Self {
             declaration,
             operations: Vec::with_capacity(all.len()),
@@ -197,6 +190,11 @@ impl<N: Real> Evaluator<N> {
     /// An evaluator of everything, pictures too.
     pub fn of_everything(declaration: &'static Declaration, parameters: &[f64]) -> Self {
         Self::new(declaration, parameters, 0..declaration.words.len() / 12)
+    }
+
+    /// Whether a value changes with the state.
+    pub fn moves(&self, value: usize) -> bool {
+        self.moves[value]
     }
 
     /// Whether a value reads forces, which do not follow from the state alone.
@@ -272,6 +270,51 @@ impl<N: Real> Evaluator<N> {
     pub fn rate(&self, value: usize) -> N {
         self.values[value].0[1]
     }
+}
+
+/// Arguments of the functions in some values that fall off exponentially, and by how much the exponent changes with each.
+pub fn exponents(
+    declaration: &Declaration,
+    wanted: impl IntoIterator<Item = usize>,
+) -> Vec<(usize, f64)> {
+    let all = operations(declaration);
+    let needed = needed(&all, wanted);
+    let acting = all.iter().filter(|operation| needed[operation.value]);
+    let mut exponents: Vec<(usize, f64)> = acting
+        .filter_map(
+            |operation| match operation.code.checked_sub(op::FUNCTIONS)? {
+                SINH | COSH | EXP => Some((operation.x, 1.0)),
+                TANH => Some((operation.x, 2.0)),
+                _ => None,
+            },
+        )
+        .collect();
+    exponents.sort_unstable_by_key(|&(argument, _)| argument);
+    exponents.dedup_by(|next, kept| {
+        let same = next.0 == kept.0;
+        if same {
+            kept.1 = kept.1.max(next.1);
+        }
+        same
+    });
+    exponents
+}
+
+fn operations(declaration: &Declaration) -> Vec<Operation> {
+    let words = declaration.words.chunks_exact(12).enumerate();
+    words.map(operation).collect()
+}
+
+/// Per value: whether one of the wanted is made of it.
+fn needed(all: &[Operation], wanted: impl IntoIterator<Item = usize>) -> Vec<bool> {
+    let mut needed = vec![false; all.len()];
+    wanted.into_iter().for_each(|value| needed[value] = true);
+    for operation in all.iter().rev() {
+        if needed[operation.value] {
+            operation.operands().for_each(|x| needed[x] = true);
+        }
+    }
+    needed
 }
 
 /// An operation from its words.

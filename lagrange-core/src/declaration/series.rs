@@ -68,6 +68,12 @@ impl<N: Real> Mul for Series<N> {
     }
 }
 
+/// Numbers of functions.
+pub(super) const SINH: u32 = 6;
+pub(super) const COSH: u32 = 7;
+pub(super) const TANH: u32 = 8;
+pub(super) const EXP: u32 = 9;
+
 /// Function `number` of the format and its first three derivatives at x.
 pub(super) fn function<N: Real>(number: u32, x: N) -> [N; 4] {
     let n = N::number;
@@ -102,15 +108,15 @@ pub(super) fn function<N: Real>(number: u32, x: N) -> [N; 4] {
             let third = (n(6.0) * square(x) + n(-2.0)) * u.raised(3.0);
             [x.atan(), u, n(-2.0) * x * square(u), third]
         }
-        6 => [x.sinh(), x.cosh(), x.sinh(), x.cosh()],
-        7 => [x.cosh(), x.sinh(), x.cosh(), x.sinh()],
-        8 => {
+        SINH => [x.sinh(), x.cosh(), x.sinh(), x.cosh()],
+        COSH => [x.cosh(), x.sinh(), x.cosh(), x.sinh()],
+        TANH => {
             let t = x.tanh();
             let u = n(1.0) + minus(square(t));
             let third = u * (n(6.0) * square(t) + n(-2.0));
             [t, u, n(-2.0) * t * u, third]
         }
-        9 => [x.exp(); 4],
+        EXP => [x.exp(); 4],
         10 => {
             let third = n(2.0) * x.raised(-3.0);
             [x.ln(), x.raised(-1.0), minus(x.raised(-2.0)), third]

@@ -3,6 +3,7 @@
 mod accumulation;
 mod cause;
 mod dead_centre;
+mod exponents;
 mod fading;
 mod feasible;
 mod guard_polynomials;
@@ -34,6 +35,7 @@ use crate::system::Erased;
 use crate::system::{Description, Watch};
 use crate::trajectory::{EventKind, State, Subject, Trajectory, Work};
 use core::ops::Range;
+use exponents::Exponents;
 use hits::{Hit, Locator};
 use log::Recorder;
 use singular::Rank;
@@ -68,6 +70,7 @@ pub(crate) struct Run<T: Scalar> {
     dynamics: Dynamics<T>,
     now: Now<T>,
     stepper: Stepper<T>,
+    exponents: Exponents,
     /// Watches for positions where constraints lose rank.
     rank: Rank,
     locator: Locator<T>,
@@ -128,6 +131,7 @@ impl<T: Scalar> Run<T> {
         let mut run = Run {
             dynamics: Dynamics::of(system.clone(), &settings.effects),
             stepper: Stepper::new(settings, d, &state),
+            exponents: Exponents::new(&system, &settings.effects),
             rank: Rank::new(d, &settings.effects),
             locator: Locator::new(d, settings, &mode),
             switcher: Switcher::new(d, &mode),
@@ -157,6 +161,9 @@ impl<T: Scalar> Run<T> {
 
     /// Takes another system of the same kind.
     pub(crate) fn set_system(&mut self, system: Erased<T>) {
+        if self.exponents.are_followed() {
+            self.exponents = Exponents::new(&system, &self.settings.effects);
+        }
         self.dynamics.set_system(system);
     }
 

@@ -23,6 +23,10 @@ const CLOSEST: f64 = 1e-20;
 
 /// So many times a step is made shorter because the interpolation of its guards does not hold.
 const MOST_TRIES: usize = 10;
+/// What exponents may rise by in a step of other methods than Taylor's, as an order.
+const SLOW_ORDER: usize = 4;
+/// So many times a step is made shorter to follow an exponent.
+const MOST_SHORTENED: usize = 16;
 /// Steps of so many times the resolution of time are left to Taylor series.
 const KINK: f64 = 1e4;
 
@@ -118,7 +122,7 @@ impl<T: Scalar> Run<T> {
         let mut h = self.stepper.guarded.map_or(moves, |h| h.min(moves));
         let mut guarded = h < moves;
         let mut closer = 0;
-        let mut corrections = 0;
+        let (mut corrections, mut shortened) = (0, 0);
         loop {
             if self.now.t.value() + h <= self.now.t.value() {
                 return Err(self.step_too_small(h));
@@ -153,6 +157,11 @@ impl<T: Scalar> Run<T> {
             } else {
                 JUST_BEFORE * end
             };
+            if let Some(shorter) = self.hides_exponents(looked, order, shortened) {
+                shortened += 1;
+                h = shorter;
+                continue;
+            }
             if !whole {
                 self.state_at_end(looked);
             }
@@ -207,6 +216,17 @@ impl<T: Scalar> Run<T> {
                 }
             }
         }
+    }
+
+    /// The length of a step that a method of this order can follow all exponents over, if that at hand, up to `end`, is longer;
+    /// it has been shortened so many times for them.
+    fn hides_exponents(&mut self, end: f64, order: usize, shortened: usize) -> Option<f64> {
+        // An exponent that jumps (at the cut of an atan2) does so in all steps.
+        let part = match shortened < MOST_SHORTENED {
+            true => self.exponents.followed(&self.stepper.step, end, order),
+            false => end,
+        };
+        (part < end).then(|| part * self.stepper.step.h.value())
     }
 
     /// The step that the series at hand allows, and the order up to which it is used: close to where a slip vanishes that turns, the last
@@ -377,7 +397,8 @@ impl<T: Scalar> Run<T> {
             return self.taylor_step();
         }
         let mut h = first.map_err(|e| self.no_step(e))?.min(longest);
-        for _ in 0..MOST_TRIES {
+        let (mut tries, mut shortened) = (0, 0);
+        while tries < MOST_TRIES {
             if h <= KINK * self.resolution() && self.locator.polynomials.get(0).is_some() {
                 break;
             }
@@ -388,6 +409,12 @@ impl<T: Scalar> Run<T> {
             if self.passes_close() {
                 break;
             }
+            if let Some(shorter) = self.hides_exponents(1.0, SLOW_ORDER, shortened) {
+                shortened += 1;
+                self.recorder.trajectory.work.rejected += 1;
+                h = shorter;
+                continue;
+            }
             self.sample()?;
             let defect = self.interpolation_defect().map_err(|e| self.error(e))?;
             h = self.stretch(defect) * self.stepper.step.h.value();
@@ -396,6 +423,7 @@ impl<T: Scalar> Run<T> {
                 return self.hit_among_samples();
             }
             self.recorder.trajectory.work.rejected += 1;
+            tries += 1;
         }
         // Where a guard has a kink no interpolation holds; where constraints lose rank no step does.
         self.stepper.wanted = None;

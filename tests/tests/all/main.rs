@@ -1,6 +1,7 @@
 //! All tests of the workspace's public behaviour, in one binary.
 
 mod architecture;
+mod arm;
 mod bowl;
 mod certificates;
 mod declarations;

@@ -77,7 +77,8 @@ pub(super) fn groups(system: &mut System, needs: &Needs) -> Vec<Group> {
 /// The Euler–Lagrange equations of one group.
 pub(super) fn derive(pool: &mut Pool, x: &Variables, group: &Group) -> Inertia {
     let moving = x.velocities_in(pool, group.kinetic);
-    if moving.len() > LARGE
+    let large_system = moving.len() > LARGE || pool.holds_group(group.kinetic);
+    if large_system
         && x.turns.is_empty()
         && let Some(squares) = Squares::of(pool, x, group.kinetic)
     {

@@ -9,6 +9,7 @@ mod energy;
 mod euler_lagrange;
 mod forms;
 mod friction;
+mod kept;
 mod loads;
 mod needs;
 mod outputs;
@@ -22,7 +23,7 @@ mod tests;
 
 use crate::diagnostics::Diagnostics;
 use crate::model::System;
-use crate::symbolic::{ExprId, Pool};
+use crate::symbolic::{ExprId, MOST_OPERANDS, Pool};
 use euler_lagrange::Inertia;
 use loads::Loads;
 use sheet::Sheet;
@@ -78,7 +79,25 @@ impl Equations {
 
 /// Derives all equations of a system. None if it is structurally singular, which the sink then tells. Where the pool is
 /// [full](crate::symbolic::Pool::is_full) they are not complete.
-pub fn equations(system: System, sink: &mut Diagnostics) -> Option<Equations> {
+pub fn equations(mut system: System, sink: &mut Diagnostics) -> Option<Equations> {
+    if !kept::may_outgrow(&system) {
+        return derived(system, sink);
+    }
+    let before = system.pool.clone();
+    system.pool.allow(kept::MULTIPLIED_OUT);
+    let mut equations = derived(system, sink)?;
+    if equations.system.pool.is_full() {
+        let mut system = equations.system;
+        system.pool = before;
+        kept::keep_shared(&mut system);
+        return derived(system, sink);
+    }
+    equations.system.pool.allow(MOST_OPERANDS);
+    Some(equations)
+}
+
+/// The same of a system as it is.
+fn derived(system: System, sink: &mut Diagnostics) -> Option<Equations> {
     let mut sheet = Sheet::new(system);
     let groups = euler_lagrange::groups(&mut sheet.system, &sheet.needs);
     let inertias: Vec<Inertia> = groups

@@ -95,7 +95,10 @@ impl Pool {
                 ];
                 self.derivative_of_call(e, f, arguments, derivatives)
             }
-            Node::Group(e) => of(e).unwrap_or(zero),
+            Node::Group(e) => {
+                let derivative = of(e).unwrap_or(zero);
+                self.group_sum(derivative)
+            }
             Node::Select {
                 branch,
                 then,

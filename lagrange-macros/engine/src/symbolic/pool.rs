@@ -26,6 +26,8 @@ pub struct Pool {
     pub(super) overflow: bool,
     /// Nodes, and the operands of each.
     size: usize,
+    /// With more of them it is full.
+    most: usize,
     /// Work done by rewriting: terms and nodes looked at.
     pub(super) effort: u64,
     /// Per direction of differentiation: which memo.
@@ -62,6 +64,7 @@ impl Pool {
             pi: None,
             overflow: false,
             size: 0,
+            most: MOST_OPERANDS,
             effort: 0,
             directions: Memo::default(),
             derivatives: Vec::new(),
@@ -187,7 +190,12 @@ impl Pool {
 
     /// Whether there are too many. Work that builds more stops then, and what it has built is of no use.
     pub fn is_full(&self) -> bool {
-        self.size > MOST_OPERANDS
+        self.size > self.most
+    }
+
+    /// Lets it have so many expressions and operands, at first [`MOST_OPERANDS`].
+    pub fn allow(&mut self, operands: usize) {
+        self.most = operands;
     }
 
     /// Whether nothing has been built.

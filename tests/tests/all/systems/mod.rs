@@ -41,6 +41,7 @@ mod permuted;
 mod piecewise;
 mod plate;
 mod pressed;
+mod pulses;
 mod quaternion;
 mod region;
 mod rocking_block;

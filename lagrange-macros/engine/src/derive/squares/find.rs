@@ -22,16 +22,18 @@ pub(super) fn squares_in(
                 }
             }
             Node::Product(factors) => {
-                let (moving, rest): (Vec<_>, Vec<_>) = factors
-                    .into_iter()
-                    .partition(|&(base, _)| pool.depends_on_any(base, &x.velocities));
-                let rest = pool.monomial(Rational::ONE, &rest);
-                let c = pool.mul(c, rest);
-                match moving[..] {
-                    [(w, power)] if power == Rational::integer(2) && !x.changes(pool, c) => {
-                        found.push((c, w));
-                    }
-                    [(sum, power)] if power.is_one() => open.push((c, sum)),
+                let (varying, fixed): (Vec<_>, Vec<_>) =
+                    (factors.into_iter()).partition(|&(base, _)| x.changes(pool, base));
+                let fixed = pool.monomial(Rational::ONE, &fixed);
+                let c = pool.mul(c, fixed);
+                let half = |&(base, power): &(ExprId, Rational)| {
+                    let half = power.checked_mul(Rational::HALF)?;
+                    half.is_integer().then_some((base, half))
+                };
+                let root: Option<Vec<_>> = varying.iter().map(half).collect();
+                match (root, &varying[..]) {
+                    (Some(root), _) => found.push((c, pool.monomial(Rational::ONE, &root))),
+                    (None, &[(sum, power)]) if power.is_one() => open.push((c, sum)),
                     _ => return None,
                 }
             }
@@ -76,4 +78,18 @@ pub(super) fn slopes(
         .into_iter()
         .map(|(j, terms)| (j, pool.linear(Rational::ZERO, terms)));
     Some(slopes.filter(|&(_, slope)| slope != x.zero).collect())
+}
+
+/// (j, ∂w/∂vⱼ) of a velocity in which others are kept whole, if it is linear and homogeneous in v, ascending.
+pub(super) fn slopes_of_whole(pool: &mut Pool, x: &Variables, w: ExprId) -> Option<ByCoordinate> {
+    let at_rest = x.at_rest(pool, w);
+    let mut slopes = Vec::new();
+    for j in x.velocities_in(pool, w) {
+        let slope = pool.differentiate(w, x.velocities[j]);
+        if pool.depends_on_any(slope, &x.velocities) {
+            return None;
+        }
+        slopes.push((j, slope));
+    }
+    pool.is_zero(at_rest).then_some(slopes)
 }

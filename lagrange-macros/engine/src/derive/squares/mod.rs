@@ -17,7 +17,7 @@ mod set;
 
 use super::forms::Variables;
 use crate::symbolic::{ExprId, Pool, Rational, Symbol};
-use find::{slopes, squares_in};
+use find::{slopes, slopes_of_whole, squares_in};
 use nested::{nested, terms};
 use set::{Set, members};
 use std::collections::BTreeMap;
@@ -31,6 +31,8 @@ struct Square {
     inertia: ExprId,
     /// (j, ∂w/∂vⱼ), without zeros, ascending.
     slopes: ByCoordinate,
+    /// w, if velocities in it are kept whole.
+    whole: Option<ExprId>,
 }
 
 /// A kinetic energy as a sum of squares.
@@ -56,9 +58,18 @@ impl Squares {
         let mut squares = Vec::new();
         let mut lists = Vec::new();
         for (c, w) in squares_in(pool, x, kinetic)? {
-            squares.push(Square {
-                inertia: pool.scale(c, Rational::integer(2)),
-                slopes: slopes(pool, x, &velocities, w)?,
+            let inertia = pool.scale(c, Rational::integer(2));
+            squares.push(match slopes(pool, x, &velocities, w) {
+                Some(slopes) => Square {
+                    inertia,
+                    slopes,
+                    whole: None,
+                },
+                None => Square {
+                    inertia,
+                    slopes: slopes_of_whole(pool, x, w)?,
+                    whole: Some(w),
+                },
             });
             lists.push(terms(pool, w));
         }
@@ -118,18 +129,25 @@ impl Squares {
         let mut twists: Vec<Vec<ExprId>> = vec![Vec::new(); self.size];
         let mut known: BTreeMap<(usize, ExprId), (ExprId, ByCoordinate)> = BTreeMap::new();
         for (square, &w) in self.squares.iter().zip(&self.speeds) {
-            let mut rates = Vec::with_capacity(square.slopes.len());
             let mut twist: BTreeMap<usize, Vec<ExprId>> = BTreeMap::new();
-            for &(j, slope) in &square.slopes {
-                let (rate, turning) = known
-                    .entry((j, slope))
-                    .or_insert_with(|| rate_and_twist(pool, x, j, slope));
-                rates.push((*rate, Rational::ONE));
-                for &(i, part) in turning.iter() {
+            let rate = if let Some(whole) = square.whole {
+                for (i, part) in twist_of_whole(pool, x, whole, &square.slopes) {
                     twist.entry(i).or_default().push(part);
                 }
-            }
-            let rate = pool.linear(Rational::ZERO, rates);
+                x.rate(pool, whole)
+            } else {
+                let mut rates = Vec::with_capacity(square.slopes.len());
+                for &(j, slope) in &square.slopes {
+                    let (rate, turning) = known
+                        .entry((j, slope))
+                        .or_insert_with(|| rate_and_twist(pool, x, j, slope));
+                    rates.push((*rate, Rational::ONE));
+                    for &(i, part) in turning.iter() {
+                        twist.entry(i).or_default().push(part);
+                    }
+                }
+                pool.linear(Rational::ZERO, rates)
+            };
             lists.push(terms(pool, rate));
             for (i, parts) in twist {
                 let part = pool.sum(&parts);
@@ -203,4 +221,24 @@ fn rate_and_twist(
     }
     twist.retain(|_, part| !pool.is_zero(*part));
     (pool.mul(rate, x.rates[j]), twist.into_iter().collect())
+}
+
+/// (i, J̇ᵢ − ∂w/∂qᵢ) of a velocity in which others are kept whole, without zeros.
+fn twist_of_whole(
+    pool: &mut Pool,
+    x: &Variables,
+    whole: ExprId,
+    slopes: &[(usize, ExprId)],
+) -> ByCoordinate {
+    let mut twist = Vec::new();
+    for i in 0..x.len() {
+        let turned = pool.differentiate(whole, x.positions[i]);
+        let slope = slopes.iter().find(|&&(j, _)| j == i);
+        let rate = slope.map_or(x.zero, |&(_, slope)| x.rate(pool, slope));
+        let part = pool.sub(rate, turned);
+        if !pool.is_zero(part) {
+            twist.push((i, part));
+        }
+    }
+    twist
 }

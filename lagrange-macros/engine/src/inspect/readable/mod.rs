@@ -59,11 +59,7 @@ impl<'a> Reader<'a> {
     /// An expression on paper; what would be very long is shortened.
     pub fn formula(&mut self, e: ExprId) -> Formula {
         let full = self.full(e);
-        if full.size() <= WHOLE {
-            full
-        } else {
-            full.shortened(BEGINNING)
-        }
+        within(WHOLE, full)
     }
 
     fn full(&mut self, e: ExprId) -> Formula {
@@ -92,7 +88,8 @@ impl<'a> Reader<'a> {
                 let arguments = arguments.iter().map(|&a| self.full(a)).collect();
                 Formula::Call(name(f).to_owned(), arguments)
             }
-            Node::Group(e) => self.full(e),
+            // What is made of groups of groups would be endless.
+            Node::Group(e) => within(BEGINNING, self.full(e)),
             Node::Select {
                 branch,
                 then,
@@ -163,6 +160,15 @@ impl<'a> Reader<'a> {
         let [then, otherwise] = sides.map(Box::new);
         let condition = Statement::new(self.full(guard), Relation::AtLeast, Formula::ZERO);
         Formula::Cases(Box::new(condition), then, otherwise)
+    }
+}
+
+/// A formula, or its beginning if it has more to read than so much.
+fn within(whole: usize, formula: Formula) -> Formula {
+    if formula.size() <= whole {
+        formula
+    } else {
+        formula.shortened(BEGINNING)
     }
 }
 

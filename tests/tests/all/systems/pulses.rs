@@ -1,0 +1,184 @@
+//! Pulses, hills and gates that are nothing at all where a step begins: their exponents are followed.
+
+use super::{PI, state};
+use lagrange_core::prelude::*;
+use lagrange_tests::fuzz::METHODS;
+
+/// A body that one pulse pushes.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = mass/2 * der(x)^2,
+    force(push: x = momentum / (sqrt(2*pi) * width) * exp(-((t - centre)/width)^2/2)),
+)]
+struct Pushed {
+    mass: f64,
+    momentum: f64,
+    centre: f64,
+    width: f64,
+}
+
+/// What the pulse has given is Δv = J/m, from its centre on.
+#[test]
+fn pulses_however_short_give_their_momentum() {
+    for width in [0.3, 1e-2, 1e-5] {
+        let scene = Pushed {
+            mass: 2.0,
+            momentum: 3.0,
+            centre: 4.0,
+            width,
+        };
+        for method in METHODS {
+            let run = Simulation::new(&scene)
+                .method(method)
+                .tolerance(1e-9)
+                .run(state(&[0.0], &[0.1]), 0.0..10.0)
+                .expect("runs");
+            let (x, v) = (run.final_state().q[0], run.final_state().v[0]);
+            assert!((v - 1.6).abs() < 1e-6, "{method:?}, {width}: v = {v}");
+            assert!((x - 10.0).abs() < 1e-5, "{method:?}, {width}: x = {x}");
+        }
+    }
+}
+
+/// A body that runs against a hill V₀/cosh²(kx).
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = mass/2 * der(x)^2,
+    potential = height / cosh(steepness * x)^2,
+)]
+struct Hill {
+    mass: f64,
+    height: f64,
+    steepness: f64,
+}
+
+/// With E < V₀ it turns back: sinh kx = −√(V₀/E − 1) cosh kv₀(t − t₀), far from the hill with the speed v₀ both before and after.
+#[test]
+fn no_body_passes_a_hill_that_it_cannot_climb() {
+    for steepness in [3.0, 40.0, 500.0] {
+        let scene = Hill {
+            mass: 1.0,
+            height: 5.0,
+            steepness,
+        };
+        // E = 2
+        let speed = 2.0;
+        let bend = f64::sqrt(5.0 / 2.0 - 1.0);
+        // ln of the large cosh at a distance of 3.
+        let far = 3.0 * steepness - f64::ln(bend);
+        let turned = far / (steepness * speed);
+        for method in METHODS {
+            let run = Simulation::new(&scene)
+                .method(method)
+                .tolerance(1e-9)
+                .run(state(&[-3.0], &[speed]), 0.0..2.0 * turned)
+                .expect("runs");
+            let (x, v) = (run.final_state().q[0], run.final_state().v[0]);
+            assert!((x + 3.0).abs() < 1e-5, "{method:?}, {steepness}: x = {x}");
+            assert!((v + speed).abs() < 1e-5, "{method:?}, {steepness}: v = {v}");
+        }
+    }
+}
+
+/// A body in resistance that is −μmg tanh(v/ε), a regularised friction.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = mass/2 * der(x)^2,
+    force(drag: x = -friction * mass * gravity * tanh(der(x)/slow)),
+)]
+struct Dragged {
+    mass: f64,
+    gravity: f64,
+    friction: f64,
+    slow: f64,
+}
+
+/// sinh(v/ε) = sinh(v₀/ε) exp(−μgt/ε)
+#[test]
+fn a_regularised_friction_ends_a_slide() {
+    let scene = Dragged {
+        mass: 1.0,
+        gravity: 10.0,
+        friction: 0.5,
+        slow: 1e-3,
+    };
+    for method in METHODS {
+        for last in [0.1, 0.1999, 0.2, 0.2003] {
+            let run = Simulation::new(&scene)
+                .method(method)
+                .tolerance(1e-9)
+                .run(state(&[0.0], &[1.0]), 0.0..last)
+                .expect("runs");
+            let logarithm = 1e3 - f64::ln(2.0) - 0.5 * 10.0 * last / 1e-3;
+            let expected = match logarithm < 300.0 {
+                true => 1e-3 * f64::asinh(f64::exp(logarithm)),
+                false => 1e-3 * (logarithm + f64::ln(2.0)),
+            };
+            let v = run.final_state().v[0];
+            assert!(
+                (v - expected).abs() < 1e-7,
+                "{method:?}, {last}: {v} {expected}"
+            );
+        }
+    }
+}
+
+/// A wheel that turns past a narrow gate.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(phi),
+    kinetic = inertia/2 * der(phi)^2,
+    stop(gate: 1/cosh((phi - at)/width)^2 >= 0.5),
+)]
+struct Wheel {
+    inertia: f64,
+    at: f64,
+    width: f64,
+}
+
+/// 1/cosh² is ½ where cosh is √2.
+#[test]
+fn a_narrow_gate_stops_what_turns_past_it() {
+    for width in [0.1, 1e-3, 1e-6] {
+        let scene = Wheel {
+            inertia: 1.0,
+            at: 2.0 * PI,
+            width,
+        };
+        for method in METHODS {
+            let run = Simulation::new(&scene)
+                .method(method)
+                .tolerance(1e-9)
+                .run(state(&[0.0], &[2.0]), 0.0..20.0)
+                .expect("runs");
+            let expected = (2.0 * PI - width * f64::sqrt(2.0).acosh()) / 2.0;
+            let time = run.last_time();
+            assert!(
+                (time - expected).abs() < 1e-8,
+                "{method:?}, {width}: {time} {expected}"
+            );
+        }
+    }
+}
+
+/// What is left out is not followed.
+#[test]
+fn exponents_of_what_is_left_out_cost_no_steps() {
+    let scene = Pushed {
+        mass: 2.0,
+        momentum: 3.0,
+        centre: 4.0,
+        width: 1e-3,
+    };
+    let steps = |simulation: Simulation<Pushed>| {
+        let run = simulation
+            .run(state(&[0.0], &[0.1]), 0.0..10.0)
+            .expect("runs");
+        run.work().steps
+    };
+    assert_eq!(steps(Simulation::new(&scene).without(Pushed::PUSH)), 1);
+    assert!(steps(Simulation::new(&scene)) > 10);
+}
