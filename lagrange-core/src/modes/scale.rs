@@ -1,8 +1,10 @@
 //! The size of what cancels in a guard: rounding leaves about 1e-16 of it, a located root about the tolerance.
 //!
 //! With a the row, f the forcing and m the diagonal of the mass matrix, the compliance of the row is Σaⱼ²/mⱼ, the
-//! acceleration along it at most √(Σaⱼ²/mⱼ · Σfⱼ²/mⱼ), and the multiplier that over the compliance: all independent of
-//! the units of the coordinates, and not small where the force along the row happens to cancel.
+//! acceleration along it at most √(Σaⱼ²/mⱼ · D), and the multiplier that over the compliance: all independent of
+//! the units of the coordinates, and not small where the force along the row happens to cancel. What drives is
+//! D = Σfⱼ²/mⱼ + Σγᵢ²/(Σaᵢⱼ²/mⱼ): the forcing, and the rows i that act, of which a wall that is driven has γᵢ ≠ 0 where nothing
+//! else drives.
 
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
@@ -14,12 +16,12 @@ use crate::system::{Normal, ValueRef};
 pub struct Sizes {
     /// 1/mⱼ, 0 where a coordinate has no inertia of its own.
     mobility: Vec<f64>,
-    /// Σfⱼ²/mⱼ
+    /// Of the forcing and of the rows that act, m²/s⁴ times a mass.
     drive: f64,
 }
 
 impl Sizes {
-    /// Takes mass and forcing from the last value.
+    /// Takes mass, forcing and the rows that act from the last value.
     pub fn take<T: Scalar>(&mut self, dynamics: &Dynamics<T>) {
         let d = dynamics.description();
         let number = |place: ValueRef| dynamics.motion(place).value();
@@ -33,6 +35,16 @@ impl Sizes {
         }
         let forcing = self.mobility.iter().zip(d.forcing);
         self.drive = forcing.map(|(m, &f)| m * number(f).powi(2)).sum();
+        let rows = dynamics.acting_rows().iter();
+        let driven = rows.map(|&row| {
+            let compliance = self.compliance(row, dynamics);
+            if compliance > 0.0 {
+                number(d.rows[row].bias).powi(2) / compliance
+            } else {
+                0.0
+            }
+        });
+        self.drive += driven.sum::<f64>();
     }
 
     /// Size of the terms that make a guard: an acceleration for gaps and slips, a force for the others.
@@ -66,11 +78,9 @@ impl Sizes {
     }
 
     fn row<T: Scalar>(&self, row: usize, dynamics: &Dynamics<T>) -> Row {
-        let jacobian = dynamics.description().rows[row].jacobian.iter();
-        let compliance: f64 = jacobian
-            .map(|&(j, place)| dynamics.motion(place).value().powi(2) * self.mobility[j])
-            .sum();
-        let acceleration = (compliance * self.drive).sqrt();
+        let compliance = self.compliance(row, dynamics);
+        let bias = dynamics.motion(dynamics.description().rows[row].bias);
+        let acceleration = (compliance * self.drive).sqrt().max(bias.value().abs());
         let needed = if compliance > 0.0 {
             acceleration / compliance
         } else {
@@ -81,6 +91,13 @@ impl Sizes {
             compliance,
             force: needed.max(dynamics.force(row).value().abs()),
         }
+    }
+
+    fn compliance<T: Scalar>(&self, row: usize, dynamics: &Dynamics<T>) -> f64 {
+        let jacobian = dynamics.description().rows[row].jacobian.iter();
+        let parts =
+            jacobian.map(|&(j, place)| dynamics.motion(place).value().powi(2) * self.mobility[j]);
+        parts.sum()
     }
 
     /// Size of the normal force of friction `f`.

@@ -169,3 +169,39 @@ fn a_mat_lies_flat() {
         }
     }
 }
+
+/// A tooth between the two flanks of a gap without play, whose wheel swings; nothing else acts on it.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(tooth),
+    kinetic = inertia/2 * der(tooth)^2,
+    contact(drive: tooth >= swing * sin(rate * t)),
+    contact(coast: tooth <= swing * sin(rate * t)),
+)]
+struct Tooth {
+    inertia: f64,
+    swing: f64,
+    rate: f64,
+}
+
+/// One flank pushes, the other carries nothing, although only the flanks themselves drive.
+#[test]
+fn of_two_flanks_one_pushes() {
+    let gear = Tooth {
+        inertia: 0.3,
+        swing: 0.2,
+        rate: 5.0,
+    };
+    for method in ["taylor", "dop853"] {
+        let start = state(&[0.0], &[gear.swing * gear.rate]);
+        let motion = run_by(&gear, (method, 1e-9), start, 2.0);
+        for k in 1..40 {
+            let t = 0.05 * f64::from(k);
+            let now = motion.sampler().at(t).expect("inside");
+            let push = -gear.inertia * gear.swing * gear.rate.powi(2) * (gear.rate * t).sin();
+            let asked = format!("{method} at {t}");
+            agree(&asked, now.force(Tooth::DRIVE), push.max(0.0), 1e-8);
+            agree(&asked, now.force(Tooth::COAST), (-push).max(0.0), 1e-8);
+        }
+    }
+}
