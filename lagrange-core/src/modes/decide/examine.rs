@@ -4,7 +4,8 @@ use super::questions::{concerns, leading, list_questions, unit_of_order};
 use super::{Decider, EvaluationPoint, SwitchContext};
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError, OutputMask};
-use crate::integrate::{Tolerance, taylor};
+use crate::integrate::Tolerance;
+use crate::integrate::taylor::{self, Series};
 use crate::mode::{FrictionMode, Mode};
 use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
@@ -47,6 +48,8 @@ struct Ahead<'a, T: Scalar> {
     here: SwitchContext<'a, T>,
     order: usize,
     h: f64,
+    /// Error of a series over such a time.
+    allowed: Tolerance<'a>,
 }
 
 impl<T: Scalar> Clone for Ahead<'_, T> {
@@ -56,6 +59,23 @@ impl<T: Scalar> Clone for Ahead<'_, T> {
 }
 
 impl<T: Scalar> Copy for Ahead<'_, T> {}
+
+/// The series of a guard, which reaches as far as that of a coordinate with these coefficients.
+struct Alone<'a>(&'a [f64]);
+
+impl Series<f64> for Alone<'_> {
+    fn coordinates(&self) -> usize {
+        1
+    }
+
+    fn position(&self, _: usize) -> &[f64] {
+        self.0
+    }
+
+    fn velocity(&self, _: usize) -> &[f64] {
+        self.0
+    }
+}
 
 impl<T: Scalar> Decider<T> {
     /// Whether `mode` is feasible; if so, `zeros` says which guards begin with how many vanishing coefficients, and if not,
@@ -195,6 +215,8 @@ impl<T: Scalar> Decider<T> {
     fn ask_values(&mut self, dynamics: &Dynamics<T>, here: SwitchContext<'_, T>) {
         let facts = here.facts;
         let exactly = here.moment.tolerance == 0.0;
+        // A force that was located as zero has nothing that it could be compared with.
+        let all_vanish = RESIDUES * facts.residue >= 1.0;
         let Self {
             sizes,
             questions,
@@ -223,7 +245,7 @@ impl<T: Scalar> Decider<T> {
             let size = sizes.of(guard, dynamics);
             let incomparable = match guard {
                 Guard::NormalForceSign(_) => size <= value.abs(),
-                _ => exactly && size <= RESIDUES * value.abs(),
+                _ => (exactly || all_vanish) && size <= RESIDUES * value.abs(),
             };
             if incomparable && concerns(guard, composites, facts) {
                 // All forces may vanish at this instant.
@@ -252,7 +274,12 @@ impl<T: Scalar> Decider<T> {
         let SwitchContext { moment, facts, .. } = here;
         let last = order == moment.order;
         // A low order's last coefficient is small enough at the same step for a loose tolerance only.
-        let allowed = Tolerance::both(if last { moment.tolerance } else { 1e-3 });
+        let allowed = if last {
+            moment.tolerance.max(f64::EPSILON)
+        } else {
+            1e-3
+        };
+        let allowed = Tolerance::both(allowed);
         let step = taylor::step_size(dynamics, order, allowed);
         let h = step.filter(|h| h.is_finite()).unwrap_or(1.0);
         let ahead = Ahead {
@@ -260,6 +287,7 @@ impl<T: Scalar> Decider<T> {
             here,
             order,
             h,
+            allowed,
         };
         let mut unclear = false;
         let questions = core::mem::take(&mut self.questions);
@@ -334,25 +362,31 @@ impl<T: Scalar> Decider<T> {
         series: &mut [f64],
     ) -> Leading {
         let Ahead {
-            dynamics, here, h, ..
+            dynamics,
+            here,
+            order,
+            h,
+            allowed,
         } = ahead;
         let tolerance = here.moment.tolerance;
         let reading = Reading::Series(dynamics);
-        let mut powers = [0.0; guard::LENGTH];
-        let mut power = 1.0;
-        for entry in &mut powers[..series.len()] {
-            *entry = power;
-            power *= h;
-        }
         redundant::series(
             guard,
             &self.composites,
             &self.posed,
             &reading,
-            &powers,
+            &redundant::ONES,
             series,
         );
         series[..order_known].fill(0.0);
+        // In free flight the motion has a series that ends, and reaches everywhere; that of the wall that it has left does not.
+        let own = taylor::step_size(&Alone(series), order, allowed);
+        let h = own.map_or(h, |own| own.min(h));
+        let mut power = 1.0;
+        for c in &mut *series {
+            *c *= power;
+            power *= h;
+        }
         let size = series.iter().fold(0.0_f64, |size, c| size.max(c.abs()));
         // The residue of a located root, and what follows from it, has the size of the integration error.
         let (relative, absolute) = if concerns(guard, &self.composites, here.facts) {

@@ -6,7 +6,7 @@ use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
 
 /// Factors that change nothing.
-const ONES: [f64; guard::LENGTH] = [1.0; guard::LENGTH];
+pub const ONES: [f64; guard::LENGTH] = [1.0; guard::LENGTH];
 
 /// A guard as a part of a composite one.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -22,7 +22,7 @@ use crate::modes::guard::Guard;
 use crate::modes::scale::Sizes;
 use crate::system::Normal;
 use bounds::{Bound, Cone};
-pub use composite::{CompositeGuard, Part, series, side, value};
+pub use composite::{CompositeGuard, ONES, Part, series, side, value};
 
 /// Undetermined forces at one state; the memory is reused.
 #[derive(Clone, Debug, Default)]

@@ -24,6 +24,7 @@ mod feasible;
 mod groove;
 mod held;
 mod hoop;
+mod in_a_row;
 mod in_turn;
 mod incline;
 mod instants;
