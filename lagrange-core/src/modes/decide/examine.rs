@@ -1,7 +1,7 @@
 //! Whether one candidate mode is feasible: its guards just after the instant.
 
 use super::questions::{concerns, leading, list_questions, unit_of_order};
-use super::{Decider, EvaluationPoint, SwitchContext};
+use super::{Decider, EvaluationPoint, SwitchContext, SwitchFacts};
 use crate::arithmetic::Scalar;
 use crate::dynamics::{Dynamics, EvaluationError, OutputMask};
 use crate::integrate::Tolerance;
@@ -301,7 +301,7 @@ impl<T: Scalar> Decider<T> {
                 Leading::Stays if !last => unclear = true,
                 Leading::Stays
                     if self.sticks_first && matches!(guard, Guard::Slip(_))
-                        || is_held::<T>(guard, dynamics) =>
+                        || is_held::<T>(guard, facts, dynamics) =>
                 {
                     self.violated.push(guard);
                 }
@@ -405,10 +405,12 @@ impl<T: Scalar> Decider<T> {
 }
 
 /// Whether a contact cannot open because others are closed, or a friction cannot slip because others stick: then the mode
-/// in which it is closed, or sticks, has the same motion, and more forces to choose from.
-fn is_held<T: Scalar>(guard: Guard, dynamics: &Dynamics<T>) -> bool {
+/// in which it is closed, or sticks, has the same motion, and more forces to choose from. Not so a contact that a force has left which
+/// was determined, because the sliding friction of the others depends on it.
+fn is_held<T: Scalar>(guard: Guard, facts: &SwitchFacts, dynamics: &Dynamics<T>) -> bool {
     let d = dynamics.description();
     let mut rows = match guard {
+        Guard::Gap(c) if facts.located.contains(&Guard::Normal(c)) => return false,
         Guard::Gap(c) => d.contacts[c].row..d.contacts[c].row + 1,
         Guard::Slip(f) => d.frictions[f].row..d.frictions[f].row + d.frictions[f].components,
         _ => return false,

@@ -1,6 +1,6 @@
 //! Frictions that share a load in no determined way, and a load that exceeds what they hold for a moment only.
 
-use super::state;
+use super::{PI, state};
 use lagrange_core::prelude::*;
 use lagrange_tests::{agree, event, run_by, words};
 
@@ -202,6 +202,55 @@ fn of_two_flanks_one_pushes() {
             let asked = format!("{method} at {t}");
             agree(&asked, now.force(Tooth::DRIVE), push.max(0.0), 1e-8);
             agree(&asked, now.force(Tooth::COAST), (-push).max(0.0), 1e-8);
+        }
+    }
+}
+
+/// A disc that turns between two pads without play, pressed now onto one, now onto the other.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(z, theta),
+    kinetic = mass/2 * der(z)^2 + inertia/2 * der(theta)^2,
+    force(press: z = -load * cos(rate * t)),
+    contact(front: z >= 0),
+    contact(back: z <= 0),
+    friction(front_pad on front: slip = radius * der(theta), static = mu),
+    friction(back_pad on back: slip = radius * der(theta), static = mu),
+)]
+struct Disc {
+    mass: f64,
+    inertia: f64,
+    load: f64,
+    rate: f64,
+    radius: f64,
+    mu: f64,
+}
+
+/// I ω̇ = −μ R F |cos νt|, so that it stops where ∫|cos νt| ν dt is I ω ν/(μ R F).
+#[test]
+fn a_load_that_reverses_brakes_on_the_other_side() {
+    let disc = Disc {
+        mass: 2.0,
+        inertia: 0.4,
+        load: 9.0,
+        rate: 2.0,
+        radius: 0.25,
+        mu: 0.3,
+    };
+    for (spin, angle, pad) in [
+        (0.6, 0.6_f64.asin(), "front_pad"),
+        (1.3, PI - 0.7_f64.asin(), "back_pad"),
+        (3.3, 2.0 * PI - 0.7_f64.asin(), "front_pad"),
+    ] {
+        let omega = spin * disc.mu * disc.radius * disc.load / (disc.inertia * disc.rate);
+        for method in ["auto", "taylor", "dop853"] {
+            for tolerance in [1e-6, 1e-9, 1e-12] {
+                let start = state(&[0.0; 2], &[0.0, omega]);
+                let motion = run_by(&disc, (method, tolerance), start, 3.0);
+                let asked = format!("{spin} {method} {tolerance:e}");
+                let time = event(&motion, pad, "sticks").time;
+                agree(&asked, disc.rate * time, angle, 100.0 * tolerance);
+            }
         }
     }
 }
