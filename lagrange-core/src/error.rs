@@ -100,7 +100,8 @@ pub enum Error {
         /// Its value after the jump.
         after: f64,
     },
-    /// No mode continues the motion although all coefficients are legal (Painlevé's paradox), or no impact law has a solution.
+    /// No mode continues the motion although all coefficients are legal (Painlevé's paradox, walls that meet), or no impact law has a
+    /// solution.
     NoMode {
         /// Time, s.
         time: f64,
@@ -110,6 +111,10 @@ pub enum Error {
         item: &'static str,
         /// Number of modes that were tried.
         tried: usize,
+        /// Whether frictions take part.
+        friction: bool,
+        /// Whether there are piecewise expressions, which may jump.
+        branches: bool,
     },
     /// Impacts in turn do not come to an end at one instant.
     EndlessImpacts {
@@ -300,12 +305,23 @@ impl fmt::Display for Error {
                 mode,
                 item,
                 tried,
-            } => write!(
-                f,
-                "t = {time} ({mode}): none of {tried} modes continues the motion at `{item}`; \
-                 rigid friction may have no solution (Painlevé 1895): lower its coefficient or make the contact compliant; \
-                 a force that jumps with the sign of a velocity is declared as a friction; else ask for a smaller tolerance"
-            ),
+                friction,
+                branches,
+            } => {
+                write!(
+                    f,
+                    "t = {time} ({mode}): none of {tried} modes continues the motion at `{item}`; "
+                )?;
+                if *friction {
+                    f.write_str("rigid friction may have no solution (Painlevé 1895): lower its coefficient or make the contact compliant; ")?;
+                } else {
+                    f.write_str("contacts that move may leave no room between them; ")?;
+                }
+                if *friction || *branches {
+                    f.write_str("a force that jumps with the sign of a velocity is declared as a friction; ")?;
+                }
+                f.write_str("else ask for a smaller tolerance")
+            }
             Error::EndlessImpacts {
                 time,
                 item,

@@ -97,7 +97,7 @@ impl fmt::Display for EvaluationError {
             Self::Undetermined { row } => {
                 write!(
                     f,
-                    "the equations do not determine the force of row {row}: it depends on other rows there, or its kinetic friction is too large"
+                    "the equations do not determine the force of row {row}: it depends on other rows there, or its kinetic friction is so large that it locks itself"
                 )
             }
             Self::Inconsistent { row, residual } => write!(

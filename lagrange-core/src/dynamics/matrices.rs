@@ -28,6 +28,19 @@ impl<T: Scalar> Dynamics<T> {
         DVector::from_iterator(self.description().coordinates.len(), forcing)
     }
 
+    /// Whether M is positive definite at the evaluation at hand, which need not have come to its end.
+    pub(super) fn has_inertia(&self) -> bool {
+        let n = self.description().coordinates.len();
+        let nodes = self.program_nodes();
+        let mut matrix = DMatrix::zeros(n, n);
+        for &(i, j, place) in self.description().mass {
+            let mass = place.read(&self.compiled().constants, &nodes).value();
+            matrix[(i, j)] = mass;
+            matrix[(j, i)] = mass;
+        }
+        matrix.cholesky().is_some()
+    }
+
     /// A of the rows that act ([`Self::acting_rows`]) × coordinates, at the last [`Self::value`].
     pub fn constraint_jacobian(&self) -> DMatrix<T> {
         let rows = self.acting_rows();

@@ -32,7 +32,7 @@ pub use projection::Residual;
 pub(crate) use slip_direction::{approach, solve_small};
 
 use crate::arithmetic::Scalar;
-use crate::effects::Effects;
+use crate::effects::{Effects, Item};
 use crate::linear::{SolveError, Solver};
 use crate::mode::Mode;
 use crate::system::Erased;
@@ -228,6 +228,12 @@ impl<T: Scalar> Dynamics<T> {
             .unwrap_or_default()
     }
 
+    /// Whether frictions take part.
+    pub(crate) fn has_frictions(&self) -> bool {
+        let d = self.description();
+        (0..d.frictions.len()).any(|f| self.effects().includes(d, Item::Friction(f)))
+    }
+
     /// The rows that act as equations in this mode, ascending.
     pub fn acting_rows(&self) -> &[usize] {
         &self.compiled().acting
@@ -417,6 +423,13 @@ impl<T: Scalar> Dynamics<T> {
     fn solve_error(&self, error: SolveError) -> EvaluationError {
         let pattern = &self.compiled().pattern;
         let free = pattern.free();
+        let carries = pattern.slides.iter().find_map(|slide| slide.source);
+        if let (SolveError::Undetermined { .. }, Some(row)) = (error, carries)
+            && self.has_inertia()
+        {
+            // Where every coordinate has inertia only a sliding friction leaves anything open.
+            return EvaluationError::Undetermined { row };
+        }
         match error {
             SolveError::NotFinite { equation } => self.not_finite(equation),
             SolveError::Undetermined { unknown } if unknown < free => EvaluationError::NoInertia {

@@ -448,3 +448,84 @@ fn what_has_no_series_is_named() {
     assert_eq!(named(&[film, far], 0.0), ["x"]);
     assert_eq!(named(&[film], 1.0), ["far"]);
 }
+
+/// A collar on a guide that runs down to the left at 3 in 4, pressed onto a plank that slides.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, s),
+    kinetic = plank/2 * der(x)^2 + collar/2 * (rise^2 + run^2) * der(s)^2,
+    force(press: s = -load),
+    contact(face: rise * s >= 0),
+    friction(rub on face: slip = der(x) - run * der(s), static = mu),
+)]
+struct Collar {
+    plank: f64,
+    collar: f64,
+    load: f64,
+    rise: f64,
+    run: f64,
+    mu: f64,
+}
+
+/// Where the friction angle is that of the guide, normal force and friction together do not move the collar: that is not for want of
+/// inertia.
+#[test]
+fn a_collar_that_locks_itself_is_told() {
+    let collar = Collar {
+        plank: 2.0,
+        collar: 0.5,
+        load: 3.0,
+        rise: 3.0,
+        run: 4.0,
+        mu: 0.75,
+    };
+    let start = State::new(vec![0.0; 2], vec![-1.0, 0.0]);
+    let failure = Simulation::new(&collar)
+        .run(start, 0.0..1.0)
+        .expect_err("nothing carries the load");
+    let text = failure.error.to_string();
+    assert!(
+        text.contains("locks itself") && text.contains("`face`"),
+        "{text}"
+    );
+}
+
+/// A ball between an anvil and a press that comes down on it.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(y),
+    kinetic = mass/2 * der(y)^2,
+    potential = mass * gravity * y,
+    contact(anvil: y >= 0, restitution = e),
+    contact(press: y <= height - speed * t, restitution = e),
+)]
+struct Press {
+    mass: f64,
+    gravity: f64,
+    height: f64,
+    speed: f64,
+    e: f64,
+}
+
+/// There is no friction that could be the cause.
+#[test]
+fn a_press_that_meets_the_anvil_is_told_without_friction() {
+    let press = Press {
+        mass: 1.0,
+        gravity: 9.81,
+        height: 1.0,
+        speed: 0.7,
+        e: 0.4,
+    };
+    let start = State::new(vec![0.3], vec![0.0]);
+    let failure = Simulation::new(&press)
+        .run(start, 0.0..2.0)
+        .expect_err("the press meets the anvil");
+    let text = failure.error.to_string();
+    let at = failure.trajectory.last_time();
+    agree("where they meet", at, press.height / press.speed, 1e-6);
+    assert!(
+        text.contains("room between") && !text.contains("friction"),
+        "{text}"
+    );
+}

@@ -154,7 +154,7 @@ impl<T: Scalar> Decider<T> {
                 dynamics.set_mode(&self.best);
                 Ok(())
             }
-            Ok(false) => Err(self.no_mode(here, d)),
+            Ok(false) => Err(self.no_mode(dynamics, here)),
             Err(error) => Err(Error::from_evaluation(error, time, dynamics.mode(), d)),
         }
     }
@@ -201,17 +201,20 @@ impl<T: Scalar> Decider<T> {
         self.listings = listings;
         match (feasible.is_empty(), failure) {
             (true, Some(error)) => Err(error),
-            (true, None) => Err(self.no_mode(here, d)),
+            (true, None) => Err(self.no_mode(dynamics, here)),
             (false, _) => Ok(feasible),
         }
     }
 
-    fn no_mode(&self, here: SwitchContext<'_, T>, d: &'static Description) -> Error {
+    fn no_mode(&self, dynamics: &Dynamics<T>, here: SwitchContext<'_, T>) -> Error {
+        let d = dynamics.description();
         Error::NoMode {
             time: here.moment.t.value(),
             mode: here.present.display(d).to_string(),
             item: concerned(d, here.facts, here.present),
             tried: self.tried,
+            friction: dynamics.has_frictions(),
+            branches: !d.branches.is_empty(),
         }
     }
 

@@ -147,6 +147,8 @@ impl<T: Scalar> Collider<T> {
                     mode: dynamics.mode().display(d).to_string(),
                     item: contact(k),
                     tried: self.law.search.tried,
+                    friction: dynamics.has_frictions(),
+                    branches: !d.branches.is_empty(),
                 });
             }
             Err(Stuck::Endless(k)) => {
