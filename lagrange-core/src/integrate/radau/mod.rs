@@ -88,7 +88,7 @@ struct Memory {
     /// Whether `jacobian` may be used again, and the step size with which it is factored.
     jacobian: bool,
     factored: Option<f64>,
-    /// η of the last iteration.
+    /// η of the last iteration, with which the next one begins if its stages are extrapolated.
     contraction: f64,
     /// Size and error of the last accepted step.
     accepted: Option<(f64, f64)>,

@@ -72,6 +72,8 @@ impl<T: Scalar> Radau<T> {
         let n = self.coordinates;
         let Some(last) = self.memory.last else {
             self.w.fill(T::zero());
+            // How well extrapolated stages converge says nothing of an iteration from rest, whose first correction is far larger.
+            self.memory.contraction = 1.0;
             return;
         };
         for i in 0..n {

@@ -2,7 +2,7 @@
 
 use core::f64::consts::TAU;
 
-use super::problems::{Kepler, Pendulum, Problem, Prothero};
+use super::problems::{Coefficients, Kepler, Pendulum, Problem, Prothero, convolve};
 use super::runge_kutta::run;
 use crate::integrate::{
     Acceleration, Gauss, Integrator, Method, Radau, StepError, StepPolynomial, Tolerance,
@@ -58,6 +58,55 @@ fn radau_has_order_five() {
         order > 4.5,
         "order {order}: {coarse:e} in {few}, {fine:e} in {many} steps"
     );
+}
+
+/// ÿ = 6, ẍ = y³ from rest in 0: y = 3t², x = 27/56 t⁸.
+///
+/// Extrapolated stages of y are exact, and those of x after one correction: then an iteration seems to converge without end.
+struct Chain;
+
+impl Acceleration<f64> for Chain {
+    type Error = &'static str;
+
+    fn acceleration(
+        &mut self,
+        _: f64,
+        q: &[f64],
+        _: &[f64],
+        dv: &mut [f64],
+    ) -> Result<(), Self::Error> {
+        dv.copy_from_slice(&[q[1].powi(3), 6.0]);
+        Ok(())
+    }
+}
+
+impl Problem for Chain {
+    const COORDINATES: usize = 2;
+
+    fn solution(&self, t: f64) -> (Vec<f64>, Vec<f64>) {
+        let x = 27.0 / 56.0 * t.powi(8);
+        let rate = 27.0 / 7.0 * t.powi(7);
+        (vec![x, 3.0 * t * t], vec![rate, 6.0 * t])
+    }
+
+    fn acceleration_series(&self, _: f64, series: &mut Coefficients, k: usize) -> Vec<f64> {
+        let y = &series.q[1];
+        let square: Vec<f64> = (0..=k).map(|j| convolve(y, y, j)).collect();
+        vec![convolve(&square, y, k), if k == 0 { 6.0 } else { 0.0 }]
+    }
+}
+
+#[test]
+fn repeated_steps_of_radau_are_as_good_as_others() {
+    let mut rejected = 0;
+    for digits in 4..=11 {
+        let tolerance = 10f64.powi(-digits);
+        let run = run(&mut Chain, Method::Radau5, Tolerance::both(tolerance), 1.5);
+        let error = run.error(Chain.solution(1.5));
+        assert!(error < tolerance, "{error:e} at {tolerance:e}");
+        rejected += run.rejected;
+    }
+    assert!(rejected > 0);
 }
 
 /// The oscillator of Prothero and Robinson with its exact Jacobian.
