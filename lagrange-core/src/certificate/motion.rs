@@ -37,6 +37,10 @@ pub(super) struct Examination<'a, T: Scalar> {
     pub events: usize,
     /// State in which the motion is to go on.
     pub expected: State<f64>,
+    /// What rounding may make of it: the part [`FINEST`] of how large it was in the step before, from where it may have come to rest.
+    rounding: State<f64>,
+    /// [`FINEST`] of the numbers of the run.
+    finest: f64,
     /// Its time, s.
     pub time: f64,
     /// Steps within which something could not be evaluated.
@@ -140,6 +144,8 @@ pub(super) fn against<T: Scalar>(
         watches: Watches::new(record, declaration, &parameters),
         events: 0,
         expected: start.clone(),
+        rounding: State::new(vec![0.0; start.q.len()], vec![0.0; start.v.len()]),
+        finest,
         time: record.first_time(),
         unevaluated: 0,
         dynamics,
@@ -244,6 +250,7 @@ impl<T: Scalar> Examination<'_, T> {
                     self.equations
                         .examine_positions(at, mode, &mut self.findings);
                 }
+                self.take_rounding();
                 core::mem::swap(&mut self.expected, &mut self.last);
                 self.time = t + h * end;
             }
@@ -516,16 +523,31 @@ impl<T: Scalar> Examination<'_, T> {
         positions.all(near) && velocities.all(near)
     }
 
+    /// What rounding may leave of the state at the end of a step.
+    fn take_rounding(&mut self) {
+        let lists = [
+            (&mut self.rounding.q, &self.begin.q, &self.last.q),
+            (&mut self.rounding.v, &self.begin.v, &self.last.v),
+        ];
+        for (rounding, begin, last) in lists {
+            for i in 0..begin.len() {
+                rounding[i] = self.finest * begin[i].abs().max(last[i].abs());
+            }
+        }
+    }
+
     /// The motion goes on in the state where it was.
     fn join(&mut self, time: f64, found: &State<f64>) {
-        let State { q, v, .. } = &self.expected;
-        let lists = [
-            (&mut self.errors.q, &mut self.sizes.q, q, &found.q),
-            (&mut self.errors.v, &mut self.sizes.v, v, &found.v),
-        ];
-        for (errors, sizes, expected, found) in lists {
+        let (expected, rounding) = (&self.expected, &self.rounding);
+        let q = (&expected.q, &rounding.q, &found.q);
+        let v = (&expected.v, &rounding.v, &found.v);
+        let q = (&mut self.errors.q, &mut self.sizes.q, q);
+        let v = (&mut self.errors.v, &mut self.sizes.v, v);
+        for (errors, sizes, (expected, rounding, found)) in [q, v] {
             for i in 0..found.len() {
-                errors[i] = found[i] - expected[i];
+                let jump = (found[i] - expected[i]).abs();
+                // What is no number stays so.
+                errors[i] = jump - rounding[i].min(jump);
                 sizes[i] = found[i].abs();
             }
         }

@@ -98,6 +98,44 @@ fn what_is_right_is_certified() {
     }
 }
 
+/// A bullet that friction brings to rest: its last velocity is known to a rounding of the first.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    force(press: y = -load),
+    contact(floor: y >= 0),
+    friction(grip on floor: slip = der(x), static = mu),
+)]
+struct Bullet {
+    load: f64,
+    mu: f64,
+}
+
+#[test]
+fn what_comes_to_rest_from_afar_is_certified() {
+    let bullet = Bullet {
+        load: 1e13,
+        mu: 0.3,
+    };
+    for k in 0..25 {
+        let speed = 1e7 * 1.7f64.powi(k);
+        let stops = speed / (bullet.mu * bullet.load);
+        let start = State::new(vec![0.0, 0.0], vec![speed, 0.0]);
+        let simulation = Simulation::new(&bullet).tolerance(1e-10);
+        let run = simulation.run(start, 0.0..2.0 * stops).expect("a run");
+        let (at, way) = (run.events()[0].time, run.final_state().q[0]);
+        assert!((at / stops - 1.0).abs() < 1e-10, "{at:e}, not {stops:e}");
+        let expected = 0.5 * speed * stops;
+        assert!(
+            (way / expected - 1.0).abs() < 1e-10,
+            "{way:e}, not {expected:e}"
+        );
+        let certificate = certificate(&run);
+        assert!(certificate.holds(), "{certificate}");
+    }
+}
+
 #[test]
 fn a_force_a_millionth_too_weak_is_found() {
     let trajectory = run(Effects::all());
