@@ -100,6 +100,14 @@ pub enum Error {
         /// Its value after the jump.
         after: f64,
     },
+    /// A contact is hit whose gap does not fall below zero but turns there, as the distance of two points does: the direction of its force is
+    /// not known.
+    Undirected {
+        /// Time, s.
+        time: f64,
+        /// The contact.
+        item: &'static str,
+    },
     /// No mode continues the motion although all coefficients are legal (Painlevé's paradox, walls that meet), or no impact law has a
     /// solution.
     NoMode {
@@ -300,6 +308,11 @@ impl fmt::Display for Error {
                 "t = {time}: `{item}` jumps from {before:.6} to {after:.6}; write it so that it is continuous, \
                  for example an angle as a coordinate instead of by atan2"
             ),
+            Error::Undirected { time, item } => write!(
+                f,
+                "t = {time}: the gap of `{item}` vanishes where it has no direction, as the distance of two points does; give them a \
+                 size, for example sqrt(x^2 + y^2) >= radius"
+            ),
             Error::NoMode {
                 time,
                 mode,
@@ -351,7 +364,7 @@ impl fmt::Display for Error {
             Error::Limit { time, what, limit } => {
                 write!(
                     f,
-                    "t = {time}: more than {limit} {what}; raise the limit if this is intended"
+                    "t = {time}: more than {limit} {what}; if this is intended, end the run earlier or raise the limit (`max_{what}`)"
                 )
             }
             Error::Inexact {

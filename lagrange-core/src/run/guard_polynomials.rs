@@ -20,6 +20,9 @@ use crate::system::Description;
 /// A guard on the other side of zero than its polynomial is off by more than rounding explains: this much more is counted.
 const OTHER_SIDE: f64 = 1e3;
 
+/// So much a guard of size 1 is off by rounding.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
 /// Samples of a guard in a step of a Runge–Kutta method, at least.
 const FEWEST_SAMPLES: usize = 8;
 
@@ -247,6 +250,13 @@ impl GuardPolynomials {
         Some((curve.guard, self.curve(index)))
     }
 
+    /// The number of a guard of the mode.
+    pub(super) fn index_of(&self, guard: Guard) -> Option<usize> {
+        let first = self.watches.len();
+        let found = self.list[first..].iter().position(|c| c.guard == guard)?;
+        Some(first + found)
+    }
+
     /// Guard number `index` at the last value of `dynamics`.
     #[inline]
     pub(super) fn value<T: Scalar>(
@@ -279,10 +289,65 @@ impl GuardPolynomials {
         [tolerance, blur]: [f64; 2],
         located: impl Fn(Guard) -> bool,
     ) -> f64 {
+        let mut worst = 0.0;
+        self.errors(
+            dynamics,
+            mode,
+            s,
+            [tolerance, blur],
+            located,
+            |error, allowed, other_side| {
+                let mut ratio = error / (allowed + ROUNDING);
+                if other_side {
+                    ratio *= OTHER_SIDE;
+                }
+                worst = if ratio > worst || ratio.is_nan() {
+                    ratio
+                } else {
+                    worst
+                };
+            },
+        );
+        worst
+    }
+
+    /// The same without what rounding explains: a guard that is a small difference of large numbers is off by as much however short
+    /// the step.
+    pub(super) fn truncation<T: Scalar>(
+        &self,
+        dynamics: &mut Dynamics<T>,
+        mode: &Mode,
+        s: f64,
+        tolerance: f64,
+        located: impl Fn(Guard) -> bool,
+    ) -> f64 {
+        let mut worst = 0.0_f64;
+        self.errors(
+            dynamics,
+            mode,
+            s,
+            [tolerance, 0.0],
+            located,
+            |error, allowed, _| worst = worst.max((error - ROUNDING) / allowed),
+        );
+        worst
+    }
+
+    /// Tells the error of every polynomial at part `s` of the step, what is allowed but for rounding, and whether the guard is on the other
+    /// side of zero.
+    #[inline(always)]
+    fn errors<T: Scalar>(
+        &self,
+        dynamics: &mut Dynamics<T>,
+        mode: &Mode,
+        s: f64,
+        [tolerance, blur]: [f64; 2],
+        located: impl Fn(Guard) -> bool,
+        mut tell: impl FnMut(f64, f64, bool),
+    ) {
         if !self.watches.is_empty() {
             dynamics.report_value();
         }
-        let mut worst = 0.0;
         for (index, (curve, c)) in (self.list.iter())
             .zip(self.coefficients.chunks_exact(self.width))
             .enumerate()
@@ -295,17 +360,9 @@ impl GuardPolynomials {
             let found = if s == 1.0 { curve.sums.end } else { at(c, s) };
             // Not all coefficients: where the series has stopped converging they are large and cancel.
             let size = value.abs() + (c[0].abs() + c[1].abs());
-            let mut ratio = (found - value).abs() / (allowed * size + 64.0 * f64::EPSILON);
-            if !located && (found < 0.0) != (value < 0.0) {
-                ratio *= OTHER_SIDE;
-            }
-            worst = if ratio > worst || ratio.is_nan() {
-                ratio
-            } else {
-                worst
-            };
+            let other_side = !located && (found < 0.0) != (value < 0.0);
+            tell((found - value).abs(), allowed * size, other_side);
         }
-        worst
     }
 
     /// Makes the guards stay what they are at the start of the step. The first that must not be what it is in the values that
@@ -403,7 +460,7 @@ impl GuardPolynomials {
             let allowed = (share * tolerance).max(floor).max(INTERPOLATION);
             let value = self.value(index, mode, dynamics);
             let size = value.abs() + (c[0].abs() + c[1].abs());
-            let allowed = (allowed * size + 64.0 * f64::EPSILON).max(AWAY * curve.least);
+            let allowed = (allowed * size + ROUNDING).max(AWAY * curve.least);
             let ratio = (at(c, s) - value).abs() / allowed;
             worst = if ratio > worst || ratio.is_nan() {
                 ratio

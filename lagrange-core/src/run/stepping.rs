@@ -10,12 +10,16 @@ use crate::arithmetic::Scalar;
 use crate::dynamics::EvaluationError;
 use crate::error::Error;
 use crate::integrate::taylor::{self, DefectControl, Verdict};
-use crate::integrate::{Integrator, Method, StepError, StepPolynomial, onto_step};
+use crate::integrate::{
+    Integrator, Method, StepError, StepPolynomial, horner, onto_step, polynomial_derivative,
+};
 use crate::modes::guard::Guard;
 use crate::settings::Settings;
 use crate::system::Description;
 use crate::trajectory::State;
 
+/// How far beyond a hit its gap is looked at, in units of the tolerance.
+const BEYOND: f64 = 10.0;
 /// Where rounding hides how a guard begins, the step is made shorter by this.
 const CLOSER_LOOK: f64 = 0.1;
 /// But not beyond this share of the time that is left (close to time 0 its resolution is no limit).
@@ -151,6 +155,7 @@ impl<T: Scalar> Run<T> {
             if end == 0.0 {
                 return Ok(hit);
             }
+            let turns = self.gap_that_turns(&hit, moves / h);
             // Evaluated here, the end of the step also serves the event log. A slip that vanishes there has no direction.
             let looked = if self.locator.rests.is_empty() {
                 end
@@ -192,9 +197,15 @@ impl<T: Scalar> Run<T> {
                     if self.corrects_composites(&hit, looked, &mut corrections) {
                         continue;
                     }
+                    if let Some(item) = turns {
+                        let time = self.stepper.step.time(T::from_f64(end)).value();
+                        return Err(Error::Undirected { time, item });
+                    }
                     self.now.distance = distance;
-                    self.stepper.guarded =
-                        guarded.then(|| h * looked * taylor::stretch(guards, order));
+                    self.stepper.guarded = guarded.then(|| {
+                        let truncation = self.guard_truncation(&hit, looked);
+                        h * looked * taylor::stretch(guards.min(truncation), order)
+                    });
                     if looked != end {
                         self.state_at_end(end);
                     }
@@ -300,17 +311,60 @@ impl<T: Scalar> Run<T> {
 
     /// The same where forces are known to within `blur` only, relative.
     fn guard_defect_beyond(&mut self, blur: f64, hit: &Hit, looked: f64) -> f64 {
-        let (curves, fallen) = (&self.locator.polynomials, &self.locator.fallen);
-        let stops = matches!(hit, Hit::Stop(..));
-        let located = |g| fallen.contains(&g) || stops && matches!(g, Guard::Stop(..));
         let tolerance = self.settings.tolerance;
-        curves.defect(
+        self.locator.polynomials.defect(
             &mut self.dynamics,
             &self.now.mode,
             looked,
             [tolerance, blur],
-            located,
+            is_located(&self.locator.fallen, hit),
         )
+    }
+
+    /// The same as far as a shorter step makes it smaller.
+    fn guard_truncation(&mut self, hit: &Hit, looked: f64) -> f64 {
+        self.locator.polynomials.truncation(
+            &mut self.dynamics,
+            &self.now.mode,
+            looked,
+            self.settings.tolerance,
+            is_located(&self.locator.fallen, hit),
+        )
+    }
+
+    /// The contact that is hit by its polynomial but whose gap rises beyond, as far as the motion is known there, up to part `known` of the
+    /// step: a distance √(x² + y²), which has no direction where it vanishes.
+    ///
+    /// Positions are known to the tolerance, so that is what is looked at beyond the hit.
+    fn gap_that_turns(&mut self, hit: &Hit, known: f64) -> Option<&'static str> {
+        let Hit::Guards(end) = *hit else {
+            return None;
+        };
+        for k in 0..self.locator.fallen.len() {
+            let guard = self.locator.fallen[k];
+            let Guard::Gap(contact) = guard else {
+                continue;
+            };
+            self.state_at_end(end);
+            let index = self.locator.polynomials.index_of(guard)?;
+            let (_, curve) = self.locator.polynomials.get(index)?;
+            let q = self.stepper.scratch.q.iter();
+            let size = q.fold(1.0_f64, |size, q| size.max(q.value().abs()));
+            let depth = BEYOND * self.settings.tolerance.max(1e-13) * size;
+            let beyond = end + depth / polynomial_derivative(curve, end).abs();
+            if beyond > known || horner(curve, beyond) > -0.5 * depth {
+                continue;
+            }
+            self.state_at_end(beyond);
+            let State { q, v, .. } = &self.stepper.scratch;
+            let time = self.stepper.step.time(T::from_f64(beyond));
+            self.dynamics.tape(time, q, v);
+            let curves = &self.locator.polynomials;
+            if curves.value(index, &self.now.mode, &self.dynamics) > 0.5 * depth {
+                return Some(self.description().contacts[contact].name);
+            }
+        }
+        None
     }
 
     /// The state at part `end` of the step, in `scratch`, and the equations of motion there.
@@ -536,4 +590,10 @@ impl<T: Scalar> Run<T> {
             Err(e) => Err(self.error(e)),
         }
     }
+}
+
+/// Whether a guard is one of the `fallen` whose root is the end of the step, or belongs to the stop that is.
+fn is_located(fallen: &[Guard], hit: &Hit) -> impl Fn(Guard) -> bool {
+    let stops = matches!(hit, Hit::Stop(..));
+    move |guard| fallen.contains(&guard) || stops && matches!(guard, Guard::Stop(..))
 }

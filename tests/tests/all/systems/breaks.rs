@@ -85,6 +85,102 @@ fn a_stop_on_a_distance_fires_beyond_the_origin() {
     }
 }
 
+/// A stone that is thrown at a peg.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    potential = gravity * y,
+    contact(peg: sqrt((x - 2)^2 + (y + 1)^2) >= radius, restitution = 1),
+)]
+struct Stone {
+    gravity: f64,
+    radius: f64,
+}
+
+#[test]
+fn a_point_that_is_hit_has_no_direction() {
+    let scene = Stone {
+        gravity: G,
+        radius: 0.0,
+    };
+    for tolerance in TOLERANCES {
+        for flight in [0.3, 0.5, 0.7] {
+            let start = state(&[0.0; 2], &[2.0 / flight, 0.5 * G * flight - 1.0 / flight]);
+            let run = Simulation::new(&scene).tolerance(tolerance);
+            let failure = run.run(start, 0.0..2.0).expect_err("no direction");
+            let Error::Undirected { time, item } = failure.error else {
+                panic!("{failure}");
+            };
+            assert_eq!(item, "peg");
+            agree("time", time, flight, 10.0 * tolerance);
+        }
+    }
+}
+
+#[test]
+fn a_point_that_is_missed_is_passed() {
+    let scene = Stone {
+        gravity: 0.0,
+        radius: 0.0,
+    };
+    for tolerance in TOLERANCES {
+        for beside in [20.0 * tolerance, 1e3 * tolerance] {
+            let start = state(&[0.0, -1.0 + beside], &[3.0, 0.0]);
+            let run = run_at(&scene, tolerance, start, 2.0);
+            assert_eq!(words(&run), [""; 0]);
+            agree("x", run.final_state().q[0], 6.0, 1e-14);
+        }
+    }
+}
+
+#[test]
+fn a_small_peg_turns_the_stone_back() {
+    let scene = Stone {
+        gravity: 0.0,
+        radius: 1e-3,
+    };
+    for tolerance in TOLERANCES {
+        let start = state(&[0.0, -1.0], &[4.0, 0.0]);
+        let run = run_at(&scene, tolerance, start, 1.0);
+        let hit = (2.0 - scene.radius) / 4.0;
+        agree(
+            "time",
+            event(&run, "peg", "impact").time,
+            hit,
+            10.0 * tolerance,
+        );
+        agree(
+            "x",
+            run.final_state().q[0],
+            4.0 * (2.0 * hit - 1.0),
+            100.0 * tolerance,
+        );
+    }
+}
+
+/// Two stones that part from close by, far from the origin: their distance is known to roundings of their places.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, u, w),
+    kinetic = (der(x)^2 + der(y)^2 + der(u)^2 + der(w)^2) / 2,
+    contact(touch: sqrt((x - u)^2 + (y - w)^2) >= 0),
+)]
+struct Stones {
+    _unit: f64,
+}
+
+#[test]
+fn roundings_of_a_distance_do_not_hold_up_the_motion() {
+    for far in [40.0, 170.0, 300.0] {
+        let start = state(&[far, far, far + 1e-11, far - 1e-11], &[0.0, 0.0, 7.0, 5.0]);
+        let run = run_at(&Stones { _unit: 1.0 }, 1e-9, start, 2.0);
+        agree("u", run.final_state().q[2], far + 14.0, 1e-11);
+        let steps = run.work().steps;
+        assert!(steps < 100, "{steps} from {far}");
+    }
+}
+
 /// A bead on a line between two stops that are one distance.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
