@@ -35,6 +35,7 @@ use lagrange_core::prelude::*;
     draw(arrow: left_grip * (1, 0) at (left_x, left_y)),
     draw(arrow: right * (0, 1) at (right_x, right_y)),
     draw(arrow: right_grip * (1, 0) at (right_x, right_y)),
+    emit = data,
 )]
 pub struct RockingBlock<T = f64> {
     /// Mass, kg.

@@ -33,6 +33,7 @@ use lagrange_core::prelude::*;
     draw(arrow: left_grip * (cos(theta), sin(theta)) at (-back, 0)),
     draw(arrow: right * (-sin(theta), cos(theta)) at (front, 0)),
     draw(arrow: right_grip * (cos(theta), sin(theta)) at (front, 0)),
+    emit = data,
 )]
 pub struct RodOnSupports<T = f64> {
     /// Mass, kg.

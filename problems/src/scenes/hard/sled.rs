@@ -31,6 +31,7 @@ use lagrange_core::prelude::*;
         at (x, y) + (k - 1) * span * (cos(theta), sin(theta)) + height * (sin(theta), -cos(theta))),
     draw(arrow[k in 0..3]: grip[k] * (1, 0)
         at (x, y) + (k - 1) * span * (cos(theta), sin(theta)) + height * (sin(theta), -cos(theta))),
+    emit = data,
 )]
 pub struct Sled<T = f64> {
     /// Mass, kg.

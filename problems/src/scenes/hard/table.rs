@@ -62,6 +62,7 @@ use lagrange_core::prelude::*;
     draw(arrow: (grip_rear_left[0], grip_rear_left[1], 0) at foot[2]),
     draw(arrow: rear_right * (0, 0, 1) at foot[3]),
     draw(arrow: (grip_rear_right[0], grip_rear_right[1], 0) at foot[3]),
+    emit = data,
 )]
 pub struct Table<T = f64> {
     /// Mass, kg.

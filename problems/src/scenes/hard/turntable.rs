@@ -28,6 +28,7 @@ use lagrange_core::prelude::*;
     draw(sphere: (x, y, radius), radius = radius, attitude = ball),
     draw(path: (x, y, 0)),
     draw(arrow: (rolling_x, rolling_y, 0) at (x, y, 0), name = rolling),
+    emit = data,
 )]
 pub struct Turntable<T = f64> {
     /// Mass of the ball, kg.

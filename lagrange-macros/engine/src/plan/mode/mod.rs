@@ -32,10 +32,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 pub use stages::Phase;
 
-/// Modes with more operations are interpreted, unless the declaration says otherwise.
+/// Systems with more operations in a mode are interpreted, unless the declaration says otherwise.
 const MOST_OPERATIONS: usize = 220;
-/// So are the modes of a system that have more together: a compiler works on them for as long as on thirty small systems.
-const MOST_OPERATIONS_TOGETHER: usize = 500;
 /// Systems with more unknowns are interpreted.
 const MOST_UNKNOWNS: usize = 8;
 /// More modes than these are not listed.
@@ -160,18 +158,10 @@ pub(super) fn programs(equations: &mut Equations) -> Vec<ModeProgram> {
     let unknowns: Vec<Symbol> = (0..MOST_UNKNOWNS)
         .map(|i| equations.system.pool.symbol(&format!("w{i}")))
         .collect();
-    let programs: Vec<ModeProgram> = modes
+    modes
         .into_iter()
         .filter_map(|mode| specialise(equations, mode, &signs, &fixed, &unknowns))
-        .collect();
-    let operations = programs
-        .iter()
-        .map(|mode| mode.operations(Phase::Accelerations));
-    let too_many = operations.sum::<usize>() > MOST_OPERATIONS_TOGETHER;
-    match too_many && equations.system.emit == Emit::BySize {
-        true => Vec::new(),
-        false => programs,
-    }
+        .collect()
 }
 
 /// The program of a mode; none where numbers must decide how to solve it, or where it is too long.
