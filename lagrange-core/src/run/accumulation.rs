@@ -211,11 +211,13 @@ impl<T: Scalar> Run<T> {
             self.switcher.train.book(self.now.t.value(), c);
             let ended = self.accumulate(c, facts);
             if let Some((count, remaining)) = ended.or_else(|| self.die_out(facts)) {
-                let before = (self.now.t, self.now.state.clone());
+                let time = self.now.t;
+                self.switcher.before_closing.clone_from(&self.now.state);
                 let closed = self.close_contacts(c, count, remaining, facts);
                 if closed.is_err() {
                     // A motion that cannot go on ends where it was.
-                    (self.now.t, self.now.state) = before;
+                    self.now.t = time;
+                    self.now.state.clone_from(&self.switcher.before_closing);
                 }
                 closed?;
             }

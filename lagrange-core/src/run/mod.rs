@@ -134,7 +134,7 @@ impl<T: Scalar> Run<T> {
             exponents: Exponents::new(&system, &settings.effects),
             rank: Rank::new(d, &settings.effects),
             locator: Locator::new(d, settings, &mode),
-            switcher: Switcher::new(d, &mode),
+            switcher: Switcher::new(d, &state, &mode),
             recorder: Recorder::new(&system, settings, &state, &mode),
             now: Now {
                 t: T::default(),

@@ -1,5 +1,5 @@
-//! How well accelerations can be known: where an inertia is about to vanish, or constraints to lose their rank, the rounding errors of the
-//! elements are all that is left of it.
+//! How well accelerations can be known: where an inertia is about to vanish, the rounding errors of the elements are all that is left
+//! of it. (Constraints that lose their rank are watched by [`super::singular`].)
 //!
 //! In M v̇ = f with elements known to within a share ε, v̇ is open by ε |K⁻¹| |K| |v̇|, K the whole matrix with the rows that act (Skeel
 //! 1979, J. ACM 26; Higham 2002, section 7.2). No residual shows that: the accelerations satisfy equations that differ by rounding. Nor
@@ -58,11 +58,11 @@ impl<T: Scalar> Run<T> {
     /// [`Error::Singular`] if it does not.
     #[inline]
     pub(super) fn check_resolution(&mut self) -> Result<(), Error> {
-        match self
+        let short = self
             .stepper
             .resolution
-            .examines(self.stepper.step.h.value())
-        {
+            .examines(self.stepper.step.h.value());
+        match short && !self.rank.watches() {
             true => self.resolve_accelerations(),
             false => Ok(()),
         }

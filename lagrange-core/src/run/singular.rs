@@ -32,8 +32,8 @@ pub(super) const MOST_RETREATS: usize = 5;
 const UNDECIDED: f64 = 1e-2;
 /// Error of a leap in units of what is allowed for a step: no more than steps have, so that passages do not cost more digits than they do,
 const GOOD: f64 = 0.3;
-/// and where nothing better can be had any more: estimates of errors only estimate.
-const BEARABLE: f64 = 16.0;
+/// and where nothing better can be had any more.
+const BEARABLE: f64 = 1e4;
 
 /// Nearer than this the steps of other methods are left to Taylor series.
 const DOUBTFUL: f64 = 0.4;

@@ -15,6 +15,7 @@ use crate::modes::status::ConstraintStatus;
 use crate::modes::table::Table;
 use crate::pool::Pool;
 use crate::system::{Description, Normal};
+use crate::trajectory::State;
 
 /// A gap that changes by no more than so many tolerances per second where its region begins neither closes nor opens there.
 const ENTERS: f64 = 10.0;
@@ -30,6 +31,8 @@ pub(super) struct Switcher<T> {
     pub(super) impacts: Vec<Impacts<T>>,
     /// All impacts so far.
     pub(super) train: Train,
+    /// The state before contacts are closed whose impacts have died out.
+    pub(super) before_closing: State<T>,
     /// The mode of a flight through impacts that accumulate.
     pub(super) scratch_mode: Mode,
     pub(super) decider: Decider<T>,
@@ -41,7 +44,7 @@ pub(super) struct Switcher<T> {
 }
 
 impl<T: Scalar> Switcher<T> {
-    pub(super) fn new(d: &'static Description, mode: &Mode) -> Self {
+    pub(super) fn new(d: &'static Description, state: &State<T>, mode: &Mode) -> Self {
         let contacts = d.contacts.len();
         Switcher {
             status: ConstraintStatus::new(d),
@@ -49,6 +52,7 @@ impl<T: Scalar> Switcher<T> {
             near: Vec::with_capacity(contacts),
             impacts: vec![Impacts::default(); contacts],
             train: Train::default(),
+            before_closing: state.clone(),
             scratch_mode: mode.clone(),
             decider: Decider::new(d),
             table: Table::default(),
