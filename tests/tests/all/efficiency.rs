@@ -66,7 +66,7 @@ fn work_on_the_cartesian_pendulum_does_not_grow() {
             verner98        119         0         2902       2              51           42
             radau5         3077         0        30988       1             207            2
             rk4:0.005      2000         0        17886       1            2015         1884
-            gauss6:0.01    1001         0        19096       1               1            0
+            gauss6:0.01    1001         0        19096       1               0            0
         "#]],
     );
 }
