@@ -18,6 +18,7 @@ use super::real::Real;
 use super::series::{COSH, EXP, SINH, Series, TANH, function, power};
 use super::{Declaration, op};
 use core::ops::AddAssign;
+use std::collections::BTreeMap;
 
 /// What a declaration is evaluated at.
 #[derive(Clone, Copy, Debug)]
@@ -279,25 +280,17 @@ pub fn exponents(
 ) -> Vec<(usize, f64)> {
     let all = operations(declaration);
     let needed = needed(&all, wanted);
-    let acting = all.iter().filter(|operation| needed[operation.value]);
-    let mut exponents: Vec<(usize, f64)> = acting
-        .filter_map(
-            |operation| match operation.code.checked_sub(op::FUNCTIONS)? {
-                SINH | COSH | EXP => Some((operation.x, 1.0)),
-                TANH => Some((operation.x, 2.0)),
-                _ => None,
-            },
-        )
-        .collect();
-    exponents.sort_unstable_by_key(|&(argument, _)| argument);
-    exponents.dedup_by(|next, kept| {
-        let same = next.0 == kept.0;
-        if same {
-            kept.1 = kept.1.max(next.1);
-        }
-        same
-    });
-    exponents
+    let mut exponents: BTreeMap<usize, f64> = BTreeMap::new();
+    for operation in all.iter().filter(|operation| needed[operation.value]) {
+        let factor = match operation.code.checked_sub(op::FUNCTIONS) {
+            Some(SINH | COSH | EXP) => 1.0,
+            Some(TANH) => 2.0,
+            _ => continue,
+        };
+        let known = exponents.entry(operation.x).or_default();
+        *known = known.max(factor);
+    }
+    exponents.into_iter().collect()
 }
 
 fn operations(declaration: &Declaration) -> Vec<Operation> {

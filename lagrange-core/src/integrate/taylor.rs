@@ -140,6 +140,12 @@ fn step_from_sizes(sizes: &[f64], first: usize, strictness: f64) -> f64 {
     ((LAST - last) / order).exp2()
 }
 
+/// The worse of two errors: the larger one, or that which is not a number.
+#[inline(always)]
+pub(crate) fn worse(x: f64, y: f64) -> f64 {
+    if x >= y || x.is_nan() { x } else { y }
+}
+
 /// The larger of two numbers, the second if one is not a number, in one instruction.
 #[inline(always)]
 fn larger(x: f64, y: f64) -> f64 {

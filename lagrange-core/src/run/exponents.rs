@@ -21,13 +21,8 @@ const RISE: f64 = 0.5;
 const PIECES: usize = 8;
 
 /// The arguments of exp, sinh, cosh and tanh in what acts.
-#[derive(Debug, Default)]
-pub(super) struct Exponents {
-    followed: Option<Followed>,
-}
-
 #[derive(Debug)]
-struct Followed {
+pub(super) struct Exponents {
     evaluator: Evaluator,
     /// Each argument, and by how much the exponent changes with it.
     arguments: Vec<(usize, f64)>,
@@ -41,12 +36,12 @@ struct Followed {
 }
 
 impl Exponents {
-    /// Those of a system.
-    pub(super) fn new<T: Scalar>(system: &Erased<T>, effects: &Effects) -> Self {
+    /// Those of a system, if it has any.
+    pub(super) fn new<T: Scalar>(system: &Erased<T>, effects: &Effects) -> Option<Self> {
         let (d, declaration) = (system.description(), system.declaration());
         let mut arguments = exponents(declaration, acting(d, declaration, effects));
         if arguments.is_empty() {
-            return Self::default();
+            return None;
         }
         let parameters: Vec<f64> = (0..d.parameters.len())
             .map(|i| system.parameter(i).value())
@@ -57,7 +52,7 @@ impl Exponents {
             evaluator.moves(argument) && !evaluator.is_of_forces(argument)
         });
         let (n, count) = (d.coordinates.len(), arguments.len());
-        let followed = (count > 0).then(|| Followed {
+        (count > 0).then(|| Self {
             evaluator,
             arguments,
             before: vec![[0.0; 2]; count],
@@ -65,13 +60,7 @@ impl Exponents {
             q: vec![0.0; n],
             v: vec![0.0; n],
             still: vec![0.0; n],
-        });
-        Self { followed }
-    }
-
-    /// Whether there are any.
-    pub(super) fn are_followed(&self) -> bool {
-        self.followed.is_some()
+        })
     }
 
     /// Which part of a step, up to `end` of it, a method of this order can follow all exponents over: `end`, or less.
@@ -81,15 +70,7 @@ impl Exponents {
         end: f64,
         order: usize,
     ) -> f64 {
-        match &mut self.followed {
-            Some(followed) => followed.part(step, end, RISE * order as f64),
-            None => end,
-        }
-    }
-}
-
-impl Followed {
-    fn part<T: Scalar>(&mut self, step: &StepPolynomial<T>, end: f64, rise: f64) -> f64 {
+        let rise = RISE * order as f64;
         let piece = end / PIECES as f64;
         let change = piece * step.h.value();
         self.look(step, 0.0);

@@ -11,6 +11,7 @@ use crate::dynamics::{Dynamics, EvaluationError};
 use crate::effects::{Effects, Item};
 use crate::events::{deflate, keeps_its_sign};
 use crate::integrate::StepPolynomial;
+use crate::integrate::taylor::worse;
 use crate::mode::Mode;
 use crate::modes::guard::{Guard, Linear, Sums};
 use crate::modes::reading::Reading;
@@ -301,11 +302,7 @@ impl GuardPolynomials {
                 if other_side {
                     ratio *= OTHER_SIDE;
                 }
-                worst = if ratio > worst || ratio.is_nan() {
-                    ratio
-                } else {
-                    worst
-                };
+                worst = worse(worst, ratio);
             },
         );
         worst
@@ -461,12 +458,7 @@ impl GuardPolynomials {
             let value = self.value(index, mode, dynamics);
             let size = value.abs() + (c[0].abs() + c[1].abs());
             let allowed = (allowed * size + ROUNDING).max(AWAY * curve.least);
-            let ratio = (at(c, s) - value).abs() / allowed;
-            worst = if ratio > worst || ratio.is_nan() {
-                ratio
-            } else {
-                worst
-            };
+            worst = worse(worst, (at(c, s) - value).abs() / allowed);
         }
         worst
     }

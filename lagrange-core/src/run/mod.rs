@@ -70,7 +70,8 @@ pub(crate) struct Run<T: Scalar> {
     dynamics: Dynamics<T>,
     now: Now<T>,
     stepper: Stepper<T>,
-    exponents: Exponents,
+    /// Of what is declared, if there are any.
+    exponents: Option<Exponents>,
     /// Watches for positions where constraints lose rank.
     rank: Rank,
     locator: Locator<T>,
@@ -161,7 +162,7 @@ impl<T: Scalar> Run<T> {
 
     /// Takes another system of the same kind.
     pub(crate) fn set_system(&mut self, system: Erased<T>) {
-        if self.exponents.are_followed() {
+        if self.exponents.is_some() {
             self.exponents = Exponents::new(&system, &self.settings.effects);
         }
         self.dynamics.set_system(system);

@@ -79,16 +79,12 @@ impl<T: Scalar> Run<T> {
         let step = &self.stepper.step;
         let accelerations = (0..v.len()).map(|i| step.acceleration(i, T::zero()).value().abs());
         let fastest = accelerations.enumerate().map(share).fold(0.0, f64::max);
-        let shares = open
-            .into_iter()
-            .enumerate()
-            .map(|pair| (pair.0, share(pair)));
-        let (coordinate, most) = shares.fold(
-            (0, 0.0),
-            |most, pair| {
-                if pair.1 > most.1 { pair } else { most }
-            },
-        );
+        let shares = (open.into_iter().enumerate()).map(|(i, rate)| (i, share((i, rate))));
+        let larger = |most: (usize, f64), next: (usize, f64)| match next.1 > most.1 {
+            true => next,
+            false => most,
+        };
+        let (coordinate, most) = shares.fold((0, 0.0), larger);
         let time = self.stepper.resolution.longest.min(1.0 / fastest);
         let unknown = UNITS * epsilon::<T>() * most * time;
         let allowed = MARGIN * self.settings.tolerance;

@@ -10,7 +10,7 @@ use crate::arithmetic::Scalar;
 use crate::dynamics::EvaluationError;
 use crate::events::{Direction, Root, RootList, roots};
 use crate::integrate::polynomial_derivative as slope;
-use crate::integrate::taylor::defect;
+use crate::integrate::taylor::{defect, worse};
 use crate::modes::guard::Guard;
 
 /// What the next step aims at, in units of what is allowed.
@@ -44,10 +44,7 @@ impl<T: Scalar> Run<T> {
             return Ok(0.0);
         }
         let mut worst = 0.0_f64;
-        let mut note = |defect: f64| {
-            // Not the larger of a number and a NaN, which would be the number.
-            worst = if defect <= worst { worst } else { defect };
-        };
+        let mut note = |defect: f64| worst = worse(worst, defect);
         let places = self.locator.polynomials.between_samples();
         for &s in places.as_ref().map_or(&WITHIN[..], |places| places) {
             self.evaluate_end(s)?;

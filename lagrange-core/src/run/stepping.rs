@@ -155,7 +155,6 @@ impl<T: Scalar> Run<T> {
             if end == 0.0 {
                 return Ok(hit);
             }
-            let turns = self.gap_that_turns(&hit, moves / h);
             // Evaluated here, the end of the step also serves the event log. A slip that vanishes there has no direction.
             let looked = if self.locator.rests.is_empty() {
                 end
@@ -167,6 +166,7 @@ impl<T: Scalar> Run<T> {
                 h = shorter;
                 continue;
             }
+            let turns = self.gap_that_turns(&hit, moves / h);
             if !whole {
                 self.state_at_end(looked);
             }
@@ -177,8 +177,7 @@ impl<T: Scalar> Run<T> {
                 ),
                 Err(_) => (f64::INFINITY, f64::INFINITY),
             };
-            // Not the larger of a number and a NaN, which would be the number.
-            let defect = if guards <= motion { motion } else { guards };
+            let defect = taylor::worse(motion, guards);
             // A step must not end where the constraints lose rank.
             let distance = self.rank.distance(&self.dynamics);
             if self.ends_close(distance) && closer < MOST_RETREATS {
@@ -232,11 +231,12 @@ impl<T: Scalar> Run<T> {
     /// The length of a step that a method of this order can follow all exponents over, if that at hand, up to `end`, is longer;
     /// it has been shortened so many times for them.
     fn hides_exponents(&mut self, end: f64, order: usize, shortened: usize) -> Option<f64> {
+        let exponents = self.exponents.as_mut()?;
         // An exponent that jumps (at the cut of an atan2) does so in all steps.
-        let part = match shortened < MOST_SHORTENED {
-            true => self.exponents.followed(&self.stepper.step, end, order),
-            false => end,
-        };
+        if shortened == MOST_SHORTENED {
+            return None;
+        }
+        let part = exponents.followed(&self.stepper.step, end, order);
         (part < end).then(|| part * self.stepper.step.h.value())
     }
 

@@ -4,6 +4,18 @@ use super::{PI, state};
 use lagrange_core::prelude::*;
 use lagrange_tests::fuzz::METHODS;
 
+/// A motion in one coordinate from a position and a velocity.
+fn moved(
+    scene: &impl System<Scalar = f64>,
+    method: Method,
+    [x, v]: [f64; 2],
+    until: f64,
+) -> Trajectory<f64> {
+    let simulation = Simulation::new(scene).method(method).tolerance(1e-9);
+    let run = simulation.run(state(&[x], &[v]), 0.0..until);
+    run.expect("runs")
+}
+
 /// A body that one pulse pushes.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(
@@ -29,11 +41,7 @@ fn pulses_however_short_give_their_momentum() {
             width,
         };
         for method in METHODS {
-            let run = Simulation::new(&scene)
-                .method(method)
-                .tolerance(1e-9)
-                .run(state(&[0.0], &[0.1]), 0.0..10.0)
-                .expect("runs");
+            let run = moved(&scene, method, [0.0, 0.1], 10.0);
             let (x, v) = (run.final_state().q[0], run.final_state().v[0]);
             assert!((v - 1.6).abs() < 1e-6, "{method:?}, {width}: v = {v}");
             assert!((x - 10.0).abs() < 1e-5, "{method:?}, {width}: x = {x}");
@@ -70,11 +78,7 @@ fn no_body_passes_a_hill_that_it_cannot_climb() {
         let far = 3.0 * steepness - f64::ln(bend);
         let turned = far / (steepness * speed);
         for method in METHODS {
-            let run = Simulation::new(&scene)
-                .method(method)
-                .tolerance(1e-9)
-                .run(state(&[-3.0], &[speed]), 0.0..2.0 * turned)
-                .expect("runs");
+            let run = moved(&scene, method, [-3.0, speed], 2.0 * turned);
             let (x, v) = (run.final_state().q[0], run.final_state().v[0]);
             assert!((x + 3.0).abs() < 1e-5, "{method:?}, {steepness}: x = {x}");
             assert!((v + speed).abs() < 1e-5, "{method:?}, {steepness}: v = {v}");
@@ -107,11 +111,7 @@ fn a_regularised_friction_ends_a_slide() {
     };
     for method in METHODS {
         for last in [0.1, 0.1999, 0.2, 0.2003] {
-            let run = Simulation::new(&scene)
-                .method(method)
-                .tolerance(1e-9)
-                .run(state(&[0.0], &[1.0]), 0.0..last)
-                .expect("runs");
+            let run = moved(&scene, method, [0.0, 1.0], last);
             let logarithm = 1e3 - f64::ln(2.0) - 0.5 * 10.0 * last / 1e-3;
             let expected = match logarithm < 300.0 {
                 true => 1e-3 * f64::asinh(f64::exp(logarithm)),
@@ -149,11 +149,7 @@ fn a_narrow_gate_stops_what_turns_past_it() {
             width,
         };
         for method in METHODS {
-            let run = Simulation::new(&scene)
-                .method(method)
-                .tolerance(1e-9)
-                .run(state(&[0.0], &[2.0]), 0.0..20.0)
-                .expect("runs");
+            let run = moved(&scene, method, [0.0, 2.0], 20.0);
             let expected = (2.0 * PI - width * f64::ln(2.0).sqrt()) / 2.0;
             let time = run.last_time();
             assert!(
