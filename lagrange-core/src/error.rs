@@ -88,6 +88,8 @@ pub enum Error {
         mode: String,
         /// Which quantity.
         what: String,
+        /// Whether `exp`, `sinh` or `cosh` are so large there that powers of them overflow.
+        overflow: bool,
     },
     /// A gap, or the guard of a piecewise function, jumps below zero.
     Discontinuous {
@@ -292,11 +294,20 @@ impl fmt::Display for Error {
                 }
                 Ok(())
             }
-            Error::NotFinite { time, mode, what } => {
-                write!(
-                    f,
-                    "t = {time} ({mode}): {what} is not finite; the expression leaves its domain here"
-                )
+            Error::NotFinite {
+                time,
+                mode,
+                what,
+                overflow,
+            } => {
+                write!(f, "t = {time} ({mode}): {what} is not finite; ")?;
+                f.write_str(match overflow {
+                    true => {
+                        "exp, sinh or cosh is so large here that a power of it overflows: write 1/cosh(z)^2 as \
+                         1 - tanh(z)^2, and 1/(1 + exp(-z)) as (1 + tanh(z/2))/2"
+                    }
+                    false => "the expression leaves its domain here",
+                })
             }
             Error::Discontinuous {
                 time,
@@ -411,7 +422,12 @@ impl Error {
                     "the acceleration or force of `{}`",
                     item.unwrap_or(description.name)
                 );
-                Error::NotFinite { time, mode, what }
+                Error::NotFinite {
+                    time,
+                    mode,
+                    what,
+                    overflow: false,
+                }
             }
             EvaluationError::Projection { residual, .. } => Error::Projection {
                 time,

@@ -293,6 +293,21 @@ pub fn exponents(
     exponents.into_iter().collect()
 }
 
+/// The functions in some values that grow exponentially.
+pub fn exponentials(
+    declaration: &Declaration,
+    wanted: impl IntoIterator<Item = usize>,
+) -> Vec<usize> {
+    let all = operations(declaration);
+    let needed = needed(&all, wanted);
+    let grows = |operation: &&Operation| {
+        let function = operation.code.checked_sub(op::FUNCTIONS);
+        needed[operation.value] && matches!(function, Some(SINH | COSH | EXP))
+    };
+    let growing = all.iter().filter(grows);
+    growing.map(|operation| operation.value).collect()
+}
+
 fn operations(declaration: &Declaration) -> Vec<Operation> {
     let words = declaration.words.chunks_exact(12).enumerate();
     words.map(operation).collect()

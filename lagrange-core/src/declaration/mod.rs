@@ -15,7 +15,7 @@ mod series;
 mod tests;
 
 pub use draw::{Draw, Form, Turn};
-pub use evaluate::{Evaluator, Gradient, Inputs, Seed, Sum, exponents};
+pub use evaluate::{Evaluator, Gradient, Inputs, Seed, Sum, exponentials, exponents};
 pub use interval::Interval;
 pub use real::Real;
 pub use series::Series;

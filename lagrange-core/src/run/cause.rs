@@ -21,7 +21,25 @@ impl<T: Scalar> Run<T> {
             _ => self
                 .domain_left()
                 .or_else(|| self.steps_too_long())
-                .unwrap_or(error),
+                .unwrap_or_else(|| self.overflow(error)),
+        }
+    }
+
+    /// The same error, which says so if functions overflow where a number is not finite.
+    fn overflow(&mut self, error: Error) -> Error {
+        match (error, &mut self.exponents) {
+            (
+                Error::NotFinite {
+                    time, mode, what, ..
+                },
+                Some(exponents),
+            ) => Error::NotFinite {
+                time,
+                mode,
+                what,
+                overflow: exponents.overflow(self.now.t, &self.now.state),
+            },
+            (error, _) => error,
         }
     }
 

@@ -6,16 +6,20 @@
 //! matters is seen by the next one. (In tanh and in 1/cosh it is the size of the argument that must not fall.)
 
 use crate::arithmetic::Scalar;
-use crate::declaration::{Declaration, Evaluator, Inputs, Worked, exponents};
+use crate::declaration::{Declaration, Evaluator, Inputs, Worked, exponentials, exponents};
 use crate::effects::{Effects, Item};
 use crate::integrate::StepPolynomial;
 use crate::system::{Description, Erased};
+use crate::trajectory::State;
 
 /// What is smaller than exp(−100), 4e-44, does not matter, whatever it is a factor of.
 const NEGLIGIBLE: f64 = -100.0;
 
 /// Per order of a method: a rise of the exponent by so much has small terms of higher orders.
 const RISE: f64 = 0.5;
+
+/// Equations of motion, and their series, contain what is declared to powers of about this.
+const RAISED: i32 = 8;
 
 /// A step is looked at in so many pieces.
 const PIECES: usize = 8;
@@ -26,6 +30,8 @@ pub(super) struct Exponents {
     evaluator: Evaluator,
     /// Each argument, and by how much the exponent changes with it.
     arguments: Vec<(usize, f64)>,
+    /// The functions that grow.
+    growing: Vec<usize>,
     /// Per argument: itself and its change over a piece, at the beginning of the piece.
     before: Vec<[f64; 2]>,
     /// Per argument: up to where its exponent may rise.
@@ -39,22 +45,27 @@ impl Exponents {
     /// Those of a system, if it has any.
     pub(super) fn new<T: Scalar>(system: &Erased<T>, effects: &Effects) -> Option<Self> {
         let (d, declaration) = (system.description(), system.declaration());
-        let mut arguments = exponents(declaration, acting(d, declaration, effects));
+        let acting = acting(d, declaration, effects);
+        let mut arguments = exponents(declaration, acting.iter().copied());
         if arguments.is_empty() {
             return None;
         }
         let parameters: Vec<f64> = (0..d.parameters.len())
             .map(|i| system.parameter(i).value())
             .collect();
+        let mut growing = exponentials(declaration, acting);
         let wanted = arguments.iter().map(|&(argument, _)| argument);
+        let wanted = wanted.chain(growing.iter().copied());
         let evaluator = Evaluator::new(declaration, &parameters, wanted);
         arguments.retain(|&(argument, _)| {
             evaluator.moves(argument) && !evaluator.is_of_forces(argument)
         });
+        growing.retain(|&value| evaluator.moves(value) && !evaluator.is_of_forces(value));
         let (n, count) = (d.coordinates.len(), arguments.len());
         (count > 0).then(|| Self {
             evaluator,
             arguments,
+            growing,
             before: vec![[0.0; 2]; count],
             highest: vec![0.0; count],
             q: vec![0.0; n],
@@ -98,14 +109,33 @@ impl Exponents {
         end
     }
 
+    /// Whether functions are so large at a state that powers of them are beyond all numbers.
+    #[cold]
+    pub(super) fn overflow<T: Scalar>(&mut self, time: T, state: &State<T>) -> bool {
+        for i in 0..self.q.len() {
+            self.q[i] = state.q[i].value();
+            self.v[i] = state.v[i].value();
+        }
+        self.evaluate(time.value());
+        let mut sizes = self
+            .growing
+            .iter()
+            .map(|&value| self.evaluator.value(value));
+        sizes.any(|size| size.powi(RAISED).is_infinite())
+    }
+
     fn look<T: Scalar>(&mut self, step: &StepPolynomial<T>, s: f64) {
         let s = T::from_f64(s);
         for i in 0..self.q.len() {
             self.q[i] = step.position(i, s).value();
             self.v[i] = step.velocity(i, s).value();
         }
+        self.evaluate(step.time(s).value());
+    }
+
+    fn evaluate(&mut self, time: f64) {
         self.evaluator.evaluate(Inputs {
-            time: step.time(s).value(),
+            time,
             q: &self.q,
             v: &self.v,
             acceleration: &self.still,

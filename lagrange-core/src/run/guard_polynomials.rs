@@ -362,6 +362,14 @@ impl GuardPolynomials {
         }
     }
 
+    /// A guard whose polynomial has a coefficient that is not finite.
+    pub(super) fn without_series(&self) -> Option<Guard> {
+        let coefficients = self.coefficients.chunks_exact(self.width.max(1));
+        let mut curves = self.list.iter().zip(coefficients);
+        let found = curves.find(|(_, c)| c.iter().any(|c| !c.is_finite()));
+        found.map(|(curve, _)| curve.guard)
+    }
+
     /// Makes the guards stay what they are at the start of the step. The first that must not be what it is in the values that
     /// `dynamics` holds: no number, or, of a gap or a branch, below zero; with what it was and is.
     pub(super) fn hold<T: Scalar>(

@@ -31,6 +31,8 @@ const MOST_TRIES: usize = 10;
 const SLOW_ORDER: usize = 4;
 /// So many times a step is made shorter to follow an exponent.
 const MOST_SHORTENED: usize = 16;
+/// So many breaks of guards in a row are no instants that can be passed.
+const MOST_BREAKS: usize = 1000;
 /// Steps of so many times the resolution of time are left to Taylor series.
 const KINK: f64 = 1e4;
 
@@ -47,6 +49,8 @@ pub(super) struct Stepper<T> {
     pub(super) wanted: Option<f64>,
     /// Longest step of Taylor series for which guards that bend more than the motion are good, while they are what bounds the steps.
     guarded: Option<f64>,
+    /// Breaks of guards that were passed since the last step that no guard has bounded so.
+    breaks: usize,
     pub(super) stiffness: Stiffness<T>,
     pub(super) resolution: Resolution,
     pub(super) step: StepPolynomial<T>,
@@ -68,6 +72,7 @@ impl<T: Scalar> Stepper<T> {
             other: Integrator::new(settings.method, n).map(Box::new),
             wanted: None,
             guarded: None,
+            breaks: 0,
             stiffness: Stiffness::new(settings.method),
             resolution: Resolution::default(),
             step: StepPolynomial::new(n, 1),
@@ -91,7 +96,7 @@ impl<T: Scalar> Stepper<T> {
     /// Forgets what belongs to another motion; the method is the one that was asked for.
     pub(super) fn restart(&mut self) {
         self.control = DefectControl::default();
-        (self.wanted, self.guarded) = (None, None);
+        (self.wanted, self.guarded, self.breaks) = (None, None, 0);
         self.resolution = Resolution::default();
         if let Some(method) = &mut self.other {
             method.restart();
@@ -107,7 +112,11 @@ impl<T: Scalar> Run<T> {
             return self.taylor_step();
         }
         self.stepper.control = DefectControl::default();
+        let breaks = core::mem::take(&mut self.stepper.breaks);
         let hit = self.other_step();
+        if self.stepper.breaks > 0 {
+            self.stepper.breaks += breaks;
+        }
         if hit.is_err() && self.settings.method == Method::Auto {
             // What Radau cannot do may still be within reach of Taylor series.
             self.leave_stiffness();
@@ -201,6 +210,7 @@ impl<T: Scalar> Run<T> {
                         return Err(Error::Undirected { time, item });
                     }
                     self.now.distance = distance;
+                    self.stepper.breaks = 0;
                     self.stepper.guarded = guarded.then(|| {
                         let truncation = self.guard_truncation(&hit, looked);
                         h * looked * taylor::stretch(guards.min(truncation), order)
@@ -258,8 +268,13 @@ impl<T: Scalar> Run<T> {
     /// resolves: nothing is located in it, and the next step begins on the side on which the guards then are.
     ///
     /// # Errors
-    /// Beyond the break a guard is no number, or a gap or the guard of a branch has jumped below zero.
+    /// Beyond the break a guard is no number, or a gap or the guard of a branch has jumped below zero; or there is one break
+    /// after the other.
     fn pass_break(&mut self) -> Result<Hit, Error> {
+        self.stepper.breaks += 1;
+        if self.stepper.breaks > MOST_BREAKS {
+            return Err(self.breaks_on());
+        }
         self.evaluate_end(1.0).map_err(|e| self.error(e))?;
         let (curves, dynamics) = (&mut self.locator.polynomials, &mut self.dynamics);
         if let Some((guard, before, after)) = curves.hold(dynamics, &self.now.mode) {
@@ -280,6 +295,18 @@ impl<T: Scalar> Run<T> {
         self.locator.rests.clear();
         self.now.distance = self.rank.distance(&self.dynamics);
         Ok(Hit::Nothing)
+    }
+
+    /// What is wrong with guards that bound step after step.
+    fn breaks_on(&self) -> Error {
+        match self.locator.polynomials.without_series() {
+            Some(guard) => {
+                let d = self.description();
+                let item = guard.name(d).unwrap_or(d.name);
+                self.not_finite(&format!("a Taylor coefficient of the guard of `{item}`"))
+            }
+            None => self.step_too_small(self.resolution()),
+        }
     }
 
     /// How far the motion is off at part `looked` of the step, the end of it if it is a `whole` one, in units of what is allowed.
@@ -566,6 +593,7 @@ impl<T: Scalar> Run<T> {
             time: self.now.t.value(),
             mode,
             what: what.to_owned(),
+            overflow: false,
         }
     }
 

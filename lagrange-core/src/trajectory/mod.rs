@@ -304,8 +304,9 @@ impl<T: Scalar> Trajectory<T> {
     pub fn phases(&self) -> Vec<Phase> {
         let mut phases: Vec<Phase> = Vec::new();
         let mut last = None;
-        for segment in &self.segments {
-            let to = (segment.t + segment.h * segment.end).value();
+        // The sum of a step's start and length may be rounded to a time after its end.
+        let ends = self.step_times().skip(1).chain([self.last_time()]);
+        for (segment, to) in self.segments.iter().zip(ends) {
             let mode = &self.modes[segment.mode];
             match phases.last_mut() {
                 Some(phase) if last == Some(segment.mode) => phase.to = to,

@@ -205,6 +205,40 @@ fn a_run_that_fails_prints_what_there_is() {
 }
 
 #[test]
+fn a_run_whose_certificate_falls_short_is_printed_and_said_to_be_wrong() {
+    // Between the ends of fixed steps that are too long the linkage comes apart.
+    let loose = [
+        "slider-crank",
+        "--method",
+        "rk4:0.02",
+        "--tolerance",
+        "1e-6",
+    ];
+    for command in ["run", "verify"] {
+        let output = lagrange(&[&[command], &loose[..]].concat());
+        assert_eq!(output.status.code(), Some(1), "{command}");
+        assert!(text(&output.stdout).contains("Not certified: "));
+        let said = text(&output.stderr);
+        assert!(said.starts_with("lagrange: Not certified: "), "{said}");
+        assert_eq!(said.lines().count(), 1);
+    }
+}
+
+#[test]
+fn events_beyond_their_limit_end_a_run() {
+    let output = lagrange(&["run", "mass-on-wheel", "--max-events", "1"]);
+    assert_eq!(output.status.code(), Some(1));
+    let said = text(&output.stderr);
+    assert!(said.contains("more than 1 events"), "{said}");
+    says(&["run", "mass-on-wheel", "--max-events", "1e3"]);
+    refuses(
+        &["run", "mass-on-wheel", "--max-events", "0"],
+        2,
+        "is not a number of events",
+    );
+}
+
+#[test]
 fn a_run_that_fails_at_its_start_prints_only_why() {
     // Above μ = 4/3 a rod that slides has no answer at some angles (Painlevé).
     let output = lagrange(&["run", "painleve-rod", "--set", "mu=2"]);

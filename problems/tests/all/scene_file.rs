@@ -15,6 +15,7 @@ const FULL: &str = r#"
 scene = "mass-on-wheel"
 until = 5
 end_after = ["rim lost", "floor"]
+max_events = 50
 tolerance = 1e-12
 method = "dop853"
 project = true
@@ -60,6 +61,7 @@ fn a_file_says_what_a_command_line_says() {
         project,
         impacts,
         end_after,
+        max_events,
         ledger,
         ..
     } = file.request;
@@ -74,8 +76,12 @@ fn a_file_says_what_a_command_line_says() {
     assert_eq!((method.to_string().as_str(), project), ("dop853", true));
     assert_eq!(impacts, Some(Impacts::InTurn));
     assert_eq!(
-        (end_after, ledger),
-        (vec!["rim lost".to_owned(), "floor".to_owned()], true)
+        (end_after, max_events, ledger),
+        (
+            vec!["rim lost".to_owned(), "floor".to_owned()],
+            Some(50),
+            true
+        )
     );
     let outputs = Outputs {
         format: Some(RunFormat::Json),

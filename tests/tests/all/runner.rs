@@ -155,3 +155,23 @@ fn pieces_follow_each_other() {
     assert_eq!(end.work(), whole.work());
     assert!(pieces > 5, "{pieces} pieces");
 }
+
+#[test]
+fn the_last_phase_ends_with_the_run() {
+    let scene = CartesianPendulum::default();
+    for method in [
+        Method::DormandPrince853,
+        Method::DormandPrince54,
+        Method::Auto,
+    ] {
+        for k in 1..400 {
+            let until = 0.0037 * f64::from(k);
+            let run = Simulation::new(&scene).tolerance(1e-6).method(method);
+            let run = run.run(start(&scene), 0.0..until);
+            let run = run.unwrap_or_else(|failure| panic!("{failure}"));
+            let end = run.phases().last().map(|phase| phase.to);
+            assert_eq!(end, Some(run.last_time()), "{method}");
+            assert!(run.sampler().at(until).is_ok());
+        }
+    }
+}

@@ -1,7 +1,7 @@
 //! The command line: arguments in, data to stdout, words to stderr.
 //!
-//! Exit codes: 0 all went well; 1 the run failed (what there is of it is still printed) or a file could not be
-//! written; 2 the request makes no sense; 130 interrupted (what there is is still printed).
+//! Exit codes: 0 all went well; 1 the run failed or its certificate falls short (what there is of it is still printed), or a
+//! file could not be written; 2 the request makes no sense; 130 interrupted (what there is is still printed).
 
 mod accuracy;
 mod compare;
@@ -27,6 +27,7 @@ mod verify;
 mod watch;
 
 use crate::catalogue::Catalogue;
+use crate::outcome::Outcome;
 use crate::request::Refusal;
 use crate::sweep::launch;
 use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
@@ -124,6 +125,20 @@ impl Trouble {
             }
             _ => Trouble::usage(refusal),
         }
+    }
+}
+
+/// A run went well if it came to its end and its certificate holds.
+fn went_well(outcome: Outcome) -> Result<(), Trouble> {
+    if let Some(error) = outcome.failure {
+        return Err(Trouble::ended(error));
+    }
+    match outcome.certificate {
+        None => Err(Trouble::failed(
+            "the motion could not be evaluated everywhere",
+        )),
+        Some(certificate) if certificate.holds() => Ok(()),
+        Some(certificate) => Err(Trouble::failed(certificate)),
     }
 }
 

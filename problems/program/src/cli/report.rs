@@ -1,12 +1,12 @@
 //! `lagrange report`: runs to look at, as a page, as frames for slides, or as a picture that moves.
 
-use super::Trouble;
 use super::compare::Comparison;
 use super::output::{ready, to_file, unwritten};
 use super::run_args::RunArgs;
 use super::terminal::{keep_what_is_done, patiently};
 use super::values::positive;
 use super::watch::watched;
+use super::{Trouble, went_well};
 use crate::catalogue::Catalogue;
 use crate::format::Still;
 use crate::progress::Progress;
@@ -131,8 +131,8 @@ impl Report {
             shown.collect::<Result<_, _>>()
         })?;
         self.write(&runs)?;
-        let failed = runs.into_iter().find_map(|run| run.film.outcome.failure);
-        failed.map_or(Ok(()), |error| Err(Trouble::ended(error)))
+        let mut outcomes = runs.into_iter().map(|run| run.film.outcome);
+        outcomes.try_for_each(went_well)
     }
 
     /// How many there are.

@@ -1,12 +1,12 @@
 //! `lagrange run`: one scene, from a start to its end.
 
-use super::Trouble;
 use super::compare::Comparison;
 use super::output::{draw, ready, to_file};
 use super::run_args::RunArgs;
 use super::terminal::{keep_what_is_done, patiently};
 use super::values::{intervals, picture};
 use super::watch::watched;
+use super::{Trouble, went_well};
 use crate::catalogue::Catalogue;
 use crate::format::RunFormat;
 use crate::outcome::Outcome;
@@ -35,7 +35,7 @@ use std::path::{Path, PathBuf};
   lagrange run smooth.toml --format json
   lagrange run pendulum.lagrange              a declaration of one's own; `lagrange new pendulum` writes one
 
-Ctrl-C ends a run; what there is of it is written. Exit codes: 0 all went well, 1 the run failed, 2 the request makes no sense, 130 interrupted.")]
+Ctrl-C ends a run; what there is of it is written. Exit codes: 0 all went well, 1 the run failed or its certificate falls short, 2 the request makes no sense, 130 interrupted.")]
 pub(super) struct Run {
     /// The scene, a declaration (….lagrange) or a scene file (….toml); `lagrange list` shows the scenes.
     scene: String,
@@ -147,10 +147,7 @@ impl Run {
                 .collect();
             draw(path, &plot::svg(&runs, &shows).map_err(Trouble::failed)?)?;
         }
-        let failed = iter::once(outcome)
-            .chain(compared)
-            .find_map(|run| run.failure);
-        failed.map_or(Ok(()), |error| Err(Trouble::ended(error)))
+        iter::once(outcome).chain(compared).try_for_each(went_well)
     }
 }
 

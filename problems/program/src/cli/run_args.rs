@@ -1,7 +1,7 @@
 //! Which run of a scene is meant: arguments that several commands share, and the request that they make.
 
 use super::Trouble;
-use super::values::{error, named, named_positive, positive, tolerance};
+use super::values::{error, events, named, named_positive, positive, tolerance};
 use crate::catalogue::Catalogue;
 use crate::file::ENDING;
 use crate::names::method;
@@ -36,6 +36,9 @@ pub(super) struct RunArgs {
     /// Method of integration [default: auto].
     #[arg(long, value_name = "M", value_parser = method)]
     method: Option<Method>,
+    /// Events after which the run ends with an error [default: 100000; of each run of a sweep 10000].
+    #[arg(long, value_name = "N", value_parser = events)]
+    max_events: Option<usize>,
 }
 
 /// What is to move: from which start, under which effects, until when.
@@ -86,6 +89,7 @@ impl RunArgs {
             },
             estimate: self.estimate || file.request.estimate,
             method: self.method.unwrap_or(file.request.method),
+            max_events: self.max_events.or(file.request.max_events),
             ..file.request
         };
         can_end(request.method, request.until.unwrap_or(file.scene.until()))?;

@@ -51,6 +51,11 @@ pub(super) fn intervals(text: &str) -> Result<usize, String> {
     }
 }
 
+/// A number of events.
+pub(super) fn events(text: &str) -> Result<usize, String> {
+    count(text).ok_or_else(|| format!("`{}` is not a number of events", text.trim()))
+}
+
 /// A file for a picture, of a kind that can be written.
 pub(super) fn picture(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);

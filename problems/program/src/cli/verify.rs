@@ -1,9 +1,9 @@
 //! `lagrange verify`: a run checked against its declaration.
 
-use super::Trouble;
 use super::output::{Output, ready};
 use super::run_args::RunArgs;
 use super::terminal::{keep_what_is_done, patiently};
+use super::{Trouble, went_well};
 use crate::catalogue::Catalogue;
 use crate::format::Format;
 use crate::outcome::Outcome;
@@ -56,16 +56,7 @@ impl Verify {
         let outcome = outcome.map_err(Trouble::refused)?;
         let format = self.output.format();
         self.output.write(|out| write(&outcome, format, out))?;
-        if let Some(error) = outcome.failure {
-            return Err(Trouble::ended(error));
-        }
-        match outcome.certificate {
-            None => Err(Trouble::failed(
-                "the motion could not be evaluated everywhere",
-            )),
-            Some(certificate) if certificate.holds() => Ok(()),
-            Some(certificate) => Err(Trouble::failed(certificate)),
-        }
+        went_well(outcome)
     }
 }
 

@@ -37,6 +37,8 @@ pub struct Request {
     pub until: Option<f64>,
     /// Events (`rim lost`) after which the run ends, once each of them has happened; it goes on until its end if there are none.
     pub end_after: Vec<String>,
+    /// Most events before the run ends with an error; 100 000 if `None`, and 10 000 in each run of a sweep.
+    pub max_events: Option<usize>,
     /// Relative and absolute tolerance of the integration.
     pub tolerance: f64,
     /// Absolute tolerances of coordinates that have one of their own.
@@ -74,6 +76,7 @@ impl Default for Request {
             start: Vec::new(),
             until: None,
             end_after: Vec::new(),
+            max_events: None,
             tolerance: 1e-9,
             absolute: Vec::new(),
             error: None,
@@ -231,6 +234,9 @@ impl Request {
             Some(impacts) => simulation.impacts(impacts),
             None => simulation,
         };
+        if let Some(limit) = self.max_events {
+            simulation = simulation.max_events(limit);
+        }
         for name in &self.end_after {
             let (subject, kind) = event(name, system.description())?;
             simulation = simulation.end_after((subject, kind));

@@ -86,10 +86,11 @@ impl fmt::Display for Mistake {
 impl core::error::Error for Mistake {}
 
 /// The keys of a scene file, outside and inside of its table `outputs`.
-const KEYS: [&str; 14] = [
+const KEYS: [&str; 15] = [
     "scene",
     "until",
     "end_after",
+    "max_events",
     "tolerance",
     "absolute_tolerance",
     "error",

@@ -87,6 +87,9 @@ fn contents(document: &DeTable, catalogue: &Catalogue) -> (Option<SceneFile>, Ve
                 let events = reader.take(value, |value| events(value, d));
                 request.end_after = events.unwrap_or_default();
             }
+            "max_events" => {
+                request.max_events = reader.take(value, |value| count(value, usize::MAX));
+            }
             "parameters" => {
                 request.parameters = reader.pairs(value, |key, value| {
                     refused(key, find_parameter(d, key.get_ref()))?;
@@ -188,7 +191,7 @@ impl Reader {
                         .unwrap_or_default()
                 }
                 "ledger" => request.ledger = self.take(value, flag).unwrap_or_default(),
-                "samples" => outputs.samples = self.take(value, count),
+                "samples" => outputs.samples = self.take(value, |value| count(value, MOST_SAMPLES)),
                 _ => {}
             }
         }
@@ -252,14 +255,12 @@ fn format(value: &Value) -> Result<RunFormat, Wrong> {
     })
 }
 
-/// A number of intervals.
-fn count(value: &Value) -> Result<usize, Wrong> {
+/// A whole number from 1 to `most`.
+fn count(value: &Value, most: usize) -> Result<usize, Wrong> {
     match number(value)? {
-        count if count.fract() == 0.0 && (1.0..=MOST_SAMPLES as f64).contains(&count) => {
-            Ok(count as usize)
-        }
+        count if count.fract() == 0.0 && (1.0..=most as f64).contains(&count) => Ok(count as usize),
         _ => {
-            let reason = format!("a whole number from 1 to {MOST_SAMPLES} is expected here");
+            let reason = format!("a whole number from 1 to {most} is expected here");
             Err((value.span().start, reason))
         }
     }

@@ -14,6 +14,8 @@ struct Record<'a> {
     until: f64,
     #[serde(skip_serializing_if = "is_empty")]
     end_after: &'a [String],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    max_events: Option<usize>,
     tolerance: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<f64>,
@@ -91,6 +93,7 @@ pub fn write<'a>(
         scene: scene.name(),
         until: request.until.unwrap_or(scene.until()),
         end_after: &request.end_after,
+        max_events: request.max_events,
         tolerance: request.tolerance,
         error: request.error,
         estimate: request.estimate,

@@ -34,7 +34,7 @@ impl dyn Scene + '_ {
         let mut simulation = request
             .simulation(&system)?
             .record(false)
-            .max_events(MOST_EVENTS);
+            .max_events(request.max_events.unwrap_or(MOST_EVENTS));
         let ends: Option<Vec<_>> = sweep.observed.iter().map(|o| o.ends_with()).collect();
         for (subject, kind) in ends.unwrap_or_default() {
             simulation = simulation.end_after((subject, kind));

@@ -291,3 +291,40 @@ fn a_watch_that_is_no_number_any_more_is_named() {
     agree("time", time, 1.0, 1e-10);
     assert_eq!(what, "the guard of `root`");
 }
+
+/// A mass passes the narrow beam of a light barrier: what reads it is close to 0 before and to 1 beyond, and stops the run halfway.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2 / 2,
+    stop(logistic: 1 / (1 + exp((place - x) / width)) >= 1/2),
+    stop(tangent: (1 + tanh((x - place) / (2 * width))) / 2 >= 1/2),
+)]
+struct Barrier {
+    place: f64,
+    width: f64,
+}
+
+#[test]
+fn a_watch_that_overflows_is_an_error_that_says_so() {
+    let scene = Barrier {
+        place: 2.0,
+        width: 1e-3,
+    };
+    let run = |without| {
+        let effects = Effects::all().without(without);
+        let simulation = Simulation::new(&scene).effects(effects);
+        simulation.run(state(&[0.0], &[1.0]), 0.0..3.0)
+    };
+    // exp(2000) is beyond all numbers.
+    let failure = run(Barrier::TANGENT).expect_err("no series of this");
+    let Error::NotFinite { overflow, what, .. } = &failure.error else {
+        panic!("{failure}");
+    };
+    assert!(overflow, "{failure}");
+    assert_eq!(what, "a Taylor coefficient of the guard of `logistic`");
+    assert!(failure.to_string().contains("(1 + tanh(z/2))/2"));
+    // The same, written as that message says.
+    let run = run(Barrier::LOGISTIC).unwrap_or_else(|failure| panic!("{failure}"));
+    agree("time", run.last_time(), 2.0, 1e-12);
+}
