@@ -350,7 +350,16 @@ impl<T: Scalar> Run<T> {
         self.dynamics.set_mode(&self.switcher.scratch_mode);
         self.project(true)?;
         self.evaluate_all_rows()?;
-        rubbing().for_each(|f| facts.resting[f] = rest.sticks[f] || self.slip_vanishes(f));
+        for (f, friction) in d.frictions.iter().enumerate() {
+            // A friction with a force of its own has slipped at the last impact and sticks again before the next one.
+            let acts = match friction.normal {
+                Normal::Contact(c) => near.contains(&c),
+                Normal::Constraint(_) | Normal::Given(_) => true,
+            };
+            if acts {
+                facts.resting[f] = rest.sticks[f] || self.slip_vanishes(f);
+            }
+        }
         (self.switcher.near, self.switcher.collider.rest) = (near, rest);
         let state = core::mem::take(&mut self.now.state);
         let kind = EventKind::Accumulates { impacts: count };

@@ -156,22 +156,30 @@ fn pieces_follow_each_other() {
     assert!(pieces > 5, "{pieces} pieces");
 }
 
+/// A mass leaves the flat top of a hill.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2 / 2,
+    potential = -steepness * x^4,
+    start(beside: x = 0.1),
+)]
+struct Hilltop {
+    steepness: f64,
+}
+
 #[test]
 fn the_last_phase_ends_with_the_run() {
-    let scene = CartesianPendulum::default();
-    for method in [
-        Method::DormandPrince853,
-        Method::DormandPrince54,
-        Method::Auto,
-    ] {
-        for k in 1..400 {
-            let until = 0.0037 * f64::from(k);
-            let run = Simulation::new(&scene).tolerance(1e-6).method(method);
-            let run = run.run(start(&scene), 0.0..until);
-            let run = run.unwrap_or_else(|failure| panic!("{failure}"));
-            let end = run.phases().last().map(|phase| phase.to);
-            assert_eq!(end, Some(run.last_time()), "{method}");
-            assert!(run.sampler().at(until).is_ok());
-        }
+    let scene = Hilltop { steepness: 1.0 };
+    let simulation = Simulation::new(&scene).method(Method::Verner98);
+    let simulation = simulation.tolerance(1e-6);
+    for k in 1..80 {
+        // The sum of the start of the last step and its length is rounded to a later time in some of these.
+        let until = 0.0371 * f64::from(k);
+        let run = simulation.run(start(&scene), 0.0..until);
+        let run = run.unwrap_or_else(|failure| panic!("{failure}"));
+        let end = run.phases().last().map(|phase| phase.to);
+        assert_eq!(end, Some(run.last_time()));
+        assert!(run.sampler().at(until).is_ok());
     }
 }

@@ -93,3 +93,51 @@ fn a_bar_that_has_fallen_flat_is_slowed_down() {
         }
     }
 }
+
+/// A rod falls to the floor and bounces, with a sleeve clamped to it, which every impact pushes down by a little.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(rod, sleeve),
+    kinetic = rod_mass/2 * der(rod)^2 + sleeve_mass/2 * der(sleeve)^2,
+    potential = gravity * (rod_mass * rod + sleeve_mass * sleeve),
+    contact(floor: rod >= 0, restitution = bounce),
+    friction(clamp: slip = der(sleeve) - der(rod), limit = hold),
+)]
+struct Sleeve {
+    rod_mass: f64,
+    sleeve_mass: f64,
+    gravity: f64,
+    bounce: f64,
+    hold: f64,
+}
+
+/// After every impact the sleeve slips on until it sticks to the flying rod; where the impacts end it sticks, and nothing begins anew.
+#[test]
+fn what_sticks_between_bounces_sticks_where_they_end() {
+    let scene = Sleeve {
+        rod_mass: 1.0,
+        sleeve_mass: 0.7,
+        gravity: 9.81,
+        bounce: 0.6,
+        hold: 60.0,
+    };
+    for method in ["taylor", "dop853", "verner98"] {
+        for tolerance in [1e-6, 1e-9, 1e-12] {
+            let start = state(&[0.5, 1.0], &[0.0, 0.0]);
+            let run = run_by(&scene, (method, tolerance), start, 5.0);
+            let ends = |e: &Event<f64>| matches!(e.kind, EventKind::Accumulates { .. });
+            let rest = run.events().iter().position(ends);
+            let after = &run.events()[rest.expect("the bounces end")..];
+            let kinds: Vec<&EventKind> = after.iter().map(|event| &event.kind).collect();
+            assert!(
+                matches!(kinds[..], [_, EventKind::Closed]),
+                "{method} {tolerance:e}: {kinds:?}"
+            );
+            assert!(run.final_mode().sticks(Sleeve::CLAMP));
+            let weight = after[1].force_after(Sleeve::FLOOR);
+            agree("weight", weight, 1.7 * 9.81, 1e-9);
+            let carried = after[1].force_after(Sleeve::CLAMP);
+            agree("carried", carried, 0.7 * 9.81, 1e-9);
+        }
+    }
+}
