@@ -31,7 +31,7 @@ const MOST_TRIES: usize = 10;
 const SLOW_ORDER: usize = 4;
 /// So many times a step is made shorter to follow an exponent.
 const MOST_SHORTENED: usize = 16;
-/// So many breaks of guards in a row are no instants that can be passed: a slip that fades has thousands before it rests.
+/// So many breaks of guards in a row are no instants that can be passed: a slip that fades has more than a thousand before it rests.
 const MOST_BREAKS: usize = 100_000;
 /// Steps of so many times the resolution of time are left to Taylor series.
 const KINK: f64 = 1e4;
