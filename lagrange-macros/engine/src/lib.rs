@@ -209,6 +209,20 @@ pub fn inspect_without(
     }
 }
 
+/// What the letters of a struct with its `#[lagrange(…)]` attributes mean; nothing is derived.
+///
+/// # Errors
+/// All mistakes that the first stage with mistakes has found.
+pub fn meanings(input: TokenStream) -> Result<Vec<inspect::Meaning>, Diagnostics> {
+    let mut sink = Diagnostics::new();
+    let declaration = parse::declaration(input, &mut sink);
+    let meanings = declaration.and_then(|declaration| {
+        let system = model::system(&declaration, &mut sink)?;
+        Some(inspect::meanings(&declaration, &system))
+    });
+    meanings.ok_or(sink)
+}
+
 /// Why there is nothing to inspect.
 #[derive(Debug)]
 pub enum Refusal {

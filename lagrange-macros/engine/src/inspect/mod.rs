@@ -29,7 +29,9 @@ mod written;
 
 use crate::ast::Declaration;
 use crate::check::{Outcome, Verdict};
+use crate::model::System;
 use crate::plan::Program;
+use names::Names;
 
 pub use formula::{Formula, Relation, Statement};
 pub use letter::{Letter, Mark};
@@ -297,6 +299,11 @@ pub fn derivation(
     let mut derivation = result?;
     derivation.checks = verdicts.iter().map(checked).collect();
     Ok(derivation)
+}
+
+/// What the letters of a declaration mean.
+pub(crate) fn meanings(declaration: &Declaration, system: &System) -> Vec<Meaning> {
+    work::meanings(declaration, &Names::of(declaration, system))
 }
 
 fn checked(verdict: &Verdict) -> Checked {

@@ -164,7 +164,7 @@ fn summary(documentation: &str) -> String {
     lines.map(str::trim).collect::<Vec<_>>().join(" ")
 }
 
-fn meanings(declaration: &Declaration, names: &Names) -> Vec<Meaning> {
+pub(super) fn meanings(declaration: &Declaration, names: &Names) -> Vec<Meaning> {
     let mut meanings = Vec::new();
     for field in &declaration.fields {
         let name = match field.length {

@@ -165,6 +165,9 @@ impl Cursor {
 
     /// The operator that starts here.
     pub fn operator(&self) -> Option<&'static str> {
+        let Some(TokenTree::Punct(_)) = self.tokens.get(self.at) else {
+            return None;
+        };
         let fits = |operator: &&&str| {
             let last = operator.len() - 1;
             operator

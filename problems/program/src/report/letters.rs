@@ -10,11 +10,9 @@ pub(crate) struct Letters(Vec<Meaning>);
 impl Letters {
     /// Read from what was declared; none where nothing was.
     pub(crate) fn of(derivation: &Derivation) -> Self {
-        let tokens = derivation.declaration.parse();
-        let derived = tokens
-            .ok()
-            .and_then(|tokens| lagrange_engine::inspect_without(tokens, &[], None).ok());
-        Self(derived.map_or(Vec::new(), |derived| derived.symbols))
+        let tokens = derivation.declaration.parse().ok();
+        let meanings = tokens.and_then(|tokens| lagrange_engine::meanings(tokens).ok());
+        Self(meanings.unwrap_or_default())
     }
 
     /// A field, a coordinate, its rate or an element of one; a name that is no letter stays.

@@ -8,6 +8,9 @@ use std::collections::BTreeMap;
 /// Bits told apart by a reading.
 const BITS: u32 = 16;
 
+/// Bits that tell the boxes of a shelf apart, and half of all bits of a reading.
+const SHELF: u32 = BITS / 2;
+
 /// Readings that it takes.
 pub(super) const READINGS: u32 = 64 / BITS;
 
@@ -20,14 +23,52 @@ struct Sought {
     rank: u64,
 }
 
+/// How many numbers of a reading fall into each box, and into each shelf of 2⁸ boxes: few boxes are looked at to find a rank.
+struct Boxes {
+    shelves: [u64; 1 << SHELF],
+    boxes: Vec<u64>,
+}
+
+impl Boxes {
+    fn empty() -> Self {
+        Self {
+            shelves: [0; 1 << SHELF],
+            boxes: vec![0; 1 << BITS],
+        }
+    }
+
+    fn take(&mut self, place: usize) {
+        self.shelves[place >> SHELF] += 1;
+        self.boxes[place] += 1;
+    }
+
+    /// The box of the number of a rank, and its rank in there.
+    fn find(&self, rank: u64) -> (usize, u64) {
+        let (shelf, rank) = first_above(&self.shelves, rank);
+        let first = shelf << SHELF;
+        let (place, rank) = first_above(&self.boxes[first..first + (1 << SHELF)], rank);
+        (first + place, rank)
+    }
+}
+
+/// The part of a rank, of parts of so many numbers, and its rank in there.
+fn first_above(counts: &[u64], mut rank: u64) -> (usize, u64) {
+    let mut place = 0;
+    while place + 1 < counts.len() && rank >= counts[place] {
+        rank -= counts[place];
+        place += 1;
+    }
+    (place, rank)
+}
+
 /// The search for some quantiles.
 pub(super) struct Search {
     parts: Vec<f64>,
     count: usize,
     /// Two for each quantile: what it lies between.
     sought: Vec<Sought>,
-    /// By prefix: how many numbers of this reading fall into each box.
-    boxes: BTreeMap<u64, Vec<u64>>,
+    /// By prefix.
+    boxes: BTreeMap<u64, Boxes>,
     /// Bits that are known.
     known: u32,
 }
@@ -55,7 +96,7 @@ impl Search {
     }
 
     fn open(&mut self) {
-        let empty = |sought: &Sought| (sought.prefix, vec![0; 1 << BITS]);
+        let empty = |sought: &Sought| (sought.prefix, Boxes::empty());
         self.boxes = self.sought.iter().map(empty).collect();
     }
 
@@ -64,7 +105,7 @@ impl Search {
         let key = key(number);
         let prefix = key.checked_shr(64 - self.known).unwrap_or(0);
         if let Some(boxes) = self.boxes.get_mut(&prefix) {
-            boxes[place(key, self.known)] += 1;
+            boxes.take(place(key, self.known));
         }
     }
 
@@ -74,12 +115,9 @@ impl Search {
             let Some(boxes) = self.boxes.get(&sought.prefix) else {
                 continue;
             };
-            let mut place = 0;
-            while place + 1 < boxes.len() && sought.rank >= boxes[place] {
-                sought.rank -= boxes[place];
-                place += 1;
-            }
+            let (place, rank) = boxes.find(sought.rank);
             sought.prefix = sought.prefix << BITS | place as u64;
+            sought.rank = rank;
         }
         self.known += BITS;
         if self.known < 64 {
