@@ -28,6 +28,7 @@ use lagrange_core::prelude::*;
     draw(rod: (0, y) - length/2 * (cos(theta), sin(theta)) to (0, y) + length/2 * (cos(theta), sin(theta))),
     draw(mass: (0, y) + place * (cos(theta), sin(theta))),
     draw(arrow[k in 0..3]: support[k] * (-sin(theta), cos(theta)) at ((k - 1) * span, 0)),
+    emit = data,
 )]
 pub struct BeamOnSupports<T = f64> {
     /// Mass, kg.

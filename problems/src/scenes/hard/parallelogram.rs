@@ -20,6 +20,7 @@ use lagrange_core::prelude::*;
     draw(rod[k in 0..3]: ((k - 1) * span, 0) to (x, y) + (k - 1) * span * (cos(psi), sin(psi))),
     draw(rod: (x, y) - span * (cos(psi), sin(psi)) to (x, y) + span * (cos(psi), sin(psi))),
     draw(mass: (x, y)),
+    emit = data,
 )]
 pub struct Parallelogram<T = f64> {
     /// Mass of the beam, kg.
