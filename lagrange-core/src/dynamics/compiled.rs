@@ -24,12 +24,8 @@ pub(super) struct Compiled<T: Scalar> {
     pub motion_needs: OutputMask,
     /// Inertia, Jacobians and residuals of the rows that act.
     pub row_needs: OutputMask,
-    /// Of the constants.
-    constant_needs: OutputMask,
     /// Rows that act, ascending.
     pub acting: Vec<usize>,
-    /// What computes the system's constants.
-    own: Constants<T>,
     /// The system's own, then the plan's.
     pub constants: Vec<T>,
     /// How the linear system is solved where no functions do it.
@@ -78,26 +74,21 @@ pub(super) enum Part {
 }
 
 impl<T: Scalar> Compiled<T> {
-    pub(super) fn new(system: &dyn ErasedSystem<T>, effects: &Effects, mode: &Mode) -> Self {
+    pub(super) fn new(
+        system: &dyn ErasedSystem<T>,
+        effects: &Effects,
+        mode: &Mode,
+        constants: &mut Constants<T>,
+    ) -> Self {
         let d = system.description();
         let mut motion_needs = OutputMask::new(d);
         let mut row_needs = OutputMask::new(d);
-        let mut held = OutputMask::new(d);
         output_mask::of_motion(d, effects, mode, &mut motion_needs);
         output_mask::of_rows(d, effects, mode, &mut row_needs);
-        output_mask::of_effects(d, effects, &mut held);
         let mut compiled = Self {
             mode: mode.clone(),
             motion_needs,
             row_needs,
-            own: Constants::load(
-                system,
-                &Selection {
-                    needs: &held,
-                    branches: &mode.branches,
-                },
-            ),
-            constant_needs: held,
             acting: acting(d, effects, mode).collect(),
             constants: Vec::new(),
             pattern: KktPattern::default(),
@@ -112,19 +103,21 @@ impl<T: Scalar> Compiled<T> {
             outputs: Loaded::default(),
             rows: Vec::new(),
         };
-        compiled.set_numbers(system, effects);
+        compiled.set_numbers(system, effects, constants);
         compiled
     }
 
     /// Numbers of a system, and the plan if it is needed for sure.
-    fn set_numbers(&mut self, system: &dyn ErasedSystem<T>, effects: &Effects) {
-        let held = Selection {
-            needs: &self.constant_needs,
-            branches: &self.mode.branches,
-        };
-        self.own.evaluate(system, &mut self.constants);
+    fn set_numbers(
+        &mut self,
+        system: &dyn ErasedSystem<T>,
+        effects: &Effects,
+        constants: &mut Constants<T>,
+    ) {
+        let branches = &self.mode.branches;
+        constants.write(system, branches, &mut self.constants);
         if let Some(emitted) = &mut self.emitted {
-            emitted.renew(system, &held);
+            emitted.renew(system, &constants.held(branches));
         }
         self.planned = false;
         if self.functions().is_none() {
@@ -162,7 +155,12 @@ impl<T: Scalar> Compiled<T> {
     }
 
     /// Takes the present parameters, if they have changed. Interpreted equations take them when they are selected.
-    pub(super) fn renew(&mut self, system: &dyn ErasedSystem<T>, effects: &Effects) {
+    pub(super) fn renew(
+        &mut self,
+        system: &dyn ErasedSystem<T>,
+        effects: &Effects,
+        constants: &mut Constants<T>,
+    ) {
         if !core::mem::take(&mut self.outdated) {
             return;
         }
@@ -174,7 +172,7 @@ impl<T: Scalar> Compiled<T> {
         ];
         let interpreted = lists.into_iter().flatten();
         interpreted.for_each(Interpreted::outdate);
-        self.set_numbers(system, effects);
+        self.set_numbers(system, effects, constants);
     }
 
     /// Undoes [`Self::refuse_functions`]: one motion must not depend on those before it.
@@ -260,10 +258,10 @@ impl<T: Scalar> Compiled<T> {
     }
 
     /// The constants that equations loaded for outputs or for a solution read.
-    pub(super) fn constants(&self, part: Part) -> &[T] {
+    pub(super) fn constants(&self, d: &Description, part: Part) -> &[T] {
         match part {
             Part::Solution => &self.constants,
-            Part::Outputs => &self.constants[..self.own.count()],
+            Part::Outputs => &self.constants[..d.constants.outputs],
         }
     }
 

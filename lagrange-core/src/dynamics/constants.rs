@@ -1,22 +1,83 @@
-//! The numbers of a system that depend on its parameters alone.
+//! The numbers of a system that depend on its parameters alone. Modes differ in them by their branches only.
 
+use super::MOST_MODES;
+use super::output_mask::{self, OutputMask};
 use crate::arithmetic::Scalar;
+use crate::effects::Effects;
 use crate::program::{Builder, Numbers, Program, Register, room};
-use crate::system::{ErasedSystem, Selection};
+use crate::system::{Description, ErasedSystem, Selection};
 
-/// The program of the constants, loaded for the effects of a scene and the branches of a mode.
+/// The constants of a scene.
+#[derive(Clone, Debug)]
+pub(super) struct Constants<T> {
+    /// What the effects need.
+    needs: OutputMask,
+    /// For each choice of branches that has been met.
+    list: Vec<OfBranches<T>>,
+}
+
+/// The program of the constants, loaded for a choice of branches.
 ///
 /// Registers: zero | parameters | exact numbers | results.
 #[derive(Clone, Debug)]
-pub(super) struct Constants<T> {
+struct OfBranches<T> {
+    branches: Vec<u64>,
     program: Program,
     registers: Vec<T>,
     outputs: Vec<Register>,
+    /// Whether the results are those of other parameters.
+    outdated: bool,
 }
 
 impl<T: Scalar> Constants<T> {
+    /// None yet.
+    pub(super) fn new(d: &Description, effects: &Effects) -> Self {
+        let mut needs = OutputMask::new(d);
+        output_mask::of_effects(d, effects, &mut needs);
+        Self {
+            needs,
+            list: Vec::new(),
+        }
+    }
+
+    /// The parameters have changed.
+    pub(super) fn outdate(&mut self) {
+        self.list.iter_mut().for_each(|one| one.outdated = true);
+    }
+
+    /// What is held of the constants with these branches.
+    pub(super) fn held<'a>(&'a self, branches: &'a [u64]) -> Selection<'a> {
+        let needs = &self.needs;
+        Selection { needs, branches }
+    }
+
+    /// The constants with these branches, for the parameters of a system; those that nobody asks for are zero.
+    pub(super) fn write(
+        &mut self,
+        system: &dyn ErasedSystem<T>,
+        branches: &[u64],
+        constants: &mut Vec<T>,
+    ) {
+        let known = self.list.iter().position(|one| one.branches == branches);
+        let index = known.unwrap_or_else(|| {
+            let one = OfBranches::load(system, &self.held(branches));
+            if self.list.len() == MOST_MODES {
+                self.list.remove(0);
+            }
+            self.list.push(one);
+            self.list.len() - 1
+        });
+        let one = &mut self.list[index];
+        one.renew(system);
+        constants.clear();
+        let values = one.outputs.iter();
+        constants.extend(values.map(|register| one.registers[register.index()]));
+    }
+}
+
+impl<T: Scalar> OfBranches<T> {
     /// The constants for what is held.
-    pub(super) fn load(system: &dyn ErasedSystem<T>, held: &Selection) -> Self {
+    fn load(system: &dyn ErasedSystem<T>, held: &Selection) -> Self {
         let d = system.description();
         let parameters = d.parameters.len();
         let first = 1 + parameters + d.constants.numbers.len();
@@ -39,25 +100,22 @@ impl<T: Scalar> Constants<T> {
             *register = T::from_f64(number);
         }
         Self {
+            branches: held.branches.to_vec(),
             program,
             registers,
             outputs: outputs.collect(),
+            outdated: true,
         }
     }
 
-    /// How many there are.
-    pub(super) fn count(&self) -> usize {
-        self.outputs.len()
-    }
-
-    /// Their values for the parameters of a system; those that nobody asks for are zero.
-    pub(super) fn evaluate(&mut self, system: &dyn ErasedSystem<T>, constants: &mut Vec<T>) {
+    /// Takes the parameters of a system, if they have changed.
+    fn renew(&mut self, system: &dyn ErasedSystem<T>) {
+        if !core::mem::take(&mut self.outdated) {
+            return;
+        }
         for index in 0..system.description().parameters.len() {
             self.registers[1 + index] = system.parameter(index);
         }
         self.program.evaluate(0, &mut self.registers);
-        constants.clear();
-        let values = self.outputs.iter();
-        constants.extend(values.map(|register| self.registers[register.index()]));
     }
 }

@@ -283,7 +283,7 @@ fn collect<T: Scalar>(
 ) {
     let d = system.description();
     numbers.clear();
-    numbers.extend_from_slice(compiled.constants(part));
+    numbers.extend_from_slice(compiled.constants(d, part));
     numbers.extend((0..d.parameters.len()).map(|index| system.parameter(index)));
     let exact = d.motion.numbers.iter().chain(d.report.numbers);
     numbers.extend(exact.map(|&number| T::from_f64(number)));
@@ -295,7 +295,7 @@ fn collect<T: Scalar>(
 /// Loads the programs and writes the solution between them if it is asked for, for these numbers.
 fn shape<T: Scalar>(d: &Description, compiled: &Compiled<T>, asked: &Asked, values: &[T]) -> Shape {
     let Compiled { mode, pattern, .. } = compiled;
-    let constants = compiled.constants(asked.part);
+    let constants = compiled.constants(d, asked.part);
     let n = d.coordinates.len();
     let inputs: Vec<Register> = (1..2 + 3 * n + d.rows.len()).map(Register::new).collect();
     let first = 1 + inputs.len();

@@ -38,6 +38,7 @@ use crate::mode::Mode;
 use crate::system::Erased;
 use crate::system::{Description, ValueRef};
 use compiled::{Asked, Compiled, Part};
+use constants::Constants;
 use emitted::Emitted;
 
 /// What evaluates the equations of motion.
@@ -83,6 +84,7 @@ pub struct Dynamics<T: Scalar> {
     system: Erased<T>,
     description: &'static Description,
     effects: Effects,
+    constants: Constants<T>,
     /// Modes met so far, and which is the present one.
     modes: Vec<Compiled<T>>,
     current: usize,
@@ -138,9 +140,12 @@ impl<T: Scalar> Dynamics<T> {
         let zero = T::default();
         let mut projector = Solver::default();
         projector.reserve(n, rows);
+        let mut constants = Constants::new(d, effects);
+        let open = Compiled::new(&*system, effects, &Mode::open(d), &mut constants);
         let mut dynamics = Self {
             effects: effects.clone(),
-            modes: vec![Compiled::new(&*system, effects, &Mode::open(d))],
+            constants,
+            modes: vec![open],
             system,
             description: d,
             current: 0,
@@ -293,6 +298,7 @@ impl<T: Scalar> Dynamics<T> {
     /// Takes another system of the same kind. What has been loaded stays, with other numbers in it.
     pub(crate) fn set_system(&mut self, system: Erased<T>) {
         self.system = system;
+        self.constants.outdate();
         self.modes.iter_mut().for_each(Compiled::outdate);
         self.renew();
         (self.selected, self.given) = (None, false);
@@ -300,7 +306,8 @@ impl<T: Scalar> Dynamics<T> {
 
     /// Brings the present mode up to date with the parameters.
     fn renew(&mut self) {
-        self.modes[self.current].renew(&*self.system, &self.effects);
+        let compiled = &mut self.modes[self.current];
+        compiled.renew(&*self.system, &self.effects, &mut self.constants);
     }
 
     /// Forgets what could make a motion depend on those before it.
@@ -312,7 +319,7 @@ impl<T: Scalar> Dynamics<T> {
     /// Makes a mode ready; returns its place.
     #[cold]
     fn compile(&mut self, mode: &Mode) -> usize {
-        let compiled = Compiled::new(&*self.system, &self.effects, mode);
+        let compiled = Compiled::new(&*self.system, &self.effects, mode, &mut self.constants);
         if self.modes.len() < MOST_MODES {
             self.modes.push(compiled);
             return self.modes.len() - 1;
