@@ -215,11 +215,13 @@ impl<T: Scalar> Emitted<T> {
         }
     }
 
+    #[inline(always)]
     fn row(&self, index: usize) -> &[T] {
         self.rows.get(index).map_or(&[], |row| &row[..=self.order])
     }
 
     /// Coefficients of t, q, v, v̇ (none) or λ, by their index in the inputs of the report tape.
+    #[inline(always)]
     pub(super) fn input_series(&self, d: &Description, index: usize) -> &[T] {
         let n = d.coordinates.len();
         match index {

@@ -183,6 +183,7 @@ impl<T: Scalar> Dynamics<T> {
         self.input_series(1 + 3 * self.description().coordinates.len() + row)
     }
 
+    #[inline(always)]
     fn input_series(&self, index: usize) -> &[T] {
         if let Some(emitted) = self.in_use() {
             return emitted.input_series(self.description, index);
