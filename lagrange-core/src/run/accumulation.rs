@@ -294,7 +294,7 @@ impl<T: Scalar> Run<T> {
     }
 
     /// Contact `c` bounces no more.
-    fn end(&mut self, c: usize, facts: &mut SwitchFacts) {
+    pub(super) fn end(&mut self, c: usize, facts: &mut SwitchFacts) {
         (facts.touching[c], facts.parting[c]) = (true, false);
         self.switcher.impacts[c] = Impacts::default();
     }

@@ -20,6 +20,9 @@ use crate::trajectory::State;
 /// A gap that changes by no more than so many tolerances per second where its region begins neither closes nor opens there.
 const ENTERS: f64 = 10.0;
 
+/// What is no larger than this beside the terms that make it is what rounding has left of zero.
+const ROUNDING: f64 = 1e-13;
+
 /// What decides how the motion goes on.
 #[derive(Debug)]
 pub(super) struct Switcher<T> {
@@ -182,7 +185,11 @@ impl<T: Scalar> Run<T> {
             self.evaluate()?;
         }
         self.remember_before();
-        let hit = facts.arriving.contains(&true) && self.hit(facts)?;
+        let arrives = facts.arriving.contains(&true);
+        let hit = arrives && self.hit(facts)?;
+        if arrives {
+            self.take_what_touches(facts);
+        }
         if !hit {
             self.rest_where_slip_vanishes(facts)?;
         }
@@ -241,6 +248,50 @@ impl<T: Scalar> Run<T> {
         Ok(true)
     }
 
+    /// Contacts that have closed may bring others with them: a beam on two of its four supports lies on all. Their gaps and rates vanish, and
+    /// nothing but rounding would tell later which of them closes when.
+    fn take_what_touches(&mut self, facts: &mut SwitchFacts) {
+        let d = self.description();
+        let may = |run: &Self, facts: &SwitchFacts, c: usize| {
+            let takes_part = run.dynamics.effects().includes(d, Item::Contact(c));
+            takes_part && !(facts.touching[c] || facts.parting[c] || run.now.below[c])
+        };
+        let contacts = 0..d.contacts.len();
+        if !contacts.clone().any(|c| may(self, facts, c)) {
+            return;
+        }
+        self.dynamics.set_extra_needs(&self.switcher.status.needs);
+        let State { q, v, .. } = &self.now.state;
+        self.dynamics.tape(self.now.t, q, v);
+        self.now.valued = false;
+        for c in contacts {
+            if may(self, facts, c) && self.touches(c) {
+                self.end(c, facts);
+                let rubs =
+                    |f: &usize| matches!(d.frictions[*f].normal, Normal::Contact(own) if own == c);
+                for f in (0..d.frictions.len()).filter(rubs) {
+                    facts.resting[f] = self.slip_vanishes(f);
+                }
+            }
+        }
+    }
+
+    /// Whether the gap of contact `c` and its rate vanish beside the terms that make them.
+    fn touches(&self, c: usize) -> bool {
+        let contact = &self.description().contacts[c];
+        let number = |place| self.dynamics.motion(place).value();
+        let row = &self.description().rows[contact.row];
+        let gap = row.position.map_or(0.0, number);
+        let terms = row.jacobian.iter();
+        let extent: f64 = terms
+            .map(|&(j, place)| number(place).abs() * self.now.state.q[j].value().abs().max(1.0))
+            .sum();
+        let (rate, size) = self.rate(contact.row);
+        contact.region.is_none_or(|place| number(place) > 0.0)
+            && gap.abs() <= ROUNDING * extent
+            && rate.abs() <= ROUNDING * size
+    }
+
     /// Whether the switch has brought rows that the state need not satisfy to rounding.
     fn rows_have_joined(&self) -> bool {
         let (before, after) = (&self.recorder.before.mode, &self.now.mode);
@@ -255,7 +306,7 @@ impl<T: Scalar> Run<T> {
     fn approaching(&self, c: usize) -> bool {
         let d = self.description();
         let (rate, size) = self.rate(d.contacts[c].row);
-        self.dynamics.effects().includes(d, Item::Contact(c)) && rate < -f64::EPSILON * size
+        self.dynamics.effects().includes(d, Item::Contact(c)) && rate < -ROUNDING * size
     }
 
     /// What is known after an impact; `dynamics` still holds the state before.
@@ -290,7 +341,7 @@ impl<T: Scalar> Run<T> {
                 slip += part;
                 size += part.abs();
             }
-            slip.abs() <= 1e-13 * size
+            slip.abs() <= ROUNDING * size
         })
     }
 
@@ -325,7 +376,7 @@ impl<T: Scalar> Run<T> {
         let rows = friction.row..friction.row + friction.components;
         let rates = || rows.clone().map(|row| self.rate(row));
         let size = rates().map(|(_, size)| size).fold(0.0, f64::max);
-        rates().all(|(rate, _)| rate.abs() <= 1e-13 * size)
+        rates().all(|(rate, _)| rate.abs() <= ROUNDING * size)
     }
 
     /// Rate of a row (slip, rate of a gap) and the size of the terms that make it; a velocity that is zero is so only to some
