@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::mode::{FrictionMode, Mode};
 use crate::modes::decide::{Decider, SwitchFacts};
 use crate::modes::domain;
-use crate::modes::guard::Guard;
+use crate::modes::guard::{self, Guard};
 use crate::modes::impact::{Collider, Impact};
 use crate::modes::redundant::RedundantForces;
 use crate::modes::status::ConstraintStatus;
@@ -152,6 +152,7 @@ impl<T: Scalar> Run<T> {
             .filter(|g| matches!(g, Guard::Region(_)));
         self.locator.zeros.extend(edges.map(|&edge| (edge, 1)));
         self.set_mode_decided();
+        self.let_lie();
         if self.switcher.decider.decision.expanded {
             self.now.series = Progress::Complete;
         }
@@ -177,6 +178,17 @@ impl<T: Scalar> Run<T> {
         self.log_changes(impulses, self.switcher.decider.decision.ambiguous);
         self.switcher.collider.outcome = outcome;
         self.stops_of_the_mode()
+    }
+
+    /// A gap that stays zero because other contacts are closed is off by the error of positions, on either side.
+    fn let_lie(&mut self) {
+        let zeros = self.locator.zeros.iter();
+        let lying = zeros
+            .filter(|(guard, order)| matches!(guard, Guard::Gap(_)) && *order >= guard::LENGTH);
+        for &(gap, _) in lying {
+            let margin = self.settings.tolerance;
+            self.locator.polynomials.lower(gap, margin);
+        }
     }
 
     /// The forces just before, and the impact if something is hit; whether one was.

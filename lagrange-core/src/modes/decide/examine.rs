@@ -301,7 +301,7 @@ impl<T: Scalar> Decider<T> {
                 Leading::Stays if !last => unclear = true,
                 Leading::Stays
                     if self.sticks_first && matches!(guard, Guard::Slip(_))
-                        || is_held::<T>(guard, facts, dynamics) =>
+                        || !self.lies_loosely && is_held::<T>(guard, facts, dynamics) =>
                 {
                     self.violated.push(guard);
                 }

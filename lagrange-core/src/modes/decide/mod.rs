@@ -62,6 +62,8 @@ pub struct Decider<T> {
     sized: bool,
     /// Whether a friction that would slip and yet stay at rest must stick.
     sticks_first: bool,
+    /// Whether a contact that others hold closed may carry nothing.
+    lies_loosely: bool,
     /// Modes tried so far.
     tried: usize,
     /// Needs of everything about every row.
@@ -103,6 +105,7 @@ impl<T: Scalar> Decider<T> {
             sizes: Sizes::default(),
             sized: false,
             sticks_first: false,
+            lies_loosely: false,
             tried: 0,
             rows,
             everything,
@@ -131,16 +134,17 @@ impl<T: Scalar> Decider<T> {
         let mut listings = core::mem::take(&mut self.listings);
         let scratch = &mut self.decision.mode;
         (self.tried, self.sized) = (0, false);
-        let outcome = match listings.list(dynamics, here, &self.rows, scratch) {
-            Some(candidates) => match self.best(dynamics, table, here, candidates) {
+        let listed = listings.list(dynamics, here, &self.rows, scratch);
+        let mut outcome = self.search(dynamics, table, here, listed);
+        if !matches!(outcome, Ok(true)) {
+            // Of a block that slides on three supports in a row, one of which is rough, two carry it.
+            self.lies_loosely = true;
+            outcome = match self.search(dynamics, table, here, listed) {
                 Ok(true) => Ok(true),
-                refused => match self.best_exactly(dynamics, table, here, candidates) {
-                    Ok(true) => Ok(true),
-                    _ => refused,
-                },
-            },
-            None => self.pivot(dynamics, table, here),
-        };
+                _ => outcome,
+            };
+            self.lies_loosely = false;
+        }
         self.listings = listings;
         let outcome = match outcome {
             Ok(true) => Ok(true),
@@ -156,6 +160,26 @@ impl<T: Scalar> Decider<T> {
             }
             Ok(false) => Err(self.no_mode(dynamics, here)),
             Err(error) => Err(Error::from_evaluation(error, time, dynamics.mode(), d)),
+        }
+    }
+
+    /// Looks for a feasible mode among those `listed`, or, if they are too many, from one to the next.
+    fn search(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        table: &mut Table,
+        here: SwitchContext<'_, T>,
+        listed: Option<&Candidates>,
+    ) -> Result<bool, EvaluationError> {
+        let Some(candidates) = listed else {
+            return self.pivot(dynamics, table, here);
+        };
+        match self.best(dynamics, table, here, candidates) {
+            Ok(true) => Ok(true),
+            refused => match self.best_exactly(dynamics, table, here, candidates) {
+                Ok(true) => Ok(true),
+                _ => refused,
+            },
         }
     }
 
