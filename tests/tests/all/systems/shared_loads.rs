@@ -254,3 +254,118 @@ fn a_load_that_reverses_brakes_on_the_other_side() {
         }
     }
 }
+
+/// A tray with four feet in a line, of which two are enough, falls askew onto a rough table.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, theta),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2) + inertia/2 * der(theta)^2,
+    potential = mass * gravity * y,
+    contact(foot[k in 0..4]: y + place[k] * sin(theta) >= 0, restitution = bounce),
+    friction(rub[k in 0..4] on foot[k]: slip = der(x), static = mu),
+)]
+struct Tray {
+    mass: f64,
+    inertia: f64,
+    gravity: f64,
+    place: [f64; 4],
+    bounce: f64,
+    mu: f64,
+}
+
+/// Once it has rattled to rest on two feet it lies on all four, and whatever each impact does, all of them together stop the fall and
+/// take μ of that from the speed.
+#[test]
+fn what_lies_on_two_of_its_feet_lies_on_all() {
+    for (place, bounce, tilt) in [
+        ([-0.9, -0.25, 0.2, 0.8], 0.3, 0.3),
+        ([-0.4, -0.1, 0.3, 0.6], 0.1, -0.2),
+        ([-0.7, 0.1, 0.2, 0.5], 0.45, 0.1),
+    ] {
+        let scene = Tray {
+            mass: 1.5,
+            inertia: 0.2,
+            gravity: 10.0,
+            place,
+            bounce,
+            mu: 0.2,
+        };
+        let (fall, until) = (0.5, 1.8);
+        let slides = 6.0 - scene.mu * (scene.gravity * until + fall);
+        for method in ["taylor", "dop853", "dopri5", "verner98", "radau5"] {
+            for tolerance in [1e-6, 1e-9, 1e-12] {
+                let start = state(&[0.0, 0.6, tilt], &[6.0, -fall, 0.4]);
+                let motion = run_by(&scene, (method, tolerance), start, until);
+                let asked = format!("{place:?} {method} {tolerance:e}");
+                let speed = motion.final_state().v[0];
+                agree(&asked, speed, slides, (1e3 * tolerance).max(1e-10));
+                let words = words(&motion);
+                let closed = words.iter().filter(|word| word.ends_with("closed")).count();
+                let after = words.iter().position(|word| word.ends_with("accumulates"));
+                assert_eq!(
+                    (closed, after),
+                    (4, Some(words.len() - 5)),
+                    "{asked}: {words:?}"
+                );
+            }
+        }
+    }
+}
+
+/// A plank slides on three supports in a row, of which only the first is rough.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, theta),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2) + inertia/2 * der(theta)^2,
+    potential = mass * gravity * y,
+    contact(support[k in 0..3]: y + place[k] * sin(theta) >= 0),
+    friction(rough on support[0]: slip = der(x), static = mu),
+)]
+struct Plank {
+    mass: f64,
+    inertia: f64,
+    gravity: f64,
+    place: [f64; 3],
+    mu: f64,
+}
+
+/// Which of them carry it is open; told are forces that balance, that push, and that the friction belongs to, all the time.
+#[test]
+fn forces_that_are_open_are_possible_ones() {
+    for place in [
+        [-0.6, -0.2, 0.9],
+        [-0.6, 0.2, 0.9],
+        [-0.3, 0.2, 0.5],
+        [0.5, 0.1, -0.8],
+    ] {
+        let scene = Plank {
+            mass: 0.8,
+            inertia: 0.1,
+            gravity: 10.0,
+            place,
+            mu: 0.3,
+        };
+        for method in ["taylor", "dop853", "radau5"] {
+            let (until, start) = (1.0, state(&[0.0; 3], &[5.0, 0.0, 0.0]));
+            let motion = run_by(&scene, (method, 1e-9), start, until);
+            let asked = format!("{place:?} {method}");
+            assert!(motion.events().iter().any(|e| e.ambiguous), "{asked}");
+            let mut sampler = motion.sampler();
+            let now = sampler.at(until).expect("the end");
+            let normal = [0, 1, 2].map(|k| now.force(Plank::SUPPORT[k]));
+            let friction = now.force(Plank::ROUGH);
+            let moment: f64 = normal.iter().zip(place).map(|(n, p)| n * p).sum();
+            assert!(normal.iter().all(|&n| n >= -1e-9), "{asked}: {normal:?}");
+            agree(
+                &asked,
+                normal.iter().sum(),
+                scene.mass * scene.gravity,
+                1e-9,
+            );
+            agree(&asked, moment, 0.0, 1e-9);
+            agree(&asked, friction, -scene.mu * normal[0], 1e-9);
+            let speed = 5.0 + friction / scene.mass * until;
+            agree(&asked, motion.final_state().v[0], speed, 1e-8);
+        }
+    }
+}
