@@ -102,7 +102,8 @@ impl Elaboration<'_> {
             _ => (self.value(base, context)?, 0),
         };
         let Value::List(mut elements) = value else {
-            let hint = format!("`{base}` is one number; take the index away, or declare it as a list");
+            let hint =
+                format!("`{base}` is one number; take the index away, or declare it as a list");
             self.sink.report(Code::ScalarForList, base.extent, &[&hint]);
             return None;
         };
