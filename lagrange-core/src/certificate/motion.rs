@@ -270,6 +270,7 @@ impl<T: Scalar> Examination<'_, T> {
             let mode = &self.modes[segment.mode];
             self.equations.examine(at, mode, &mut self.findings);
         }
+        self.enter(segment);
         if !self.has_small_defects(segment)? {
             self.integrate(segment)?;
         }
@@ -383,7 +384,6 @@ impl<T: Scalar> Examination<'_, T> {
         }
         let time = segment.t + segment.h * s;
         let mode = &self.record.modes[segment.mode];
-        self.dynamics.set_mode(mode);
         let outcome = if mode.incipient().next().is_none() {
             Acceleration::acceleration(&mut self.dynamics, time, q, v, &mut self.acceleration)
         } else {
@@ -436,17 +436,25 @@ impl<T: Scalar> Examination<'_, T> {
         self.record.state_at(segment, T::from_f64(s), q, v);
     }
 
+    /// Makes the equations ready for a step; the state that was taken is lost.
+    fn enter(&mut self, segment: &Segment<T>) {
+        let (dynamics, scratch) = (&mut self.dynamics, &mut self.scratch);
+        dynamics.set_mode(&self.record.modes[segment.mode]);
+        self.record.hold_rows_aside(segment, dynamics, scratch);
+    }
+
     /// What is reported at part `s` of a step.
     fn report(&mut self, k: usize, s: f64) -> Result<Reported, Error> {
-        self.place(k, s);
         let segment = &self.record.segments[k];
-        let State { q, v, .. } = &self.scratch;
         let time = segment.t + segment.h * T::from_f64(s);
         let mode = &self.record.modes[segment.mode];
+        self.dynamics.set_extra_needs(&self.rows);
+        self.enter(segment);
         let (d, dynamics) = (self.record.description(), &mut self.dynamics);
-        dynamics.set_mode(mode);
-        dynamics.set_extra_needs(&self.rows);
-        let outcome = dynamics.value_along(time, q, v);
+        let s = T::from_f64(s);
+        let placed = self.record.place(segment, s, dynamics, &mut self.scratch);
+        let State { q, v, .. } = &self.scratch;
+        let outcome = placed.and_then(|()| dynamics.value_along(time, q, v));
         outcome.map_err(|e| Error::from_evaluation(e, time.value(), mode, d))?;
         let forces = self.redundant.report(dynamics, &mut Vec::new());
         dynamics.replace_forces(&forces);

@@ -74,6 +74,17 @@ impl<T: Scalar> Dynamics<T> {
         !self.by_functions && self.compiled().solver.has_rows_aside()
     }
 
+    /// How many rows the solver has found to be independent at the last [`Self::value`].
+    fn independent_rows(&self) -> usize {
+        let compiled = self.compiled();
+        compiled.pattern.independent_rows() - compiled.solver.rows_aside()
+    }
+
+    /// Whether rows are held aside now, see [`Self::hold_rows_aside`].
+    pub(crate) fn holds_rows_aside(&self) -> bool {
+        !self.by_functions && self.compiled().solver.holds_rows_aside()
+    }
+
     /// Whether this row is one of those that [`Self::hold_rows_aside`] holds.
     pub(crate) fn holds_aside(&self, row: usize) -> bool {
         self.compiled().holds_aside(row)
@@ -113,7 +124,7 @@ impl<T: Scalar> Dynamics<T> {
             columns[index * n + coordinate] += place.read(&self.compiled().constants, &nodes);
         }
         let mut forces: Vec<T> = acting.iter().map(|&row| self.force(row)).collect();
-        let freedom = least_norm(&columns, n, &mut forces);
+        let freedom = least_norm(&columns, n, self.independent_rows(), &mut forces);
         (forces, freedom)
     }
 
@@ -148,7 +159,7 @@ impl<T: Scalar> Dynamics<T> {
         }
         let mut forces = vec![T::default(); count + 1];
         // A column that others replace is not determined.
-        !least_norm(&matrix, n, &mut forces).is_determined(count)
+        !least_norm(&matrix, n, count + 1, &mut forces).is_determined(count)
     }
 
     /// Whether forces that the rows leave open change the motion at the last [`Self::value`]: the friction of a body that slides on
@@ -163,7 +174,7 @@ impl<T: Scalar> Dynamics<T> {
             }
         }
         let mut forces = vec![T::default(); acting.len()];
-        let open = least_norm(&rows, n, &mut forces).dimension();
+        let open = least_norm(&rows, n, self.independent_rows(), &mut forces).dimension();
         open > self.least_norm_of_acting().1.dimension()
     }
 

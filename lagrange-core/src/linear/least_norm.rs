@@ -44,10 +44,12 @@ impl Freedom {
 }
 
 /// Replaces `forces` by those of least norm with the same effect, and says how else they could be. `columns` is C by
-/// columns: the generalized force of each unit force, `coordinates` elements each.
+/// columns: the generalized force of each unit force, `coordinates` elements each. No more than `rank` of them are independent: more
+/// seem to be where constraints that depend on one another hold to a tolerance only.
 pub(crate) fn least_norm<T: Scalar>(
     columns: &[T],
     coordinates: usize,
+    rank: usize,
     forces: &mut [T],
 ) -> Freedom {
     let (n, m) = (coordinates, forces.len());
@@ -70,7 +72,7 @@ pub(crate) fn least_norm<T: Scalar>(
     lu.factor(wide, padded);
     // Each row of the basis with its square.
     let mut basis: Vec<(Vec<T>, T)> = Vec::with_capacity(n);
-    for i in lu.independent_rows() {
+    for i in lu.independent_rows().take(rank) {
         let mut row: Vec<T> = (0..m).map(|j| scales[i] * element(i, j)).collect();
         for (other, square) in basis.iter().chain(&basis) {
             let part = dot(other, &row) / *square;
@@ -109,7 +111,7 @@ mod tests {
         // Forces 0 and 1 along x, force 2 along y and force 3 none.
         let columns = [1.0, 0.0, 2.0, 0.0, 0.0, 3.0, 0.0, 0.0];
         let mut forces = [5.0, 0.0, 7.0, 1.0];
-        let freedom = least_norm(&columns, 2, &mut forces);
+        let freedom = least_norm(&columns, 2, 2, &mut forces);
         // Least norm of λ₀ + 2 λ₁ = 5.
         for (found, expected) in forces.into_iter().zip([1.0_f64, 2.0, 7.0, 0.0]) {
             assert!((found - expected).abs() < 1e-14, "{forces:?}");
@@ -128,7 +130,7 @@ mod tests {
         let columns = [-0.4, 1.0, 0.0, flat, flat, 0.7, 0.0, 0.0, 1.0];
         let pull = [3.0_f64, 2.0, 5.0];
         let mut forces = pull;
-        let freedom = least_norm(&columns, 3, &mut forces);
+        let freedom = least_norm(&columns, 3, 3, &mut forces);
         assert_eq!(freedom.dimension(), 0);
         assert!((0..3).all(|i| freedom.row(i).iter().all(|x| x.abs() < 1e-14)));
         let off = forces.iter().zip(pull).map(|(x, y)| (x - y).abs());
@@ -137,7 +139,7 @@ mod tests {
         let columns: [f64; 15] =
             core::array::from_fn(|i| columns[if i < 9 { i } else { i % 3 + 6 }]);
         let mut forces = [3.0_f64, 2.0, 5.0, 4.0, 0.0];
-        let freedom = least_norm(&columns, 3, &mut forces);
+        let freedom = least_norm(&columns, 3, 3, &mut forces);
         assert_eq!(freedom.dimension(), 2);
         assert!(freedom.is_determined(0) && freedom.is_determined(1) && !freedom.is_determined(2));
         let off = forces.iter().zip([3.0, 2.0, 3.0, 3.0, 3.0]);

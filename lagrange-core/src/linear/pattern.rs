@@ -106,7 +106,12 @@ impl<T: Scalar> KktPattern<T> {
 
     /// Whether constant rows that follow from others were left out.
     pub(crate) fn has_dependent_rows(&self) -> bool {
-        self.kept.len() + self.eliminated.len() < self.collected.acting.len()
+        self.independent_rows() < self.collected.acting.len()
+    }
+
+    /// How many rows are left without them.
+    pub(crate) fn independent_rows(&self) -> usize {
+        self.kept.len() + self.eliminated.len()
     }
 
     /// The generalized forces of unit forces: (index among the rows that act, coordinate, factor).

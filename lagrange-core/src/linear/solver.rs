@@ -117,12 +117,22 @@ impl<T: Scalar> Solver<T> {
         self.aside.contains(&true)
     }
 
+    /// How many rows were set aside.
+    pub(crate) fn rows_aside(&self) -> usize {
+        self.aside.iter().filter(|aside| **aside).count()
+    }
+
     /// Whether the rows that are aside now stay aside until this is said again.
     ///
     /// Rows that depend on others do so on the constraints only. A small way from them, at the end of a step, they seem to be independent,
     /// and their forces would be those that bring the state back at once.
     pub(crate) fn hold_rows_aside(&mut self, yes: bool) {
         self.holds = yes && self.has_rows_aside();
+    }
+
+    /// Whether rows are held aside.
+    pub(crate) fn holds_rows_aside(&self) -> bool {
+        self.holds
     }
 
     /// Whether row `i` of the system is held aside.

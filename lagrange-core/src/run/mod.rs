@@ -349,7 +349,9 @@ impl<T: Scalar> Run<T> {
         self.remember_sides(end);
         self.remember_regions(end);
         self.locator.polynomials.raise(end);
-        self.recorder.trajectory.push(&self.stepper.step, exact);
+        let aside = self.dynamics.holds_rows_aside();
+        let trajectory = &mut self.recorder.trajectory;
+        trajectory.push(&self.stepper.step, exact, aside);
         self.recorder.trajectory.work.steps += 1;
         if end > 0.0 {
             let whole = end == 1.0;

@@ -21,7 +21,7 @@ pub(crate) use sampler::{instant, report_everything};
 use crate::arithmetic::Scalar;
 use crate::declaration::Declaration;
 use crate::derivation::Derivation;
-use crate::dynamics::Dynamics;
+use crate::dynamics::{Dynamics, EvaluationError};
 use crate::effects::Effects;
 use crate::error::Error;
 use crate::handle::CoordinateId;
@@ -90,6 +90,8 @@ pub(crate) struct Segment<T> {
     pub offset: usize,
     /// Index into the modes.
     pub mode: usize,
+    /// Whether rows depended on others where it began, and were held aside in all of it.
+    pub holds_rows_aside: bool,
 }
 
 /// The motion of a system over a time interval: polynomials in time, modes, events, work. It is that of any system with numbers `T`.
@@ -157,7 +159,7 @@ impl<T: Scalar> Trajectory<T> {
     }
 
     /// Appends a step, valid up to `end` of its length.
-    pub(crate) fn push(&mut self, step: &StepPolynomial<T>, end: T) {
+    pub(crate) fn push(&mut self, step: &StepPolynomial<T>, end: T, holds_rows_aside: bool) {
         let mode = self.modes.len() - 1;
         if !self.recorded {
             let last = self.segments.pop_if(|last| last.mode == mode);
@@ -169,6 +171,7 @@ impl<T: Scalar> Trajectory<T> {
                 degree: 0,
                 offset: 0,
                 mode,
+                holds_rows_aside,
             });
             return;
         }
@@ -182,7 +185,40 @@ impl<T: Scalar> Trajectory<T> {
             degree: step.degree,
             offset,
             mode,
+            holds_rows_aside,
         });
+    }
+
+    /// Makes `dynamics`, which is in the mode of a segment, leave those rows aside that the run did: the ones that depend on others where
+    /// the segment begins. Within it, where constraints hold to a tolerance only, they seem to be independent. `scratch` is overwritten.
+    pub(crate) fn hold_rows_aside(
+        &self,
+        segment: &Segment<T>,
+        dynamics: &mut Dynamics<T>,
+        State { q, v, .. }: &mut State<T>,
+    ) {
+        dynamics.hold_rows_aside(false);
+        if segment.holds_rows_aside {
+            self.state_at(segment, num_traits::zero(), q, v);
+            let known = dynamics.value_along(segment.t, q, v).is_ok();
+            dynamics.hold_rows_aside(known);
+        }
+    }
+
+    /// The state at part `s` of a segment whose rows `dynamics` leaves aside. Rows that depend on one another agree, and their forces
+    /// exist, on the constraints only, so that it is moved onto them.
+    pub(crate) fn place(
+        &self,
+        segment: &Segment<T>,
+        s: T,
+        dynamics: &mut Dynamics<T>,
+        State { q, v, .. }: &mut State<T>,
+    ) -> Result<(), EvaluationError> {
+        self.state_at(segment, s, q, v);
+        if segment.holds_rows_aside {
+            dynamics.project(segment.t + segment.h * s, q, v, 0.0)?;
+        }
+        Ok(())
     }
 
     /// How much memory the motion takes.

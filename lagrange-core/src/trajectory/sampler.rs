@@ -56,6 +56,8 @@ pub struct Sampler<'a, T: Scalar> {
     redundant: RedundantForces<T>,
     /// What `dynamics` has been made ready for.
     mode: Option<Mode>,
+    /// The segment whose dependent rows are held aside.
+    segment: Option<usize>,
     /// Whether slips have been given directions for the present state.
     headed: bool,
     state: State<T>,
@@ -70,6 +72,7 @@ impl<'a, T: Scalar> Sampler<'a, T> {
             dynamics,
             redundant: RedundantForces::default(),
             mode: None,
+            segment: None,
             headed: false,
             state: trajectory.start.clone(),
         }
@@ -101,7 +104,8 @@ impl<'a, T: Scalar> Sampler<'a, T> {
             });
         }
         let after = trajectory.segments.partition_point(|s| s.t.value() <= t);
-        match trajectory.segments.get(after.saturating_sub(1)) {
+        let index = after.saturating_sub(1);
+        match trajectory.segments.get(index) {
             None => self.evaluate(T::from_f64(t), &trajectory.modes[0], &trajectory.start),
             Some(segment) => {
                 let mode = &trajectory.modes[segment.mode];
@@ -116,11 +120,9 @@ impl<'a, T: Scalar> Sampler<'a, T> {
                 } else {
                     s
                 };
-                let mut state = core::mem::take(&mut self.state);
-                trajectory.state_at(segment, s, &mut state.q, &mut state.v);
-                self.enter(mode);
+                let state = self.place(index, s)?;
                 self.headed = self.head_into_rest(segment, s, time, &state);
-                let instant = self.evaluate(time, mode, &state);
+                let instant = self.evaluate_entered(time, mode, &state);
                 if core::mem::take(&mut self.headed) {
                     self.mode = None;
                 }
@@ -158,20 +160,38 @@ impl<'a, T: Scalar> Sampler<'a, T> {
     }
 
     /// The motion at part `s` of a segment.
-    pub(crate) fn inside(&mut self, segment: usize, s: T) -> Result<Instant<T>, Error> {
+    pub(crate) fn inside(&mut self, index: usize, s: T) -> Result<Instant<T>, Error> {
         let trajectory = self.trajectory;
-        let segment = &trajectory.segments[segment];
-        let mut state = core::mem::take(&mut self.state);
-        trajectory.state_at(segment, s, &mut state.q, &mut state.v);
+        let segment = &trajectory.segments[index];
+        let state = self.place(index, s)?;
         let mode = &trajectory.modes[segment.mode];
-        let instant = self.evaluate(segment.t + segment.h * s, mode, &state);
+        let instant = self.evaluate_entered(segment.t + segment.h * s, mode, &state);
         self.state = state;
         instant
+    }
+
+    /// The state at part `s` of a segment, which is entered; taken from `self.state`.
+    fn place(&mut self, index: usize, s: T) -> Result<State<T>, Error> {
+        let trajectory = self.trajectory;
+        let segment = &trajectory.segments[index];
+        let mode = &trajectory.modes[segment.mode];
+        self.enter(mode);
+        let (dynamics, state) = (&mut self.dynamics, &mut self.state);
+        if self.segment != Some(index) {
+            self.segment = Some(index);
+            trajectory.hold_rows_aside(segment, dynamics, state);
+        }
+        let placed = trajectory.place(segment, s, dynamics, state);
+        let time = (segment.t + segment.h * s).value();
+        let d = trajectory.description();
+        placed.map_err(|e| Error::from_evaluation(e, time, mode, d))?;
+        Ok(core::mem::take(&mut self.state))
     }
 
     fn enter(&mut self, mode: &Mode) {
         if self.mode.as_ref() != Some(mode) {
             self.mode = Some(mode.clone());
+            self.segment = None;
             self.dynamics.set_mode(mode);
             let d = self.trajectory.description();
             let needs = guard::all_row_needs(d, &OutputMask::new(d));
@@ -219,8 +239,20 @@ impl<'a, T: Scalar> Sampler<'a, T> {
         mode: &Mode,
         state: &State<T>,
     ) -> Result<Instant<T>, Error> {
-        let d = self.trajectory.description();
         self.enter(mode);
+        self.segment = None;
+        self.dynamics.hold_rows_aside(false);
+        self.evaluate_entered(t, mode, state)
+    }
+
+    /// The same in the mode or segment that has been entered.
+    fn evaluate_entered(
+        &mut self,
+        t: T,
+        mode: &Mode,
+        state: &State<T>,
+    ) -> Result<Instant<T>, Error> {
+        let d = self.trajectory.description();
         let dynamics = &mut self.dynamics;
         let outcome = if self.headed {
             dynamics.value(t, &state.q, &state.v)

@@ -236,7 +236,7 @@ impl<T: Scalar> Gathering<T> {
                 .iter()
                 .map(|&row| out.impulses[row])
                 .collect();
-            least_norm(columns, n, &mut shared);
+            least_norm(columns, n, shared.len(), &mut shared);
             for (&row, impulse) in self.bilateral.iter().zip(shared) {
                 out.impulses[row] = impulse;
             }

@@ -152,12 +152,7 @@ impl Limits {
             self.dynamics.set_mode(&instant.mode);
         }
         let description = self.dynamics.description();
-        let along = self
-            .dynamics
-            .value_along(time, &instant.state.q, &instant.state.v);
-        if along.is_err() {
-            return vec![None; description.frictions.len()];
-        }
+        self.dynamics.tape(time, &instant.state.q, &instant.state.v);
         let dynamics = &self.dynamics;
         let limit = |(friction, mode): (&Friction, &FrictionMode)| {
             let coefficient = match mode {

@@ -19,6 +19,7 @@ mod crowd;
 mod cue_ball;
 mod damped;
 mod dead_points;
+mod dependent;
 mod fading;
 mod feasible;
 mod groove;

@@ -190,7 +190,7 @@ impl<T: Scalar> Pattern<T> {
             .iter()
             .map(|&row| self.impulses[row])
             .collect();
-        least_norm(&columns, c.size, &mut shared);
+        least_norm(&columns, c.size, shared.len(), &mut shared);
         for (&row, impulse) in self.unknowns.iter().zip(shared) {
             self.impulses[row] = impulse;
         }

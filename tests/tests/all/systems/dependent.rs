@@ -1,0 +1,63 @@
+//! Constraints that depend on one another on the constraints only: between the ends of its steps a motion satisfies them to the tolerance.
+
+use super::state;
+use lagrange_core::prelude::*;
+use lagrange_tests::{agree, run_by};
+
+/// A pendulum with a flywheel. (x, y) is its direction: a unit vector, and once more by its angle.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, theta),
+    kinetic = mass * length^2 / 2 * (der(x)^2 + der(y)^2) + inertia/2 * der(theta)^2,
+    potential = mass * gravity * length * y,
+    constraint(unit: x^2 + y^2 == 1),
+    constraint(level: x == cos(theta)),
+    constraint(upright: y == sin(theta)),
+)]
+struct Direction {
+    mass: f64,
+    length: f64,
+    inertia: f64,
+    gravity: f64,
+}
+
+/// (I + m l²) θ̈ = −m g l cos θ. With A and B, what presses along x and y, any λ₀ leaves λ₁ = A − 2 λ₀ x and λ₂ = B − 2 λ₀ y to the others, and
+/// λ₀² + λ₁² + λ₂² is least for λ₀ = 2 (A x + B y)/5. Forces are those within steps too, by all methods, and nothing is left out of a certificate.
+#[test]
+fn forces_within_steps_are_the_smallest_ones() {
+    let scene = Direction {
+        mass: 2.0,
+        length: 0.5,
+        inertia: 0.3,
+        gravity: 9.81,
+    };
+    let own = scene.mass * scene.length * scene.length;
+    let weight = scene.mass * scene.gravity * scene.length;
+    for method in ["taylor", "dop853", "dopri5", "verner98", "radau5"] {
+        for tolerance in [1e-3, 1e-5, 1e-7, 1e-9] {
+            let asked = format!("{method} {tolerance:e}");
+            let start = state(&[1.0, 0.0, 0.0], &[0.0, 3.0, 3.0]);
+            let motion = run_by(&scene, (method, tolerance), start, 3.0);
+            let mut sampler = motion.sampler();
+            for k in 0..=60 {
+                let now = sampler.at(0.05 * f64::from(k)).expect(&asked);
+                let (theta, rate) = (now.q(Direction::THETA), now.v(Direction::THETA));
+                let turn = -weight * theta.cos() / (scene.inertia + own);
+                let (s, c) = theta.sin_cos();
+                let a = own * (-c * rate * rate - s * turn);
+                let b = own * (-s * rate * rate + c * turn) + weight;
+                let unit = 0.4 * (a * c + b * s);
+                let forces = [unit, a - 2.0 * unit * c, b - 2.0 * unit * s];
+                let handles = [Direction::UNIT, Direction::LEVEL, Direction::UPRIGHT];
+                for (handle, force) in handles.into_iter().zip(forces) {
+                    agree(&asked, now.force(handle), force, 1e-9);
+                }
+                assert!(now.undetermined[0], "{asked}");
+            }
+            let certificate = motion.verify(3).expect("a certificate");
+            assert!(certificate.holds(), "{asked}: {certificate}");
+            assert_eq!(certificate.unevaluated, 0, "{asked}");
+            motion.ledger().expect(&asked);
+        }
+    }
+}
