@@ -124,7 +124,12 @@ impl<T: Scalar> Dynamics<T> {
             columns[index * n + coordinate] += place.read(&self.compiled().constants, &nodes);
         }
         let mut forces: Vec<T> = acting.iter().map(|&row| self.force(row)).collect();
-        let freedom = least_norm(&columns, n, self.independent_rows(), &mut forces);
+        // What slides presses the columns apart: rows that depend on one another may have independent forces.
+        let rank = match pattern.slides.is_empty() {
+            true => self.independent_rows(),
+            false => acting.len(),
+        };
+        let freedom = least_norm(&columns, n, rank, &mut forces);
         (forces, freedom)
     }
 
