@@ -90,19 +90,15 @@ impl EvaluationError {
 impl fmt::Display for EvaluationError {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
-            Self::NoInertia { coordinate } => write!(
-                f,
-                "nothing determines the acceleration of coordinate {coordinate}; give it a kinetic energy or a constraint"
+            Self::NoInertia { .. } => f.write_str(
+                "nothing determines the acceleration of a coordinate; give it a kinetic energy or a constraint"
             ),
-            Self::Undetermined { row } => {
-                write!(
-                    f,
-                    "the equations do not determine the force of row {row}: it depends on other rows there, or its kinetic friction is so large that it locks itself"
-                )
-            }
-            Self::Inconsistent { row, residual } => write!(
+            Self::Undetermined { .. } => f.write_str(
+                "the equations do not determine a force: it depends on others there, or its kinetic friction is so large that it locks itself"
+            ),
+            Self::Inconsistent { residual, .. } => write!(
                 f,
-                "row {row} depends on the other rows but contradicts them by {residual:e}; leave one of them out"
+                "an item depends on others but contradicts them by {residual:e}; leave one of them out"
             ),
             Self::NoSeries { operation, .. } => write!(
                 f,

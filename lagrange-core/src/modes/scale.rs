@@ -93,7 +93,8 @@ impl Sizes {
         }
     }
 
-    fn compliance<T: Scalar>(&self, row: usize, dynamics: &Dynamics<T>) -> f64 {
+    /// Compliance of a row: its acceleration by a force of 1 along it.
+    pub fn compliance<T: Scalar>(&self, row: usize, dynamics: &Dynamics<T>) -> f64 {
         let jacobian = dynamics.description().rows[row].jacobian.iter();
         let parts =
             jacobian.map(|&(j, place)| dynamics.motion(place).value().powi(2) * self.mobility[j]);

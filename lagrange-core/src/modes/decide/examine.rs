@@ -172,13 +172,19 @@ impl<T: Scalar> Decider<T> {
         };
         let reading = Reading::Series(dynamics);
         let size = |place: ValueRef| largest(reading.motion(place).as_slice());
+        // Of accelerations that forces keep at zero while they grow rounding is left.
+        let pushed = dynamics.acting_rows().iter().map(|&index| {
+            self.sizes.compliance(index, dynamics) * largest(dynamics.force_series(index))
+        });
+        let pushed = pushed.fold(0.0, f64::max);
         let apart = dynamics.acting_rows().iter().any(|&index| {
             let row = &d.rows[index];
             let speeds = row.jacobian.iter();
             // A velocity that is zero is so only to rounding of the unit.
             let speeds = speeds
                 .map(|&(j, place)| size(place) * (largest(dynamics.velocity_series(j)) + AT_REST));
-            let whole = speeds.sum::<f64>() + self.sizes.acceleration(index, dynamics) * h;
+            let whole =
+                speeds.sum::<f64>() + (self.sizes.acceleration(index, dynamics) + pushed) * h;
             size(row.velocity) > APART * whole
         });
         if apart {

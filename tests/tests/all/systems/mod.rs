@@ -37,6 +37,7 @@ mod lifts;
 mod metric;
 mod multiples_of_pi;
 mod onset;
+mod pads;
 mod parameters;
 mod pendulum;
 mod permuted;
