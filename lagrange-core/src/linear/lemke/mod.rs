@@ -67,23 +67,6 @@ pub(crate) struct Lemke {
 impl Lemke {
     /// Solves for the row-major `matrix` (size × size) and `q`.
     pub(crate) fn solve(&mut self, matrix: &[f64], q: &[f64]) -> Outcome {
-        self.equilibrate(matrix, q.len());
-        self.solve_scaled(matrix, q)
-    }
-
-    /// The same where the elements of q are comparable as they are. To equilibrate would stretch a row that hardly depends on z, and
-    /// next to it the others would be rounding.
-    pub(crate) fn solve_comparable(&mut self, matrix: &[f64], q: &[f64]) -> Outcome {
-        let largest = matrix.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-        let root = inverse_root(largest);
-        for scale in [&mut self.row_scale, &mut self.column_scale] {
-            scale.clear();
-            scale.resize(q.len(), root);
-        }
-        self.solve_scaled(matrix, q)
-    }
-
-    fn solve_scaled(&mut self, matrix: &[f64], q: &[f64]) -> Outcome {
         self.begin(matrix, q);
         let outcome = self.search();
         self.z.clear();
@@ -130,8 +113,10 @@ impl Lemke {
         self.basic.contains(&Unknown::Z(i))
     }
 
-    /// Scales that make rows and columns about 1: that only stretches w and z.
-    fn equilibrate(&mut self, matrix: &[f64], n: usize) {
+    /// Takes a problem, rows and columns scaled to about 1: that only stretches w and z.
+    fn begin(&mut self, matrix: &[f64], q: &[f64]) {
+        let n = q.len();
+        self.size = n;
         self.row_scale.clear();
         self.row_scale.resize(n, 1.0);
         self.column_scale.clear();
@@ -148,12 +133,6 @@ impl Lemke {
                 self.column_scale[j] *= inverse_root(largest);
             }
         }
-    }
-
-    /// Takes a problem, with the scales that have been chosen.
-    fn begin(&mut self, matrix: &[f64], q: &[f64]) {
-        let n = q.len();
-        self.size = n;
         self.constants.clear();
         let scaled = q.iter().zip(&self.row_scale).map(|(q, r)| q * r);
         self.constants.extend(scaled);

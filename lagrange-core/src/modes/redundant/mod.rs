@@ -112,13 +112,12 @@ impl<T: Scalar> RedundantForces<T> {
             let Some((composite, value)) = self.certificate() else {
                 break;
             };
-            // What rounding has made proves nothing.
-            if value > margin {
+            smallest = Some(composite);
+            // Below that the search sees its own rounding.
+            if value > margin - ROUNDING {
                 break;
             }
-            smallest = Some(composite);
-            // At the value itself rounding decides whether there are shares.
-            margin = value - ROUNDING;
+            margin = value;
         }
         smallest
     }
@@ -134,7 +133,7 @@ impl<T: Scalar> RedundantForces<T> {
             .iter()
             .map(|bound| value(bound.guard, bound.along) / bound.size + ROUNDING);
         self.q.extend(values);
-        let forbids = self.lemke.solve_comparable(&self.matrix, &self.q) == LemkeOutcome::Ray;
+        let forbids = self.lemke.solve(&self.matrix, &self.q) == LemkeOutcome::Ray;
         let (composite, _) = forbids.then(|| self.certificate())??;
         Some(composite)
     }
@@ -169,7 +168,7 @@ impl<T: Scalar> RedundantForces<T> {
             self.q.clear();
             let values = self.bounds.iter().map(|bound| bound.value - margin);
             self.q.extend(values);
-            if self.lemke.solve_comparable(&self.matrix, &self.q) != LemkeOutcome::Solved {
+            if self.lemke.solve(&self.matrix, &self.q) != LemkeOutcome::Solved {
                 return false;
             }
             self.shares.clear();
