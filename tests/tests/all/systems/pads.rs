@@ -50,7 +50,8 @@ fn a_bar_holds_under_a_load_that_grows_from_nothing() {
                 words(&motion)
             );
             // One pad alone holds 1.5 N.
-            assert_eq!(motion.final_state().v, [0.0; 3], "{method}, bar {k}");
+            let still = motion.final_state().v.iter().all(|v| v.abs() < 1e-14);
+            assert!(still, "{method}, bar {k}: {:?}", motion.final_state().v);
         }
     }
 }
