@@ -8,7 +8,7 @@ use crate::mode::{FrictionMode, Mode, Sliding};
 use crate::modes::decide::SwitchFacts;
 use crate::modes::guard;
 use crate::state::State;
-use crate::system::{Description, Normal, ValueRef};
+use crate::system::{Description, ValueRef};
 
 /// What is accepted as zero in a start, relative to the size of the state: a start is typed or computed by a user.
 pub(super) fn slack(tolerance: f64) -> f64 {
@@ -141,7 +141,7 @@ impl ConstraintStatus {
     fn look_at_friction<T: Scalar>(&mut self, f: usize, view: &View<T>) {
         let d = view.dynamics.description();
         let friction = &d.frictions[f];
-        if matches!(friction.normal, Normal::Contact(c) if !self.mode.contacts[c]) {
+        if !friction.normal.presses(|c| self.mode.contacts[c]) {
             return;
         }
         let rows = friction.row..friction.row + friction.components;

@@ -352,11 +352,7 @@ impl<T: Scalar> Run<T> {
         self.evaluate_all_rows()?;
         for (f, friction) in d.frictions.iter().enumerate() {
             // A friction with a force of its own has slipped at the last impact and sticks again before the next one.
-            let acts = match friction.normal {
-                Normal::Contact(c) => near.contains(&c),
-                Normal::Constraint(_) | Normal::Given(_) => true,
-            };
-            if acts {
+            if friction.normal.presses(|c| near.contains(&c)) {
                 facts.resting[f] = rest.sticks[f] || self.slip_vanishes(f);
             }
         }

@@ -1,6 +1,6 @@
 //! What is behind an error of the motion: coefficients without meaning where it happened, or fixed steps that lost the motion.
 
-use super::Run;
+use super::{Run, exponents};
 use crate::arithmetic::Scalar;
 use crate::error::Error;
 use crate::integrate::Method;
@@ -26,20 +26,21 @@ impl<T: Scalar> Run<T> {
     }
 
     /// The same error, which says so if functions overflow where a number is not finite.
-    fn overflow(&mut self, error: Error) -> Error {
-        match (error, &mut self.exponents) {
-            (
+    fn overflow(&self, error: Error) -> Error {
+        match error {
+            Error::NotFinite {
+                time, mode, what, ..
+            } => {
+                let (system, effects) = (self.dynamics.system(), self.dynamics.effects());
+                let overflow = exponents::overflow(system, effects, self.now.t, &self.now.state);
                 Error::NotFinite {
-                    time, mode, what, ..
-                },
-                Some(exponents),
-            ) => Error::NotFinite {
-                time,
-                mode,
-                what,
-                overflow: exponents.overflow(self.now.t, &self.now.state),
-            },
-            (error, _) => error,
+                    time,
+                    mode,
+                    what,
+                    overflow,
+                }
+            }
+            error => error,
         }
     }
 

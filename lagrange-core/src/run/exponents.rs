@@ -30,8 +30,6 @@ pub(super) struct Exponents {
     evaluator: Evaluator,
     /// Each argument, and by how much the exponent changes with it.
     arguments: Vec<(usize, f64)>,
-    /// The functions that grow.
-    growing: Vec<usize>,
     /// Per argument: itself and its change over a piece, at the beginning of the piece.
     before: Vec<[f64; 2]>,
     /// Per argument: up to where its exponent may rise.
@@ -45,27 +43,19 @@ impl Exponents {
     /// Those of a system, if it has any.
     pub(super) fn new<T: Scalar>(system: &Erased<T>, effects: &Effects) -> Option<Self> {
         let (d, declaration) = (system.description(), system.declaration());
-        let acting = acting(d, declaration, effects);
-        let mut arguments = exponents(declaration, acting.iter().copied());
+        let mut arguments = exponents(declaration, acting(d, declaration, effects));
         if arguments.is_empty() {
             return None;
         }
-        let parameters: Vec<f64> = (0..d.parameters.len())
-            .map(|i| system.parameter(i).value())
-            .collect();
-        let mut growing = exponentials(declaration, acting);
         let wanted = arguments.iter().map(|&(argument, _)| argument);
-        let wanted = wanted.chain(growing.iter().copied());
-        let evaluator = Evaluator::new(declaration, &parameters, wanted);
+        let evaluator = Evaluator::new(declaration, &parameters(system), wanted);
         arguments.retain(|&(argument, _)| {
             evaluator.moves(argument) && !evaluator.is_of_forces(argument)
         });
-        growing.retain(|&value| evaluator.moves(value) && !evaluator.is_of_forces(value));
         let (n, count) = (d.coordinates.len(), arguments.len());
         (count > 0).then(|| Self {
             evaluator,
             arguments,
-            growing,
             before: vec![[0.0; 2]; count],
             highest: vec![0.0; count],
             q: vec![0.0; n],
@@ -109,33 +99,14 @@ impl Exponents {
         end
     }
 
-    /// Whether functions are so large at a state that powers of them are beyond all numbers.
-    #[cold]
-    pub(super) fn overflow<T: Scalar>(&mut self, time: T, state: &State<T>) -> bool {
-        for i in 0..self.q.len() {
-            self.q[i] = state.q[i].value();
-            self.v[i] = state.v[i].value();
-        }
-        self.evaluate(time.value());
-        let mut sizes = self
-            .growing
-            .iter()
-            .map(|&value| self.evaluator.value(value));
-        sizes.any(|size| size.powi(RAISED).is_infinite())
-    }
-
     fn look<T: Scalar>(&mut self, step: &StepPolynomial<T>, s: f64) {
         let s = T::from_f64(s);
         for i in 0..self.q.len() {
             self.q[i] = step.position(i, s).value();
             self.v[i] = step.velocity(i, s).value();
         }
-        self.evaluate(step.time(s).value());
-    }
-
-    fn evaluate(&mut self, time: f64) {
         self.evaluator.evaluate(Inputs {
-            time,
+            time: step.time(s).value(),
             q: &self.q,
             v: &self.v,
             acceleration: &self.still,
@@ -143,6 +114,38 @@ impl Exponents {
             loads: &[],
         });
     }
+}
+
+/// Whether functions in what acts are so large at a state that powers of them are beyond all numbers.
+#[cold]
+pub(super) fn overflow<T: Scalar>(
+    system: &Erased<T>,
+    effects: &Effects,
+    time: T,
+    state: &State<T>,
+) -> bool {
+    let (d, declaration) = (system.description(), system.declaration());
+    let growing = exponentials(declaration, acting(d, declaration, effects));
+    let mut evaluator = Evaluator::new(declaration, &parameters(system), growing.iter().copied());
+    let numbers = |list: &[T]| -> Vec<f64> { list.iter().map(|x| x.value()).collect() };
+    evaluator.evaluate(Inputs {
+        time: time.value(),
+        q: &numbers(&state.q),
+        v: &numbers(&state.v),
+        acceleration: &vec![0.0; state.q.len()],
+        forces: &[],
+        loads: &[],
+    });
+    let mut growing = growing.into_iter();
+    growing.any(|value| {
+        let follows = evaluator.moves(value) && !evaluator.is_of_forces(value);
+        follows && evaluator.value(value).powi(RAISED).is_infinite()
+    })
+}
+
+fn parameters<T: Scalar>(system: &Erased<T>) -> Vec<f64> {
+    let count = system.description().parameters.len();
+    (0..count).map(|i| system.parameter(i).value()).collect()
 }
 
 /// Least |z| of the cubic with these values and changes at both ends of a piece.

@@ -112,11 +112,7 @@ impl<T: Scalar> Run<T> {
             return self.taylor_step();
         }
         self.stepper.control = DefectControl::default();
-        let breaks = core::mem::take(&mut self.stepper.breaks);
         let hit = self.other_step();
-        if self.stepper.breaks > 0 {
-            self.stepper.breaks += breaks;
-        }
         if hit.is_err() && self.settings.method == Method::Auto {
             // What Radau cannot do may still be within reach of Taylor series.
             self.leave_stiffness();
@@ -572,6 +568,7 @@ impl<T: Scalar> Run<T> {
             self.evaluate_end(hit.end()).map_err(|e| self.error(e))?;
             self.now.distance = self.rank.distance(&self.dynamics);
             if !self.corrects_composites(&hit, hit.end(), &mut corrections) {
+                self.stepper.breaks = 0;
                 return Ok(hit);
             }
             self.sample()?;

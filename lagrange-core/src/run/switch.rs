@@ -361,11 +361,7 @@ impl<T: Scalar> Run<T> {
     fn rest_where_slip_vanishes(&mut self, facts: &mut SwitchFacts) -> Result<(), Error> {
         let d = self.description();
         let wakes = |run: &Self, facts: &SwitchFacts, f: usize| {
-            let closes = match d.frictions[f].normal {
-                Normal::Contact(c) => facts.touching[c],
-                Normal::Constraint(_) | Normal::Given(_) => true,
-            };
-            closes
+            d.frictions[f].normal.presses(|c| facts.touching[c])
                 && !facts.resting[f]
                 && run.now.mode.frictions[f] == FrictionMode::Inactive
                 && run.dynamics.effects().includes(d, Item::Friction(f))

@@ -65,6 +65,16 @@ pub enum Normal {
     Given(ValueRef),
 }
 
+impl Normal {
+    /// Whether something presses, given which contacts are closed.
+    pub(crate) fn presses(self, closed: impl FnOnce(usize) -> bool) -> bool {
+        match self {
+            Normal::Contact(contact) => closed(contact),
+            Normal::Constraint(_) | Normal::Given(_) => true,
+        }
+    }
+}
+
 /// A piecewise branch.
 #[derive(Debug)]
 pub struct Branch {

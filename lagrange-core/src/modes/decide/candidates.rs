@@ -165,11 +165,7 @@ pub fn look_at_slips<T: Scalar>(
     let d = dynamics.description();
     let SwitchContext { moment, facts, .. } = here;
     let slides_unknown = |f: usize| {
-        let closes = match d.frictions[f].normal {
-            Normal::Contact(c) => facts.touching[c],
-            Normal::Constraint(_) | Normal::Given(_) => true,
-        };
-        closes
+        d.frictions[f].normal.presses(|c| facts.touching[c])
             && d.frictions[f].components == 1
             && !facts.resting[f]
             && dynamics.effects().includes(d, Item::Friction(f))
@@ -209,7 +205,7 @@ impl<T: Scalar> Choices<'_, T> {
     pub fn of_friction(&self, mode: &Mode, f: usize, mut put: impl FnMut(FrictionMode)) {
         let d = self.description();
         let friction = &d.frictions[f];
-        let idle = matches!(friction.normal, Normal::Contact(c) if !mode.contacts[c]);
+        let idle = !friction.normal.presses(|c| mode.contacts[c]);
         if idle || !self.dynamics.effects().includes(d, Item::Friction(f)) {
             return put(FrictionMode::Inactive);
         }
