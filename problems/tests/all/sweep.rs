@@ -79,6 +79,61 @@ fn what_is_observed_is_what_a_single_run_tells() {
     assert_eq!((number(cells[4]), cells[5], cells[6]), (1.0, "", ""));
 }
 
+/// What no event has: forces, outputs and energies at the end, outputs before an event. A start that is varied and the same
+/// coordinate at the end are two columns.
+#[test]
+fn forces_and_outputs_are_observed_at_the_end_and_at_events() {
+    let observed = [
+        "rim",
+        "px",
+        "energy",
+        "phi",
+        "py at rim lost",
+        "kinetic at rim lost",
+    ];
+    let observe: Vec<&str> = observed.iter().flat_map(|o| ["--observe", o]).collect();
+    let scene = ["sweep", "mass-on-wheel", "--vary", "phi=0.1..0.3:3"];
+    let told = ["--format", "csv", "--quiet"];
+    // Before the mass slips it is at rest on the rim; until 2.6 s it has not left.
+    for until in ["2", "10"] {
+        let arguments = [&scene[..], &observe, &told, &["--until", until]].concat();
+        let said = says(&arguments);
+        let mut lines = said.lines().map(|line| line.split(',').collect::<Vec<_>>());
+        let head = lines.next().expect("a header");
+        assert!(head[4].starts_with("phi at the end"), "{head:?}");
+        let cells = lines.nth(1).expect("the second run");
+        let run = ["run", "mass-on-wheel", "--start", "phi=0.2", "--until"];
+        let rows = says(&[&run[..], &[until, "--format", "csv"]].concat());
+        let mut rows = rows.lines().map(|line| line.split(',').collect::<Vec<_>>());
+        let names = rows.next().expect("a header");
+        let rows: Vec<_> = rows.collect();
+        let number = |row: Option<&Vec<&str>>, name: &str| {
+            let column = names.iter().position(|n| n.split(' ').next() == Some(name));
+            let column = column.unwrap_or_else(|| panic!("no column {name}"));
+            row.map_or(f64::NAN, |row| row[column].parse().expect("a number"))
+        };
+        let lost = rows.iter().find(|row| row[1] == "rim lost");
+        let end = rows.last();
+        let sum = |row, a, b| number(row, a) + number(row, b);
+        let expected = [
+            number(end, "force(rim)"),
+            number(end, "px"),
+            sum(end, "kinetic", "potential"),
+            number(end, "phi"),
+            number(lost, "py"),
+            number(lost, "kinetic"),
+        ];
+        for ((cell, expected), name) in cells[1..].iter().zip(expected).zip(observed) {
+            let found = cell.parse().unwrap_or(f64::NAN);
+            let same = (found - expected).abs() <= 1e-12 * (1.0 + expected.abs());
+            assert!(
+                same || found.is_nan() && expected.is_nan(),
+                "{name}: {found} {expected}"
+            );
+        }
+    }
+}
+
 #[test]
 fn failures_are_told_by_reason_and_place() {
     let said = says(&sweep(&[]));
@@ -225,7 +280,11 @@ fn sweeps_without_sense_are_refused_in_one_line() {
     );
     of_wheel(
         &["--vary", "mass=1..2:3", "--observe", "y"],
-        "no coordinate, velocity or force is called `y`",
+        "no coordinate, velocity, force or output is called `y`",
+    );
+    of_wheel(
+        &["--vary", "mass=1..2:3", "--observe", "x", "--observe", "x"],
+        "given twice",
     );
     of_wheel(
         &["--vary", "mass=1..2:3", "--observe", "theta at rim loss"],

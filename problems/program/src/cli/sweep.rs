@@ -40,8 +40,9 @@ pub(super) struct Sweeps {
     /// Which of many such samples.
     #[arg(long, default_value_t = 1, requires = "sample")]
     seed: u32,
-    /// What to read from each run: "theta at shell lost", "t at grip slips", "count floor impact", "x" (at the end), or a named
-    /// result of the scene ("leave angle"). May be repeated.
+    /// What to read from each run: a coordinate, velocity, force, output or energy at an event ("theta at shell lost", "t at grip
+    /// slips", "energy at floor impact 2") or at the end ("x"); "count floor impact"; or a named result of the scene ("leave angle").
+    /// May be repeated.
     #[arg(long, value_name = "WHAT", required = true)]
     observe: Vec<String>,
     #[command(flatten)]

@@ -67,14 +67,22 @@ impl Sweep {
         points: Points,
         observed: &[String],
     ) -> Result<Self, Refusal> {
+        let mut columns: Vec<Observation> = Vec::new();
+        for text in observed {
+            let mut column = Observation::new(text, scene)?;
+            if points.axes.iter().any(|axis| axis.name == column.name) {
+                column = Observation::new(&format!("{} at the end", column.name), scene)?;
+            }
+            if columns.iter().any(|other| other.name == column.name) {
+                return Err(Refusal::Repeated { name: column.name });
+            }
+            columns.push(column);
+        }
         let sweep = Self {
             scene,
             request,
             points,
-            observed: observed
-                .iter()
-                .map(|text| Observation::new(text, scene))
-                .collect::<Result<_, _>>()?,
+            observed: columns,
         };
         if sweep.points.len() > MOST_POINTS {
             let points = sweep.points.size();

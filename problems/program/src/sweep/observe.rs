@@ -1,10 +1,10 @@
 //! What is read from each run of a sweep.
 //!
 //! ```text
-//! theta at shell lost        a coordinate, velocity or force just before an event, `t` for its time
+//! theta at shell lost        a coordinate, velocity, force, output or energy just before an event, `t` for its time
 //! theta at floor impact 2    … at its second occurrence
 //! count floor impact         how often
-//! theta                      at the end of the run
+//! theta, theta at the end    at the end of the run
 //! modes                      the sequence of its switches
 //! ```
 
@@ -32,6 +32,11 @@ enum What {
     Position(usize),
     Velocity(usize),
     Force(usize),
+    Output(usize),
+    Kinetic,
+    Potential,
+    /// Kinetic and potential.
+    Energy,
     Count,
     Modes(Switches),
 }
@@ -55,6 +60,7 @@ impl Observation {
         let (what, at) = match (name.strip_prefix("count "), name.split_once(" at ")) {
             _ if name == "modes" => (What::Modes(Switches::of(description)), At::End),
             (Some(event), _) => (What::Count, at(event, description)?),
+            (None, Some((quantity, "the end"))) => (quantity_of(quantity, description)?, At::End),
             (None, Some((quantity, event))) => {
                 (quantity_of(quantity, description)?, at(event, description)?)
             }
@@ -74,6 +80,8 @@ impl Observation {
             What::Position(index) => unit(description, *index, Quantity::Position),
             What::Velocity(index) => unit(description, *index, Quantity::Velocity),
             What::Force(row) => description.units.row(*row).to_owned(),
+            What::Output(index) => description.observes[*index].unit.to_owned(),
+            What::Kinetic | What::Potential | What::Energy => description.units.energy.to_owned(),
             What::Count | What::Modes(_) => String::new(),
         }
     }
@@ -104,11 +112,8 @@ impl Observation {
         if let What::Modes(switches) = &self.what {
             return switches.number(trajectory.events());
         }
-        let (time, state, forces) = match &self.at {
-            At::End => {
-                let state = trajectory.final_state();
-                (trajectory.last_time(), state, None)
-            }
+        let event = match &self.at {
+            At::End => None,
             At::Event(sought, number) => {
                 let mut events = trajectory.events().iter().filter(|event| sought.is(event));
                 if self.what == What::Count {
@@ -117,15 +122,35 @@ impl Observation {
                 let Some(event) = events.nth(number - 1) else {
                     return f64::NAN;
                 };
-                (event.time, &event.state, Some(&event.forces))
+                Some(event)
             }
         };
+        let state = event.map_or(trajectory.final_state(), |event| &event.state);
+        match (&self.what, event) {
+            (What::Time, _) => event.map_or(trajectory.last_time(), |event| event.time),
+            (What::Position(i), _) => state.q[*i],
+            (What::Velocity(i), _) => state.v[*i],
+            (What::Force(row), Some(event)) => event.forces[*row],
+            // The rest is not kept of a run.
+            _ => {
+                let mut sampler = trajectory.sampler();
+                let instant = match event {
+                    None => sampler.at(trajectory.last_time()),
+                    Some(event) => sampler.before(event),
+                };
+                instant.map_or(f64::NAN, |instant| self.evaluated(&instant))
+            }
+        }
+    }
+
+    fn evaluated(&self, instant: &Instant<f64>) -> f64 {
         match &self.what {
-            What::Time => time,
-            What::Position(i) => state.q[*i],
-            What::Velocity(i) => state.v[*i],
-            What::Force(row) => forces.map_or(f64::NAN, |forces| forces[*row]),
-            What::Count | What::Modes(_) => 0.0,
+            What::Force(row) => instant.forces[*row],
+            What::Output(i) => instant.observes[*i],
+            What::Kinetic => instant.kinetic,
+            What::Potential => instant.potential,
+            What::Energy => instant.kinetic + instant.potential,
+            _ => 0.0,
         }
     }
 }
@@ -143,6 +168,15 @@ fn quantity_of(name: &str, description: &'static Description) -> Result<What, Re
     if let Some(Force { row, .. }) = forces(description).iter().find(|force| force.name == name) {
         return Ok(What::Force(*row));
     }
+    if let Some(index) = description.observes.iter().position(|o| o.name == name) {
+        return Ok(What::Output(index));
+    }
+    match name {
+        "kinetic" => return Ok(What::Kinetic),
+        "potential" => return Ok(What::Potential),
+        "energy" => return Ok(What::Energy),
+        _ => {}
+    }
     let (index, level) = find_state(description, name).map_err(|_| unknown(name, description))?;
     Ok(match level {
         Quantity::Position => What::Position(index),
@@ -156,9 +190,15 @@ fn unknown(name: &str, description: &'static Description) -> Refusal {
         known.extend([coordinate.name.to_owned(), velocity_name(coordinate.name)]);
     }
     known.extend(forces(description).into_iter().map(|force| force.name));
-    known.push("modes".to_owned());
+    known.extend(
+        description
+            .observes
+            .iter()
+            .map(|output| output.name.to_owned()),
+    );
+    known.extend(["kinetic", "potential", "energy", "modes"].map(str::to_owned));
     Refusal::unknown(
-        "coordinate, velocity or force",
+        "coordinate, velocity, force or output",
         name,
         known.iter().map(String::as_str),
     )
