@@ -287,6 +287,14 @@ fn sweeps_without_sense_are_refused_in_one_line() {
         "given twice",
     );
     of_wheel(
+        &["--vary", "mass=1..2", "--observe", "x"],
+        "--vary mass=1..2: how many values?",
+    );
+    of_wheel(
+        &["--vary", "mass=1..2:3", "--observe", "x", "--estimate"],
+        "no place for estimates",
+    );
+    of_wheel(
         &["--vary", "mass=1..2:3", "--observe", "theta at rim loss"],
         "did you mean `rim lost`?",
     );

@@ -1,6 +1,7 @@
 //! `lagrange merge`: the parts of a sweep, from wherever they were done, to what one machine would have written.
 
 use super::Trouble;
+use super::output::ready;
 use super::results::{Results, verdict};
 use crate::catalogue::Catalogue;
 use crate::sweep::Journal;
@@ -26,6 +27,7 @@ pub(super) struct Merge {
 impl Merge {
     pub(super) fn execute(self, catalogue: &Catalogue) -> Result<(), Trouble> {
         self.results.check()?;
+        ready(self.results.files(), &[])?;
         let (sweep, journal) =
             Journal::gather(&self.folders, catalogue).map_err(Trouble::failed)?;
         verdict(&self.results.write(&sweep, &journal)?)

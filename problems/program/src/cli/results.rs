@@ -40,6 +40,14 @@ impl Results {
         Ok(())
     }
 
+    /// What is written.
+    pub(super) fn files(&self) -> impl Iterator<Item = &Path> {
+        [&self.output, &self.plot]
+            .into_iter()
+            .flatten()
+            .map(PathBuf::as_path)
+    }
+
     /// Refuses what could not be drawn.
     pub(super) fn check_picture(&self, sweep: &Sweep) -> Result<(), Trouble> {
         match self.plot {

@@ -4,7 +4,7 @@ use super::compare::Comparison;
 use super::output::{draw, ready, to_file};
 use super::run_args::RunArgs;
 use super::terminal::{keep_what_is_done, patiently};
-use super::values::{intervals, picture};
+use super::values::{self, intervals, picture};
 use super::watch::watched;
 use super::{Trouble, went_well};
 use crate::catalogue::Catalogue;
@@ -71,13 +71,13 @@ struct Results {
     #[arg(long, value_name = "CHANGE", allow_hyphen_values = true)]
     compare: Vec<Comparison>,
     /// Equal intervals of time to sample the motion at, beside the ends of its phases [default: 400].
-    #[arg(long, value_name = "N", value_parser = intervals)]
+    #[arg(long, value_name = "N", value_parser = intervals, allow_hyphen_values = true)]
     samples: Option<usize>,
     /// Give the work of every item over time (csv, jsonl, parquet: columns; json: a list).
     #[arg(long)]
     ledger: bool,
     /// Write this run down as a scene file.
-    #[arg(long, value_name = "FILE.toml")]
+    #[arg(long, value_name = "FILE.toml", value_parser = values::scene_file)]
     save: Option<PathBuf>,
 }
 

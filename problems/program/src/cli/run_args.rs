@@ -32,12 +32,12 @@ pub(super) struct RunArgs {
     error: Option<f64>,
     /// Run again at a hundredth of the tolerance, and tell how far off the first run is.
     #[arg(long, conflicts_with = "error")]
-    estimate: bool,
+    pub(super) estimate: bool,
     /// Method of integration [default: auto].
     #[arg(long, value_name = "M", value_parser = method)]
     method: Option<Method>,
     /// Events after which the run ends with an error [default: 100000; of each run of a sweep 10000].
-    #[arg(long, value_name = "N", value_parser = events)]
+    #[arg(long, value_name = "N", value_parser = events, allow_hyphen_values = true)]
     max_events: Option<usize>,
 }
 

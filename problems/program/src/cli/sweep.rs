@@ -1,5 +1,6 @@
 //! `lagrange sweep`: many runs of one scene, on all cores.
 
+use super::output::ready;
 use super::results::{Results, beside, verdict};
 use super::run_args::RunArgs;
 use super::{Trouble, terminal};
@@ -60,6 +61,10 @@ pub(super) struct Sweeps {
 impl Sweeps {
     pub(super) fn execute(self, catalogue: &Catalogue) -> Result<(), Trouble> {
         self.results.check()?;
+        if self.run.estimate {
+            let reason = "a sweep has no place for estimates; --error keeps the error of every run below a bound";
+            return Err(Trouble::usage(reason));
+        }
         let file = self.run.of(&self.scene, catalogue)?;
         let points = Points {
             axes: self.vary.clone(),
@@ -79,6 +84,7 @@ impl Sweeps {
 
     /// The journal of a shard.
     fn journal(&self, sweep: &Sweep, shard: Shard) -> Result<Journal, Trouble> {
+        ready(self.results.files(), std::slice::from_ref(&self.scene))?;
         match &self.results.output {
             None => Journal::in_memory(sweep).map_err(Trouble::failed),
             Some(path) => {

@@ -67,6 +67,14 @@ pub(super) fn picture(text: &str) -> Result<PathBuf, String> {
     known.map(|_| path)
 }
 
+/// A file that a run is written down in.
+pub(super) fn scene_file(text: &str) -> Result<PathBuf, String> {
+    match text.ends_with(".toml") {
+        true => Ok(PathBuf::from(text)),
+        false => Err("let the name of a scene file end in .toml".to_owned()),
+    }
+}
+
 /// A tolerance of an integration.
 pub(super) fn tolerance(text: &str) -> Result<f64, String> {
     match positive(text)? {

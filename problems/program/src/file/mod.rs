@@ -147,6 +147,9 @@ fn parsed(tokens: proc_macro2::TokenStream) -> Result<syn::Expr, Refused> {
     syn::parse2(tokens).map_err(|error| Refused::Bug(error.to_string()))
 }
 
+/// What means something else in the Rust that is exported.
+const TAKEN: [&str; 3] = ["Default", "Self", "T"];
+
 /// `double-pendulum.lagrange` → `DoublePendulum`.
 pub fn type_name(path: &str) -> String {
     let stem = Path::new(path).file_stem().unwrap_or_default();
@@ -159,7 +162,7 @@ pub fn type_name(path: &str) -> String {
         })
         .collect();
     match name.chars().next() {
-        Some(first) if !first.is_ascii_digit() && name != "Self" => name,
+        Some(first) if !first.is_ascii_digit() && !TAKEN.contains(&name.as_str()) => name,
         _ => format!("System{name}"),
     }
 }

@@ -9,6 +9,9 @@ fn names_of_files_become_names_of_types() {
         ("a/double-pendulum.lagrange", "DoublePendulum"),
         ("3_bodies.lagrange", "System3Bodies"),
         ("self.lagrange", "SystemSelf"),
+        // The type parameter and the trait of an exported struct.
+        ("t.lagrange", "SystemT"),
+        ("default.lagrange", "SystemDefault"),
         ("çé.lagrange", "System"),
     ] {
         assert_eq!(type_name(path), name);

@@ -119,6 +119,11 @@ pub enum Refusal {
         /// The name.
         name: String,
     },
+    /// An axis of a grid without the number of its values.
+    Uncounted {
+        /// The axis.
+        axis: String,
+    },
     /// No consistent state with the values that are to be held.
     Start(Error),
     /// The run fails.
@@ -177,6 +182,10 @@ impl fmt::Display for Refusal {
             }
             Refusal::Declaration { reason } => f.write_str(reason),
             Refusal::Repeated { name } => write!(f, "`{name}` is given twice; give it once"),
+            Refusal::Uncounted { axis } => write!(
+                f,
+                "--vary {axis}: how many values? {axis}:50 takes 50, --sample sobol:50 points in the range"
+            ),
             Refusal::TooMany {
                 points,
                 bytes,

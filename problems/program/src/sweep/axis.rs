@@ -13,7 +13,7 @@ pub struct Axis {
     pub from: f64,
     /// Last value.
     pub to: f64,
-    /// Number of values; 1 for a sample, which takes them anywhere.
+    /// Number of values; 0 if it is not said, as for a sample, which takes them anywhere.
     pub count: usize,
     /// Whether values are spaced by equal ratios.
     pub logarithmic: bool,
@@ -34,7 +34,7 @@ impl Axis {
     /// Value number `index` of a grid.
     pub(super) fn value(&self, index: usize) -> f64 {
         match self.count {
-            1 => self.from,
+            0 | 1 => self.from,
             _ => self.at(index as f64 / (self.count - 1) as f64),
         }
     }
@@ -55,7 +55,7 @@ impl FromStr for Axis {
         };
         let (from, to) = (number(from)?, number(rest.next().ok_or(form)?)?);
         let count = match rest.next() {
-            None => 1,
+            None => 0,
             Some(text) => {
                 count(text).ok_or_else(|| format!("`{}` is not a number of values", text.trim()))?
             }
@@ -83,7 +83,10 @@ impl FromStr for Axis {
 
 impl fmt::Display for Axis {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}={}..{}:{}", self.name, self.from, self.to, self.count)?;
+        write!(f, "{}={}..{}", self.name, self.from, self.to)?;
+        if self.count > 0 {
+            write!(f, ":{}", self.count)?;
+        }
         match self.logarithmic {
             true => write!(f, ":log"),
             false => Ok(()),
@@ -103,6 +106,8 @@ mod tests {
         for (value, expected) in values.iter().zip([0.1, 0.4, 0.7, 1.0]) {
             assert!((value - expected).abs() < 1e-15);
         }
+        let axis: Axis = "mu=0.1..1".parse().expect("an axis");
+        assert_eq!((axis.count, axis.to_string().as_str()), (0, "mu=0.1..1"));
         let axis: Axis = "k=1e-2..1e4:7:log".parse().expect("an axis");
         assert!((axis.value(3) - 10.0).abs() < 1e-13 && axis.value(6) == 1e4);
         for wrong in [

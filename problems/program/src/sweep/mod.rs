@@ -67,6 +67,13 @@ impl Sweep {
         points: Points,
         observed: &[String],
     ) -> Result<Self, Refusal> {
+        if points.sampling == Sampling::Grid
+            && let Some(axis) = points.axes.iter().find(|axis| axis.count == 0)
+        {
+            return Err(Refusal::Uncounted {
+                axis: axis.to_string(),
+            });
+        }
         let mut columns: Vec<Observation> = Vec::new();
         for text in observed {
             let mut column = Observation::new(text, scene)?;
