@@ -241,10 +241,17 @@ fn events_beyond_their_limit_end_a_run() {
 #[test]
 fn a_run_that_fails_at_its_start_prints_only_why() {
     // Above μ = 4/3 a rod that slides has no answer at some angles (Painlevé).
-    let output = lagrange(&["run", "painleve-rod", "--set", "mu=2"]);
-    assert_eq!(output.status.code(), Some(1));
-    assert_eq!(text(&output.stdout), "");
-    assert_eq!(text(&output.stderr).lines().count(), 1);
+    for command in ["run", "verify"] {
+        let output = lagrange(&[command, "painleve-rod", "--set", "mu=2"]);
+        assert_eq!(output.status.code(), Some(1));
+        assert_eq!(text(&output.stdout), "");
+        assert_eq!(text(&output.stderr).lines().count(), 1);
+    }
+    // Nothing was moved, so there is nothing to certify and no work to book.
+    let output = lagrange(&["run", "painleve-rod", "--set", "mu=2", "--format", "json"]);
+    let run: Value = serde_json::from_str(text(&output.stdout)).expect("JSON");
+    assert!(run["error"].is_string(), "{run}");
+    assert!(run["certificate"].is_null() && run["energy"].is_null());
 }
 
 #[test]

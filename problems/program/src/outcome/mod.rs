@@ -40,7 +40,7 @@ pub struct Outcome {
     /// What is known beside the log just before and just after each event, if the run was sampled between its ends; nothing
     /// between events at one instant.
     pub around: Vec<[Option<Sample>; 2]>,
-    /// The run checked against its declaration; `None` if the motion could not be evaluated everywhere.
+    /// The run checked against its declaration; `None` if the motion could not be evaluated everywhere, or if there is none.
     pub certificate: Option<Certificate>,
     /// Energy book; `None` if it could not be drawn up.
     pub ledger: Option<Ledger>,
@@ -197,6 +197,7 @@ impl Outcome {
     ) -> Self {
         let description = trajectory.description();
         let samples = sampling::samples(trajectory, times);
+        let moved = trajectory.work().steps > 0 || failure.is_none();
         let events = trajectory.events();
         let ledgers = |times: Vec<f64>| match request.ledger {
             true => trajectory.ledgers(&times).unwrap_or_default(),
@@ -219,10 +220,16 @@ impl Outcome {
                 0 if trajectory.description().observes.is_empty() => Vec::new(),
                 _ => sampling::around(trajectory),
             },
-            certificate: trajectory
-                .verify_share(request.seed, request.certified)
-                .ok(),
-            ledger: request.stage(trajectory.last_time(), || trajectory.ledger().ok()),
+            certificate: moved
+                .then(|| {
+                    trajectory
+                        .verify_share(request.seed, request.certified)
+                        .ok()
+                })
+                .flatten(),
+            ledger: request.stage(trajectory.last_time(), || {
+                moved.then(|| trajectory.ledger().ok()).flatten()
+            }),
             ledgers: ledgers(samples.iter().map(|sample| sample.time).collect()),
             event_ledgers: ledgers(events.iter().map(|event| event.time).collect()),
             samples,

@@ -4,6 +4,7 @@ use crate::outcome::{Outcome, Sample};
 use crate::quantity::{Quantity, Show};
 use crate::report::telling;
 use crate::report::words::brief;
+use lagrange_core::prelude::EventKind;
 use lagrange_core::system::Description;
 
 /// Curves that share both axes.
@@ -126,6 +127,38 @@ pub(super) fn with_comma(name: &str, unit: &str) -> String {
     }
 }
 
+/// Impacts closer together than this part of the run are one on paper.
+const APART: f64 = 1.0 / 2000.0;
+
+/// What is drawn of the motion: the samples, and between them what is just before and just after each impact within a phase, so that
+/// velocities jump there.
+fn drawn(outcome: &Outcome) -> Vec<(usize, &Sample)> {
+    let end = outcome.last().map_or(0.0, |last| last.time);
+    let begin = outcome.first().map_or(0.0, |first| first.time);
+    let jumps = outcome.events.iter().zip(&outcome.around);
+    let jumps = jumps.filter(|(event, _)| event.kind == EventKind::Impact);
+    let mut jumps =
+        jumps.filter_map(|(_, [before, after])| Some([before.as_ref()?, after.as_ref()?]));
+    let mut jump = jumps.next();
+    let mut drawn: Vec<(usize, &Sample)> = Vec::new();
+    let mut latest = f64::NEG_INFINITY;
+    for sample in &outcome.samples {
+        while let Some(sides) = jump.filter(|[before, _]| before.time <= sample.time) {
+            let time = sides[0].time;
+            let within = drawn
+                .last()
+                .is_some_and(|(phase, last)| *phase == sample.phase && last.time < time);
+            if within && time < sample.time && time - latest > APART * (end - begin) {
+                drawn.extend(sides.map(|side| (sample.phase, side)));
+                latest = time;
+            }
+            jump = jumps.next();
+        }
+        drawn.push((sample.phase, sample));
+    }
+    drawn
+}
+
 /// A quantity over another one, broken where one of them does not exist or the phase changes.
 pub(super) fn pieces(
     outcome: &Outcome,
@@ -136,15 +169,15 @@ pub(super) fn pieces(
     let mut pieces: Vec<Vec<(f64, f64)>> = Vec::new();
     let mut phase = None;
     let point = |sample: &Sample| Some((over.of(d, sample)?, quantity.of(d, sample)?));
-    for sample in &outcome.samples {
+    for (of, sample) in drawn(outcome) {
         let Some(point) = point(sample) else {
             phase = None;
             continue;
         };
-        if phase != Some(sample.phase) {
+        if phase != Some(of) {
             pieces.push(Vec::new());
         }
-        phase = Some(sample.phase);
+        phase = Some(of);
         if let Some(piece) = pieces.last_mut() {
             piece.push(point);
         }
@@ -156,6 +189,32 @@ pub(super) fn pieces(
 mod tests {
     use super::*;
     use crate::file;
+    use crate::request::Request;
+
+    /// A ball falls 1 m for √(2/g) and bounces with half its speed.
+    #[test]
+    fn velocities_jump_at_an_impact() {
+        let declared = "parameters(gravity = 8, height = 1), coordinates(y), kinetic = der(y)^2/2, potential = gravity * y,
+            contact(floor: y >= 0, restitution = 0.5), start(drop: y = height), until = 0.9";
+        let scene = file::scene("ball.lagrange", declared).expect("a declaration");
+        let request = Request {
+            samples: 7,
+            ..Request::default()
+        };
+        let outcome = scene.run(&request).expect("a run");
+        let pieces = pieces(&outcome, &Quantity::Time, &Quantity::Velocity(0));
+        let [piece] = &pieces[..] else {
+            panic!("one phase: {pieces:?}");
+        };
+        let jump = piece.windows(2).find(|pair| pair[0].0 == pair[1].0);
+        let [(time, before), (_, after)] = jump.expect("a jump") else {
+            panic!("two points");
+        };
+        assert!(
+            (time - 0.5).abs() < 1e-12 && (before + 4.0).abs() < 1e-9 && (after - 2.0).abs() < 1e-9
+        );
+        assert!(piece.is_sorted_by(|a, b| a.0 <= b.0));
+    }
 
     #[test]
     fn names_are_found_and_mistakes_told() {

@@ -38,6 +38,8 @@ const FOOT: u32 = 18 * FINE;
 const KEY_LINE: u32 = 20 * FINE;
 /// Room for the names of the curves, right of the panels.
 const NAMES: u32 = 150 * FINE;
+/// Width of a letter of a name, about.
+const LETTER: u32 = 7 * FINE;
 /// Room around the key.
 const MARGIN: u32 = 14 * FINE;
 
@@ -173,7 +175,7 @@ fn key_columns(names: &[String]) -> usize {
         .map(|name| name.chars().count())
         .max()
         .unwrap_or(0) as u32;
-    let width = (longest * 7 + 50) * FINE;
+    let width = longest * LETTER + 50 * FINE;
     (((WIDTH - 2 * MARGIN) / width) as usize).clamp(1, names.len().max(1))
 }
 

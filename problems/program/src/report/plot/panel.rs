@@ -1,7 +1,7 @@
 //! One panel of curves over shaded bands, and the key of the modes.
 
 use super::curves::{Bands, Curve, Panel, pieces, with_comma};
-use super::{Area, COLOURS, Drawn, FINE, KEY_LINE, MARGIN, NAMES, TINTS, WIDTH, px, words};
+use super::{Area, COLOURS, Drawn, FINE, KEY_LINE, LETTER, MARGIN, NAMES, TINTS, WIDTH, px, words};
 use crate::outcome::Outcome;
 use crate::quantity::Quantity;
 use plotters::prelude::*;
@@ -142,12 +142,25 @@ fn draw_names<'a>(area: &Area<'a>, panel: &Panel, frame: &Frame) -> Drawn<'a> {
         let (colour, dash) = look(curve, order, several);
         sample(area, (left, y), COLOURS[colour % COLOURS.len()], dash)?;
         area.draw(&Text::new(
-            curve.quantity.name(d),
+            fitted(&curve.quantity.name(d), NAMES - px(38) as u32),
             (left + px(28), y),
             style.clone(),
         ))?;
     }
     Ok(())
+}
+
+/// A text with its middle left out where it is longer than the room.
+fn fitted(text: &str, room: u32) -> String {
+    let most = (room / LETTER) as usize;
+    let letters: Vec<char> = text.chars().collect();
+    if letters.len() <= most {
+        return text.to_owned();
+    }
+    let (begin, end) = (most / 2, most - most / 2 - 1);
+    let begin = letters.iter().take(begin);
+    let end = letters.iter().skip(letters.len() - end);
+    begin.chain(&['…']).chain(end).collect()
 }
 
 /// A piece of a curve, beside its name.
@@ -178,7 +191,8 @@ pub(super) fn draw_key<'a>(
         let y = (mode / columns) as i32 * KEY_LINE as i32 + px(18);
         if several {
             sample(area, (x, y), COLOURS[mode % COLOURS.len()], 0)?;
-            area.draw(&Text::new(name.clone(), (x + px(30), y), style.clone()))?;
+            let name = fitted(name, width as u32 - px(30) as u32);
+            area.draw(&Text::new(name, (x + px(30), y), style.clone()))?;
             continue;
         }
         let tint = TINTS[mode % TINTS.len()];
@@ -190,8 +204,9 @@ pub(super) fn draw_key<'a>(
             [(x, y - px(7)), (x + px(18), y + px(7))],
             BLACK.mix(0.3).stroke_width(FINE),
         ))?;
+        let name = format!("{}  {name}", mode + 1);
         area.draw(&Text::new(
-            format!("{}  {name}", mode + 1),
+            fitted(&name, width as u32 - px(26) as u32),
             (x + px(26), y),
             style.clone(),
         ))?;
@@ -233,7 +248,13 @@ fn label(value: f64, length: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::label;
+    use super::{LETTER, fitted, label};
+
+    #[test]
+    fn long_names_lose_their_middle() {
+        assert_eq!(fitted("|grip|", 8 * LETTER), "|grip|");
+        assert_eq!(fitted("friction of the left θ", 9 * LETTER), "fric…ft θ");
+    }
 
     #[test]
     fn numbers_of_axes_are_short() {
