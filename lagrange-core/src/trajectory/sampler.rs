@@ -42,7 +42,7 @@ pub struct Instant<T> {
     pub potential: T,
     /// v·∂L/∂v − L, J.
     pub jacobi: T,
-    /// Value of every applied force.
+    /// Value of every applied force; 0 where it is left out.
     pub loads: Vec<T>,
     /// Value of every declared output.
     pub observes: Vec<T>,
@@ -272,11 +272,11 @@ impl<'a, T: Scalar> Sampler<'a, T> {
         let d = self.trajectory.description();
         let instant = self.inside(segment, s)?;
         let dynamics = &self.dynamics;
-        let loads = d
-            .forces
-            .iter()
-            .chain(d.dissipations)
-            .map(|l| dynamics.report(l.power));
+        let items = (0..d.forces.len()).map(Item::Force);
+        let items = items.chain((0..d.dissipations.len()).map(Item::Dissipation));
+        let loads = d.forces.iter().chain(d.dissipations).map(|l| l.power);
+        let loads = items.zip(loads);
+        let loads = loads.map(|(item, power)| unless_left_out(dynamics, item, power));
         let rows = d.rows.iter().enumerate().map(|(i, row)| {
             // The power of λ is λ a·v: not zero where a surface moves.
             let speed = row.jacobian.iter().fold(T::default(), |sum, &(j, place)| {
@@ -356,13 +356,23 @@ pub(crate) fn instant<T: Scalar>(
         kinetic: dynamics.report(d.energy.kinetic),
         potential: dynamics.report(d.energy.potential),
         jacobi: dynamics.report(d.energy.jacobi),
-        loads: d.forces.iter().map(|f| dynamics.report(f.value)).collect(),
+        loads: (d.forces.iter().enumerate())
+            .map(|(i, force)| unless_left_out(dynamics, Item::Force(i), force.value))
+            .collect(),
         observes: d
             .observes
             .iter()
             .map(|o| dynamics.report(o.place))
             .collect(),
     })
+}
+
+/// A reported number of a force or dissipation: the tape has that of the declaration, whatever is left out.
+fn unless_left_out<T: Scalar>(dynamics: &Dynamics<T>, item: Item, place: ValueRef) -> T {
+    match dynamics.effects().includes(dynamics.description(), item) {
+        true => dynamics.report(place),
+        false => T::zero(),
+    }
 }
 
 /// The branches that only outputs use: a run does not watch them, so that the mode does not tell on which side they are.

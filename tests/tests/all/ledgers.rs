@@ -122,6 +122,35 @@ fn a_drive_pays_for_the_damper_in_the_steady_state() {
     }
 }
 
+/// What is left out does no work: the ledger is that of a scene without it.
+#[test]
+fn what_is_left_out_is_not_booked() {
+    let scene = Oscillator {
+        mass: 1.0,
+        stiffness: 9.0,
+        drag: 0.5,
+        push: 2.0,
+        rate: 2.5,
+    };
+    let effects = Effects::all()
+        .without(Oscillator::DAMPER)
+        .without(Oscillator::DRIVE);
+    let start = State::new(vec![0.3], vec![0.0]);
+    let run = Simulation::new(&scene)
+        .tolerance(1e-13)
+        .effects(effects)
+        .run(start, 0.0..5.0);
+    let run = run.expect("a run");
+    let ledger = run.ledger().expect("recorded");
+    assert_eq!(work(&ledger, "drive", "force"), 0.0);
+    assert_eq!(work(&ledger, "damper", "dissipation"), 0.0);
+    assert!(ledger.closure.abs() < 1e-12, "{:e}", ledger.closure);
+    let now = run.sampler().at(2.0).expect("recorded");
+    assert_eq!(now.load(Oscillator::DRIVE), 0.0);
+    // x = 0.3 cos(3t)
+    agree("x", now.q(Oscillator::X), 0.3 * 6.0_f64.cos(), 1e-9);
+}
+
 #[test]
 fn a_moving_constraint_and_a_brake() {
     let scene = Lift {
