@@ -66,6 +66,14 @@ pub struct Decimal {
     pub exponent: i32,
 }
 
+impl Decimal {
+    /// The nearest double.
+    pub fn nearest(self) -> f64 {
+        let text = format!("{}e{}", self.digits, self.exponent);
+        text.parse().unwrap_or(f64::NAN)
+    }
+}
+
 /// Sign of a term of a sum.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Sign {

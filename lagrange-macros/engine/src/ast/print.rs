@@ -137,9 +137,12 @@ impl Display for Comparison {
 }
 
 impl Display for Decimal {
-    /// Plain digits, as many as it needs.
+    /// Plain digits, as many as it needs; with an exponent where exact numbers end.
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let digits = self.digits.to_string();
+        if self.exponent.unsigned_abs() > 38 {
+            return write!(f, "{digits}e{}", self.exponent);
+        }
         let Ok(places) = usize::try_from(-i64::from(self.exponent)) else {
             return write!(f, "{digits}{:0<width$}", "", width = self.exponent as usize);
         };

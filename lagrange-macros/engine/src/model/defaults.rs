@@ -4,7 +4,7 @@ use super::System;
 use super::elaborate::Elaboration;
 use super::reach::{Context, Reach};
 use super::value::Value;
-use crate::ast::{Declaration, Expr};
+use crate::ast::{Declaration, Expr, ExprKind};
 use crate::diagnostics::{Code, Diagnostics};
 use crate::symbolic::ExprId;
 
@@ -21,6 +21,10 @@ pub fn defaults(
     let mut elaboration = fields_only(declaration, sink);
     let mut defaults = Vec::new();
     for (field, expr) in declaration.fields.iter().zip(values) {
+        if let Some(number) = literal(expr) {
+            defaults.extend(vec![number; field.length.unwrap_or(1)]);
+            continue;
+        }
         let Some(value) = elaboration.value(expr, DEFAULT) else {
             continue;
         };
@@ -39,6 +43,16 @@ pub fn defaults(
         }
     }
     (sink.count() == before).then_some(defaults)
+}
+
+/// A number written as such. It need not be exact, so that it may be smaller or larger than those in expressions: Planck's constant has
+/// 42 digits.
+fn literal(expr: &Expr) -> Option<f64> {
+    match &expr.kind {
+        ExprKind::Number(number) => Some(number.nearest()),
+        ExprKind::Negative(inner) => literal(inner).map(|number| 0.0 - number),
+        _ => None,
+    }
 }
 
 /// The value of a single number.

@@ -75,10 +75,7 @@ fn decimal(text: &str) -> Option<Decimal> {
             exponent: 0,
         });
     }
-    // The value and its denominator must both fit; bounding the exponent keeps every later step in range.
-    10i128.checked_pow(exponent.unsigned_abs())?;
-    if exponent > 0 {
-        digits.checked_mul(10i128.pow(exponent.unsigned_abs()))?;
-    }
-    Some(Decimal { digits, exponent })
+    // A double that is neither 0 nor infinite; whether it can be kept exactly is asked where it must be.
+    let number = Decimal { digits, exponent };
+    (number.nearest().is_finite() && number.nearest() != 0.0).then_some(number)
 }

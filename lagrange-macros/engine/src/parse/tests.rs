@@ -71,7 +71,8 @@ fn numbers_are_exact() {
         "2:1 E007 `2x` is not a number; a product is written with `*`: `2*x`"
     );
     assert!(expression("0x1f").unwrap_err().contains("E008"));
-    assert!(expression("1e99").unwrap_err().contains("E009"));
+    assert!(expression("1e999").unwrap_err().contains("E009"));
+    assert!(expression("1e-400").unwrap_err().contains("E009"));
 }
 
 #[test]

@@ -49,18 +49,14 @@ fn one(scene: &dyn Scene, out: &mut dyn Write) -> io::Result<()> {
         .max()
         .unwrap_or(0);
     for (parameter, default) in description.parameters.iter().zip(scene.defaults()) {
-        let summary = parameter
-            .documentation
-            .trim()
-            .lines()
-            .next()
-            .unwrap_or_default();
-        writeln!(
-            out,
+        let mut lines = parameter.documentation.trim().lines();
+        let said = lines.next().unwrap_or(parameter.unit);
+        let line = format!(
             "  {:width$} = {default:<6}  {}",
             parameter.name,
-            summary.trim()
-        )?;
+            said.trim()
+        );
+        writeln!(out, "{}", line.trim_end())?;
     }
     let line = |out: &mut dyn Write, title: &str, names: Vec<&str>| match names.is_empty() {
         true => Ok(()),

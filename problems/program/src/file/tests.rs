@@ -56,6 +56,20 @@ fn mistakes_are_marked_where_they_are() {
     );
 }
 
+/// What cannot be kept exactly in an expression can be the value of a parameter.
+#[test]
+fn values_of_parameters_are_doubles() {
+    let text = "parameters(planck: \"J s\" = 6.62607015e-34, far[2] = -1e99), coordinates(x), kinetic = der(x)^2";
+    let values = scene("quantum.lagrange", text)
+        .expect("a declaration")
+        .defaults();
+    assert_eq!(values, [6.626_070_15e-34, -1e99, -1e99]);
+    let told = mistakes(&text.replace("der(x)^2", "1e-40 * der(x)^2"));
+    assert!(told.contains("`1e-40` cannot be kept exactly"), "{told}");
+    let told = mistakes(&text.replace("1e99", "1e999"));
+    assert!(told.contains("`1e999` cannot be kept exactly"), "{told}");
+}
+
 #[test]
 fn what_only_a_file_has_is_checked() {
     let rest = "coordinates(x), kinetic = der(x)^2";

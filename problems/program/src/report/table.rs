@@ -309,7 +309,8 @@ fn story(outcome: &Outcome) -> Table {
             column.set_constraint(ColumnConstraint::ContentWidth);
         }
         if index == texts {
-            column.set_constraint(ColumnConstraint::LowerBoundary(Width::Fixed(10)));
+            // `accumulates` and the space before it.
+            column.set_constraint(ColumnConstraint::LowerBoundary(Width::Fixed(12)));
         }
         if index == numbers {
             column.set_constraint(ColumnConstraint::LowerBoundary(Width::Fixed(18)));
