@@ -11,6 +11,7 @@
 //! C = Aᵀ where nothing slides.
 
 mod collect;
+mod conic;
 mod consistent;
 mod direct;
 mod eliminate;
@@ -24,6 +25,7 @@ mod solver;
 mod tests;
 
 pub(crate) use collect::{acting, acts};
+pub(crate) use conic::{Cone, ConicPoint, ConicProgram};
 pub(crate) use consistent::{Equilibrated, SeveralSides};
 pub(crate) use least_norm::{Freedom, least_norm};
 pub(crate) use lemke::{Lemke, Outcome as LemkeOutcome};

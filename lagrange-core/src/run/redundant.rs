@@ -75,10 +75,7 @@ impl<T: Scalar> Run<T> {
         let value = critical
             .as_ref()
             .map(|composite| self.joint_value(composite));
-        if self.switcher.redundant.has_open() && self.finds_joints_within(looked) {
-            *corrections += 1;
-            return true;
-        }
+        let mut again = self.switcher.redundant.has_open() && self.finds_joints_within(looked);
         let fallen = self
             .locator
             .fallen
@@ -87,20 +84,27 @@ impl<T: Scalar> Run<T> {
                 (Hit::Guards(_), Guard::Composite(k)) => Some(*k),
                 _ => None,
             });
+        let composites = &mut self.locator.polynomials.composites;
         match (fallen, critical, value) {
             (None, Some(composite), Some(value)) if value < -ROOT => {
-                self.locator.polynomials.composites.push(composite)
+                composites.push(composite);
+                again = true;
             }
-            (Some(_), Some(_), Some(value)) if value.abs() <= ROOT => return false,
-            (Some(k), Some(composite), Some(_)) => {
-                self.locator.polynomials.composites[k] = composite
+            (Some(k), Some(composite), Some(value)) => {
+                composites[k] = composite;
+                again |= value.abs() > ROOT;
             }
-            (Some(k), ..) => _ = self.locator.polynomials.composites.remove(k),
-            _ => return false,
+            (Some(k), ..) => {
+                composites.remove(k);
+                again = true;
+            }
+            _ => {}
         }
-        *corrections += 1;
-        self.list_guards();
-        true
+        if again {
+            *corrections += 1;
+            self.list_guards();
+        }
+        again
     }
 
     /// Looks for composite guards at some instants before part `end` of the step, where `dynamics` and `scratch` end again: whether

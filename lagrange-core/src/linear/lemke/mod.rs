@@ -60,8 +60,6 @@ pub(crate) struct Lemke {
     z: Vec<f64>,
     pivot_row: Vec<f64>,
     tied: Vec<usize>,
-    /// Nonbasic unknown that entered last.
-    column: Option<usize>,
 }
 
 impl Lemke {
@@ -71,18 +69,6 @@ impl Lemke {
         let outcome = self.search();
         self.z.clear();
         self.z.resize(self.size, 0.0);
-        if let (Outcome::Ray, Some(column)) = (outcome, self.column) {
-            let width = self.size + 1;
-            if let Unknown::Z(i) = self.nonbasic[column] {
-                self.z[i] = self.column_scale[i];
-            }
-            for (row, unknown) in self.basic.iter().enumerate() {
-                if let Unknown::Z(i) = *unknown {
-                    let slope = self.coefficients[row * width + column];
-                    self.z[i] = slope.max(0.0) * self.column_scale[i];
-                }
-            }
-        }
         if outcome == Outcome::Solved {
             let largest = q
                 .iter()
@@ -99,12 +85,6 @@ impl Lemke {
 
     /// The solution found last.
     pub(crate) fn z(&self) -> &[f64] {
-        &self.z
-    }
-
-    /// After [`Outcome::Ray`]: z ≥ 0 that can grow for ever. For symmetric positive semidefinite M then M z = 0 and qᵀ z < 0, which
-    /// proves that no solution exists.
-    pub(crate) fn ray(&self) -> &[f64] {
         &self.z
     }
 
@@ -179,7 +159,6 @@ impl Lemke {
                 Some(at) => column = at,
                 None => return Outcome::Limit,
             }
-            self.column = Some(column);
             match self.blocking(column) {
                 Some(at) => row = at,
                 None => return Outcome::Ray,

@@ -26,6 +26,12 @@ struct Turn {
     across: f64,
 }
 
+/// ṡ where the equations have no solution.
+const NO_TURN: Turn = Turn {
+    along: f64::NAN,
+    across: f64::NAN,
+};
+
 /// Memory of the search.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Beginning {
@@ -60,6 +66,10 @@ impl<T: Scalar> Decider<T> {
                 self.look_around(dynamics, moment)?
             } else {
                 self.beginning.settle(dynamics, moment)?
+                    || shared && {
+                        self.beginning.drift(dynamics, moment)?;
+                        self.beginning.settle(dynamics, moment)?
+                    }
             };
             self.point();
             if found {
@@ -126,20 +136,27 @@ impl<T: Scalar> Decider<T> {
         moment: EvaluationPoint<'_, T>,
     ) -> Result<bool, EvaluationError> {
         let (f, guess) = (self.beginning.frictions[0], self.beginning.angles[0]);
-        let mut turn = |angle: f64| turn_of(dynamics, moment, f, angle);
+        let mut failure = None;
+        // In some directions friction may lock itself.
+        let mut turn = |angle: f64| {
+            turn_of(dynamics, moment, f, angle).unwrap_or_else(|error| {
+                failure = Some(error);
+                NO_TURN
+            })
+        };
         let step = TAU / TRIES as f64;
         // The guess lies within the first interval.
         let first = guess - 0.5 * step;
         let mut roots = [(0.0, f64::NEG_INFINITY); TRIES];
         let mut largest = 0.0_f64;
-        let mut low = turn(first)?;
+        let mut low = turn(first);
         for (k, root) in roots.iter_mut().enumerate() {
             let from = first + step * k as f64;
-            let high = turn(from + step)?;
+            let high = turn(from + step);
             largest = largest.max(high.along.abs()).max(high.across.abs());
-            if (low.across < 0.0) != (high.across < 0.0) {
-                let at = sharpen(&mut turn, (from, low), (from + step, high))?;
-                *root = (at, turn(at)?.along);
+            if low.across * high.across <= 0.0 {
+                let at = sharpen(&mut turn, (from, low), (from + step, high));
+                *root = (at, turn(at).along);
             }
             low = high;
         }
@@ -150,7 +167,7 @@ impl<T: Scalar> Decider<T> {
         };
         let nearest = begins(-NOTHING).min_by(|a, b| far(a.0).total_cmp(&far(b.0)));
         let Some(&(nearest, _)) = nearest else {
-            return Ok(false);
+            return failure.map_or(Ok(false), Err);
         };
         self.forks = begins(NOTHING).count() > 1;
         self.beginning.angles[0] = nearest;
@@ -173,6 +190,44 @@ impl Beginning {
         let across = |&f: &usize| frame_of(dynamics, f).across;
         self.across.clear();
         self.across.extend(self.frictions.iter().map(across));
+        Ok(())
+    }
+
+    /// Turns all directions towards the slips that they bring about, u + τ ṡ(u): with given normal forces the greatest dissipation is
+    /// found so, by projected gradients (Moreau 1974, in New Variational Techniques in Mathematical Physics, Edizioni Cremonese, 175).
+    fn drift<T: Scalar>(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        moment: EvaluationPoint<'_, T>,
+    ) -> Result<(), EvaluationError> {
+        let begins = |dynamics: &mut Dynamics<T>, frictions: &[usize], along: &[[f64; 2]]| {
+            for (&f, along) in frictions.iter().zip(along) {
+                dynamics.set_slip_direction(f, along.map(T::from_f64));
+            }
+            dynamics.value(moment.t, moment.q, moment.v)?;
+            let of = |&f: &usize| {
+                let row = dynamics.description().frictions[f].row;
+                [row, row + 1].map(|row| row_acceleration(row, dynamics))
+            };
+            Ok(frictions.iter().map(of).collect::<Vec<_>>())
+        };
+        let frictions = &self.frictions;
+        let free = begins(dynamics, frictions, &vec![[0.0; 2]; frictions.len()])?;
+        for _ in 0..MOST_ITERATIONS {
+            let along: Vec<_> = (self.angles.iter())
+                .map(|angle| [angle.cos(), angle.sin()])
+                .collect();
+            let held = begins(dynamics, frictions, &along)?;
+            let changes = free.iter().zip(&held);
+            let changes = changes.map(|(x, y)| (x[0] - y[0]).hypot(x[1] - y[1]));
+            let part = 0.5 / changes.fold(0.0, f64::max);
+            if !part.is_finite() {
+                break;
+            }
+            for ((angle, along), slip) in self.angles.iter_mut().zip(along).zip(held) {
+                *angle = (along[1] + part * slip[1]).atan2(along[0] + part * slip[0]);
+            }
+        }
         Ok(())
     }
 
@@ -250,19 +305,15 @@ fn frame_of<T: Scalar>(dynamics: &Dynamics<T>, f: usize) -> Turn {
 }
 
 /// Where `across` vanishes between two angles at which it has different signs (Illinois' variant of regula falsi).
-fn sharpen<E>(
-    turn: &mut impl FnMut(f64) -> Result<Turn, E>,
-    low: (f64, Turn),
-    high: (f64, Turn),
-) -> Result<f64, E> {
+fn sharpen(turn: &mut impl FnMut(f64) -> Turn, low: (f64, Turn), high: (f64, Turn)) -> f64 {
     let ((mut a, fa), (mut b, fb)) = (low, high);
     let (mut fa, mut fb) = (fa.across, fb.across);
     for _ in 0..MOST_ITERATIONS {
         let c = b - fb * (b - a) / (fb - fa);
         let c = if c.is_finite() { c } else { 0.5 * (a + b) };
-        let fc = turn(c)?.across;
+        let fc = turn(c).across;
         if fc == 0.0 {
-            return Ok(c);
+            return c;
         }
         if (fc < 0.0) == (fb < 0.0) {
             fa *= 0.5;
@@ -274,5 +325,5 @@ fn sharpen<E>(
             break;
         }
     }
-    Ok(b)
+    b
 }

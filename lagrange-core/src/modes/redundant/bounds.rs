@@ -3,33 +3,153 @@
 use super::RedundantForces;
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
+use crate::linear::{Cone, ConicPoint, ConicProgram};
 use crate::mode::FrictionMode;
 use crate::modes::guard::Guard;
 use crate::system::{Normal, ValueRef};
+use nalgebra::{DMatrix, DVector};
 
-/// A guard, or a side of a cone, that bounds undetermined forces: linear in them and relative to its size.
+/// A guard bounds forces that are open if one of them changes it by more than this, relative.
+const OPEN: f64 = 1e-9;
+
+/// Bounds are compared with this share of the largest at least: the size of one may be that of a coordinate that hardly has any inertia.
+const SMALLEST: f64 = 1e-12;
+
+/// What is left of an open part that cancels, relative.
+const CANCELLED: f64 = 1e-12;
+
+/// A bound of undetermined forces.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bound {
     pub guard: Guard,
-    pub along: [f64; 2],
-    /// (index of an acting row, factor)
-    pub terms: [(usize, f64); 3],
+    /// Its rows in the lists of all.
+    pub cone: Cone,
+    /// Of the terms that make it.
     pub size: f64,
-    /// At the forces of least norm.
-    pub value: f64,
 }
 
-/// A friction cone around undetermined forces.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Cone {
-    pub friction: usize,
-    /// Indices of acting rows.
-    pub rows: [usize; 2],
-    /// (index of an acting row, factor): what it can hold, beside `constant`.
-    pub limit: (usize, f64),
-    pub constant: f64,
-    pub size: f64,
+/// The bounds with a part that is open, each linear in the forces and relative to its size.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Bounds {
+    pub list: Vec<Bound>,
+    /// At the forces of least norm.
+    pub values: Vec<f64>,
+    /// How each row depends on the forces that act, without what has an effect.
+    changes: Vec<DVector<f64>>,
+    /// B, an orthogonal basis of these, of vectors that are equally long,
+    pub basis: DMatrix<f64>,
+    /// and how each row depends on it.
+    open: DMatrix<f64>,
 }
+
+impl Bounds {
+    pub fn clear(&mut self) {
+        self.list.clear();
+        self.values.clear();
+        self.changes.clear();
+    }
+
+    /// The least of bounds with these `values` as they are.
+    pub fn least(&self, values: &[f64]) -> f64 {
+        let of = |bound: &Bound| match bound.cone {
+            Cone::Ray(i) => values[i],
+            Cone::SecondOrder(i) => values[i] - values[i + 1].hypot(values[i + 2]),
+        };
+        self.list.iter().map(of).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The forces (y, margin) that keep bounds with these `values` by the largest margin up to `most`.
+    pub fn widest(&self, values: &[f64], most: f64) -> ConicPoint {
+        let (rows, columns) = self.open.shape();
+        let mut a = self.open.clone().resize(rows + 1, columns + 1, 0.0);
+        let mut cones = self.cones();
+        cones.push(Cone::Ray(rows));
+        for cone in &cones {
+            a[(cone.first(), columns)] = -1.0;
+        }
+        let mut start = DVector::zeros(columns + 1);
+        start[columns] = self.least(values).min(most) - 1.0;
+        let mut c = DVector::zeros(columns + 1);
+        c[columns] = -1.0;
+        let program = ConicProgram {
+            squares: DVector::zeros(columns + 1),
+            c,
+            a,
+            b: DVector::from_iterator(rows + 1, values.iter().copied().chain([most])),
+            cones,
+        };
+        program.solve(start)
+    }
+
+    /// What is to be solved for the forces of least norm that keep all bounds by `margin`.
+    pub fn nearest(&self, margin: f64) -> ConicProgram {
+        let columns = self.open.ncols();
+        let mut b = DVector::from_column_slice(&self.values);
+        for bound in &self.list {
+            b[bound.cone.first()] -= margin;
+        }
+        ConicProgram {
+            squares: DVector::repeat(columns, 1.0),
+            c: DVector::zeros(columns),
+            a: self.open.clone(),
+            b,
+            cones: self.cones(),
+        }
+    }
+
+    fn cones(&self) -> Vec<Cone> {
+        self.list.iter().map(|bound| bound.cone).collect()
+    }
+
+    /// Makes all bounds relative to their sizes, and finds a basis of what they depend on.
+    fn complete(&mut self, forces: usize) {
+        let sizes = self.list.iter().map(|bound| bound.size);
+        let least = SMALLEST * sizes.fold(f64::MIN_POSITIVE, f64::max);
+        let basis = basis(&self.changes, forces);
+        self.open = DMatrix::from_fn(self.changes.len(), basis.ncols(), |i, j| {
+            self.changes[i].dot(&basis.column(j))
+        });
+        for bound in &mut self.list {
+            bound.size = bound.size.max(least);
+            for row in bound.cone.rows() {
+                self.values[row] /= bound.size;
+                self.open.row_mut(row).unscale_mut(bound.size);
+            }
+        }
+        // Numbers about 1.
+        let scale = self
+            .open
+            .iter()
+            .fold(f64::MIN_POSITIVE, |m, x| m.max(x.abs()));
+        self.open /= scale;
+        self.basis = basis / scale;
+    }
+}
+
+/// An orthonormal basis of the space that these rows span (Gram & Schmidt, the largest remainder first).
+fn basis(rows: &[DVector<f64>], width: usize) -> DMatrix<f64> {
+    let units = rows.iter().filter_map(|row| row.try_normalize(0.0));
+    let mut left: Vec<DVector<f64>> = units.collect();
+    let mut basis: Vec<DVector<f64>> = Vec::new();
+    while let Some(largest) = (left.iter()).max_by(|x, y| x.norm().total_cmp(&y.norm()))
+        && largest.norm() > OPEN
+        && basis.len() < width
+    {
+        let mut next = largest.normalize();
+        for known in &basis {
+            next -= known * known.dot(&next);
+        }
+        next.normalize_mut();
+        for row in &mut left {
+            *row -= &next * next.dot(row);
+        }
+        basis.push(next);
+    }
+    DMatrix::from_iterator(width, basis.len(), basis.iter().flatten().copied())
+}
+
+/// A linear function of the forces: (index of an acting row, factor) of what it is the sum of, and a constant.
+type Linear<'a> = (&'a [(usize, f64)], f64);
 
 impl<T: Scalar> RedundantForces<T> {
     /// The bounds with a part that is open.
@@ -41,7 +161,7 @@ impl<T: Scalar> RedundantForces<T> {
         let mode = dynamics.mode();
         for (c, contact) in d.contacts.iter().enumerate() {
             if let Some(i) = index(contact.row) {
-                self.bound(Guard::Normal(c), [(i, 1.0), (i, 0.0)], 0.0, dynamics);
+                self.bound(Guard::Normal(c), [(&[(i, 1.0)], 0.0)], dynamics);
             }
         }
         for (f, friction) in d.frictions.iter().enumerate() {
@@ -65,78 +185,68 @@ impl<T: Scalar> RedundantForces<T> {
                 Normal::Constraint(_) => continue,
             };
             if friction.components == 1 {
-                self.bound(Guard::StickUpper(f), [(i, -1.0), limit], constant, dynamics);
-                self.bound(Guard::StickLower(f), [(i, 1.0), limit], constant, dynamics);
-            } else if let Some(j) = index(friction.row + 1)
-                && [limit.0, i, j]
-                    .iter()
-                    .any(|&i| !self.freedom.is_determined(i))
-            {
-                self.cones.push(Cone {
-                    friction: f,
-                    rows: [i, j],
-                    limit,
-                    constant,
-                    size: self.sizes.of(Guard::StickCone(f), dynamics).sqrt(),
-                });
+                let sides = [(Guard::StickUpper(f), -1.0), (Guard::StickLower(f), 1.0)];
+                for (guard, sign) in sides {
+                    self.bound(guard, [(&[(i, sign), limit], constant)], dynamics);
+                }
+            } else if let Some(j) = index(friction.row + 1) {
+                let cone = [
+                    (&[limit][..], constant),
+                    (&[(i, 1.0)], 0.0),
+                    (&[(j, 1.0)], 0.0),
+                ];
+                self.bound(Guard::StickCone(f), cone, dynamics);
             }
         }
-    }
-
-    /// Adds a bound, if it has a part that is open.
-    fn bound(
-        &mut self,
-        guard: Guard,
-        [first, second]: [(usize, f64); 2],
-        constant: f64,
-        dynamics: &Dynamics<T>,
-    ) {
-        let open = |j: usize| {
-            let parts = [first, second].map(|(i, a)| a * self.freedom.row(i)[j]);
-            (parts[0] + parts[1]).abs()
-        };
-        let most = (0..self.least.len()).map(open).fold(0.0, f64::max);
-        if most > 1e-9 * first.1.abs().max(second.1.abs()) {
-            let size = self.sizes.of(guard, dynamics);
-            self.push(
-                guard,
-                [0.0; 2],
-                [first, second, (first.0, 0.0)],
-                constant,
-                size,
-            );
+        if !self.bounds.list.is_empty() {
+            self.bounds.complete(self.least.len());
         }
     }
 
-    /// Adds the side of a cone in direction `along`.
-    pub(super) fn cut(&mut self, cone: usize, along: [f64; 2]) {
-        let Cone {
-            friction,
-            rows,
-            limit,
-            constant,
-            size,
-        } = self.cones[cone];
-        let terms = [(rows[0], -along[0]), (rows[1], -along[1]), limit];
-        self.push(Guard::StickCone(friction), along, terms, constant, size);
-    }
-
-    fn push(
+    /// Adds a bound, if it has a part that is open: s ≥ 0, or s₀ ≥ √(s₁² + s₂²).
+    fn bound<const N: usize>(
         &mut self,
         guard: Guard,
-        along: [f64; 2],
-        terms: [(usize, f64); 3],
-        constant: f64,
-        size: f64,
+        rows: [Linear<'_>; N],
+        dynamics: &Dynamics<T>,
     ) {
-        let size = size.max(f64::MIN_POSITIVE);
-        let value: f64 = terms.iter().map(|&(i, a)| a * self.least[i].value()).sum();
-        self.bounds.push(Bound {
-            guard,
-            along,
-            terms,
-            size,
-            value: (value + constant) / size,
+        let changes = rows.map(|(terms, _)| {
+            let largest = terms.iter().fold(0.0_f64, |m, (_, a)| m.max(a.abs()));
+            let change = DVector::from_fn(self.least.len(), |j, _| {
+                terms.iter().map(|&(i, a)| a * self.freedom.row(i)[j]).sum()
+            });
+            let share = if largest > 0.0 {
+                change.amax() / largest
+            } else {
+                0.0
+            };
+            (change, share)
         });
+        if changes.iter().all(|&(_, share)| share <= OPEN) {
+            return;
+        }
+        let made_of = rows.iter().map(|(terms, constant)| {
+            let parts = terms
+                .iter()
+                .map(|&(i, a)| (a * self.least[i].value()).abs());
+            parts.sum::<f64>() + constant.abs()
+        });
+        let own = self.sizes.of(guard, dynamics);
+        let size = made_of.fold(if N == 1 { own } else { own.sqrt() }, f64::max);
+        let first = self.bounds.values.len();
+        let cone = if N == 1 {
+            Cone::Ray(first)
+        } else {
+            Cone::SecondOrder(first)
+        };
+        self.bounds.list.push(Bound { guard, cone, size });
+        for ((terms, constant), (mut change, share)) in rows.into_iter().zip(changes) {
+            let value: f64 = terms.iter().map(|&(i, a)| a * self.least[i].value()).sum();
+            self.bounds.values.push(value + constant);
+            if share <= CANCELLED {
+                change.fill(0.0);
+            }
+            self.bounds.changes.push(change);
+        }
     }
 }

@@ -29,12 +29,12 @@ pub struct CompositeGuard {
 impl CompositeGuard {
     /// Whether it is made of the same guards, of cones about the same side.
     pub fn is_like(&self, other: &CompositeGuard) -> bool {
-        /// Cosine of the angle between sides that one plane touches well enough.
-        const SAME_SIDE: f64 = 0.9;
+        /// Distance of the directions of sides that one plane touches well enough.
+        const SAME_SIDE: f64 = 0.45;
         let pairs = self.parts.iter().zip(&other.parts);
         let alike = |(x, y): (&Part, &Part)| {
-            let cosine = x.along[0] * y.along[0] + x.along[1] * y.along[1];
-            x.guard == y.guard && (x.along == y.along || cosine > SAME_SIDE)
+            let [east, north] = [0, 1].map(|k| x.along[k] - y.along[k]);
+            x.guard == y.guard && east.hypot(north) < SAME_SIDE
         };
         self.parts.len() == other.parts.len() && pairs.into_iter().all(alike)
     }

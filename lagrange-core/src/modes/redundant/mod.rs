@@ -1,27 +1,25 @@
 //! Forces that the motion does not determine: a table on four legs, a rod that sticks to two supports.
 //!
-//! With λ₀ of least norm and the projector P onto forces without effect, all λ₀ + P y move the system in the same way.
-//! Contacts and sticking frictions bound them, G λ + c ≥ 0. The shares of least norm within these bounds are
+//! With λ₀ of least norm and a basis B of the forces without effect that bounds depend on, all λ₀ + B y move the system in the same way.
+//! Contacts and sticking frictions bound them: what they push with, and hold, is not negative, and is inside the friction cones. The shares of
+//! least norm within these bounds are a quadratic programme over cones for y.
 //!
-//! ```text
-//! λ = λ₀ + P Gᵀ w        0 ≤ w ⟂ (G P Gᵀ) w + G λ₀ + c ≥ 0
-//! ```
-//!
-//! Where this has no solution there are weights w ≥ 0 with P Gᵀ w = 0 and wᵀ (G λ + c) < 0 (Farkas): a sum of guards in
-//! which everything open cancels, and which is negative. Such a sum is a [`CompositeGuard`] guard. It ends a mode where the guards
-//! of single forces cannot: both frictions under a rod slip together, where μs (N₁ + N₂) − (F₁ + F₂) falls through zero.
+//! Where no forces keep all bounds there are weights of them, directions in cones included, with which everything open cancels, and
+//! whose sum is negative (Farkas): they are the multipliers of the programme that asks for forces which keep all bounds by the largest
+//! margin. Such a sum is a [`CompositeGuard`]. It ends a mode where the guards of single forces cannot: both frictions under a rod slip
+//! together, where μs (N₁ + N₂) − (F₁ + F₂) falls through zero.
 
 mod bounds;
 mod composite;
 
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
-use crate::linear::{Freedom, Lemke, LemkeOutcome};
+use crate::linear::{Cone, ConicPoint, Freedom};
 use crate::mode::FrictionMode;
 use crate::modes::guard::Guard;
 use crate::modes::scale::Sizes;
 use crate::system::Normal;
-use bounds::{Bound, Cone};
+use bounds::{Bound, Bounds};
 pub use composite::{CompositeGuard, ONES, Part, series, side, value};
 
 /// Undetermined forces at one state; the memory is reused.
@@ -29,31 +27,22 @@ pub use composite::{CompositeGuard, ONES, Part, series, side, value};
 pub struct RedundantForces<T> {
     least: Vec<T>,
     freedom: Freedom,
-    bounds: Vec<Bound>,
-    cones: Vec<Cone>,
-    /// G P Gᵀ
-    matrix: Vec<f64>,
-    q: Vec<f64>,
+    bounds: Bounds,
     /// Forces of the rows that act, as found last.
     shares: Vec<f64>,
     sizes: Sizes,
-    lemke: Lemke,
 }
 
 /// What rounding leaves of a bound, relative to its size.
 const ROUNDING: f64 = 1e-10;
 
-/// A force this far outside its cone, relative, is in it.
-const CONE: f64 = 1e-14;
-
-/// Cones are cut by so many sets of planes at most; they settle quadratically.
-const MOST_CUTS: usize = 40;
+/// A smaller weight of a composite guard, relative to the largest, is rounding.
+const NO_WEIGHT: f64 = 1e-12;
 
 impl<T: Scalar> RedundantForces<T> {
     /// Forgets everything: all forces are determined.
     pub fn clear(&mut self) {
         self.bounds.clear();
-        self.cones.clear();
         self.least.clear();
     }
 
@@ -66,138 +55,73 @@ impl<T: Scalar> RedundantForces<T> {
         (self.least, self.freedom) = dynamics.least_norm_of_acting();
         self.sizes.take(dynamics);
         self.list_bounds(dynamics);
-        for index in 0..self.cones.len() {
-            for along in [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]] {
-                self.cut(index, along);
-            }
-        }
-        self.fill_matrix();
-    }
-
-    fn fill_matrix(&mut self) {
-        self.matrix.clear();
-        for x in &self.bounds {
-            for y in &self.bounds {
-                let products = x.terms.iter().map(|&(i, a)| {
-                    let row = self.freedom.row(i);
-                    let sum: f64 = y.terms.iter().map(|&(j, b)| row[j] * b).sum();
-                    a * sum
-                });
-                let product: f64 = products.sum();
-                self.matrix.push(product / (x.size * y.size));
-            }
-        }
     }
 
     /// Whether a guard concerns forces that are not determined, so that by itself it decides nothing.
     pub fn is_open(&self, guard: Guard) -> bool {
-        self.bounds.iter().any(|bound| bound.guard == guard)
+        self.bounds.list.iter().any(|bound| bound.guard == guard)
     }
 
     /// Whether any guard does.
     pub fn has_open(&self) -> bool {
-        !self.bounds.is_empty()
+        !self.bounds.list.is_empty()
     }
 
     /// The composite guard that forbids the mode, or comes nearer to that than `margin` (relative): of all the smallest.
-    ///
-    /// Each guard found bounds the margin that all bounds together can keep; looking again at that margin finds a smaller one,
-    /// or that there is none (Dinkelbach 1967, Management Science 13, 492).
-    pub fn critical(&mut self, mut margin: f64) -> Option<CompositeGuard> {
-        let mut smallest = None;
-        for _ in 0..MOST_CUTS {
-            if self.find_shares(margin) {
-                break;
-            }
-            let Some((composite, value)) = self.certificate() else {
-                break;
-            };
-            smallest = Some(composite);
-            // Below that the search sees its own rounding.
-            if value > margin - ROUNDING {
-                break;
-            }
-            margin = value;
-        }
-        smallest
+    pub fn critical(&self, margin: f64) -> Option<CompositeGuard> {
+        self.smallest(&self.bounds.values, margin)
     }
 
     /// The same for guards with other values than those looked at, and the same rows.
     pub fn critical_at(
-        &mut self,
+        &self,
         mut value: impl FnMut(Guard, [f64; 2]) -> f64,
     ) -> Option<CompositeGuard> {
-        self.q.clear();
-        let values = self
-            .bounds
-            .iter()
-            .map(|bound| value(bound.guard, bound.along) / bound.size + ROUNDING);
-        self.q.extend(values);
-        let forbids = self.lemke.solve(&self.matrix, &self.q) == LemkeOutcome::Ray;
-        let (composite, _) = forbids.then(|| self.certificate())??;
-        Some(composite)
+        let mut values = Vec::with_capacity(self.bounds.values.len());
+        for &Bound { guard, cone, size } in &self.bounds.list {
+            match cone {
+                Cone::Ray(_) => values.push(value(guard, [0.0; 2]) / size),
+                Cone::SecondOrder(_) => {
+                    let [east, west] = [1.0, -1.0].map(|x| value(guard, [x, 0.0]) / size);
+                    let [north, south] = [1.0, -1.0].map(|y| value(guard, [0.0, y]) / size);
+                    values.extend([east + west, west - east, south - north].map(|x| 0.5 * x));
+                }
+            }
+        }
+        self.smallest(&values, -ROUNDING)
     }
 
-    /// The composite guard that the last search, which has failed, ended with, and its value at the forces looked at.
-    fn certificate(&self) -> Option<(CompositeGuard, f64)> {
-        let ray = self.lemke.ray();
-        let sum: f64 = ray.iter().sum();
-        if sum <= 0.0 {
+    /// The composite guard of bounds with these `values` that is smallest, and below `margin`.
+    fn smallest(&self, values: &[f64], margin: f64) -> Option<CompositeGuard> {
+        // Those of least norm may do.
+        if !self.has_open() || self.bounds.least(values) >= margin {
             return None;
         }
-        let largest = ray.iter().copied().fold(0.0, f64::max);
-        let weighted = self.bounds.iter().zip(ray);
-        let parts = weighted.filter(|(_, w)| **w > 1e-9 * largest);
-        let value = parts.clone().map(|(bound, w)| w / sum * bound.value).sum();
-        let composite = CompositeGuard {
-            parts: parts
-                .map(|(bound, w)| Part {
-                    guard: bound.guard,
-                    along: bound.along,
-                    weight: w / (sum * bound.size),
-                })
-                .collect(),
-        };
-        Some((composite, value))
-    }
-
-    /// Finds the shares of least norm that keep all bounds by `margin`, into `self.shares`; cones are cut where they are
-    /// left, until none is. False: there are none.
-    fn find_shares(&mut self, margin: f64) -> bool {
-        for _ in 0..MOST_CUTS {
-            self.q.clear();
-            let values = self.bounds.iter().map(|bound| bound.value - margin);
-            self.q.extend(values);
-            if self.lemke.solve(&self.matrix, &self.q) != LemkeOutcome::Solved {
-                return false;
-            }
-            self.shares.clear();
-            self.shares.extend(self.least.iter().map(|x| x.value()));
-            for (bound, &w) in self.bounds.iter().zip(self.lemke.z()) {
-                for &(i, factor) in bound.terms.iter().filter(|_| w > 0.0) {
-                    let change = self.freedom.row(i).iter();
-                    for (force, p) in self.shares.iter_mut().zip(change) {
-                        *force += w * factor / bound.size * p;
-                    }
-                }
-            }
-            let mut settled = true;
-            for index in 0..self.cones.len() {
-                let cone = self.cones[index];
-                let [x, y] = cone.rows.map(|i| self.shares[i]);
-                let holds = cone.limit.1 * self.shares[cone.limit.0] + cone.constant;
-                let force = x.hypot(y);
-                if force > 0.0 && force - holds > (CONE - margin) * cone.size {
-                    self.cut(index, [x / force, y / force]);
-                    settled = false;
-                }
-            }
-            if settled {
-                return true;
-            }
-            self.fill_matrix();
+        let ConicPoint { z, .. } = self.bounds.widest(values, margin);
+        let list = self.bounds.list.iter();
+        let weights = list.clone().map(|bound| z[bound.cone.first()]);
+        // The rest is the weight of the margin asked for.
+        let sum: f64 = weights.clone().sum();
+        let value: f64 = values.iter().zip(&z).map(|(x, z)| x * z).sum();
+        if !(sum > 0.5 && value < margin * sum) {
+            return None;
         }
-        true
+        let largest = weights.fold(0.0, f64::max);
+        let parts = list.filter(|bound| z[bound.cone.first()] > NO_WEIGHT * largest);
+        let parts = parts.map(|&Bound { guard, cone, size }| {
+            let weight = z[cone.first()];
+            Part {
+                guard,
+                along: match cone {
+                    Cone::Ray(_) => [0.0; 2],
+                    Cone::SecondOrder(i) => [-z[i + 1] / weight, -z[i + 2] / weight],
+                },
+                weight: weight / (sum * size),
+            }
+        });
+        Some(CompositeGuard {
+            parts: parts.collect(),
+        })
     }
 
     /// The forces of all rows at the last value of `dynamics`, and which of them are undetermined (nothing where all are
@@ -211,15 +135,15 @@ impl<T: Scalar> RedundantForces<T> {
         self.forces(dynamics)
     }
 
-    /// The forces of all rows: those of least norm within the bounds, if there are any within them.
+    /// The forces of all rows: those of least norm within the bounds, or as near to that as any are.
     fn forces(&mut self, dynamics: &Dynamics<T>) -> Vec<T> {
         if self.least.is_empty() {
             let rows = 0..dynamics.description().rows.len();
             return rows.map(|row| dynamics.force(row)).collect();
         }
         let mut forces = self.least.clone();
-        // At its border a mode allows one share only, and rounding may take that away.
-        if self.has_open() && [0.0, -ROUNDING].into_iter().any(|m| self.find_shares(m)) {
+        if self.has_open() {
+            self.find_shares();
             for (force, &share) in forces.iter_mut().zip(&self.shares) {
                 let change = share - force.value();
                 if change != 0.0 {
@@ -228,6 +152,24 @@ impl<T: Scalar> RedundantForces<T> {
             }
         }
         dynamics.forces_of_acting(&forces)
+    }
+
+    /// Finds the shares of least norm that keep all bounds, or come as near to that as any do, into `self.shares`.
+    fn find_shares(&mut self) {
+        self.shares.clear();
+        self.shares.extend(self.least.iter().map(|x| x.value()));
+        let bounds = &self.bounds;
+        if bounds.least(&bounds.values) >= 0.0 {
+            return;
+        }
+        let free = bounds.basis.ncols();
+        let widest = bounds.widest(&bounds.values, 1.0).x;
+        // At its border a mode allows one share only, and rounding may take that away.
+        let program = bounds.nearest((widest[free] - ROUNDING).min(0.0));
+        let change = &bounds.basis * program.solve(widest.rows(0, free).into_owned()).x;
+        for (share, x) in self.shares.iter_mut().zip(&change) {
+            *share += x;
+        }
     }
 
     /// Whether the force of each row is undetermined.
