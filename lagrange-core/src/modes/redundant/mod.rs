@@ -36,6 +36,9 @@ pub struct RedundantForces<T> {
 /// What rounding leaves of a bound, relative to its size.
 const ROUNDING: f64 = 1e-10;
 
+/// Where bounds allow one share only, they are widened by this, relative: what rounding may have taken.
+const BORDER: f64 = 1e-13;
+
 /// A smaller weight of a composite guard, relative to the largest, is rounding.
 const NO_WEIGHT: f64 = 1e-12;
 
@@ -164,8 +167,7 @@ impl<T: Scalar> RedundantForces<T> {
         }
         let free = bounds.basis.ncols();
         let widest = bounds.widest(&bounds.values, 1.0).x;
-        // At its border a mode allows one share only, and rounding may take that away.
-        let program = bounds.nearest((widest[free] - ROUNDING).min(0.0));
+        let program = bounds.nearest((widest[free] - BORDER).min(0.0));
         let change = &bounds.basis * program.solve(widest.rows(0, free).into_owned()).x;
         for (share, x) in self.shares.iter_mut().zip(&change) {
             *share += x;
