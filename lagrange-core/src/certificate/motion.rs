@@ -249,6 +249,9 @@ impl<T: Scalar> Examination<'_, T> {
                     let mode = &self.modes[segment.mode];
                     self.equations
                         .examine_positions(at, mode, &mut self.findings);
+                } else if self.watches.remembers(&self.modes[segment.mode]) {
+                    // What cannot be evaluated counts where the step is looked at.
+                    _ = self.watch(k);
                 }
                 self.take_rounding();
                 core::mem::swap(&mut self.expected, &mut self.last);

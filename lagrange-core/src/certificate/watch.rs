@@ -164,6 +164,13 @@ impl Watches {
         !self.guards.iter().any(|guard| guard.acts(self.d, mode))
     }
 
+    /// Whether a guard that acts in a mode depends on where the motion has been: below a surface that it has passed at its edge. Every
+    /// step of such a mode has to be followed.
+    pub fn remembers(&self, mode: &Mode) -> bool {
+        let mut guards = self.guards.iter();
+        guards.any(|guard| guard.region.is_some() && guard.acts(self.d, mode))
+    }
+
     /// Whether a guard that acts in a mode reads forces.
     pub fn needs_forces(&self, mode: &Mode) -> bool {
         let mut guards = self.guards.iter();
