@@ -102,6 +102,16 @@ pub enum Error {
         /// Its value after the jump.
         after: f64,
     },
+    /// What a constraint, a closed contact or a friction that sticks holds at zero bends where a piecewise expression changes: velocities
+    /// would have to jump there.
+    Corner {
+        /// Time, s.
+        time: f64,
+        /// The constraint, contact or friction.
+        item: &'static str,
+        /// Its rate just after, in the unit of the declaration per second; of a friction its slip.
+        rate: f64,
+    },
     /// A contact is hit whose gap does not fall below zero but turns there, as the distance of two points does: the direction of its force is
     /// not known.
     Undirected {
@@ -318,6 +328,11 @@ impl fmt::Display for Error {
                 f,
                 "t = {time}: `{item}` jumps from {before:.6} to {after:.6}; write it so that it is continuous, \
                  for example an angle as a coordinate instead of by atan2"
+            ),
+            Error::Corner { time, item, rate } => write!(
+                f,
+                "t = {time}: the rate of `{item}` jumps to {rate:.6} where a piecewise expression changes, and what \
+                 velocities do at such a corner is not computed; round it, or write each side as a contact of its own"
             ),
             Error::Undirected { time, item } => write!(
                 f,

@@ -237,6 +237,24 @@ impl Equations {
         }
     }
 
+    /// Choices take what is zero to within the tolerance, in the state that was balanced, for zero.
+    pub fn take_for_zero_what_vanishes(&mut self, at: Situation<'_>, tolerance: f64) {
+        let mut guards = self.balancing.guards();
+        guards.retain(|&guard| {
+            let value = self.balancing.value(guard);
+            self.balancing
+                .gradient_size(guard, 0, &mut self.sizes_along);
+            let reach = change(&self.sizes_along, &self.sizes, [at.q, at.v]);
+            value.abs() <= tolerance * reach
+        });
+        self.balancing.take_for_zero(&guards);
+    }
+
+    /// Choices take what balances for what it is again.
+    pub fn take_nothing_for_zero(&mut self) {
+        self.balancing.take_for_zero(&[]);
+    }
+
     /// Whether what balances at the last state is beyond rounding at first sight.
     pub fn is_beyond(&self) -> bool {
         let mut pairs = self.residual.iter().zip(&self.size);
@@ -244,7 +262,7 @@ impl Equations {
     }
 
     /// [`Self::balance`] at a state, its sizes with everything that rounding errors are relative to: how much it changes
-    /// when each position and velocity x changes by 1 + |x| (two large forces that cancel in a spring near its rest length) and
+    /// when the time and each position and velocity x changes by 1 + |x| (two large forces that cancel in a spring near its rest length) and
     /// each acceleration by its size, and what the forces of rows bring from one equation into another.
     pub fn balance_with_sizes(&mut self, at: Situation<'_>, mode: &Mode) {
         /// Changes of the state, whose rounding errors do not matter and which are small enough to be linear.
@@ -259,6 +277,12 @@ impl Equations {
         let (q, v) = (changed(at.q), changed(at.v));
         self.balance(Situation { q: &q, v: &v, ..at });
         let mut beside = vec![self.residual.clone()];
+        // A force that is a function of the time is rounded as the time is: a fast oscillation far from the beginning.
+        self.balance(Situation {
+            time: at.time + CHANGE * (1.0 + at.time.abs()),
+            ..at
+        });
+        beside.push(self.residual.clone());
         // Accelerations are rounded beside their own size, each for itself: huge ones that cancel where the inertia nearly vanishes.
         let mut acceleration = at.acceleration.to_vec();
         for (j, &own) in at.acceleration.iter().enumerate() {

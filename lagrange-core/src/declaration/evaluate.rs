@@ -132,6 +132,8 @@ pub struct Evaluator<N = f64> {
     moves: Vec<bool>,
     /// Per value: whether it reads forces, which do not follow from the state alone.
     of_forces: Vec<bool>,
+    /// Per value: whether a choice takes it for zero, whatever it is.
+    vanishes: Vec<bool>,
     values: Vec<Series<N>>,
     /// Derivative of each function by its operands.
     slopes: Vec<[Series<N>; 2]>,
@@ -154,6 +156,7 @@ impl<N: Real> Evaluator<N> {
             operations: Vec::with_capacity(all.len()),
             moves: vec![false; all.len()],
             of_forces: vec![false; all.len()],
+            vanishes: vec![false; all.len()],
             values: vec![Series::default(); all.len()],
             slopes: vec![[Series::default(); 2]; all.len()],
             weights: Vec::new(),
@@ -209,6 +212,19 @@ impl<N: Real> Evaluator<N> {
         operations.any(|operation| operation.code == op::DERIVATIVE)
     }
 
+    /// What the choices depend on, as far as it changes with the state; some of it more than once.
+    pub fn guards(&self) -> Vec<usize> {
+        let choices = self.operations.iter().filter(|o| o.code == op::SELECT);
+        let guards = choices.map(|operation| operation.guard);
+        guards.filter(|&guard| self.moves[guard]).collect()
+    }
+
+    /// Says which values choices take for zero from now on, whatever they are.
+    pub fn take_for_zero(&mut self, values: &[usize]) {
+        self.vanishes.fill(false);
+        values.iter().for_each(|&value| self.vanishes[value] = true);
+    }
+
     /// Takes another state.
     pub fn evaluate(&mut self, x: Inputs<'_, N>) {
         for k in 0..self.operations.len() {
@@ -229,6 +245,7 @@ impl<N: Real> Evaluator<N> {
             op::ADD => n(i) + n(j),
             op::MULTIPLY => n(i) * n(j),
             op::DERIVATIVE => n(i).derivative(),
+            op::SELECT if self.vanishes[operation.guard] => n(i),
             op::SELECT => match n(operation.guard).0[0].is_positive() {
                 Some(true) => n(i),
                 Some(false) => n(j),
@@ -360,8 +377,11 @@ impl Evaluator {
                 by(i, &self.values[j]);
                 by(j, &self.values[i]);
             }
-            op::SELECT if self.value(operation.guard) >= 0.0 => by(i, &ONE),
-            op::SELECT => by(j, &ONE),
+            op::SELECT => {
+                let guard = operation.guard;
+                let first = self.vanishes[guard] || self.value(guard) >= 0.0;
+                by(if first { i } else { j }, &ONE);
+            }
             op::TIME | op::FORCE | op::LOAD => {}
             op::ATAN2 => {
                 let [along, across] = &self.slopes[operation.value];

@@ -138,7 +138,7 @@ pub fn guards_of_mode<T: Scalar>(
         }
     }
     for (b, branch) in d.branches.iter().enumerate() {
-        if branch.users.iter().any(|&user| needs.contains(user)) {
+        if needs.contains(branch.need) {
             out.push(Guard::Branch(b));
         }
     }

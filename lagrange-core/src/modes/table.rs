@@ -1,7 +1,7 @@
 //! What a run knows of every mode that it has met: the guards, and what they ask of the tapes.
 
 use crate::arithmetic::Scalar;
-use crate::dynamics::{Dynamics, OutputMask, add_guards};
+use crate::dynamics::{Dynamics, OutputMask, add_branch_guards, add_guards};
 use crate::effects::Item;
 use crate::mode::Mode;
 use crate::modes::guard::{self, Guard};
@@ -48,6 +48,17 @@ fn watched<T: Scalar>(dynamics: &Dynamics<T>) -> Watched {
     let mut needs = dynamics.motion_needs().clone();
     needs.extend(dynamics.report_needs());
     add_guards(d, effects, mode, &mut needs);
+    // A surface may bend where no acceleration tells: a floor that rises evenly and stops.
+    let mut bends = needs.clone();
+    for &row in dynamics.acting_rows() {
+        bends.insert(d.rows[row].needs.position);
+        bends.insert(d.rows[row].needs.velocity);
+    }
+    add_branch_guards(d, &mut bends);
+    let bending = d.branches.iter().map(|branch| branch.need);
+    bending
+        .filter(|&need| bends.contains(need))
+        .for_each(|need| needs.insert(need));
     let mut guards = Vec::new();
     guard::guards_of_mode(mode, dynamics, &needs, &mut guards);
     let mut deciding = needs.clone();

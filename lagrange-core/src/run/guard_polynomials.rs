@@ -56,6 +56,8 @@ pub(super) struct GuardPolynomials {
     list: Vec<GuardPolynomial>,
     /// Guards of undetermined forces that have been met in this mode.
     pub(super) composites: Vec<CompositeGuard>,
+    /// Per branch: whether the mode holds it at its border, where its guard is rounding and is not watched.
+    pub(super) held: Vec<bool>,
     /// One after the other, each of `width` coefficients.
     coefficients: Vec<f64>,
     width: usize,
@@ -105,8 +107,11 @@ impl GuardPolynomials {
     ) {
         let composites = (0..self.composites.len()).map(Guard::Composite);
         let watches = self.watches.iter().copied();
+        let held = &self.held;
+        let moves =
+            |guard: &Guard| !matches!(*guard, Guard::Branch(b) if held.get(b) == Some(&true));
         let curves = watches
-            .chain(guards)
+            .chain(guards.filter(moves))
             .chain(composites)
             .map(|guard| GuardPolynomial {
                 guard,

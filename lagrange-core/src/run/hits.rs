@@ -91,6 +91,7 @@ impl<T: Scalar> Locator<T> {
         let watches = self.stop_below.iter_mut().chain(&mut self.mark_below);
         watches.for_each(|terms| terms.fill(false));
         self.polynomials.composites.clear();
+        self.polynomials.held.clear();
     }
 }
 

@@ -533,6 +533,10 @@ impl<T: Scalar> Run<T> {
             .polynomials
             .composites
             .clone_from(&self.switcher.decider.decision.composites);
+        self.locator
+            .polynomials
+            .held
+            .clone_from(&self.switcher.decider.decision.held);
         (self.now.series, self.now.valued) = (Progress::None, false);
         self.hold_guards();
     }

@@ -3,12 +3,14 @@
 use super::accumulation::{Impacts, Train};
 use super::{Progress, Run};
 use crate::arithmetic::Scalar;
+use crate::dynamics::row_name;
 use crate::effects::Item;
 use crate::error::Error;
 use crate::mode::{FrictionMode, Mode};
 use crate::modes::decide::{Decider, SwitchFacts};
 use crate::modes::domain;
 use crate::modes::guard::{self, Guard};
+use crate::modes::held::HeldBranches;
 use crate::modes::impact::{Collider, Impact};
 use crate::modes::redundant::RedundantForces;
 use crate::modes::status::ConstraintStatus;
@@ -23,11 +25,16 @@ const ENTERS: f64 = 10.0;
 /// What is no larger than this beside the terms that make it is what rounding has left of zero.
 const ROUNDING: f64 = 1e-13;
 
+/// What acts jumps by more than this, relative, where it has a corner.
+const CORNER: f64 = 1e-6;
+
 /// What decides how the motion goes on.
 #[derive(Debug)]
 pub(super) struct Switcher<T> {
     pub(super) status: ConstraintStatus,
     pub(super) collider: Collider<T>,
+    /// Branches that what touches holds at their border.
+    held: HeldBranches<T>,
     /// Contacts whose gap vanishes at an impact.
     pub(super) near: Vec<usize>,
     /// Per contact: its impacts so far.
@@ -52,6 +59,7 @@ impl<T: Scalar> Switcher<T> {
         Switcher {
             status: ConstraintStatus::new(d),
             collider: Collider::default(),
+            held: HeldBranches::default(),
             near: Vec::with_capacity(contacts),
             impacts: vec![Impacts::default(); contacts],
             train: Train::default(),
@@ -156,6 +164,9 @@ impl<T: Scalar> Run<T> {
         if self.switcher.decider.decision.expanded {
             self.now.series = Progress::Complete;
         }
+        if !hit {
+            self.refuse_corners()?;
+        }
         if hit || self.rows_have_joined() {
             self.project(true)?;
         }
@@ -205,7 +216,40 @@ impl<T: Scalar> Run<T> {
         if !hit {
             self.rest_where_slip_vanishes(facts)?;
         }
+        self.balance_what_is_held(facts);
         Ok(hit)
+    }
+
+    /// Branches are at their border where everything that touches and rests holds them there: a contact that closes may not do so at the
+    /// root of their guard.
+    fn balance_what_is_held(&mut self, facts: &mut SwitchFacts) {
+        let d = self.description();
+        if d.branches.iter().all(|branch| branch.after_solve) {
+            return;
+        }
+        let mode = &mut self.switcher.scratch_mode;
+        mode.clone_from(&self.now.mode);
+        mode.contacts.copy_from_slice(&facts.touching);
+        for (f, friction) in d.frictions.iter().enumerate() {
+            let rests = facts.resting[f] && friction.normal.presses(|c| facts.touching[c]);
+            mode.frictions[f] = match rests {
+                true => FrictionMode::Stick,
+                false => FrictionMode::Inactive,
+            };
+        }
+        self.dynamics.set_mode(mode);
+        let here = self
+            .now
+            .context(self.stepper.order, self.settings.tolerance, facts);
+        let needs = &self.switcher.status.needs;
+        let held = &mut self.switcher.held;
+        held.look(&mut self.dynamics, needs, here.moment);
+        for (balanced, held) in facts.balanced.iter_mut().zip(held.held()) {
+            *balanced |= held;
+        }
+        facts.lying.copy_from_slice(held.of_positions());
+        self.dynamics.set_mode(&self.now.mode);
+        self.now.valued = false;
     }
 
     /// The impact of the contacts whose gaps close, if there is one.
@@ -302,6 +346,34 @@ impl<T: Scalar> Run<T> {
         contact.region.is_none_or(|place| number(place) > 0.0)
             && gap.abs() <= ROUNDING * extent
             && rate.abs() <= ROUNDING * size
+    }
+
+    /// Where a piecewise expression changes, what acts may not jump: no law says what velocities do there.
+    fn refuse_corners(&mut self) -> Result<(), Error> {
+        if self.recorder.before.mode.branches == self.now.mode.branches {
+            return Ok(());
+        }
+        let State { q, v, .. } = &self.now.state;
+        let (position, velocity) = self.dynamics.residuals(self.now.t, q, v);
+        self.now.valued = false;
+        let (d, time) = (self.description(), self.now.t.value());
+        let most = CORNER.max(1e3 * self.settings.tolerance);
+        if position.relative > most {
+            return Err(Error::Discontinuous {
+                time,
+                item: row_name(d, position.row),
+                before: 0.0,
+                after: position.value,
+            });
+        }
+        if velocity.relative > most {
+            return Err(Error::Corner {
+                time,
+                item: row_name(d, velocity.row),
+                rate: velocity.value,
+            });
+        }
+        Ok(())
     }
 
     /// Whether the switch has brought rows that the state need not satisfy to rounding.

@@ -95,6 +95,10 @@ impl<T: Scalar> Decider<T> {
             return Ok(false);
         }
         dynamics.set_mode(&self.posed);
+        self.held.clear();
+        if facts.balanced.contains(&true) {
+            self.held.look(dynamics, &self.rows, moment);
+        }
         let mode = &self.posed;
         let watched = table.of(dynamics);
         let serves = watched.deciding == watched.needs;
@@ -110,6 +114,20 @@ impl<T: Scalar> Decider<T> {
             &watched.deciding,
             &mut self.questions,
         );
+        // A branch that stays at its border is the one that is declared for equality.
+        self.violated.clear();
+        let held = self.held.held();
+        let is_held = |guard| matches!(guard, Guard::Branch(b) if held.get(b) == Some(&true));
+        for (guard, _) in self.questions.extract_if(.., |(guard, _)| is_held(*guard)) {
+            if let Guard::Branch(b) = guard
+                && !mode.branch(b)
+            {
+                self.violated.push(guard);
+            }
+        }
+        if !self.violated.is_empty() {
+            return Ok(false);
+        }
         // Most candidates are refused, and many accepted, by their values already.
         dynamics.value(t, q, v)?;
         // The inertia and what drives are the same in all modes, but for branches.

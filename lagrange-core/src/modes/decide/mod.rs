@@ -21,6 +21,7 @@ use crate::dynamics::{Dynamics, EvaluationError, OutputMask};
 use crate::error::Error;
 use crate::mode::{FrictionMode, Mode};
 use crate::modes::guard::{self, Guard};
+use crate::modes::held::HeldBranches;
 use crate::modes::reading::Reading;
 use crate::modes::redundant::{CompositeGuard, RedundantForces};
 use crate::modes::scale::Sizes;
@@ -39,6 +40,8 @@ pub struct Decision {
     pub zeros: Vec<(Guard, usize)>,
     /// Whether another mode with another motion was feasible too.
     pub ambiguous: bool,
+    /// Per branch: whether the mode holds it at its border.
+    pub held: Vec<bool>,
     /// Composite guards that are at their border, or near it.
     pub composites: Vec<CompositeGuard>,
     /// Whether the dynamics hold the series of this mode at the moment, for the needs of its guards.
@@ -57,6 +60,8 @@ pub struct Decider<T> {
     redundant: RedundantForces<T>,
     composites: Vec<CompositeGuard>,
     motion: Vec<f64>,
+    /// Branches that the candidate examined last holds at their border.
+    held: HeldBranches<T>,
     sizes: Sizes,
     /// Whether they are those of the state at hand.
     sized: bool,
@@ -92,6 +97,7 @@ impl<T: Scalar> Decider<T> {
                 mode: Mode::open(description),
                 zeros: Vec::new(),
                 ambiguous: false,
+                held: Vec::new(),
                 composites: Vec::new(),
                 expanded: false,
             },
@@ -102,6 +108,7 @@ impl<T: Scalar> Decider<T> {
             redundant: RedundantForces::default(),
             composites: Vec::new(),
             motion: Vec::new(),
+            held: HeldBranches::default(),
             sizes: Sizes::default(),
             sized: false,
             sticks_first: false,
@@ -382,6 +389,8 @@ impl<T: Scalar> Decider<T> {
         core::mem::swap(&mut self.best, &mut self.posed);
         core::mem::swap(&mut self.decision.zeros, &mut self.zeros);
         self.decision.composites.clone_from(&self.composites);
+        self.decision.held.clear();
+        self.decision.held.extend_from_slice(self.held.held());
         self.motion.clear();
         let motion = dynamics.acceleration().iter().map(|a| a.value());
         self.motion.extend(motion);

@@ -93,7 +93,7 @@ pub(super) fn list_questions(
     for b in 0..d.branches.len() {
         // What nothing in this mode uses decides nothing.
         if facts.balanced[b] && held.contains(d.branches[b].need) {
-            list.push((Guard::Branch(b), 1));
+            list.push((Guard::Branch(b), if facts.lying[b] { 2 } else { 1 }));
         }
     }
 }
@@ -109,6 +109,7 @@ pub(super) fn concerns(guard: Guard, composites: &[CompositeGuard], facts: &Swit
         *root == guard
             || match (*root, guard) {
                 (Guard::Normal(c), Guard::Gap(g)) | (Guard::Gap(c), Guard::Normal(g)) => c == g,
+                (Guard::Normal(_), Guard::Branch(b)) => facts.lying[b],
                 (
                     Guard::StickUpper(f)
                     | Guard::StickLower(f)

@@ -1,4 +1,4 @@
-//! A motion that no coefficient of its series announces.
+//! Late instants: a motion that no coefficient of its series announces, and times that are rounded.
 
 use super::state;
 use lagrange_core::prelude::*;
@@ -30,5 +30,33 @@ fn a_step_is_checked_at_its_end_and_not_by_its_coefficients() {
         let end = motion.final_state();
         agree("x", end.q[0], x, 10.0 * tolerance);
         agree("v", end.v[0], v, 10.0 * tolerance);
+    }
+}
+
+/// A mass that a fast oscillation drives.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2 / 2,
+    force(drive: x = sin(rate * t * 3)),
+)]
+struct Shaken {
+    rate: f64,
+}
+
+/// The force is known as well as the time is, which near its zeros is much less than its own digits.
+#[test]
+fn a_certificate_knows_that_late_times_are_rounded() {
+    let scene = Shaken { rate: 7.0 };
+    for tolerance in [1e-9, 1e-12] {
+        let simulation = Simulation::new(&scene).tolerance(tolerance);
+        let run = simulation.run(state(&[0.0], &[0.0]), 0.0..40.0);
+        let run = run.expect("a run");
+        let x = 40.0 / 21.0 - f64::sin(21.0 * 40.0) / 441.0;
+        agree("x", run.final_state().q[0], x, 1e3 * tolerance);
+        for seed in 0..10 {
+            let certificate = run.verify(seed).expect("recorded");
+            assert!(certificate.holds(), "{tolerance:e}, {seed}: {certificate}");
+        }
     }
 }

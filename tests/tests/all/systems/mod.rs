@@ -8,6 +8,7 @@ mod belt;
 mod bending_guards;
 mod block;
 mod blows;
+mod borders;
 mod breaks;
 mod cart_pole;
 mod chain;

@@ -1,0 +1,123 @@
+//! Branches that a mode holds at their border: the guard of `if(y <= 0, …)` is zero as long as the floor y ≥ 0 carries.
+//!
+//! Such a guard is zero wherever the rows that act let the motion be, and what rounding and the tolerance leave of it says nothing: the
+//! branch is the one that is declared for equality. States beside the present one that are moved back onto these rows tell it from
+//! a guard that only happens to vanish.
+
+use crate::arithmetic::Scalar;
+use crate::dynamics::{Dynamics, OutputMask};
+use crate::modes::decide::EvaluationPoint;
+
+/// States are this far beside, relative above 1.
+const BESIDE: f64 = 1e-4;
+/// A guard that is held keeps less than this share of what it is beside the rows. What only touches zero there keeps [`BESIDE`].
+const KEPT: f64 = 1e-7;
+/// A guard that is not smaller than this share of what it is beside is not looked at.
+const SMALL: f64 = 1e-2;
+/// Directions in which states are looked at, for time and every coordinate and velocity in turn.
+const DIRECTIONS: [[f64; 5]; 2] = [
+    [0.62, -0.83, 0.47, 0.91, -0.56],
+    [-0.71, -0.44, 0.97, -0.59, 0.78],
+];
+
+/// Which branches are held, with the memory to find out.
+#[derive(Clone, Debug, Default)]
+pub struct HeldBranches<T> {
+    held: Vec<bool>,
+    /// Of these, those whose guards read no velocities.
+    of_positions: Vec<bool>,
+    /// Guards beside the rows.
+    beside: Vec<f64>,
+    q: Vec<T>,
+    v: Vec<T>,
+}
+
+impl<T: Scalar> HeldBranches<T> {
+    /// Per branch.
+    pub fn held(&self) -> &[bool] {
+        &self.held
+    }
+
+    /// Per branch: whether it is held and its guard reads no velocities, so that its rate vanishes too.
+    pub fn of_positions(&self) -> &[bool] {
+        &self.of_positions
+    }
+
+    /// None is known to be held.
+    pub fn clear(&mut self) {
+        self.held.clear();
+    }
+
+    /// Finds the branches that the mode of `dynamics` holds; `needs` are those of all guards.
+    pub fn look(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        needs: &OutputMask,
+        at: EvaluationPoint<'_, T>,
+    ) {
+        let branches = dynamics.description().branches;
+        self.held.clear();
+        self.held
+            .extend(branches.iter().map(|branch| !branch.after_solve));
+        self.of_positions.clear();
+        self.of_positions.resize(branches.len(), false);
+        for direction in DIRECTIONS {
+            if dynamics.acting_rows().is_empty() {
+                self.held.fill(false);
+            }
+            if !self.held.contains(&true) {
+                return;
+            }
+            self.look_along(dynamics, needs, at, direction);
+        }
+    }
+
+    /// Keeps those that are held beside the present state in one direction.
+    fn look_along(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        needs: &OutputMask,
+        at: EvaluationPoint<'_, T>,
+        direction: [f64; 5],
+    ) {
+        let branches = dynamics.description().branches;
+        let mut parts = direction.into_iter().cycle();
+        let mut beside = |x: &T| {
+            let part = BESIDE * parts.next().unwrap_or(1.0);
+            *x + T::from_f64(part * x.value().abs().max(1.0))
+        };
+        let t = beside(&at.t);
+        self.q.clear();
+        self.q.extend(at.q.iter().map(&mut beside));
+        self.v.clear();
+        self.v.extend(at.v.iter().map(&mut beside));
+        let guard =
+            |dynamics: &Dynamics<T>, b: usize| dynamics.motion(branches[b].guard).value().abs();
+        dynamics.set_extra_needs(needs);
+        dynamics.tape(t, &self.q, &self.v);
+        self.beside.clear();
+        self.beside
+            .extend((0..branches.len()).map(|b| guard(dynamics, b)));
+        dynamics.tape(at.t, at.q, at.v);
+        for (b, held) in self.held.iter_mut().enumerate() {
+            *held &= guard(dynamics, b) <= SMALL * self.beside[b];
+        }
+        if !self.held.contains(&true) {
+            return;
+        }
+        if dynamics.project(t, &mut self.q, &mut self.v, 0.0).is_err() {
+            return self.held.fill(false);
+        }
+        dynamics.set_extra_needs(needs);
+        dynamics.tape(t, &self.q, &self.v);
+        for (b, held) in self.held.iter_mut().enumerate() {
+            *held &= guard(dynamics, b) <= KEPT * self.beside[b];
+        }
+        self.v.clear();
+        self.v.extend(at.v.iter().map(&mut beside));
+        dynamics.tape(t, &self.q, &self.v);
+        for (b, of_positions) in self.of_positions.iter_mut().enumerate() {
+            *of_positions = self.held[b] && guard(dynamics, b) <= KEPT * self.beside[b];
+        }
+    }
+}
