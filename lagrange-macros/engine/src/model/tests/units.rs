@@ -279,3 +279,26 @@ fn what_is_no_unit_is_told_at_its_text() {
         "1:27 E703 it is not clear what stands under the stroke; use parentheses: `J/(kg K)`"
     );
 }
+
+/// Far more terms and fields than anyone writes, but a generated or hostile file may have them: work grows with their
+/// number, not with its square.
+#[test]
+fn many_terms_and_fields_are_checked_in_proportion() {
+    let terms = |n: usize| (1..=n).map(|k| format!("{k}*x")).collect::<Vec<_>>();
+    fine(&format!("potential = f*({})", terms(100_000).join(" + ")));
+    let one_wrong = format!("{} + m", terms(100_000).join(" + "));
+    let said = said(&format!("potential = f*({one_wrong})"));
+    assert!(said.contains("kg"), "{said}");
+
+    let fields: Vec<String> = (0..20_000).map(|k| format!("a{k}")).collect();
+    let declared: Vec<String> = fields.iter().map(|a| format!("{a}: f64")).collect();
+    let forces: Vec<String> = fields.iter().map(|a| format!("{a}*x")).collect();
+    let text = format!(
+        "#[lagrange(coordinates(x: \"m\"), kinetic = m/2*der(x)^2, potential = {})]
+         struct S {{ #[lagrange(unit = \"kg\")] m: f64, {} }}",
+        forces.join(" + "),
+        declared.join(", "),
+    );
+    let system = read(&text).expect("units that follow");
+    assert!(system.parameters[1..].iter().all(|a| a.unit == "N"));
+}

@@ -9,6 +9,7 @@ use super::shape::{Role, Shape};
 use crate::ast::{Comparison, Expr};
 use crate::diagnostics::Code;
 use crate::symbolic::Rational;
+use std::collections::BTreeMap;
 
 impl Checker<'_, '_> {
     /// Whether the unit found for an expression is the wanted one; if not, says so.
@@ -93,16 +94,16 @@ impl Checker<'_, '_> {
         if let Some(expected) = expected.filter(|_| known.contains(&expected)) {
             return expected.into();
         }
-        let votes = |dimension: &Option<Dimension>| {
-            let same = known.iter().filter(|other| *other == dimension);
-            dimension.map_or(0, |_| same.count())
-        };
-        let most = known.iter().map(votes).max().unwrap_or(0);
-        let winner = known.iter().find(|dimension| votes(dimension) == most);
+        let mut votes: BTreeMap<Dimension, usize> = BTreeMap::new();
+        for dimension in known.iter().flatten() {
+            *votes.entry(*dimension).or_default() += 1;
+        }
+        let most = votes.values().max();
+        let winner = (known.iter().flatten()).find(|dimension| votes.get(dimension) == most);
         match (winner, column.first()) {
-            (Some(Some(dimension)), _) => (*dimension).into(),
-            (_, Some(first)) => (*first).clone(),
-            _ => Dimension::ONE.into(),
+            (Some(dimension), _) => (*dimension).into(),
+            (None, Some(first)) => (*first).clone(),
+            (None, None) => Dimension::ONE.into(),
         }
     }
 

@@ -21,11 +21,11 @@ const NAMED: [(&str, [i32; 4]); 11] = [
 ];
 
 /// kg^a m^b s^c A^d K^e mol^f cd^g
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(in crate::model) struct Dimension([Exponent; 7]);
 
 /// p/q in lowest terms: exponents are small, and there are many of them.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 struct Exponent(i32, i32);
 
 impl Exponent {

@@ -43,6 +43,15 @@ struct Given<'a> {
     unit: Option<Unit>,
 }
 
+/// The texts of units by name, where there are any.
+fn texts<'a>(
+    given: &[Given<'a>],
+    text: impl Fn(&Given) -> Option<String>,
+) -> BTreeMap<&'a str, String> {
+    let named = |one: &Given<'a>| Some((one.name.text.as_str(), text(one)?));
+    given.iter().filter_map(named).collect()
+}
+
 impl Elaboration<'_> {
     /// Checks the units of a declaration without mistakes, and writes down those of all quantities.
     pub fn units(&mut self, declaration: &Declaration) {
@@ -51,7 +60,9 @@ impl Elaboration<'_> {
         if self.sink.count() > before {
             return;
         }
-        self.write_given(&given);
+        // Units in the words of the declaration.
+        let words = |one: &Given| Some(one.unit.as_ref()?.text.clone());
+        self.write(&texts(&given, words));
         let dimensions = || {
             given
                 .iter()
@@ -129,27 +140,20 @@ impl Elaboration<'_> {
         None
     }
 
-    /// Units in the words of the declaration.
-    fn write_given(&mut self, given: &[Given]) {
-        for one in given {
-            if let Some(unit) = &one.unit {
-                self.write(&one.name.text, &unit.text);
-            }
-        }
-    }
-
-    /// The unit of a field or coordinate becomes this text.
-    fn write(&mut self, name: &str, text: &str) {
+    /// The units of fields and coordinates become these texts, by name.
+    fn write(&mut self, texts: &BTreeMap<&str, String>) {
         let system = &mut self.system;
         for parameter in &mut system.parameters {
-            if super::names::plain(&parameter.field) == name {
-                parameter.unit = text.to_string();
+            if let Some(text) = texts.get(super::names::plain(&parameter.field).as_str()) {
+                parameter.unit.clone_from(text);
             }
         }
-        if let Some(&(first, length)) = self.coordinate_names.get(name) {
-            let coordinates = system.coordinates.iter_mut().skip(first);
-            for coordinate in coordinates.take(length.unwrap_or(1)) {
-                coordinate.unit = text.to_string();
+        for (name, text) in texts {
+            if let Some(&(first, length)) = self.coordinate_names.get(*name) {
+                let coordinates = system.coordinates.iter_mut().skip(first);
+                for coordinate in coordinates.take(length.unwrap_or(1)) {
+                    coordinate.unit.clone_from(text);
+                }
             }
         }
     }
@@ -204,14 +208,14 @@ impl Elaboration<'_> {
             ..
         } = checker;
         if sink.is_empty() && self.sink.count() == before {
-            for one in given.iter().filter(|one| one.unit.is_none()) {
-                let text =
-                    |shape: &Shape| Some(unknowns.dimension(shape.quantities().first()?)?.text());
-                let found = names.get(&one.name.text).and_then(Option::as_ref);
-                if let Some(text) = found.and_then(text) {
-                    self.write(&one.name.text, &text);
-                }
-            }
+            let found = |one: &Given| {
+                let shape = names.get(&one.name.text)?.as_ref()?;
+                Some(unknowns.dimension(shape.quantities().first()?)?.text())
+            };
+            self.write(&texts(given, |one| match one.unit {
+                None => found(one),
+                Some(_) => None,
+            }));
             self.system.units = self.outputs(&unknowns, &names, &energy, &forces);
         }
         sink
