@@ -104,7 +104,7 @@ impl Bounds {
     /// Makes all bounds relative to their sizes, and finds a basis of what they depend on.
     fn complete(&mut self, forces: usize) {
         let sizes = self.list.iter().map(|bound| bound.size);
-        let least = SMALLEST * sizes.fold(f64::MIN_POSITIVE, f64::max);
+        let least = (SMALLEST * sizes.fold(0.0, f64::max)).max(f64::MIN_POSITIVE);
         let basis = basis(&self.changes, forces);
         self.open = DMatrix::from_fn(self.changes.len(), basis.ncols(), |i, j| {
             self.changes[i].dot(&basis.column(j))
