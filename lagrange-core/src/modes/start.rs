@@ -1,8 +1,11 @@
 //! The beginning of a run: states that satisfy the constraints.
 
-use super::{domain, status::ConstraintStatus};
+use super::{
+    domain,
+    status::{ConstraintStatus, slack},
+};
 use crate::arithmetic::{Scalar, epsilon};
-use crate::dynamics::{Dynamics, row_name};
+use crate::dynamics::{Dynamics, Residual, row_name};
 use crate::error::{Error, Level};
 use crate::state::{FixedComponents, State};
 
@@ -33,10 +36,15 @@ pub fn begin<T: Scalar>(
     if !project {
         refuse_other_velocities(dynamics, t, state)?;
     }
+    let (position, _) = dynamics.residuals(t, &state.q, &state.v);
+    let given = state.q.clone();
     let moved = dynamics.project(t, &mut state.q, &mut state.v, 0.0);
     let moved = moved
         .map_err(|e| Error::from_evaluation(e, t.value(), &status.mode, dynamics.description()))?;
     if moved {
+        if !project {
+            refuse_other_positions(dynamics, position, &given, &state.q, tolerance)?;
+        }
         status.look(dynamics, t, state, tolerance);
         dynamics.set_mode(&status.mode);
     }
@@ -60,6 +68,32 @@ fn refuse_other_velocities<T: Scalar>(
         level: Level::Velocity,
         residual: rate.value,
         tolerance: most * rate.value.abs() / rate.relative,
+    })
+}
+
+/// What is small in a declaration's unit of length may be all that there is of a small system: a rod of 10⁻¹² m that is as far above the floor does
+/// not touch it. And close to where a row loses rank, a residual δ is taken away by a move of √δ.
+fn refuse_other_positions<T: Scalar>(
+    dynamics: &Dynamics<T>,
+    left: Residual,
+    given: &[T],
+    moved: &[T],
+    tolerance: f64,
+) -> Result<(), Error> {
+    let change = |(given, moved): (&T, &T)| {
+        let (given, moved) = (given.value(), moved.value());
+        (moved - given).abs() / given.abs().max(1.0)
+    };
+    let change = given.iter().zip(moved).map(change).fold(0.0, f64::max);
+    let most = slack(tolerance).sqrt();
+    if change <= most {
+        return Ok(());
+    }
+    Err(Error::Start {
+        item: row_name(dynamics.description(), left.row),
+        level: Level::Position,
+        residual: left.value,
+        tolerance: left.value.abs() * (most / change),
     })
 }
 

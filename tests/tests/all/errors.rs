@@ -62,6 +62,47 @@ fn a_start_that_does_not_roll_is_refused_or_projected() {
     );
 }
 
+/// A rod so small that what is above the floor is within what a start may be off.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(y, theta),
+    kinetic = mass / 2 * der(y)^2 + mass * length^2 / 24 * der(theta)^2,
+    potential = mass * gravity * y,
+    contact(end: y - length/2 * sin(theta) >= 0),
+)]
+struct Rod {
+    mass: f64,
+    length: f64,
+    gravity: f64,
+}
+
+#[test]
+fn a_start_is_not_moved_to_another_one_unasked() {
+    let rod = |length| Rod {
+        mass: 1.0,
+        length,
+        gravity: 9.81,
+    };
+    let lies = |length: f64| State::new(vec![length, 0.6], vec![0.0; 2]);
+    let failure = Simulation::new(&rod(1e-12)).run(lies(1e-12), 0.0..1e-6);
+    let error = failure.expect_err("turns the rod").error;
+    let Error::Start {
+        item,
+        level,
+        residual,
+        ..
+    } = error
+    else {
+        panic!("{error}")
+    };
+    assert_eq!((item, level), ("end", Level::Position));
+    agree("gap", residual, 1e-12 * (1.0 - 0.5 * 0.6_f64.sin()), 1e-24);
+    // A larger one falls.
+    let motion = Simulation::new(&rod(1e-3)).run(lies(1e-3), 0.0..1e-3);
+    let motion = motion.expect("falls");
+    agree("θ", motion.final_state().q[1], 0.6, 1e-15);
+}
+
 #[test]
 fn arguments_are_checked() {
     let good = || State::new(vec![1.0, 0.1], vec![0.0; 2]);
