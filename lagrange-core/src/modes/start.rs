@@ -12,15 +12,16 @@ use crate::state::{FixedComponents, State};
 /// Velocities are changed by no more than this, relative to their size, unless a start is to be moved.
 const MOST_CHANGE: f64 = 1e-6;
 
-/// Looks at a start: leaves `dynamics` in the mode with every touching contact closed and every vanishing slip at
-/// rest, and says in `status` what is known.
+/// Looks at the start `given`, of which `state` is a copy to be moved onto the constraints: leaves `dynamics` in the mode with every touching
+/// contact closed and every vanishing slip at rest, and says in `status` what is known.
 ///
 /// # Errors
-/// [`Error::Domain`] for a number without meaning, [`Error::Start`] where a constraint is violated or other velocities alone satisfy it,
+/// [`Error::Domain`] for a number without meaning, [`Error::Start`] where a constraint is violated or quite another state alone satisfies it,
 /// and [`Error::Penetrates`] where a contact is penetrated (unless `project`).
 pub fn begin<T: Scalar>(
     dynamics: &mut Dynamics<T>,
     t: T,
+    given: &State<T>,
     state: &mut State<T>,
     tolerance: f64,
     project: bool,
@@ -37,13 +38,12 @@ pub fn begin<T: Scalar>(
         refuse_other_velocities(dynamics, t, state)?;
     }
     let (position, _) = dynamics.residuals(t, &state.q, &state.v);
-    let given = state.q.clone();
     let moved = dynamics.project(t, &mut state.q, &mut state.v, 0.0);
     let moved = moved
         .map_err(|e| Error::from_evaluation(e, t.value(), &status.mode, dynamics.description()))?;
     if moved {
         if !project {
-            refuse_other_positions(dynamics, position, &given, &state.q, tolerance)?;
+            refuse_other_positions(dynamics, position, &given.q, &state.q, tolerance)?;
         }
         status.look(dynamics, t, state, tolerance);
         dynamics.set_mode(&status.mode);

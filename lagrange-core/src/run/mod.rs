@@ -267,6 +267,7 @@ impl<T: Scalar> Run<T> {
         let outcome = start::begin(
             &mut self.dynamics,
             self.now.t,
+            &self.recorder.trajectory.start,
             &mut self.now.state,
             self.settings.tolerance,
             self.settings.project_start,
