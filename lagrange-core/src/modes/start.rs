@@ -34,10 +34,10 @@ pub fn begin<T: Scalar>(
         status.refuse_violations(dynamics.description(), tolerance)?;
     }
     dynamics.set_mode(&status.mode);
+    let (position, rate) = dynamics.residuals(t, &state.q, &state.v);
     if !project {
-        refuse_other_velocities(dynamics, t, state)?;
+        refuse_other_velocities(dynamics, rate)?;
     }
-    let (position, _) = dynamics.residuals(t, &state.q, &state.v);
     let moved = dynamics.project(t, &mut state.q, &mut state.v, 0.0);
     let moved = moved
         .map_err(|e| Error::from_evaluation(e, t.value(), &status.mode, dynamics.description()))?;
@@ -53,12 +53,7 @@ pub fn begin<T: Scalar>(
 
 /// A residual may be small because its row is, close to a position where constraints lose rank: to take it away there is to make another
 /// motion of the start.
-fn refuse_other_velocities<T: Scalar>(
-    dynamics: &mut Dynamics<T>,
-    t: T,
-    state: &State<T>,
-) -> Result<(), Error> {
-    let (_, rate) = dynamics.residuals(t, &state.q, &state.v);
+fn refuse_other_velocities<T: Scalar>(dynamics: &Dynamics<T>, rate: Residual) -> Result<(), Error> {
     let most = MOST_CHANGE.max(64.0 * epsilon::<T>());
     if !(rate.relative > most) {
         return Ok(());

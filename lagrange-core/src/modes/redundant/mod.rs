@@ -21,6 +21,7 @@ use crate::modes::scale::Sizes;
 use crate::system::Normal;
 use bounds::{Bound, Bounds};
 pub use composite::{CompositeGuard, ONES, Part, series, side, value};
+use nalgebra::DVector;
 
 /// Undetermined forces at one state; the memory is reused.
 #[derive(Clone, Debug, Default)]
@@ -28,8 +29,6 @@ pub struct RedundantForces<T> {
     least: Vec<T>,
     freedom: Freedom,
     bounds: Bounds,
-    /// Forces of the rows that act, as found last.
-    shares: Vec<f64>,
     sizes: Sizes,
 }
 
@@ -139,16 +138,14 @@ impl<T: Scalar> RedundantForces<T> {
     }
 
     /// The forces of all rows: those of least norm within the bounds, or as near to that as any are.
-    fn forces(&mut self, dynamics: &Dynamics<T>) -> Vec<T> {
+    fn forces(&self, dynamics: &Dynamics<T>) -> Vec<T> {
         if self.least.is_empty() {
             let rows = 0..dynamics.description().rows.len();
             return rows.map(|row| dynamics.force(row)).collect();
         }
         let mut forces = self.least.clone();
         if self.has_open() {
-            self.find_shares();
-            for (force, &share) in forces.iter_mut().zip(&self.shares) {
-                let change = share - force.value();
+            for (force, &change) in forces.iter_mut().zip(&self.shares()) {
                 if change != 0.0 {
                     *force += T::from_f64(change);
                 }
@@ -157,21 +154,16 @@ impl<T: Scalar> RedundantForces<T> {
         dynamics.forces_of_acting(&forces)
     }
 
-    /// Finds the shares of least norm that keep all bounds, or come as near to that as any do, into `self.shares`.
-    fn find_shares(&mut self) {
-        self.shares.clear();
-        self.shares.extend(self.least.iter().map(|x| x.value()));
+    /// What takes the forces of least norm to those of least norm that keep all bounds, or come as near to that as any do.
+    fn shares(&self) -> DVector<f64> {
         let bounds = &self.bounds;
         if bounds.least(&bounds.values) >= 0.0 {
-            return;
+            return DVector::zeros(self.least.len());
         }
         let free = bounds.basis.ncols();
         let widest = bounds.widest(&bounds.values, 1.0).x;
         let program = bounds.nearest((widest[free] - BORDER).min(0.0));
-        let change = &bounds.basis * program.solve(widest.rows(0, free).into_owned()).x;
-        for (share, x) in self.shares.iter_mut().zip(&change) {
-            *share += x;
-        }
+        &bounds.basis * program.solve(widest.rows(0, free).into_owned()).x
     }
 
     /// Whether the force of each row is undetermined.

@@ -27,6 +27,24 @@ struct Bar {
     strength: [f64; 2],
 }
 
+impl Bar {
+    fn pulled(random: &mut Random, direction: f64) -> Self {
+        Bar {
+            length: 1.0,
+            off: random.between(-0.5, 0.5),
+            press: [random.between(3.0, 9.0), random.between(3.0, 9.0)],
+            mu: 0.5,
+            strength: [direction.cos(), direction.sin()],
+        }
+    }
+}
+
+/// When the first pad slips.
+fn first_slip(motion: &Trajectory) -> f64 {
+    let slips = motion.events().iter().find(|e| e.kind.word() == "slips");
+    slips.expect("a pad that slips").time
+}
+
 /// However it is pulled, it holds at first: the accelerations that its forces keep at zero leave rounding, which grows with the time looked at.
 #[test]
 fn a_bar_holds_under_a_load_that_grows_from_nothing() {
@@ -34,13 +52,7 @@ fn a_bar_holds_under_a_load_that_grows_from_nothing() {
     for k in 0..40 {
         let tilt = random.between(0.0, 3.0);
         let direction = random.between(0.0, 6.0);
-        let bar = Bar {
-            length: 1.0,
-            off: random.between(-0.5, 0.5),
-            press: [random.between(3.0, 9.0), random.between(3.0, 9.0)],
-            mu: 0.5,
-            strength: [direction.cos(), direction.sin()],
-        };
+        let bar = Bar::pulled(&mut random, direction);
         for (method, tolerance) in [("taylor", 1e-6), ("dop853", 1e-9), ("radau5", 1e-12)] {
             let start = state(&[0.0, 0.0, tilt], &[0.0; 3]);
             let motion = run_by(&bar, (method, tolerance), start, 1.4);
@@ -70,13 +82,7 @@ fn a_bar_slips_when_both_cones_cannot_hold_it() {
             _ => random.between(-1.4, 1.4),
         };
         let direction = tilt + core::f64::consts::FRAC_PI_2 + across;
-        let bar = Bar {
-            length: 1.0,
-            off: random.between(-0.5, 0.5),
-            press: [random.between(3.0, 9.0), random.between(3.0, 9.0)],
-            mu: 0.5,
-            strength: [direction.cos(), direction.sin()],
-        };
+        let bar = Bar::pulled(&mut random, direction);
         let holds = |t: f64| {
             let shares = [0.5 - bar.off, 0.5 + bar.off].map(|share| share * across.cos() * t);
             let [a, b] = [0, 1].map(|i| (bar.mu * bar.press[i]).powi(2) - shares[i].powi(2));
@@ -95,9 +101,12 @@ fn a_bar_slips_when_both_cones_cannot_hold_it() {
         ] {
             let start = state(&[0.0, 0.0, tilt], &[0.0; 3]);
             let motion = run_by(&bar, (method, tolerance), start, held + 0.01);
-            let slips = motion.events().iter().find(|e| e.kind.word() == "slips");
-            let slips = slips.expect("a pad that slips");
-            agree(&format!("{method}, bar {k}"), slips.time, held, 1e-8);
+            agree(
+                &format!("{method}, bar {k}"),
+                first_slip(&motion),
+                held,
+                1e-8,
+            );
         }
     }
 }
@@ -187,9 +196,12 @@ fn a_plate_slips_when_all_cones_cannot_hold_it() {
         for (method, tolerance) in [("taylor", 1e-9), ("dop853", 1e-9), ("radau5", 1e-8)] {
             let start = state(&[0.0; 3], &[0.0; 3]);
             let motion = run_by(&plate, (method, tolerance), start, limit + 0.01);
-            let slips = motion.events().iter().find(|e| e.kind.word() == "slips");
-            let slips = slips.expect("a pad that slips");
-            agree(&format!("{method}, plate {k}"), slips.time, limit, 1e-7);
+            agree(
+                &format!("{method}, plate {k}"),
+                first_slip(&motion),
+                limit,
+                1e-7,
+            );
         }
     }
 }
