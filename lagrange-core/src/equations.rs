@@ -10,7 +10,9 @@
 //! hand is refused; the core then looks for better ones.
 
 use crate::arithmetic::Pack;
-use crate::arithmetic::number::{Body, Number};
+pub use crate::arithmetic::number::Registers;
+use crate::arithmetic::number::{self, Body, Number};
+pub use crate::arithmetic::products::{Factors, Products};
 pub use crate::program::{ROW, Row, STRIDE};
 use crate::program::{Selection, ValueRef};
 use core::marker::PhantomData;
@@ -52,6 +54,8 @@ pub struct ModeStructure {
     pub pins: &'static [(usize, ValueRef)],
     /// Number of rows of a series: q, v, λ, zero, then others.
     pub rows: usize,
+    /// Number of groups of products whose factors a series keeps.
+    pub products: usize,
     /// Outputs of the motion tape whose series are given: (node, row).
     pub motion: &'static [(usize, usize)],
     /// Outputs of the report tape whose series are given: (node, row).
@@ -67,9 +71,15 @@ pub type Arguments<'a, N> = (N, &'a [N], &'a [N]);
 pub type ValueFn<N> = fn(&[N], &Selection, Arguments<'_, N>, &mut [N], Option<&mut [N]>) -> bool;
 
 /// Coefficients 0…order, at most 28, of the rows of [`ModeStructure::rows`], from constants, needs that are held, the order and a
-/// state.
-pub type SeriesFn<N> =
-    fn(&[N], &Selection, usize, Arguments<'_, N>, &mut [Row<N>]) -> Result<(), Refused>;
+/// state, with memory for products.
+pub type SeriesFn<N> = fn(
+    &[N],
+    &Selection,
+    usize,
+    Arguments<'_, N>,
+    &mut [Row<N>],
+    &mut [Products<N>],
+) -> Result<(), Refused>;
 
 /// Motions side by side, each in a lane of its own.
 pub const LANES: usize = 4;
@@ -78,21 +88,23 @@ pub const LANES: usize = 4;
 pub type LaneSeriesFn<T> = SeriesFn<Pack<T, LANES>>;
 
 /// The series of a mode, for any kind of number: what a [`SeriesFn`] does.
-pub trait ModeSeries<N> {
+pub trait ModeSeries<N: Number> {
     /// See [`SeriesFn`].
     ///
     /// # Errors
     /// Where there is no series, or where it cannot be had in this way.
     fn expand(
+        registers: Registers,
         c: &[N],
         held: &Selection,
         order: usize,
         state: Arguments<'_, N>,
         rows: &mut [Row<N>],
+        products: &mut [Products<N>],
     ) -> Result<(), Refused>;
 }
 
-/// A series, compiled for the registers that numbers of this kind fill.
+/// A series, compiled for registers of four numbers.
 ///
 /// # Errors
 /// Those of the series; the processor may have no such registers.
@@ -102,8 +114,10 @@ pub fn across<S: ModeSeries<N>, N: Number>(
     order: usize,
     state: Arguments<'_, N>,
     rows: &mut [Row<N>],
+    products: &mut [Products<N>],
 ) -> Result<(), Refused> {
-    N::across::<Expansion<S>, _>((c, held, order, state, rows)).unwrap_or(Err(Refused::NoLanes))
+    let arguments = (c, held, order, state, rows, products);
+    number::across::<Expansion<S>, _>(arguments).unwrap_or(Err(Refused::NoRegisters))
 }
 
 /// The arguments of a [`SeriesFn`] as one.
@@ -113,17 +127,21 @@ type SeriesArguments<'a, N> = (
     usize,
     Arguments<'a, N>,
     &'a mut [Row<N>],
+    &'a mut [Products<N>],
 );
 
 /// A series as a function of one argument.
 struct Expansion<S>(PhantomData<S>);
 
-impl<N, S: ModeSeries<N>> Body<SeriesArguments<'_, N>> for Expansion<S> {
+impl<N: Number, S: ModeSeries<N>> Body<SeriesArguments<'_, N>> for Expansion<S> {
     type Output = Result<(), Refused>;
 
     #[inline(always)]
-    fn run((c, held, order, state, rows): SeriesArguments<'_, N>) -> Self::Output {
-        S::expand(c, held, order, state, rows)
+    fn run(
+        registers: Registers,
+        (c, held, order, state, rows, products): SeriesArguments<'_, N>,
+    ) -> Self::Output {
+        S::expand(registers, c, held, order, state, rows, products)
     }
 }
 
@@ -157,8 +175,8 @@ pub enum Refused {
     Pivot,
     /// An operation has no Taylor series there.
     NoSeries,
-    /// The processor has no registers for several motions side by side.
-    NoLanes,
+    /// The processor has no registers of four numbers.
+    NoRegisters,
 }
 
 /// Whether a number of parameters alone may be divided by: constant rows are eliminated by pivots chosen at build time.

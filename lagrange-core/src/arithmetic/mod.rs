@@ -5,11 +5,13 @@ mod dual;
 mod num_dual;
 pub(crate) mod number;
 mod pack;
+pub(crate) mod products;
 mod scalar;
 #[cfg(test)]
 mod tests;
 
 pub use dual::Dual;
+pub(crate) use number::Registers;
 pub(crate) use number::{Number, epsilon, positive_definite};
 pub(crate) use pack::Pack;
 
@@ -71,4 +73,33 @@ pub trait Scalar:
     fn mul_add(self, y: Self, z: Self) -> Self {
         self * y + z
     }
+    /// x y + z, rounded once, for code that is compiled for [`Registers`].
+    #[doc(hidden)]
+    #[inline(always)]
+    fn fused(self, y: Self, z: Self) -> Self {
+        self * y + z
+    }
+    /// Four numbers side by side, in one register where there are such.
+    #[doc(hidden)]
+    type Four: Copy + Debug + Send + Sync + 'static;
+    /// Whether that is one register.
+    #[doc(hidden)]
+    const IN_REGISTERS: bool = false;
+    /// Four zeros.
+    #[doc(hidden)]
+    fn zeros() -> Self::Four;
+    /// Four numbers.
+    #[doc(hidden)]
+    fn four(registers: Registers, numbers: [Self; products::GROUP]) -> Self::Four;
+    /// The numbers again.
+    #[doc(hidden)]
+    fn numbers(four: Self::Four) -> [Self; products::GROUP];
+    /// x y + z of each, rounded once.
+    #[doc(hidden)]
+    fn add_products(
+        registers: Registers,
+        x: Self::Four,
+        y: Self::Four,
+        z: Self::Four,
+    ) -> Self::Four;
 }

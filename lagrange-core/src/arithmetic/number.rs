@@ -1,7 +1,10 @@
 //! What the equations of a mode work with: a number, or the numbers of several motions side by side.
 
 use super::pack::each_lane;
+use super::products::GROUP;
 use super::{Pack, Scalar};
+
+use core::fmt::Debug;
 #[cfg(target_arch = "x86_64")]
 use core::marker::PhantomData;
 use core::ops::{Add, Div, Mul, Neg, Sub};
@@ -16,15 +19,29 @@ pub trait Number:
     + Neg<Output = Self>
     + 'static
 {
-    /// A function, compiled for the registers that numbers of this kind fill; none if the processor does not have them.
-    #[inline(always)]
-    fn across<B: Body<A>, A>(arguments: A) -> Option<B::Output> {
-        Some(B::run(arguments))
-    }
     /// The same number in every place.
     fn of(x: f64) -> Self;
     /// x y + z, rounded as [`Scalar::mul_add`] rounds.
     fn mul_add(self, y: Self, z: Self) -> Self;
+    /// x y + z, rounded once, for code that is compiled for [`Registers`].
+    fn fused(self, y: Self, z: Self) -> Self;
+    /// Four numbers side by side.
+    type Four: Copy + Debug + Send + Sync + 'static;
+    /// Whether a register takes them.
+    const IN_REGISTERS: bool;
+    /// Four zeros.
+    fn zeros() -> Self::Four;
+    /// Four numbers. What is read at once is written at once, or the processor waits.
+    fn four(registers: Registers, numbers: [Self; GROUP]) -> Self::Four;
+    /// The numbers again.
+    fn numbers(four: Self::Four) -> [Self; GROUP];
+    /// x y + z of each, as [`Self::fused`].
+    fn add_products(
+        registers: Registers,
+        x: Self::Four,
+        y: Self::Four,
+        z: Self::Four,
+    ) -> Self::Four;
     /// √x
     fn sqrt(self) -> Self;
     /// eˣ
@@ -63,12 +80,46 @@ pub trait Number:
     fn is_safe_pivot(pivot: Self, before: Self, below: &[Self]) -> bool;
 }
 
-/// A function of arguments `A` that can be compiled for several kinds of processors: its implementation is `#[inline(always)]`.
+/// What shows that the processor has registers of four numbers, and uses them.
+#[cfg(target_arch = "x86_64")]
+pub type Registers = pulp::x86::V3;
+/// The registers of a processor for which code is compiled in one way only.
+#[cfg(not(target_arch = "x86_64"))]
+#[derive(Clone, Copy, Debug)]
+pub struct Registers;
+
+/// A function of arguments `A` that is compiled for registers of four numbers: its implementation is `#[inline(always)]`.
 pub trait Body<A> {
     /// What it returns.
     type Output;
     /// The function.
-    fn run(arguments: A) -> Self::Output;
+    fn run(registers: Registers, arguments: A) -> Self::Output;
+}
+
+/// Calls a function that is compiled for registers of four numbers; none if the processor does not have them.
+// Each kind of processor would cost the compiler its time once more.
+#[cfg(target_arch = "x86_64")]
+#[inline(always)]
+pub(crate) fn across<B: Body<A>, A>(arguments: A) -> Option<B::Output> {
+    struct Across<B, A>(Registers, A, PhantomData<B>);
+
+    impl<A, B: Body<A>> pulp::NullaryFnOnce for Across<B, A> {
+        type Output = B::Output;
+
+        #[inline(always)]
+        fn call(self) -> B::Output {
+            B::run(self.0, self.1)
+        }
+    }
+    let processor = Registers::try_new()?;
+    Some(processor.vectorize(Across::<B, A>(processor, arguments, PhantomData)))
+}
+
+/// Calls a function.
+#[cfg(not(target_arch = "x86_64"))]
+#[inline(always)]
+pub(crate) fn across<B: Body<A>, A>(arguments: A) -> Option<B::Output> {
+    Some(B::run(Registers, arguments))
 }
 
 /// The distance from 1 to the next number of a type.
@@ -102,6 +153,28 @@ impl<T: Scalar> Number for T {
     #[inline(always)]
     fn mul_add(self, y: Self, z: Self) -> Self {
         Scalar::mul_add(self, y, z)
+    }
+    #[inline(always)]
+    fn fused(self, y: Self, z: Self) -> Self {
+        Scalar::fused(self, y, z)
+    }
+    type Four = T::Four;
+    const IN_REGISTERS: bool = T::IN_REGISTERS;
+    #[inline(always)]
+    fn zeros() -> T::Four {
+        T::zeros()
+    }
+    #[inline(always)]
+    fn four(registers: Registers, numbers: [T; GROUP]) -> T::Four {
+        T::four(registers, numbers)
+    }
+    #[inline(always)]
+    fn numbers(four: T::Four) -> [T; GROUP] {
+        T::numbers(four)
+    }
+    #[inline(always)]
+    fn add_products(registers: Registers, x: T::Four, y: T::Four, z: T::Four) -> T::Four {
+        T::add_products(registers, x, y, z)
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
@@ -183,6 +256,21 @@ impl<T: Scalar> Number for T {
     }
 }
 
+/// x y + z of each, one by one.
+#[inline(always)]
+pub(super) fn add_one_by_one<N: Number>(
+    x: [N; GROUP],
+    y: [N; GROUP],
+    mut z: [N; GROUP],
+) -> [N; GROUP] {
+    let mut number = 0;
+    while number < GROUP {
+        z[number] = x[number].fused(y[number], z[number]);
+        number += 1;
+    }
+    z
+}
+
 /// The same for every motion.
 macro_rules! each {
     ($($name:ident $(, $argument:ident)*;)*) => {$(
@@ -206,37 +294,32 @@ macro_rules! pair {
     }};
 }
 
-/// The arguments of a function that is compiled for a kind of processor.
-#[cfg(target_arch = "x86_64")]
-struct Across<B, A>(A, PhantomData<B>);
-
-#[cfg(target_arch = "x86_64")]
-impl<A, B: Body<A>> pulp::WithSimd for Across<B, A> {
-    type Output = B::Output;
-
-    #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) -> B::Output {
-        B::run(self.0)
-    }
-}
-
 impl<T: Scalar, const L: usize> Number for Pack<T, L> {
-    // Compiled for AVX2 alone: without it four lanes gain little, and each kind of processor costs the compiler its time.
-    #[cfg(target_arch = "x86_64")]
-    #[inline(always)]
-    fn across<B: Body<A>, A>(arguments: A) -> Option<B::Output> {
-        let processor = pulp::x86::V3::try_new()?;
-        Some(pulp::Simd::vectorize(
-            processor,
-            Across::<B, A>(arguments, PhantomData),
-        ))
-    }
     #[inline(always)]
     fn of(x: f64) -> Self {
         Pack([T::from_f64(x); L])
     }
+    type Four = [Self; GROUP];
+    const IN_REGISTERS: bool = false;
+    #[inline(always)]
+    fn zeros() -> Self::Four {
+        [Self::of(0.0); GROUP]
+    }
+    #[inline(always)]
+    fn four(_: Registers, numbers: [Self; GROUP]) -> Self::Four {
+        numbers
+    }
+    #[inline(always)]
+    fn numbers(four: Self::Four) -> [Self; GROUP] {
+        four
+    }
+    #[inline(always)]
+    fn add_products(_: Registers, x: Self::Four, y: Self::Four, z: Self::Four) -> Self::Four {
+        add_one_by_one(x, y, z)
+    }
     each! {
         mul_add, y, z;
+        fused, y, z;
         sqrt;
         exp;
         ln;

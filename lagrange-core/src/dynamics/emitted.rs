@@ -3,7 +3,7 @@
 use crate::arithmetic::{Pack, Scalar, epsilon};
 use crate::effects::{Effects, Item};
 use crate::equations::{
-    Arguments, FrictionState, ModeStructure, ROW, Refused, Row, SeriesFn, ValueFn,
+    Arguments, FrictionState, ModeStructure, Products, ROW, Refused, Row, SeriesFn, ValueFn,
 };
 use crate::mode::{Direction, FrictionMode, Mode};
 use crate::system::{Description, ErasedSystem, Selection, ValueRef};
@@ -24,6 +24,8 @@ pub(super) struct Emitted<T: Scalar> {
     /// Whether the parameters allow the pivots that were chosen at build time.
     admitted: bool,
     rows: Vec<Row<T>>,
+    /// Factors of products of series.
+    products: Vec<Products<T>>,
     order: usize,
     /// Rows that are read: state, forces, what guards are made of.
     read: Vec<usize>,
@@ -98,6 +100,7 @@ impl<T: Scalar> Emitted<T> {
             signs,
             admitted: false,
             rows: vec![[zero; ROW]; structure.rows],
+            products: vec![Products::default(); structure.products],
             order: 0,
             read,
             values: vec![zero; structure.rows],
@@ -186,7 +189,8 @@ impl<T: Scalar> Emitted<T> {
         state: Arguments<T>,
     ) -> Result<(), Refused> {
         self.order = order;
-        (self.series)(&self.constants, held, order, state, &mut self.rows)
+        let (rows, products) = (&mut self.rows, &mut self.products);
+        (self.series)(&self.constants, held, order, state, rows, products)
     }
 
     /// Which of the structures of the system it is.

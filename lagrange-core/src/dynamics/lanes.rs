@@ -3,7 +3,7 @@
 use super::Dynamics;
 use super::emitted::Emitted;
 use crate::arithmetic::{Pack, Scalar};
-use crate::equations::{LANES, LaneSeriesFn, ROW, Row};
+use crate::equations::{LANES, LaneSeriesFn, ModeStructure, Products, ROW, Row};
 use crate::system::Selection;
 
 /// A motion at the start of a step.
@@ -19,13 +19,14 @@ pub(crate) struct Start<'a, T: Scalar> {
 
 /// The series of all modes for numbers side by side, and memory for one call of them.
 #[derive(Debug)]
-pub(crate) struct Lanes<T: 'static> {
+pub(crate) struct Lanes<T: Scalar> {
     series: &'static [LaneSeriesFn<T>],
     constants: Vec<Pack<T, LANES>>,
     positions: Vec<Pack<T, LANES>>,
     velocities: Vec<Pack<T, LANES>>,
     /// Of each mode: what its functions do not write stays zero.
     rows: Vec<Vec<Row<Pack<T, LANES>>>>,
+    products: Vec<Products<Pack<T, LANES>>>,
     /// (mode, motion)
     members: Vec<(usize, usize)>,
 }
@@ -39,6 +40,7 @@ impl<T: Scalar> Lanes<T> {
             positions: Vec::new(),
             velocities: Vec::new(),
             rows: vec![Vec::new(); series.len()],
+            products: Vec::new(),
             members: Vec::new(),
         }
     }
@@ -84,12 +86,16 @@ impl<T: Scalar> Lanes<T> {
         let time = Pack(lanes.map(|start| start.t));
         let mode = group[0].0;
         let zero = Pack([T::default(); LANES]);
-        let rows = &mut self.rows[mode];
-        rows.resize(lanes[0].dynamics.rows_of(mode), [zero; ROW]);
+        let structure = lanes[0].dynamics.structure_of(mode);
+        let (rows, products) = (&mut self.rows[mode], &mut self.products);
+        rows.resize(structure.rows, [zero; ROW]);
+        if products.len() < structure.products {
+            products.resize(structure.products, Products::default());
+        }
         let state = (time, &self.positions[..], &self.velocities[..]);
         let series = self.series[mode];
         // What one of them cannot do, each finds out alone.
-        if series(&self.constants, &held, order, state, rows).is_err() {
+        if series(&self.constants, &held, order, state, rows, products).is_err() {
             return;
         }
         for (lane, &(_, motion)) in group.iter().enumerate() {
@@ -119,9 +125,9 @@ impl<T: Scalar> Dynamics<T> {
         self.compiled().emitted(&self.series_held)
     }
 
-    /// Number of rows of a series in a mode whose functions have been emitted.
-    fn rows_of(&self, mode: usize) -> usize {
-        self.system.structures()[mode].rows
+    /// Where the numbers of a mode are whose functions have been emitted.
+    fn structure_of(&self, mode: usize) -> &'static ModeStructure {
+        &self.system.structures()[mode]
     }
 
     /// Takes a series that was expanded together with others.

@@ -51,7 +51,7 @@ impl<T: Scalar> Dynamics<T> {
                 }
                 // The interpreter says which operation has none, if any.
                 Some(Err(Refused::NoSeries)) => self.by_functions = false,
-                Some(Err(Refused::Pivot | Refused::NoLanes)) | None => self.refuse_functions(),
+                Some(Err(Refused::Pivot | Refused::NoRegisters)) | None => self.refuse_functions(),
             }
         }
         self.run(t, q, v, Extent::Series, true)?;

@@ -15,7 +15,7 @@ pub(crate) struct Member<'a, T: Scalar> {
 
 /// What expands series of several runs at once: by functions, and by the interpreter.
 #[derive(Debug)]
-pub(crate) struct Together<T: 'static> {
+pub(crate) struct Together<T: Scalar> {
     pub(crate) lanes: Lanes<T>,
     pub(crate) packets: Packets<T>,
 }

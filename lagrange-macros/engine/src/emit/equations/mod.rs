@@ -79,7 +79,8 @@ pub fn equations(program: &Program) -> TokenStream {
         fn mode_series<#number: #core::__private::Number>(
         ) -> &'static [#core::__private::equations::SeriesFn<#number>] {
             use #core::__private::equations::{
-                Arguments, INVERSES, ModeSeries, Refused, Row, SeriesFn, across, first, first_mut,
+                Arguments, Factors, INVERSES, ModeSeries, Products, Refused, Registers, Row, SeriesFn, across,
+                first, first_mut,
             };
             use #core::__private::{Number, program::Selection};
             #(#series)*
@@ -121,7 +122,7 @@ fn structure(program: &Program, mode: &ModeProgram, plan: &products::Plan) -> To
         list.push(quote!((#node, #row)));
     }
     let count = index(mode.constants.outputs);
-    let rows = index(plan.rows);
+    let (rows, products) = (index(plan.rows), index(plan.groups));
     quote! {
         #core::__private::equations::ModeStructure {
             contacts: &[#(#contacts),*],
@@ -130,6 +131,7 @@ fn structure(program: &Program, mode: &ModeProgram, plan: &products::Plan) -> To
             constants: #count,
             pins: &[#(#pins),*],
             rows: #rows,
+            products: #products,
             motion: &[#(#motion),*],
             report: &[#(#report),*],
         }

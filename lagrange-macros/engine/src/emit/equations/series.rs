@@ -4,7 +4,7 @@
 //! (x y)ₖ = x₀ yₖ + xₖ y₀ + Σ xⱼ yₖ₋ⱼ        K₀ wₖ = bₖ − Kₖ w₀ − Σ Kⱼ wₖ₋ⱼ        vₖ₊₁ = v̇ₖ/(k+1), qₖ = vₖ₋₁/k
 //! ```
 //!
-//! The sums over earlier coefficients come first, all in one loop; one factorization serves every order. Rules: Jorba & Zou
+//! The sums over earlier coefficients come first, several in one loop; one factorization serves every order. Rules: Jorba & Zou
 //! 2005, Experimental Mathematics 14, section 2; Griewank & Walther 2008, section 13.2.
 
 use super::super::names::{self, index, local};
@@ -12,7 +12,7 @@ use super::solve::Elimination;
 use super::value;
 use super::writer::Writer;
 use crate::ast::Emit;
-use crate::plan::mode::products::{Plan, Product, Row};
+use crate::plan::mode::products::{GROUP, Plan, Product, Row};
 use crate::plan::mode::{ModeProgram, Phase};
 use crate::plan::{Block, Coefficient, Mode, Operation, Program, Step, Value, ValueRef};
 use proc_macro2::{Ident, TokenStream};
@@ -26,12 +26,13 @@ struct Expansion<'a> {
     mode: &'a ModeProgram,
     /// Values whose coefficient leaves its block.
     crossing: BTreeSet<Value>,
-    /// The order whose coefficients are written, where each has code of its own.
-    only: Option<usize>,
 }
 
 /// Coefficients up to this order have code of their own in unrolled series; it is that of a tolerance of about 1e-13.
 const UNROLLED: usize = 21;
+
+/// So many groups of products are summed together at most: a processor has sixteen registers for their sums and what they add.
+const TOGETHER: usize = 8;
 
 fn sum_coefficient(output: usize) -> Ident {
     local(&format!("dsum{output}"))
@@ -58,12 +59,11 @@ pub fn implementation(
     let steps = blocks.flat_map(|block| &block.steps);
     let declared = steps
         .flat_map(|step| (0..step.operation.values()).map(|offset| Value(step.value.0 + offset)));
-    let mut expansion = Expansion {
+    let expansion = Expansion {
         writer: Writer::new(system, mode, declared.collect()),
         plan,
         mode,
         crossing: names::crossing(&mode.tape),
-        only: None,
     };
     let number = expansion.writer.number.clone();
     let elimination = Elimination::new(&expansion.writer, &mode.system);
@@ -72,15 +72,15 @@ pub fn implementation(
     let mut looped = 1;
     if system.emit == Emit::Unrolled {
         for k in 1..=UNROLLED {
-            expansion.only = Some(k);
-            next.extend(expansion.order(&elimination));
+            next.extend(expansion.order(k, &elimination));
         }
-        expansion.only = None;
         looped += UNROLLED;
     }
     next.extend(expansion.orders_from(looped, &elimination));
     let (c, held, order, rows) = (local("c"), local("held"), local("order"), local("rows"));
-    let (t, q, v) = (local("t"), local("q"), local("v"));
+    let (t, q, v, registers) = (local("t"), local("q"), local("v"), local("registers"));
+    let (products, newest) = (local("products"), local("newest"));
+    let groups = index(plan.groups);
     let prologue = expansion.writer.prologue();
     let needs = names::needs(program.equations.needs.len());
     let (row_names, count) = (expansion.row_names(), index(plan.rows));
@@ -91,17 +91,21 @@ pub fn implementation(
         impl<#number: Number> ModeSeries<#number> for #name {
             #[inline(always)]
             fn expand(
+                #registers: Registers,
                 #c: &[#number],
                 #held: &Selection,
                 #order: usize,
                 (#t, #q, #v): Arguments<'_, #number>,
                 #rows: &mut [Row<#number>],
+                #products: &mut [Products<#number>],
             ) -> #result {
                 #prologue
                 #row_names
                 let #rows = first_mut::<#count, _>(#rows);
+                let #products = first_mut::<#groups, _>(#products);
                 #needs
                 #first
+                let mut #newest = [Factors::<#number>::none(); #groups];
                 #next
                 ::core::result::Result::Ok(())
             }
@@ -123,6 +127,11 @@ impl Expansion<'_> {
     /// What the rule of a function needs beside its value.
     fn auxiliary(&self, value: Value) -> Ident {
         self.of("u_", value)
+    }
+
+    /// Coefficient k of that.
+    fn auxiliary_coefficient(&self, value: Value) -> Ident {
+        self.of("du_", value)
     }
 
     /// What the rule of an operation divides by, inverted.
@@ -224,8 +233,7 @@ impl Expansion<'_> {
         }
         let (time, one) = (local("t"), quote!(#number::of(1.0)));
         code.extend(self.store(Row::Value(Value(0)), zero.clone(), quote!(#time)));
-        code.extend(self.store(Row::Value(Value(0)), quote!(1), one.clone()));
-        code.extend(self.store(Row::Weighted(Value(0)), quote!(1), one));
+        code.extend(self.store(Row::Value(Value(0)), quote!(1), one));
         for constant in plan.fixed() {
             let value = writer.coefficient(Coefficient::Constant(constant));
             code.extend(self.store(Row::Fixed(constant), zero.clone(), value));
@@ -384,13 +392,12 @@ impl Expansion<'_> {
             Operation::Tan(_) => {
                 let z_value = n(z);
                 let u = quote!(#number::of(1.0) + #z_value * #z_value);
-                let u = self.keep_auxiliary(z, set(self.auxiliary(z), u));
-                (none, u)
+                (none, set(self.auxiliary(z), u))
             }
             Operation::Tanh(_) => {
                 let z_value = n(z);
                 let u = quote!(#number::of(1.0) - #z_value * #z_value);
-                (none, self.keep_auxiliary(z, set(self.auxiliary(z), u)))
+                (none, set(self.auxiliary(z), u))
             }
             Operation::Asin(x) | Operation::Acos(x) => {
                 let x = n(x);
@@ -401,7 +408,6 @@ impl Expansion<'_> {
                 );
                 let name = self.auxiliary(z);
                 let inverse = set(self.inverse(z), quote!(#number::of(1.0) / #name));
-                let u = self.keep_auxiliary(z, u);
                 (check, quote!(#u #inverse))
             }
             Operation::Atan(x) => {
@@ -409,7 +415,6 @@ impl Expansion<'_> {
                 let u = set(self.auxiliary(z), quote!(#number::of(1.0) + #x * #x));
                 let name = self.auxiliary(z);
                 let inverse = set(self.inverse(z), quote!(#number::of(1.0) / #name));
-                let u = self.keep_auxiliary(z, u);
                 (none, quote!(#u #inverse))
             }
             Operation::Atan2(y, x) => {
@@ -418,17 +423,10 @@ impl Expansion<'_> {
                 let name = self.auxiliary(z);
                 let check = refuse(quote!(#name.any_zero()));
                 let inverse = set(self.inverse(z), quote!(#number::of(1.0) / #name));
-                let u = self.keep_auxiliary(z, u);
                 (none, quote!(#u #check #inverse))
             }
             _ => (none.clone(), none),
         }
-    }
-
-    fn keep_auxiliary(&self, value: Value, set: TokenStream) -> TokenStream {
-        let name = self.auxiliary(value);
-        let store = self.store(Row::Auxiliary(value), quote!(0), quote!(#name));
-        quote!(#set #store)
     }
 
     /// The loop over the orders from `first` on.
@@ -443,9 +441,8 @@ impl Expansion<'_> {
     }
 
     /// One order, if it is asked for.
-    fn order(&self, elimination: &Elimination) -> TokenStream {
-        let (k, order) = (local("k"), local("order"));
-        let only = index(self.only.unwrap_or_default());
+    fn order(&self, only: usize, elimination: &Elimination) -> TokenStream {
+        let (k, order, only) = (local("k"), local("order"), index(only));
         let body = self.next(elimination);
         quote! {
             if #order < #only {
@@ -466,19 +463,12 @@ impl Expansion<'_> {
         let (k, p, weight, share) = (local("k"), local("p"), local("weight"), local("share"));
         let mut body = TokenStream::new();
         // Sums over earlier coefficients.
-        let mut products = Vec::new();
-        for block in mode
-            .tape
-            .blocks
-            .iter()
-            .filter(|block| block.needs.is_always())
-        {
-            products.extend(self.products_of(block));
-        }
+        let always = plan.always(mode).into_iter();
+        let mut products: Vec<_> = always.map(|one| self.named(one)).collect();
         for (i, j, product) in plan.system_products(mode) {
             products.push((system_product(i, j), product));
         }
-        body.extend(self.sums(&products));
+        body.extend(self.sums(0, &products));
         let crossing = self.crossing.iter().filter(|value| plan.varying[value.0]);
         for value in crossing {
             let name = self.coefficient_of(*value);
@@ -499,12 +489,8 @@ impl Expansion<'_> {
             let velocity = self.row(Row::Value(v));
             body.extend(quote!(let #dq = #velocity[(#k - 1) & 31] * #share;));
             body.extend(self.store(Row::Value(q), quote!(#p), quote!(#dq)));
-            if read.contains(&v) || plan.row(Row::Weighted(v)).is_some() {
+            if read.contains(&v) {
                 body.extend(quote!(let #dv = #velocity[#p];));
-            }
-            for value in [q, v] {
-                let d = self.coefficient_of(value);
-                body.extend(self.store(Row::Weighted(value), quote!(#p), quote!(#d * #weight)));
             }
         }
         body.extend(self.next_of(Phase::Assembly));
@@ -571,6 +557,7 @@ impl Expansion<'_> {
                 body.extend(self.store(Row::Sum(output), quote!(#p), quote!(#d)));
             }
         }
+        body.extend(self.keep_factors(0, &products));
         quote! {
             let #p = #k & 31;
             let #weight = #number::of(#k as f64);
@@ -585,59 +572,69 @@ impl Expansion<'_> {
         writes.any(|write| write.output == output)
     }
 
-    fn products_of(&self, block: &Block) -> Vec<(Ident, Product)> {
-        let steps = block.steps.iter();
-        let all = steps.flat_map(|step| {
-            let products = self.plan.products(step).into_iter().enumerate();
-            products.map(|(at, product_of)| (self.product(step.value, at), product_of))
-        });
-        all.collect()
+    fn named(&self, (value, at, product): (Value, usize, Product)) -> (Ident, Product) {
+        (self.product(value, at), product)
     }
 
-    /// Σ xⱼ yₖ₋ⱼ for 0 < j < k of all products, in one loop over pairs of terms, which are equal in squares.
-    fn sums(&self, products: &[(Ident, Product)]) -> TokenStream {
-        if products.is_empty() {
-            return TokenStream::new();
-        }
+    /// Σ xⱼ yₖ₋ⱼ for 0 < j < k of all products, which are in groups from `first` on.
+    fn sums(&self, first: usize, products: &[(Ident, Product)]) -> TokenStream {
+        let (k, registers) = (local("k"), local("registers"));
+        let (memory, newest) = (local("products"), local("newest"));
+        let count = products.len().div_ceil(GROUP);
+        let together = count.div_ceil(count.div_ceil(TOGETHER).max(1)).max(1);
+        let loops = products.chunks(GROUP * together).enumerate();
+        let loops = loops.map(|(at, products)| {
+            let groups = products.chunks(GROUP).map(|group| {
+                let names = group.iter().map(|(name, _)| name);
+                let rest = (group.len()..GROUP).map(|_| quote!(_));
+                quote!([#(#names,)* #(#rest),*])
+            });
+            let from = first + at * together;
+            let factors = (from..from + products.len().div_ceil(GROUP)).map(|at| {
+                let at = index(at);
+                quote!((&#memory[#at], #newest[#at]))
+            });
+            quote! {
+                let [#(#groups),*] = Products::sums(#registers, #k, [#(#factors),*]);
+            }
+        });
+        quote!(#(#loops)*)
+    }
+
+    /// Keeps coefficient k of the factors of products.
+    fn keep_factors(&self, first: usize, products: &[(Ident, Product)]) -> TokenStream {
+        let registers = local("registers");
+        let (memory, newest, p) = (local("products"), local("newest"), local("p"));
+        let groups = products.chunks(GROUP).enumerate().map(|(at, group)| {
+            let at = index(first + at);
+            // Nobody reads the sums of what a group lacks: it repeats its last product.
+            let filled = |place: usize| group[place.min(group.len() - 1)].1;
+            let x = (0..GROUP).map(|place| self.factor(filled(place).0));
+            let y = (0..GROUP).map(|place| self.factor(filled(place).1));
+            quote!(#newest[#at] = #memory[#at].keep(#registers, #p, [#(#x),*], [#(#y),*]);)
+        });
+        quote!(#(#groups)*)
+    }
+
+    /// Coefficient k of a factor.
+    fn factor(&self, row: Row) -> TokenStream {
         let number = &self.writer.number;
-        let (k, j, i) = (local("k"), local("j"), local("i"));
-        let (mut pairs, mut doubled, mut middles) = (Vec::new(), Vec::new(), Vec::new());
-        for (name, (x, y)) in products {
-            let is_square = x == y;
-            let (x, y) = (self.row(*x), self.row(*y));
-            let term = |j: &Ident, i: &Ident| quote!(#name = #x[#j].mul_add(#y[#i], #name););
-            pairs.push(term(&j, &i));
-            if is_square {
-                doubled.push(quote!(#name = #name + #name;));
-            } else {
-                pairs.push(term(&i, &j));
+        let of = |value| self.d(value).unwrap_or(quote!(#number::of(0.0)));
+        match row {
+            Row::Value(value) => of(value),
+            Row::Weighted(value) => {
+                let (d, weight) = (of(value), local("weight"));
+                quote!(#d * #weight)
             }
-            middles.push(term(&i, &i));
-        }
-        let names = products.iter().map(|(name, _)| name);
-        let pairs = match self.only {
-            None => quote! {
-                for #j in 1..(#k + 1) / 2 {
-                    let (#j, #i) = (#j & 31, (#k - #j) & 31);
-                    #(#pairs)*
-                }
-            },
-            Some(only) => {
-                let each = (1..only.div_ceil(2)).map(|at| {
-                    let (first, second) = (index(at), index(only - at));
-                    quote!({ let (#j, #i) = (#first, #second); #(#pairs)* })
-                });
-                each.collect()
+            Row::Auxiliary(value) => {
+                let name = self.auxiliary_coefficient(value);
+                quote!(#name)
             }
-        };
-        quote! {
-            #(let mut #names = #number::of(0.0);)*
-            #pairs
-            #(#doubled)*
-            if #k % 2 == 0 {
-                let #i = (#k / 2) & 31;
-                #(#middles)*
+            Row::Sum(output) => {
+                let name = sum_coefficient(output);
+                quote!(#name)
             }
+            Row::Fixed(_) => quote!(#number::of(0.0)),
         }
     }
 
@@ -645,7 +642,15 @@ impl Expansion<'_> {
     fn next_of(&self, phase: Phase) -> TokenStream {
         let blocks = self.mode.blocks(phase).map(|block| {
             let conditional = !block.needs.is_always();
-            let sums = conditional.then(|| self.sums(&self.products_of(block)));
+            let products = self.plan.products_of(block).into_iter();
+            let products: Vec<_> = products.map(|one| self.named(one)).collect();
+            let first = if conditional {
+                self.plan.first_group(block)
+            } else {
+                0
+            };
+            let sums = conditional.then(|| self.sums(first, &products));
+            let factors = conditional.then(|| self.keep_factors(first, &products));
             let steps = block.steps.iter().map(|step| {
                 let line = self.coefficient(step);
                 let kept = (0..step.operation.values())
@@ -653,7 +658,7 @@ impl Expansion<'_> {
                 quote!(#line #(#kept)*)
             });
             let writes = self.next_writes(block);
-            let body = quote!(#sums #(#steps)* #writes);
+            let body = quote!(#sums #(#steps)* #factors #writes);
             if !conditional || body.is_empty() {
                 return body;
             }
@@ -684,10 +689,8 @@ impl Expansion<'_> {
         if !self.plan.varying[value.0] {
             return TokenStream::new();
         }
-        let (d, p, weight) = (self.coefficient_of(value), local("p"), local("weight"));
-        let plain = self.store(Row::Value(value), quote!(#p), quote!(#d));
-        let weighted = self.store(Row::Weighted(value), quote!(#p), quote!(#d * #weight));
-        quote!(#plain #weighted)
+        let (d, p) = (self.coefficient_of(value), local("p"));
+        self.store(Row::Value(value), quote!(#p), quote!(#d))
     }
 
     /// Coefficient k of a step.
@@ -741,7 +744,7 @@ impl Expansion<'_> {
                 match (d(x), d(y)) {
                     (Some(dx), Some(dy)) => {
                         let s = s(0);
-                        quote!(#x0.mul_add(#dy, #dx.mul_add(#y0, #s)))
+                        quote!(#x0.fused(#dy, #dx.fused(#y0, #s)))
                     }
                     (Some(dx), None) => quote!(#dx * #y0),
                     (None, Some(dy)) => quote!(#x0 * #dy),
@@ -750,7 +753,7 @@ impl Expansion<'_> {
             }
             Operation::Square(x) => {
                 let (x0, dx, s) = (n(x), d(x), s(0));
-                quote!((#x0 + #x0).mul_add(#dx, #s))
+                quote!((#x0 + #x0).fused(#dx, #s))
             }
             Operation::Div(x, y) => {
                 let z0 = n(z);
@@ -758,14 +761,14 @@ impl Expansion<'_> {
                     (dx, Some(dy)) => {
                         let s = s(0);
                         let dx = dx.unwrap_or_else(zero);
-                        quote!((#dx - #z0.mul_add(#dy, #s)) * #i)
+                        quote!((#dx - #z0.fused(#dy, #s)) * #i)
                     }
                     (dx, None) => quote!(#dx * #i),
                 }
             }
             Operation::Ratio(_, y) => {
                 let (z0, dy, s) = (n(z), d(y), s(0));
-                quote!(-#z0.mul_add(#dy, #s) * #i)
+                quote!(-#z0.fused(#dy, #s) * #i)
             }
             Operation::Sqrt(x) => {
                 let (dx, s) = (d(x), s(0));
@@ -778,7 +781,7 @@ impl Expansion<'_> {
             }
             Operation::Exp(x) => {
                 let (z0, dx, s) = (n(z), d(x), s(0));
-                quote!(#z0.mul_add(#dx, #s * #share))
+                quote!(#z0.fused(#dx, #s * #share))
             }
             Operation::Ln(x) => {
                 let (dx, s) = (d(x), s(0));
@@ -788,8 +791,8 @@ impl Expansion<'_> {
                 let second = Value(z.0 + 1);
                 let (z0, u0, dx) = (n(z), n(second), d(x));
                 let (one, two) = (s(0), s(1));
-                let first = bind(z, quote!(#u0.mul_add(#dx, #one * #share)));
-                let other = quote!(#z0.mul_add(#dx, #two * #share));
+                let first = bind(z, quote!(#u0.fused(#dx, #one * #share)));
+                let other = quote!(#z0.fused(#dx, #two * #share));
                 let other = match step.operation {
                     Operation::SinCos(_) => bind(second, quote!(-#other)),
                     _ => bind(second, other),
@@ -798,7 +801,7 @@ impl Expansion<'_> {
             }
             Operation::Tan(x) | Operation::Tanh(x) => {
                 let (z0, u0, dx, one, two) = (n(z), self.auxiliary(z), d(x), s(0), s(1));
-                let first = bind(z, quote!(#u0.mul_add(#dx, #one * #share)));
+                let first = bind(z, quote!(#u0.fused(#dx, #one * #share)));
                 let dz = self.coefficient_of(z);
                 let half = twice(quote!(#z0 * #dz));
                 let change = match step.operation {
@@ -849,9 +852,8 @@ impl Expansion<'_> {
     }
 
     fn auxiliary_next(&self, value: Value, result: TokenStream) -> TokenStream {
-        let (name, p) = (self.of("du_", value), local("p"));
-        let store = self.store(Row::Auxiliary(value), quote!(#p), quote!(#name));
-        quote!(let #name = #result; #store)
+        let name = self.auxiliary_coefficient(value);
+        quote!(let #name = #result;)
     }
 }
 

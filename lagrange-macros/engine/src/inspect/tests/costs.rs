@@ -3,10 +3,9 @@
 use super::{derivation, scenes};
 use std::collections::BTreeSet;
 
-/// The sums over earlier coefficients that a function begins: `earlier_n3`, or `earlier1_n3` if it is the second of an operation.
+/// The sums over earlier coefficients that a function forms: `earlier_n3`, or `earlier1_n3` if it is the second of an operation.
 fn sums(function: &str) -> BTreeSet<&str> {
-    let lines = function.split("let mut ").skip(1);
-    let words = lines.filter_map(|line| line.split([' ', '=']).next());
+    let words = function.split(|c: char| !c.is_alphanumeric() && c != '_');
     words.filter(|word| word.starts_with("earlier")).collect()
 }
 

@@ -1,13 +1,13 @@
-//! Which series an expansion keeps: the operands of products, in rows of memory.
+//! Which series an expansion keeps: the factors of products, four products side by side, and in rows what the core reads.
 //!
-//! Coefficient k of a product is a sum over the earlier coefficients of its operands; everything else is linear and needs
+//! Coefficient k of a product is a sum over the earlier coefficients of its factors; everything else is linear and needs
 //! only coefficient k itself.
 
 use super::{Extra, ModeProgram};
-use crate::plan::{Mode, Operation, Step, Value, ValueRef};
+use crate::plan::{Block, Mode, Operation, Step, Value, ValueRef};
 use std::collections::BTreeMap;
 
-/// A series that is kept.
+/// A series.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum Row {
     /// Of a value.
@@ -26,6 +26,8 @@ pub enum Row {
 pub type Product = (Row, Row);
 
 /// The rows and products of a mode.
+///
+/// Four products make a group: the first those that always count, then those of each block under needs.
 pub struct Plan {
     /// Whether each value of the tape changes with time.
     pub varying: Vec<bool>,
@@ -37,7 +39,14 @@ pub struct Plan {
     /// Number of rows.
     pub rows: usize,
     products: usize,
+    /// Number of groups of four products.
+    pub groups: usize,
+    /// The first group of a block under needs, by its first value.
+    first_groups: BTreeMap<Value, usize>,
 }
+
+/// Products that are summed side by side.
+pub const GROUP: usize = 4;
 
 /// The row of the force `r`: positions, velocities and forces come first.
 pub fn force_row(mode: &ModeProgram, r: usize) -> usize {
@@ -59,6 +68,8 @@ impl Plan {
             rows_of: BTreeMap::new(),
             rows: 0,
             products: 0,
+            groups: 0,
+            first_groups: BTreeMap::new(),
         };
         for write in mode.tape.blocks.iter().flat_map(|block| &block.writes) {
             let varies = plan.varying[write.value.0];
@@ -85,14 +96,20 @@ impl Plan {
             }
         }
         plan.rows = zero_row(mode) + 1;
-        for block in &mode.tape.blocks {
-            for step in &block.steps {
-                let products = plan.products(step);
-                plan.take(&products);
+        let always = plan.always(mode).len() + plan.system_products(mode).len();
+        (plan.products, plan.groups) = (always, always.div_ceil(GROUP));
+        for block in mode
+            .tape
+            .blocks
+            .iter()
+            .filter(|block| !block.needs.is_always())
+        {
+            let products = plan.products_of(block).len();
+            if let Some(step) = block.steps.first() {
+                plan.first_groups.insert(step.value, plan.groups);
             }
-        }
-        for (_, _, product) in plan.system_products(mode) {
-            plan.take(&[product]);
+            plan.products += products;
+            plan.groups += products.div_ceil(GROUP);
         }
         for extra in &mode.extras {
             let row = match extra.place {
@@ -112,14 +129,6 @@ impl Plan {
         }
     }
 
-    fn take(&mut self, products: &[Product]) {
-        self.products += products.len();
-        for &(x, y) in products {
-            self.keep(x);
-            self.keep(y);
-        }
-    }
-
     /// Sums over earlier coefficients for each new one.
     pub fn convolutions(&self) -> usize {
         self.products
@@ -133,6 +142,29 @@ impl Plan {
     /// All series that are kept, and where.
     pub fn kept(&self) -> impl Iterator<Item = (&Row, &usize)> {
         self.rows_of.iter()
+    }
+
+    /// The first group of a block under needs.
+    pub fn first_group(&self, block: &Block) -> usize {
+        let first = block.steps.first();
+        first.map_or(0, |step| self.first_groups[&step.value])
+    }
+
+    /// The products that always count, each with its value and its number among those of this value.
+    pub fn always(&self, mode: &ModeProgram) -> Vec<(Value, usize, Product)> {
+        let blocks = mode.tape.blocks.iter();
+        let always = blocks.filter(|block| block.needs.is_always());
+        always.flat_map(|block| self.products_of(block)).collect()
+    }
+
+    /// The same for the products of a block.
+    pub fn products_of(&self, block: &Block) -> Vec<(Value, usize, Product)> {
+        let steps = block.steps.iter();
+        let products = steps.flat_map(|step| {
+            let products = self.products(step).into_iter().enumerate();
+            products.map(|(at, product)| (step.value, at, product))
+        });
+        products.collect()
     }
 
     /// The numbers that do not change and are kept.
@@ -170,7 +202,7 @@ impl Plan {
     }
 
     /// The products of a step, in the order in which its rule of differentiation names them.
-    pub fn products(&self, step: &Step) -> Vec<Product> {
+    fn products(&self, step: &Step) -> Vec<Product> {
         use Row::{Auxiliary, Value as Plain, Weighted};
         if !self.varying[step.value.0] {
             return Vec::new();

@@ -1,0 +1,138 @@
+//! Sums of products of series, four products at a time.
+//!
+//! ```text
+//! (x y)ₖ = x₀ yₖ + xₖ y₀ + Σ xⱼ yₖ₋ⱼ,  0 < j < k
+//! ```
+//!
+//! The factors of four products lie side by side, so that a processor multiplies and adds four terms at once. The newest
+//! coefficients, j = 1 and j = k − 1, enter last: a processor can begin with the others before those are known. They are not read
+//! from memory: what has just been written there in parts would have to be waited for.
+
+use super::{Number, Registers};
+use crate::program::STRIDE;
+
+/// Products that are summed side by side.
+pub(crate) const GROUP: usize = 4;
+
+/// The factors of four products, coefficient by coefficient.
+#[derive(Clone, Debug)]
+pub struct Products<N: Number> {
+    x: [N::Four; STRIDE],
+    y: [N::Four; STRIDE],
+}
+
+/// Coefficient k of the factors of four products.
+#[derive(Clone, Copy, Debug)]
+pub struct Factors<N: Number> {
+    x: N::Four,
+    y: N::Four,
+}
+
+impl<N: Number> Factors<N> {
+    /// Of what has no coefficients yet.
+    #[inline(always)]
+    pub fn none() -> Self {
+        Self {
+            x: N::zeros(),
+            y: N::zeros(),
+        }
+    }
+}
+
+impl<N: Number> Default for Products<N> {
+    fn default() -> Self {
+        Self {
+            x: [N::zeros(); STRIDE],
+            y: [N::zeros(); STRIDE],
+        }
+    }
+}
+
+impl<N: Number> Products<N> {
+    /// Keeps coefficient k of the factors.
+    #[inline(always)]
+    pub fn keep(
+        &mut self,
+        registers: Registers,
+        k: usize,
+        x: [N; GROUP],
+        y: [N; GROUP],
+    ) -> Factors<N> {
+        let (x, y) = (N::four(registers, x), N::four(registers, y));
+        (self.x[k % STRIDE], self.y[k % STRIDE]) = (x, y);
+        Factors { x, y }
+    }
+
+    /// Σ xⱼ yₖ₋ⱼ for 0 < j < k of several groups, whose newest coefficients are those of k − 1.
+    #[inline(always)]
+    pub fn sums<const G: usize>(
+        registers: Registers,
+        k: usize,
+        groups: [(&Self, Factors<N>); G],
+    ) -> [[N; GROUP]; G] {
+        let mut sums = [[N::of(0.0); GROUP]; G];
+        let mut group = 0;
+        if N::IN_REGISTERS {
+            let all = side_by_side(registers, k, groups);
+            while group < G {
+                sums[group] = N::numbers(all[group]);
+                group += 1;
+            }
+        } else {
+            while group < G {
+                let [one] = side_by_side(registers, k, [groups[group]]);
+                sums[group] = N::numbers(one);
+                group += 1;
+            }
+        }
+        sums
+    }
+}
+
+/// The sums of groups in one loop over their terms.
+#[inline(always)]
+fn side_by_side<N: Number, const G: usize>(
+    registers: Registers,
+    k: usize,
+    groups: [(&Products<N>, Factors<N>); G],
+) -> [N::Four; G] {
+    let mut sums = [N::zeros(); G];
+    let middle = k / 2;
+    if k == 2 * middle {
+        sums = one_more(registers, groups, (middle, middle), sums);
+    }
+    let mut j = k - middle;
+    while j > 2 {
+        j -= 1;
+        sums = one_more(registers, groups, (j, k - j), sums);
+        sums = one_more(registers, groups, (k - j, j), sums);
+    }
+    if k > 2 {
+        let mut group = 0;
+        while group < G {
+            let (products, newest) = groups[group];
+            let sum = N::add_products(registers, products.x[1], newest.y, sums[group]);
+            sums[group] = N::add_products(registers, newest.x, products.y[1], sum);
+            group += 1;
+        }
+    }
+    sums
+}
+
+/// The sums with the terms xⱼ yᵢ.
+#[inline(always)]
+fn one_more<N: Number, const G: usize>(
+    registers: Registers,
+    groups: [(&Products<N>, Factors<N>); G],
+    (j, i): (usize, usize),
+    mut sums: [N::Four; G],
+) -> [N::Four; G] {
+    let mut group = 0;
+    while group < G {
+        let products = groups[group].0;
+        let (x, y) = (products.x[j % STRIDE], products.y[i % STRIDE]);
+        sums[group] = N::add_products(registers, x, y, sums[group]);
+        group += 1;
+    }
+    sums
+}
