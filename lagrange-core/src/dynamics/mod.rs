@@ -29,7 +29,7 @@ pub(crate) use lanes::{Lanes, Start};
 pub use output_mask::{OutputMask, add_branch_guards, add_guards};
 pub(crate) use packets::Packets;
 pub use projection::Residual;
-pub(crate) use slip_direction::{approach, solve_small};
+pub(crate) use slip_direction::approach;
 
 use crate::arithmetic::Scalar;
 use crate::effects::{Effects, Item};

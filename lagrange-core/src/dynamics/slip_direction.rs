@@ -10,14 +10,28 @@
 //! ψₖ, directly by s₁ = ṡ(0) and, through the friction force, by D/(k + 1), D the response of ṡ × u₀ to a turn. Because of D
 //! this also holds where the slip begins as τ², at the limit of equal coefficients of friction; there the series is asymptotic
 //! (the equation is of the kind of τ² y′ = τ − y) and good for a first step.
+//!
+//! A slip may have one direction only, that of a foot about another one that sticks. A turn then does nothing to ṡ × u₀, and where the slip
+//! begins as τ² as well coefficient k + 1 says nothing of ψₖ: coefficient k + 2 does. Of several slips this may be so of combinations.
 
+use super::interpreted::Extent;
 use super::{Dynamics, EvaluationError};
 use crate::arithmetic::Scalar;
+use crate::linear::{VanishingCombinations, solve_small};
 use crate::mode::{Direction, FrictionMode, Sliding};
 use crate::program::{MAX_ORDER, Operation};
 
 /// A slip smaller than this, in units of what it is made of, has no direction.
 const VANISHING: f64 = 1e-13;
+
+/// So often is a turn of order 1 corrected: it squares itself in the coefficient that decides it.
+const MOST_CORRECTIONS: usize = 6;
+
+/// Part of its size by which it is changed to see what that does.
+const SMALL: f64 = 1e-5;
+
+/// A correction this small, relative, is the last one.
+const SETTLED: f64 = 1e-14;
 
 /// Coefficients of a direction.
 type Series<T> = [[T; 2]; MAX_ORDER + 2];
@@ -29,10 +43,16 @@ pub(super) struct SlipDirections<T> {
     now: Vec<[T; 2]>,
     /// How it turns, where it begins.
     series: Vec<Series<T>>,
-    /// D by rows, and the system of one order.
+    /// D by rows,
     response: Vec<T>,
+    /// and what frictions of full size do to each ṡ.
+    strength: Vec<f64>,
+    /// Slips of order 2 without a turn.
+    straight: Vec<[T; 2]>,
+    /// The system of one order, and what it leaves to the next.
     matrix: Vec<T>,
     right: Vec<T>,
+    open: VanishingCombinations<T>,
 }
 
 impl<T: Scalar> SlipDirections<T> {
@@ -42,8 +62,11 @@ impl<T: Scalar> SlipDirections<T> {
             now: vec![zero; frictions],
             series: vec![[zero; MAX_ORDER + 2]; frictions],
             response: Vec::with_capacity(frictions * frictions),
+            strength: Vec::with_capacity(frictions),
+            straight: Vec::with_capacity(frictions),
             matrix: Vec::with_capacity(frictions * frictions),
             right: Vec::with_capacity(frictions),
+            open: VanishingCombinations::default(),
         }
     }
 
@@ -83,8 +106,12 @@ impl<T: Scalar> SlipDirections<T> {
 
     fn turn(&mut self, f: usize, k: usize, by: T) {
         let (_, normal) = self.frame(f);
+        self.add(f, k, normal.map(|x| by * x));
+    }
+
+    fn add(&mut self, f: usize, k: usize, change: [T; 2]) {
         let u = &mut self.series[f][k];
-        *u = [u[0] + by * normal[0], u[1] + by * normal[1]];
+        *u = [u[0] + change[0], u[1] + change[1]];
     }
 }
 
@@ -220,20 +247,11 @@ impl<T: Scalar> Dynamics<T> {
 
     /// Coefficients up to `order` in a mode where slips begin, from values in the registers.
     pub(super) fn expand_from_rest(&mut self, order: usize) -> Result<(), EvaluationError> {
-        let count = self.compiled().pattern.slip_directions.len();
-        for i in 0..count {
-            let f = self.beginning(i);
-            self.slip_directions.series[f] = [[T::zero(); 2]; MAX_ORDER + 2];
-            self.slip_directions.series[f][0] = self.slip_directions.now[f];
-        }
+        self.begin_straight();
         for k in 1..(order + 1).min(MAX_ORDER) {
-            for i in 0..count {
-                let f = self.beginning(i);
-                self.slip_directions.keep_length(f, k);
-            }
+            self.keep_lengths(k);
             self.start_series(k + 1)?;
             self.expand(k + 1);
-            self.ask(k);
             if k == 1 {
                 self.respond()?;
             }
@@ -244,115 +262,207 @@ impl<T: Scalar> Dynamics<T> {
         Ok(())
     }
 
+    /// Coefficient 2 of s × u of each slip that begins, for directions that do not turn.
+    ///
+    /// # Errors
+    /// Those of [`Self::series`].
+    pub(crate) fn bends(&mut self, t: T, q: &[T], v: &[T]) -> Result<Vec<T>, EvaluationError> {
+        (self.series_by_functions, self.by_functions) = (false, false);
+        self.run(t, q, v, Extent::Series, true)?;
+        self.begin_straight();
+        self.start_series(2)?;
+        self.expand(2);
+        let count = self.beginnings();
+        Ok((0..count).map(|i| self.crossed(i, 2)).collect())
+    }
+
+    /// How many slips begin.
+    fn beginnings(&self) -> usize {
+        self.compiled().pattern.slip_directions.len()
+    }
+
     /// The friction of slip direction `i` of the plan.
     fn beginning(&self, i: usize) -> usize {
         self.compiled().pattern.slip_directions[i].friction
     }
 
-    /// Coefficient k + 1 of s × u without a turn of order k, into the right-hand side.
-    fn ask(&mut self, k: usize) {
-        self.slip_directions.right.clear();
-        for i in 0..self.compiled().pattern.slip_directions.len() {
+    /// Directions that do not turn.
+    fn begin_straight(&mut self) {
+        for i in 0..self.beginnings() {
             let f = self.beginning(i);
-            let mut sum = T::zero();
-            for j in 1..=k + 1 {
-                let u = self.slip_directions.coefficient(f, k + 1 - j);
-                sum += cross(self.slip_coefficient(f, j), u);
-            }
-            self.slip_directions.right.push(-sum);
+            self.slip_directions.series[f] = [[T::zero(); 2]; MAX_ORDER + 2];
+            self.slip_directions.series[f][0] = self.slip_directions.now[f];
         }
     }
 
-    /// D, from what a turn of order 1 does to the slip of order 2.
+    /// Coefficients `k` of all directions without a turn.
+    fn keep_lengths(&mut self, k: usize) {
+        for i in 0..self.beginnings() {
+            let f = self.beginning(i);
+            self.slip_directions.keep_length(f, k);
+        }
+    }
+
+    /// Coefficient `k` of s × u of slip direction `i`.
+    fn crossed(&self, i: usize, k: usize) -> T {
+        let f = self.beginning(i);
+        let mut sum = T::zero();
+        for j in 1..=k {
+            let u = self.slip_directions.coefficient(f, k - j);
+            sum += cross(self.slip_coefficient(f, j), u);
+        }
+        sum
+    }
+
+    /// D, from what a turn of order 1 does to the slip of order 2; and what a friction that grows or turns at the rate 1/s does to it.
     fn respond(&mut self) -> Result<(), EvaluationError> {
-        let count = self.compiled().pattern.slip_directions.len();
+        let count = self.beginnings();
+        self.slip_directions.straight.clear();
+        for i in 0..count {
+            let slip = self.slip_coefficient(self.beginning(i), 2);
+            self.slip_directions.straight.push(slip);
+        }
         self.slip_directions.response.clear();
         self.slip_directions
             .response
             .resize(count * count, T::zero());
-        let across = |dynamics: &Self, i: usize| {
-            let f = dynamics.beginning(i);
-            let (along, _) = dynamics.slip_directions.frame(f);
-            let twice = cross(dynamics.slip_coefficient(f, 2), along);
-            twice + twice
-        };
-        for i in 0..count {
-            for j in 0..count {
-                self.slip_directions.response[i * count + j] = -across(self, i);
-            }
-        }
+        self.slip_directions.strength.clear();
+        self.slip_directions.strength.resize(count, 0.0);
         for j in 0..count {
             let f = self.beginning(j);
-            self.slip_directions.turn(f, 1, num_traits::one());
-            self.start_series(2)?;
-            self.expand(2);
-            for i in 0..count {
-                let after = across(self, i);
-                self.slip_directions.response[i * count + j] += after;
+            let (along, normal) = self.slip_directions.frame(f);
+            for (change, turns) in [(along, false), (normal, true)] {
+                self.slip_directions.add(f, 1, change);
+                self.start_series(2)?;
+                self.expand(2);
+                for i in 0..count {
+                    let f = self.beginning(i);
+                    let (before, after) = (
+                        self.slip_directions.straight[i],
+                        self.slip_coefficient(f, 2),
+                    );
+                    let twice = [0, 1].map(|k| after[k] - before[k] + after[k] - before[k]);
+                    let size = dot(twice, twice).value().sqrt();
+                    let directions = &mut self.slip_directions;
+                    directions.strength[i] = directions.strength[i].max(size);
+                    if turns {
+                        let (along, _) = directions.frame(f);
+                        directions.response[i * count + j] = cross(twice, along);
+                    }
+                }
+                self.slip_directions.keep_length(f, 1);
             }
-            self.slip_directions.keep_length(f, 1);
+        }
+        self.start_series(2)?;
+        self.expand(2);
+        Ok(())
+    }
+
+    /// Solves for the turns of order `k`; the slips are known up to order k + 1 without them.
+    fn turn_all(&mut self, k: usize) -> Result<(), EvaluationError> {
+        let count = self.beginnings();
+        for _ in 0..MOST_CORRECTIONS {
+            self.ask(k);
+            let SlipDirections {
+                matrix,
+                strength,
+                open,
+                ..
+            } = &mut self.slip_directions;
+            open.find(matrix, strength);
+            let higher = !open.is_empty();
+            if higher && k + 2 > MAX_ORDER {
+                return Ok(());
+            }
+            if higher {
+                self.ask_of_next(k)?;
+            }
+            let SlipDirections { matrix, right, .. } = &mut self.slip_directions;
+            if !solve_small(matrix, right) {
+                let operation = Operation::SquareRoot;
+                let f = self.beginning(0);
+                let item = Some(self.description().frictions[f].name);
+                return Err(EvaluationError::NoSeries { operation, item });
+            }
+            let mut largest = 0.0_f64;
+            for i in 0..count {
+                let f = self.beginning(i);
+                let by = self.slip_directions.right[i];
+                largest = largest.max(by.value().abs());
+                self.slip_directions.turn(f, k, by);
+            }
+            // Linear but for the coefficient after that of a turn of order 1.
+            let size = |i: usize| {
+                let u = self.slip_directions.coefficient(self.beginning(i), k);
+                dot(u, u).value().sqrt()
+            };
+            let size = (0..count).map(size).fold(0.0, f64::max);
+            if !higher || k > 1 || largest <= SETTLED * size {
+                break;
+            }
+            self.start_series(k + 1)?;
+            self.expand(k + 1);
         }
         Ok(())
     }
 
-    /// Solves for the turns of order `k`.
-    fn turn_all(&mut self, k: usize) -> Result<(), EvaluationError> {
-        let count = self.compiled().pattern.slip_directions.len();
+    /// The equations for the turns of order `k`: coefficient k + 1 of s × u.
+    fn ask(&mut self, k: usize) {
+        let count = self.beginnings();
         let share = T::from_f64(1.0 / (k + 1) as f64);
+        let directions = &mut self.slip_directions;
+        directions.matrix.clear();
+        (directions.matrix).extend(directions.response.iter().map(|&x| share * x));
+        directions.right.clear();
         for i in 0..count {
             let f = self.beginning(i);
             let (along, _) = self.slip_directions.frame(f);
             let growth = dot(self.slip_coefficient(f, 1), along);
-            let SlipDirections {
-                response, matrix, ..
-            } = &mut self.slip_directions;
-            if i == 0 {
-                matrix.clear();
-                matrix.extend(response.iter().map(|&x| share * x));
+            self.slip_directions.matrix[i * count + i] += growth;
+            let right = -self.crossed(i, k + 1);
+            self.slip_directions.right.push(right);
+        }
+    }
+
+    /// Puts combinations of the next coefficients, k + 2, in the place of equations whose combinations vanish.
+    fn ask_of_next(&mut self, k: usize) -> Result<(), EvaluationError> {
+        let open = self.slip_directions.open.clone();
+        let count = self.beginnings();
+        let next = |dynamics: &mut Self| -> Result<Vec<T>, EvaluationError> {
+            dynamics.keep_lengths(k + 1);
+            dynamics.start_series(k + 2)?;
+            dynamics.expand(k + 2);
+            Ok((0..count).map(|i| dynamics.crossed(i, k + 2)).collect())
+        };
+        let sum = |weights: &[T], terms: &[T]| {
+            let mut sum = T::zero();
+            for (&weight, &term) in weights.iter().zip(terms) {
+                sum += weight * term;
             }
-            matrix[i * count + i] += growth;
+            sum
+        };
+        let before = next(self)?;
+        // Not lost beside coefficients that grow without bound, and small where they depend on the square of a turn.
+        let turns = (0..count).flat_map(|i| self.slip_directions.series[self.beginning(i)]);
+        let size = turns.fold(1.0_f64, |m, u| m.max(dot(u, u).value().sqrt()));
+        let size = before.iter().fold(size, |m, x| m.max(x.value().abs()));
+        let part = T::from_f64(if k == 1 { SMALL * size } else { size });
+        for (row, weights) in open.iter() {
+            self.slip_directions.right[row] = -sum(weights, &before);
         }
-        let SlipDirections { matrix, right, .. } = &mut self.slip_directions;
-        if !solve_small(matrix, right) {
-            let operation = Operation::SquareRoot;
-            let f = self.beginning(0);
-            let item = Some(self.description().frictions[f].name);
-            return Err(EvaluationError::NoSeries { operation, item });
+        for j in 0..count {
+            let f = self.beginning(j);
+            let held = self.slip_directions.coefficient(f, k);
+            self.slip_directions.turn(f, k, part);
+            let after = next(self)?;
+            self.slip_directions.series[f][k] = held;
+            let changes = after.iter().zip(&before);
+            let changes: Vec<T> = changes.map(|(&x, &y)| (x - y) / part).collect();
+            for (row, weights) in open.iter() {
+                self.slip_directions.matrix[row * count + j] = sum(weights, &changes);
+            }
         }
-        for i in 0..count {
-            let f = self.beginning(i);
-            let by = self.slip_directions.right[i];
-            self.slip_directions.turn(f, k, by);
-        }
+        self.keep_lengths(k + 1);
         Ok(())
     }
-}
-
-/// Solves a small system in place, by Gauss elimination with row exchanges. False if it is singular.
-pub(crate) fn solve_small<T: Scalar>(matrix: &mut [T], right: &mut [T]) -> bool {
-    let n = right.len();
-    for step in 0..n {
-        let size = |i: &usize| matrix[i * n + step].value().abs();
-        let Some(best) = (step..n).max_by(|a, b| size(a).total_cmp(&size(b))) else {
-            return false;
-        };
-        for j in 0..n {
-            matrix.swap(step * n + j, best * n + j);
-        }
-        right.swap(step, best);
-        let pivot = matrix[step * n + step];
-        for i in (0..n).filter(|i| *i != step) {
-            let factor = matrix[i * n + step] / pivot;
-            for j in step..n {
-                let x = matrix[step * n + j];
-                matrix[i * n + j] -= factor * x;
-            }
-            let x = right[step];
-            right[i] -= factor * x;
-        }
-    }
-    for (i, x) in right.iter_mut().enumerate() {
-        *x /= matrix[i * n + i];
-    }
-    right.iter().all(|x| x.value().is_finite())
 }

@@ -20,6 +20,7 @@ mod lemke;
 mod lu;
 mod pattern;
 mod program;
+mod small;
 mod solver;
 #[cfg(test)]
 mod tests;
@@ -30,4 +31,5 @@ pub(crate) use consistent::{Equilibrated, SeveralSides};
 pub(crate) use least_norm::{Freedom, least_norm};
 pub(crate) use lemke::{Lemke, Outcome as LemkeOutcome};
 pub(crate) use pattern::KktPattern;
+pub(crate) use small::{VanishingCombinations, solve_small};
 pub(crate) use solver::{Inertia, SolveError, Solver};

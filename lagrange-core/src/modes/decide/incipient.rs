@@ -1,12 +1,13 @@
 //! Where a slip of two components begins: ṡ ∥ u, for the friction that points against u.
 //!
 //! ṡ(u) × u = 0 with ṡ·u > 0. Where the slip begins smoothly (equal coefficients of friction) ṡ vanishes at the answer, but
-//! ṡ × u still changes its sign there.
+//! ṡ × u still changes its sign there, unless the slip can have one direction only: then what it grows by next, s̈ × u, decides.
 
 use super::questions::row_acceleration;
 use super::{Decider, EvaluationPoint};
 use crate::arithmetic::Scalar;
-use crate::dynamics::{Dynamics, EvaluationError, solve_small};
+use crate::dynamics::{Dynamics, EvaluationError};
+use crate::linear::{VanishingCombinations, solve_small};
 use crate::mode::{Direction, FrictionMode};
 use crate::modes::redundant::RedundantForces;
 use crate::modes::table::Table;
@@ -14,10 +15,14 @@ use core::f64::consts::TAU;
 
 /// Directions that are tried for one slip.
 const TRIES: usize = 16;
+/// Step of differences between angles.
+const SMALL: f64 = 1e-6;
 /// Iterations that make a direction exact.
 const MOST_ITERATIONS: usize = 60;
-/// ṡ·u below this share of the largest ṡ is not positive, nor negative.
+/// ṡ·u below this share of the largest ṡ, or of what frictions do to it, is not positive, nor negative.
 const NOTHING: f64 = 1e-6;
+/// Of what makes ṡ, rounding leaves no more than this share.
+const ROUNDING: f64 = 1e-12;
 
 /// ṡ in the frame of u: along it and across.
 #[derive(Clone, Copy, Debug)]
@@ -32,16 +37,22 @@ const NO_TURN: Turn = Turn {
     across: f64::NAN,
 };
 
+/// What is found among all directions of one slip.
+enum Around {
+    /// None in which it begins.
+    Nothing,
+    /// That nearest to its angle.
+    Direction,
+    /// One where ṡ × u hardly changes with the direction, and does not tell it exactly.
+    Flat,
+}
+
 /// Memory of the search.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Beginning {
     /// Frictions whose slips begin, and their angles.
     frictions: Vec<usize>,
     angles: Vec<f64>,
-    /// ṡ × u of each, its change with each angle by rows, and what is to be taken from the angles.
-    across: Vec<f64>,
-    matrix: Vec<f64>,
-    right: Vec<f64>,
 }
 
 impl<T: Scalar> Decider<T> {
@@ -62,14 +73,21 @@ impl<T: Scalar> Decider<T> {
             self.point();
             dynamics.set_mode(&self.posed);
             dynamics.set_extra_needs(&table.of(dynamics).deciding);
-            let found = if self.beginning.frictions.len() == 1 {
-                self.look_around(dynamics, moment)?
-            } else {
-                self.beginning.settle(dynamics, moment)?
-                    || shared && {
-                        self.beginning.drift(dynamics, moment)?;
-                        self.beginning.settle(dynamics, moment)?
-                    }
+            let alone = self.beginning.frictions.len() == 1;
+            let found = match alone {
+                true => self.look_around(dynamics, moment)?,
+                false => Around::Flat,
+            };
+            let found = match found {
+                Around::Nothing => false,
+                Around::Direction => true,
+                Around::Flat => {
+                    self.beginning.settle(dynamics, moment)?
+                        || shared && {
+                            self.beginning.drift(dynamics, moment)?;
+                            self.beginning.settle(dynamics, moment)?
+                        }
+                }
             };
             self.point();
             if found {
@@ -134,7 +152,7 @@ impl<T: Scalar> Decider<T> {
         &mut self,
         dynamics: &mut Dynamics<T>,
         moment: EvaluationPoint<'_, T>,
-    ) -> Result<bool, EvaluationError> {
+    ) -> Result<Around, EvaluationError> {
         let (f, guess) = (self.beginning.frictions[0], self.beginning.angles[0]);
         let mut failure = None;
         // In some directions friction may lock itself.
@@ -167,30 +185,43 @@ impl<T: Scalar> Decider<T> {
         };
         let nearest = begins(-NOTHING).min_by(|a, b| far(a.0).total_cmp(&far(b.0)));
         let Some(&(nearest, _)) = nearest else {
-            return failure.map_or(Ok(false), Err);
+            return failure.map_or(Ok(Around::Nothing), Err);
         };
         self.forks = begins(NOTHING).count() > 1;
         self.beginning.angles[0] = nearest;
-        Ok(true)
+        let change = (turn(nearest + SMALL).across - turn(nearest).across) / SMALL;
+        Ok(match change.abs() <= NOTHING * largest {
+            true => Around::Flat,
+            false => Around::Direction,
+        })
     }
 }
 
 impl Beginning {
-    /// ṡ × u of all.
-    fn turn<T: Scalar>(
-        &mut self,
-        dynamics: &mut Dynamics<T>,
-        moment: EvaluationPoint<'_, T>,
-    ) -> Result<(), EvaluationError> {
-        for (&f, angle) in self.frictions.iter().zip(&self.angles) {
-            let (y, x) = angle.sin_cos();
-            dynamics.set_slip_direction(f, [x, y].map(T::from_f64));
+    /// The directions.
+    fn along(&self) -> Vec<[f64; 2]> {
+        let angles = self.angles.iter();
+        angles.map(|angle| [angle.cos(), angle.sin()]).collect()
+    }
+
+    /// Numbers that depend on the directions, and their changes with each angle, by rows.
+    fn with_changes(
+        &self,
+        mut numbers: impl FnMut(&Self) -> Result<Vec<f64>, EvaluationError>,
+    ) -> Result<(Vec<f64>, Vec<f64>), EvaluationError> {
+        let m = self.angles.len();
+        let here = numbers(self)?;
+        let mut changes = vec![0.0; m * m];
+        let mut turned = self.clone();
+        for j in 0..m {
+            turned.angles[j] += SMALL;
+            let there = numbers(&turned)?;
+            turned.angles[j] = self.angles[j];
+            for i in 0..m {
+                changes[i * m + j] = (there[i] - here[i]) / SMALL;
+            }
         }
-        dynamics.value(moment.t, moment.q, moment.v)?;
-        let across = |&f: &usize| frame_of(dynamics, f).across;
-        self.across.clear();
-        self.across.extend(self.frictions.iter().map(across));
-        Ok(())
+        Ok((here, changes))
     }
 
     /// Turns all directions towards the slips that they bring about, u + τ ṡ(u): with given normal forces the greatest dissipation is
@@ -200,27 +231,18 @@ impl Beginning {
         dynamics: &mut Dynamics<T>,
         moment: EvaluationPoint<'_, T>,
     ) -> Result<(), EvaluationError> {
-        let begins = |dynamics: &mut Dynamics<T>, frictions: &[usize], along: &[[f64; 2]]| {
-            for (&f, along) in frictions.iter().zip(along) {
-                dynamics.set_slip_direction(f, along.map(T::from_f64));
-            }
-            dynamics.value(moment.t, moment.q, moment.v)?;
-            let of = |&f: &usize| {
-                let row = dynamics.description().frictions[f].row;
-                [row, row + 1].map(|row| row_acceleration(row, dynamics))
-            };
-            Ok(frictions.iter().map(of).collect::<Vec<_>>())
-        };
         let frictions = &self.frictions;
-        let free = begins(dynamics, frictions, &vec![[0.0; 2]; frictions.len()])?;
+        let free = begin(
+            dynamics,
+            moment,
+            frictions,
+            &vec![[0.0; 2]; frictions.len()],
+        )?;
         for _ in 0..MOST_ITERATIONS {
-            let along: Vec<_> = (self.angles.iter())
-                .map(|angle| [angle.cos(), angle.sin()])
-                .collect();
-            let held = begins(dynamics, frictions, &along)?;
-            let changes = free.iter().zip(&held);
-            let changes = changes.map(|(x, y)| (x[0] - y[0]).hypot(x[1] - y[1]));
-            let part = 0.5 / changes.fold(0.0, f64::max);
+            let along = self.along();
+            let held = begin(dynamics, moment, frictions, &along)?;
+            let changes = differences(&free, &held);
+            let part = 0.5 / changes.into_iter().fold(0.0, f64::max);
             if !part.is_finite() {
                 break;
             }
@@ -231,40 +253,61 @@ impl Beginning {
         Ok(())
     }
 
-    /// The directions of several slips that begin together, by Newton's method from their angles.
+    /// The directions of slips that begin together, by Newton's method from their angles.
     fn settle<T: Scalar>(
         &mut self,
         dynamics: &mut Dynamics<T>,
         moment: EvaluationPoint<'_, T>,
     ) -> Result<bool, EvaluationError> {
-        /// Step of the differences.
-        const SMALL: f64 = 1e-6;
         let m = self.frictions.len();
+        let free = begin(dynamics, moment, &self.frictions, &vec![[0.0; 2]; m])?;
+        let held = begin(dynamics, moment, &self.frictions, &self.along())?;
+        let sizes: Vec<f64> = (self.frictions.iter())
+            .map(|&f| size_of(dynamics, f))
+            .collect();
+        let mut strengths = differences(&free, &held);
+        for (strength, size) in strengths.iter_mut().zip(&sizes) {
+            if *strength <= ROUNDING * size {
+                *strength = 0.0;
+            }
+        }
+        let mut open = VanishingCombinations::default();
         for _ in 0..MOST_ITERATIONS {
-            self.turn(dynamics, moment)?;
+            let (mut right, mut matrix) = self.with_changes(|beginning| {
+                let slips = begin(dynamics, moment, &beginning.frictions, &beginning.along())?;
+                let pairs = slips.into_iter().zip(beginning.along());
+                Ok(pairs.map(|([a, b], [x, y])| a * y - b * x).collect())
+            })?;
+            open.find(&matrix, &strengths);
             // Right at once, as by symmetry: forces that the motion leaves open may make what follows singular.
-            let across = self.across.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-            let along = self.frictions.iter().map(|&f| frame_of(dynamics, f).along);
-            if across <= 8.0 * f64::EPSILON * along.fold(0.0_f64, |m, x| m.max(x.abs())) {
+            let mut across = right.iter().zip(strengths.iter().zip(&sizes));
+            let vanish = across
+                .all(|(x, (strength, size))| x.abs() <= 8.0 * f64::EPSILON * (strength + size));
+            if vanish && open.is_empty() {
                 break;
             }
-            self.right.clone_from(&self.across);
-            self.matrix.clear();
-            self.matrix.resize(m * m, 0.0);
-            for j in 0..m {
-                let held = self.angles[j];
-                self.angles[j] = held + SMALL;
-                self.turn(dynamics, moment)?;
-                self.angles[j] = held;
-                for i in 0..m {
-                    self.matrix[i * m + j] = (self.across[i] - self.right[i]) / SMALL;
+            if !open.is_empty() {
+                let (next, changes) =
+                    self.with_changes(|beginning| beginning.bends(dynamics, moment))?;
+                for (row, weights) in open.iter() {
+                    let weighted = |term: &dyn Fn(usize) -> f64| {
+                        let terms = weights.iter().enumerate();
+                        terms.map(|(i, weight)| weight * term(i)).sum::<f64>()
+                    };
+                    right[row] = weighted(&|i| next[i]);
+                    for j in 0..m {
+                        matrix[row * m + j] = weighted(&|i| changes[i * m + j]);
+                    }
                 }
             }
-            if !solve_small(&mut self.matrix, &mut self.right) {
+            if !solve_small(&mut matrix, &mut right) {
+                if vanish {
+                    break;
+                }
                 return Ok(false);
             }
             let mut largest = 0.0_f64;
-            for (angle, by) in self.angles.iter_mut().zip(&self.right) {
+            for (angle, by) in self.angles.iter_mut().zip(&right) {
                 *angle -= by.clamp(-1.0, 1.0);
                 largest = largest.max(by.abs());
             }
@@ -272,12 +315,66 @@ impl Beginning {
                 break;
             }
         }
-        self.turn(dynamics, moment)?;
+        begin(dynamics, moment, &self.frictions, &self.along())?;
         let turns = || self.frictions.iter().map(|&f| frame_of(dynamics, f));
         let largest = turns().fold(0.0_f64, |m, turn| m.max(turn.along.abs()));
-        let mut turns = turns();
-        Ok(turns.all(|turn| turn.along >= -NOTHING * largest && turn.across.is_finite()))
+        let mut turns = turns().zip(strengths);
+        Ok(turns.all(|(turn, strength)| {
+            turn.along >= -NOTHING * largest.max(strength) && turn.across.is_finite()
+        }))
     }
+
+    /// Coefficient 2 of s × u of all.
+    fn bends<T: Scalar>(
+        &self,
+        dynamics: &mut Dynamics<T>,
+        moment: EvaluationPoint<'_, T>,
+    ) -> Result<Vec<f64>, EvaluationError> {
+        for (&f, along) in self.frictions.iter().zip(self.along()) {
+            dynamics.set_slip_direction(f, along.map(T::from_f64));
+        }
+        let bends = dynamics.bends(moment.t, moment.q, moment.v)?;
+        Ok(bends.iter().map(|x| x.value()).collect())
+    }
+}
+
+/// ṡ of frictions that begin to slip in these directions, whose values `dynamics` then holds.
+fn begin<T: Scalar>(
+    dynamics: &mut Dynamics<T>,
+    moment: EvaluationPoint<'_, T>,
+    frictions: &[usize],
+    along: &[[f64; 2]],
+) -> Result<Vec<[f64; 2]>, EvaluationError> {
+    for (&f, along) in frictions.iter().zip(along) {
+        dynamics.set_slip_direction(f, along.map(T::from_f64));
+    }
+    dynamics.value(moment.t, moment.q, moment.v)?;
+    let of = |&f: &usize| {
+        let row = dynamics.description().frictions[f].row;
+        [row, row + 1].map(|row| row_acceleration(row, dynamics))
+    };
+    Ok(frictions.iter().map(of).collect())
+}
+
+/// The size of what makes ṡ of friction `f` at the last value.
+fn size_of<T: Scalar>(dynamics: &Dynamics<T>, f: usize) -> f64 {
+    let d = dynamics.description();
+    let row = d.frictions[f].row;
+    let terms = d.rows[row..row + 2].iter().map(|row| {
+        let products = row.jacobian.iter();
+        let products = products
+            .map(|&(j, place)| (dynamics.motion(place) * dynamics.acceleration()[j]).value());
+        products.map(f64::abs).sum::<f64>() + dynamics.motion(row.bias).value().abs()
+    });
+    terms.sum()
+}
+
+/// The distance of each ṡ from another one.
+fn differences(a: &[[f64; 2]], b: &[[f64; 2]]) -> Vec<f64> {
+    let pairs = a.iter().zip(b);
+    pairs
+        .map(|(x, y)| (x[0] - y[0]).hypot(x[1] - y[1]))
+        .collect()
 }
 
 /// ṡ of friction `f` if it begins to slip at an angle.
