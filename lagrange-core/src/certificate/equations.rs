@@ -6,6 +6,7 @@ use crate::integrate::least_size;
 use crate::mode::{FrictionMode, Mode};
 use crate::system::Description;
 use crate::trajectory::State;
+use core::cmp::Ordering;
 
 /// Evaluates the declared quantities with the effects of a run.
 #[derive(Debug)]
@@ -237,22 +238,39 @@ impl Equations {
         }
     }
 
-    /// Choices take what is zero to within the tolerance, in the state that was balanced, for zero.
-    pub fn take_for_zero_what_vanishes(&mut self, at: Situation<'_>, tolerance: f64) {
+    /// Choices take what is zero to within the tolerance, in the state that was balanced, for zero, or for less.
+    pub fn take_what_vanishes_for(
+        &mut self,
+        ordering: Ordering,
+        at: Situation<'_>,
+        tolerance: f64,
+    ) {
         let mut guards = self.balancing.guards();
-        guards.retain(|&guard| {
-            let value = self.balancing.value(guard);
-            self.balancing
-                .gradient_size(guard, 0, &mut self.sizes_along);
-            let reach = change(&self.sizes_along, &self.sizes, [at.q, at.v]);
-            value.abs() <= tolerance * reach
-        });
-        self.balancing.take_for_zero(&guards);
+        guards.retain(|&guard| self.vanishes(guard, at, tolerance));
+        self.balancing.take_for(ordering, &guards);
     }
 
     /// Choices take what balances for what it is again.
-    pub fn take_nothing_for_zero(&mut self) {
-        self.balancing.take_for_zero(&[]);
+    pub fn take_all_as_it_is(&mut self) {
+        self.balancing.take_for(Ordering::Equal, &[]);
+    }
+
+    /// Whether the state that was balanced may be on either side of the surface of a contact that is open.
+    pub fn is_at_open_contact(&mut self, at: Situation<'_>, mode: &Mode, tolerance: f64) -> bool {
+        let mut contacts = self.declaration.contacts.iter().enumerate();
+        contacts.any(|(c, contact)| {
+            self.includes(Item::Contact(c))
+                && !mode.contacts[c]
+                && self.vanishes(contact.gap, at, tolerance)
+        })
+    }
+
+    /// Whether a value of the state that was balanced is zero to within the tolerance.
+    fn vanishes(&mut self, value: usize, at: Situation<'_>, tolerance: f64) -> bool {
+        let number = self.balancing.value(value);
+        self.balancing
+            .gradient_size(value, 0, &mut self.sizes_along);
+        number.abs() <= tolerance * change(&self.sizes_along, &self.sizes, [at.q, at.v])
     }
 
     /// Whether what balances at the last state is beyond rounding at first sight.

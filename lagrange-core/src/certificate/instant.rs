@@ -4,6 +4,7 @@ use super::equations::{Equations, Level, Situation};
 use super::{Findings, MARGIN, Subject};
 use crate::effects::Item;
 use crate::mode::{Direction, FrictionMode, Mode};
+use core::cmp::Ordering;
 
 /// Beside its reach a slip in space has no direction below this multiple of the tolerance.
 const VANISHING: f64 = 1e3;
@@ -32,14 +33,20 @@ impl Equations {
         }
         if self.is_beyond() {
             // A force may jump at the surface of a contact that is closed, where the state is to within the tolerance.
-            self.take_for_zero_what_vanishes(at, MARGIN * findings.tolerance);
+            let tolerance = MARGIN * findings.tolerance;
+            self.take_what_vanishes_for(Ordering::Equal, at, tolerance);
             self.balance(at);
+            // Of one that has just opened the state may be on either side.
+            if self.is_beyond() && self.is_at_open_contact(at, mode, tolerance) {
+                self.take_what_vanishes_for(Ordering::Less, at, tolerance);
+                self.balance(at);
+            }
         }
         self.examine_energies(at, reported, findings);
         if self.is_beyond() {
             self.balance_with_sizes(at, mode);
         }
-        self.take_nothing_for_zero();
+        self.take_all_as_it_is();
         for (i, coordinate) in self.d.coordinates.iter().enumerate() {
             let (error, size) = (self.residual[i].abs(), self.size[i]);
             findings.book(Subject::Equations, error, size, at.time, coordinate.name);

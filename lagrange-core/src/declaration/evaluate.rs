@@ -17,6 +17,7 @@
 use super::real::Real;
 use super::series::{COSH, EXP, SINH, Series, TANH, function, power};
 use super::{Declaration, op};
+use core::cmp::Ordering;
 use core::ops::AddAssign;
 use std::collections::BTreeMap;
 
@@ -132,8 +133,8 @@ pub struct Evaluator<N = f64> {
     moves: Vec<bool>,
     /// Per value: whether it reads forces, which do not follow from the state alone.
     of_forces: Vec<bool>,
-    /// Per value: whether a choice takes it for zero, whatever it is.
-    vanishes: Vec<bool>,
+    /// Per value: how choices take it to compare with zero, where not as it is.
+    taken: Vec<Option<Ordering>>,
     values: Vec<Series<N>>,
     /// Derivative of each function by its operands.
     slopes: Vec<[Series<N>; 2]>,
@@ -156,7 +157,7 @@ impl<N: Real> Evaluator<N> {
             operations: Vec::with_capacity(all.len()),
             moves: vec![false; all.len()],
             of_forces: vec![false; all.len()],
-            vanishes: vec![false; all.len()],
+            taken: vec![None; all.len()],
             values: vec![Series::default(); all.len()],
             slopes: vec![[Series::default(); 2]; all.len()],
             weights: Vec::new(),
@@ -219,10 +220,18 @@ impl<N: Real> Evaluator<N> {
         guards.filter(|&guard| self.moves[guard]).collect()
     }
 
-    /// Says which values choices take for zero from now on, whatever they are.
-    pub fn take_for_zero(&mut self, values: &[usize]) {
-        self.vanishes.fill(false);
-        values.iter().for_each(|&value| self.vanishes[value] = true);
+    /// Says which values choices take for zero, or for less, from now on, whatever they are; and the others for what they are.
+    pub fn take_for(&mut self, ordering: Ordering, values: &[usize]) {
+        self.taken.fill(None);
+        (values.iter()).for_each(|&value| self.taken[value] = Some(ordering));
+    }
+
+    /// Whether a choice with this guard is the first one; nothing if it may be either.
+    fn is_first(&self, guard: usize) -> Option<bool> {
+        match self.taken[guard] {
+            Some(ordering) => Some(ordering.is_ge()),
+            None => self.values[guard].0[0].is_positive(),
+        }
     }
 
     /// Takes another state.
@@ -245,8 +254,7 @@ impl<N: Real> Evaluator<N> {
             op::ADD => n(i) + n(j),
             op::MULTIPLY => n(i) * n(j),
             op::DERIVATIVE => n(i).derivative(),
-            op::SELECT if self.vanishes[operation.guard] => n(i),
-            op::SELECT => match n(operation.guard).0[0].is_positive() {
+            op::SELECT => match self.is_first(operation.guard) {
                 Some(true) => n(i),
                 Some(false) => n(j),
                 // What is chosen in between jumps, or its rate does.
@@ -378,8 +386,7 @@ impl Evaluator {
                 by(j, &self.values[i]);
             }
             op::SELECT => {
-                let guard = operation.guard;
-                let first = self.vanishes[guard] || self.value(guard) >= 0.0;
+                let first = self.is_first(operation.guard) == Some(true);
                 by(if first { i } else { j }, &ONE);
             }
             op::TIME | op::FORCE | op::LOAD => {}

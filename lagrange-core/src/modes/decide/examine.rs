@@ -418,13 +418,48 @@ impl<T: Scalar> Decider<T> {
         } else {
             (1e-13, 1e-14)
         };
-        let cancelling = self.sizes.of(guard, dynamics) * unit_of_order(guard, h);
+        let cancelling = match guard {
+            Guard::Branch(b) if here.facts.lying[b] => self.size_as_of_gaps(size, ahead, h),
+            _ => self.sizes.of(guard, dynamics) * unit_of_order(guard, h),
+        };
         let noise = (relative * size).max(absolute * cancelling);
         match series.iter().position(|c| c.abs() > noise) {
             None => Leading::Stays,
             Some(k) if series[k] < 0.0 => Leading::Falls,
             Some(k) => Leading::Rises(k),
         }
+    }
+
+    /// Size of what makes the guard of a branch that contacts have held at its border until now, and which changes by `size` over a time `h`:
+    /// that of the gap of those contacts, by which it changes.
+    fn size_as_of_gaps(&self, size: f64, ahead: Ahead<'_, T>, h: f64) -> f64 {
+        let Ahead {
+            dynamics,
+            here,
+            order,
+            ..
+        } = ahead;
+        let mut series = [0.0; guard::LENGTH];
+        let series = &mut series[..=order];
+        let left = here.facts.located.iter().filter_map(|guard| match *guard {
+            Guard::Normal(c) if !self.posed.contacts[c] => Some(Guard::Gap(c)),
+            _ => None,
+        });
+        let sizes = left.map(|gap| {
+            let reading = Reading::Series(dynamics);
+            guard::series(gap, &self.posed, &reading, &redundant::ONES, series);
+            let powers = core::iter::successors(Some(1.0), |power| Some(power * h));
+            let terms = series.iter().zip(powers).skip(2);
+            let opens = terms.fold(0.0_f64, |largest, (c, power)| {
+                largest.max((c * power).abs())
+            });
+            if opens > 0.0 {
+                self.sizes.of(gap, dynamics) * unit_of_order(gap, h) * size / opens
+            } else {
+                0.0
+            }
+        });
+        sizes.fold(0.0, f64::max)
     }
 }
 
