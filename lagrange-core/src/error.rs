@@ -359,6 +359,9 @@ impl fmt::Display for Error {
                 if *friction || *branches {
                     f.write_str("a force that jumps with the sign of a velocity is declared as a friction; ")?;
                 }
+                if *branches {
+                    f.write_str("a force that jumps at the surface of a contact may push what touches away and let it fall back at once: let it change over a distance; ")?;
+                }
                 f.write_str("else ask for a smaller tolerance")
             }
             Error::EndlessImpacts {

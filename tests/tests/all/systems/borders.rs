@@ -250,3 +250,43 @@ fn what_stops_at_once_ends_the_run() {
         });
     }
 }
+
+/// A cart that is pulled against a wall, where a push begins that is stronger.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = mass/2 * der(x)^2,
+    contact(wall: x >= 0),
+    force(draws: x = -pull),
+    force(throws: x = if(x <= 0, push, 0)),
+)]
+struct Thrown {
+    mass: f64,
+    pull: f64,
+    push: f64,
+}
+
+/// It can neither stay, as the push is stronger than the pull, nor leave, as the push is then over: that is said with what to do.
+#[test]
+fn a_push_that_ends_where_it_has_pushed_leaves_no_mode() {
+    let scene = Thrown {
+        mass: 2.0,
+        pull: 3.0,
+        push: 5.0,
+    };
+    let arrives = (2.0 * scene.mass * 0.2 / scene.pull).sqrt();
+    for method in METHODS {
+        let simulation = Simulation::new(&scene).method(method).tolerance(1e-9);
+        let failure = simulation.run(state(&[0.2], &[0.0]), 0.0..3.0);
+        let error = failure.expect_err("no mode").error;
+        let Error::NoMode { time, item, .. } = error else {
+            panic!("{method:?}: {error}");
+        };
+        assert_eq!(item, "wall", "{method:?}");
+        agree(&format!("{method:?}"), time, arrives, 1e-9);
+        assert!(
+            error.to_string().contains("jumps at the surface"),
+            "{error}"
+        );
+    }
+}
