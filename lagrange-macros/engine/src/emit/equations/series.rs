@@ -12,7 +12,7 @@ use super::solve::Elimination;
 use super::value;
 use super::writer::Writer;
 use crate::ast::Emit;
-use crate::plan::mode::products::{GROUP, Plan, Product, Row};
+use crate::plan::mode::products::{Factor, GROUP, Plan, Product, Row};
 use crate::plan::mode::{ModeProgram, Phase};
 use crate::plan::{Block, Coefficient, Mode, Operation, Program, Step, Value, ValueRef};
 use proc_macro2::{Ident, TokenStream};
@@ -152,8 +152,6 @@ impl Expansion<'_> {
         let stem = |value: Value| self.writer.locals.stem(value);
         let name = match row {
             Row::Value(value) => stem(value),
-            Row::Weighted(value) => format!("weighted_{}", stem(value)),
-            Row::Auxiliary(value) => format!("u_{}", stem(value)),
             Row::Sum(output) => format!("sum{output}"),
             Row::Fixed(constant) => format!("c{constant}"),
         };
@@ -617,24 +615,23 @@ impl Expansion<'_> {
     }
 
     /// Coefficient k of a factor.
-    fn factor(&self, row: Row) -> TokenStream {
+    fn factor(&self, factor: Factor) -> TokenStream {
         let number = &self.writer.number;
         let of = |value| self.d(value).unwrap_or(quote!(#number::of(0.0)));
-        match row {
-            Row::Value(value) => of(value),
-            Row::Weighted(value) => {
+        match factor {
+            Factor::Value(value) => of(value),
+            Factor::Weighted(value) => {
                 let (d, weight) = (of(value), local("weight"));
                 quote!(#d * #weight)
             }
-            Row::Auxiliary(value) => {
+            Factor::Auxiliary(value) => {
                 let name = self.auxiliary_coefficient(value);
                 quote!(#name)
             }
-            Row::Sum(output) => {
+            Factor::Sum(output) => {
                 let name = sum_coefficient(output);
                 quote!(#name)
             }
-            Row::Fixed(_) => quote!(#number::of(0.0)),
         }
     }
 

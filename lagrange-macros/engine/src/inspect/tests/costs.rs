@@ -6,7 +6,9 @@ use std::collections::BTreeSet;
 /// The sums over earlier coefficients that a function forms: `earlier_n3`, or `earlier1_n3` if it is the second of an operation.
 fn sums(function: &str) -> BTreeSet<&str> {
     let words = function.split(|c: char| !c.is_alphanumeric() && c != '_');
-    words.filter(|word| word.starts_with("earlier")).collect()
+    words
+        .filter(|word| word.starts_with("earlier") && *word != "earlier")
+        .collect()
 }
 
 #[test]

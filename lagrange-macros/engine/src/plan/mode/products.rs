@@ -7,9 +7,20 @@ use super::{Extra, ModeProgram};
 use crate::plan::{Block, Mode, Operation, Step, Value, ValueRef};
 use std::collections::BTreeMap;
 
-/// A series.
+/// A series that the core reads.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum Row {
+    /// Of a value.
+    Value(Value),
+    /// Of an output that several writes enter.
+    Sum(usize),
+    /// A number that does not change, of an extra output.
+    Fixed(usize),
+}
+
+/// A series that is multiplied.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Factor {
     /// Of a value.
     Value(Value),
     /// k times coefficient k of a value.
@@ -18,12 +29,10 @@ pub enum Row {
     Auxiliary(Value),
     /// Of an output that several writes enter.
     Sum(usize),
-    /// A number that does not change, of an extra output.
-    Fixed(usize),
 }
 
 /// A sum over earlier coefficients: Σ xⱼ yₖ₋ⱼ for 0 < j < k.
-pub type Product = (Row, Row);
+pub type Product = (Factor, Factor);
 
 /// The rows and products of a mode.
 ///
@@ -203,7 +212,7 @@ impl Plan {
 
     /// The products of a step, in the order in which its rule of differentiation names them.
     fn products(&self, step: &Step) -> Vec<Product> {
-        use Row::{Auxiliary, Value as Plain, Weighted};
+        use Factor::{Auxiliary, Value as Plain, Weighted};
         if !self.varying[step.value.0] {
             return Vec::new();
         }
@@ -251,8 +260,13 @@ impl Plan {
                 if let ValueRef::Node(output) = *place
                     && self.output_varies(output)
                 {
-                    let unknown = Row::Value(mode.inputs.unknown(j));
-                    products.push((i, j, (self.row_of_output(output), unknown)));
+                    let element = match self.row_of_output(output) {
+                        Row::Sum(output) => Factor::Sum(output),
+                        Row::Value(value) => Factor::Value(value),
+                        Row::Fixed(_) => continue,
+                    };
+                    let unknown = Factor::Value(mode.inputs.unknown(j));
+                    products.push((i, j, (element, unknown)));
                 }
             }
         }
