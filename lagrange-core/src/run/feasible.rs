@@ -18,6 +18,7 @@ impl<T: Scalar> Run<T> {
         self.settings.check(&**system, state, &(time..time))?;
         self.now.t = T::from_f64(time);
         self.now.state.clone_from(state);
+        self.recorder.trajectory.start.clone_from(state);
         self.dynamics.restart();
         self.enter_start()?;
         let modes = self.knowing(|run, facts| {

@@ -429,13 +429,15 @@ impl<T: Scalar> Run<T> {
         })
     }
 
-    /// A contact that closes without impact carries frictions whose slip nobody has looked at.
+    /// A contact that closes without impact carries frictions whose slip nobody has looked at, and may end slips that its rate is
+    /// part of: a stop that carries what rubs against it.
     fn rest_where_slip_vanishes(&mut self, facts: &mut SwitchFacts) -> Result<(), Error> {
         let d = self.description();
+        let closes = facts.arriving.contains(&true);
         let wakes = |run: &Self, facts: &SwitchFacts, f: usize| {
             d.frictions[f].normal.presses(|c| facts.touching[c])
                 && !facts.resting[f]
-                && run.now.mode.frictions[f] == FrictionMode::Inactive
+                && (closes || run.now.mode.frictions[f] == FrictionMode::Inactive)
                 && run.dynamics.effects().includes(d, Item::Friction(f))
         };
         if !(0..d.frictions.len()).any(|f| wakes(self, facts, f)) {

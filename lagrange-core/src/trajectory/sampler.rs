@@ -120,7 +120,11 @@ impl<'a, T: Scalar> Sampler<'a, T> {
                 } else {
                     s
                 };
-                let state = self.place(index, s)?;
+                let mut state = self.place(index, s)?;
+                if t == last && mode == trajectory.final_mode() {
+                    // Beside it, the end of the last polynomial is off by rounding.
+                    state.clone_from(&trajectory.last);
+                }
                 self.headed = self.head_into_rest(segment, s, time, &state);
                 let instant = self.evaluate_entered(time, mode, &state);
                 if core::mem::take(&mut self.headed) {

@@ -98,6 +98,29 @@ fn what_was_not_recorded_is_refused() {
 }
 
 #[test]
+fn the_end_is_the_same_whether_the_run_is_recorded_or_not() {
+    fn check<S: Derived<Scalar = f64>>(scene: &S, until: f64) {
+        for method in ["taylor", "dop853", "radau5"] {
+            let simulation = Simulation::new(scene).method(method.parse().expect("a method"));
+            let ends = [true, false].map(|record| {
+                let run = simulation
+                    .clone()
+                    .record(record)
+                    .run(start(scene), 0.0..until);
+                let run = run.expect("runs");
+                let end = run.sampler().at(run.last_time()).expect("the end");
+                (end.state, end.mode, end.acceleration, end.forces)
+            });
+            assert_eq!(ends[0], ends[1], "{method}");
+        }
+    }
+    check(&CartesianPendulum::default(), 3.0);
+    check(&MassOnWheel::default(), 2.0);
+    check(&MassOnWheel::default(), 20.0);
+    check(&DoublePendulum::default(), 5.0);
+}
+
+#[test]
 fn an_error_leaves_the_motion_until_then() {
     let scene = MassOnShell::default();
     let mut runner = Simulation::new(&scene).max_steps(3).runner();

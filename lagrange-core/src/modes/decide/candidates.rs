@@ -25,6 +25,8 @@ pub struct Listings {
     facts: Vec<Candidates>,
     /// Index of the list to be written over next.
     oldest: usize,
+    /// Per friction: it comes to rest at the instant and cannot hold.
+    fading: Vec<bool>,
 }
 
 /// Modes in order of preference.
@@ -60,24 +62,28 @@ struct Facts {
     touching: Vec<bool>,
     resting: Vec<bool>,
     balanced: Vec<bool>,
+    /// As in [`Listings`].
+    fading: Vec<bool>,
 }
 
 impl Facts {
-    fn of(here: SwitchContext<'_, impl Copy>) -> Self {
+    fn of(here: SwitchContext<'_, impl Copy>, fading: &[bool]) -> Self {
         let SwitchContext { present, facts, .. } = here;
         Self {
             present: present.clone(),
             touching: facts.touching.clone(),
             resting: facts.resting.clone(),
             balanced: facts.balanced.clone(),
+            fading: fading.to_vec(),
         }
     }
 
-    fn are(&self, here: SwitchContext<'_, impl Copy>) -> bool {
+    fn are(&self, here: SwitchContext<'_, impl Copy>, fading: &[bool]) -> bool {
         let SwitchContext { present, facts, .. } = here;
         self.touching == facts.touching
             && self.resting == facts.resting
             && self.balanced == facts.balanced
+            && self.fading == fading
             && self.present == *present
     }
 }
@@ -129,7 +135,12 @@ impl Listings {
         let looked = look_at_slips(dynamics, here, rows);
         let composite = |guard: &Guard| matches!(guard, Guard::Composite(_));
         let follows = !looked && !here.facts.located.iter().any(composite);
-        let same = |list: &Candidates| list.facts.as_ref().is_some_and(|facts| facts.are(here));
+        let choices = Choices { dynamics, here };
+        let frictions = 0..choices.description().frictions.len();
+        self.fading.clear();
+        self.fading.extend(frictions.map(|f| choices.fades(f)));
+        let known = |facts: &Facts| facts.are(here, &self.fading);
+        let same = |list: &Candidates| list.facts.as_ref().is_some_and(known);
         let found = self.facts.iter().position(same).filter(|_| follows);
         let index = found.unwrap_or_else(|| {
             if self.facts.len() < MOST_LISTS {
@@ -140,14 +151,14 @@ impl Listings {
             list.facts = None;
             list.modes.clear();
             let mut listing = Listing {
-                choices: Choices { dynamics, here },
+                choices,
                 out: &mut list.modes,
             };
             scratch.clone_from(here.present);
             listing.contacts(scratch, 0);
             if list.modes.len() <= MOST_CANDIDATES {
                 list.sort(here);
-                list.facts = follows.then(|| Facts::of(here));
+                list.facts = follows.then(|| Facts::of(here, &self.fading));
             }
             self.oldest
         });
@@ -191,6 +202,7 @@ fn slip_sign<T>(f: usize, here: SwitchContext<'_, T>) -> Option<f64> {
 }
 
 /// What the items of a mode may do at an instant.
+#[derive(Clone, Copy)]
 pub struct Choices<'a, T: Scalar> {
     pub dynamics: &'a Dynamics<T>,
     pub here: SwitchContext<'a, T>,
@@ -199,6 +211,13 @@ pub struct Choices<'a, T: Scalar> {
 impl<T: Scalar> Choices<'_, T> {
     pub fn description(&self) -> &'static Description {
         self.dynamics.description()
+    }
+
+    /// Whether friction `f` has slipped until it came to rest now, and cannot hold.
+    fn fades(&self, f: usize) -> bool {
+        self.here.facts.resting[f]
+            && slip_sign(f, self.here).is_some()
+            && guard::fades(f, self.dynamics)
     }
 
     /// What friction `f` may do in a mode: not act, stick, or slip in each direction that its slip can take.
@@ -231,8 +250,7 @@ impl<T: Scalar> Choices<'_, T> {
             }
         } else if self.here.facts.resting[f] {
             // What cannot hold does not bring a slip to rest.
-            let slips = slip_sign(f, self.here).is_some();
-            if !(slips && guard::fades(f, self.dynamics)) {
+            if !self.fades(f) {
                 put(FrictionMode::Stick);
             }
             for &bearing in bearings {

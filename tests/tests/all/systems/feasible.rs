@@ -58,6 +58,13 @@ fn a_rod_that_may_stay_or_fly_off() {
         1e-12,
     );
     assert_eq!(flies.force(Rod::FLOOR), 0.0);
+    // The state of a run is on the floor to rounding only.
+    let later = start
+        .clone()
+        .with_q(Rod::X, 700.0)
+        .with_q(Rod::Y, 1_f64.sin() - 1e-13);
+    let modes = Simulation::new(&rod).feasible_modes(0.0, later);
+    assert_eq!(modes.expect("modes").len(), 2);
     agree("falls", flies.a(Rod::Y), -G, 1e-12);
     // A run takes the first.
     let run = Simulation::new(&rod).run(start, 0.0..1e-3).expect("a run");

@@ -30,6 +30,7 @@ mod in_a_row;
 mod in_turn;
 mod incline;
 mod instants;
+mod joint_stops;
 mod kepler;
 mod landings;
 mod last_bounces;

@@ -2,7 +2,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::all_agree;
+use lagrange_tests::{agree, all_agree};
 
 /// Forces whose terms vanish, or lose a factor, with their parameters.
 #[derive(Lagrangian, Clone, Debug)]
@@ -117,6 +117,54 @@ fn a_term_whose_factor_became_zero_does_not_spoil_the_run() {
                 all_agree("x", &motion.final_state().q, &[-1.5], 1e-14);
             }
             Err(error) => assert_ne!(strength, 0.0, "{error}"),
+        }
+    }
+}
+
+/// A block that is pulled over a floor by a spring: without friction it never rests.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2 / 2,
+    potential = stiffness/2 * x^2,
+    friction(rub: slip = der(x), normal = weight, static = mu),
+    start(pulled: x = 1),
+)]
+struct Dragged {
+    stiffness: f64,
+    weight: f64,
+    mu: f64,
+}
+
+/// Each half swing takes 2 μN/k of the amplitude, until the spring no longer moves the block.
+#[test]
+fn friction_holds_although_there_was_none_in_the_run_before() {
+    let scene = |mu| Dragged {
+        stiffness: 4.0,
+        weight: 1.0,
+        mu,
+    };
+    let mut runner = Simulation::new(&scene(0.0)).tolerance(1e-12).runner();
+    for (mu, rests_at) in [
+        (0.0, None),
+        (0.3, Some(0.05)),
+        (0.0, None),
+        (0.5, Some(0.0)),
+    ] {
+        let scene = scene(mu);
+        runner.set_scene(&scene);
+        let run = runner
+            .run(scene.at(Dragged::PULLED), 0.0..20.0)
+            .expect("a run");
+        let rests = run.final_mode().sticks(Dragged::RUB);
+        assert_eq!(rests, rests_at.is_some(), "mu = {mu}");
+        if let Some(place) = rests_at {
+            agree(
+                "amplitude",
+                run.final_state().q(Dragged::X).abs(),
+                place,
+                1e-10,
+            );
         }
     }
 }
