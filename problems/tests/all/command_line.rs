@@ -1,7 +1,8 @@
 //! The program as a user meets it: what goes where, and with which exit code.
 
-use crate::program::{lagrange, refuses, says, text};
+use crate::program::{folder, lagrange, lagrange_in, refuses, says, text};
 use serde_json::Value;
+use std::fs;
 
 fn json(arguments: &[&str]) -> Value {
     let arguments: Vec<&str> = ["run"]
@@ -201,7 +202,56 @@ fn a_run_that_fails_prints_what_there_is() {
     let output = lagrange(&["run", "double-pendulum", "--method", "rk4:0.1"]);
     assert_eq!(output.status.code(), Some(1));
     assert!(text(&output.stdout).contains("start"));
-    assert_eq!(text(&output.stderr).lines().count(), 1);
+    let said = text(&output.stderr);
+    assert_eq!(said.lines().count(), 1);
+    // In a file it says why it ends there.
+    let folder = folder("a story that fails");
+    let story = ["--method", "rk4:0.1", "--output", "run.txt"];
+    lagrange_in(&folder, &[&["run", "double-pendulum"], &story[..]].concat());
+    let written = fs::read_to_string(folder.join("run.txt")).expect("the story");
+    let last = written.lines().last().expect("a line");
+    assert_eq!(said.trim_end(), format!("lagrange: {last}"));
+}
+
+/// Without its wall a body falls to where its potential ends.
+#[test]
+fn effects_say_why_a_run_fails_without_one() {
+    let folder = folder("effects that fail");
+    let well = "coordinates(x), kinetic = der(x)^2/2, potential = sqrt(x), contact(wall: x >= 0.1),
+        start(thrown: x = 1, der(x) = -1), until = 2,";
+    fs::write(folder.join("well.lagrange"), well).expect("a file");
+    let output = lagrange_in(&folder, &["effects", "well.lagrange"]);
+    let told = text(&output.stdout);
+    let last = told.lines().last().expect("a line");
+    assert!(
+        last.starts_with("Without wall the run fails: t = "),
+        "{told}"
+    );
+}
+
+/// Five masses on a table: of so many contacts a story says in brief what they do, and what changes.
+#[test]
+fn of_many_items_a_story_says_what_changes() {
+    let folder = folder("many items");
+    let shelf = "parameters(gravity = 9.81),
+        coordinates(x[5], y[5]),
+        kinetic = sum(k in 0..5: (der(x[k])^2 + der(y[k])^2)/2),
+        potential = sum(k in 0..5: gravity * y[k]),
+        contact(top[k in 0..5]: y[k] >= 0, where x[k] <= 5),
+        start(pushed: x[k in 0..5] = k, der(x[4]) = 2),
+        until = 1,";
+    fs::write(folder.join("shelf.lagrange"), shelf).expect("a file");
+    let output = lagrange_in(&folder, &["run", "shelf.lagrange"]);
+    let story = text(&output.stdout);
+    let modes = [
+        "all 5 contacts closed",
+        "→ top[4] open",
+        "4 of 5 contacts closed",
+    ];
+    for mode in modes {
+        assert!(story.contains(mode), "{story}");
+    }
+    assert!(!story.contains("top[0] closed"), "{story}");
 }
 
 #[test]

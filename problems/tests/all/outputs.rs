@@ -142,6 +142,33 @@ fn every_format_says_the_same() {
     }
 }
 
+/// What is observed stands in JSON as in the table.
+#[test]
+fn json_has_what_is_observed() {
+    let folder = folder("observed");
+    let outputs = ["--output", "run.csv", "--output", "run.json"];
+    run(&folder, &[&["mass-on-wheel"], &outputs[..]].concat());
+    let table = csv_rows(&folder.join("run.csv"));
+    let text = fs::read_to_string(folder.join("run.json")).expect("the run");
+    let run: Value = serde_json::from_str(&text).expect("JSON");
+    let events = run["events"].as_array().expect("events");
+    assert_eq!(events.len(), 3);
+    let switches: Vec<&Row> = table
+        .iter()
+        .filter(|row| row.contains_key("event"))
+        .collect();
+    for name in ["px", "py"] {
+        assert_eq!(run["start"]["outputs"][name], table[0][name]);
+        // The run ends with a stop.
+        assert_eq!(run["final"]["outputs"][name], table[table.len() - 1][name]);
+        let sides = ["outputs", "outputs_after"];
+        let told = events
+            .iter()
+            .flat_map(|event| sides.map(|side| &event[side][name]));
+        assert!(told.eq(switches.iter().map(|row| &row[name])), "{name}");
+    }
+}
+
 #[test]
 fn energies_are_known_at_switches_and_the_modes_are_in_order() {
     let folder = folder("switches");

@@ -22,12 +22,21 @@ pub fn export(file: &File, text: &str, defaults: &[f64]) -> String {
         };
         let _ = writeln!(lines, "            {ident}: {value},");
     }
+    let capital = |field: &Field| field.name.text.chars().any(char::is_uppercase);
+    let allow = match file.declaration.fields.iter().any(capital) {
+        true => "#[allow(non_snake_case)]\n",
+        false => "",
+    };
     format!(
         "use lagrange_core::prelude::*;\n\n\
          {attributes}pub struct {name}{generics} {{\n{fields}}}\n\n\
          impl Default for {name} {{\n    fn default() -> Self {{\n        Self {{\n{lines}        }}\n    }}\n}}\n"
     )
-    .replacen("#[lagrange(", "#[derive(Lagrangian, Clone, Debug)]\n#[lagrange(", 1)
+    .replacen(
+        "#[lagrange(",
+        &format!("#[derive(Lagrangian, Clone, Debug)]\n{allow}#[lagrange("),
+        1,
+    )
 }
 
 /// The struct alone, with plain numbers.

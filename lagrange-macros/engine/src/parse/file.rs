@@ -59,9 +59,9 @@ pub fn file(text: &str, name: &str, sink: &mut Diagnostics) -> Option<File> {
     let mut items = Vec::new();
     if cursor.is_at_end() {
         sink.report(
-            Code::EmptyPart,
+            Code::Expected,
             begin,
-            &[&"`coordinates(x)`, `kinetic = …`"],
+            &[&"items, as `coordinates(x)` and `kinetic = …`", &"none"],
         );
     }
     let mut from = match head.is_empty() {

@@ -11,8 +11,9 @@ use crate::progress::Progress;
 use crate::request::{Refusal, Request};
 use crate::scene::{Beginning, Scene};
 use core::hint::black_box;
+use lagrange_core::mode::Mode;
 use lagrange_core::prelude::*;
-use lagrange_core::system::AnySystem;
+use lagrange_core::system::{AnySystem, Description};
 pub use right_side::{MOVE, Place, RightSide, places};
 use std::time::Instant;
 
@@ -35,8 +36,8 @@ pub struct Cost {
 /// A mode of the run.
 #[derive(Clone, Debug)]
 pub struct ModeCost {
-    /// In words.
-    pub mode: String,
+    /// What is closed, and what sticks.
+    pub mode: Mode,
     /// With all effects.
     pub cost: Cost,
 }
@@ -59,6 +60,8 @@ pub struct EffectCost {
 pub struct Costs {
     /// Name of the scene.
     pub scene: &'static str,
+    /// Names of what is in a mode.
+    pub description: &'static Description,
     /// Modes, in the order in which the run meets them.
     pub modes: Vec<ModeCost>,
     /// Effects, in the order of the declaration.
@@ -148,7 +151,7 @@ fn measure(
     let whole = costs.next().unwrap_or_default();
     let run = runs.next().unwrap_or(Ok(0.0))?;
     let modes = places.iter().zip(whole).filter_map(|(place, cost)| {
-        let mode = place.mode.display(d).to_string();
+        let mode = place.mode.clone();
         cost.map(|cost| ModeCost { mode, cost })
     });
     let effect = |(item, (without, run)): (Item, _)| EffectCost {
@@ -159,6 +162,7 @@ fn measure(
     };
     Ok(Costs {
         scene,
+        description: d,
         modes: modes.collect(),
         effects: items.into_iter().zip(costs.zip(runs)).map(effect).collect(),
         run,

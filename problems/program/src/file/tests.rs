@@ -111,7 +111,10 @@ fn what_only_a_file_has_is_checked() {
             "1:48: `until` is given twice",
         ),
         (format!("{rest}, until = x"), "1:45: `x` is not known"),
-        (String::new(), "1:1: nothing is written here"),
+        (
+            "//! A spring.\n".to_owned(),
+            "1:1: expected items, as `coordinates(x)` and `kinetic = …`, found none",
+        ),
         (
             "kinetic = \"a".to_owned(),
             "1:11: what begins here cannot be read",
@@ -251,6 +254,14 @@ fn what_a_parameter_may_be_is_kept_by_the_file_and_the_struct() {
     );
     assert!(
         rust.contains("#[lagrange(domain = \"nonnegative\")]"),
+        "{rust}"
+    );
+    // A letter that Rust would rather have small is no matter for its user.
+    assert!(!rust.contains("non_snake_case"));
+    let rust = super::export("falling.lagrange", &text.replace("mass", "M"));
+    let rust = rust.expect("a struct").rust;
+    assert!(
+        rust.contains("Debug)]\n#[allow(non_snake_case)]\n#[lagrange("),
         "{rust}"
     );
     let wrong = scene("falling.lagrange", &text.replace("nonnegative", "small"));

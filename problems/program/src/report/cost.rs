@@ -1,7 +1,8 @@
 //! Costs of effects → table, JSON, CSV.
 
 use super::table::page;
-use crate::cost::{Cost, Costs, EffectCost};
+use super::words::in_table;
+use crate::cost::{Cost, Costs, EffectCost, ModeCost};
 use comfy_table::{CellAlignment, ContentArrangement, Table};
 use serde_json::{Value, json};
 use std::io::{self, Write};
@@ -21,7 +22,7 @@ pub fn table(costs: &Costs, mut out: impl Write) -> io::Result<()> {
         } = mode.cost;
         modes.add_row([
             (index + 1).to_string(),
-            mode.mode.clone(),
+            in_table(&mode.mode, costs.description),
             operations.to_string(),
             format!("{nanoseconds:.0}"),
         ]);
@@ -63,7 +64,13 @@ pub fn table(costs: &Costs, mut out: impl Write) -> io::Result<()> {
         out,
         "A whole run with everything takes {:.1} µs. 0: the effect does not act in the mode, and costs nothing there.",
         costs.run * 1e6
-    )
+    )?;
+    for effect in &costs.effects {
+        if let Err(error) = &effect.run {
+            writeln!(out, "Without {} the run fails: {error}", effect.name)?;
+        }
+    }
+    Ok(())
 }
 
 fn align(table: &mut Table, first: usize) {
@@ -113,8 +120,8 @@ pub fn json(costs: &Costs, mut out: impl Write) -> io::Result<()> {
             "run_error": run.err().map(ToString::to_string),
         })
     };
-    let mode =
-        |mode: &crate::cost::ModeCost| json!({ "mode": mode.mode, "cost": cost(&mode.cost) });
+    let words = |mode: &ModeCost| mode.mode.display(costs.description).to_string();
+    let mode = |mode: &ModeCost| json!({ "mode": words(mode), "cost": cost(&mode.cost) });
     let value = json!({
         "scene": costs.scene,
         "run_seconds": costs.run,
@@ -132,11 +139,12 @@ pub fn csv(costs: &Costs, out: impl Write) -> io::Result<()> {
     let mut table = ::csv::Writer::from_writer(out);
     table.write_record(["mode", "without", "operations", "nanoseconds"])?;
     for (index, mode) in costs.modes.iter().enumerate() {
+        let words = mode.mode.display(costs.description).to_string();
         let without = costs.effects.iter().map(|e| (e.name, e.without[index]));
         for (name, cost) in core::iter::once(("", Some(mode.cost))).chain(without) {
             let operations = cost.map(|c| c.operations.to_string()).unwrap_or_default();
             let nanoseconds = cost.map(|c| c.nanoseconds.to_string()).unwrap_or_default();
-            table.write_record([&mode.mode, name, &operations, &nanoseconds])?;
+            table.write_record([&words, name, &operations, &nanoseconds])?;
         }
     }
     table.flush()

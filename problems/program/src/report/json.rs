@@ -4,7 +4,7 @@ use super::certificate::{Verdict, verdict};
 use super::rows::Table;
 use super::{named_state, work_name};
 use crate::notation::{rate_unit, velocity_name};
-use crate::outcome::{Outcome, forces};
+use crate::outcome::{Outcome, Sample, forces};
 use lagrange_core::prelude::*;
 use lagrange_core::system::Description;
 use serde::{Serialize, Serializer};
@@ -79,6 +79,8 @@ struct Instant {
     mode: String,
     state: Numbers,
     forces: Numbers,
+    #[serde(skip_serializing_if = "Numbers::is_empty")]
+    outputs: Numbers,
     /// Names of the forces that the motion leaves open.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     undetermined: Vec<String>,
@@ -100,10 +102,14 @@ pub(super) struct Switch {
     to: String,
     state: Numbers,
     forces: Numbers,
+    #[serde(skip_serializing_if = "Numbers::is_empty")]
+    outputs: Numbers,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     undetermined: Vec<String>,
     state_after: Numbers,
     forces_after: Numbers,
+    #[serde(skip_serializing_if = "Numbers::is_empty")]
+    outputs_after: Numbers,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     undetermined_after: Vec<String>,
     impulses: Numbers,
@@ -282,20 +288,22 @@ fn is_false(flag: &bool) -> bool {
 
 fn report(outcome: &Outcome) -> Report {
     let description = outcome.description;
-    let instant = |sample: &crate::outcome::Sample| Instant {
+    let instant = |sample: &Sample| Instant {
         time: sample.time,
         mode: sample.mode.display(description).to_string(),
         state: state(description, &sample.state),
         forces: rows(description, &sample.forces),
+        outputs: outputs(description, Some(sample)),
         undetermined: flagged(description, &sample.undetermined),
     };
     Report {
         header: named(outcome, units(description)),
         start: outcome.first().map(instant),
-        events: outcome
-            .events
-            .iter()
-            .map(|event| happening(description, event))
+        events: (outcome.events.iter().enumerate())
+            .map(|(index, event)| Happening {
+                time: event.time,
+                switch: switch(outcome, index, event),
+            })
             .collect(),
         last: outcome.last().map(instant),
         energy_over_time: outcome
@@ -308,15 +316,11 @@ fn report(outcome: &Outcome) -> Report {
     }
 }
 
-fn happening(description: &'static Description, event: &Event<f64>) -> Happening {
-    Happening {
-        time: event.time,
-        switch: switch(description, event),
-    }
-}
-
-/// An event, but for its time.
-pub(super) fn switch(description: &'static Description, event: &Event<f64>) -> Switch {
+/// An event, but for its time; it is the one with this number.
+pub(super) fn switch(outcome: &Outcome, index: usize, event: &Event<f64>) -> Switch {
+    let description = outcome.description;
+    let around = outcome.around.get(index);
+    let [before, after] = [0, 1].map(|side| around?[side].as_ref());
     Switch {
         item: event.subject.name(description),
         kind: event.kind.word(),
@@ -324,9 +328,11 @@ pub(super) fn switch(description: &'static Description, event: &Event<f64>) -> S
         to: event.after.display(description).to_string(),
         state: state(description, &event.state),
         forces: rows(description, &event.forces),
+        outputs: outputs(description, before),
         undetermined: flagged(description, &event.undetermined),
         state_after: state(description, &event.state_after),
         forces_after: rows(description, &event.forces_after),
+        outputs_after: outputs(description, after),
         undetermined_after: flagged(description, &event.undetermined_after),
         impulses: rows(description, &event.impulses),
         restitution_lowered: event.restitution_lowered,
@@ -349,6 +355,16 @@ fn rows(description: &Description, values: &[f64]) -> Numbers {
             .map(|force| (force.name, values[force.row]))
             .collect(),
     )
+}
+
+/// What the declaration observes; nothing where that is not known, as between two events of one instant.
+fn outputs(description: &Description, sample: Option<&Sample>) -> Numbers {
+    let values = sample.map_or(&[][..], |sample| &sample.observes);
+    let names = description
+        .observes
+        .iter()
+        .map(|output| output.name.to_owned());
+    Numbers(names.zip(values.iter().copied()).collect())
 }
 
 /// Names of the flagged rows.

@@ -21,8 +21,8 @@ pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
                 let cells = table.cells(&row);
                 line(&mut out, &Line::Sample(Fields(&columns, cells)))?;
             }
-            Row::Before(_, event) => {
-                let switch = switch(outcome.description, event);
+            Row::Before(index, event) => {
+                let switch = switch(outcome, index, event);
                 line(
                     &mut out,
                     &Line::Event(Instant {

@@ -4,6 +4,7 @@
 //! impulses instead. Numbers of a column have the same number of decimals, so that they can be compared by eye.
 
 use super::telling;
+use super::words::{in_table, switch_in_table};
 use crate::notation::{is_angle, symbol};
 use crate::outcome::{Force, Outcome, Sample, forces};
 use comfy_table::{
@@ -96,15 +97,10 @@ fn entries(outcome: &Outcome, items: &[Force]) -> Vec<Line> {
         upper: acting(&sample.forces, &sample.mode),
         lower: Vec::new(),
         impulse: false,
-        mode: sample.mode.display(description).to_string(),
+        mode: in_table(&sample.mode, description),
     };
     let happening = |(index, event): (usize, &Event<f64>)| {
-        let told = |mode: &Mode, other| mode.display_beside(other, description).to_string();
-        let (before, after) = (
-            told(&event.before, &event.after),
-            told(&event.after, &event.before),
-        );
-        let changes = before != after;
+        let (mode, changes) = switch_in_table(&event.before, &event.after, description);
         let impulse = event.kind == EventKind::Impact;
         Line {
             time: event.time,
@@ -129,11 +125,7 @@ fn entries(outcome: &Outcome, items: &[Force]) -> Vec<Line> {
                 false => acting(&event.forces_after, &event.after),
             },
             impulse,
-            mode: if changes {
-                format!("{before}\n→ {after}")
-            } else {
-                event.before.display(description).to_string()
-            },
+            mode,
         }
     };
     let mut lines: Vec<Line> = outcome
@@ -313,7 +305,16 @@ fn story(outcome: &Outcome) -> Table {
             column.set_constraint(ColumnConstraint::LowerBoundary(Width::Fixed(12)));
         }
         if index == numbers {
-            column.set_constraint(ColumnConstraint::LowerBoundary(Width::Fixed(18)));
+            // Beside many numbers, which are wider than a page, modes need not be narrow.
+            let most = if shown.len() + items.len() > NUMBERS {
+                40
+            } else {
+                18
+            };
+            let modes = lines.iter().flat_map(|line| line.mode.lines());
+            let longest = modes.map(|mode| mode.chars().count()).max().unwrap_or(0);
+            let least = longest.clamp(18, most) as u16;
+            column.set_constraint(ColumnConstraint::LowerBoundary(Width::Fixed(least)));
         }
     }
     table

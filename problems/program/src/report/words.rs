@@ -6,13 +6,92 @@ use lagrange_core::system::Description;
 /// So many of a kind that do the same are told together.
 const MANY: usize = 3;
 
+/// In a table, so many contacts and frictions are told one by one.
+const FEW: usize = 4;
+
+/// A name with what it does: singular and plural.
+type Doing = (&'static str, [&'static str; 2]);
+
 /// `rim closed, grip sticks`, and of many `all 4 closed, a and b stick, the other 2 slip`.
 pub(crate) fn brief(mode: &Mode, description: &Description) -> String {
+    let (contacts, frictions) = (contacts(mode, description), frictions(mode, description));
+    let mut told = together(&contacts, "contacts", contacts.len());
+    told.extend(together(&frictions, "frictions", frictions.len()));
+    told.extend(mode.sides(description).map(str::to_owned));
+    joined(&told)
+}
+
+/// A mode in a table: item by item, or in brief where there are many.
+pub(crate) fn in_table(mode: &Mode, description: &Description) -> String {
+    match are_few(description) {
+        true => mode.display(description).to_string(),
+        false => brief(mode, description),
+    }
+}
+
+/// A mode and the one that follows it in a table, and whether they differ. Of many items the second line has those that have changed.
+pub(crate) fn switch_in_table(
+    before: &Mode,
+    after: &Mode,
+    description: &Description,
+) -> (String, bool) {
+    let beside = |mode: &Mode, other| mode.display_beside(other, description).to_string();
+    let (first, second) = (beside(before, after), beside(after, before));
+    if first == second {
+        return (in_table(before, description), false);
+    }
+    let told = match are_few(description) {
+        true => format!("{first}\n→ {second}"),
+        false => {
+            let changed = changed(before, after, description);
+            format!("{}\n→ {changed}", brief(before, description))
+        }
+    };
+    (told, true)
+}
+
+/// What a mode does that the one before it did not.
+fn changed(before: &Mode, after: &Mode, description: &Description) -> String {
+    let new = |now: Vec<Doing>, then: Vec<Doing>, kind| {
+        let all = now.len();
+        let new: Vec<Doing> = now.into_iter().filter(|one| !then.contains(one)).collect();
+        together(&new, kind, all)
+    };
+    let of_contacts = [after, before].map(|mode| contacts(mode, description));
+    let of_frictions = [after, before].map(|mode| frictions(mode, description));
+    let ([now, then], [rubs, rubbed]) = (of_contacts, of_frictions);
+    let mut told = new(now, then, "contacts");
+    told.extend(new(rubs, rubbed, "frictions"));
+    let sides: Vec<&str> = before.sides(description).collect();
+    let other = after
+        .sides(description)
+        .filter(|side| !sides.contains(side));
+    told.extend(other.map(str::to_owned));
+    joined(&told)
+}
+
+fn are_few(description: &Description) -> bool {
+    description.contacts.len() + description.frictions.len() <= FEW
+}
+
+fn joined(told: &[String]) -> String {
+    match told.is_empty() {
+        true => "smooth".to_owned(),
+        false => told.join(", "),
+    }
+}
+
+fn contacts(mode: &Mode, description: &Description) -> Vec<Doing> {
     let contacts = description.contacts.iter().zip(&mode.contacts);
     let contacts = contacts.map(|(contact, closed)| match closed {
         true => (contact.name, ["closed", "closed"]),
         false => (contact.name, ["open", "open"]),
     });
+    contacts.collect()
+}
+
+/// The frictions that act.
+fn frictions(mode: &Mode, description: &Description) -> Vec<Doing> {
     let frictions = description.frictions.iter().zip(&mode.frictions);
     let frictions = frictions.filter_map(|(friction, state)| {
         let verbs = match state {
@@ -26,17 +105,11 @@ pub(crate) fn brief(mode: &Mode, description: &Description) -> String {
         };
         Some((friction.name, verbs))
     });
-    let mut told = together(&contacts.collect::<Vec<_>>(), "contacts");
-    told.extend(together(&frictions.collect::<Vec<_>>(), "frictions"));
-    told.extend(mode.sides(description).map(str::to_owned));
-    match told.is_empty() {
-        true => "smooth".to_owned(),
-        false => told.join(", "),
-    }
+    frictions.collect()
 }
 
-/// Names of one kind with what each does: singular and plural.
-fn together(items: &[(&str, [&'static str; 2])], kind: &str) -> Vec<String> {
+/// Names of one kind, of which there are so many in all, with what each does: singular and plural.
+fn together(items: &[(&str, [&'static str; 2])], kind: &str, count: usize) -> Vec<String> {
     let mut verbs: Vec<[&str; 2]> = Vec::new();
     for (_, verb) in items {
         if !verbs.contains(verb) {
@@ -50,11 +123,11 @@ fn together(items: &[(&str, [&'static str; 2])], kind: &str) -> Vec<String> {
             .map(|(name, _)| *name)
             .collect();
         match names.as_slice() {
-            all if all.len() == items.len() && all.len() >= MANY => {
+            all if all.len() == count && all.len() >= MANY => {
                 format!("all {} {kind} {several}", all.len())
             }
             many if many.len() > MANY => {
-                format!("{} of {} {kind} {several}", many.len(), items.len())
+                format!("{} of {count} {kind} {several}", many.len())
             }
             [name] => format!("{name} {one}"),
             [first @ .., last] => format!("{} and {last} {several}", first.join(", ")),
@@ -75,7 +148,7 @@ mod tests {
                 .iter()
                 .map(|(name, verb)| (*name, [*verb, *verb]))
                 .collect();
-            together(&items, "contacts").join(", ")
+            together(&items, "contacts", 4.min(items.len())).join(", ")
         };
         assert_eq!(say(&[("rim", "closed")]), "rim closed");
         assert_eq!(say(&[("a", "open"), ("b", "open")]), "a and b open");

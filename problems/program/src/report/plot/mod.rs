@@ -38,6 +38,9 @@ const FOOT: u32 = 18 * FINE;
 const KEY_LINE: u32 = 20 * FINE;
 /// Room for the names of the curves, right of the panels.
 const NAMES: u32 = 150 * FINE;
+/// Height of each of them, and how many are written.
+const NAME_LINE: u32 = 19 * FINE;
+const MOST_NAMES: usize = 40;
 /// Width of a letter of a name, about.
 const LETTER: u32 = 7 * FINE;
 /// Room around the key.
@@ -113,10 +116,14 @@ pub fn svg(runs: &[Run], shows: &[Show]) -> Result<String, String> {
             .get(i + 1)
             .is_none_or(|next| next.over != panels[i].over)
     };
-    let heights = (0..panels.len()).map(|i| match (alone(i), &panels[i].over) {
-        (true, Quantity::Time) => PANEL + AXIS,
-        (true, _) => PORTRAIT + AXIS,
-        (false, _) => PANEL,
+    let heights = (0..panels.len()).map(|i| {
+        let (panel, axis) = match (alone(i), &panels[i].over) {
+            (true, Quantity::Time) => (PANEL, AXIS),
+            (true, _) => (PORTRAIT, AXIS),
+            (false, _) => (PANEL, 0),
+        };
+        let names = panels[i].curves.len().min(MOST_NAMES + 1) as u32 * NAME_LINE;
+        panel.max(names + FOOT) + axis
     });
     let heights: Vec<u32> = heights.collect();
     let body: u32 = heights.iter().sum();

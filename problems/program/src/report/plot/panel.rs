@@ -1,7 +1,10 @@
 //! One panel of curves over shaded bands, and the key of the modes.
 
 use super::curves::{Bands, Curve, Panel, pieces, with_comma};
-use super::{Area, COLOURS, Drawn, FINE, KEY_LINE, LETTER, MARGIN, NAMES, TINTS, WIDTH, px, words};
+use super::{
+    Area, COLOURS, Drawn, FINE, KEY_LINE, LETTER, MARGIN, MOST_NAMES, NAME_LINE, NAMES, TINTS,
+    WIDTH, px, words,
+};
 use crate::outcome::Outcome;
 use crate::quantity::Quantity;
 use plotters::prelude::*;
@@ -137,8 +140,9 @@ fn draw_names<'a>(area: &Area<'a>, panel: &Panel, frame: &Frame) -> Drawn<'a> {
     let style = words(13, &BLACK, HPos::Left, VPos::Center);
     let left = (WIDTH - NAMES) as i32 + px(10);
     let (d, several) = (frame.outcomes[0].description, frame.outcomes.len() > 1);
-    for (order, curve) in panel.curves.iter().enumerate() {
-        let y = px(16 + order as i32 * 19);
+    let line = |order: usize| px(16) + order as i32 * NAME_LINE as i32;
+    for (order, curve) in panel.curves.iter().take(MOST_NAMES).enumerate() {
+        let y = line(order);
         let (colour, dash) = look(curve, order, several);
         sample(area, (left, y), COLOURS[colour % COLOURS.len()], dash)?;
         area.draw(&Text::new(
@@ -146,6 +150,10 @@ fn draw_names<'a>(area: &Area<'a>, panel: &Panel, frame: &Frame) -> Drawn<'a> {
             (left + px(28), y),
             style.clone(),
         ))?;
+    }
+    if let Some(more) = panel.curves.len().checked_sub(MOST_NAMES + 1) {
+        let more = format!("and {} more", more + 1);
+        area.draw(&Text::new(more, (left + px(28), line(MOST_NAMES)), style))?;
     }
     Ok(())
 }
