@@ -12,8 +12,8 @@
 use crate::arithmetic::Pack;
 pub use crate::arithmetic::number::Registers;
 use crate::arithmetic::number::{self, Body, Number};
-pub use crate::arithmetic::products::{Factors, Products};
-pub use crate::program::{ROW, Row, STRIDE};
+pub use crate::arithmetic::products::{Factors, Products, STRIDE};
+pub use crate::program::{ROW, Row};
 use crate::program::{Selection, ValueRef};
 use core::marker::PhantomData;
 

@@ -9,7 +9,9 @@
 //! from memory: what has just been written there in parts would have to be waited for.
 
 use super::{Number, Registers};
-use crate::program::STRIDE;
+
+/// Coefficients that are kept of a series at most, a power of two: the highest order is 28, and velocities are known to one order more.
+pub const STRIDE: usize = 32;
 
 /// Products that are summed side by side.
 pub(crate) const GROUP: usize = 4;

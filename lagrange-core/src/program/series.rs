@@ -17,6 +17,7 @@
 //! methods, section 2; Griewank & Walther 2008, Evaluating Derivatives, chapter 13.
 
 use super::instruction::{Instruction, Op, Program, Register, with_registers};
+use crate::arithmetic::products::STRIDE;
 use crate::arithmetic::{Number, Pack, Scalar};
 
 /// No row is kept.
@@ -25,8 +26,6 @@ const NO_ROW: u32 = u32::MAX;
 /// Coefficients 0, 1, … of one series.
 pub type Row<N> = [N; ROW];
 
-/// Coefficients of a [`Row`] at most, a power of two: the highest order is 28, and velocities are known to one order more.
-pub const STRIDE: usize = 32;
 /// Places of a [`Row`]. Rows that lie a power of two apart share few lines of the cache: a chain of five links took a third longer.
 pub const ROW: usize = STRIDE + 1;
 

@@ -305,12 +305,13 @@ impl<T: Scalar> Run<T> {
     }
 
     /// Contacts that have closed may bring others with them: a beam on two of its four supports lies on all. Their gaps and rates vanish, and
-    /// nothing but rounding would tell later which of them closes when.
+    /// nothing but rounding would tell later which of them closes when. What an impact has thrown off is among them where the impacts
+    /// of the others end with it.
     fn take_what_touches(&mut self, facts: &mut SwitchFacts) {
         let d = self.description();
         let may = |run: &Self, facts: &SwitchFacts, c: usize| {
             let takes_part = run.dynamics.effects().includes(d, Item::Contact(c));
-            takes_part && !(facts.touching[c] || facts.parting[c] || run.now.below[c])
+            takes_part && !(facts.touching[c] || run.now.below[c])
         };
         let contacts = 0..d.contacts.len();
         if !contacts.clone().any(|c| may(self, facts, c)) {
