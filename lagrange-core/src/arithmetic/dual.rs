@@ -220,7 +220,6 @@ impl<T: Scalar, const N: usize> Num for Dual<T, N> {
 }
 
 impl<T: Scalar, const N: usize> Scalar for Dual<T, N> {
-    super::scalar::one_by_one!();
     const DERIVATIVES: usize = T::DERIVATIVES + 1;
     #[inline(always)]
     fn from_f64(x: f64) -> Self {

@@ -24,7 +24,8 @@ use core::fmt::Debug;
     note = "numbers are `f64`, `f32` and `Dual`"
 )]
 pub trait Scalar:
-    nalgebra::Scalar
+    products::Fours
+    + nalgebra::Scalar
     + Copy
     + Debug
     + Default
@@ -79,27 +80,4 @@ pub trait Scalar:
     fn fused(self, y: Self, z: Self) -> Self {
         self * y + z
     }
-    /// Four numbers side by side, in one register where there are such.
-    #[doc(hidden)]
-    type Four: Copy + Debug + Send + Sync + 'static;
-    /// Whether that is one register.
-    #[doc(hidden)]
-    const IN_REGISTERS: bool = false;
-    /// Four zeros.
-    #[doc(hidden)]
-    fn zeros() -> Self::Four;
-    /// Four numbers.
-    #[doc(hidden)]
-    fn four(registers: Registers, numbers: [Self; products::GROUP]) -> Self::Four;
-    /// The numbers again.
-    #[doc(hidden)]
-    fn numbers(four: Self::Four) -> [Self; products::GROUP];
-    /// x y + z of each, rounded once.
-    #[doc(hidden)]
-    fn add_products(
-        registers: Registers,
-        x: Self::Four,
-        y: Self::Four,
-        z: Self::Four,
-    ) -> Self::Four;
 }

@@ -1,17 +1,15 @@
 //! What the equations of a mode work with: a number, or the numbers of several motions side by side.
 
 use super::pack::each_lane;
-use super::products::GROUP;
+use super::products::Fours;
 use super::{Pack, Scalar};
-
-use core::fmt::Debug;
 #[cfg(target_arch = "x86_64")]
 use core::marker::PhantomData;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A number of a motion, or one of each of several motions: every operation gives each what it would give it alone.
 pub trait Number:
-    Copy
+    Fours
     + Add<Output = Self>
     + Sub<Output = Self>
     + Mul<Output = Self>
@@ -25,23 +23,6 @@ pub trait Number:
     fn mul_add(self, y: Self, z: Self) -> Self;
     /// x y + z, rounded once, for code that is compiled for [`Registers`].
     fn fused(self, y: Self, z: Self) -> Self;
-    /// Four numbers side by side.
-    type Four: Copy + Debug + Send + Sync + 'static;
-    /// Whether a register takes them.
-    const IN_REGISTERS: bool;
-    /// Four zeros.
-    fn zeros() -> Self::Four;
-    /// Four numbers. What is read at once is written at once, or the processor waits.
-    fn four(registers: Registers, numbers: [Self; GROUP]) -> Self::Four;
-    /// The numbers again.
-    fn numbers(four: Self::Four) -> [Self; GROUP];
-    /// x y + z of each, as [`Self::fused`].
-    fn add_products(
-        registers: Registers,
-        x: Self::Four,
-        y: Self::Four,
-        z: Self::Four,
-    ) -> Self::Four;
     /// √x
     fn sqrt(self) -> Self;
     /// eˣ
@@ -158,24 +139,6 @@ impl<T: Scalar> Number for T {
     fn fused(self, y: Self, z: Self) -> Self {
         Scalar::fused(self, y, z)
     }
-    type Four = T::Four;
-    const IN_REGISTERS: bool = T::IN_REGISTERS;
-    #[inline(always)]
-    fn zeros() -> T::Four {
-        T::zeros()
-    }
-    #[inline(always)]
-    fn four(registers: Registers, numbers: [T; GROUP]) -> T::Four {
-        T::four(registers, numbers)
-    }
-    #[inline(always)]
-    fn numbers(four: T::Four) -> [T; GROUP] {
-        T::numbers(four)
-    }
-    #[inline(always)]
-    fn add_products(registers: Registers, x: T::Four, y: T::Four, z: T::Four) -> T::Four {
-        T::add_products(registers, x, y, z)
-    }
     #[inline(always)]
     fn sqrt(self) -> Self {
         Scalar::sqrt(self)
@@ -256,21 +219,6 @@ impl<T: Scalar> Number for T {
     }
 }
 
-/// x y + z of each, one by one.
-#[inline(always)]
-pub(super) fn add_one_by_one<N: Number>(
-    x: [N; GROUP],
-    y: [N; GROUP],
-    mut z: [N; GROUP],
-) -> [N; GROUP] {
-    let mut number = 0;
-    while number < GROUP {
-        z[number] = x[number].fused(y[number], z[number]);
-        number += 1;
-    }
-    z
-}
-
 /// The same for every motion.
 macro_rules! each {
     ($($name:ident $(, $argument:ident)*;)*) => {$(
@@ -298,24 +246,6 @@ impl<T: Scalar, const L: usize> Number for Pack<T, L> {
     #[inline(always)]
     fn of(x: f64) -> Self {
         Pack([T::from_f64(x); L])
-    }
-    type Four = [Self; GROUP];
-    const IN_REGISTERS: bool = false;
-    #[inline(always)]
-    fn zeros() -> Self::Four {
-        [Self::of(0.0); GROUP]
-    }
-    #[inline(always)]
-    fn four(_: Registers, numbers: [Self; GROUP]) -> Self::Four {
-        numbers
-    }
-    #[inline(always)]
-    fn numbers(four: Self::Four) -> [Self; GROUP] {
-        four
-    }
-    #[inline(always)]
-    fn add_products(_: Registers, x: Self::Four, y: Self::Four, z: Self::Four) -> Self::Four {
-        add_one_by_one(x, y, z)
     }
     each! {
         mul_add, y, z;

@@ -8,13 +8,119 @@
 //! coefficients, j = 1 and j = k − 1, enter last: a processor can begin with the others before those are known. They are not read
 //! from memory: what has just been written there in parts would have to be waited for.
 
-use super::{Number, Registers};
+use super::{Dual, Number, Pack, Registers, Scalar};
+use core::fmt::Debug;
 
 /// Coefficients that are kept of a series at most, a power of two: the highest order is 28, and velocities are known to one order more.
 pub const STRIDE: usize = 32;
 
 /// Products that are summed side by side.
 pub(crate) const GROUP: usize = 4;
+
+/// Numbers of which four lie side by side, in one register where there are such.
+pub trait Fours: Copy {
+    /// Four numbers.
+    type Four: Copy + Debug + Send + Sync + 'static;
+    /// Whether a register takes them.
+    const IN_REGISTERS: bool = false;
+    /// Four zeros.
+    fn zeros() -> Self::Four;
+    /// Four numbers. What is read at once is written at once, or the processor waits.
+    fn four(registers: Registers, numbers: [Self; GROUP]) -> Self::Four;
+    /// The numbers again.
+    fn numbers(four: Self::Four) -> [Self; GROUP];
+    /// x y + z of each, as [`Number::fused`].
+    fn add_products(
+        registers: Registers,
+        x: Self::Four,
+        y: Self::Four,
+        z: Self::Four,
+    ) -> Self::Four;
+}
+
+/// Four machine numbers in a register.
+#[cfg(target_arch = "x86_64")]
+macro_rules! in_registers {
+    ($type:ident, $four:ident, $set:ident.$setter:ident, $fma:ident) => {
+        impl Fours for $type {
+            type Four = core::arch::x86_64::$four;
+            const IN_REGISTERS: bool = true;
+            #[inline(always)]
+            fn zeros() -> Self::Four {
+                pulp::cast([0.0 as $type; GROUP])
+            }
+            #[inline(always)]
+            fn four(registers: Registers, x: [Self; GROUP]) -> Self::Four {
+                registers.$set.$setter(x[0], x[1], x[2], x[3])
+            }
+            #[inline(always)]
+            fn numbers(four: Self::Four) -> [Self; GROUP] {
+                pulp::cast(four)
+            }
+            #[inline(always)]
+            fn add_products(
+                r: Registers,
+                x: Self::Four,
+                y: Self::Four,
+                z: Self::Four,
+            ) -> Self::Four {
+                r.fma.$fma(x, y, z)
+            }
+        }
+    };
+}
+
+/// Four numbers in memory.
+macro_rules! one_by_one {
+    () => {
+        type Four = [Self; GROUP];
+        #[inline(always)]
+        fn zeros() -> Self::Four {
+            [Self::of(0.0); GROUP]
+        }
+        #[inline(always)]
+        fn four(_: Registers, numbers: Self::Four) -> Self::Four {
+            numbers
+        }
+        #[inline(always)]
+        fn numbers(four: Self::Four) -> Self::Four {
+            four
+        }
+        #[inline(always)]
+        fn add_products(
+            _: Registers,
+            x: Self::Four,
+            y: Self::Four,
+            mut z: Self::Four,
+        ) -> Self::Four {
+            let mut number = 0;
+            while number < GROUP {
+                z[number] = Number::fused(x[number], y[number], z[number]);
+                number += 1;
+            }
+            z
+        }
+    };
+}
+
+#[cfg(target_arch = "x86_64")]
+in_registers!(f64, __m256d, avx._mm256_setr_pd, _mm256_fmadd_pd);
+#[cfg(target_arch = "x86_64")]
+in_registers!(f32, __m128, sse._mm_setr_ps, _mm_fmadd_ps);
+#[cfg(not(target_arch = "x86_64"))]
+impl Fours for f64 {
+    one_by_one!();
+}
+#[cfg(not(target_arch = "x86_64"))]
+impl Fours for f32 {
+    one_by_one!();
+}
+impl<T: Scalar, const N: usize> Fours for Dual<T, N> {
+    one_by_one!();
+}
+impl<T: Scalar, const L: usize> Fours for Pack<T, L> {
+    one_by_one!();
+}
 
 /// The factors of four products, coefficient by coefficient.
 #[derive(Clone, Debug)]
