@@ -19,6 +19,9 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use store::Store;
 
+/// How the name of a file ends that is not yet whole.
+const UNFINISHED: &str = ".unfinished";
+
 /// Most bytes of results that are kept in memory.
 const MOST_IN_MEMORY: f64 = 2e9;
 
@@ -234,7 +237,12 @@ impl Journal {
         let gone = |path: &Path| {
             fs::remove_file(path).map_err(|error| Trouble::File(path.to_owned(), error))
         };
-        for (path, _) in files(&folder)? {
+        let unfinished = entries(&folder)?.into_iter().filter(|path| {
+            let name = path.file_name().and_then(|name| name.to_str());
+            name.is_some_and(|name| name.starts_with("sweep.") && name.ends_with(UNFINISHED))
+        });
+        let rows = files(&folder)?.into_iter().map(|(path, _)| path);
+        for path in rows.chain(unfinished) {
             gone(&path)?;
         }
         gone(&folder.join("sweep.toml"))?;
@@ -324,23 +332,30 @@ fn name(shard: Shard) -> String {
 
 /// The files of shards in a folder, by shard.
 fn files(folder: &Path) -> Result<Vec<(PathBuf, Shard)>, Trouble> {
-    let cannot = |error| Trouble::File(folder.to_owned(), error);
-    let mut files = Vec::new();
-    for entry in fs::read_dir(folder).map_err(cannot)? {
-        let entry = entry.map_err(cannot)?;
-        let known = entry.file_name();
-        let shard = known.to_str().and_then(|name| name.strip_prefix("rows-"));
-        let shard = shard.and_then(|shard| shard.replace("-of-", "/").parse().ok());
-        files.extend(shard.map(|shard| (entry.path(), shard)));
-    }
+    let mut files: Vec<_> = entries(folder)?
+        .into_iter()
+        .filter_map(|path| {
+            let name = path.file_name()?.to_str()?.strip_prefix("rows-")?;
+            let shard = name.replace("-of-", "/").parse().ok()?;
+            Some((path, shard))
+        })
+        .collect();
     files.sort();
     Ok(files)
+}
+
+/// What is in a folder.
+fn entries(folder: &Path) -> Result<Vec<PathBuf>, Trouble> {
+    let paths =
+        fs::read_dir(folder).and_then(|entries| entries.map(|entry| Ok(entry?.path())).collect());
+    paths.map_err(|error| Trouble::File(folder.to_owned(), error))
 }
 
 /// Writes a file so that it is there whole, or not at all.
 fn replace(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
     // Shards may begin at the same time: each has a name of its own for it, and what they write is the same.
-    let unfinished = path.with_extension(format!("{}.unfinished", std::process::id()));
+    // One that was killed before the second step leaves it; it goes with the folder.
+    let unfinished = path.with_extension(format!("{}{UNFINISHED}", std::process::id()));
     fs::write(&unfinished, bytes)?;
     fs::rename(&unfinished, path)
 }
