@@ -9,7 +9,6 @@
 //! The linear system of the mode is solved on the way, by pivots chosen at build time. A pivot that is not safe for the numbers at
 //! hand is refused; the core then looks for better ones.
 
-use crate::arithmetic::Pack;
 pub use crate::arithmetic::number::Registers;
 use crate::arithmetic::number::{self, Body, Number};
 pub use crate::arithmetic::products::{Factors, Products, STRIDE};
@@ -80,12 +79,6 @@ pub type SeriesFn<N> = fn(
     &mut [Row<N>],
     &mut [Products<N>],
 ) -> Result<(), Refused>;
-
-/// Motions side by side, each in a lane of its own.
-pub const LANES: usize = 4;
-
-/// The same for several motions.
-pub type LaneSeriesFn<T> = SeriesFn<Pack<T, LANES>>;
 
 /// The series of a mode, for any kind of number: what a [`SeriesFn`] does.
 pub trait ModeSeries<N: Number> {

@@ -6,12 +6,12 @@
 
 use crate::arithmetic::{Dual, Scalar};
 use crate::certificate::{self, Certificate};
-use crate::dynamics::{Dynamics, EvaluationError};
+use crate::dynamics::{Dynamics, EvaluationError, Packets};
 use crate::effects::Effects;
 use crate::error::Error;
 use crate::integrate::Acceleration;
 use crate::run::Run;
-use crate::run::lockstep::{Member, Together, go_on};
+use crate::run::lockstep::{Member, go_on};
 use crate::settings::Settings;
 use crate::state::{FixedComponents, State};
 use crate::system::Erased;
@@ -50,7 +50,7 @@ pub struct Functions<T: Scalar> {
     pub(crate) run: fn(Erased<T>, &Settings) -> Run<T>,
     pub(crate) execute: Execute<T>,
     pub(crate) launch: Launch<T>,
-    pub(crate) go_on: fn(&mut Together<T>, &mut [Member<'_, T>]),
+    pub(crate) go_on: fn(&mut Packets<T>, &mut [Member<'_, T>]),
     pub(crate) land: fn(&mut Run<T>, &mut Trajectory<T>),
     pub(crate) set_system: fn(&mut Run<T>, Erased<T>),
     pub(crate) consistent: Consistent<T>,

@@ -1,6 +1,6 @@
 //! One mode's functions with the memory that they work in.
 
-use crate::arithmetic::{Pack, Scalar, epsilon};
+use crate::arithmetic::{Scalar, epsilon};
 use crate::effects::{Effects, Item};
 use crate::equations::{
     Arguments, FrictionState, ModeStructure, Products, ROW, Refused, Row, SeriesFn, ValueFn,
@@ -27,8 +27,6 @@ pub(super) struct Emitted<T: Scalar> {
     /// Factors of products of series.
     products: Vec<Products<T>>,
     order: usize,
-    /// Rows that are read: state, forces, what guards are made of.
-    read: Vec<usize>,
     /// Coefficient 0 of the rows that are read, at the last value that was asked for them.
     values: Vec<T>,
     /// By node: its row.
@@ -85,12 +83,6 @@ impl<T: Scalar> Emitted<T> {
         let (index, structure, signs) =
             matching.find_map(|(index, s)| Some((index, s, signs(s, mode)?)))?;
         let zero = T::default();
-        let extras = structure.motion.iter().chain(structure.report);
-        let mut read: Vec<usize> = (0..2 * d.coordinates.len() + d.rows.len())
-            .chain(extras.map(|&(_, row)| row))
-            .collect();
-        read.sort_unstable();
-        read.dedup();
         Some(Self {
             index,
             structure,
@@ -102,7 +94,6 @@ impl<T: Scalar> Emitted<T> {
             rows: vec![[zero; ROW]; structure.rows],
             products: vec![Products::default(); structure.products],
             order: 0,
-            read,
             values: vec![zero; structure.rows],
             motion_rows: rows_by_node(d.motion.outputs, structure.motion),
             report_rows: rows_by_node(d.report.outputs, structure.report),
@@ -191,32 +182,6 @@ impl<T: Scalar> Emitted<T> {
         self.order = order;
         let (rows, products) = (&mut self.rows, &mut self.products);
         (self.series)(&self.constants, held, order, state, rows, products)
-    }
-
-    /// Which of the structures of the system it is.
-    pub(super) fn index(&self) -> usize {
-        self.index
-    }
-
-    /// The numbers that depend on parameters alone.
-    pub(super) fn constants(&self) -> &[T] {
-        &self.constants
-    }
-
-    /// Takes coefficients 0…`order` from those of several motions side by side.
-    pub(super) fn take_lane<const L: usize>(
-        &mut self,
-        rows: &[Row<Pack<T, L>>],
-        lane: usize,
-        order: usize,
-    ) {
-        self.order = order;
-        for &row in &self.read {
-            let packs = rows[row][..=order].iter();
-            for (own, pack) in self.rows[row].iter_mut().zip(packs) {
-                *own = pack.0[lane];
-            }
-        }
     }
 
     #[inline(always)]

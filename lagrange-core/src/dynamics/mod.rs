@@ -10,7 +10,6 @@ mod emitted;
 mod error;
 mod interpreted;
 mod jacobian;
-mod lanes;
 mod matrices;
 mod output_mask;
 mod owner;
@@ -24,7 +23,6 @@ pub(crate) mod tests;
 mod values;
 
 pub use error::{EvaluationError, row_name};
-pub(crate) use lanes::{Lanes, Start};
 #[doc(hidden)]
 pub use output_mask::{OutputMask, add_branch_guards, add_guards};
 pub(crate) use packets::Packets;

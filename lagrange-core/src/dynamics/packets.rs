@@ -6,9 +6,11 @@
 use super::Dynamics;
 use super::interpreted::{Extent, Shape};
 use crate::arithmetic::{Pack, Scalar};
-use crate::equations::LANES;
 use crate::program::Series;
 use std::sync::Arc;
+
+/// Motions in a packet.
+pub(crate) const LANES: usize = 4;
 
 type Lanes<T> = Pack<T, LANES>;
 

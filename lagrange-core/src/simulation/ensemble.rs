@@ -1,10 +1,9 @@
 //! Many runs of one system, several at a time.
 
 use super::Runner;
-use crate::dynamics::{Lanes, Packets};
+use crate::dynamics::Packets;
 use crate::error::Error;
 use crate::precompiled::Runnable;
-use crate::run::lockstep::Together;
 use crate::settings::{Goal, Settings};
 use crate::system::System;
 use crate::trajectory::{State, Trajectory};
@@ -14,9 +13,9 @@ use core::ops::Range;
 /// no longer stay in the cache, which costs more.
 const MAX_IN_FLIGHT: usize = 4;
 
-/// Runs many motions of one system, with other parameters or from other states, several at a time. The Taylor series of those in
-/// the same mode share the instructions of the processor (SIMD), each in a lane of its own. A motion comes out, bit for bit, as it
-/// would alone; which others run beside it does not matter.
+/// Runs many motions of one system, with other parameters or from other states, several at a time. Where its equations are interpreted,
+/// the Taylor series of those in the same mode share the instructions of the processor (SIMD), each in a lane of its own. A motion comes
+/// out, bit for bit, as it would alone; which others run beside it does not matter.
 ///
 /// Made by [`Simulation::ensemble`](crate::Simulation::ensemble).
 ///
@@ -59,7 +58,7 @@ pub struct Ensemble<S: System> {
     scene: S,
     settings: Settings,
     runners: Vec<Runner<S>>,
-    together: Together<S::Scalar>,
+    packets: Packets<S::Scalar>,
 }
 
 impl<S: System<Scalar: Runnable>> Ensemble<S> {
@@ -68,10 +67,7 @@ impl<S: System<Scalar: Runnable>> Ensemble<S> {
             scene: scene.copy(),
             settings: settings.clone(),
             runners: Vec::new(),
-            together: Together {
-                lanes: Lanes::new(scene.lane_series()),
-                packets: Packets::new(),
-            },
+            packets: Packets::new(),
         }
     }
 
@@ -116,7 +112,7 @@ impl<S: System<Scalar: Runnable>> Ensemble<S> {
             if members.is_empty() {
                 return;
             }
-            (S::Scalar::functions().go_on)(&mut self.together, &mut members);
+            (S::Scalar::functions().go_on)(&mut self.packets, &mut members);
             let outcomes: Vec<_> = members.into_iter().map(|m| m.outcome).collect();
             let mut outcomes = outcomes.into_iter();
             for (runner, under_way) in self.runners.iter_mut().zip(&mut under_way) {

@@ -7,7 +7,7 @@ use super::{Description, Selection, System};
 use crate::arithmetic::Scalar;
 use crate::declaration::Declaration;
 use crate::derivation::Derivation;
-use crate::equations::{LaneSeriesFn, ModeStructure, SeriesFn, ValueFn};
+use crate::equations::{ModeStructure, SeriesFn, ValueFn};
 use core::fmt;
 use std::sync::Arc;
 
@@ -73,24 +73,13 @@ pub(crate) type Erased<T> = Arc<dyn ErasedSystem<T>>;
 #[derive(Clone, Debug)]
 pub struct AnySystem<T: Scalar> {
     pub(crate) system: Erased<T>,
-    lanes: &'static [LaneSeriesFn<T>],
 }
 
 impl<T: Scalar> AnySystem<T> {
     /// Forgets the type of a system.
     pub fn new<S: System<Scalar = T>>(system: S) -> Self {
-        let lanes = system.lane_series();
         Self {
             system: Arc::new(system),
-            lanes,
-        }
-    }
-
-    /// The same, for runs that are not made side by side: nothing is compiled for lanes.
-    pub(crate) fn alone<S: System<Scalar = T>>(system: S) -> Self {
-        Self {
-            system: Arc::new(system),
-            lanes: &[],
         }
     }
 }
@@ -128,10 +117,6 @@ impl<T: Scalar> System for AnySystem<T> {
 
     fn erased(&self) -> AnySystem<T> {
         self.clone()
-    }
-
-    fn lane_series(&self) -> &'static [LaneSeriesFn<T>] {
-        self.lanes
     }
 }
 

@@ -13,7 +13,7 @@ pub(crate) mod places;
 use crate::arithmetic::{Number, Scalar};
 use crate::declaration::Declaration;
 use crate::derivation::Derivation;
-use crate::equations::{LaneSeriesFn, ModeStructure, SeriesFn, ValueFn};
+use crate::equations::{ModeStructure, SeriesFn, ValueFn};
 pub(crate) use crate::program::{Selection, ValueRef};
 pub use description::*;
 pub use erased::AnySystem;
@@ -88,13 +88,7 @@ pub trait System: Sized + Send + Sync + 'static {
     /// The system without its type, which is all that a run sees of it.
     #[doc(hidden)]
     fn erased(&self) -> AnySystem<Self::Scalar> {
-        AnySystem::alone(self.copy())
-    }
-
-    /// The Taylor series of the modes, of several motions side by side.
-    #[doc(hidden)]
-    fn lane_series(&self) -> &'static [LaneSeriesFn<Self::Scalar>] {
-        Self::mode_series()
+        AnySystem::new(self.copy())
     }
 }
 

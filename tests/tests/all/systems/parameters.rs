@@ -70,10 +70,15 @@ fn numbers_that_become_zero_or_one_are_taken_as_they_are() {
 fn motions_in_lanes_are_those_of_runs_alone_at_every_order() {
     let all = all_numbers();
     let start = || state(&[0.3, -0.8], &[0.2, 0.6]);
-    for tolerance in [0.1, 1e-3, 1e-7, 1e-12] {
-        let simulation = Simulation::new(&all[0]).tolerance(tolerance);
+    let ways = [Equations::Emitted, Equations::Interpreted];
+    let tolerances = [0.1, 1e-3, 1e-7, 1e-12];
+    for (tolerance, equations) in tolerances.into_iter().flat_map(|t| ways.map(|w| (t, w))) {
+        let simulation = |scene| {
+            let simulation = Simulation::new(scene).tolerance(tolerance);
+            simulation.equations(equations)
+        };
         let mut ends = vec![State::default(); all.len()];
-        simulation.ensemble().run(
+        simulation(&all[0]).ensemble().run(
             all.len(),
             0.0..1.0,
             |index, runner| {
@@ -86,9 +91,9 @@ fn motions_in_lanes_are_those_of_runs_alone_at_every_order() {
             },
         );
         for (scene, end) in all.iter().zip(&ends) {
-            let alone = Simulation::new(scene).tolerance(tolerance);
-            let alone = alone.run(start(), 0.0..1.0).expect("a run");
-            assert_eq!(end, alone.final_state(), "{scene:?} at {tolerance:e}");
+            let alone = simulation(scene).run(start(), 0.0..1.0).expect("a run");
+            let case = format!("{scene:?} at {tolerance:e}, {equations:?}");
+            assert_eq!(end, alone.final_state(), "{case}");
         }
     }
 }
