@@ -12,7 +12,7 @@
 
 use super::polynomial::ORDERS;
 use super::{StepPolynomial, Tolerance};
-use crate::arithmetic::Scalar;
+use crate::arithmetic::{Scalar, epsilon};
 
 /// Largest order that [`order`] gives.
 pub const MAX_ORDER: usize = 28;
@@ -204,7 +204,7 @@ fn defect_by<T: Scalar>(
     tolerance: Tolerance,
     slope: impl Fn(&[T], usize) -> f64,
 ) -> f64 {
-    const ROUNDING: f64 = 16.0 * f64::EPSILON;
+    let rounding = 16.0 * epsilon::<T>();
     let (h, width) = (step.h.value(), step.degree + 1);
     let share = s / width as f64;
     let mut worst = 0.0;
@@ -214,7 +214,7 @@ fn defect_by<T: Scalar>(
         let limit = tolerance.scale(i, row[0].value().abs() + s * row[1].value().abs());
         let mut ratio = share * error / limit;
         if ratio > 1.0 {
-            ratio = share * (error - ROUNDING * derivative_value(row, s, f64::abs)) / limit;
+            ratio = share * (error - rounding * derivative_value(row, s, f64::abs)) / limit;
         }
         if ratio.is_nan() {
             return ratio;

@@ -4,7 +4,7 @@ use super::Run;
 use super::guard_polynomials::GuardPolynomials;
 use super::region::is_edge_in_flight;
 use super::rest::Rest;
-use crate::arithmetic::Scalar;
+use crate::arithmetic::{Scalar, epsilon};
 use crate::events::{Direction, Root, RootList, deflate, first_root, roots};
 use crate::integrate::polynomial_sum as sum;
 use crate::mode::{FrictionMode, Mode};
@@ -128,7 +128,7 @@ impl<T: Scalar> Run<T> {
         // Roots whose enclosures overlap with that of the earliest cannot be told apart from it, nor can those at a
         // distance that time does not resolve.
         let h = self.stepper.step.h.value();
-        first += 8.0 * f64::EPSILON * (self.now.t.value() / h).abs().max(1.0);
+        first += 8.0 * epsilon::<T>() * (self.now.t.value() / h).abs().max(1.0);
         self.locator.fallen.clear();
         let mut at = f64::INFINITY;
         for &(guard, s, width) in &self.locator.falls {

@@ -21,7 +21,7 @@ mod stepping;
 mod stiffness;
 mod switch;
 
-use crate::arithmetic::Scalar;
+use crate::arithmetic::{Scalar, epsilon};
 use crate::dynamics::{Dynamics, EvaluationError, OutputMask};
 use crate::error::Error;
 use crate::mode::Mode;
@@ -359,13 +359,13 @@ impl<T: Scalar> Run<T> {
             self.now.t = self.stepper.step.t + self.stepper.step.h * exact;
             if whole
                 && (self.end - self.now.t.value()).abs()
-                    <= 1e-15 * self.end.abs().max(self.stepper.step.h.value())
+                    <= 4.5 * epsilon::<T>() * self.end.abs().max(self.stepper.step.h.value())
             {
                 self.now.t = T::from_f64(self.end);
             }
             // Time may be too coarse for the step.
             let (before, now) = (self.stepper.step.t.value(), self.now.t.value());
-            if now - before > 2.0 * f64::EPSILON * now.abs() {
+            if now - before > 2.0 * epsilon::<T>() * now.abs() {
                 self.switcher.stuck.clear();
             }
             self.forget_zeros();

@@ -6,7 +6,7 @@ use super::rest::JUST_BEFORE;
 use super::singular::{LEAST_DEGREE, MOST_RETREATS, RETREAT};
 use super::stiffness::Stiffness;
 use super::{Progress, Run};
-use crate::arithmetic::Scalar;
+use crate::arithmetic::{Scalar, epsilon};
 use crate::dynamics::EvaluationError;
 use crate::error::Error;
 use crate::integrate::taylor::{self, DefectControl, Verdict};
@@ -133,7 +133,7 @@ impl<T: Scalar> Run<T> {
         let mut closer = 0;
         let (mut corrections, mut shortened) = (0, 0);
         loop {
-            if self.now.t.value() + h <= self.now.t.value() {
+            if !self.advances(h) {
                 return Err(self.step_too_small(h));
             }
             self.write_polynomial(h, order);
@@ -143,8 +143,7 @@ impl<T: Scalar> Run<T> {
                 &self.stepper.powers,
             );
             let shorter = CLOSER_LOOK * h;
-            let resolved =
-                self.now.t.value() + shorter > self.now.t.value() && shorter > CLOSEST * longest;
+            let resolved = self.advances(shorter) && shorter > CLOSEST * longest;
             let whole = self.nothing_happens();
             let hit = if whole {
                 self.locator.fallen.clear();
@@ -255,9 +254,14 @@ impl<T: Scalar> Run<T> {
         orders.find_map(|order| Some((step(order)?, order)))
     }
 
+    /// Whether time is another after a step.
+    fn advances(&self, h: f64) -> bool {
+        (self.now.t + T::from_f64(h)).value() > self.now.t.value()
+    }
+
     /// Shorter steps do not advance time clearly.
     fn resolution(&self) -> f64 {
-        2.0 * f64::EPSILON * self.now.t.value().abs().max(self.end.abs())
+        2.0 * epsilon::<T>() * self.now.t.value().abs().max(self.end.abs())
     }
 
     /// Passes an instant at which a guard breaks off (the cut of `atan2`, a kink) by the step at hand, the shortest that time

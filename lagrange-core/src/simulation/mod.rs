@@ -10,7 +10,7 @@ pub use crate::state::FixedComponents;
 pub use ensemble::Ensemble;
 pub use runner::Runner;
 
-use crate::arithmetic::Scalar;
+use crate::arithmetic::{Scalar, epsilon};
 use crate::effects::Effects;
 use crate::error::Error;
 use crate::handle::CoordinateId;
@@ -67,14 +67,17 @@ impl<T: Scalar> core::error::Error for Failure<T> {
 }
 
 impl<'a, S: System<Scalar: Runnable>> Simulation<'a, S> {
-    /// All effects, [`Method::Auto`], tolerance 1e-9.
+    /// All effects, [`Method::Auto`], tolerance 1e-9 (in single precision 1e-6).
     pub fn new(scene: &'a S) -> Self {
         Self {
             scene,
             settings: Settings {
                 effects: Effects::all(),
                 goal: Goal::Tolerance,
-                tolerance: 1e-9,
+                tolerance: match is_single::<S::Scalar>() {
+                    true => 1e-6,
+                    false => 1e-9,
+                },
                 sizes: Vec::new(),
                 method: Method::Auto,
                 project_start: false,
@@ -90,7 +93,8 @@ impl<'a, S: System<Scalar: Runnable>> Simulation<'a, S> {
         }
     }
 
-    /// Local error per step, relative and absolute (in the units of the coordinates); from 1e-17 to 0.1.
+    /// Local error per step, relative and absolute (in the units of the coordinates); from 1e-17 to 0.1, in single precision
+    /// from 1e-7.
     #[must_use]
     pub fn tolerance(mut self, tolerance: f64) -> Self {
         self.settings.tolerance = tolerance;
@@ -286,6 +290,11 @@ impl<'a, S: System<Scalar: Runnable>> Simulation<'a, S> {
     }
 }
 
+/// Whether numbers have 24 bits only.
+fn is_single<T: Scalar>() -> bool {
+    epsilon::<T>() > f64::EPSILON
+}
+
 impl Settings {
     /// Checks what the caller set.
     pub(crate) fn check<T: Scalar>(
@@ -296,8 +305,11 @@ impl Settings {
     ) -> Result<(), Error> {
         let d = system.description();
         let n = d.coordinates.len();
-        if !(1e-17..=0.1).contains(&self.tolerance) {
-            let expected = "between 1e-17 and 0.1";
+        let (least, expected) = match is_single::<T>() {
+            true => (1e-7, "between 1e-7 and 0.1 in single precision"),
+            false => (1e-17, "between 1e-17 and 0.1"),
+        };
+        if !(least..=0.1).contains(&self.tolerance) {
             return Err(Error::Argument {
                 what: "tolerance",
                 value: self.tolerance,

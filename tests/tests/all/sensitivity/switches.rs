@@ -102,11 +102,8 @@ struct Wheel<T = f64> {
     angle: T,
 }
 
-fn wheel<T: Runnable>(
-    [inertia, mass, radius, mu_static, mu_kinetic, angle]: [T; 6],
-    settings: (f64, Method),
-) -> Trajectory<T> {
-    let scene = Wheel {
+fn scene<T: Runnable>([inertia, mass, radius, mu_static, mu_kinetic, angle]: [T; 6]) -> Wheel<T> {
+    Wheel {
         wheel: T::one(),
         inertia,
         mass,
@@ -115,7 +112,11 @@ fn wheel<T: Runnable>(
         mu_static,
         mu_kinetic,
         angle,
-    };
+    }
+}
+
+fn wheel<T: Runnable>(parameters: [T; 6], settings: (f64, Method)) -> Trajectory<T> {
+    let scene = scene(parameters);
     run(&scene, scene.at(<Wheel>::REST), 20.0, settings)
 }
 
@@ -171,6 +172,28 @@ fn friction_stops_a_puck() {
     same_slopes("t", event.time, time, 1e-9);
     same_slopes("x", end.q[0], half * u * time, 1e-9);
     same_slopes("y", end.q[1], half * w * time, 1e-9);
+}
+
+/// Time and motion have 24 bits: what they cannot resolve is refused, not tried for ever.
+#[test]
+fn single_precision_ends_and_says_what_can_be_had() {
+    let scene = scene(WHEEL.map(|x| x as f32));
+    let start = || scene.at(<Wheel>::REST);
+    let usual = Simulation::new(&scene).run(start(), 0.0..20.0);
+    let usual = usual.expect("the tolerance of single precision");
+    let exact = wheel(WHEEL, TIGHT);
+    assert_eq!(usual.events().len(), exact.events().len());
+    for (event, exact) in usual.events().iter().zip(exact.events()) {
+        agree("time", f64::from(event.time), exact.time, 1e-5);
+    }
+    for tolerance in [5e-8, 1e-9, 1e-17] {
+        let run = Simulation::new(&scene).tolerance(tolerance);
+        let failure = run.run(start(), 0.0..20.0).expect_err("too tight");
+        assert!(
+            failure.to_string().contains("single precision"),
+            "{failure}"
+        );
+    }
 }
 
 #[test]
