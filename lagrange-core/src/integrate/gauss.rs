@@ -9,7 +9,7 @@
 //! ```
 
 use super::{Acceleration, Accepted, StepError, StepPolynomial, hermite};
-use crate::arithmetic::Scalar;
+use crate::arithmetic::{Scalar, epsilon};
 
 const STAGES: usize = 3;
 const ROOT15: f64 = 3.872_983_346_207_417;
@@ -206,14 +206,14 @@ impl<T: Scalar> Gauss<T> {
     ) -> Result<usize, StepError<A::Error>> {
         /// An iteration that needs more has a step that is far too large.
         const MAX_ITERATIONS: usize = 60;
-        /// Changes this small, relative to the accelerations, are allowed not to decrease any more: they are rounding. So are those
-        /// that velocities do not show, where forces balance.
-        const ROUNDING: f64 = 1e-10;
+        // Changes this small, relative to the accelerations, are allowed not to decrease any more: they are rounding. So are those
+        // that velocities do not show, where forces balance.
+        let rounding = (100.0 * epsilon::<T>()).max(1e-10);
         let n = self.coordinates;
         let h = T::from_f64(size);
         let mut previous = f64::INFINITY;
         let speed = v.iter().fold(1.0_f64, |m, v| m.max(v.value().abs()));
-        let unseen = f64::EPSILON * speed / size;
+        let unseen = epsilon::<T>() * speed / size;
         for iteration in 1..=MAX_ITERATIONS {
             let (mut change, mut scale) = (0.0f64, 0.0f64);
             for j in 0..STAGES {
@@ -241,7 +241,7 @@ impl<T: Scalar> Gauss<T> {
             if change == f64::INFINITY {
                 break;
             }
-            let settled = change >= previous && change <= (ROUNDING * scale).max(unseen);
+            let settled = change >= previous && change <= (rounding * scale).max(unseen);
             if change == 0.0 || settled {
                 return Ok(STAGES * iteration);
             }
