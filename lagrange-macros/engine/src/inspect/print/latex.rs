@@ -137,6 +137,10 @@ impl Notation for Latex {
         false
     }
 
+    fn stacked(&self, fraction: &str) -> bool {
+        fraction.starts_with("\\frac")
+    }
+
     fn power(&self, base: &str, exponent: &str) -> String {
         // A letter that is raised already takes its exponent in braces.
         match base.contains("^{") {

@@ -32,6 +32,10 @@ pub trait Notation {
     fn fraction(&self, above: &str, below: &str) -> String;
     /// Whether fractions are written in a line.
     fn in_line(&self) -> bool;
+    /// Whether a fraction that was written has one number over the other, so that it shows where it ends.
+    fn stacked(&self, _fraction: &str) -> bool {
+        !self.in_line()
+    }
     /// A base with a raised exponent.
     fn power(&self, base: &str, exponent: &str) -> String;
     /// √
@@ -67,35 +71,16 @@ pub fn formula(n: &dyn Notation, f: &Formula) -> String {
         Formula::Pi => n.letter(&Letter::of("π", "")),
         Formula::Letter(letter) => n.letter(letter),
         Formula::Sum(_) => n.row(&terms(n, f)),
-        Formula::Product(factors) => {
-            let last = factors.len() - 1;
-            let parts: Vec<String> = factors
-                .iter()
-                .enumerate()
-                .map(|(i, factor)| match factor {
-                    // A function that something follows shows where its argument ends.
-                    Formula::Call(name, arguments) if i < last && !is_function(&factors[i + 1]) => {
-                        call(n, name, None, arguments, false)
-                    }
-                    factor => bound(n, factor, Strength::Product),
-                })
-                .collect();
-            n.product(&parts)
-        }
+        Formula::Product(factors) => match over_one_stroke(n, factors) {
+            Some(fraction) => formula(n, &fraction),
+            None => product(n, factors, |last| bound(n, last, Strength::Product)),
+        },
         Formula::Negative(inner) => n.row(&[
             n.sign(true, true).to_owned(),
             bound(n, inner, Strength::Product),
         ]),
         Formula::Fraction(above, below) if n.in_line() => {
-            let above = match &**above {
-                Formula::Call(name, arguments) => call(n, name, None, arguments, false),
-                other => bound(n, other, Strength::Product),
-            };
-            let below = match &**below {
-                Formula::Call(name, arguments) => call(n, name, None, arguments, false),
-                other => bound(n, other, Strength::Power),
-            };
-            n.fraction(&above, &below)
+            n.fraction(&followed(n, above), &divisor(n, below))
         }
         Formula::Fraction(above, below) => n.fraction(&formula(n, above), &formula(n, below)),
         Formula::Power(base, exponent) => {
@@ -163,7 +148,7 @@ pub fn pieces(n: &dyn Notation, f: &Formula) -> Vec<String> {
             let mut all = Vec::new();
             for (i, (minus, term)) in list.iter().enumerate() {
                 let mut own = match term {
-                    Formula::Product(_) => pieces(n, term),
+                    Formula::Product(_) | Formula::Fraction(..) => pieces(n, term),
                     term => vec![bound(n, term, Strength::Product)],
                 };
                 own[0] = format!("{}{}", n.sign(*minus, i == 0), own[0]);
@@ -176,27 +161,52 @@ pub fn pieces(n: &dyn Notation, f: &Formula) -> Vec<String> {
             own[0] = format!("{}{}", n.sign(true, true), own[0]);
             own
         }
-        Formula::Product(factors) => {
-            let sums = factors.iter().filter(|f| matches!(f, Formula::Sum(_)));
-            let at = factors.iter().rposition(|f| matches!(f, Formula::Sum(_)));
-            let Some(at) = at.filter(|&at| sums.count() == 1 && factors[at].size() > SHORT) else {
+        Formula::Product(factors) => match over_one_stroke(n, factors) {
+            Some(fraction) => pieces(n, &fraction),
+            None => product_pieces(n, factors, |last| bound(n, last, Strength::Product))
+                .unwrap_or_else(|| vec![formula(n, f)]),
+        },
+        Formula::Fraction(above, below) if n.in_line() => {
+            let above = match &**above {
+                Formula::Product(factors) => product_pieces(n, factors, |last| followed(n, last)),
+                _ => None,
+            };
+            let Some(mut all) = above else {
                 return vec![formula(n, f)];
             };
-            let mut all = pieces(n, &factors[at]);
-            let side = |list: &[Formula]| match list {
-                [] => String::new(),
-                list => formula(n, &Formula::Product(list.to_vec())),
-            };
-            let (before, after) = (side(&factors[..at]), side(&factors[at + 1..]));
-            let space = |text: &str| if text.is_empty() { "" } else { " " };
-            all[0] = format!("{before}{}({}", space(&before), all[0]);
             if let Some(last) = all.last_mut() {
-                *last = format!("{last}){}{after}", space(&after));
+                *last = n.fraction(last, &divisor(n, below));
             }
             all
         }
         other => vec![formula(n, other)],
     }
+}
+
+/// Pieces of a product that has one long sum.
+fn product_pieces(
+    n: &dyn Notation,
+    factors: &[Formula],
+    last: impl Fn(&Formula) -> String,
+) -> Option<Vec<String>> {
+    let mut sums = (0..factors.len()).filter(|&i| matches!(factors[i], Formula::Sum(_)));
+    let at = sums.next().filter(|&at| factors[at].size() > SHORT)?;
+    if sums.next().is_some() {
+        return None;
+    }
+    let mut all = pieces(n, &factors[at]);
+    if at > 0 {
+        let before = product(n, &factors[..at], |last| followed(n, last));
+        all[0] = format!("{before} ({}", all[0]);
+    } else {
+        all[0] = format!("({}", all[0]);
+    }
+    let end = all.last_mut()?;
+    *end += ")";
+    if at + 1 < factors.len() {
+        *end = format!("{end} {}", product(n, &factors[at + 1..], last));
+    }
+    Some(all)
 }
 
 /// `left relation right`
@@ -230,22 +240,87 @@ fn call(
     }
 }
 
+/// Factors side by side, the last of them written by `last`.
+fn product(n: &dyn Notation, factors: &[Formula], last: impl Fn(&Formula) -> String) -> String {
+    let next = factors.iter().skip(1).map(Some).chain([None]);
+    let parts: Vec<String> = factors
+        .iter()
+        .zip(next)
+        .map(|(factor, next)| match next {
+            None => last(factor),
+            // A function ends where another one begins.
+            Some(next) if is_function(factor) && is_function(next) => {
+                bound(n, factor, Strength::Product)
+            }
+            Some(_) => followed(n, factor),
+        })
+        .collect();
+    n.product(&parts)
+}
+
+/// In a line, what stands behind a fraction stands above its stroke: (a/b) c is a c/b.
+fn over_one_stroke(n: &dyn Notation, factors: &[Formula]) -> Option<Formula> {
+    let [Formula::Fraction(above, below), behind @ ..] = factors else {
+        return None;
+    };
+    if !n.in_line() || behind.is_empty() {
+        return None;
+    }
+    let above = match &**above {
+        Formula::Product(factors) => factors.clone(),
+        Formula::Number(number) if number.is_one() => Vec::new(),
+        other => vec![other.clone()],
+    };
+    let above = Formula::Product([&above, behind].concat());
+    Some(Formula::Fraction(Box::new(above), below.clone()))
+}
+
+/// A factor that something follows: it shows where it ends.
+fn followed(n: &dyn Notation, f: &Formula) -> String {
+    match f {
+        Formula::Call(name, arguments) => call(n, name, None, arguments, false),
+        Formula::Power(base, exponent) => match &**base {
+            Formula::Call(name, arguments) if arguments.len() == 1 => {
+                call(n, name, Some(&formula(n, exponent)), arguments, false)
+            }
+            _ => bound(n, f, Strength::Product),
+        },
+        Formula::Product(factors) if over_one_stroke(n, factors).is_none() => {
+            product(n, factors, |last| followed(n, last))
+        }
+        Formula::Product(_) | Formula::Fraction(..) => {
+            let text = formula(n, f);
+            match n.stacked(&text) {
+                true => text,
+                false => n.group(&text),
+            }
+        }
+        f => bound(n, f, Strength::Product),
+    }
+}
+
+/// What stands under a stroke in a line.
+fn divisor(n: &dyn Notation, below: &Formula) -> String {
+    match below {
+        Formula::Call(name, arguments) => call(n, name, None, arguments, false),
+        other => bound(n, other, Strength::Power),
+    }
+}
+
 /// In parentheses if it binds less tightly than needed.
 fn bound(n: &dyn Notation, f: &Formula, least: Strength) -> String {
     let text = formula(n, f);
-    match strength(n, f) < least {
+    match strength(f) < least {
         true => n.group(&text),
         false => text,
     }
 }
 
-fn strength(n: &dyn Notation, f: &Formula) -> Strength {
+fn strength(f: &Formula) -> Strength {
     match f {
         Formula::Sum(_) | Formula::Negative(_) | Formula::SumOver(..) => Strength::Sum,
         Formula::Number(number) if !number.is_integer() => Strength::Product,
-        Formula::Product(_) => Strength::Product,
-        Formula::Fraction(..) if n.in_line() => Strength::Product,
-        Formula::Fraction(..) | Formula::Call(..) => Strength::Product,
+        Formula::Product(_) | Formula::Fraction(..) | Formula::Call(..) => Strength::Product,
         Formula::Power(..) => Strength::Power,
         _ => Strength::Atom,
     }

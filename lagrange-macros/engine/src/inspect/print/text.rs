@@ -102,7 +102,7 @@ impl Notation for Text {
         match raised(exponent) {
             Some(exponent) => format!("{base}{exponent}"),
             None if exponent.chars().count() == 1 => format!("{base}^{exponent}"),
-            None => format!("{base}^({})", exponent.trim_matches(['(', ')'])),
+            None => format!("{base}^{}", self.group(exponent)),
         }
     }
 

@@ -4,6 +4,7 @@ mod bodies;
 mod costs;
 mod modes;
 mod printed;
+mod read_back;
 mod values;
 mod written;
 

@@ -87,7 +87,7 @@ fn modes_are_solved_where_the_solution_is_short() {
         "RollingSphere",
         "shell closed",
         &[
-            "θ\u{308} = 5 g/(7 (R + a)) sin θ",
+            "θ\u{308} = 5 g sin(θ)/(7 (R + a))",
             "λ_rolling = −(2/7) m g sin θ",
         ],
     );
@@ -95,14 +95,14 @@ fn modes_are_solved_where_the_solution_is_short() {
         "SphereInBowl",
         "bowl closed, grip sticks",
         &[
-            "θ\u{308} = −5 g/(7 (R − a)) sin θ",
+            "θ\u{308} = −5 g sin(θ)/(7 (R − a))",
             "F_grip = (2/7) m g sin θ",
         ],
     );
     check(
         "Ladder",
         "wall closed, floor closed",
-        &["θ\u{308} = −3 g/(2 l) cos θ"],
+        &["θ\u{308} = −3 g cos(θ)/(2 l)"],
     );
     check("MassOnWheel", "rim open", &["x\u{308} = 0", "φ\u{308} = 0"]);
     // Nothing to be read: nothing is said.

@@ -58,7 +58,7 @@ fn expressions_as_a_person_writes_them() {
     check(quote!(m * g * x + m * g * y), "m g (x + y)");
     check(quote!(a / 2 * x ^ 2 - b * x), "x (½ a x − b)");
     check(quote!(2 * a * x / (7 * b)), "2 a x/(7 b)");
-    check(quote!(sin(x) * a / (a + b)), "a/(a + b) sin x");
+    check(quote!(sin(x) * a / (a + b)), "a sin(x)/(a + b)");
     check(quote!(a * sqrt(x ^ 2 + y ^ 2)), "a √(x² + y²)");
     check(quote!(a / sqrt(x ^ 2 + y ^ 2)), "a/√(x² + y²)");
     check(quote!(cos(x) ^ 2 * a), "a cos² x");
