@@ -4,10 +4,10 @@
 //! Little-endian words of four bytes. A block is
 //!
 //! ```text
-//! k  k·(low, high)  m  first value  m·(operation | branch·256, x, y)
+//! k  place  k·(low, high)  m  first value  m·(operation | branch·256, x, y)
 //! ```
 //!
-//! and runs if one of its needs (k words of a mask; k = 0: always) is held. Values are numbered in the order in which
+//! and runs if one of its needs (k words of a mask from this place on; k = 0, without a place: always) is held. Values are numbered in the order in which
 //! they are computed, the inputs first. A coefficient is a number by place · 4 + kind: a constant (0), a parameter (1), an exact
 //! number of the table (2).
 
@@ -126,7 +126,11 @@ impl Encoded {
         let mut words = words.iter().map(|word| u32::from_le_bytes(*word));
         while let Some(count) = words.next() {
             let mut runs = count == 0;
-            for place in 0..count as usize {
+            let first = match count {
+                0 => 0,
+                _ => words.next().unwrap_or(0) as usize,
+            };
+            for place in first..first + count as usize {
                 let (low, high) = (words.next(), words.next());
                 let needs = u64::from(low.unwrap_or(0)) | u64::from(high.unwrap_or(0)) << 32;
                 runs |= asks(place, needs);

@@ -93,14 +93,23 @@ pub(super) fn branches(sheet: &mut Sheet) -> Vec<Branch<OutputId>> {
         .iter()
         .map(|&guard| pool.symbols(guard).iter().any(|s| results.contains(s)))
         .collect();
-    // Guards nest without cycles, so `count` rounds reach every level.
-    for _ in 0..count {
-        for outer in 0..count {
+    // Guards nest without cycles, so this ends; a guard contains branches that were made before it, as a rule.
+    let nested: Vec<usize> = (0..count).filter(|&i| !inside[i].is_empty()).collect();
+    let mut changed = true;
+    while changed {
+        changed = false;
+        for &outer in nested.iter().rev() {
+            let inherited = users[outer].clone();
             for &inner in &inside[outer] {
-                let inherited: Vec<NeedId> = users[outer].iter().copied().collect();
-                users[inner].extend(inherited);
-                after_solve[outer] |= after_solve[inner];
+                let before = users[inner].len();
+                users[inner].extend(&inherited);
+                changed |= users[inner].len() > before;
             }
+        }
+        for &outer in &nested {
+            let late = inside[outer].iter().any(|&inner| after_solve[inner]);
+            changed |= late && !after_solve[outer];
+            after_solve[outer] |= late;
         }
     }
     let mut branches = Vec::new();

@@ -74,6 +74,7 @@ impl Writer {
             return self.word(0);
         }
         self.word(needs.words().len());
+        self.word(needs.first());
         for word in needs.words() {
             self.bytes.extend_from_slice(&word.to_le_bytes());
         }

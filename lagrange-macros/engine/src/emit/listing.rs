@@ -78,7 +78,11 @@ impl Lister<'_> {
                         .iter()
                         .map(|w| format!("{w:#x}"))
                         .collect();
-                    writeln!(text, "// if one of the needs {} is held:", words.join(" "))
+                    let (words, first) = (words.join(" "), 64 * block.needs.first());
+                    writeln!(
+                        text,
+                        "// if one of the needs {words} from {first} on is held:"
+                    )
                 }
             };
             for step in &block.steps {

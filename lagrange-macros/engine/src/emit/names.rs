@@ -145,10 +145,8 @@ pub fn coefficient(system: &System, coefficient: Coefficient) -> TokenStream {
 
 /// Whether one of these needs is held.
 pub fn condition(needs: &OutputMask) -> TokenStream {
-    let words = needs
-        .words()
-        .iter()
-        .enumerate()
+    let words = (needs.first()..)
+        .zip(needs.words())
         .filter(|(_, word)| **word != 0);
     let tests = words.map(|(word, bits)| {
         let (held, word, bits) = (local("needs"), index(word), Literal::u64_unsuffixed(*bits));

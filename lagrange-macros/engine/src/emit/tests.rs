@@ -56,15 +56,15 @@ fn a_tape_is_a_list_of_words_in_blocks() {
         0, 2, 3, /* n₃ = c₂ */ 0, 8, 0, /* y₂ = n₃ */ 23, 2, 3,
     ];
     let spring = [
-        1, 2, 0, 5, 4, // n₄, n₅ = sin t, cos t
+        1, 0, 2, 0, 5, 4, // n₄, n₅ = sin t, cos t
         14, 0, 0, // n₆ = rest n₅
         5, 13, 5, // n₇ = x − n₆
         2, 1, 6, // n₈ = stiffness n₇
         5, 9, 7, // y₂ −= n₈
         25, 2, 8,
     ];
-    let position = [1, 16, 0, 1, 0, /* y₀ = x */ 23, 0, 1];
-    let velocity = [1, 32, 0, 1, 0, /* y₁ = ẋ */ 23, 1, 2];
+    let position = [1, 0, 16, 0, 1, 0, /* y₀ = x */ 23, 0, 1];
+    let velocity = [1, 0, 32, 0, 1, 0, /* y₁ = ẋ */ 23, 1, 2];
     assert_eq!(words, [&always[..], &spring, &position, &velocity].concat());
 }
 

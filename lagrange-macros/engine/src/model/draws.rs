@@ -87,6 +87,7 @@ impl Elaboration<'_> {
         self.draws(declaration);
         self.system.draws.clear();
         self.system.branches.truncate(branches);
+        self.branches.retain(|_, branch| *branch < branches);
         self.system.pool = pool;
     }
 

@@ -23,6 +23,8 @@ pub(super) struct Elaboration<'a> {
     pub indices: Vec<(String, i64)>,
     /// What `slip` stands for: the slip of the friction whose coefficients are read.
     pub slip: Option<Value>,
+    /// Branches by their guards.
+    pub branches: BTreeMap<ExprId, usize>,
     /// Kind of each symbol, by its index.
     pub depths: Vec<Depth>,
     /// q → v, v → v̇, t → 1.
@@ -154,6 +156,7 @@ impl<'a> Elaboration<'a> {
             handles: BTreeMap::new(),
             indices: Vec::new(),
             slip: None,
+            branches: BTreeMap::new(),
             depths: vec![Depth::Parameter; time.index() + 1],
             directions: vec![(time, one)],
             rates: None,
@@ -200,6 +203,9 @@ impl<'a> Elaboration<'a> {
     pub fn reopen(system: System, scope: Scope, sink: &'a mut Diagnostics) -> Elaboration<'a> {
         Elaboration {
             overflowed: system.pool.overflowed(),
+            branches: (system.branches.iter().map(|branch| branch.guard))
+                .zip(0..)
+                .collect(),
             system,
             sink,
             names: scope.names,

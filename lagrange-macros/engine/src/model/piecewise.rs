@@ -44,8 +44,10 @@ impl Elaboration<'_> {
 
     fn branch(&mut self, guard: ExprId, Sides([then, otherwise]): Sides, at: Extent) -> usize {
         let branches = &mut self.system.branches;
-        if let Some(same) = branches.iter().position(|branch| branch.guard == guard) {
-            return same;
+        let next = branches.len();
+        let branch = *self.branches.entry(guard).or_insert(next);
+        if branch < next {
+            return branch;
         }
         branches.push(Branch {
             guard,
@@ -53,7 +55,7 @@ impl Elaboration<'_> {
             otherwise,
             span: at.start,
         });
-        branches.len() - 1
+        branch
     }
 
     /// abs(u): u, −u by u.

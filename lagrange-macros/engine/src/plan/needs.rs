@@ -1,78 +1,96 @@
 //! Sets of needs: which parts of the core's work ask for a value.
 
 use crate::derive::NeedId;
+use std::iter::repeat_n;
 
 /// A set of needs, canonical: need 0 is always held, so a set with it is the set `{0}`.
+///
+/// A mask that is as long as the needs in it are far apart: of thousands of branches most values serve a few that follow one another.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug, Default)]
-pub struct OutputMask(Vec<u64>);
+pub struct OutputMask {
+    /// Place of the first word.
+    first: usize,
+    /// 64 needs each; neither the first word nor the last one is zero.
+    words: Vec<u64>,
+}
 
 impl OutputMask {
     /// The set that is always held.
     pub fn always() -> OutputMask {
-        OutputMask(vec![1])
+        OutputMask {
+            first: 0,
+            words: vec![1],
+        }
     }
 
     /// The set of one need.
     pub fn single(need: NeedId) -> OutputMask {
-        OutputMask::default().with(need)
+        match need.0 {
+            0 => OutputMask::always(),
+            need => OutputMask {
+                first: need / 64,
+                words: vec![1 << (need % 64)],
+            },
+        }
     }
 
-    /// This set and one need more.
-    pub fn with(mut self, need: NeedId) -> OutputMask {
-        if need.0 == 0 || self.is_always() {
-            return OutputMask::always();
+    /// Adds another set.
+    pub fn join(&mut self, other: &OutputMask) {
+        if self.is_always() || other.is_empty() {
+            return;
         }
-        let (word, bit) = (need.0 / 64, need.0 % 64);
-        if self.0.len() <= word {
-            self.0.resize(word + 1, 0);
+        if self.is_empty() || other.is_always() {
+            self.clone_from(other);
+            return;
         }
-        self.0[word] |= 1 << bit;
-        self
-    }
-
-    /// Adds another set; says whether this one grew.
-    pub fn join(&mut self, other: &OutputMask) -> bool {
-        if self.is_always() {
-            return false;
+        if other.first < self.first {
+            let missing = self.first - other.first;
+            self.words.splice(..0, repeat_n(0, missing));
+            self.first = other.first;
         }
-        if other.is_always() {
-            *self = OutputMask::always();
-            return true;
-        }
-        if self.0.len() < other.0.len() {
-            self.0.resize(other.0.len(), 0);
-        }
-        let mut grew = false;
-        for (mine, theirs) in self.0.iter_mut().zip(&other.0) {
-            grew |= theirs & !*mine != 0;
+        let offset = other.first - self.first;
+        let length = self.words.len().max(offset + other.words.len());
+        self.words.resize(length, 0);
+        for (mine, theirs) in self.words[offset..].iter_mut().zip(&other.words) {
             *mine |= theirs;
         }
-        grew
     }
 
     /// Whether it is the set that is always held.
     pub fn is_always(&self) -> bool {
-        self.0.first().is_some_and(|word| word & 1 == 1)
+        self.first == 0 && self.words.first().is_some_and(|word| word & 1 == 1)
     }
 
     /// Whether nothing asks.
     pub fn is_empty(&self) -> bool {
-        self.0.iter().all(|word| *word == 0)
+        self.words.is_empty()
     }
 
     /// Number of needs in it.
     pub fn len(&self) -> usize {
-        self.0.iter().map(|word| word.count_ones() as usize).sum()
+        let ones = self.words.iter().map(|word| word.count_ones() as usize);
+        ones.sum()
     }
 
-    /// Bits of each word of the mask; trailing words that are zero are left out.
+    /// Place of the first word of the mask that is not zero.
+    pub fn first(&self) -> usize {
+        self.first
+    }
+
+    /// Words of the mask from that place on; those behind them are zero.
     pub fn words(&self) -> &[u64] {
-        &self.0
+        &self.words
     }
 
     /// Whether a block with these needs runs while `held` (words of a mask) is held.
     pub fn runs(&self, held: &[u64]) -> bool {
-        self.is_always() || self.0.iter().zip(held).any(|(mine, held)| mine & held != 0)
+        let held = held.get(self.first..).unwrap_or_default();
+        self.is_always()
+            || self
+                .words
+                .iter()
+                .zip(held)
+                .any(|(mine, held)| mine & held != 0)
     }
 }
 
@@ -82,12 +100,18 @@ mod tests {
 
     #[test]
     fn need_zero_absorbs() {
-        let mut set = OutputMask::single(NeedId(70)).with(NeedId(3));
-        assert_eq!(set.len(), 2);
-        assert!(!set.join(&OutputMask::single(NeedId(3))));
-        assert!(set.join(&OutputMask::single(NeedId(0))));
+        let mut set = OutputMask::single(NeedId(700));
+        set.join(&OutputMask::single(NeedId(3)));
+        set.join(&OutputMask::single(NeedId(130)));
+        assert_eq!((set.first(), set.words().len(), set.len()), (0, 11, 3));
+        let mut same = OutputMask::single(NeedId(130));
+        same.join(&OutputMask::single(NeedId(3)));
+        same.join(&OutputMask::single(NeedId(700)));
+        assert_eq!(set, same);
+        set.join(&OutputMask::single(NeedId(0)));
         assert_eq!(set, OutputMask::always());
-        assert_eq!(OutputMask::always().with(NeedId(5)), OutputMask::always());
+        set.join(&OutputMask::single(NeedId(5)));
+        assert_eq!(set, OutputMask::always());
     }
 
     #[test]

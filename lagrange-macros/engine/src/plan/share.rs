@@ -183,24 +183,53 @@ fn multiply_scales_in(graph: &mut Graph, one: ExprId, roots: &[NodeId]) {
 
 /// Which bags contain each pair, and the pairs by how many do.
 struct Census<A> {
-    holders: BTreeMap<Pair<A>, BTreeSet<NodeId>>,
+    holders: BTreeMap<Pair<A>, Holders>,
     ranked: BTreeSet<(Reverse<usize>, Pair<A>)>,
+    /// Pairs whose rank may have changed since it was last settled.
+    changed: Vec<Pair<A>>,
+}
+
+/// The bags that contain a pair.
+#[derive(Default)]
+struct Holders {
+    bags: BTreeSet<NodeId>,
+    /// Their number when the pair was last ranked.
+    ranked: usize,
+    /// Whether it waits to be ranked again.
+    changed: bool,
 }
 
 impl<A: Ord + Copy> Census<A> {
     fn count(&mut self, pair: Pair<A>, bag: NodeId, present: bool) {
         let holders = self.holders.entry(pair).or_default();
-        self.ranked.remove(&(Reverse(holders.len()), pair));
-        if present {
-            holders.insert(bag);
-        } else {
-            holders.remove(&bag);
+        match present {
+            true => holders.bags.insert(bag),
+            false => holders.bags.remove(&bag),
+        };
+        if !holders.changed {
+            holders.changed = true;
+            self.changed.push(pair);
         }
-        if holders.len() > 1 {
-            self.ranked.insert((Reverse(holders.len()), pair));
-        } else if holders.is_empty() {
-            self.holders.remove(&pair);
+    }
+
+    /// The pair that most bags contain, if there is one in several, with its bags.
+    ///
+    /// What taking out a pair changes is the same few pairs in all its bags: they are ranked once, here.
+    fn most_held(&mut self) -> Option<(Pair<A>, BTreeSet<NodeId>)> {
+        for pair in self.changed.drain(..) {
+            let Some(holders) = self.holders.get_mut(&pair) else {
+                continue;
+            };
+            self.ranked.remove(&(Reverse(holders.ranked), pair));
+            (holders.ranked, holders.changed) = (holders.bags.len(), false);
+            match holders.ranked {
+                0 => drop(self.holders.remove(&pair)),
+                1 => {}
+                several => drop(self.ranked.insert((Reverse(several), pair))),
+            }
         }
+        let (_, pair) = self.ranked.pop_first()?;
+        Some((pair, self.holders[&pair].bags.clone()))
     }
 }
 
@@ -273,14 +302,14 @@ fn extract<A: Ord + Copy>(
     let mut census = Census {
         holders: BTreeMap::new(),
         ranked: BTreeSet::new(),
+        changed: Vec::new(),
     };
     for (&id, bag) in bags.iter() {
         for pair in pairs(bag) {
             census.count(pair, id, true);
         }
     }
-    while let Some((_, pair)) = census.ranked.pop_first() {
-        let holders = census.holders[&pair].clone();
+    while let Some((pair, holders)) = census.most_held() {
         let mut own = Bag::new();
         replace_into(&mut own, pair);
         // A bag that is just this pair is the node that the others use.
