@@ -7,7 +7,7 @@ use crate::quantity::Show;
 use crate::report::export::{Moving, Pace};
 use crate::report::frames::{self, Clock};
 use crate::report::html::{self, Shown};
-use crate::report::{plot, table};
+use crate::report::plot;
 use crate::request::Request;
 use lagrange_core::prelude::*;
 use std::fs;
@@ -23,7 +23,7 @@ pub const PLOTS: f32 = 2.0;
 /// Pictures a second of a report that moves.
 const RATE: f64 = 25.0;
 
-/// What a [`Trajectory`] can be made into.
+/// What a [`Trajectory`] can be made into, and the [`Failure`] of a run, which has a trajectory until then and its error.
 ///
 /// ```
 /// use lagrange_core::prelude::*;
@@ -62,10 +62,21 @@ const RATE: f64 = 25.0;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// A run that failed half-way is in its error: `stopped.trajectory.story()` tells what there is of it.
+/// A run that failed half-way is in its error: `stopped.story()` tells what there is of it, and why it ended.
 pub trait Results {
-    /// What happened, as `lagrange run` tells it.
-    fn story(&self) -> String;
+    /// The motion.
+    fn motion(&self) -> &Trajectory;
+
+    /// Why it ended early, if it did.
+    fn error(&self) -> Option<&Error>;
+
+    /// What happened, as `lagrange run` tells it, and the error of a run that failed.
+    fn story(&self) -> String {
+        let mut text = Vec::new();
+        // Nothing fails that is written to memory.
+        let _ = RunFormat::Table.write_whole(&outcome(self, 0), &mut text);
+        String::from_utf8_lossy(&text).into_owned()
+    }
 
     /// Draws forces and coordinates over time into a file ….svg, ….png or ….pdf.
     ///
@@ -79,33 +90,12 @@ pub trait Results {
     ///
     /// # Errors
     /// The name ends otherwise, the file cannot be written, or a quantity is not known.
-    fn plot_of(&self, path: impl AsRef<Path>, shows: &[&str]) -> io::Result<()>;
-
-    /// Writes a page ….html that plays the run and has all that is known of it, or a picture that moves: ….svg, ….png, ….gif, ….mp4.
-    ///
-    /// # Errors
-    /// The name ends otherwise, or the file cannot be written.
-    fn report(&self, path: impl AsRef<Path>) -> io::Result<()>;
-
-    /// Writes the run over time to a file ….csv, ….parquet, ….json or ….jsonl, or its story to ….txt.
-    ///
-    /// # Errors
-    /// The name ends otherwise, or the file cannot be written.
-    fn write(&self, path: impl AsRef<Path>) -> io::Result<()>;
-}
-
-impl Results for Trajectory {
-    fn story(&self) -> String {
-        let mut text = Vec::new();
-        // Nothing fails that is written to memory.
-        let _ = table::write(&outcome(self, 0), &mut text);
-        String::from_utf8_lossy(&text).into_owned()
-    }
-
     fn plot_of(&self, path: impl AsRef<Path>, shows: &[&str]) -> io::Result<()> {
         let path = path.as_ref();
         let still = Still::of(path).map_err(refused)?;
-        let shows = shows.iter().map(|text| Show::new(text, self.description()));
+        let shows = shows
+            .iter()
+            .map(|text| Show::new(text, self.motion().description()));
         let shows: Vec<Show> = shows.collect::<Result<_, _>>().map_err(refused)?;
         let outcome = outcome(self, SAMPLES);
         let run = plot::Run {
@@ -116,6 +106,10 @@ impl Results for Trajectory {
         to_file(path, |out| still.write(&svg, PLOTS, out))
     }
 
+    /// Writes a page ….html that plays the run and has all that is known of it, or a picture that moves: ….svg, ….png, ….gif, ….mp4.
+    ///
+    /// # Errors
+    /// The name ends otherwise, or the file cannot be written.
     fn report(&self, path: impl AsRef<Path>) -> io::Result<()> {
         let path = path.as_ref();
         let ending = path.extension().and_then(|ending| ending.to_str());
@@ -130,17 +124,25 @@ impl Results for Trajectory {
                 ));
             }
         };
-        let description = self.description();
-        let duration = self.last_time() - self.first_time();
+        let motion = self.motion();
+        let description = motion.description();
+        let duration = motion.last_time() - motion.first_time();
         let request = Request {
             samples: html::intervals(description, duration, 1),
             ..Request::default()
         };
-        let times = instants(self, request.samples);
+        let times = instants(motion, request.samples);
         let run = Shown {
             title: description.name.to_owned(),
-            film: Reel::of(description.name, self, None, &request, &times).film(),
-            derivation: self.derivation(),
+            film: Reel::of(
+                description.name,
+                motion,
+                self.error().cloned(),
+                &request,
+                &times,
+            )
+            .film(),
+            derivation: motion.derivation(),
         };
         if let Some("html" | "htm") = ending {
             return to_file(path, |out| html::write(&[run], None, None, out));
@@ -159,6 +161,10 @@ impl Results for Trajectory {
         moving.write(|| frames::stills(&panels, &clock), pace, path)
     }
 
+    /// Writes the run over time to a file ….csv, ….parquet, ….json or ….jsonl, or its story to ….txt.
+    ///
+    /// # Errors
+    /// The name ends otherwise, or the file cannot be written.
     fn write(&self, path: impl AsRef<Path>) -> io::Result<()> {
         let path = path.as_ref();
         let Some(format) = RunFormat::of(path) else {
@@ -167,17 +173,43 @@ impl Results for Trajectory {
             ));
         };
         let samples = if format.is_sampled() { SAMPLES } else { 0 };
-        to_file(path, |out| format.write(&outcome(self, samples), out))
+        to_file(path, |out| format.write_whole(&outcome(self, samples), out))
+    }
+}
+
+impl Results for Trajectory {
+    fn motion(&self) -> &Trajectory {
+        self
+    }
+
+    fn error(&self) -> Option<&Error> {
+        None
+    }
+}
+
+impl Results for Failure {
+    fn motion(&self) -> &Trajectory {
+        &self.trajectory
+    }
+
+    fn error(&self) -> Option<&Error> {
+        Some(&self.error)
     }
 }
 
 /// What is known of a run.
-fn outcome(run: &Trajectory, samples: usize) -> Outcome {
+fn outcome(run: &(impl Results + ?Sized), samples: usize) -> Outcome {
     let request = Request {
         samples,
         ..Request::default()
     };
-    Outcome::new(run.description().name, run, None, &request)
+    let motion = run.motion();
+    Outcome::new(
+        motion.description().name,
+        motion,
+        run.error().cloned(),
+        &request,
+    )
 }
 
 /// Something that cannot be written.

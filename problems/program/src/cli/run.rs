@@ -227,13 +227,6 @@ fn destinations(outputs: &Outputs) -> Result<Vec<(RunFormat, Option<PathBuf>)>, 
 fn write(outcome: &Outcome, format: RunFormat, path: Option<&Path>) -> Result<(), Trouble> {
     match path {
         None => super::print(|out| format.write(outcome, out)),
-        Some(path) => to_file(path, |out| {
-            format.write(outcome, &mut *out)?;
-            // Beside a story on stdout it stands on stderr.
-            match (format, &outcome.failure) {
-                (RunFormat::Table, Some(error)) => writeln!(out, "\n{error}"),
-                _ => Ok(()),
-            }
-        }),
+        Some(path) => to_file(path, |out| format.write_whole(outcome, out)),
     }
 }

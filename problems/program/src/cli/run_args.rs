@@ -168,6 +168,17 @@ fn unknown(name: &str, refusal: &Refusal) -> Trouble {
             "no scene is called `{name}`; did you mean the file `{file}`?"
         ));
     }
+    if Path::new(name).is_dir() {
+        let folder = name.trim_end_matches('/');
+        return Trouble::usage(match Path::new(name).join("Cargo.toml").is_file() {
+            true => format!(
+                "`{name}` is the folder of a crate, whose own program knows its scenes: go there, and write `cargo run --release -- list`"
+            ),
+            false => format!(
+                "`{name}` is a folder; name a file in it: a declaration, {folder}/NAME{ENDING}, or a scene file, {folder}/NAME.toml"
+            ),
+        });
+    }
     match Path::new(name).is_file() && !name.ends_with(ENDING) {
         true => Trouble::usage(format_args!(
             "`{name}` is no scene; the name of a scene file ends in .toml, that of a declaration in {ENDING}"

@@ -192,7 +192,8 @@ impl Numbers {
 
 impl Serialize for Numbers {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
+        // A sum with +0 is never −0.
+        serializer.collect_map(self.0.iter().map(|(name, value)| (name, value + 0.0)))
     }
 }
 

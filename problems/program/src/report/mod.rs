@@ -42,6 +42,18 @@ impl RunFormat {
             RunFormat::Parquet => parquet::write(outcome, out),
         }
     }
+
+    /// The same with the error of a run that failed, which stands on stderr beside a story on stdout.
+    ///
+    /// # Errors
+    /// Of `out`.
+    pub(crate) fn write_whole(self, outcome: &Outcome, out: &mut dyn Write) -> io::Result<()> {
+        self.write(outcome, out)?;
+        match (self, &outcome.failure) {
+            (RunFormat::Table, Some(error)) => writeln!(out, "\n{error}"),
+            _ => Ok(()),
+        }
+    }
 }
 
 /// What a column of a table holds.

@@ -127,6 +127,12 @@ impl<'a> Table<'a> {
         };
         self.energies(&mut cells, sample, ledger);
         cells.push(Cell::Text(mode.display(d).to_string()));
+        for cell in &mut cells {
+            if let Cell::Number(number) = cell {
+                // A sum with +0 is never −0.
+                *number += 0.0;
+            }
+        }
         cells
     }
 

@@ -128,11 +128,17 @@ fn entries(outcome: &Outcome, items: &[Force]) -> Vec<Line> {
             mode,
         }
     };
-    let mut lines: Vec<Line> = outcome
-        .first()
-        .map(|first| instant(first, "start"))
-        .into_iter()
-        .collect();
+    // What happens at the start has a line of its own: the run begins with what was before it.
+    let start = |first: &Sample| match outcome.events.first() {
+        Some(event) if event.time == first.time => Line {
+            state: known(&event.state.q, None),
+            upper: acting(&event.forces, &event.before),
+            mode: in_table(&event.before, description),
+            ..instant(first, "start")
+        },
+        _ => instant(first, "start"),
+    };
+    let mut lines: Vec<Line> = outcome.first().map(start).into_iter().collect();
     let errors = outcome
         .estimate
         .iter()

@@ -217,7 +217,7 @@ fn texts_of_units() {
     assert_eq!(units.dissipations, ["W"]);
     assert_eq!(
         units.observes,
-        ["J", "kg m²/s", "m/s", "N", "N", "m²", "", "m"]
+        ["J", "kg m²/s", "m/s", "N", "N", "m²", "rad", "m"]
     );
 }
 
@@ -256,6 +256,20 @@ fn without_units_nothing_is_checked() {
     let system = read(angle).unwrap();
     assert_eq!(system.coordinates[0].unit, "rad");
     assert!(system.units.energy.is_empty() && system.units.observes.is_empty());
+}
+
+#[test]
+fn sums_and_differences_of_angles_are_angles() {
+    let system = read(
+        "#[lagrange(
+            coordinates(a: \"rad\", b: \"rad\", x: \"m\"),
+            kinetic = inertia/2 * (der(a)^2 + der(b)^2) + mass/2 * der(x)^2,
+            observe(twist = a - b - pi/2, turning = der(a) - der(b), swing = der(der(b)), arc = 57.3 * a, wave = sin(a), mixed = a + x/l),
+        )]
+        struct S { #[lagrange(unit = \"kg m^2\")] inertia: f64, mass: f64, l: f64 }",
+    );
+    let units = system.unwrap_or_else(|error| panic!("{error}")).units;
+    assert_eq!(units.observes, ["rad", "rad/s", "rad/s²", "", "", ""]);
 }
 
 #[test]

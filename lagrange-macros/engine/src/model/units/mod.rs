@@ -29,6 +29,7 @@ use super::elaborate::Elaboration;
 use super::{Hint, Units};
 use crate::ast::{self, Declaration, ItemKind, Name};
 use crate::diagnostics::{Code, Diagnostics};
+use crate::symbolic::{ExprId, Node};
 use check::{Checker, Forces};
 use dimension::Dimension;
 use grammar::{Refusal, Unit};
@@ -268,7 +269,8 @@ impl Elaboration<'_> {
                     ));
                 }
             };
-            text(shape.quantities().get(position)?)
+            let angle = self.angle(observe.value).map(str::to_owned);
+            angle.or_else(|| text(shape.quantities().get(position)?))
         });
         Units {
             energy: text(energy).unwrap_or_default(),
@@ -279,6 +281,35 @@ impl Elaboration<'_> {
             dissipations: all(&forces.dissipations, system.dissipations.len()),
             observes: observes.map(Option::unwrap_or_default).collect(),
         }
+    }
+
+    /// The unit of an angle, of its velocity or of its acceleration, and of sums and differences of several: `rad`, `rad/s`, `rad/s²`.
+    /// What is multiplied by a number may be no angle any more, but an arc or degrees.
+    fn angle(&self, value: ExprId) -> Option<&'static str> {
+        let pool = &self.system.pool;
+        let unit = |term: ExprId| {
+            let Node::Symbol(symbol) = pool.node(term) else {
+                return None;
+            };
+            let mut angles = self.system.coordinates.iter().filter(|c| c.unit == "rad");
+            angles.find_map(|c| {
+                let all = [
+                    (c.position, "rad"),
+                    (c.velocity, "rad/s"),
+                    (c.acceleration, "rad/s²"),
+                ];
+                all.iter()
+                    .find(|(of, _)| of == symbol)
+                    .map(|(_, unit)| *unit)
+            })
+        };
+        let Node::Sum { terms, .. } = pool.node(value) else {
+            return unit(value);
+        };
+        let moving = (terms.iter()).filter(|(term, _)| pool.as_multiple_of_pi(*term).is_none());
+        let mut units = moving.map(|&(term, c)| if c.is_unit() { unit(term) } else { None });
+        let first = units.next()??;
+        units.all(|other| other == Some(first)).then_some(first)
     }
 
     /// The unit of a field or coordinate as it has been written down.
