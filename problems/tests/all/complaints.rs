@@ -147,6 +147,13 @@ fn scene_files_that_cannot_be_read_are_named() {
     told(&["run", "wheel"], "the name of a scene file ends in .toml");
     told(&["run", "binary.toml"], "cannot read binary.toml");
     told(&["run", "folder.toml"], "cannot read folder.toml");
+    fs::create_dir_all(folder.join("swings")).expect("a folder");
+    told(
+        &["run", "swings"],
+        "`swings` is a folder; name a file in it: a declaration, swings/NAME.lagrange",
+    );
+    fs::write(folder.join("swings/Cargo.toml"), "").expect("a file");
+    told(&["report", "swings"], "is the folder of a crate");
 }
 
 #[test]

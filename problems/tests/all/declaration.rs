@@ -3,6 +3,7 @@
 use crate::program::{folder, lagrange_in, text};
 use expect_test::expect_file;
 use lagrange_core::prelude::*;
+use lagrange_program::Results;
 use lagrange_program::file::TEMPLATE;
 use std::fs;
 use std::io::{BufRead, BufReader};
@@ -125,6 +126,59 @@ fn new_writes_what_runs() {
             .code(),
         Some(0)
     );
+}
+
+/// A block that a force pulls from its place as soon as the run begins.
+const PULLED: &str = "\
+parameters(m: \"kg\" = 1, g: \"m/s^2\" = 9.81, mu = 0.1, pull: \"N\" = 5),
+coordinates(x: \"m\", y: \"m\"),
+kinetic = m/2*(der(x)^2 + der(y)^2),
+potential = m*g*y,
+contact(floor: y >= 0),
+friction(grip on floor: slip = der(x), static = mu),
+force(hand: x = pull),
+start(rest),
+observe(backward = -der(y)),
+";
+
+#[test]
+fn a_story_begins_before_what_happens_at_its_start() {
+    let folder = folder("pulled");
+    fs::write(folder.join("pulled.lagrange"), PULLED).expect("a file");
+    let story = says(&folder, &["run", "pulled.lagrange"]);
+    let line = |word: &str| story.lines().find(|line| line.contains(word)).expect("it");
+    assert!(
+        line("start").ends_with("floor closed, grip sticks"),
+        "{story}"
+    );
+    assert!(
+        line("grip slips").ends_with("floor closed, grip sticks"),
+        "{story}"
+    );
+    assert!(line("→").contains("→ floor closed, grip slips"), "{story}");
+    for format in ["csv", "json", "jsonl"] {
+        let data = says(&folder, &["run", "pulled.lagrange", "--format", format]);
+        let negative_zero = data.split([',', ':', '\n', ' ']).find(|text| {
+            text.parse()
+                .is_ok_and(|x: f64| x == 0.0 && x.is_sign_negative())
+        });
+        assert_eq!(negative_zero, None, "{format}");
+    }
+}
+
+#[test]
+fn a_run_that_failed_has_results() {
+    let scene = exported::Pendulum::default();
+    let stopped = Simulation::new(&scene)
+        .max_steps(2)
+        .run(scene.at(<exported::Pendulum>::RELEASED), 0.0..3.0)
+        .expect_err("two steps are too few");
+    let story = stopped.story();
+    assert!(story.contains("failed"), "{story}");
+    assert!(story.trim_end().ends_with(&stopped.to_string()), "{story}");
+    let file = folder("failure").join("run.txt");
+    stopped.write(&file).expect("a file");
+    assert_eq!(fs::read_to_string(file).expect("it"), story);
 }
 
 /// The exported struct has emitted functions; the file is interpreted.
