@@ -170,6 +170,23 @@ impl<T: Scalar> Interpreted<T> {
         }
     }
 
+    /// Sizes of the right-hand sides of the equations at the time and the positions in the registers and at these velocities.
+    pub(super) fn right_sides_at(&self, velocities: &[f64]) -> Vec<f64> {
+        let mut registers = self.registers.clone();
+        let places = registers[2 + velocities.len()..].iter_mut();
+        for (place, &v) in places.zip(velocities) {
+            *place = T::from_f64(v);
+        }
+        let program = self.shape.program(Extent::Accelerations);
+        for part in [MOTION, SYSTEM] {
+            program.evaluate(part, &mut registers);
+        }
+        let right = self.shape.right.iter();
+        right
+            .map(|register| registers[register.index()].value().abs())
+            .collect()
+    }
+
     /// Runs a part for values.
     #[inline]
     pub(super) fn evaluate(&mut self, extent: Extent, part: usize) {

@@ -153,7 +153,16 @@ impl<T: Scalar> Dynamics<T> {
         solution.clear();
         solution.extend_from_slice(&right[..pattern.size()]);
         solver.solve(solution);
-        let outcome = solver.check_rows_aside(solution, right);
+        let n = self.description.coordinates.len();
+        let outcome = solver.check_rows_aside(solution, right, || {
+            let velocities = interpreted.registers[2 + n..2 + 2 * n].iter().enumerate();
+            // No factor occurs twice, so that nothing cancels because coordinates move alike.
+            let others = velocities.map(|(j, v)| (1.0 + j as f64).sqrt() * v.value());
+            let others: Vec<f64> = others.collect();
+            interpreted
+                .right_sides_at(&others)
+                .split_off(pattern.free())
+        });
         if outcome.is_ok() && refined && pattern.size() > pattern.free() {
             solver.refine(solution, &mut right[..pattern.size()]);
         }

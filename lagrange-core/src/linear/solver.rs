@@ -239,14 +239,18 @@ impl<T: Scalar> Solver<T> {
     /// others by δ adds a pivot of δ² to the whole matrix.
     ///
     /// Of rows from which others were eliminated rounding or a tolerated error may be all that is left: the slip of a second point of a
-    /// rod that lies flat turns it by nothing, and must not stand for the contact that does.
+    /// rod that lies flat turns it by nothing, and must not stand for the contact that does. So with a row of which there is next to nothing
+    /// here: a side rod in its dead centre must not stand for the other one.
     fn set_dependent_rows_aside(&mut self) {
         let (n, size) = (self.coordinates, self.size);
         let rows = size - n;
         // Square with zeros, so that the same factorization serves.
         let wide = n.max(rows);
         let (matrix, scale, taken) = (&self.matrix, &self.scale, &self.taken);
-        let weight = |i: usize| (1.0 / (taken[i] * scale[n + i])).clamp(LITTLE, 1.0);
+        let largest = scale[n..]
+            .iter()
+            .fold(0.0, |size, x| f64::max(size, 1.0 / x));
+        let weight = |i: usize| (1.0 / (scale[n + i] * taken[i].max(largest))).clamp(LITTLE, 1.0);
         let element = |i: usize, j: usize| {
             if i < rows && j < n {
                 let scale = scale[n + i] * scale[j] * weight(i);
@@ -333,11 +337,18 @@ impl<T: Scalar> Solver<T> {
     /// constraints.
     ///
     /// What is to agree may be all rounding (the centripetal terms of a rod that lies still), so that it is compared with the
-    /// acceleration that the forcing f could give the row, √(Σaⱼ²/mⱼ · Σfⱼ²/mⱼ), too.
-    pub(crate) fn check_rows_aside(&self, x: &[T], b: &[T]) -> Result<(), SolveError> {
-        if self.factors == Factors::Held {
+    /// acceleration that the forcing f could give the row, √(Σaⱼ²/mⱼ · Σfⱼ²/mⱼ), too, and with the terms of its bias, which may have
+    /// cancelled: with the `biases` for velocities that are not those of the motion.
+    pub(crate) fn check_rows_aside(
+        &self,
+        x: &[T],
+        b: &[T],
+        biases: impl FnOnce() -> Vec<f64>,
+    ) -> Result<(), SolveError> {
+        if self.factors == Factors::Held || !self.has_rows_aside() {
             return Ok(());
         }
+        let biases = biases();
         let (n, size) = (self.coordinates, self.size);
         let weighted = |j: usize, number: T| {
             let inertia = self.matrix[j * size + j].value();
@@ -360,7 +371,7 @@ impl<T: Scalar> Solver<T> {
             let elements = &self.matrix[(n + row) * size..][..n];
             let compliance = elements.iter().enumerate().map(|(j, &a)| weighted(j, a));
             let driven = (drive * compliance.sum::<f64>()).sqrt();
-            let rounding = 1e4 * epsilon::<T>() * driven;
+            let rounding = 1e4 * epsilon::<T>() * (driven + biases[row]);
             if residual.abs() > consistent::<T>() * largest + rounding {
                 return Err(SolveError::Inconsistent {
                     row,
