@@ -2,11 +2,12 @@
 
 use super::Run;
 use super::guard_polynomials::GuardPolynomials;
+use super::instant::nearest;
 use super::region::is_edge_in_flight;
 use super::rest::Rest;
 use crate::arithmetic::{Scalar, epsilon};
 use crate::events::{Direction, Root, RootList, deflate, first_root, roots};
-use crate::integrate::polynomial_sum as sum;
+use crate::integrate::{polynomial_derivative as slope, polynomial_sum as sum};
 use crate::mode::{FrictionMode, Mode};
 use crate::modes::guard::{Guard, LENGTH};
 use crate::settings::Settings;
@@ -16,6 +17,9 @@ use crate::system::{Condition, Description, Watch};
 const RESOLUTION: f64 = 1e-13;
 /// From here on they can.
 pub(super) const CLEAR: f64 = 1e-10;
+
+/// So many units of rounding are between the time of a root and of the same one when the next step begins.
+const UNITS_OF_TIME: f64 = 64.0;
 
 /// What happens first within a step.
 #[derive(Clone, Debug, PartialEq)]
@@ -234,6 +238,7 @@ impl<T: Scalar> Run<T> {
     /// The earliest stop up to part `end` of the step.
     fn first_stop(&self, end: f64) -> Option<(usize, f64)> {
         let d = self.description();
+        let resolution = self.resolution_of_time();
         let curves = &self.locator.polynomials;
         let mut best: Option<(usize, f64)> = None;
         for &i in &curves.stops {
@@ -242,7 +247,7 @@ impl<T: Scalar> Run<T> {
             let first = becomes_true(
                 watch,
                 mode,
-                end,
+                [end, resolution],
                 |k| curves.stop_term(i, k),
                 |k| below[i][k],
                 |k, root| self.place(Guard::Stop(i, k), root).0,
@@ -259,19 +264,22 @@ impl<T: Scalar> Run<T> {
     /// Marks up to part `end` of the step, in order.
     pub(super) fn marks_until(&self, end: f64, list: &mut Vec<(usize, f64)>) {
         let d = self.description();
+        let resolution = self.resolution_of_time();
         let curves = &self.locator.polynomials;
         list.clear();
         for &i in &curves.marks {
             let watch = &d.marks[i];
             if watch.zeros {
                 let mut all = RootList::new();
-                roots(curves.mark_term(i, 0), &mut all);
+                let curve = curves.mark_term(i, 0);
+                roots(curve, &mut all);
                 let below = self.locator.mark_below[i][0];
-                let start = curves.mark_term(i, 0)[0];
-                if (below && start > 0.0) || (!below && start < 0.0) {
+                let comes_back = comes_back_at_once(curve, below, resolution);
+                if !comes_back && ((below && curve[0] > 0.0) || (!below && curve[0] < 0.0)) {
                     list.push((i, 0.0));
                 }
-                let places = all.iter().map(|root| self.place(Guard::Mark(i, 0), root).0);
+                let roots = all.iter().skip(usize::from(comes_back));
+                let places = roots.map(|root| self.place(Guard::Mark(i, 0), root).0);
                 list.extend(
                     places
                         .filter(|s| *s <= end && holds(watch, &self.now.mode))
@@ -282,7 +290,7 @@ impl<T: Scalar> Run<T> {
                 let first = becomes_true(
                     watch,
                     &self.now.mode,
-                    end,
+                    [end, resolution],
                     |k| curves.mark_term(i, k),
                     |k| below[i][k],
                     |k, root| self.place(Guard::Mark(i, k), root).0,
@@ -293,21 +301,48 @@ impl<T: Scalar> Run<T> {
         list.sort_by(|a, b| a.1.total_cmp(&b.1));
     }
 
-    /// Remembers on which side the terms of stops and marks are at part `end` of the step.
+    /// The part of the step to which rounding resolves the time of an event.
+    fn resolution_of_time(&self) -> f64 {
+        let step = &self.stepper.step;
+        UNITS_OF_TIME * f64::EPSILON * (step.t.value() / step.h.value()).abs()
+    }
+
+    /// Remembers on which side the terms of stops and marks are at part `end` of the step. The term of a mark that has been logged there is on
+    /// the side to which it goes.
     pub(super) fn remember_sides(&mut self, end: f64) {
-        let d = self.description();
+        let resolution = self.resolution_of_time();
         let curves = &self.locator.polynomials;
-        let below = |curve: &[f64]| value(curve, end) < 0.0;
         for &i in &curves.stops {
-            for k in 0..d.stops[i].terms.len() {
-                self.locator.stop_below[i][k] = below(curves.stop_term(i, k));
+            for (k, below) in self.locator.stop_below[i].iter_mut().enumerate() {
+                *below = is_below(curves.stop_term(i, k), end, resolution, *below);
             }
         }
         for &i in &curves.marks {
-            for k in 0..d.marks[i].terms.len() {
-                self.locator.mark_below[i][k] = below(curves.mark_term(i, k));
+            let here = |&(mark, s): &(usize, f64)| mark == i && (end - s).abs() <= resolution;
+            let logged = self.locator.marks.iter().any(here);
+            let below = &mut self.locator.mark_below[i];
+            let passed = match logged {
+                true => nearest(0..below.len(), end, |k| curves.mark_term(i, k)),
+                false => None,
+            };
+            for (k, below) in below.iter_mut().enumerate() {
+                *below = match passed {
+                    Some((term, slope)) if term == k => slope < 0.0,
+                    _ => is_below(curves.mark_term(i, k), end, resolution, *below),
+                };
             }
         }
+    }
+}
+
+/// Whether a term is below zero at part `s` of a step. Where it is zero, whatever rounding makes of it, it is on the side from which it
+/// comes: the one where it was before, if it was zero all the time.
+fn is_below(curve: &[f64], s: f64, resolution: f64, was_below: bool) -> bool {
+    let is_zero = |s: f64| is_zero(curve, s, resolution);
+    match (is_zero(s), is_zero(0.0)) {
+        (false, _) => value(curve, s) < 0.0,
+        (true, true) => was_below,
+        (true, false) => slope(curve, s) > 0.0,
     }
 }
 
@@ -340,11 +375,11 @@ fn leading(curve: &[f64], resolution: f64) -> Option<usize> {
 }
 
 /// First instant up to `end` at which a watch becomes true: a term rises through zero while the others are ≥ 0; `place` tells
-/// where the root of a term's polynomial is.
+/// where the root of a term's polynomial is, and `resolution` to which part of the step rounding resolves the time.
 fn becomes_true<'c>(
     watch: &Watch,
     mode: &Mode,
-    end: f64,
+    [end, resolution]: [f64; 2],
     term: impl Fn(usize) -> &'c [f64],
     was_below: impl Fn(usize) -> bool,
     place: impl Fn(usize, &Root) -> f64,
@@ -365,13 +400,16 @@ fn becomes_true<'c>(
             consider(0.0);
         }
         let mut from = 0.0;
+        let mut comes_back = comes_back_at_once(curve, was_below(k), resolution);
         while let Some(root) = first_root(curve, from) {
             let s = place(k, &root);
             if s > end {
                 break;
             }
             if root.direction == Direction::Rising && !root.grazing {
-                consider(s);
+                if !core::mem::take(&mut comes_back) {
+                    consider(s);
+                }
             }
             // A root that rounding puts at 0 must not be found again.
             from = root.s.max(f64::MIN_POSITIVE);
@@ -381,6 +419,25 @@ fn becomes_true<'c>(
         }
     }
     best
+}
+
+/// Whether a curve is zero at part `s` of a step, as far as rounding can tell: of its terms, or of the time, to which the step is resolved
+/// to within this part of it.
+fn is_zero(curve: &[f64], s: f64, resolution: f64) -> bool {
+    let size: f64 = curve.iter().map(|c| c.abs()).sum();
+    value(curve, s).abs() <= (RESOLUTION * size).max(resolution * slope(curve, s).abs())
+}
+
+/// Whether rounding has put the begin of a curve to the side from which it has come, and it crosses zero to the other one again.
+fn comes_back_at_once(curve: &[f64], was_below: bool, resolution: f64) -> bool {
+    let [start, rate, ..] = *curve else {
+        return false;
+    };
+    let crosses = match was_below {
+        true => start > 0.0 && rate < 0.0,
+        false => start < 0.0 && rate > 0.0,
+    };
+    crosses && is_zero(curve, 0.0, resolution)
 }
 
 /// Whether the conditions of a watch hold in a mode.

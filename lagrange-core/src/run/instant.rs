@@ -137,7 +137,7 @@ impl<T: Scalar> Run<T> {
 }
 
 /// The term whose root is nearest to `s`, and its slope there.
-fn nearest<'c>(
+pub(super) fn nearest<'c>(
     terms: Range<usize>,
     s: f64,
     curve: impl Fn(usize) -> &'c [f64],

@@ -424,7 +424,8 @@ impl<T: Scalar> Run<T> {
         self.stepper.powers.resize(degree + 1, 0.0);
         for entry in &mut self.stepper.powers {
             *entry = power;
-            power *= h;
+            // A power beyond all numbers would make a coefficient that is zero no number.
+            power = (power * h).min(f64::MAX);
         }
         let width = degree + 1;
         let rows = self.stepper.step.q.chunks_exact_mut(width);

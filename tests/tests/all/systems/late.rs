@@ -60,3 +60,25 @@ fn a_certificate_knows_that_late_times_are_rounded() {
         }
     }
 }
+
+/// A mass that nothing drives.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = mass / 2 * der(x)^2,
+)]
+struct Free {
+    mass: f64,
+}
+
+/// One step is enough, however long, although its powers are beyond all numbers.
+#[test]
+fn a_free_flight_is_one_step_up_to_any_time() {
+    for end in [1e3, 1e20, 1e25, 1e300] {
+        let simulation = Simulation::new(&Free { mass: 2.0 });
+        let run = simulation.run(state(&[1.0], &[3.0]), 0.0..end);
+        let run = run.expect("a run");
+        agree("x", run.final_state().q[0] / end, 3.0 + 1.0 / end, 1e-15);
+        assert_eq!(run.work().steps, 1, "{end:e}");
+    }
+}

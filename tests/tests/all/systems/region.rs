@@ -305,3 +305,54 @@ fn a_wheel_climbs_a_kerb_and_stays_on_top() {
         }
     }
 }
+
+/// A hoop of radius `radius` that rolls against a kerb of height `kerb`.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, theta),
+    define(away = sqrt(x^2 + (y - kerb)^2)),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2) + mass/2 * radius^2 * der(theta)^2,
+    potential = mass * gravity * y,
+    contact(road: y >= radius, where x <= 0),
+    contact(corner: away >= radius),
+    contact(walk: y >= kerb + radius, where x >= 0),
+    friction(grip on road: slip = der(x) - radius * der(theta), static = mu),
+    friction(bite on corner: slip = ((y - kerb) * der(x) - x * der(y)) / away - radius * der(theta), static = mu),
+    friction(tread on walk: slip = der(x) - radius * der(theta), static = mu),
+    mark(up: x >= 0),
+)]
+struct Hoop {
+    mass: f64,
+    radius: f64,
+    kerb: f64,
+    gravity: f64,
+    mu: f64,
+}
+
+/// About the corner the impact keeps m r² ω + m r ω (r − h) = 2 m r² ω′, and the energy is kept from there on. The mark stands where the
+/// corner hands over to the walk, and is written once.
+#[test]
+fn a_mark_where_regions_meet_is_written_once() {
+    let hoop = Hoop {
+        mass: 2.0,
+        radius: 0.35,
+        kerb: 0.08,
+        gravity: G,
+        mu: 3.0,
+    };
+    let Hoop { radius, kerb, .. } = hoop;
+    let before: f64 = 1.6 / radius;
+    let turned = before * (2.0 * radius - kerb) / (2.0 * radius);
+    let after = (turned * turned - G * kerb / (radius * radius)).sqrt();
+    for method in ["taylor", "dop853", "dopri5", "verner98", "radau5"] {
+        for tolerance in [1e-4, 1e-7, 1e-10, 1e-12] {
+            let asked = format!("{method} at {tolerance:e}");
+            let start = super::state(&[-1.0, radius, 0.0], &[1.6, 0.0, before]);
+            let run = run_by(&hoop, (method, tolerance), start, 1.2);
+            let marks = run.events().iter().filter(|e| e.kind == EventKind::Mark);
+            assert_eq!(marks.count(), 1, "{asked}");
+            let end = run.final_state();
+            agree(&asked, end.v(Hoop::THETA) / after, 1.0, 10.0 * tolerance);
+        }
+    }
+}
