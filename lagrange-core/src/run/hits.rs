@@ -406,10 +406,9 @@ fn becomes_true<'c>(
             if s > end {
                 break;
             }
-            if root.direction == Direction::Rising && !root.grazing {
-                if !core::mem::take(&mut comes_back) {
-                    consider(s);
-                }
+            let rises = root.direction == Direction::Rising && !root.grazing;
+            if rises && !core::mem::take(&mut comes_back) {
+                consider(s);
             }
             // A root that rounding puts at 0 must not be found again.
             from = root.s.max(f64::MIN_POSITIVE);
