@@ -304,7 +304,7 @@ impl<T: Scalar> Run<T> {
     /// The part of the step to which rounding resolves the time of an event.
     fn resolution_of_time(&self) -> f64 {
         let step = &self.stepper.step;
-        UNITS_OF_TIME * f64::EPSILON * (step.t.value() / step.h.value()).abs()
+        UNITS_OF_TIME * epsilon::<T>() * (step.t.value() / step.h.value()).abs()
     }
 
     /// Remembers on which side the terms of stops and marks are at part `end` of the step. The term of a mark that has been logged there is on

@@ -254,6 +254,44 @@ fn of_many_items_a_story_says_what_changes() {
     assert!(!story.contains("top[0] closed"), "{story}");
 }
 
+/// A bar on three feet: the motion leaves open what each carries.
+#[test]
+fn forces_that_are_open_are_told_with_what_hangs_on_them() {
+    let folder = folder("open forces");
+    let bar = "parameters(mu = 0.3, gravity = 9.81, speed = 0),
+        coordinates(x, z, pitch),
+        kinetic = (der(x)^2 + der(z)^2 + der(pitch)^2/12)/2,
+        potential = gravity * z,
+        contact(foot[k in 0..3]: z + (k - 1)/2*pitch >= 0),
+        friction(rub[k in 0..3] on foot[k]: slip = der(x), static = mu),
+        start(go: der(x) = speed),
+        until = 0.1,";
+    fs::write(folder.join("bar.lagrange"), bar).expect("a file");
+    for (speed, told) in [("speed=0", "does not depend"), ("speed=1", "may depend")] {
+        let output = lagrange_in(&folder, &["run", "bar.lagrange", "--set", speed]);
+        let story = text(&output.stdout);
+        let open = story
+            .lines()
+            .find(|line| line.starts_with("Not determined"));
+        assert!(open.is_some_and(|open| open.contains(told)), "{story}");
+    }
+}
+
+#[test]
+fn of_many_branches_a_story_names_the_first() {
+    let folder = folder("many branches");
+    let wall = "coordinates(x),
+        kinetic = der(x)^2/2,
+        force(wall: x = -sum(k in 0..40: max(0, x - 100 - k))),
+        start(go: der(x) = 1),
+        until = 1,";
+    fs::write(folder.join("wall.lagrange"), wall).expect("a file");
+    let output = lagrange_in(&folder, &["run", "wall.lagrange"]);
+    let story = text(&output.stdout);
+    assert!(story.contains("37 more"), "{story}");
+    assert!(story.lines().count() < 30, "{story}");
+}
+
 #[test]
 fn a_run_whose_certificate_falls_short_is_printed_and_said_to_be_wrong() {
     // Between the ends of fixed steps that are too long the linkage comes apart.

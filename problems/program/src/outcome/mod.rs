@@ -271,6 +271,20 @@ impl Outcome {
             .collect()
     }
 
+    /// Whether a friction slides somewhere whose force the motion leaves open: how such forces are shared out may then move something.
+    pub fn slides_undetermined(&self) -> bool {
+        let slides = |mode: &Mode, open: &[bool]| {
+            let frictions = self.description.frictions.iter().zip(&mode.frictions);
+            let mut sliding = frictions.filter(|(_, state)| matches!(state, FrictionMode::Slip(_)));
+            sliding.any(|(friction, _)| open.get(friction.row) == Some(&true))
+        };
+        let mut samples = self.samples.iter();
+        samples.any(|s| slides(&s.mode, &s.undetermined))
+            || self.events.iter().any(|e| {
+                slides(&e.before, &e.undetermined) || slides(&e.after, &e.undetermined_after)
+            })
+    }
+
     /// When steps were bounded by stability, and what that means, if they were.
     pub fn stiffness(&self) -> Option<String> {
         let (first, last) = (self.stiff.first()?, self.stiff.last()?);

@@ -32,9 +32,13 @@ pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
     writeln!(out, "{}", story(outcome).trim_fmt())?;
     let open = outcome.undetermined();
     if !open.is_empty() {
+        let depends = match outcome.slides_undetermined() {
+            false => "does not depend",
+            true => "may depend, since some slide,",
+        };
         writeln!(
             out,
-            "\nNot determined: {}. What moves does not depend on how these forces are shared out; \
+            "\nNot determined: {}. What moves {depends} on how these forces are shared out; \
              shown are the least that contacts and friction allow.",
             open.join(", ")
         )?;

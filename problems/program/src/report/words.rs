@@ -2,11 +2,12 @@
 
 use lagrange_core::mode::{Direction, FrictionMode, Mode};
 use lagrange_core::system::Description;
+use std::collections::BTreeSet;
 
 /// So many of a kind that do the same are told together.
 const MANY: usize = 3;
 
-/// In a table, so many contacts and frictions are told one by one.
+/// In a table, so many contacts, frictions and sides of branches are told one by one.
 const FEW: usize = 4;
 
 /// A name with what it does: singular and plural.
@@ -17,7 +18,7 @@ pub(crate) fn brief(mode: &Mode, description: &Description) -> String {
     let (contacts, frictions) = (contacts(mode, description), frictions(mode, description));
     let mut told = together(&contacts, "contacts", contacts.len());
     told.extend(together(&frictions, "frictions", frictions.len()));
-    told.extend(mode.sides(description).map(str::to_owned));
+    told.extend(some(mode.sides(description).collect()));
     joined(&told)
 }
 
@@ -62,16 +63,35 @@ fn changed(before: &Mode, after: &Mode, description: &Description) -> String {
     let ([now, then], [rubs, rubbed]) = (of_contacts, of_frictions);
     let mut told = new(now, then, "contacts");
     told.extend(new(rubs, rubbed, "frictions"));
-    let sides: Vec<&str> = before.sides(description).collect();
+    let sides: BTreeSet<&str> = before.sides(description).collect();
     let other = after
         .sides(description)
         .filter(|side| !sides.contains(side));
-    told.extend(other.map(str::to_owned));
+    told.extend(some(other.collect()));
     joined(&told)
 }
 
 fn are_few(description: &Description) -> bool {
-    description.contacts.len() + description.frictions.len() <= FEW
+    let Description {
+        contacts,
+        frictions,
+        branches,
+        ..
+    } = description;
+    contacts.len() + frictions.len() + branches.len() <= FEW
+}
+
+/// Conditions that hold, of many the first ones.
+fn some(sides: Vec<&str>) -> Vec<String> {
+    let told = match sides.len() > FEW {
+        true => MANY,
+        false => sides.len(),
+    };
+    let mut some: Vec<String> = sides[..told].iter().map(|&side| side.to_owned()).collect();
+    if sides.len() > told {
+        some.push(format!("{} more conditions", sides.len() - told));
+    }
+    some
 }
 
 fn joined(told: &[String]) -> String {
