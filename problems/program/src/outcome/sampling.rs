@@ -7,6 +7,7 @@ use lagrange_core::dynamics::{Dynamics, OutputMask};
 use lagrange_core::mode::{FrictionMode, Mode};
 use lagrange_core::prelude::*;
 use lagrange_core::system::Friction;
+use lagrange_core::trajectory::Instant;
 
 /// The instants between so many equal intervals of a motion.
 pub(crate) fn equal(trajectory: &Trajectory, intervals: usize) -> Vec<f64> {
@@ -97,7 +98,8 @@ impl<'a> Reader<'a> {
     }
 
     fn before(&mut self, event: &Event<f64>) -> Option<Sample> {
-        self.sample(event.time, just_before(event.time), 0, &event.before)
+        let instant = self.sampler.before(event).ok()?;
+        Some(self.of_instant(event.time, 0, instant)).filter(|sample| sample.mode == event.before)
     }
 
     fn after(&mut self, event: &Event<f64>) -> Option<Sample> {
@@ -109,10 +111,12 @@ impl<'a> Reader<'a> {
     /// What is at `read`, as a sample at `time`; nothing if another mode is there.
     fn sample(&mut self, time: f64, read: f64, phase: usize, mode: &Mode) -> Option<Sample> {
         let instant = self.sampler.at(read).ok()?;
-        if instant.mode != *mode {
-            return None;
-        }
-        Some(Sample {
+        Some(self.of_instant(time, phase, instant)).filter(|sample| sample.mode == *mode)
+    }
+
+    /// An instant as a sample at `time`.
+    fn of_instant(&mut self, time: f64, phase: usize, instant: Instant<f64>) -> Sample {
+        Sample {
             time,
             phase,
             limits: self.limits.at(time, &instant),
@@ -123,7 +127,7 @@ impl<'a> Reader<'a> {
             kinetic: instant.kinetic,
             potential: instant.potential,
             observes: instant.observes,
-        })
+        }
     }
 }
 

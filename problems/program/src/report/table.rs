@@ -103,6 +103,7 @@ fn entries(outcome: &Outcome, items: &[Force]) -> Vec<Line> {
         impulse: false,
         mode: in_table(&sample.mode, description),
     };
+    let before = |index: usize| outcome.around.get(index)?[0].as_ref();
     let happening = |(index, event): (usize, &Event<f64>)| {
         let (mode, changes) = switch_in_table(&event.before, &event.after, description);
         let impulse = event.kind == EventKind::Impact;
@@ -110,13 +111,7 @@ fn entries(outcome: &Outcome, items: &[Force]) -> Vec<Line> {
             time: event.time,
             error: None,
             event: format!("{} {}", event.subject.name(description), event.kind),
-            state: known(
-                &event.state.q,
-                outcome
-                    .around
-                    .get(index)
-                    .and_then(|[before, _]| before.as_ref()),
-            ),
+            state: known(&event.state.q, before(index)),
             upper: match impulse {
                 true => items
                     .iter()
@@ -135,7 +130,7 @@ fn entries(outcome: &Outcome, items: &[Force]) -> Vec<Line> {
     // What happens at the start has a line of its own: the run begins with what was before it.
     let start = |first: &Sample| match outcome.events.first() {
         Some(event) if event.time == first.time => Line {
-            state: known(&event.state.q, None),
+            state: known(&event.state.q, before(0)),
             upper: acting(&event.forces, &event.before),
             mode: in_table(&event.before, description),
             ..instant(first, "start")

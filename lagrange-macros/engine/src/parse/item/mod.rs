@@ -127,12 +127,11 @@ fn item(part: &mut Cursor, read: &mut Items, sink: &mut Diagnostics) -> Option<(
             grouped(&keyword, extent, inside, sink)?
         }
         _ => {
-            let what = if matches!(word, "kinetic" | "potential") {
-                "`=` or `(`"
-            } else {
-                "`(`"
+            let what = match word {
+                "kinetic" | "potential" => "`=` or `(`".to_owned(),
+                _ => format!("`(` and in it {}", example(word)),
             };
-            part.expected(what, sink);
+            part.expected(&what, sink);
             part.skip_all();
             return None;
         }
@@ -144,14 +143,9 @@ fn item(part: &mut Cursor, read: &mut Items, sink: &mut Diagnostics) -> Option<(
     Some(())
 }
 
-/// An item with parentheses.
-fn grouped(
-    keyword: &Name,
-    extent: Extent,
-    inside: Cursor,
-    sink: &mut Diagnostics,
-) -> Option<ItemKind> {
-    let example = match keyword.text.as_str() {
+/// What stands in the parentheses of an item.
+fn example(keyword: &str) -> &'static str {
+    match keyword {
         "coordinates" => "coordinates, as in `coordinates(x, y)`",
         "define" => "definitions, as in `define(px = r*sin(theta))`",
         "kinetic" | "potential" | "dissipation" => "a name and an expression: `name: …`",
@@ -165,7 +159,17 @@ fn grouped(
         "draw" => "a form and where it is: `mass: (x, y)`",
         "check" => "an equation, as in `check(floor == m*g when closed(floor))`",
         _ => "a body and its coordinates: `body: q`",
-    };
+    }
+}
+
+/// An item with parentheses.
+fn grouped(
+    keyword: &Name,
+    extent: Extent,
+    inside: Cursor,
+    sink: &mut Diagnostics,
+) -> Option<ItemKind> {
+    let example = example(&keyword.text);
     if inside.is_at_end() {
         sink.report(Code::EmptyPart, extent, &[&example]);
         return None;
