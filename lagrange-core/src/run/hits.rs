@@ -338,11 +338,13 @@ impl<T: Scalar> Run<T> {
 /// Whether a term is below zero at part `s` of a step. Where it is zero, whatever rounding makes of it, it is on the side from which it
 /// comes: the one where it was before, if it was zero all the time.
 fn is_below(curve: &[f64], s: f64, resolution: f64, was_below: bool) -> bool {
-    let is_zero = |s: f64| is_zero(curve, s, resolution);
-    match (is_zero(s), is_zero(0.0)) {
-        (false, _) => value(curve, s) < 0.0,
-        (true, true) => was_below,
-        (true, false) => slope(curve, s) > 0.0,
+    let now = value(curve, s);
+    if !is_zero(curve, s, now, resolution) {
+        return now < 0.0;
+    }
+    match is_zero(curve, 0.0, value(curve, 0.0), resolution) {
+        true => was_below,
+        false => slope(curve, s) > 0.0,
     }
 }
 
@@ -420,11 +422,13 @@ fn becomes_true<'c>(
     best
 }
 
-/// Whether a curve is zero at part `s` of a step, as far as rounding can tell: of its terms, or of the time, to which the step is resolved
-/// to within this part of it.
-fn is_zero(curve: &[f64], s: f64, resolution: f64) -> bool {
+/// Whether a curve, `now` at part `s` of a step, is zero there, as far as rounding can tell: of its terms, or of the time, to which the
+/// step is resolved to within this part of it.
+fn is_zero(curve: &[f64], s: f64, now: f64, resolution: f64) -> bool {
     let size: f64 = curve.iter().map(|c| c.abs()).sum();
-    value(curve, s).abs() <= (RESOLUTION * size).max(resolution * slope(curve, s).abs())
+    let steepest = curve.len() as f64 * size;
+    let far = now.abs() > (RESOLUTION * size).max(resolution * steepest);
+    !far && now.abs() <= (RESOLUTION * size).max(resolution * slope(curve, s).abs())
 }
 
 /// Whether rounding has put the begin of a curve to the side from which it has come, and it crosses zero to the other one again.
@@ -436,7 +440,7 @@ fn comes_back_at_once(curve: &[f64], was_below: bool, resolution: f64) -> bool {
         true => start > 0.0 && rate < 0.0,
         false => start < 0.0 && rate > 0.0,
     };
-    crosses && is_zero(curve, 0.0, resolution)
+    crosses && is_zero(curve, 0.0, start, resolution)
 }
 
 /// Whether the conditions of a watch hold in a mode.
