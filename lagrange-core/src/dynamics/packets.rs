@@ -10,7 +10,7 @@ use crate::program::Series;
 use std::sync::Arc;
 
 /// Motions in a packet.
-pub(crate) const LANES: usize = 4;
+const LANES: usize = 4;
 
 type Lanes<T> = Pack<T, LANES>;
 

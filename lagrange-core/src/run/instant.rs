@@ -6,7 +6,7 @@
 
 use super::Run;
 use super::hits::{Hit, value};
-use crate::arithmetic::{Scalar, epsilon};
+use crate::arithmetic::Scalar;
 use crate::integrate::polynomial_derivative as slope;
 use crate::modes::exact::{exact, slip};
 use crate::modes::guard::Guard;
@@ -35,10 +35,7 @@ impl<T: Scalar> Run<T> {
         let (guard, slope) = match *hit {
             // At the last instant the time itself has no derivatives.
             Hit::Nothing | Hit::Turned(_) => {
-                if end < 1.0
-                    || (self.end - self.now.t.value() - h).abs()
-                        > 4.5 * epsilon::<T>() * self.end.abs().max(h)
-                {
+                if end < 1.0 || !self.is_spent(self.end - self.now.t.value() - h) {
                     return T::from_f64(end);
                 }
                 let s = T::one()

@@ -357,10 +357,7 @@ impl<T: Scalar> Run<T> {
         if end > 0.0 {
             let whole = end == 1.0;
             self.now.t = self.stepper.step.t + self.stepper.step.h * exact;
-            if whole
-                && (self.end - self.now.t.value()).abs()
-                    <= 4.5 * epsilon::<T>() * self.end.abs().max(self.stepper.step.h.value())
-            {
+            if whole && self.is_spent(self.end - self.now.t.value()) {
                 self.now.t = T::from_f64(self.end);
             }
             // Time may be too coarse for the step.
@@ -619,6 +616,11 @@ impl<T: Scalar> Run<T> {
             };
         }
         Ok(())
+    }
+
+    /// Whether the time that a step leaves of the run is rounding.
+    fn is_spent(&self, rest: f64) -> bool {
+        rest.abs() <= 4.5 * epsilon::<T>() * self.end.abs().max(self.stepper.step.h.value())
     }
 
     fn limit(&self, what: &'static str, limit: usize) -> Error {
