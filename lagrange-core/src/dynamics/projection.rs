@@ -10,7 +10,7 @@
 
 use super::{Dynamics, EvaluationError};
 use crate::arithmetic::{Scalar, epsilon};
-use crate::linear::Inertia;
+use crate::linear::{Columns, Inertia};
 use crate::system::{Row, ValueRef};
 
 /// Residuals are rounding below this share of the terms that they cancel from.
@@ -403,7 +403,11 @@ impl<T: Scalar> Dynamics<T> {
                 self.projection.right[index] = -place.read(constants, &self.nodes);
             }
             self.work.factorizations += 1;
-            if self.projector.factor(Inertia::Symmetric).is_ok() {
+            if self
+                .projector
+                .factor(Inertia::Symmetric, Columns::Transposed)
+                .is_ok()
+            {
                 self.projection.change.clear();
                 self.projection
                     .change

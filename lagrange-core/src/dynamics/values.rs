@@ -4,7 +4,7 @@ use super::compiled::{Compiled, Part};
 use super::interpreted::{Extent, FORCES, Interpreted, MOTION, REPORT, SYSTEM};
 use super::{Dynamics, EvaluationError};
 use crate::arithmetic::{Scalar, epsilon};
-use crate::linear::{Inertia, SolveError};
+use crate::linear::{Columns, Inertia, SolveError};
 use crate::system::ValueRef;
 
 impl<T: Scalar> Dynamics<T> {
@@ -371,7 +371,12 @@ fn factor<T: Scalar>(compiled: &mut Compiled<T>) -> Result<(), SolveError> {
     } else {
         Inertia::General
     };
-    let outcome = solver.factor(inertia);
+    let columns = if pattern.is_coupled() {
+        Columns::Coupled
+    } else {
+        Columns::Transposed
+    };
+    let outcome = solver.factor(inertia, columns);
     compiled.constants = constants;
     outcome
 }

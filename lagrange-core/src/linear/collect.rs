@@ -256,8 +256,14 @@ impl KktTerms {
         }
     }
 
-    /// Whether a row and the column of its force depend on parameters only, and the row has no bias.
-    pub(crate) fn is_constant<T: Scalar>(
+    /// Whether a force acts through the multiplier of another row: what slides, or is proportional to a multiplier.
+    pub(crate) fn is_coupled(&self) -> bool {
+        let mut columns = self.columns.iter();
+        columns.any(|element| element.source == Source::Coupled)
+    }
+
+    /// Whether a row depends on parameters only, and has no bias.
+    pub(crate) fn has_constant_row<T: Scalar>(
         &self,
         description: &Description,
         index: usize,
@@ -269,17 +275,28 @@ impl KktTerms {
             ValueRef::Constant(i) => constants[i].is_zero(),
             ValueRef::Node(_) => false,
         };
-        let constant = |place: ValueRef| match place {
-            ValueRef::Zero => true,
-            ValueRef::Constant(i) => constants[i].value().is_finite(),
-            ValueRef::Node(_) => false,
-        };
-        unbiased
-            && row.jacobian.iter().all(|&(_, place)| constant(place))
-            && self
-                .columns
-                .iter()
-                .filter(|e| e.index == index)
-                .all(|e| constant(e.place))
+        let mut elements = row.jacobian.iter();
+        unbiased && elements.all(|&(_, place)| is_constant(place, constants))
+    }
+
+    /// The same of a row and the column of its force.
+    pub(crate) fn is_constant<T: Scalar>(
+        &self,
+        description: &Description,
+        index: usize,
+        constants: &[T],
+    ) -> bool {
+        let mut column = self.columns.iter().filter(|e| e.index == index);
+        self.has_constant_row(description, index, constants)
+            && column.all(|e| is_constant(e.place, constants))
+    }
+}
+
+/// Whether a number depends on parameters only, and is one.
+fn is_constant<T: Scalar>(place: ValueRef, constants: &[T]) -> bool {
+    match place {
+        ValueRef::Zero => true,
+        ValueRef::Constant(i) => constants[i].value().is_finite(),
+        ValueRef::Node(_) => false,
     }
 }

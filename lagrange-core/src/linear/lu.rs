@@ -53,6 +53,23 @@ impl<T: Scalar> Lu<T> {
         self.rows[self.rank..].iter().copied()
     }
 
+    /// Gives each row without a pivot as a combination of those with one: the row, one of these, and its factor.
+    pub(super) fn combine(&self, mut put: impl FnMut(usize, usize, T)) {
+        let (size, rank) = (self.size, self.rank);
+        let mut factors = vec![T::zero(); rank];
+        for i in rank..size {
+            // xᵀ L₁₁ = L₂₁, from the last.
+            for k in (0..rank).rev() {
+                let later = k + 1..rank;
+                let sum = later.fold(T::zero(), |sum, j| {
+                    sum + factors[j] * self.factors[j * size + k]
+                });
+                factors[k] = self.factors[i * size + k] - sum;
+                put(self.rows[i], self.rows[k], factors[k]);
+            }
+        }
+    }
+
     /// Factors the row-major `matrix`; stops at the rank. Pivots are found in the whole remaining block.
     pub(crate) fn factor(&mut self, size: usize, matrix: impl Iterator<Item = T>) {
         self.factor_to(negligible::<T>(), size, matrix);

@@ -32,4 +32,4 @@ pub(crate) use least_norm::{Freedom, least_norm};
 pub(crate) use lemke::{Lemke, Outcome as LemkeOutcome};
 pub(crate) use pattern::KktPattern;
 pub(crate) use small::{VanishingCombinations, solve_small};
-pub(crate) use solver::{Inertia, SolveError, Solver};
+pub(crate) use solver::{Columns, Inertia, SolveError, Solver};

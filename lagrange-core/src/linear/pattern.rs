@@ -99,6 +99,11 @@ impl<T: Scalar> KktPattern<T> {
         self.elimination.free.len()
     }
 
+    /// Whether forces act through the multipliers of others.
+    pub(crate) fn is_coupled(&self) -> bool {
+        self.collected.is_coupled()
+    }
+
     /// Number of equations.
     pub(crate) fn size(&self) -> usize {
         self.free() + self.kept.len()
@@ -201,16 +206,25 @@ impl<T: Scalar> KktPattern<T> {
             ..
         } = self;
         let acting = &collected.acting;
-        constant_rows.clear();
-        constant_rows.extend(
-            (0..acting.len()).filter(|&index| collected.is_constant(description, index, constants)),
-        );
-        fill(a, n, constant_rows, |index, put| {
-            for &(j, place) in description.rows[acting[index]].jacobian {
-                put(j, number(place, constants));
-            }
-        });
-        elimination.dependent(a, n, dependent);
+        let mut find = |constant_rows: &mut Vec<usize>, constant: &dyn Fn(usize) -> bool| {
+            constant_rows.clear();
+            constant_rows.extend((0..acting.len()).filter(|&index| constant(index)));
+            fill(a, n, constant_rows, |index, put| {
+                for &(j, place) in description.rows[acting[index]].jacobian {
+                    put(j, number(place, constants));
+                }
+            });
+            elimination.dependent(a, n, dependent);
+            dependent.contains(&true)
+        };
+        let is_row = |i| collected.has_constant_row(description, i, constants);
+        if find(constant_rows, &|i| collected.is_coupled() && is_row(i)) {
+            // How more contacts than are needed share their load moves what slides on them: the solver finds that for all rows.
+            constant_rows.clear();
+        } else {
+            let is_constant = |i| collected.is_constant(description, i, constants);
+            find(constant_rows, &is_constant);
+        }
         let mut position = 0;
         // A dependent row follows from the others and has no force of its own.
         kept.clear();

@@ -21,6 +21,12 @@ const LIGHT: f64 = 1e7;
 /// others where it does not.
 const LITTLE: f64 = 1e-4;
 
+/// Rows that have been set aside count by this when the others are factored (2⁻⁴⁰), so that none of them is among these,
+const LAST: f64 = NEXT_TO_LAST / 1024.0;
+
+/// whose pivots are larger than this.
+const NEXT_TO_LAST: f64 = 1.0 / 1073741824.0;
+
 /// Accelerations of this size are none.
 const SQUARE_OF_ROUNDING: f64 = 1e-20;
 
@@ -42,6 +48,16 @@ pub(crate) enum Inertia {
     Symmetric,
     /// Nothing.
     General,
+}
+
+/// What is known of the columns of forces.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Columns {
+    /// They are those of the rows: how rows that depend on one another share a force has no effect.
+    #[default]
+    Transposed,
+    /// Forces act through the multipliers of others, so that it may have one.
+    Coupled,
 }
 
 /// Which factors are current.
@@ -70,6 +86,9 @@ pub(crate) struct Solver<T> {
     aside: Vec<bool>,
     /// Whether they stay aside, wherever the matrix is next.
     holds: bool,
+    columns: Columns,
+    /// What the force of each row is of those set aside, by these, with its sign changed; scaled.
+    shares: Vec<T>,
     work: Vec<T>,
 }
 
@@ -90,6 +109,7 @@ impl<T: Scalar> Solver<T> {
         self.scale.reserve(size);
         self.taken.reserve(rows);
         self.aside.reserve(rows);
+        self.shares.reserve(rows * rows);
         self.work.reserve(size);
         self.direct.reserve(size);
         self.lu.reserve(size);
@@ -141,7 +161,8 @@ impl<T: Scalar> Solver<T> {
     }
 
     /// Factors the matrix.
-    pub(crate) fn factor(&mut self, inertia: Inertia) -> Result<(), SolveError> {
+    pub(crate) fn factor(&mut self, inertia: Inertia, columns: Columns) -> Result<(), SolveError> {
+        self.columns = columns;
         if self.holds && self.aside.len() == self.size - self.coordinates {
             self.equilibrate();
             self.factor_kept();
@@ -217,15 +238,25 @@ impl<T: Scalar> Solver<T> {
         })
     }
 
-    /// LU of the scaled matrix, rows set aside replaced by λ = 0.
+    /// LU of the scaled matrix, the equations of rows set aside replaced by λ = 0 or, where that has an effect, by those of
+    /// [`Self::share`].
     fn factor_kept(&mut self) {
+        let shared = self.columns == Columns::Coupled && self.has_rows_aside();
+        if shared {
+            self.share();
+        }
         let (n, size) = (self.coordinates, self.size);
         let (matrix, scale, aside) = (&self.matrix, &self.scale, &self.aside);
+        let shares = &self.shares;
         let out = |i: usize| i >= n && aside[i - n];
-        let element = |i: usize, j: usize| match (out(i) || out(j), i == j) {
-            (false, _) => matrix[i * size + j] * T::from_f64(scale[i] * scale[j]),
-            (true, true) => T::one(),
-            (true, false) => T::zero(),
+        let element = |i: usize, j: usize| {
+            if out(i) && shared && j >= n {
+                shares[(i - n) * (size - n) + j - n]
+            } else if out(i) || (out(j) && !shared) {
+                if i == j { T::one() } else { T::zero() }
+            } else {
+                matrix[i * size + j] * T::from_f64(scale[i] * scale[j])
+            }
         };
         self.lu.factor(
             size,
@@ -235,6 +266,33 @@ impl<T: Scalar> Solver<T> {
         );
     }
 
+    /// How rows that depend on one another share their load: as equal springs below a rigid body do, whose forces are in proportion to
+    /// what its motion presses them together, λ = A w. Then nᵀλ = 0 for every n with nᵀA = 0: one such equation for each row aside.
+    fn share(&mut self) {
+        let (n, rows) = (self.coordinates, self.size - self.coordinates);
+        let weights = self
+            .aside
+            .iter()
+            .map(|&aside| if aside { LAST } else { 1.0 });
+        let weights: Vec<f64> = weights.collect();
+        self.factor_rows(NEXT_TO_LAST, &weights);
+        let Self {
+            lu, shares, scale, ..
+        } = self;
+        shares.clear();
+        shares.resize(rows * rows, T::zero());
+        for i in lu.dependent_rows().filter(|&i| i < rows) {
+            shares[i * rows + i] = T::one();
+        }
+        lu.combine(|i, k, factor| {
+            if i < rows {
+                let ratio = scale[n + k] / scale[n + i];
+                shares[i * rows + k] =
+                    -factor * T::from_f64(ratio * ratio * weights[k] / weights[i]);
+            }
+        });
+    }
+
     /// Chooses an independent subset of the rows of A: elimination with complete pivoting. A row that differs from a combination of
     /// others by δ adds a pivot of δ² to the whole matrix.
     ///
@@ -242,30 +300,14 @@ impl<T: Scalar> Solver<T> {
     /// rod that lies flat turns it by nothing, and must not stand for the contact that does. So with a row of which there is next to nothing
     /// here: a side rod in its dead centre must not stand for the other one.
     fn set_dependent_rows_aside(&mut self) {
-        let (n, size) = (self.coordinates, self.size);
-        let rows = size - n;
-        // Square with zeros, so that the same factorization serves.
-        let wide = n.max(rows);
-        let (matrix, scale, taken) = (&self.matrix, &self.scale, &self.taken);
-        let largest = scale[n..]
-            .iter()
-            .fold(0.0, |size, x| f64::max(size, 1.0 / x));
-        let weight = |i: usize| (1.0 / (scale[n + i] * taken[i].max(largest))).clamp(LITTLE, 1.0);
-        let element = |i: usize, j: usize| {
-            if i < rows && j < n {
-                let scale = scale[n + i] * scale[j] * weight(i);
-                matrix[(n + i) * size + j] * T::from_f64(scale)
-            } else {
-                T::zero()
-            }
-        };
-        self.lu.factor_to(
-            negligible::<T>().sqrt(),
-            wide,
-            (0..wide)
-                .flat_map(|i| (0..wide).map(move |j| (i, j)))
-                .map(|(i, j)| element(i, j)),
-        );
+        let (n, rows) = (self.coordinates, self.size - self.coordinates);
+        let scale = &self.scale[n..];
+        let largest = scale.iter().fold(0.0, |size, x| f64::max(size, 1.0 / x));
+        let sizes = scale.iter().zip(&self.taken);
+        let weights =
+            sizes.map(|(scale, taken)| (1.0 / (scale * taken.max(largest))).clamp(LITTLE, 1.0));
+        let weights: Vec<f64> = weights.collect();
+        self.factor_rows(negligible::<T>().sqrt(), &weights);
         for i in self.lu.dependent_rows() {
             if i < rows {
                 self.aside[i] = true;
@@ -273,7 +315,31 @@ impl<T: Scalar> Solver<T> {
         }
     }
 
-    /// Replaces the right-hand side by the solution; multipliers of rows set aside are zero.
+    /// LU of the scaled rows of A with these weights, up to pivots of this size.
+    fn factor_rows(&mut self, least: f64, weights: &[f64]) {
+        let (n, size) = (self.coordinates, self.size);
+        let rows = size - n;
+        // Square with zeros, so that the same factorization serves.
+        let wide = n.max(rows);
+        let (matrix, scale) = (&self.matrix, &self.scale);
+        let element = |i: usize, j: usize| {
+            if i < rows && j < n {
+                let scale = scale[n + i] * scale[j] * weights[i];
+                matrix[(n + i) * size + j] * T::from_f64(scale)
+            } else {
+                T::zero()
+            }
+        };
+        self.lu.factor_to(
+            least,
+            wide,
+            (0..wide)
+                .flat_map(|i| (0..wide).map(move |j| (i, j)))
+                .map(|(i, j)| element(i, j)),
+        );
+    }
+
+    /// Replaces the right-hand side by the solution.
     #[inline]
     pub(crate) fn solve(&mut self, b: &mut [T]) {
         match self.factors {

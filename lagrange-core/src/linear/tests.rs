@@ -1,6 +1,6 @@
 //! Random systems: the planned solution against the whole system written out and solved by nalgebra.
 
-use super::{Inertia, KktPattern, Solver};
+use super::{Columns, Inertia, KktPattern, Solver};
 use crate::effects::Effects;
 use crate::mode::{Direction, FrictionMode, Mode, Sliding};
 use crate::program::{Builder as Loader, Encoded, Register, room};
@@ -392,7 +392,7 @@ fn by_plan(d: &Description, mode: &Mode, b: &Builder) -> Option<Vec<f64>> {
     } else {
         Inertia::General
     };
-    solver.factor(inertia).ok()?;
+    solver.factor(inertia, Columns::Transposed).ok()?;
     let mut right = pattern.constant_load.clone();
     for load in &pattern.loads {
         right[load.row] += load.factor * nodes[load.node];

@@ -55,6 +55,7 @@ mod skate;
 mod sling;
 mod slips;
 mod stiff;
+mod stools;
 mod stretched;
 mod striking_rod;
 mod turntable;

@@ -1,0 +1,180 @@
+//! Bodies that slide on more feet than are needed: how these share the load moves them. Equal springs below a rigid body carry what is
+//! linear in their places.
+
+use super::state;
+use lagrange_core::prelude::*;
+use lagrange_tests::{Random, agree, all_agree, run_by, words};
+use nalgebra::{Matrix3, Vector2, Vector3};
+
+/// A stool on four feet slides and turns; `tilt` are its small turns about its own axes.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, turn, z, tilt[2]),
+    define(
+        east = [cos(turn), sin(turn)],
+        north = [-sin(turn), cos(turn)],
+        place[k in 0..4] = [x, y] + (a[k] - height * tilt[1]) * east + (b[k] + height * tilt[0]) * north,
+    ),
+    kinetic = (der(x)^2 + der(y)^2 + der(z)^2 + inertia * (der(turn)^2 + der(tilt[0])^2 + der(tilt[1])^2)) / 2,
+    potential = gravity * z,
+    contact(foot[k in 0..4]: z + b[k] * tilt[0] - a[k] * tilt[1] >= 0),
+    friction(grip[k in 0..4] on foot[k]: slip = (der(place[k][0]), der(place[k][1])), static = mu[k]),
+)]
+struct Stool {
+    a: [f64; 4],
+    b: [f64; 4],
+    mu: [f64; 4],
+    height: f64,
+    inertia: f64,
+    gravity: f64,
+}
+
+/// (x, y, turn) and their rates.
+type Planar = [f64; 6];
+
+impl Stool {
+    fn random(random: &mut Random) -> Self {
+        let mut corner = |sign: f64| sign * random.between(0.2, 0.5);
+        let a = [corner(1.0), corner(-1.0), corner(-1.0), corner(1.0)];
+        let b = [corner(1.0), corner(1.0), corner(-1.0), corner(-1.0)];
+        Stool {
+            a,
+            b,
+            mu: core::array::from_fn(|_| random.between(0.1, 0.4)),
+            height: random.between(0.5, 1.0),
+            inertia: random.between(0.05, 0.2),
+            gravity: 9.81,
+        }
+    }
+
+    /// How fast each foot slips, in the axes of the body.
+    fn slips(&self, s: &Planar) -> [Vector2<f64>; 4] {
+        let [_, _, turn, vx, vy, spin] = *s;
+        let (sine, cosine) = turn.sin_cos();
+        let body = Vector2::new(cosine * vx + sine * vy, cosine * vy - sine * vx);
+        [0, 1, 2, 3].map(|k| body + spin * Vector2::new(-self.b[k], self.a[k]))
+    }
+
+    /// Accelerations and loads, from the balance of forces and moments of loads α + β a + γ b.
+    fn balance(&self, s: &Planar) -> (Vector3<f64>, [f64; 4]) {
+        let (sine, cosine) = s[2].sin_cos();
+        let mut matrix = Matrix3::zeros();
+        let slips = self.slips(s);
+        // Friction of a unit load.
+        let drag = [0, 1, 2, 3].map(|k| -self.mu[k] * slips[k].normalize());
+        let terms = |k: usize| Vector3::new(1.0, self.a[k], self.b[k]);
+        for k in 0..4 {
+            let lever = Vector3::new(
+                1.0,
+                self.a[k] + self.height * drag[k].x,
+                self.b[k] + self.height * drag[k].y,
+            );
+            matrix += lever * terms(k).transpose();
+        }
+        let weight = Vector3::new(self.gravity, 0.0, 0.0);
+        let share = matrix.lu().solve(&weight).expect("feet that span a plane");
+        let loads = [0, 1, 2, 3].map(|k| share.dot(&terms(k)));
+        let (mut force, mut moment) = (Vector2::zeros(), 0.0);
+        for k in 0..4 {
+            let friction = loads[k] * drag[k];
+            force += friction;
+            moment += self.a[k] * friction.y - self.b[k] * friction.x;
+        }
+        let world = Vector3::new(
+            cosine * force.x - sine * force.y,
+            sine * force.x + cosine * force.y,
+            moment / self.inertia,
+        );
+        (world, loads)
+    }
+
+    /// The speed of the slowest foot.
+    fn slowest(&self, s: &Planar) -> f64 {
+        let speeds = self.slips(s).map(|slip| slip.norm());
+        speeds.into_iter().fold(f64::INFINITY, f64::min)
+    }
+
+    /// One step of the classical Runge–Kutta method.
+    fn step(&self, s: &Planar, h: f64) -> Planar {
+        let rate = |s: &Planar| {
+            let (a, _) = self.balance(s);
+            [s[3], s[4], s[5], a[0], a[1], a[2]]
+        };
+        let go = |k: &Planar, h: f64| core::array::from_fn(|i| s[i] + h * k[i]);
+        let k1 = rate(s);
+        let k2 = rate(&go(&k1, h / 2.0));
+        let k3 = rate(&go(&k2, h / 2.0));
+        let k4 = rate(&go(&k3, h));
+        core::array::from_fn(|i| s[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]))
+    }
+
+    /// The least load, and whose it is.
+    fn least(&self, s: &Planar) -> (usize, f64) {
+        let (_, loads) = self.balance(s);
+        let feet = loads.into_iter().enumerate();
+        feet.min_by(|x, y| x.1.total_cmp(&y.1)).expect("four feet")
+    }
+}
+
+const STEP: f64 = 2e-4;
+
+#[test]
+fn feet_share_the_load_of_what_slides_on_them() {
+    let mut random = Random::new(3);
+    let mut unloaded = 0;
+    for case in 0..24 {
+        let stool = Stool::random(&mut random);
+        let rates = [2.0, 2.0, 2.0].map(|most| most * random.sign() * random.between(0.5, 2.0));
+        let mut now = [0.0, 0.0, 0.0, rates[0], rates[1], rates[2]];
+        if stool.least(&now).1 < 0.1 {
+            // It stands on three from the start.
+            continue;
+        }
+        let mut time = 0.0;
+        let mut lifts = None;
+        while time < 0.6 && stool.slowest(&now) > 0.2 {
+            let next = stool.step(&now, STEP);
+            let (foot, load) = stool.least(&next);
+            if load < 0.0 {
+                let (mut low, mut high) = (0.0, STEP);
+                while high - low > 1e-14 {
+                    let middle = 0.5 * (low + high);
+                    match stool.least(&stool.step(&now, middle)).1 < 0.0 {
+                        true => high = middle,
+                        false => low = middle,
+                    }
+                }
+                lifts = Some((foot, time + high));
+                break;
+            }
+            now = next;
+            time += STEP;
+        }
+        unloaded += usize::from(lifts.is_some());
+        for method in ["taylor", "dop853", "verner98", "radau5", "dopri5"] {
+            for tolerance in [1e-6, 1e-9, 1e-12] {
+                let asked = format!("case {case} by {method} at {tolerance:e}");
+                let v = [&rates[..], &[0.0; 3]].concat();
+                let end = time + if lifts.is_some() { 0.05 } else { 0.0 };
+                let run = run_by(&stool, (method, tolerance), state(&[0.0; 6], &v), end);
+                let bound = 200.0 * tolerance.max(1e-12);
+                let at = run.sampler().at(time).expect("inside");
+                all_agree(&asked, &at.state.q[..3], &now[..3], bound);
+                all_agree(&asked, &at.state.v[..3], &now[3..], bound);
+                let (_, loads) = stool.balance(&now);
+                let found = [0, 1, 2, 3].map(|k| at.force(Stool::FOOT[k]));
+                all_agree(&asked, &found, &loads, 100.0 * bound);
+                if let Some((foot, instant)) = lifts {
+                    let name = format!("foot[{foot}]");
+                    let mut events = run.events().iter();
+                    let event =
+                        events.find(|e| e.subject.name(run.description()) == name && e.time > 0.0);
+                    let event = event.unwrap_or_else(|| panic!("{asked}: {:?}", words(&run)));
+                    agree(&asked, event.time, instant, 100.0 * bound);
+                }
+                assert!(run.verify(0).expect("a certificate").holds(), "{asked}");
+            }
+        }
+    }
+    assert!(unloaded > 2, "only {unloaded} lose the load of a foot");
+}
