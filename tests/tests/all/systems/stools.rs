@@ -63,11 +63,11 @@ impl Stool {
         // Friction of a unit load.
         let drag = [0, 1, 2, 3].map(|k| -self.mu[k] * slips[k].normalize());
         let terms = |k: usize| Vector3::new(1.0, self.a[k], self.b[k]);
-        for k in 0..4 {
+        for (k, drag) in drag.iter().enumerate() {
             let lever = Vector3::new(
                 1.0,
-                self.a[k] + self.height * drag[k].x,
-                self.b[k] + self.height * drag[k].y,
+                self.a[k] + self.height * drag.x,
+                self.b[k] + self.height * drag.y,
             );
             matrix += lever * terms(k).transpose();
         }
