@@ -2,6 +2,7 @@
 
 use super::Impact;
 use super::collision::{Collision, ContactRow, FrictionRow, NormalSource};
+use super::pattern::ROUNDING;
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
 use crate::effects::Item;
@@ -206,6 +207,9 @@ impl<T: Scalar> Gathering<T> {
     }
 
     /// Velocities after the impulses of the rows, and the impulses of all rows of the description.
+    ///
+    /// A velocity of which only rounding is left is zero: it would turn a plate that falls flat, and one edge of it would be the first to
+    /// touch next time.
     pub fn apply(&self, impulses: &[T], v: &[T], out: &mut Impact<T>) {
         let n = v.len();
         let bilateral = self.bilateral.len();
@@ -223,6 +227,15 @@ impl<T: Scalar> Gathering<T> {
             }
             for (&row, &impulse) in self.bilateral.iter().zip(&answer[n..]) {
                 out.impulses[row] += share * impulse;
+            }
+        }
+        for (j, after) in out.v.iter_mut().enumerate() {
+            let answers = self.answers.chunks_exact(size.max(1)).zip(impulses);
+            let changes: f64 = answers
+                .map(|(answer, &share)| (share * answer[j]).value().abs())
+                .sum();
+            if after.value().abs() <= ROUNDING * (v[j].value().abs() + changes) {
+                *after -= T::from_f64(after.value());
             }
         }
         for (&row, &impulse) in self.rows.iter().zip(impulses) {

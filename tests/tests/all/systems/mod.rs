@@ -22,6 +22,7 @@ mod damped;
 mod dead_points;
 mod dependent;
 mod fading;
+mod falls_flat;
 mod feasible;
 mod groove;
 mod held;
