@@ -235,13 +235,13 @@ impl<T: Scalar> Run<T> {
         if !(certain && self.is_over(remaining.value())) {
             return None;
         }
-        // Contacts that take part in the same cycle close with it.
+        // Contacts that take part in the same cycle close with it: by their own law the time that is left to them is over as well.
         let mut count = 0;
         for other in 0..self.switcher.impacts.len() {
             let impacts = &self.switcher.impacts[other];
-            let recent = impacts.count >= FEWEST
-                && self.now.t.value() - impacts.last <= 2.0 * impacts.interval;
-            if other == c || recent && self.vanishes(other) {
+            let left = impacts.last + impacts.left - self.now.t.value();
+            let together = impacts.count >= FEWEST && self.is_over(left.abs());
+            if other == c || together && self.vanishes(other) {
                 count += impacts.count;
                 self.end(other, facts);
             }

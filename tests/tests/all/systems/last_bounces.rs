@@ -141,3 +141,48 @@ fn what_sticks_between_bounces_sticks_where_they_end() {
         }
     }
 }
+
+/// Two balls that bounce beside each other, and a load that slides under the second one.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(first, second, x),
+    kinetic = (der(first)^2 + der(second)^2 + der(x)^2) / 2,
+    potential = gravity * (first + second),
+    contact(one: first >= 0, restitution = soft),
+    contact(other: second >= 0, restitution = hard),
+    friction(grip on other: slip = der(x), static = mu),
+)]
+struct TwoBalls {
+    gravity: f64,
+    soft: f64,
+    hard: f64,
+    mu: f64,
+}
+
+/// A ball that falls for the time t comes to rest after t (1 + e)/(1 − e). The second one does so a little later than the first, when it is
+/// closer to its table than the tolerance already.
+#[test]
+fn a_ball_bounces_on_although_another_one_has_come_to_rest() {
+    let scene = TwoBalls {
+        gravity: 7.0,
+        soft: 0.4,
+        hard: 0.65,
+        mu: 0.3,
+    };
+    let lasts = |e: f64| (1.0 + e) / (1.0 - e);
+    let fall = 0.45;
+    let first = fall * lasts(scene.soft);
+    for (later, tolerance) in [(2e-3, 1e-6), (3e-4, 1e-6), (4e-5, 1e-9), (1e-6, 1e-12)] {
+        let end = first + later;
+        let height = |t: f64| 0.5 * scene.gravity * t * t;
+        let start = [height(fall), height(end / lasts(scene.hard)), 0.0];
+        for method in ["taylor", "dop853", "radau5"] {
+            let start = state(&start, &[0.0, 0.0, 6.0]);
+            let motion = run_by(&scene, (method, tolerance), start, 2.0);
+            let asked = format!("{method} {tolerance:e}, {later:e} later");
+            let closes = |item: &str| event(&motion, item, "closed").time;
+            agree(&asked, closes("one"), first, 10.0 * tolerance);
+            agree(&asked, closes("other"), end, 10.0 * tolerance);
+        }
+    }
+}
