@@ -43,6 +43,10 @@ pub(super) struct Switcher<T> {
     pub(super) train: Train,
     /// The state before contacts are closed whose impacts have died out.
     pub(super) before_closing: State<T>,
+    /// The state before what comes to rest is held.
+    before_resting: State<T>,
+    /// Frictions whose slips may end with others.
+    ending: Vec<usize>,
     /// The mode of a flight through impacts that accumulate.
     pub(super) scratch_mode: Mode,
     pub(super) decider: Decider<T>,
@@ -64,6 +68,8 @@ impl<T: Scalar> Switcher<T> {
             impacts: vec![Impacts::default(); contacts],
             train: Train::default(),
             before_closing: state.clone(),
+            before_resting: state.clone(),
+            ending: Vec::with_capacity(d.frictions.len()),
             scratch_mode: mode.clone(),
             decider: Decider::new(d),
             table: Table::default(),
@@ -215,6 +221,7 @@ impl<T: Scalar> Run<T> {
         }
         if !hit {
             self.rest_where_slip_vanishes(facts)?;
+            self.rest_with_what_comes_to_rest(facts)?;
         }
         self.balance_what_is_held(facts);
         Ok(hit)
@@ -451,6 +458,54 @@ impl<T: Scalar> Run<T> {
             }
         }
         Ok(())
+    }
+
+    /// What comes to rest may end other slips of which it leaves nothing: the brake of one axle stops the car, and with it the locked wheels
+    /// of the other one. Their zeros are one instant, which drift from the rows that act tears apart.
+    fn rest_with_what_comes_to_rest(&mut self, facts: &mut SwitchFacts) -> Result<(), Error> {
+        let comes = |guard: &Guard| matches!(guard, Guard::Slip(_));
+        let slips = |f: &usize| {
+            matches!(self.now.mode.frictions[*f], FrictionMode::Slip(_)) && !facts.resting[*f]
+        };
+        let mut ending = core::mem::take(&mut self.switcher.ending);
+        ending.clear();
+        if self.locator.fallen.iter().any(comes) {
+            ending.extend((0..facts.resting.len()).filter(slips));
+        }
+        if !ending.is_empty() {
+            self.evaluate_all_rows()?;
+        }
+        ending.retain(|&f| {
+            let (slip, size) = self.rate(self.description().frictions[f].row);
+            slip.abs() <= self.settings.tolerance * size.max(1.0)
+        });
+        if !ending.is_empty() {
+            self.rest_if_nothing_is_left(&ending, facts);
+        }
+        self.switcher.ending = ending;
+        Ok(())
+    }
+
+    /// Which of these slips vanish once all that rests sticks.
+    fn rest_if_nothing_is_left(&mut self, ending: &[usize], facts: &mut SwitchFacts) {
+        self.switcher.before_resting.clone_from(&self.now.state);
+        let mode = &mut self.switcher.scratch_mode;
+        mode.clone_from(&self.now.mode);
+        for (friction, resting) in mode.frictions.iter_mut().zip(&facts.resting) {
+            if *resting {
+                *friction = FrictionMode::Stick;
+            }
+        }
+        self.dynamics.set_mode(&self.switcher.scratch_mode);
+        // Where no velocity satisfies all rows together, none of the slips has ended.
+        if self.project(true).is_ok() && self.evaluate_all_rows().is_ok() {
+            for &f in ending {
+                facts.resting[f] = self.slip_vanishes(f);
+            }
+        }
+        self.now.state.clone_from(&self.switcher.before_resting);
+        self.dynamics.set_mode(&self.now.mode);
+        self.now.valued = false;
     }
 
     /// Whether the slip of friction `f` is zero beside the terms that make it.

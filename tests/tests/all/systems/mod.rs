@@ -9,6 +9,7 @@ mod bending_guards;
 mod block;
 mod blows;
 mod borders;
+mod brakes;
 mod breaks;
 mod cart_pole;
 mod chain;
