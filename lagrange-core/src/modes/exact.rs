@@ -52,15 +52,16 @@ pub fn exact<T: Scalar>(
         Guard::Stop(i, k) => dynamics.report(d.stops[i].terms[k]),
         Guard::Mark(i, k) => dynamics.report(d.marks[i].terms[k]),
         Guard::Composite(index) => composites[index].parts.iter().fold(T::zero(), |sum, part| {
-            let value = match part.guard {
-                Guard::StickCone(f) => {
-                    let along = part.along.into_iter().enumerate();
+            let value = match (part.guard, part.plane) {
+                (Guard::StickCone(f), Some(plane)) => {
+                    let along = plane.along.into_iter().enumerate();
                     let along = along.take(d.frictions[f].components);
-                    along.fold(limit(f, mode, dynamics), |rest, (k, part)| {
+                    let limit = T::from_f64(plane.normal_sign) * limit(f, mode, dynamics);
+                    along.fold(limit, |rest, (k, part)| {
                         rest - T::from_f64(part) * force(f, k)
                     })
                 }
-                guard => exact(guard, &[], mode, dynamics),
+                (guard, _) => exact(guard, &[], mode, dynamics),
             };
             sum + T::from_f64(part.weight) * value
         }),

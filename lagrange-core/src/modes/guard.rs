@@ -159,6 +159,15 @@ pub fn stick_guards(f: usize, friction: &Friction) -> impl Iterator<Item = Guard
         .chain(pair.into_iter().filter(move |_| !cone))
 }
 
+/// The plane μs N − u·F = 0 that touches the cone of a sticking friction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ConePlane {
+    /// Its direction u.
+    pub along: [f64; 2],
+    /// N is the force of a constraint times this sign, or that of a contact.
+    pub normal_sign: f64,
+}
+
 /// What a guard is made of.
 #[derive(Clone, Copy, Debug)]
 enum Source {
@@ -431,10 +440,10 @@ fn stick_cone<T: Scalar>(f: usize, mode: &Mode, reading: &Reading<'_, T>, out: &
     }
 }
 
-/// μs N − u·F: the side of the cone of a sticking friction in direction u.
+/// μs N − u·F: how far the force of a sticking friction is inside a plane that touches its cone.
 pub fn cone_side<T: Scalar>(
     f: usize,
-    along: [f64; 2],
+    plane: ConePlane,
     mode: &Mode,
     reading: &Reading<'_, T>,
     out: &mut [f64],
@@ -442,7 +451,8 @@ pub fn cone_side<T: Scalar>(
     let friction = &reading.description().frictions[f];
     out.fill(0.0);
     limit(f, mode, reading, out);
-    for (k, &part) in along.iter().enumerate().take(friction.components) {
+    out.iter_mut().for_each(|c| *c *= plane.normal_sign);
+    for (k, &part) in plane.along.iter().enumerate().take(friction.components) {
         add(out, (-part, reading.force(friction.row + k)));
     }
 }

@@ -30,7 +30,7 @@ impl<T: Scalar> Run<T> {
     /// Looks at the forces at the last value of the dynamics, in the mode of the run.
     pub(super) fn look_at_redundant_forces(&mut self) {
         let was_open = self.switcher.redundant.has_open();
-        self.switcher.redundant.look(&self.dynamics);
+        self.switcher.redundant.follow(&self.dynamics);
         if was_open || self.switcher.redundant.has_open() {
             self.list_guards();
         }
@@ -115,7 +115,7 @@ impl<T: Scalar> Run<T> {
             if self.evaluate_end(part * end).is_err() {
                 continue;
             }
-            self.switcher.redundant.look(&self.dynamics);
+            self.switcher.redundant.follow(&self.dynamics);
             let Some(composite) = self.switcher.redundant.critical(NEARBY) else {
                 continue;
             };

@@ -353,8 +353,8 @@ impl<T: Scalar> Decider<T> {
         let series = &mut series[..=ahead.order];
         let (reading, later) = (Reading::Series(ahead.dynamics), AHEAD * ahead.h);
         for _ in 0..MOST_JOINTS {
-            let found = self.redundant.critical_at(|guard, along| {
-                redundant::side(guard, along, &self.posed, &reading, series);
+            let found = self.redundant.critical_at(|guard, plane| {
+                redundant::side(guard, plane, &self.posed, &reading, series);
                 crate::integrate::horner(series, later)
             });
             let Some(composite) = found else {

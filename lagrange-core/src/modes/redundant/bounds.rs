@@ -5,7 +5,7 @@ use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
 use crate::linear::{Cone, ConicPoint, ConicProgram};
 use crate::mode::FrictionMode;
-use crate::modes::guard::Guard;
+use crate::modes::guard::{self, ConePlane, Guard};
 use crate::system::{Normal, ValueRef};
 use nalgebra::{DMatrix, DVector};
 
@@ -26,6 +26,18 @@ pub(super) struct Bound {
     pub cone: Cone,
     /// Of the terms that make it.
     pub size: f64,
+    /// Sign of the constraint force that carries a friction.
+    normal_sign: f64,
+}
+
+impl Bound {
+    /// The plane that touches the cone in this direction.
+    pub fn plane(&self, along: [f64; 2]) -> ConePlane {
+        ConePlane {
+            along,
+            normal_sign: self.normal_sign,
+        }
+    }
 }
 
 /// The bounds with a part that is open, each linear in the forces and relative to its size.
@@ -79,6 +91,11 @@ impl Bounds {
             cones,
         };
         program.solve(start)
+    }
+
+    /// By how much forces can keep all bounds, at most 1, or must break one.
+    pub fn widest_margin(&self) -> f64 {
+        self.widest(&self.values, 1.0).x[self.basis.ncols()]
     }
 
     /// What is to be solved for the forces of least norm that keep all bounds by `margin`.
@@ -152,8 +169,9 @@ fn basis(rows: &[DVector<f64>], width: usize) -> DMatrix<f64> {
 type Linear<'a> = (&'a [(usize, f64)], f64);
 
 impl<T: Scalar> RedundantForces<T> {
-    /// The bounds with a part that is open.
+    /// Lists the bounds with a part that is open.
     pub(super) fn list_bounds(&mut self, dynamics: &Dynamics<T>) {
+        self.bounds.clear();
         let d = dynamics.description();
         let acting = dynamics.acting_rows();
         let index = |row: usize| acting.binary_search(&row).ok();
@@ -161,7 +179,7 @@ impl<T: Scalar> RedundantForces<T> {
         let mode = dynamics.mode();
         for (c, contact) in d.contacts.iter().enumerate() {
             if let Some(i) = index(contact.row) {
-                self.bound(Guard::Normal(c), [(&[(i, 1.0)], 0.0)], dynamics);
+                self.bound(Guard::Normal(c), 1.0, [(&[(i, 1.0)], 0.0)], dynamics);
             }
         }
         for (f, friction) in d.frictions.iter().enumerate() {
@@ -172,6 +190,7 @@ impl<T: Scalar> RedundantForces<T> {
                 continue;
             };
             let coefficient = number(friction.static_coefficient);
+            let mut normal_sign = 1.0;
             let (limit, constant) = match friction.normal {
                 Normal::Contact(c) => {
                     let factor = d.contacts[c].normal_factor.map_or(1.0, number);
@@ -181,21 +200,33 @@ impl<T: Scalar> RedundantForces<T> {
                     ((row, coefficient * factor), 0.0)
                 }
                 Normal::Given(place) => ((i, 0.0), coefficient * number(place)),
-                // |λ| is no linear bound.
-                Normal::Constraint(_) => continue,
-            };
-            if friction.components == 1 {
-                let sides = [(Guard::StickUpper(f), -1.0), (Guard::StickLower(f), 1.0)];
-                for (guard, sign) in sides {
-                    self.bound(guard, [(&[(i, sign), limit], constant)], dynamics);
+                Normal::Constraint(on) => {
+                    let Some(row) = index(d.constraints[on].row) else {
+                        continue;
+                    };
+                    normal_sign = self.signs[on];
+                    ((row, coefficient * normal_sign), 0.0)
                 }
-            } else if let Some(j) = index(friction.row + 1) {
+            };
+            if guard::stick_guards(f, friction).eq([Guard::StickCone(f)]) {
+                let other = (friction.components > 1).then(|| index(friction.row + 1));
+                let other = other.flatten().map(|j| (j, 1.0));
                 let cone = [
                     (&[limit][..], constant),
                     (&[(i, 1.0)], 0.0),
-                    (&[(j, 1.0)], 0.0),
+                    (other.as_slice(), 0.0),
                 ];
-                self.bound(Guard::StickCone(f), cone, dynamics);
+                self.bound(Guard::StickCone(f), normal_sign, cone, dynamics);
+            } else {
+                let sides = [(Guard::StickUpper(f), -1.0), (Guard::StickLower(f), 1.0)];
+                for (guard, sign) in sides {
+                    self.bound(
+                        guard,
+                        normal_sign,
+                        [(&[(i, sign), limit], constant)],
+                        dynamics,
+                    );
+                }
             }
         }
         if !self.bounds.list.is_empty() {
@@ -207,6 +238,7 @@ impl<T: Scalar> RedundantForces<T> {
     fn bound<const N: usize>(
         &mut self,
         guard: Guard,
+        normal_sign: f64,
         rows: [Linear<'_>; N],
         dynamics: &Dynamics<T>,
     ) {
@@ -239,7 +271,12 @@ impl<T: Scalar> RedundantForces<T> {
         } else {
             Cone::SecondOrder(first)
         };
-        self.bounds.list.push(Bound { guard, cone, size });
+        self.bounds.list.push(Bound {
+            guard,
+            cone,
+            size,
+            normal_sign,
+        });
         for ((terms, constant), (mut change, share)) in rows.into_iter().zip(changes) {
             let value: f64 = terms.iter().map(|&(i, a)| a * self.least[i].value()).sum();
             self.bounds.values.push(value + constant);

@@ -2,7 +2,7 @@
 
 use crate::arithmetic::Scalar;
 use crate::mode::Mode;
-use crate::modes::guard::{self, Guard};
+use crate::modes::guard::{self, ConePlane, Guard};
 use crate::modes::reading::Reading;
 
 /// Factors that change nothing.
@@ -13,8 +13,8 @@ pub const ONES: [f64; guard::LENGTH] = [1.0; guard::LENGTH];
 pub struct Part {
     /// The guard.
     pub guard: Guard,
-    /// Of a friction cone: the direction u of the plane μs N − u·F ≥ 0 that touches it there.
-    pub along: [f64; 2],
+    /// Of a friction cone: the plane that touches it there. Nothing of a ray.
+    pub plane: Option<ConePlane>,
     /// Weight in the sum.
     pub weight: f64,
 }
@@ -32,9 +32,12 @@ impl CompositeGuard {
         /// Distance of the directions of sides that one plane touches well enough.
         const SAME_SIDE: f64 = 0.45;
         let pairs = self.parts.iter().zip(&other.parts);
-        let alike = |(x, y): (&Part, &Part)| {
+        let near = |x: ConePlane, y: ConePlane| {
             let [east, north] = [0, 1].map(|k| x.along[k] - y.along[k]);
-            x.guard == y.guard && east.hypot(north) < SAME_SIDE
+            x.normal_sign == y.normal_sign && east.hypot(north) < SAME_SIDE
+        };
+        let alike = |(x, y): (&Part, &Part)| {
+            x.guard == y.guard && x.plane.zip(y.plane).is_none_or(|(x, y)| near(x, y))
         };
         self.parts.len() == other.parts.len() && pairs.into_iter().all(alike)
     }
@@ -68,7 +71,7 @@ fn sum<T: Scalar>(
     let part = &mut part[..out.len()];
     out.fill(0.0);
     for each in &composite.parts {
-        side(each.guard, each.along, mode, reading, part);
+        side(each.guard, each.plane, mode, reading, part);
         for (sum, x) in out.iter_mut().zip(&*part) {
             *sum += each.weight * x;
         }
@@ -91,16 +94,16 @@ pub fn value<T: Scalar>(
     value[0]
 }
 
-/// A guard by [`guard::series`] without factors, but of a cone only the plane that touches it in direction `along`.
+/// A guard by [`guard::series`] without factors, but of a cone only a plane that touches it.
 pub fn side<T: Scalar>(
     guard: Guard,
-    along: [f64; 2],
+    plane: Option<ConePlane>,
     mode: &Mode,
     reading: &Reading<'_, T>,
     out: &mut [f64],
 ) {
-    match guard {
-        Guard::StickCone(f) => guard::cone_side(f, along, mode, reading, out),
+    match (guard, plane) {
+        (Guard::StickCone(f), Some(plane)) => guard::cone_side(f, plane, mode, reading, out),
         _ => guard::series(guard, mode, reading, &ONES, out),
     }
 }

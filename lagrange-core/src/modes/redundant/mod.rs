@@ -2,7 +2,8 @@
 //!
 //! With λ₀ of least norm and a basis B of the forces without effect that bounds depend on, all λ₀ + B y move the system in the same way.
 //! Contacts and sticking frictions bound them: what they push with, and hold, is not negative, and is inside the friction cones. The shares of
-//! least norm within these bounds are a quadratic programme over cones for y.
+//! least norm within these bounds are a quadratic programme over cones for y. A friction on a constraint is bounded by |λ|, which is two cones,
+//! one for each sign of λ: the signs are chosen before.
 //!
 //! Where no forces keep all bounds there are weights of them, directions in cones included, with which everything open cancels, and
 //! whose sum is negative (Farkas): they are the multipliers of the programme that asks for forces which keep all bounds by the largest
@@ -16,9 +17,9 @@ use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
 use crate::linear::{Cone, ConicPoint, Freedom};
 use crate::mode::FrictionMode;
-use crate::modes::guard::Guard;
+use crate::modes::guard::{ConePlane, Guard};
 use crate::modes::scale::Sizes;
-use crate::system::Normal;
+use crate::system::{Friction, Normal};
 use bounds::{Bound, Bounds};
 pub use composite::{CompositeGuard, ONES, Part, series, side, value};
 use nalgebra::DVector;
@@ -28,6 +29,8 @@ use nalgebra::DVector;
 pub struct RedundantForces<T> {
     least: Vec<T>,
     freedom: Freedom,
+    /// Signs of the forces of constraints, for the frictions that they carry.
+    signs: Vec<f64>,
     bounds: Bounds,
     sizes: Sizes,
 }
@@ -37,6 +40,9 @@ const ROUNDING: f64 = 1e-10;
 
 /// Where bounds allow one share only, they are widened by this, relative: what rounding may have taken.
 const BORDER: f64 = 1e-13;
+
+/// Of so many constraints with open forces that carry friction both signs are tried.
+const MOST_SIGNS: usize = 8;
 
 /// A smaller weight of a composite guard, relative to the largest, is rounding.
 const NO_WEIGHT: f64 = 1e-12;
@@ -48,14 +54,79 @@ impl<T: Scalar> RedundantForces<T> {
         self.least.clear();
     }
 
-    /// Looks at the last value of `dynamics`.
+    /// Looks at the last value of `dynamics`, and chooses the signs of constraint forces that carry friction.
     pub fn look(&mut self, dynamics: &Dynamics<T>) {
+        if self.take_least(dynamics) {
+            self.take_signs(dynamics);
+        }
+    }
+
+    /// The same with the signs that were chosen last: that they hold no longer ends a mode.
+    pub fn follow(&mut self, dynamics: &Dynamics<T>) {
+        if self.signs.len() != dynamics.description().constraints.len() {
+            self.look(dynamics);
+        } else if self.take_least(dynamics) {
+            self.list_bounds(dynamics);
+        }
+    }
+
+    /// Takes the forces of least norm, if any are undetermined.
+    fn take_least(&mut self, dynamics: &Dynamics<T>) -> bool {
         self.clear();
         if !dynamics.has_dependent_rows() {
-            return;
+            return false;
         }
         (self.least, self.freedom) = dynamics.least_norm_of_acting();
         self.sizes.take(dynamics);
+        true
+    }
+
+    /// Chooses the signs of constraint forces and lists the bounds that hold with them: signs with which admissible forces exist, of these
+    /// those of the least forces.
+    fn take_signs(&mut self, dynamics: &Dynamics<T>) {
+        let d = dynamics.description();
+        let acting = dynamics.acting_rows();
+        let index = |i: usize| acting.binary_search(&d.constraints[i].row).ok();
+        let of_least = |i: usize| match index(i) {
+            Some(k) if self.least[k].value() < 0.0 => -1.0,
+            _ => 1.0,
+        };
+        self.signs = (0..d.constraints.len()).map(of_least).collect();
+        self.list_bounds(dynamics);
+        if !self.has_open() || self.bounds.least(&self.bounds.values) >= 0.0 {
+            return;
+        }
+        let is_open = |i: &usize| {
+            let sticks = |(f, friction): (usize, &Friction)| {
+                matches!(friction.normal, Normal::Constraint(on) if on == *i)
+                    && dynamics.mode().frictions[f] == FrictionMode::Stick
+            };
+            index(*i).is_some_and(|k| !self.freedom.is_determined(k))
+                && d.frictions.iter().enumerate().any(sticks)
+        };
+        let open = (0..d.constraints.len()).filter(is_open);
+        let open: Vec<usize> = open.take(MOST_SIGNS).collect();
+        if open.is_empty() {
+            return;
+        }
+        let first = self.signs.clone();
+        let mut best = (f64::INFINITY, f64::INFINITY, first.clone());
+        for choice in 0..1_usize << open.len() {
+            self.signs.clone_from(&first);
+            for (k, &i) in open.iter().enumerate() {
+                if choice >> k & 1 == 1 {
+                    self.signs[i] = -first[i];
+                }
+            }
+            self.list_bounds(dynamics);
+            let missing = -self.bounds.widest_margin();
+            let missing = if missing > ROUNDING { missing } else { 0.0 };
+            let change = self.shares().norm();
+            if (missing, change) < (best.0, best.1) {
+                best = (missing, change, self.signs.clone());
+            }
+        }
+        self.signs = best.2;
         self.list_bounds(dynamics);
     }
 
@@ -77,15 +148,17 @@ impl<T: Scalar> RedundantForces<T> {
     /// The same for guards with other values than those looked at, and the same rows.
     pub fn critical_at(
         &self,
-        mut value: impl FnMut(Guard, [f64; 2]) -> f64,
+        mut value: impl FnMut(Guard, Option<ConePlane>) -> f64,
     ) -> Option<CompositeGuard> {
         let mut values = Vec::with_capacity(self.bounds.values.len());
-        for &Bound { guard, cone, size } in &self.bounds.list {
-            match cone {
-                Cone::Ray(_) => values.push(value(guard, [0.0; 2]) / size),
+        for bound in &self.bounds.list {
+            let &Bound { guard, size, .. } = bound;
+            match bound.cone {
+                Cone::Ray(_) => values.push(value(guard, None) / size),
                 Cone::SecondOrder(_) => {
-                    let [east, west] = [1.0, -1.0].map(|x| value(guard, [x, 0.0]) / size);
-                    let [north, south] = [1.0, -1.0].map(|y| value(guard, [0.0, y]) / size);
+                    let mut side = |along| value(guard, Some(bound.plane(along))) / size;
+                    let [east, west] = [1.0, -1.0].map(|x| side([x, 0.0]));
+                    let [north, south] = [1.0, -1.0].map(|y| side([0.0, y]));
                     values.extend([east + west, west - east, south - north].map(|x| 0.5 * x));
                 }
             }
@@ -110,15 +183,16 @@ impl<T: Scalar> RedundantForces<T> {
         }
         let largest = weights.fold(0.0, f64::max);
         let parts = list.filter(|bound| z[bound.cone.first()] > NO_WEIGHT * largest);
-        let parts = parts.map(|&Bound { guard, cone, size }| {
-            let weight = z[cone.first()];
+        let parts = parts.map(|bound| {
+            let weight = z[bound.cone.first()];
+            let along = |i: usize| [i + 1, i + 2].map(|i| -z[i] / weight);
             Part {
-                guard,
-                along: match cone {
-                    Cone::Ray(_) => [0.0; 2],
-                    Cone::SecondOrder(i) => [-z[i + 1] / weight, -z[i + 2] / weight],
+                guard: bound.guard,
+                plane: match bound.cone {
+                    Cone::Ray(_) => None,
+                    Cone::SecondOrder(i) => Some(bound.plane(along(i))),
                 },
-                weight: weight / (sum * size),
+                weight: weight / (sum * bound.size),
             }
         });
         Some(CompositeGuard {

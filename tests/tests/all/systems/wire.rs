@@ -349,3 +349,89 @@ fn a_paradox_in_the_middle_of_a_run_keeps_the_trajectory() {
         assert!(failure.trajectory.work().steps > 0);
     }
 }
+
+/// A bead on a straight rough wire is pushed against a wall, which leans by `lean`, and pulled away from it later.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    potential = weight * y,
+    constraint(wire: y == 0),
+    contact(wall: x * cos(lean) + y * sin(lean) >= 0),
+    friction(rub on wire: slip = der(x), static = mu),
+    force(push: x = -strength * cos(t)),
+)]
+struct Pressed {
+    weight: f64,
+    strength: f64,
+    lean: f64,
+    mu: f64,
+}
+
+impl Pressed {
+    /// The least N, λ and F that balance the push P, N cos α + F = P and N sin α + λ = W, and keep N ≥ 0 and |F| ≤ μ |λ|: at the foot of
+    /// the perpendicular onto this line, or where one of the bounds is met.
+    fn least_forces(&self, push: f64) -> Option<[f64; 3]> {
+        let (sin, cos) = self.lean.sin_cos();
+        let forces = |n: f64| [n, self.weight - n * sin, push - n * cos];
+        let met = |side: f64| (push - side * self.weight) / (cos - side * sin);
+        let foot = 0.5 * (push * cos + self.weight * sin);
+        let candidates = [foot, 0.0, met(self.mu), met(-self.mu)].map(forces);
+        let allowed = |[n, wire, rub]: &[f64; 3]| {
+            *n >= 0.0 && rub.abs() <= self.mu * wire.abs() * (1.0 + 1e-12)
+        };
+        let square = |forces: &[f64; 3]| forces.iter().map(|x| x * x).sum::<f64>();
+        let allowed = candidates.into_iter().filter(allowed);
+        allowed.min_by(|x, y| square(x).total_cmp(&square(y)))
+    }
+}
+
+/// How wall and friction share the push is open, and with a wall that leans the wire's force is too, with its sign. The bead leaves the
+/// wall, and slips, where friction alone holds no longer: −P = μ |W|.
+#[test]
+fn what_a_wire_shares_with_a_wall_stays_within_its_friction() {
+    // The wire's force of the last has its sign from the share of the wall, as long as P > W.
+    let cases = [
+        (10.0, 0.0, 2.0),
+        (-10.0, 0.0, 2.0),
+        (4.0, -0.3, 2.0),
+        (6.0, PI / 4.0, 0.9),
+    ];
+    for (weight, lean, until) in cases {
+        let scene = Pressed {
+            weight,
+            strength: 10.0,
+            lean,
+            mu: 0.1,
+        };
+        let leaves = (-0.1 * f64::abs(weight) / 10.0).acos();
+        for method in ["taylor", "dop853", "radau5"] {
+            for tolerance in [1e-6, 1e-12] {
+                let asked = format!("{weight} {lean} {method} {tolerance:e}");
+                let start = state(&[0.0; 2], &[0.0; 2]);
+                let motion = run_by(&scene, (method, tolerance), start, until);
+                if until < leaves {
+                    assert!(words(&motion).is_empty(), "{asked}: {:?}", words(&motion));
+                } else {
+                    for (item, word) in [("wall", "lost"), ("rub", "slips")] {
+                        let time = event(&motion, item, word).time;
+                        agree(&asked, time, leaves, 20.0 * tolerance);
+                    }
+                }
+                let certificate = motion.verify(1).expect("a certificate");
+                assert!(certificate.holds(), "{asked}: {certificate}");
+                let mut sampler = motion.sampler();
+                for t in (0..16).map(|k| 0.1 * f64::from(k)).filter(|t| *t < until) {
+                    let now = sampler.at(t).expect("within the run");
+                    let least = scene.least_forces(10.0 * t.cos()).expect("it holds");
+                    let forces = [
+                        now.force(Pressed::WALL),
+                        now.force(Pressed::WIRE),
+                        now.force(Pressed::RUB),
+                    ];
+                    all_agree(&format!("{asked} at {t}"), &forces, &least, 1e-9);
+                }
+            }
+        }
+    }
+}
