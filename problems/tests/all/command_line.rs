@@ -335,6 +335,16 @@ fn a_run_that_fails_at_its_start_prints_only_why() {
         assert_eq!(text(&output.stdout), "");
         assert_eq!(text(&output.stderr).lines().count(), 1);
     }
+    // It says that also where a picture of it was asked for, in which nothing would be.
+    let folder = folder("a plot of nothing");
+    let output = lagrange_in(
+        &folder,
+        &["run", "painleve-rod", "--set", "mu=2", "--plot", "rod.svg"],
+    );
+    assert_eq!(output.status.code(), Some(1));
+    let said = text(&output.stderr);
+    assert!(said.contains("none of 2 modes continues"), "{said}");
+    assert!(!folder.join("rod.svg").exists());
     // Nothing was moved, so there is nothing to certify and no work to book.
     let output = lagrange(&["run", "painleve-rod", "--set", "mu=2", "--format", "json"]);
     let run: Value = serde_json::from_str(text(&output.stdout)).expect("JSON");

@@ -133,7 +133,7 @@ impl Run {
         for (format, path) in destinations.iter().filter(tells) {
             write(&outcome, *format, path.as_deref())?;
         }
-        if let Some(path) = &outputs.plot {
+        let plotted = outputs.plot.as_deref().map_or(Ok(()), |path| {
             let titles: Vec<String> = self
                 .results
                 .compare
@@ -145,9 +145,12 @@ impl Run {
             let runs: Vec<plot::Run> = runs
                 .map(|(title, outcome)| plot::Run { title, outcome })
                 .collect();
-            draw(path, &plot::svg(&runs, &shows).map_err(Trouble::failed)?)?;
-        }
-        iter::once(outcome).chain(compared).try_for_each(went_well)
+            draw(path, &plot::svg(&runs, &shows).map_err(Trouble::failed)?)
+        });
+        // Why a run has failed is also why there is nothing to plot of it.
+        let mut runs = iter::once(outcome).chain(compared);
+        runs.try_for_each(went_well)?;
+        plotted
     }
 }
 
