@@ -254,6 +254,29 @@ fn of_many_items_a_story_says_what_changes() {
     assert!(!story.contains("top[0] closed"), "{story}");
 }
 
+/// Long names beside many numbers: what a reader searches for stands in one piece.
+#[test]
+fn no_name_of_an_event_is_broken() {
+    let folder = folder("long names");
+    let joints = "parameters(torque: \"N m\" = 3, inertia: \"kg m^2\" = 1, rate: \"rad/s\" = 3),
+        coordinates(a: \"rad\", b: \"rad\", c: \"rad\"),
+        kinetic = inertia/2 * (der(a)^2 + der(b)^2 + der(c)^2),
+        force(drive: b = torque * sin(rate * t)),
+        friction(shoulder_bearing: slip = der(a), limit = torque/2),
+        friction(elbow_bearing: slip = der(b), limit = torque/2),
+        friction(wrist_bearing: slip = der(c), limit = torque/2),
+        start(turned: der(a) = 1, der(c) = 2),
+        until = 4,";
+    fs::write(folder.join("joints.lagrange"), joints).expect("a file");
+    let output = lagrange_in(&folder, &["run", "joints.lagrange"]);
+    let story = text(&output.stdout);
+    // The time of each event stands before its name.
+    for name in ["shoulder_bearing", "elbow_bearing", "wrist_bearing"] {
+        let named = |line: &str| line.split_whitespace().nth(1) == Some(name);
+        assert!(story.lines().any(named), "{name} in\n{story}");
+    }
+}
+
 /// A bar on three feet: the motion leaves open what each carries.
 #[test]
 fn forces_that_are_open_are_told_with_what_hangs_on_them() {

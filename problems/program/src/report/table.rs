@@ -306,8 +306,11 @@ fn story(outcome: &Outcome) -> Table {
             column.set_constraint(ColumnConstraint::ContentWidth);
         }
         if index == texts {
-            // `accumulates` and the space before it.
-            column.set_constraint(ColumnConstraint::LowerBoundary(Width::Fixed(12)));
+            // No name is broken: the longest word and the space before it.
+            let words = lines.iter().flat_map(|line| line.event.split_whitespace());
+            let longest = words.map(|word| word.chars().count()).max().unwrap_or(0);
+            let least = ColumnConstraint::LowerBoundary(Width::Fixed(longest as u16 + 1));
+            column.set_constraint(least);
         }
         if index == numbers {
             // Beside many numbers, which are wider than a page, modes need not be narrow.
