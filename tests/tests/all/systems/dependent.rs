@@ -2,7 +2,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
-use lagrange_tests::{agree, run_by};
+use lagrange_tests::{Random, agree, all_agree, run_by};
 
 /// A pendulum with a flywheel. (x, y) is its direction: a unit vector, and once more by its angle.
 #[derive(Lagrangian, Clone, Debug)]
@@ -108,6 +108,78 @@ fn a_side_rod_in_its_dead_centre_does_not_stand_for_the_other() {
                     agree(&asked, q / angle, 1.0, 10.0 * tolerance);
                     agree(&asked, v / (speed + growth * end), 1.0, 10.0 * tolerance);
                 }
+            }
+        }
+    }
+}
+
+/// A platform on four parallel rods that three more constraints keep from turning.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x[3]),
+    attitude(turned: q),
+    define(
+        corner[k in 0..4] = [x[0], x[1], x[2]] + side[k] * turned.axes[0] + front[k] * turned.axes[1] - [side[k], front[k], 0],
+    ),
+    kinetic = mass/2 * (der(x[0])^2 + der(x[1])^2 + der(x[2])^2) + sum(i in 0..3: inertia[i]/2 * turned.body_rate[i]^2),
+    potential = mass * gravity * x[2],
+    constraint(rod[k in 0..4]: dot(corner[k], corner[k]) == length^2),
+    constraint(yaw: turned.axes[0][1] == 0),
+    constraint(pitch: turned.axes[0][2] == 0),
+    constraint(roll: turned.axes[1][2] == 0),
+)]
+struct Platform {
+    mass: f64,
+    inertia: [f64; 3],
+    gravity: f64,
+    length: f64,
+    side: [f64; 4],
+    front: [f64; 4],
+}
+
+/// The bob of a pendulum that swings in all directions.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x[3]),
+    kinetic = (der(x[0])^2 + der(x[1])^2 + der(x[2])^2) / 2,
+    potential = gravity * x[2],
+    constraint(rod: x[0]^2 + x[1]^2 + x[2]^2 == length^2),
+)]
+struct Bob {
+    gravity: f64,
+    length: f64,
+}
+
+/// It moves as a bob on one of the rods. Its attitude rests where the scalar part of its quaternion has no inertia.
+#[test]
+fn a_platform_on_parallel_rods_moves_as_a_pendulum() {
+    let mut random = Random::new(8);
+    for case in 0..8 {
+        let (wide, deep) = (random.between(0.3, 0.9), random.between(0.2, 0.5));
+        let platform = Platform {
+            mass: random.between(0.5, 3.0),
+            inertia: [0.0; 3].map(|_| random.between(0.05, 0.15)),
+            gravity: 9.81,
+            length: 0.8,
+            side: [wide, -wide, -wide, wide],
+            front: [deep, deep, -deep, -deep],
+        };
+        let bob = Bob {
+            gravity: platform.gravity,
+            length: platform.length,
+        };
+        let (place, speed) = ([0.48, 0.0, -0.64], random.between(0.3, 0.9));
+        let start = state(&place, &[0.0, speed, 0.0]);
+        let exact = run_by(&bob, ("taylor", 1e-13), start, 2.5);
+        for method in ["auto", "dopri5", "dop853", "verner98", "radau5"] {
+            for tolerance in [1e-6, 1e-9] {
+                let q = [&place[..], &[1.0, 0.0, 0.0, 0.0]].concat();
+                let v = [&[0.0, speed][..], &[0.0; 5]].concat();
+                let run = run_by(&platform, (method, tolerance), state(&q, &v), 2.5);
+                let asked = format!("case {case} by {method} at {tolerance:e}");
+                let (found, expected) = (run.final_state(), exact.final_state());
+                all_agree(&asked, &found.q[..3], &expected.q, 3000.0 * tolerance);
+                all_agree(&asked, &found.q[3..], &[1.0, 0.0, 0.0, 0.0], 1e-9);
             }
         }
     }
