@@ -218,7 +218,7 @@ impl<T: Scalar> KktPattern<T> {
             dependent.contains(&true)
         };
         let is_row = |i| collected.has_constant_row(description, i, constants);
-        if find(constant_rows, &|i| collected.is_coupled() && is_row(i)) {
+        if collected.is_coupled() && find(constant_rows, &is_row) {
             // How more contacts than are needed share their load moves what slides on them: the solver finds that for all rows.
             constant_rows.clear();
         } else {

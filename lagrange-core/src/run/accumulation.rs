@@ -212,12 +212,12 @@ impl<T: Scalar> Run<T> {
             let ended = self.accumulate(c, facts);
             if let Some((count, remaining)) = ended.or_else(|| self.die_out(facts)) {
                 let time = self.now.t;
-                self.switcher.before_closing.clone_from(&self.now.state);
+                self.switcher.before_holding.clone_from(&self.now.state);
                 let closed = self.close_contacts(c, count, remaining, facts);
                 if closed.is_err() {
                     // A motion that cannot go on ends where it was.
                     self.now.t = time;
-                    self.now.state.clone_from(&self.switcher.before_closing);
+                    self.now.state.clone_from(&self.switcher.before_holding);
                 }
                 closed?;
             }

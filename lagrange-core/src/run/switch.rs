@@ -41,10 +41,8 @@ pub(super) struct Switcher<T> {
     pub(super) impacts: Vec<Impacts<T>>,
     /// All impacts so far.
     pub(super) train: Train,
-    /// The state before contacts are closed whose impacts have died out.
-    pub(super) before_closing: State<T>,
-    /// The state before what comes to rest is held.
-    before_resting: State<T>,
+    /// The state before contacts are closed whose impacts have died out, or what comes to rest is held.
+    pub(super) before_holding: State<T>,
     /// Frictions whose slips may end with others.
     ending: Vec<usize>,
     /// The mode of a flight through impacts that accumulate.
@@ -67,8 +65,7 @@ impl<T: Scalar> Switcher<T> {
             near: Vec::with_capacity(contacts),
             impacts: vec![Impacts::default(); contacts],
             train: Train::default(),
-            before_closing: state.clone(),
-            before_resting: state.clone(),
+            before_holding: state.clone(),
             ending: Vec::with_capacity(d.frictions.len()),
             scratch_mode: mode.clone(),
             decider: Decider::new(d),
@@ -488,7 +485,7 @@ impl<T: Scalar> Run<T> {
 
     /// Which of these slips vanish once all that rests sticks.
     fn rest_if_nothing_is_left(&mut self, ending: &[usize], facts: &mut SwitchFacts) {
-        self.switcher.before_resting.clone_from(&self.now.state);
+        self.switcher.before_holding.clone_from(&self.now.state);
         let mode = &mut self.switcher.scratch_mode;
         mode.clone_from(&self.now.mode);
         for (friction, resting) in mode.frictions.iter_mut().zip(&facts.resting) {
@@ -503,7 +500,7 @@ impl<T: Scalar> Run<T> {
                 facts.resting[f] = self.slip_vanishes(f);
             }
         }
-        self.now.state.clone_from(&self.switcher.before_resting);
+        self.now.state.clone_from(&self.switcher.before_holding);
         self.dynamics.set_mode(&self.now.mode);
         self.now.valued = false;
     }
