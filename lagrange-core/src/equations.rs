@@ -11,8 +11,7 @@
 
 pub use crate::arithmetic::number::Registers;
 use crate::arithmetic::number::{self, Body, Number};
-pub use crate::arithmetic::products::{Factors, Products, STRIDE};
-pub use crate::program::{ROW, Row};
+pub use crate::arithmetic::products::{Factors, Products, ROW, Row, STRIDE};
 use crate::program::{Selection, ValueRef};
 use core::marker::PhantomData;
 
@@ -110,7 +109,7 @@ pub fn across<S: ModeSeries<N>, N: Number>(
     products: &mut [Products<N>],
 ) -> Result<(), Refused> {
     let arguments = (c, held, order, state, rows, products);
-    number::across::<Expansion<S>, _>(arguments).unwrap_or(Err(Refused::NoRegisters))
+    number::across::<Expansion<S>, _>(arguments).unwrap_or_else(|_| Err(Refused::NoRegisters))
 }
 
 /// The arguments of a [`SeriesFn`] as one.

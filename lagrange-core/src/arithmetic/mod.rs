@@ -6,6 +6,7 @@ mod num_dual;
 pub(crate) mod number;
 mod pack;
 pub(crate) mod products;
+pub(crate) mod quad;
 mod scalar;
 #[cfg(test)]
 mod tests;

@@ -77,11 +77,11 @@ pub trait Body<A> {
     fn run(registers: Registers, arguments: A) -> Self::Output;
 }
 
-/// Calls a function that is compiled for registers of four numbers; none if the processor does not have them.
+/// Calls a function that is compiled for registers of four numbers; its arguments again if the processor does not have them.
 // Each kind of processor would cost the compiler its time once more.
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
-pub(crate) fn across<B: Body<A>, A>(arguments: A) -> Option<B::Output> {
+pub(crate) fn across<B: Body<A>, A>(arguments: A) -> Result<B::Output, A> {
     struct Across<B, A>(Registers, A, PhantomData<B>);
 
     impl<A, B: Body<A>> pulp::NullaryFnOnce for Across<B, A> {
@@ -92,15 +92,19 @@ pub(crate) fn across<B: Body<A>, A>(arguments: A) -> Option<B::Output> {
             B::run(self.0, self.1)
         }
     }
-    let processor = Registers::try_new()?;
-    Some(processor.vectorize(Across::<B, A>(processor, arguments, PhantomData)))
+    match Registers::try_new() {
+        Some(processor) => {
+            Ok(processor.vectorize(Across::<B, A>(processor, arguments, PhantomData)))
+        }
+        None => Err(arguments),
+    }
 }
 
 /// Calls a function.
 #[cfg(not(target_arch = "x86_64"))]
 #[inline(always)]
-pub(crate) fn across<B: Body<A>, A>(arguments: A) -> Option<B::Output> {
-    Some(B::run(Registers, arguments))
+pub(crate) fn across<B: Body<A>, A>(arguments: A) -> Result<B::Output, A> {
+    Ok(B::run(Registers, arguments))
 }
 
 /// The distance from 1 to the next number of a type.

@@ -189,6 +189,12 @@ impl<T: Scalar> Emitted<T> {
         self.rows.get(index).map_or(&[], |row| &row[..=self.order])
     }
 
+    /// Coefficients of the positions and velocities of `n` coordinates.
+    #[inline(always)]
+    pub(super) fn state_series(&self, n: usize) -> &[Row<T>] {
+        self.rows.get(..2 * n).unwrap_or_default()
+    }
+
     /// Coefficients of t, q, v, v̇ (none) or λ, by their index in the inputs of the report tape.
     #[inline(always)]
     pub(super) fn input_series(&self, d: &Description, index: usize) -> &[T] {

@@ -12,6 +12,7 @@
 use super::Operations;
 use super::compiled::{Asked, Compiled, Part};
 use super::output_mask::OutputMask;
+use crate::arithmetic::products::Row;
 use crate::arithmetic::{Number, Scalar};
 use crate::linear::KktPattern;
 use crate::program::{Builder, Numbers, Op, Program, Register, Series, room};
@@ -259,6 +260,13 @@ impl<T: Scalar> Interpreted<T> {
             series: None,
             order: 0,
         }
+    }
+
+    /// Coefficients of the positions and velocities of `n` coordinates.
+    pub(super) fn state_series(&self, n: usize) -> &[Row<T>] {
+        let first = Register::new(2);
+        let series = self.series.as_ref();
+        series.map_or(&[], |series| series.rows_from(first, 2 * n))
     }
 
     /// Coefficients of t, q, v or λ, by their index in the inputs of the report.

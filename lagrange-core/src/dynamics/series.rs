@@ -11,6 +11,7 @@
 
 use super::interpreted::{Extent, REPORT, Shape};
 use super::{Dynamics, EvaluationError};
+use crate::arithmetic::products::Row;
 use crate::arithmetic::{Pack, Scalar};
 use crate::equations::Refused;
 use crate::program::{MAX_ORDER, Series};
@@ -160,6 +161,21 @@ impl<T: Scalar> Dynamics<T> {
                 Ok(())
             }
         }
+    }
+
+    /// Coefficients of all positions and of all velocities; those above the order of the last series mean nothing.
+    #[inline]
+    pub(crate) fn state_series(&self) -> [&[Row<T>]; 2] {
+        let n = self.description.coordinates.len();
+        let rows = match self.in_use() {
+            Some(emitted) => emitted.state_series(n),
+            None => {
+                let interpreted = self.compiled().interpreted();
+                interpreted.map_or(&[][..], |interpreted| interpreted.state_series(n))
+            }
+        };
+        let (positions, velocities) = rows.split_at_checked(n).unwrap_or_default();
+        [positions, velocities]
     }
 
     /// Position coefficients of coordinate `i`.

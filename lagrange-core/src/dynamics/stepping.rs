@@ -1,8 +1,8 @@
-//! What the steppers ask for: accelerations, and Taylor series.
+//! What the steppers ask for: accelerations.
 
 use super::{Dynamics, EvaluationError};
 use crate::arithmetic::Scalar;
-use crate::integrate::{Acceleration, taylor};
+use crate::integrate::Acceleration;
 
 impl<T: Scalar> Acceleration<T> for Dynamics<T> {
     type Error = EvaluationError;
@@ -37,19 +37,5 @@ impl<T: Scalar> Acceleration<T> for Dynamics<T> {
         }
         self.columns = columns;
         outcome.map(|()| true)
-    }
-}
-
-impl<T: Scalar> taylor::Series<T> for Dynamics<T> {
-    fn coordinates(&self) -> usize {
-        self.description().coordinates.len()
-    }
-
-    fn position(&self, i: usize) -> &[T] {
-        self.position_series(i)
-    }
-
-    fn velocity(&self, i: usize) -> &[T] {
-        self.velocity_series(i)
     }
 }

@@ -30,7 +30,7 @@ pub use integrator::Integrator;
 pub use method::{Method, ParseMethodError};
 pub use polynomial::StepPolynomial;
 pub(crate) use polynomial::{
-    derivative as polynomial_derivative, horner, onto_step, sum as polynomial_sum,
+    derivative as polynomial_derivative, horner, onto_step, powers_of, sum as polynomial_sum,
 };
 pub use radau::Radau;
 pub use runge_kutta::RungeKutta;

@@ -1,6 +1,8 @@
 //! Positions and velocities over one step, as polynomials in s = (t − t₀)/h.
 
 use crate::arithmetic::Scalar;
+use crate::arithmetic::products::{ROW, Row};
+use crate::arithmetic::quad::{Quad, values};
 
 /// The solution over one step: q(t₀ + h s) = Σₖ qₖ sᵏ, the same for v; coefficients carry hᵏ.
 #[derive(Clone, Debug, PartialEq)]
@@ -139,43 +141,75 @@ pub(crate) fn sum<T: Scalar>(c: &[T]) -> T {
     rest + *c1 + *c0
 }
 
-/// Coefficients onto a step, cₖ pₖ for as many as `out` has; returns their [`sum`] and, if asked for, Σ k cₖ pₖ.
-#[inline]
-pub(crate) fn onto_step<T: Scalar, const SLOPE: bool>(
+/// Coefficients onto a step, cₖ pₖ for as many as `out` has; returns their sum, in which the first four are added last, and, if asked
+/// for, Σ k cₖ pₖ.
+#[inline(always)]
+pub(crate) fn onto_step<T: Scalar, Q: Quad, const SLOPE: bool>(
+    quad: Q,
     out: &mut [T],
-    c: &[T],
-    powers: &[f64],
+    c: &Row<T>,
+    powers: &Row<f64>,
 ) -> (T, f64) {
-    let count = out.len();
-    let scaled = |c: T, power: f64| c * T::from_f64(power);
-    let (first, out) = out.split_at_mut(2);
-    first[0] = scaled(c[0], powers[0]);
-    first[1] = scaled(c[1], powers[1]);
-    let (out, out_end) = out.as_chunks_mut::<4>();
-    let (c, c_end) = c[2..count].as_chunks::<4>();
-    let (p, p_end) = powers[2..count].as_chunks::<4>();
-    let (k, k_end) = ORDERS[2..count].as_chunks::<4>();
-    let (mut sums, mut slopes) = ([T::zero(); 4], [0.0; 4]);
-    for i in (0..out.len()).rev() {
-        let x: [T; 4] = core::array::from_fn(|j| scaled(c[i][j], p[i][j]));
-        out[i] = x;
-        sums = core::array::from_fn(|j| sums[j] + x[j]);
+    let (fours, end) = (out.len().min(ROW) / 4, out.len().min(ROW));
+    let (mut sums, mut slopes) = (quad.splat(T::zero()), quad.splat(0.0));
+    let mut i = fours;
+    while i > 0 {
+        i -= 1;
+        let x = quad.product(
+            quad.four(c.as_chunks().0[i]),
+            quad.four(of_type(powers.as_chunks().0[i])),
+        );
+        out.as_chunks_mut().0[i] = quad.numbers(x);
         if SLOPE {
-            slopes = core::array::from_fn(|j| slopes[j] + k[i][j] * x[j].value());
+            let x = quad.four(values(quad.numbers(x)));
+            slopes = quad.sum(slopes, quad.product(quad.four(ORDERS.as_chunks().0[i]), x));
+        }
+        if i > 0 {
+            sums = quad.sum(sums, x);
         }
     }
-    let mut end = T::zero();
-    for i in (0..out_end.len()).rev() {
-        let x = scaled(c_end[i], p_end[i]);
-        out_end[i] = x;
-        end += x;
+    let (mut sum, mut slope) = (quad.total(sums), quad.total(slopes));
+    let mut k = end;
+    while k > 4 * fours {
+        k -= 1;
+        let x = c[k] * T::from_f64(powers[k]);
+        out[k] = x;
+        sum += x;
         if SLOPE {
-            slopes[i] += k_end[i] * x.value();
+            slope += ORDERS[k] * x.value();
         }
     }
-    let sum = (sums[0] + sums[2]) + (sums[1] + sums[3]) + end + first[1] + first[0];
-    let slope = (slopes[0] + slopes[2]) + (slopes[1] + slopes[3]) + first[1].value();
+    if let Some(&[x0, x1, x2, x3]) = out.first_chunk() {
+        sum = sum + (x2 + x3) + x1 + x0;
+    }
     (sum, slope)
+}
+
+/// Numbers of another type.
+#[inline(always)]
+fn of_type<T: Scalar>([a, b, c, d]: [f64; 4]) -> [T; 4] {
+    [
+        T::from_f64(a),
+        T::from_f64(b),
+        T::from_f64(c),
+        T::from_f64(d),
+    ]
+}
+
+/// Writes 1, h, h², …, at least to the order `degree`. A power beyond all numbers would make a coefficient that is zero no number: it is the
+/// largest of them.
+#[inline(always)]
+pub(crate) fn powers_of<Q: Quad>(quad: Q, h: f64, degree: usize, powers: &mut Row<f64>) {
+    let square = h * h;
+    let mut four = quad.lesser(
+        quad.four([1.0, h, square, square * h]),
+        quad.splat(f64::MAX),
+    );
+    let factor = quad.splat((square * square).min(f64::MAX));
+    for next in powers.as_chunks_mut().0.iter_mut().take(degree / 4 + 1) {
+        *next = quad.numbers(four);
+        four = quad.lesser(quad.product(four, factor), quad.splat(f64::MAX));
+    }
 }
 
 /// k as a number.

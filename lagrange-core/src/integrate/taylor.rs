@@ -12,6 +12,8 @@
 
 use super::polynomial::ORDERS;
 use super::{StepPolynomial, Tolerance};
+use crate::arithmetic::products::{ROW, Row};
+use crate::arithmetic::quad::{Quad, QuadBody, side_by_side, values};
 use crate::arithmetic::{Scalar, epsilon};
 
 /// Largest order that [`order`] gives.
@@ -42,53 +44,66 @@ pub fn order(tolerance: Tolerance, products: usize) -> usize {
     (MIN_ORDER..MAX_ORDER).find(dear).unwrap_or(MAX_ORDER)
 }
 
-/// Taylor coefficients of a solution about the start of a step, in powers of the time (not scaled by h).
-pub trait Series<T> {
-    /// Number of coordinates.
-    fn coordinates(&self) -> usize;
-    /// Coefficients of the position of coordinate `i`, at least to the order used.
-    fn position(&self, i: usize) -> &[T];
-    /// Coefficients of the velocity of coordinate `i`, at least to the order used.
-    fn velocity(&self, i: usize) -> &[T];
-}
-
-/// Step size for series used to `order`: every component's truncation error stays below its share of the tolerance
+/// Step size for series used to `order`, at most [`MAX_ORDER`]: every component's truncation error stays below its share of the tolerance
 /// (`absolute` + `relative`·|value at the start|, for positions and velocities alike).
 ///
-/// Infinite if the series end (polynomial motion): something else limits that step. `None` if a coefficient that is needed
-/// is not finite.
+/// The series, of each position and of each velocity, are in powers of the time, not scaled by h. Infinite if they
+/// end (polynomial motion): something else limits that step. `None` if a coefficient that is needed is not finite.
 pub fn step_size<T: Scalar>(
-    series: &impl Series<T>,
+    series: [&[Row<T>]; 2],
     order: usize,
     tolerance: Tolerance,
 ) -> Option<f64> {
-    let first = (order / 2).max(3).min(order);
-    let mut sizes = [[0.0; 4]; (MAX_ORDER + 4) / 4];
-    let mut sum = [0.0; 4];
-    for i in 0..series.coordinates() {
-        for row in [series.position(i), series.velocity(i)] {
-            let limit = 1.0 / tolerance.scale(i, row[0].value().abs());
-            let (fours, end) = row[first..=order].as_chunks::<4>();
-            let (size_fours, size_end) = sizes.split_at_mut(fours.len());
-            for (four, c) in size_fours.iter_mut().zip(fours) {
-                let ratios = c.map(|c| c.value().abs() * limit);
-                sum = core::array::from_fn(|i| sum[i] + ratios[i]);
-                *four = core::array::from_fn(|i| larger(ratios[i], four[i]));
-            }
-            for (size, c) in size_end.as_flattened_mut().iter_mut().zip(end) {
-                let ratio = c.value().abs() * limit;
-                sum[0] += ratio;
-                *size = larger(ratio, *size);
-            }
-        }
-    }
-    let sizes = &sizes.as_flattened()[..order + 1 - first];
-    let finite = sum.iter().sum::<f64>().is_finite();
-    finite.then(|| step_from_sizes(sizes, first, tolerance.strictness()))
+    side_by_side::<StepSize, _>((series, order.min(MAX_ORDER), tolerance))
 }
 
-/// Step from the sizes of the coefficients of the orders `first`, `first` + 1, … in units of the allowed error.
-fn step_from_sizes(sizes: &[f64], first: usize, strictness: f64) -> f64 {
+/// [`step_size`] for four coefficients at a time.
+struct StepSize;
+
+impl<T: Scalar> QuadBody<([&[Row<T>]; 2], usize, Tolerance<'_>)> for StepSize {
+    type Output = Option<f64>;
+
+    #[inline(always)]
+    fn run<Q: Quad>(
+        quad: Q,
+        (series, order, tolerance): ([&[Row<T>]; 2], usize, Tolerance),
+    ) -> Option<f64> {
+        let first = (order / 2).max(3).min(order);
+        let count = order + 1 - first;
+        let fours = count.div_ceil(4);
+        let mut sizes = [[0.0; 4]; QUADS];
+        let mut sum = quad.splat(0.0);
+        for rows in series {
+            for (i, row) in rows.iter().enumerate() {
+                let limit = quad.splat(1.0 / tolerance.scale(i, row[0].value().abs()));
+                let row = row[first..first + 4 * fours].as_chunks().0;
+                for (at, (&four, size)) in row.iter().zip(&mut sizes).enumerate() {
+                    let four = quad.first_magnitudes(quad.four(values(four)), count - 4 * at);
+                    let ratios = quad.product(four, limit);
+                    sum = quad.sum(sum, ratios);
+                    *size = quad.numbers(quad.larger(ratios, quad.four(*size)));
+                }
+            }
+        }
+        if !quad.total(sum).is_finite() {
+            return None;
+        }
+        let base = -rough_log2(tolerance.strictness());
+        Some(step_from_sizes(quad, &sizes, [first, count], base))
+    }
+}
+
+/// Fours of coefficients that a row has room for.
+const QUADS: usize = ROW.div_ceil(4);
+
+/// Step from the sizes of the coefficients of the orders `first`, `first` + 1, …, `count` of them, in units of the allowed error 2^−`base`.
+#[inline(always)]
+fn step_from_sizes<Q: Quad>(
+    quad: Q,
+    sizes: &[[f64; 4]; QUADS],
+    [first, count]: [usize; 2],
+    base: f64,
+) -> f64 {
     /// How far the decay may be steeper than the root test says (entire functions: log₂ e), as log₂.
     const STEEPER: f64 = 2.0;
     /// Bend of the logarithm that a prediction over several orders may ignore, per order, as log₂.
@@ -96,35 +111,28 @@ fn step_from_sizes(sizes: &[f64], first: usize, strictness: f64) -> f64 {
     /// log₂ e⁻², the last term.
     const LAST: f64 = -2.0 * core::f64::consts::LOG2_E;
 
-    let count = sizes.len();
-    let order = (first + count - 1) as f64;
-    let base = -rough_log2(strictness);
-    let mut logs = [0.0; MAX_ORDER + 1];
-    let logs = &mut logs[..count];
-    let (orders, reciprocals) = (&ORDERS[first..][..count], &RECIPROCALS[first..][..count]);
+    let last = first + count - 1;
+    let tables = first..first + 4 * count.div_ceil(4);
+    let (orders, reciprocals) = (&ORDERS[tables.clone()], &RECIPROCALS[tables]);
+    let (orders, reciprocals) = (orders.as_chunks().0, reciprocals.as_chunks().0);
     // Root test: no coefficient lies above 2^(base + root·k).
-    let mut root = f64::NEG_INFINITY;
-    for ((log, &size), reciprocal) in logs.iter_mut().zip(sizes).zip(reciprocals) {
-        *log = rough_log2(size);
-        root = larger(root, (*log - base) * reciprocal);
+    let mut logs = [[f64::NEG_INFINITY; 4]; QUADS];
+    let mut roots = quad.splat(f64::NEG_INFINITY);
+    for ((log, &size), &reciprocal) in logs.iter_mut().zip(sizes).zip(reciprocals) {
+        let [a, b, c, d] = size;
+        *log = [rough_log2(a), rough_log2(b), rough_log2(c), rough_log2(d)];
+        let above = quad.sum(quad.four(*log), quad.splat(-base));
+        roots = quad.larger(quad.product(above, quad.four(reciprocal)), roots);
     }
+    let root = quad.largest(roots);
     if root == f64::NEG_INFINITY {
         return f64::INFINITY;
     }
     // Decay between the highest points, seen from that line, of the lower and of the upper half.
+    let flat = logs.as_flattened();
     let half = count / 2;
-    let highest = |logs: &[f64], orders: &[f64]| {
-        let mut highest = (f64::NEG_INFINITY, 0.0);
-        for (log, &k) in logs.iter().zip(orders) {
-            let above = log - root * k;
-            if above > highest.0 {
-                highest = (above, k);
-            }
-        }
-        highest
-    };
-    let (low, j) = highest(&logs[..half], &orders[..half]);
-    let (high, k) = highest(&logs[half..], &orders[half..]);
+    let (low, j) = highest(&flat[..half], first, root);
+    let (high, k) = highest(&flat[half..count], first + half, root);
     let slope = (high - low) / (k - j);
     // A half without any coefficient has no highest point.
     let decay = if slope.is_finite() {
@@ -133,11 +141,31 @@ fn step_from_sizes(sizes: &[f64], first: usize, strictness: f64) -> f64 {
         root
     };
     // Each coefficient's prediction of the last one.
-    let mut last = f64::NEG_INFINITY;
-    for (log, k) in logs.iter().zip(orders) {
-        last = larger(last, log + (order - k) * (decay - BEND));
+    let fall = quad.splat(BEND - decay);
+    let mut sizes = quad.splat(f64::NEG_INFINITY);
+    for (&log, &k) in logs.iter().zip(orders) {
+        let ahead = quad.sum(quad.four(k), quad.splat(-(last as f64)));
+        let size = quad.sum(quad.four(log), quad.product(ahead, fall));
+        sizes = quad.larger(size, sizes);
     }
-    ((LAST - last) / order).exp2()
+    ((LAST - quad.largest(sizes)) / last as f64).exp2()
+}
+
+/// The highest of these logarithms, which belong to the orders from `first` on, above a line through the origin with the slope `root`, and
+/// its order.
+#[inline(always)]
+fn highest(logs: &[f64], first: usize, root: f64) -> (f64, f64) {
+    let (mut highest, mut at) = (f64::NEG_INFINITY, 0.0);
+    let mut k = first as f64;
+    let mut i = 0;
+    while i < logs.len() {
+        let above = logs[i] - root * k;
+        at = if above > highest { k } else { at };
+        highest = larger(above, highest);
+        k += 1.0;
+        i += 1;
+    }
+    (highest, at)
 }
 
 /// The worse of two errors: the larger one, or that which is not a number.
@@ -153,10 +181,10 @@ fn larger(x: f64, y: f64) -> f64 {
 }
 
 /// 1/k
-const RECIPROCALS: [f64; MAX_ORDER + 1] = {
-    let mut table = [0.0; MAX_ORDER + 1];
+const RECIPROCALS: [f64; 64] = {
+    let mut table = [0.0; 64];
     let mut k = 1;
-    while k <= MAX_ORDER {
+    while k < 64 {
         table[k] = 1.0 / k as f64;
         k += 1;
     }
@@ -166,11 +194,17 @@ const RECIPROCALS: [f64; MAX_ORDER + 1] = {
 /// log₂ x to within 0.1, monotone: the exponent and mantissa bits read as one number. −∞ for 0 and subnormals.
 #[inline(always)]
 fn rough_log2(x: f64) -> f64 {
+    /// 2⁵², whose mantissa takes up the leading bits of x, and what that number is off by then.
+    const WHOLE: u64 = 0x4330 << 48;
+    const OFFSET: f64 = 1023.0 + 4096.0;
+    // x is not negative.
+    let whole = f64::from_bits(x.to_bits() >> 12 | WHOLE);
+    let log = whole * (1.0 / (1u64 << 40) as f64) - OFFSET;
     if x < f64::MIN_POSITIVE {
-        return f64::NEG_INFINITY;
+        f64::NEG_INFINITY
+    } else {
+        log
     }
-    // As a signed number, which converts in one instruction; x is not negative.
-    (x.to_bits() as i64 as f64) * (1.0 / (1u64 << 52) as f64) - 1023.0
 }
 
 /// Truncation error of a Taylor step, in units of the allowed error, from the accelerations `dv` evaluated afresh at the

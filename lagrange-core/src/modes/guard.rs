@@ -12,6 +12,7 @@
 //! N = λ·|∂g/∂p|. A guard is read from a [`Reading`] as Taylor coefficients; a plain value is a series of length one.
 
 use crate::arithmetic::Scalar;
+use crate::arithmetic::quad::{Memory, Quad, values};
 use crate::dynamics::{Dynamics, OutputMask};
 use crate::effects::Item;
 use crate::integrate::polynomial_sum;
@@ -237,14 +238,20 @@ impl Linear {
     }
 
     /// See [`series`].
-    #[inline]
-    pub fn series<T: Scalar>(&self, reading: &Reading<T>, powers: &[f64], out: &mut [f64]) -> Sums {
+    #[inline(always)]
+    pub fn series<T: Scalar, Q: Quad>(
+        &self,
+        quad: Q,
+        reading: &Reading<T>,
+        powers: &[f64],
+        out: &mut [f64],
+    ) -> Sums {
         let (a, x) = self.first;
         let second = self.second.map(|(b, y)| (b, y.read(reading)));
         match (x.read(reading), second) {
-            (Terms::Many(x), None) => combine::<T, false>(out, (a, x), (0.0, x), powers),
+            (Terms::Many(x), None) => combine::<T, Q, false>(quad, out, (a, x), (0.0, x), powers),
             (Terms::Many(x), Some((b, Terms::Many(y)))) => {
-                combine::<T, true>(out, (a, x), (b, y), powers)
+                combine::<T, Q, true>(quad, out, (a, x), (b, y), powers)
             }
             (x, second) => {
                 out.fill(0.0);
@@ -284,43 +291,53 @@ impl Sums {
 }
 
 /// (a xₖ + b yₖ) pₖ, the second term only if there are `TWO`.
-#[inline]
-fn combine<T: Scalar, const TWO: bool>(
+#[inline(always)]
+fn combine<T: Scalar, Q: Quad, const TWO: bool>(
+    quad: Q,
     out: &mut [f64],
     (a, x): (f64, &[T]),
     (b, y): (f64, &[T]),
     powers: &[f64],
 ) -> Sums {
     let count = out.len();
-    let term = |x: T, y: T, power: f64| match TWO {
-        true => (a * x.value() + b * y.value()) * power,
-        false => a * x.value() * power,
-    };
-    let (first, out) = out.split_at_mut(2);
-    first[0] = term(x[0], y[0], powers[0]);
-    first[1] = term(x[1], y[1], powers[1]);
     let (out, out_end) = out.as_chunks_mut::<4>();
-    let (x, x_end) = x[2..count].as_chunks::<4>();
-    let (y, y_end) = y[2..count].as_chunks::<4>();
-    let (p, p_end) = powers[2..count].as_chunks::<4>();
-    let (mut sums, mut sizes) = ([0.0; 4], [0.0; 4]);
-    for i in (0..out.len()).rev() {
-        let c: [f64; 4] = core::array::from_fn(|j| term(x[i][j], y[i][j], p[i][j]));
-        out[i] = c;
-        sums = core::array::from_fn(|j| sums[j] + c[j]);
-        sizes = core::array::from_fn(|j| sizes[j] + c[j].abs());
+    let (x, x_end) = x[..count].as_chunks::<4>();
+    let (y, y_end) = y[..count].as_chunks::<4>();
+    let (p, p_end) = powers[..count].as_chunks::<4>();
+    let (mut sums, mut sizes) = (quad.splat(0.0), quad.splat(0.0));
+    let mut i = out.len();
+    while i > 0 {
+        i -= 1;
+        let mut c = quad.product(quad.splat(a), quad.four(values(x[i])));
+        if TWO {
+            c = quad.sum(c, quad.product(quad.splat(b), quad.four(values(y[i]))));
+        }
+        c = quad.product(c, quad.four(p[i]));
+        out[i] = quad.numbers(c);
+        if i > 0 {
+            sums = quad.sum(sums, c);
+            sizes = quad.sum(sizes, quad.magnitudes(c));
+        }
     }
-    let mut end = 0.0;
-    for i in (0..out_end.len()).rev() {
-        let c = term(x_end[i], y_end[i], p_end[i]);
-        out_end[i] = c;
-        end += c;
-        sizes[i] += c.abs();
+    let (mut end, mut rest) = (quad.total(sums), quad.total(sizes));
+    let mut i = out_end.len();
+    while i > 0 {
+        i -= 1;
+        let mut c = a * x_end[i].value();
+        if TWO {
+            c += b * y_end[i].value();
+        }
+        out_end[i] = c * p_end[i];
+        end += out_end[i];
+        if i > 1 || !out.is_empty() {
+            rest += out_end[i].abs();
+        }
     }
-    Sums {
-        end: (sums[0] + sums[2]) + (sums[1] + sums[3]) + end + first[1] + first[0],
-        rest: (sizes[0] + sizes[2]) + (sizes[1] + sizes[3]),
+    if let Some(&[c0, c1, c2, c3]) = out.first() {
+        end = end + (c2 + c3) + c1 + c0;
+        rest += c2.abs() + c3.abs();
     }
+    Sums { end, rest }
 }
 
 /// Coefficients of a guard in powers of the time since the start of the reading, at most [`LENGTH`], each times its factor in
@@ -333,7 +350,7 @@ pub fn series<T: Scalar>(
     out: &mut [f64],
 ) {
     match Linear::of(guard, mode, reading.dynamics()) {
-        Some(linear) => _ = linear.series(reading, powers, out),
+        Some(linear) => _ = linear.series(Memory, reading, powers, out),
         None => {
             out.fill(0.0);
             of_products(guard, mode, reading, out);

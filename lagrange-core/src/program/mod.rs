@@ -18,4 +18,4 @@ pub use encoded::Encoded;
 pub(crate) use instruction::{Op, Program, Register, room};
 pub use selection::{Selection, ValueRef};
 pub(crate) use series::Series;
-pub use series::{MAX_ORDER, Operation, ROW, Row};
+pub use series::{MAX_ORDER, Operation};

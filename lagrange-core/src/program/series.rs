@@ -17,17 +17,11 @@
 //! methods, section 2; Griewank & Walther 2008, Evaluating Derivatives, chapter 13.
 
 use super::instruction::{Instruction, Op, Program, Register, with_registers};
-use crate::arithmetic::products::STRIDE;
+use crate::arithmetic::products::{ROW, Row, STRIDE};
 use crate::arithmetic::{Number, Pack, Scalar};
 
 /// No row is kept.
 const NO_ROW: u32 = u32::MAX;
-
-/// Coefficients 0, 1, … of one series.
-pub type Row<N> = [N; ROW];
-
-/// Places of a [`Row`]. Rows that lie a power of two apart share few lines of the cache: a chain of five links took a third longer.
-pub const ROW: usize = STRIDE + 1;
 
 /// Highest order of a series.
 pub const MAX_ORDER: usize = 28;
@@ -329,6 +323,12 @@ impl<T: Number> Series<T> {
             }
         }
         self.now = now;
+    }
+
+    /// Coefficients of so many numbers that were wanted one after the other.
+    pub(crate) fn rows_from(&self, first: Register, count: usize) -> &[Row<T>] {
+        let first = self.rows.get(first.index()).map_or(0, |&row| row as usize);
+        self.history.get(first..first + count).unwrap_or_default()
     }
 
     /// Coefficients 0…`order` of a number that was wanted; of any other number, zeros.

@@ -7,6 +7,7 @@
 use super::hits::{CLEAR, value as at};
 use super::samples::SampledRoot;
 use crate::arithmetic::Scalar;
+use crate::arithmetic::quad::{Quad, QuadBody, side_by_side};
 use crate::dynamics::{Dynamics, EvaluationError};
 use crate::effects::{Effects, Item};
 use crate::events::{deflate, keeps_its_sign};
@@ -73,6 +74,34 @@ pub(super) struct GuardPolynomials {
     nodes: Vec<f64>,
     /// Roots of guards that were sampled.
     pub(super) roots: Vec<SampledRoot>,
+}
+
+/// Takes guards from the series that the dynamics hold, for four coefficients at a time.
+struct FromSeries;
+
+impl<T: Scalar> QuadBody<(&mut GuardPolynomials, &Dynamics<T>, &Mode, &[f64])> for FromSeries {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<Q: Quad>(
+        quad: Q,
+        (guards, dynamics, mode, powers): (&mut GuardPolynomials, &Dynamics<T>, &Mode, &[f64]),
+    ) {
+        let reading = Reading::Series(dynamics);
+        let coefficients = guards.coefficients.chunks_exact_mut(guards.width);
+        for (c, curve) in coefficients.zip(&mut guards.list) {
+            curve.sums = match &curve.linear {
+                Some(linear) => linear.series(quad, &reading, powers, c),
+                None => {
+                    redundant::series(curve.guard, &guards.composites, mode, &reading, powers, c);
+                    Sums::of(c)
+                }
+            };
+            c[0] += curve.margin;
+            curve.sums.end += curve.margin;
+            curve.stays = false;
+        }
+    }
 }
 
 impl GuardPolynomials {
@@ -169,21 +198,10 @@ impl GuardPolynomials {
         mode: &Mode,
         powers: &[f64],
     ) {
-        let reading = Reading::Series(dynamics);
         self.shape(powers.len());
         self.roots.clear();
-        let coefficients = self.coefficients.chunks_exact_mut(self.width);
-        for (c, curve) in coefficients.zip(&mut self.list) {
-            curve.sums = match &curve.linear {
-                Some(linear) => linear.series(&reading, powers, c),
-                None => {
-                    redundant::series(curve.guard, &self.composites, mode, &reading, powers, c);
-                    Sums::of(c)
-                }
-            };
-            c[0] += curve.margin;
-            curve.sums.end += curve.margin;
-            curve.stays = false;
+        if !self.list.is_empty() {
+            side_by_side::<FromSeries, _>((self, dynamics, mode, powers));
         }
     }
 

@@ -230,9 +230,11 @@ impl<T: Scalar> Run<T> {
         }
         let (h, degree) = best?;
         self.write_polynomial(h.min(self.end - self.now.t.value()), degree);
-        self.locator
-            .polynomials
-            .take_series(&self.dynamics, &self.now.mode, &self.stepper.powers);
+        self.locator.polynomials.take_series(
+            &self.dynamics,
+            &self.now.mode,
+            &self.stepper.powers[..=degree],
+        );
         let hit = self.first_hit();
         let distance = self.distance_at(hit.end());
         let decides = matches!(hit, Hit::Guards(_));

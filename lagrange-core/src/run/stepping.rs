@@ -6,12 +6,15 @@ use super::rest::JUST_BEFORE;
 use super::singular::{LEAST_DEGREE, MOST_RETREATS, RETREAT};
 use super::stiffness::Stiffness;
 use super::{Progress, Run};
+use crate::arithmetic::products::{ROW, Row};
+use crate::arithmetic::quad::{Quad, QuadBody, side_by_side};
 use crate::arithmetic::{Scalar, epsilon};
-use crate::dynamics::EvaluationError;
+use crate::dynamics::{Dynamics, EvaluationError};
 use crate::error::Error;
 use crate::integrate::taylor::{self, DefectControl, Verdict};
 use crate::integrate::{
     Integrator, Method, StepError, StepPolynomial, horner, onto_step, polynomial_derivative,
+    powers_of,
 };
 use crate::modes::guard::Guard;
 use crate::settings::Settings;
@@ -54,8 +57,8 @@ pub(super) struct Stepper<T> {
     pub(super) stiffness: Stiffness<T>,
     pub(super) resolution: Resolution,
     pub(super) step: StepPolynomial<T>,
-    /// Of the length of the step.
-    pub(super) powers: Vec<f64>,
+    /// Powers of the length of the step.
+    pub(super) powers: Row<f64>,
     /// State where the step ends.
     pub(super) scratch: State<T>,
     /// Σ k vₖ of the polynomials of the velocities.
@@ -76,7 +79,7 @@ impl<T: Scalar> Stepper<T> {
             stiffness: Stiffness::new(settings.method),
             resolution: Resolution::default(),
             step: StepPolynomial::new(n, 1),
-            powers: Vec::new(),
+            powers: [0.0; ROW],
             scratch: state.clone(),
             slopes: vec![0.0; n],
         }
@@ -140,7 +143,7 @@ impl<T: Scalar> Run<T> {
             self.locator.polynomials.take_series(
                 &self.dynamics,
                 &self.now.mode,
-                &self.stepper.powers,
+                &self.stepper.powers[..=order],
             );
             let shorter = CLOSER_LOOK * h;
             let resolved = self.advances(shorter) && shorter > CLOSEST * longest;
@@ -248,7 +251,8 @@ impl<T: Scalar> Run<T> {
     /// The step that the series at hand allows, and the order up to which it is used: close to where a slip vanishes that turns, the last
     /// coefficients are beyond all numbers.
     fn longest_series(&self) -> Option<(f64, usize)> {
-        let step = |order| taylor::step_size(&self.dynamics, order, self.settings.per_step());
+        let (series, tolerance) = (self.dynamics.state_series(), self.settings.per_step());
+        let step = |order| taylor::step_size(series, order, tolerance);
         let highest = self.stepper.order;
         let mut orders = (LEAST_DEGREE.min(highest)..=highest).rev();
         orders.find_map(|order| Some((step(order)?, order)))
@@ -420,28 +424,7 @@ impl<T: Scalar> Run<T> {
         self.stepper.step.set_degree(degree);
         self.stepper.step.t = self.now.t;
         self.stepper.step.h = T::from_f64(h);
-        let mut power = 1.0;
-        self.stepper.powers.resize(degree + 1, 0.0);
-        for entry in &mut self.stepper.powers {
-            *entry = power;
-            // A power beyond all numbers would make a coefficient that is zero no number.
-            power = (power * h).min(f64::MAX);
-        }
-        let width = degree + 1;
-        let rows = self.stepper.step.q.chunks_exact_mut(width);
-        for (i, (q, v)) in rows
-            .zip(self.stepper.step.v.chunks_exact_mut(width))
-            .enumerate()
-        {
-            let (position, velocity) = (
-                self.dynamics.position_series(i),
-                self.dynamics.velocity_series(i),
-            );
-            (self.stepper.scratch.q[i], _) =
-                onto_step::<T, false>(q, position, &self.stepper.powers);
-            (self.stepper.scratch.v[i], self.stepper.slopes[i]) =
-                onto_step::<T, true>(v, velocity, &self.stepper.powers);
-        }
+        side_by_side::<OntoStep, _>((&self.dynamics, &mut self.stepper));
     }
 
     fn other_step(&mut self) -> Result<Hit, Error> {
@@ -626,4 +609,29 @@ impl<T: Scalar> Run<T> {
 fn is_located(fallen: &[Guard], hit: &Hit) -> impl Fn(Guard) -> bool {
     let stops = matches!(hit, Hit::Stop(..));
     move |guard| fallen.contains(&guard) || stops && matches!(guard, Guard::Stop(..))
+}
+
+/// Writes the series that `dynamics` holds onto the step, the state at its end and the changes of the velocities.
+struct OntoStep;
+
+impl<T: Scalar> QuadBody<(&Dynamics<T>, &mut Stepper<T>)> for OntoStep {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<Q: Quad>(quad: Q, (dynamics, stepper): (&Dynamics<T>, &mut Stepper<T>)) {
+        let Stepper {
+            step,
+            powers,
+            scratch,
+            slopes,
+            ..
+        } = stepper;
+        powers_of(quad, step.h.value(), step.degree, powers);
+        let [positions, velocities] = dynamics.state_series();
+        for (i, (q, v)) in positions.iter().zip(velocities).enumerate() {
+            let (onto_q, onto_v) = step.rows_mut(i);
+            (scratch.q[i], _) = onto_step::<T, Q, false>(quad, onto_q, q, powers);
+            (scratch.v[i], slopes[i]) = onto_step::<T, Q, true>(quad, onto_v, v, powers);
+        }
+    }
 }

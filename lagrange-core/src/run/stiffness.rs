@@ -97,8 +97,11 @@ impl<T: Scalar> Run<T> {
             && let Some(h) = self.stepper.wanted
             && self.expand().is_ok()
         {
-            let series =
-                taylor::step_size(&self.dynamics, self.stepper.order, self.settings.per_step());
+            let series = taylor::step_size(
+                self.dynamics.state_series(),
+                self.stepper.order,
+                self.settings.per_step(),
+            );
             if series.is_some_and(|series| WORTH * series > h) {
                 self.leave_stiffness();
             }
@@ -129,7 +132,7 @@ impl<T: Scalar> Run<T> {
         self.expand().ok()?;
         let (dynamics, tolerance) = (&self.dynamics, self.settings.per_step());
         let h = if self.stepper.is_taylor() {
-            taylor::step_size(dynamics, self.stepper.order, tolerance)
+            taylor::step_size(dynamics.state_series(), self.stepper.order, tolerance)
         } else {
             self.stepper.wanted
         };

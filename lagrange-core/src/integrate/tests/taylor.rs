@@ -4,7 +4,7 @@ use core::f64::consts::{FRAC_PI_2, TAU};
 
 use super::problems::{Coefficients, Falling, Harmonic, Kepler, Pendulum, Problem, series};
 use super::runge_kutta::Run;
-use crate::integrate::taylor::{DefectControl, Verdict, defect, order, step_size};
+use crate::integrate::taylor::{DefectControl, Verdict, defect, order};
 use crate::integrate::{StepPolynomial, Tolerance};
 
 /// Of the series of an orbit.
@@ -22,7 +22,9 @@ pub fn run<P: Problem>(problem: &mut P, tolerance: Tolerance, until: f64, h_max:
     while t < until {
         let coefficients = series(problem, t, &q, &v, order);
         run.evaluations += 1;
-        let h = step_size(&coefficients, order, tolerance).expect("finite coefficients");
+        let h = coefficients
+            .step_size(order, tolerance)
+            .expect("finite coefficients");
         let mut h = h.min(h_max).min(until - t);
         let mut check = DefectControl::default();
         loop {
@@ -104,7 +106,7 @@ fn steps_are_not_wasted() {
             let t = 0.5 * f64::from(i);
             let (q, v) = orbit.solution(t);
             let coefficients = series(&orbit, t, &q, &v, order);
-            let h = step_size(&coefficients, order, tolerance).expect("finite");
+            let h = coefficients.step_size(order, tolerance).expect("finite");
             fill(&mut step, &coefficients, t, h);
             let (mut q, mut v) = orbit.solution(t + h);
             let exact = (q.clone(), v.clone());
@@ -172,7 +174,7 @@ fn series_that_end_leave_the_step_to_others() {
     let (q, v) = Falling.solution(0.0);
     let coefficients = series(&Falling, 0.0, &q, &v, 20);
     assert_eq!(
-        step_size(&coefficients, 20, Tolerance::both(1e-16)),
+        coefficients.step_size(20, Tolerance::both(1e-16)),
         Some(f64::INFINITY)
     );
     let run = run(&mut Falling, Tolerance::both(1e-12), 2.0, 0.5);
@@ -192,7 +194,7 @@ fn wide_gaps_are_caught_by_the_defect() {
         more: Vec::new(),
     };
     let _ = Stiffening;
-    assert_eq!(step_size(&coefficients, 10, tolerance), Some(f64::INFINITY));
+    assert_eq!(coefficients.step_size(10, tolerance), Some(f64::INFINITY));
     let mut check = DefectControl::default();
     let mut h = 2.0;
     let mut tries = 0;
@@ -218,9 +220,9 @@ fn wide_gaps_are_caught_by_the_defect() {
 fn coefficients_that_are_not_finite_give_no_step() {
     let mut coefficients = series(&Harmonic { omega: 1.0 }, 0.0, &[1.0], &[0.0], 12);
     coefficients.v[0][11] = f64::NAN;
-    assert_eq!(step_size(&coefficients, 12, Tolerance::both(1e-9)), None);
+    assert_eq!(coefficients.step_size(12, Tolerance::both(1e-9)), None);
     coefficients.v[0][11] = f64::INFINITY;
-    assert_eq!(step_size(&coefficients, 12, Tolerance::both(1e-9)), None);
+    assert_eq!(coefficients.step_size(12, Tolerance::both(1e-9)), None);
 }
 
 #[test]

@@ -3,9 +3,10 @@
 use super::questions::{concerns, leading, list_questions, unit_of_order};
 use super::{Decider, EvaluationPoint, SwitchContext, SwitchFacts};
 use crate::arithmetic::Scalar;
+use crate::arithmetic::products::ROW;
 use crate::dynamics::{Dynamics, EvaluationError, OutputMask};
 use crate::integrate::Tolerance;
-use crate::integrate::taylor::{self, Series};
+use crate::integrate::taylor;
 use crate::mode::{FrictionMode, Mode};
 use crate::modes::guard::{self, Guard};
 use crate::modes::reading::Reading;
@@ -59,23 +60,6 @@ impl<T: Scalar> Clone for Ahead<'_, T> {
 }
 
 impl<T: Scalar> Copy for Ahead<'_, T> {}
-
-/// The series of a guard, which reaches as far as that of a coordinate with these coefficients.
-struct Alone<'a>(&'a [f64]);
-
-impl Series<f64> for Alone<'_> {
-    fn coordinates(&self) -> usize {
-        1
-    }
-
-    fn position(&self, _: usize) -> &[f64] {
-        self.0
-    }
-
-    fn velocity(&self, _: usize) -> &[f64] {
-        self.0
-    }
-}
 
 impl<T: Scalar> Decider<T> {
     /// Whether `mode` is feasible; if so, `zeros` says which guards begin with how many vanishing coefficients, and if not,
@@ -179,7 +163,7 @@ impl<T: Scalar> Decider<T> {
         dynamics.series(moment.t, moment.q, moment.v, moment.order)?;
         self.decision.expanded = false;
         let allowed = Tolerance::both(moment.tolerance);
-        let step = taylor::step_size(dynamics, moment.order, allowed);
+        let step = taylor::step_size(dynamics.state_series(), moment.order, allowed);
         let h = step.filter(|h| h.is_finite()).unwrap_or(1.0);
         let largest = |series: &[T]| {
             let powers = core::iter::successors(Some(1.0), |power| Some(power * h));
@@ -304,7 +288,7 @@ impl<T: Scalar> Decider<T> {
             1e-3
         };
         let allowed = Tolerance::both(allowed);
-        let step = taylor::step_size(dynamics, order, allowed);
+        let step = taylor::step_size(dynamics.state_series(), order, allowed);
         let h = step.filter(|h| h.is_finite()).unwrap_or(1.0);
         let ahead = Ahead {
             dynamics,
@@ -404,7 +388,9 @@ impl<T: Scalar> Decider<T> {
         );
         series[..order_known].fill(0.0);
         // In free flight the motion has a series that ends, and reaches everywhere; that of the wall that it has left does not.
-        let own = taylor::step_size(&Alone(series), order, allowed);
+        let mut row = [0.0; ROW];
+        row[..series.len()].copy_from_slice(series);
+        let own = taylor::step_size([&[row], &[]], order, allowed);
         let h = own.map_or(h, |own| own.min(h));
         let mut power = 1.0;
         for c in &mut *series {

@@ -12,7 +12,8 @@ pub use kepler::Kepler;
 pub use pendulum::Pendulum;
 pub use prothero::Prothero;
 
-use crate::integrate::{Acceleration, taylor};
+use crate::arithmetic::products::Row;
+use crate::integrate::{Acceleration, Tolerance, taylor};
 
 /// A problem with a known solution.
 pub trait Problem: Acceleration<f64, Error = &'static str> {
@@ -38,17 +39,15 @@ pub struct Coefficients {
     pub more: Vec<Vec<f64>>,
 }
 
-impl taylor::Series<f64> for Coefficients {
-    fn coordinates(&self) -> usize {
-        self.q.len()
-    }
-
-    fn position(&self, i: usize) -> &[f64] {
-        &self.q[i]
-    }
-
-    fn velocity(&self, i: usize) -> &[f64] {
-        &self.v[i]
+impl Coefficients {
+    /// Step size for these series.
+    pub fn step_size(&self, order: usize, tolerance: Tolerance) -> Option<f64> {
+        let rows = |series: &[Vec<f64>]| -> Vec<Row<f64>> {
+            let row =
+                |c: &Vec<f64>| core::array::from_fn(|k| c.get(k).copied().unwrap_or_default());
+            series.iter().map(row).collect()
+        };
+        taylor::step_size([&rows(&self.q), &rows(&self.v)], order, tolerance)
     }
 }
 
