@@ -132,6 +132,19 @@ pub(super) fn derive(pool: &mut Pool, x: &Variables, group: &Group) -> Inertia {
     }
 }
 
+/// M v̇ − f of a system that is small enough for functions, the velocities whose squares make T left whole: d'Alembert's principle.
+/// Its Taylor series have products in proportion to the number of bodies of a chain, those of M and f to its square.
+pub(super) fn balance(pool: &mut Pool, x: &Variables, group: &Group) -> Option<Vec<ExprId>> {
+    if x.len() > LARGE || !x.turns.is_empty() {
+        return None;
+    }
+    let squares = Squares::of(pool, x, group.kinetic)?;
+    let inertial = squares.balance(pool, x);
+    let (_, conservative) = conservative(pool, x, group.potential);
+    let pairs = inertial.into_iter().zip(conservative);
+    Some(pairs.map(|(a, b)| pool.sub(a, b)).collect())
+}
+
 /// ((i, j ≤ i), ∂pᵢ/∂vⱼ) simplified, zeros left out.
 fn mass(
     pool: &mut Pool,

@@ -19,6 +19,8 @@ pub(super) struct Variables {
     pub turns: Vec<usize>,
     /// v as expressions.
     pub rates: Vec<ExprId>,
+    /// v̇ as expressions.
+    pub accelerations: Vec<ExprId>,
     /// 0
     pub zero: ExprId,
     /// 1
@@ -45,6 +47,11 @@ impl Variables {
             time: system.time,
             positions: system.coordinates.iter().map(|c| c.position).collect(),
             rates: velocities.iter().map(|&v| pool.leaf(v)).collect(),
+            accelerations: system
+                .coordinates
+                .iter()
+                .map(|c| pool.leaf(c.acceleration))
+                .collect(),
             velocities,
             zero: pool.integer(0),
             one: pool.integer(1),

@@ -24,7 +24,7 @@ mod tests;
 use crate::diagnostics::Diagnostics;
 use crate::model::System;
 use crate::symbolic::{ExprId, MOST_OPERANDS, Pool};
-use euler_lagrange::Inertia;
+use euler_lagrange::{Group, Inertia};
 use loads::Loads;
 use sheet::Sheet;
 use std::collections::BTreeMap;
@@ -66,6 +66,8 @@ pub struct Equations {
     pub outputs: Vec<Output>,
     /// What they mean.
     pub structure: Structure<OutputId>,
+    /// Per coordinate M v̇ − f, each term with its need and with what it shares kept whole; none where there is no such form.
+    pub balance: Option<Vec<Vec<(NeedId, ExprId)>>>,
 }
 
 impl Equations {
@@ -141,7 +143,12 @@ fn derived(system: System, sink: &mut Diagnostics) -> Option<Equations> {
     let unfinished = sheet.system.pool.is_full();
     let regular =
         unfinished || regular::check(&sheet.system, &inertias, &structure, &sheet.outputs, sink);
-    regular.then(|| Equations {
+    if !regular {
+        return None;
+    }
+    let balance = balance(&mut sheet, &groups, &loads.forcing);
+    Some(Equations {
+        balance,
         needs: sheet.needs.labels,
         system: sheet.system,
         outputs: sheet.outputs,
@@ -185,6 +192,26 @@ fn forcing(sheet: &mut Sheet, inertias: &[Inertia], loads: &Loads) -> Vec<Output
         forcing.push(sheet.output(Stage::Motion, label, terms));
     }
     forcing
+}
+
+/// M v̇ − f of all energies and applied forces.
+fn balance(
+    sheet: &mut Sheet,
+    groups: &[Group],
+    loads: &[(usize, NeedId, ExprId)],
+) -> Option<Vec<Vec<(NeedId, ExprId)>>> {
+    let pool = &mut sheet.system.pool;
+    let mut terms = vec![Vec::new(); sheet.x.len()];
+    for group in groups {
+        let balance = euler_lagrange::balance(pool, &sheet.x, group)?;
+        for (terms, e) in terms.iter_mut().zip(balance) {
+            terms.push((group.need, e));
+        }
+    }
+    for &(i, need, f) in loads {
+        terms[i].push((need, pool.neg(f)));
+    }
+    (!pool.is_full()).then_some(terms)
 }
 
 /// What the outputs mean: see `lagrange_core::system::Description`, field by field.

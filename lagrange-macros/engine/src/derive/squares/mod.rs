@@ -125,6 +125,22 @@ impl Squares {
 
     /// The inertial part of f.
     pub fn forcing(&self, pool: &mut Pool, x: &Variables) -> Vec<ExprId> {
+        self.inertial(pool, x, None)
+    }
+
+    /// M v̇ less the inertial part of f, v̇ left where it enters the accelerations of the squares: linear in v̇ without a mass matrix.
+    pub fn balance(&self, pool: &mut Pool, x: &Variables) -> Vec<ExprId> {
+        let inertial = self.inertial(pool, x, Some(&x.accelerations));
+        inertial.into_iter().map(|e| pool.neg(e)).collect()
+    }
+
+    /// −Σₛ 2cₛ (Jₛᵢ ẇₛ + wₛ (J̇ₛᵢ − ∂wₛ/∂qᵢ)), at v̇ = 0 where no accelerations are given.
+    fn inertial(
+        &self,
+        pool: &mut Pool,
+        x: &Variables,
+        accelerations: Option<&[ExprId]>,
+    ) -> Vec<ExprId> {
         let mut lists = Vec::with_capacity(self.squares.len());
         let mut twists: Vec<Vec<ExprId>> = vec![Vec::new(); self.size];
         let mut known: BTreeMap<(usize, ExprId), (ExprId, ByCoordinate)> = BTreeMap::new();
@@ -148,7 +164,14 @@ impl Squares {
                 }
                 pool.linear(Rational::ZERO, rates)
             };
-            lists.push(terms(pool, rate));
+            let mut rate = terms(pool, rate);
+            for &(j, slope) in &square.slopes {
+                if let Some(accelerations) = accelerations {
+                    let along = pool.mul(slope, accelerations[j]);
+                    rate.extend(terms(pool, along));
+                }
+            }
+            lists.push(rate);
             for (i, parts) in twist {
                 let part = pool.sum(&parts);
                 let part = pool.simplify(part);

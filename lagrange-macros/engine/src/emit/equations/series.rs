@@ -266,6 +266,7 @@ impl Expansion<'_> {
             code.extend(quote!(let #name = #x;));
             code.extend(self.keep_first(value));
         }
+        code.extend(self.first_of(Phase::Balance));
         code.extend(self.first_of(Phase::Accelerations));
         for (j, place) in mode.accelerations.iter().enumerate() {
             if *place != ValueRef::Zero {
@@ -505,6 +506,17 @@ impl Expansion<'_> {
             .iter()
             .map(|place| self.d_of_place(*place))
             .collect();
+        if let Some(balance) = &mode.system.balance {
+            // What is missing for a balance without coefficient k of the unknowns is what that must give.
+            for i in 0..mode.inputs.unknowns {
+                let name = self.coefficient_of(mode.inputs.unknown(i));
+                body.extend(quote!(let #name = #number::of(0.0);));
+            }
+            body.extend(self.next_of(Phase::Balance));
+            for (right, place) in right.iter_mut().zip(balance) {
+                *right = self.d_of_place(*place).map(|d| quote!((-#d)));
+            }
+        }
         for (i, j, _) in plan.system_products(mode) {
             let w = self.writer.value(mode.inputs.unknown(j));
             let Some(d) = self.d_of_place(mode.system.matrix[i][j]) else {
@@ -524,6 +536,7 @@ impl Expansion<'_> {
             body.extend(quote!(let #name = #x;));
             body.extend(self.keep_next(value));
         }
+        body.extend(self.balance_with_unknowns());
         body.extend(self.next_of(Phase::Accelerations));
         for (j, place) in mode.accelerations.iter().enumerate() {
             if let Some(d) = self.d_of_place(*place) {
@@ -562,6 +575,23 @@ impl Expansion<'_> {
             let #share = #number::of(INVERSES[#p]);
             #body
         }
+    }
+
+    /// Coefficient k of what the balance makes of the unknowns, once these are known.
+    fn balance_with_unknowns(&self) -> TokenStream {
+        let follows = self.mode.follows_unknowns();
+        let blocks = self.mode.blocks(Phase::Balance);
+        let steps = blocks
+            .filter(|block| block.needs.is_always())
+            .flat_map(|block| &block.steps)
+            .filter(|step| follows[step.value.0]);
+        let lines = steps.map(|step| {
+            let line = self.coefficient(step);
+            let kept = (0..step.operation.values())
+                .map(|offset| self.keep_next(Value(step.value.0 + offset)));
+            quote!(#line #(#kept)*)
+        });
+        quote!(#(#lines)*)
     }
 
     /// Whether an output belongs to a phase.

@@ -41,6 +41,12 @@ pub fn function(
         quote!(let #name = #x;)
     });
     let nothing = |_: &Block| TokenStream::new();
+    let serves = mode.serves_values();
+    let shared = mode.blocks(Phase::Balance).map(|block| {
+        let steps = block.steps.iter().filter(|step| serves[step.value.0]);
+        let steps = steps.map(|step| writer.step(step));
+        in_block(block, quote!(#(#steps)*))
+    });
     let [assembly, accelerations, forces] = [Phase::Assembly, Phase::Accelerations, Phase::Forces]
         .map(|phase| blocks(&writer, phase, nothing));
     let (rates, values) = (local("rates"), local("values"));
@@ -101,6 +107,7 @@ pub fn function(
             #factors
             #solve
             #(#unknowns)*
+            #(#shared)*
             #accelerations
             #(#rates_of)*
             if let ::core::option::Option::Some(#values) = #values {
@@ -131,14 +138,18 @@ fn blocks(writer: &Writer, phase: Phase, then: impl Fn(&Block) -> TokenStream) -
         let steps = block.steps.iter().map(|step| writer.step(step));
         let writes = writer.writes(block);
         let end = then(block);
-        let body = quote!(#(#steps)* #writes #end);
-        if block.needs.is_always() || body.is_empty() {
-            return body;
-        }
-        let condition = names::condition(&block.needs);
-        quote!(if #condition { #body })
+        in_block(block, quote!(#(#steps)* #writes #end))
     });
     quote!(#(#blocks)*)
+}
+
+/// What is done under the needs of a block.
+fn in_block(block: &Block, body: TokenStream) -> TokenStream {
+    if block.needs.is_always() || body.is_empty() {
+        return body;
+    }
+    let condition = names::condition(&block.needs);
+    quote!(if #condition { #body })
 }
 
 /// The inputs of the last phase: accelerations and forces.

@@ -7,6 +7,7 @@
 //! Sliding friction acts through the force that presses: λ_slip = factor · λ_source, with factor = −μₖ ν d.
 
 use super::masked::{ALWAYS, Masked};
+use super::reduce::Reduced;
 use crate::derive::{Equations, OutputId};
 use crate::model::Normal;
 use crate::modes::{Direction, FrictionState, Mode};
@@ -131,6 +132,39 @@ pub(super) fn balances(
         }
     }
     Some(Balances { list, slides })
+}
+
+/// K w − b of the accelerations with what it shares kept whole; none where rows have been eliminated, where something of it besides loads
+/// can be left out, or where there is no such form.
+pub(super) fn whole_balance(
+    equations: &mut Equations,
+    balances: &Balances,
+    reduced: &Reduced,
+    unknowns: &[Symbol],
+) -> Option<Vec<Masked>> {
+    let n = equations.system.coordinates.len();
+    let pressed = balances.slides.iter().all(|slide| slide.source.is_some());
+    if reduced.free.len() < n || !reduced.solved.is_empty() || !pressed {
+        return None;
+    }
+    let pool = &mut equations.system.pool;
+    let coordinates = equations.system.coordinates.iter().zip(unknowns);
+    let unknown: Vec<(Symbol, ExprId)> = coordinates
+        .map(|(c, &w)| (c.acceleration, pool.leaf(w)))
+        .collect();
+    let mut whole = Vec::with_capacity(n);
+    for terms in equations.balance.as_ref()? {
+        let mut sum = Masked::default();
+        for &(need, e) in terms {
+            let e = pool.substitute(e, &unknown);
+            if need != ALWAYS && pool.depends_on_any(e, unknowns) {
+                return None;
+            }
+            sum.add(pool, need, e);
+        }
+        whole.push(sum);
+    }
+    Some(whole)
 }
 
 /// The row of the Jacobian, without zeros.

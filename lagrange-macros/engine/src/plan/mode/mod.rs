@@ -21,7 +21,7 @@ use super::constants::Constants;
 use super::form::Fixed;
 use super::outputs::Target;
 use super::tape::{Block, Tape, Value};
-use super::{ValueRef, outputs, tape};
+use super::{ValueRef, outputs, tape as plan_tape};
 use crate::ast::Emit;
 use crate::derive::{Equations, Output, OutputId, Stage};
 use crate::model::System;
@@ -53,6 +53,8 @@ pub struct LinearSystem {
     pub reciprocals: Vec<Option<ValueRef>>,
     /// Unknowns that stand alone, already divided by their inertia.
     pub units: Vec<bool>,
+    /// The part of K w − b that is of accelerations, with what it shares kept whole, where series have fewer products by that.
+    pub balance: Option<Vec<ValueRef>>,
 }
 
 impl LinearSystem {
@@ -60,6 +62,11 @@ impl LinearSystem {
     pub fn operations(&self) -> usize {
         let n = self.matrix.len();
         n * (n + 1) * (2 * n + 1) / 6
+    }
+
+    /// Whether series have a balance in the place of the products with an element of K.
+    pub fn is_balanced(&self, row: usize, column: usize) -> bool {
+        self.balance.is_some() && row.max(column) < self.accelerations
     }
 }
 
@@ -160,17 +167,33 @@ pub(super) fn programs(equations: &mut Equations) -> Vec<ModeProgram> {
         .collect();
     modes
         .into_iter()
-        .filter_map(|mode| specialise(equations, mode, &signs, &fixed, &unknowns))
+        .filter_map(|mode| {
+            let mut make = |form| specialise(equations, &mode, &signs, &fixed, &unknowns, form);
+            let elements = make(Form::Elements)?;
+            let products = |program: &ModeProgram| products::Plan::new(program).convolutions();
+            let whole = make(Form::Balance).filter(|whole| products(whole) < products(&elements));
+            Some(whole.unwrap_or(elements))
+        })
         .collect()
+}
+
+/// What the series of the accelerations are made of.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Form {
+    /// The elements of K and b.
+    Elements,
+    /// K w − b, with what it shares kept whole.
+    Balance,
 }
 
 /// The program of a mode; none where numbers must decide how to solve it, or where it is too long.
 fn specialise(
     equations: &mut Equations,
-    mode: Mode,
+    mode: &Mode,
     signs: &[[Symbol; 2]],
     fixed: &BTreeMap<Symbol, usize>,
     unknowns: &[Symbol],
+    form: Form,
 ) -> Option<ModeProgram> {
     let acting = mode.acting_rows(&equations.system);
     let mut pool = std::mem::take(&mut equations.system.pool);
@@ -184,13 +207,19 @@ fn specialise(
         .chain(positions)
         .chain(velocities)
         .collect();
-    let balances = balance::balances(equations, &mode, &acting, &known, signs)?;
+    let balances = balance::balances(equations, mode, &acting, &known, signs)?;
     let reduced = reduce::reduce(equations, &balances, &acting, &known, &state)?;
     let free = reduced.free.len();
     let size = free + reduced.kept.len();
     if size > MOST_UNKNOWNS {
         return None;
     }
+    let mut whole = match form {
+        Form::Elements => None,
+        Form::Balance => Some(balance::whole_balance(
+            equations, &balances, &reduced, unknowns,
+        )?),
+    };
     let mut sheet = Sheet::default();
     let pool = &mut equations.system.pool;
 
@@ -242,6 +271,11 @@ fn specialise(
             quotient.add_scaled(pool, inverse, &right[i]);
             right[i] = quotient.simplified(pool);
             units[i] = true;
+            if let Some(whole) = &mut whole {
+                let mut quotient = Masked::default();
+                quotient.add_scaled(pool, inverse, &whole[i]);
+                whole[i] = quotient;
+            }
         } else {
             reciprocals[i] = Some(inverse);
         }
@@ -260,6 +294,11 @@ fn specialise(
         .map(|e| sheet.add("K", &Masked::always(pool, e)))
         .collect();
     let solved = sheet.list.len();
+    let whole: Option<Vec<OutputId>> = whole.map(|whole| {
+        let terms = whole.iter();
+        terms.map(|sum| sheet.add("K w - b", sum)).collect()
+    });
+    let balanced = sheet.list.len();
 
     // v̇ of w
     let w: Vec<ExprId> = unknowns.iter().map(|&w| pool.leaf(w)).collect();
@@ -370,7 +409,7 @@ fn specialise(
         &mut constants,
         &mut places,
     );
-    let mut whole = tape(
+    let mut tape = plan_tape(
         pool,
         &mut constants,
         &numbered,
@@ -378,8 +417,11 @@ fn specialise(
         None,
         &targets,
     );
-    let operations = whole.blocks.iter().map(|b| b.steps.len()).sum::<usize>();
-    if operations > MOST_OPERATIONS && equations.system.emit == Emit::BySize {
+    let operations = tape.blocks.iter().map(|b| b.steps.len()).sum::<usize>();
+    if form == Form::Elements
+        && operations > MOST_OPERATIONS
+        && equations.system.emit == Emit::BySize
+    {
         return None;
     }
     let sources: Vec<Target> = constants
@@ -387,7 +429,7 @@ fn specialise(
         .into_iter()
         .map(Target::of_constant)
         .collect();
-    let constants = tape(
+    let constants = plan_tape(
         pool,
         &mut Constants::closed(),
         fixed,
@@ -404,13 +446,14 @@ fn specialise(
     };
     let goals = [
         group(0..solved),
-        group(solved..accelerated),
+        group(solved..balanced),
+        group(balanced..accelerated),
         group(accelerated..forced),
     ];
-    let phases = stages::arrange(&mut whole, &goals);
+    let phases = stages::arrange(&mut tape, &goals);
     let place = |id: &OutputId| places[id.0];
     Some(ModeProgram {
-        mode,
+        mode: mode.clone(),
         constants,
         phases,
         inputs,
@@ -424,6 +467,7 @@ fn specialise(
             right: right.iter().map(place).collect(),
             reciprocals: reciprocals.iter().map(|r| r.as_ref().map(place)).collect(),
             units,
+            balance: whole.map(|whole| whole.iter().map(place).collect()),
         },
         accelerations: accelerations.iter().map(place).collect(),
         forces: forces.iter().map(|f| f.as_ref().map(place)).collect(),
@@ -440,7 +484,7 @@ fn specialise(
             .map(|(pivot, against)| (place(pivot), against.iter().map(place).collect()))
             .collect(),
         positive: positive.iter().map(place).collect(),
-        tape: whole,
+        tape,
     })
 }
 
@@ -516,8 +560,76 @@ impl ModeProgram {
     pub fn operations(&self, last: Phase) -> usize {
         let blocks = self.tape.blocks.iter().zip(&self.phases);
         let needed = blocks.filter(|(_, phase)| **phase <= last);
+        let serves = self.serves_values();
         let steps = needed.flat_map(|(block, _)| &block.steps);
-        steps.filter(|step| step.operation.is_work()).count() + self.system.operations()
+        let steps = steps.filter(|step| step.operation.is_work() && serves[step.value.0]);
+        steps.count() + self.system.operations()
+    }
+
+    /// Whether each value of the tape is needed where no series are: for other outputs than the balance.
+    pub fn serves_values(&self) -> Vec<bool> {
+        let balance = self.system.balance.iter().flatten();
+        let balance: Vec<ValueRef> = balance.copied().collect();
+        self.needed(|output| !balance.contains(&ValueRef::Node(output)))
+    }
+
+    /// Whether each value of the tape is needed by series: for other outputs than the elements that the balance replaces.
+    pub fn serves_series(&self) -> Vec<bool> {
+        let system = &self.system;
+        if system.balance.is_none() {
+            return vec![true; self.tape.values];
+        }
+        let free = system.accelerations;
+        let elements = system.matrix[..free].iter().flat_map(|row| &row[..free]);
+        let replaced: Vec<ValueRef> = elements.chain(&system.right[..free]).copied().collect();
+        let kept = system.matrix.iter().enumerate().flat_map(|(i, row)| {
+            let elements = row.iter().enumerate();
+            elements.filter(move |(j, _)| i >= free || *j >= free)
+        });
+        let kept: Vec<ValueRef> = kept
+            .map(|(_, place)| *place)
+            .chain(system.right[free..].iter().copied())
+            .chain(self.extras.iter().map(|extra| extra.place))
+            .collect();
+        self.needed(|output| {
+            let place = ValueRef::Node(output);
+            !replaced.contains(&place) || kept.contains(&place)
+        })
+    }
+
+    /// Whether each value of the tape is needed for these outputs. A value of several is needed if one of them is.
+    fn needed(&self, output: impl Fn(usize) -> bool) -> Vec<bool> {
+        let mut needed = vec![false; self.tape.values];
+        needed[..self.tape.inputs].fill(true);
+        let blocks = &self.tape.blocks;
+        for write in blocks.iter().flat_map(|block| &block.writes) {
+            needed[write.value.0] |= output(write.output);
+        }
+        for step in blocks.iter().rev().flat_map(|block| block.steps.iter().rev()) {
+            let values = step.value.0..step.value.0 + step.operation.values();
+            if values.clone().any(|value| needed[value]) {
+                values.for_each(|value| needed[value] = true);
+                for operand in step.operation.operands() {
+                    needed[operand.0] = true;
+                }
+            }
+        }
+        needed
+    }
+
+    /// Whether each value of the tape depends on the unknowns of the linear system.
+    pub fn follows_unknowns(&self) -> Vec<bool> {
+        let mut follows = vec![false; self.tape.values];
+        for i in 0..self.inputs.unknowns {
+            follows[self.inputs.unknown(i).0] = true;
+        }
+        for step in self.tape.blocks.iter().flat_map(|block| &block.steps) {
+            let any = step.operation.operands().iter().any(|x| follows[x.0]);
+            for offset in 0..step.operation.values() {
+                follows[step.value.0 + offset] = any;
+            }
+        }
+        follows
     }
 
     /// Whether each value of the tape changes with time.

@@ -38,7 +38,7 @@ pub type Product = (Factor, Factor);
 ///
 /// Four products make a group: the first those that always count, then those of each block under needs.
 pub struct Plan {
-    /// Whether each value of the tape changes with time.
+    /// Whether each value of the tape changes with time, and series need it.
     pub varying: Vec<bool>,
     /// Outputs that several writes enter, and whether they change with time.
     pub sums: BTreeMap<usize, bool>,
@@ -70,8 +70,10 @@ pub fn zero_row(mode: &ModeProgram) -> usize {
 impl Plan {
     /// What the series of a mode keep.
     pub fn new(mode: &ModeProgram) -> Plan {
+        let serves = mode.serves_series();
+        let varying = mode.varying().into_iter().zip(serves);
         let mut plan = Plan {
-            varying: mode.varying(),
+            varying: varying.map(|(varies, serves)| varies && serves).collect(),
             sums: BTreeMap::new(),
             set: BTreeMap::new(),
             rows_of: BTreeMap::new(),
@@ -257,7 +259,8 @@ impl Plan {
         let mut products = Vec::new();
         for (i, row) in mode.system.matrix.iter().enumerate() {
             for (j, place) in row.iter().enumerate() {
-                if let ValueRef::Node(output) = *place
+                if !mode.system.is_balanced(i, j)
+                    && let ValueRef::Node(output) = *place
                     && self.output_varies(output)
                 {
                     let element = match self.row_of_output(output) {

@@ -8,6 +8,8 @@ use std::collections::BTreeSet;
 pub enum Phase {
     /// Before the linear system is solved.
     Assembly,
+    /// What series have in the place of the elements of the linear system: K w − b of (t, q, v, w).
+    Balance,
     /// What follows for all coordinates.
     Accelerations,
     /// What follows for all rows.
@@ -16,23 +18,27 @@ pub enum Phase {
     Outputs,
 }
 
-const PHASES: [Phase; 4] = [
+const PHASES: [Phase; 5] = [
     Phase::Assembly,
+    Phase::Balance,
     Phase::Accelerations,
     Phase::Forces,
     Phase::Outputs,
 ];
 
+/// Number of the last phase.
+const LAST: usize = PHASES.len() - 1;
+
 /// Puts the blocks of a tape into phases, of which all but the last have the outputs `goals`; returns the phase of each.
-pub(super) fn arrange(tape: &mut Tape, goals: &[BTreeSet<usize>; 3]) -> Vec<Phase> {
+pub(super) fn arrange(tape: &mut Tape, goals: &[BTreeSet<usize>; LAST]) -> Vec<Phase> {
     let phase_of_output = |output: usize| {
         goals
             .iter()
             .position(|goal| goal.contains(&output))
-            .unwrap_or(3)
+            .unwrap_or(LAST)
     };
     // The earliest phase that reads each value.
-    let mut read = vec![3; tape.values];
+    let mut read = vec![LAST; tape.values];
     for write in tape.blocks.iter().flat_map(|block| &block.writes) {
         let first = &mut read[write.value.0];
         *first = phase_of_output(write.output).min(*first);
@@ -42,7 +48,7 @@ pub(super) fn arrange(tape: &mut Tape, goals: &[BTreeSet<usize>; 3]) -> Vec<Phas
         let mut own = Vec::with_capacity(block.steps.len());
         for step in block.steps.iter().rev() {
             let values = step.value.0..step.value.0 + step.operation.values();
-            let phase = values.map(|value| read[value]).min().unwrap_or(3);
+            let phase = values.map(|value| read[value]).min().unwrap_or(LAST);
             for operand in step.operation.operands() {
                 read[operand.0] = phase.min(read[operand.0]);
             }

@@ -108,6 +108,7 @@ fn equations(system: System, outputs: Vec<Output>) -> Equations {
         needs: Vec::new(),
         outputs,
         structure,
+        balance: None,
     }
 }
 
