@@ -132,17 +132,30 @@ pub(super) fn derive(pool: &mut Pool, x: &Variables, group: &Group) -> Inertia {
     }
 }
 
+/// The equations of motion of one [`Group`] as a balance of forces.
+pub(super) struct Balance {
+    /// ((i, j ≤ i), Mᵢⱼ), zeros left out, made of what the balance is made of.
+    pub mass: BTreeMap<(usize, usize), ExprId>,
+    /// Per coordinate: M v̇ − f.
+    pub balance: Vec<ExprId>,
+}
+
 /// M v̇ − f of a system that is small enough for functions, the velocities whose squares make T left whole: d'Alembert's principle.
 /// Its Taylor series have products in proportion to the number of bodies of a chain, those of M and f to its square.
-pub(super) fn balance(pool: &mut Pool, x: &Variables, group: &Group) -> Option<Vec<ExprId>> {
-    if x.len() > LARGE || !x.turns.is_empty() {
+pub(super) fn balance(pool: &mut Pool, x: &Variables, group: &Group) -> Option<Balance> {
+    // Two bodies have as many products either way.
+    if !(3..=LARGE).contains(&x.len()) || !x.turns.is_empty() {
         return None;
     }
     let squares = Squares::of(pool, x, group.kinetic)?;
     let inertial = squares.balance(pool, x);
     let (_, conservative) = conservative(pool, x, group.potential);
     let pairs = inertial.into_iter().zip(conservative);
-    Some(pairs.map(|(a, b)| pool.sub(a, b)).collect())
+    let balance = pairs.map(|(a, b)| pool.sub(a, b)).collect();
+    Some(Balance {
+        mass: squares.mass(pool, x),
+        balance,
+    })
 }
 
 /// ((i, j ≤ i), ∂pᵢ/∂vⱼ) simplified, zeros left out.

@@ -66,8 +66,17 @@ pub struct Equations {
     pub outputs: Vec<Output>,
     /// What they mean.
     pub structure: Structure<OutputId>,
-    /// Per coordinate M v̇ − f, each term with its need and with what it shares kept whole; none where there is no such form.
-    pub balance: Option<Vec<Vec<(NeedId, ExprId)>>>,
+    /// The balance of forces with what it shares kept whole; none where there is no such form.
+    pub balance: Option<WholeBalance>,
+}
+
+/// The equations of motion as a balance of forces, M v̇ − f = 0; each term with its need.
+#[derive(Clone)]
+pub struct WholeBalance {
+    /// (row, column ≤ row) of M, made of what the balance is made of.
+    pub mass: BTreeMap<(usize, usize), Vec<(NeedId, ExprId)>>,
+    /// Per coordinate.
+    pub balance: Vec<Vec<(NeedId, ExprId)>>,
 }
 
 impl Equations {
@@ -199,19 +208,26 @@ fn balance(
     sheet: &mut Sheet,
     groups: &[Group],
     loads: &[(usize, NeedId, ExprId)],
-) -> Option<Vec<Vec<(NeedId, ExprId)>>> {
+) -> Option<WholeBalance> {
     let pool = &mut sheet.system.pool;
-    let mut terms = vec![Vec::new(); sheet.x.len()];
+    let mut whole = WholeBalance {
+        mass: BTreeMap::new(),
+        balance: vec![Vec::new(); sheet.x.len()],
+    };
     for group in groups {
         let balance = euler_lagrange::balance(pool, &sheet.x, group)?;
-        for (terms, e) in terms.iter_mut().zip(balance) {
+        for (place, e) in balance.mass {
+            let terms = whole.mass.entry(place).or_default();
+            terms.push((group.need, e));
+        }
+        for (terms, e) in whole.balance.iter_mut().zip(balance.balance) {
             terms.push((group.need, e));
         }
     }
     for &(i, need, f) in loads {
-        terms[i].push((need, pool.neg(f)));
+        whole.balance[i].push((need, pool.neg(f)));
     }
-    (!pool.is_full()).then_some(terms)
+    (!pool.is_full()).then_some(whole)
 }
 
 /// What the outputs mean: see `lagrange_core::system::Description`, field by field.

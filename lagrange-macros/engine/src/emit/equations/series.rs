@@ -580,11 +580,15 @@ impl Expansion<'_> {
     /// Coefficient k of what the balance makes of the unknowns, once these are known.
     fn balance_with_unknowns(&self) -> TokenStream {
         let follows = self.mode.follows_unknowns();
+        let multiplied = self.plan.multiplied(self.mode);
         let blocks = self.mode.blocks(Phase::Balance);
         let steps = blocks
             .filter(|block| block.needs.is_always())
             .flat_map(|block| &block.steps)
-            .filter(|step| follows[step.value.0]);
+            .filter(|step| {
+                let mut values = step.value.0..step.value.0 + step.operation.values();
+                values.any(|value| follows[value] && multiplied[value])
+            });
         let lines = steps.map(|step| {
             let line = self.coefficient(step);
             let kept = (0..step.operation.values())

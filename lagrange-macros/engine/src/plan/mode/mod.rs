@@ -171,11 +171,16 @@ pub(super) fn programs(equations: &mut Equations) -> Vec<ModeProgram> {
             let mut make = |form| specialise(equations, &mode, &signs, &fixed, &unknowns, form);
             let elements = make(Form::Elements)?;
             let products = |program: &ModeProgram| products::Plan::new(program).convolutions();
-            let whole = make(Form::Balance).filter(|whole| products(whole) < products(&elements));
+            let most = products(&elements) * 3 / 4;
+            let whole = (most >= WORTHWHILE).then(|| make(Form::Balance)).flatten();
+            let whole = whole.filter(|whole| products(whole) <= most);
             Some(whole.unwrap_or(elements))
         })
         .collect()
 }
+
+/// A balance has a quarter fewer products than the elements, and so many at least, or what it has of linear operations costs more.
+const WORTHWHILE: usize = 12;
 
 /// What the series of the accelerations are made of.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -238,6 +243,12 @@ fn specialise(
         }
         right.push(balance.load.simplified(pool));
     }
+    if let Some(whole) = &whole {
+        for (row, own) in matrix.iter_mut().zip(&whole.matrix) {
+            row[..free].clone_from_slice(own);
+        }
+        right.clone_from(&whole.right);
+    }
     for (m, (_, along, bias)) in reduced.kept.iter().enumerate() {
         for (k, &a) in along {
             matrix[free + m][index(k)?] = Masked::always(pool, a);
@@ -273,8 +284,8 @@ fn specialise(
             units[i] = true;
             if let Some(whole) = &mut whole {
                 let mut quotient = Masked::default();
-                quotient.add_scaled(pool, inverse, &whole[i]);
-                whole[i] = quotient;
+                quotient.add_scaled(pool, inverse, &whole.balance[i]);
+                whole.balance[i] = quotient;
             }
         } else {
             reciprocals[i] = Some(inverse);
@@ -295,7 +306,7 @@ fn specialise(
         .collect();
     let solved = sheet.list.len();
     let whole: Option<Vec<OutputId>> = whole.map(|whole| {
-        let terms = whole.iter();
+        let terms = whole.balance.iter();
         terms.map(|sum| sheet.add("K w - b", sum)).collect()
     });
     let balanced = sheet.list.len();
@@ -605,7 +616,11 @@ impl ModeProgram {
         for write in blocks.iter().flat_map(|block| &block.writes) {
             needed[write.value.0] |= output(write.output);
         }
-        for step in blocks.iter().rev().flat_map(|block| block.steps.iter().rev()) {
+        for step in blocks
+            .iter()
+            .rev()
+            .flat_map(|block| block.steps.iter().rev())
+        {
             let values = step.value.0..step.value.0 + step.operation.values();
             if values.clone().any(|value| needed[value]) {
                 values.for_each(|value| needed[value] = true);

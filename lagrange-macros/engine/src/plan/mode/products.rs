@@ -3,7 +3,7 @@
 //! Coefficient k of a product is a sum over the earlier coefficients of its factors; everything else is linear and needs
 //! only coefficient k itself.
 
-use super::{Extra, ModeProgram};
+use super::{Extra, ModeProgram, Phase};
 use crate::plan::{Block, Mode, Operation, Step, Value, ValueRef};
 use std::collections::BTreeMap;
 
@@ -176,6 +176,42 @@ impl Plan {
             products.map(|(at, product)| (step.value, at, product))
         });
         products.collect()
+    }
+
+    /// Whether each value of the tape enters a product, or is read by what follows the balance.
+    pub fn multiplied(&self, mode: &ModeProgram) -> Vec<bool> {
+        let mut multiplied = vec![false; mode.tape.values];
+        let products = self.always(mode).into_iter();
+        for factor in products.flat_map(|(_, _, (x, y))| [x, y]) {
+            if let Factor::Value(value) | Factor::Weighted(value) | Factor::Auxiliary(value) =
+                factor
+            {
+                multiplied[value.0] = true;
+            }
+        }
+        let later = mode.phases.iter().map(|phase| *phase > Phase::Balance);
+        for (block, later) in mode.tape.blocks.iter().zip(later).rev() {
+            if later {
+                let written = block.writes.iter().map(|write| write.value);
+                let read = block
+                    .steps
+                    .iter()
+                    .flat_map(|step| step.operation.operands());
+                written
+                    .chain(read)
+                    .for_each(|value| multiplied[value.0] = true);
+                continue;
+            }
+            for step in block.steps.iter().rev() {
+                let mut values = step.value.0..step.value.0 + step.operation.values();
+                if values.any(|value| multiplied[value]) {
+                    for operand in step.operation.operands() {
+                        multiplied[operand.0] = true;
+                    }
+                }
+            }
+        }
+        multiplied
     }
 
     /// The numbers that do not change and are kept.
