@@ -4,6 +4,9 @@
 //! (x y)ₖ = x₀ yₖ + xₖ y₀ + Σ xⱼ yₖ₋ⱼ        K₀ wₖ = bₖ − Kₖ w₀ − Σ Kⱼ wₖ₋ⱼ        vₖ₊₁ = v̇ₖ/(k+1), qₖ = vₖ₋₁/k
 //! ```
 //!
+//! Where the balance of forces is kept whole, K₀ wₖ = −(K w − b)ₖ with wₖ = 0 on the right: no element of K has a series of its own.
+//! That is inverse dynamics, order by order (Luh, Walker & Paul 1980, J. Dyn. Syst. Meas. Control 102, for values).
+//!
 //! The sums over earlier coefficients come first, several in one loop; one factorization serves every order. Rules: Jorba & Zou
 //! 2005, Experimental Mathematics 14, section 2; Griewank & Walther 2008, section 13.2.
 
@@ -508,8 +511,8 @@ impl Expansion<'_> {
             .collect();
         if let Some(balance) = &mode.system.balance {
             // What is missing for a balance without coefficient k of the unknowns is what that must give.
-            for i in 0..mode.inputs.unknowns {
-                let name = self.coefficient_of(mode.inputs.unknown(i));
+            for unknown in self.added_unknowns() {
+                let name = self.coefficient_of(unknown);
                 body.extend(quote!(let #name = #number::of(0.0);));
             }
             body.extend(self.next_of(Phase::Balance));
@@ -590,12 +593,38 @@ impl Expansion<'_> {
                 values.any(|value| follows[value] && multiplied[value])
             });
         let lines = steps.map(|step| {
-            let line = self.coefficient(step);
+            let line = self.coefficient(step, true);
             let kept = (0..step.operation.values())
                 .map(|offset| self.keep_next(Value(step.value.0 + offset)));
             quote!(#line #(#kept)*)
         });
         quote!(#(#lines)*)
+    }
+
+    /// Unknowns that stand in other operations of the balance than products of series.
+    fn added_unknowns(&self) -> BTreeSet<Value> {
+        let steps = self
+            .mode
+            .blocks(Phase::Balance)
+            .flat_map(|block| &block.steps);
+        let others = steps.filter(|step| match step.operation {
+            Operation::Mul(x, y) => !(self.plan.varying[x.0] && self.plan.varying[y.0]),
+            _ => true,
+        });
+        let operands = others.flat_map(|step| step.operation.operands());
+        let writes = self
+            .mode
+            .blocks(Phase::Balance)
+            .flat_map(|block| &block.writes);
+        operands
+            .chain(writes.map(|write| write.value))
+            .filter(|value| self.is_unknown(*value))
+            .collect()
+    }
+
+    fn is_unknown(&self, value: Value) -> bool {
+        let inputs = self.mode.inputs;
+        (0..inputs.unknowns).any(|i| inputs.unknown(i) == value)
     }
 
     /// Whether an output belongs to a phase.
@@ -682,8 +711,9 @@ impl Expansion<'_> {
             };
             let sums = conditional.then(|| self.sums(first, &products));
             let factors = conditional.then(|| self.keep_factors(first, &products));
+            let known = phase != Phase::Balance;
             let steps = block.steps.iter().map(|step| {
-                let line = self.coefficient(step);
+                let line = self.coefficient(step, known);
                 let kept = (0..step.operation.values())
                     .map(|offset| self.keep_next(Value(step.value.0 + offset)));
                 quote!(#line #(#kept)*)
@@ -724,8 +754,8 @@ impl Expansion<'_> {
         self.store(Row::Value(value), quote!(#p), quote!(#d))
     }
 
-    /// Coefficient k of a step.
-    fn coefficient(&self, step: &Step) -> TokenStream {
+    /// Coefficient k of a step. That of the unknowns is not there yet where it is not `known`.
+    fn coefficient(&self, step: &Step, known: bool) -> TokenStream {
         if !self.plan.varying[step.value.0] {
             return TokenStream::new();
         }
@@ -773,6 +803,14 @@ impl Expansion<'_> {
             Operation::Mul(x, y) => {
                 let (x0, y0) = (n(x), n(y));
                 match (d(x), d(y)) {
+                    (Some(_), Some(dy)) if !known && self.is_unknown(x) => {
+                        let s = s(0);
+                        quote!(#x0.fused(#dy, #s))
+                    }
+                    (Some(dx), Some(_)) if !known && self.is_unknown(y) => {
+                        let s = s(0);
+                        quote!(#y0.fused(#dx, #s))
+                    }
                     (Some(dx), Some(dy)) => {
                         let s = s(0);
                         quote!(#x0.fused(#dy, #dx.fused(#y0, #s)))
