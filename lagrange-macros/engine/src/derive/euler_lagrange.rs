@@ -147,15 +147,17 @@ pub(super) fn balance(pool: &mut Pool, x: &Variables, group: &Group) -> Option<B
     if !(3..=LARGE).contains(&x.len()) || !x.turns.is_empty() {
         return None;
     }
-    let squares = Squares::of(pool, x, group.kinetic)?;
-    let inertial = squares.balance(pool, x);
+    let (inertial, mass) = match pool.is_zero(group.kinetic) {
+        true => (vec![x.zero; x.len()], BTreeMap::new()),
+        false => {
+            let squares = Squares::of(pool, x, group.kinetic)?;
+            (squares.balance(pool, x), squares.mass(pool, x))
+        }
+    };
     let (_, conservative) = conservative(pool, x, group.potential);
     let pairs = inertial.into_iter().zip(conservative);
     let balance = pairs.map(|(a, b)| pool.sub(a, b)).collect();
-    Some(Balance {
-        mass: squares.mass(pool, x),
-        balance,
-    })
+    Some(Balance { mass, balance })
 }
 
 /// ((i, j ≤ i), ∂pᵢ/∂vⱼ) simplified, zeros left out.

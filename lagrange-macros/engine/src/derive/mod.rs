@@ -209,6 +209,9 @@ fn balance(
     groups: &[Group],
     loads: &[(usize, NeedId, ExprId)],
 ) -> Option<WholeBalance> {
+    if kept::may_outgrow(&sheet.system) {
+        return None;
+    }
     let pool = &mut sheet.system.pool;
     let mut whole = WholeBalance {
         mass: BTreeMap::new(),

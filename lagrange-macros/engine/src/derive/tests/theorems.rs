@@ -4,6 +4,7 @@ use super::hyperdual::evaluate;
 use super::kit::Build;
 use super::numbers::{Derived, Point, Random, close};
 use super::systems;
+use crate::derive::NeedId;
 use crate::model::Level;
 use crate::symbolic::{ExprId, Symbol};
 
@@ -73,6 +74,35 @@ fn check_euler_lagrange(d: &Derived, point: &Point) {
     }
 }
 
+/// The balance that is kept whole is M v̇ − f for any v̇, and its M is M; whether there is one.
+fn check_balance(d: &Derived, point: &Point) -> bool {
+    let Some(whole) = &d.equations.balance else {
+        return false;
+    };
+    let sum = |terms: &[(NeedId, ExprId)]| -> f64 {
+        terms.iter().map(|&(_, e)| d.evaluate(e, point)).sum()
+    };
+    let names = names(d);
+    for (i, terms) in whole.balance.iter().enumerate() {
+        let (mut want, mut size) = (-d.forcing(i, point), 1.0 + d.forcing(i, point).abs());
+        for (j, other) in names.iter().enumerate() {
+            let mass = d.mass(i, j, point);
+            let inertial = mass * point[&format!("a_{other}")];
+            want += inertial;
+            size += inertial.abs();
+            let entry = whole.mass.get(&(i.max(j), i.min(j)));
+            let got = entry.map_or(0.0, |terms| sum(terms));
+            assert!(
+                (got - mass).abs() <= 1e-11 * (1.0 + mass.abs()),
+                "{got} {mass}"
+            );
+        }
+        let got = sum(terms);
+        assert!((got - want).abs() <= 1e-11 * size, "got {got}, want {want}");
+    }
+    true
+}
+
 /// A random expression of the positions, linear or not, never singular for arguments between 0.3 and 1.7.
 fn random_position(random: &mut Random, names: &[&str]) -> String {
     let q = names[random.below(names.len())];
@@ -118,12 +148,40 @@ fn random_system(random: &mut Random) -> Build {
 #[test]
 fn euler_lagrange_on_random_systems() {
     let mut random = Random::new(20260101);
+    let mut whole = 0;
     for _ in 0..20 {
         let d = random_system(&mut random).derive();
         for _ in 0..3 {
             let point = d.point(&mut random);
             check_euler_lagrange(&d, &point);
+            whole += usize::from(check_balance(&d, &point));
         }
+    }
+    assert!(whole > 0);
+}
+
+/// Three links of an arm with a spring, a damper and a motor: what is applied is a part of the balance.
+#[test]
+fn the_balance_of_a_driven_arm() {
+    let mut random = Random::new(7);
+    let d = Build::new("a b c", "m l k g")
+        .define("x", "l*sin(a)")
+        .define("y", "-l*cos(a)")
+        .define("u", "x + l*sin(a + b)")
+        .define("w", "y - l*cos(a + b)")
+        .define("z", "u + l*sin(a + b + c)")
+        .kinetic(
+            "",
+            "m/2*(der(x)^2 + der(y)^2) + m/2*(der(u)^2 + der(w)^2) + m/3*der(z)^2",
+        )
+        .potential("", "m*g*(y + w)")
+        .potential("spring", "k/2*b^2")
+        .load("motor", "k*sin(t)", &[(1, "k*sin(t)")])
+        .dissipation("damper", "k/2*der(c)^2")
+        .derive();
+    for _ in 0..10 {
+        let point = d.point(&mut random);
+        assert!(check_balance(&d, &point));
     }
 }
 

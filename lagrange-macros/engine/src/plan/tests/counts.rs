@@ -1,6 +1,7 @@
 //! How many operations a plan has.
 
 use crate::derive::Stage;
+use crate::plan::mode::products::Plan;
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -44,6 +45,19 @@ fn operation_counts_do_not_grow() {
 }
 
 /// A chain of n point masses on rods.
+/// Sums over earlier coefficients that the series of a chain have.
+fn convolutions(n: usize) -> usize {
+    let program = crate::program(chain(n)).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+    Plan::new(&program.modes[0]).convolutions()
+}
+
+#[test]
+fn series_of_chains_have_products_in_proportion_to_their_links() {
+    // Of each link: sine and cosine, the square of the rate, sine and cosine times that and times the acceleration, and the two forces
+    // times theirs. Of two links there are no more by the elements of M and f.
+    assert_eq!([2, 3, 4, 5].map(convolutions), [12, 27, 36, 45]);
+}
+
 fn chain(n: usize) -> TokenStream {
     let text = format!(
         "#[lagrange(
