@@ -117,6 +117,7 @@ impl Quad for Memory {
 }
 
 /// Four machine numbers in a register.
+#[cfg(target_arch = "x86_64")]
 type FourDoubles = <f64 as super::products::Fours>::Four;
 
 /// The bits of the magnitudes of the first numbers of four, for 0 to 4 of them.
