@@ -13,7 +13,7 @@ mod tests;
 
 pub use dual::Dual;
 pub(crate) use number::Registers;
-pub(crate) use number::{Number, epsilon, positive_definite};
+pub(crate) use number::{LIGHT, Number, epsilon, is_spread, positive_definite};
 pub(crate) use pack::Pack;
 
 use core::fmt::Debug;

@@ -57,6 +57,8 @@ pub trait Number:
     fn lesser(a: Self, b: Self) -> Self;
     /// Whether a pivot of a positive definite matrix has kept a safe share of its diagonal element.
     fn is_positive_share(pivot: Self, diagonal: Self) -> bool;
+    /// Whether none of the parts of a row's compliance that vary is nearly all of it.
+    fn is_spread(constant: &[Self], varying: &[Self]) -> bool;
     /// Whether a pivot is not small beside what it was before, nor beside the elements below.
     fn is_safe_pivot(pivot: Self, before: Self, below: &[Self]) -> bool;
 }
@@ -123,6 +125,27 @@ pub(crate) fn epsilon<T: Scalar>() -> f64 {
 #[inline(always)]
 pub(crate) fn positive_definite<T: Scalar>() -> f64 {
     524_288.0 * epsilon::<T>()
+}
+
+/// So many times the compliance of all others is more than a row can have beside them: half of the digits.
+pub(crate) const LIGHT: f64 = 1e7;
+
+/// Whether no single part of the compliance of a row, Σ aₖ²/mₖ, is nearly all of it, of those whose inertia mₖ varies.
+///
+/// Where one is, its inertia is next to none: what elimination has rounded of the forces is divided by it. A single part is the whole
+/// of a row that knows no other coordinate.
+#[inline(always)]
+pub(crate) fn is_spread(
+    constant: impl Iterator<Item = f64>,
+    varying: impl Iterator<Item = f64>,
+) -> bool {
+    let (mut largest, mut others) = (0.0, constant.sum::<f64>());
+    for part in varying {
+        let lesser = if part > largest { largest } else { part };
+        largest = if part > largest { part } else { largest };
+        others += lesser;
+    }
+    !(others > 0.0 && largest > LIGHT * others)
 }
 
 /// Factors of an elimination without exchange of rows up to the inverse of this lose two digits.
@@ -213,6 +236,11 @@ impl<T: Scalar> Number for T {
         pivot > positive_definite::<T>() * diagonal && diagonal > 0.0
     }
     #[inline(always)]
+    fn is_spread(constant: &[Self], varying: &[Self]) -> bool {
+        let number = |part: &Self| part.value();
+        is_spread(constant.iter().map(number), varying.iter().map(number))
+    }
+    #[inline(always)]
     fn is_safe_pivot(pivot: Self, before: Self, below: &[Self]) -> bool {
         let size = pivot.value().abs();
         let below = below.iter().fold(0.0, |largest: f64, x| {
@@ -295,6 +323,13 @@ impl<T: Scalar, const L: usize> Number for Pack<T, L> {
     #[inline(always)]
     fn is_positive_share(pivot: Self, diagonal: Self) -> bool {
         (0..L).all(|lane| T::is_positive_share(pivot.0[lane], diagonal.0[lane]))
+    }
+    #[inline(always)]
+    fn is_spread(constant: &[Self], varying: &[Self]) -> bool {
+        (0..L).all(|lane| {
+            let number = |part: &Self| part.0[lane].value();
+            is_spread(constant.iter().map(number), varying.iter().map(number))
+        })
     }
     #[inline(always)]
     fn is_safe_pivot(pivot: Self, before: Self, below: &[Self]) -> bool {

@@ -6,7 +6,7 @@
 //! Reference: Golub & Van Loan 2013, Matrix Computations, sections 4.1.2 and 3.4.
 
 use super::lu::negligible;
-use crate::arithmetic::{Scalar, positive_definite};
+use crate::arithmetic::{Scalar, is_spread, positive_definite};
 
 /// Factors of a system; the memory is reused.
 #[derive(Clone, Debug, Default)]
@@ -63,6 +63,9 @@ impl<T: Scalar> Direct<T> {
             least = least.min(pivot / diagonal);
             self.eliminate_symmetric(step);
         }
+        if !(leading..size).all(|row| self.is_spread(row)) {
+            return false;
+        }
         self.rows.clear();
         self.rows.extend(leading..size);
         self.sizes.clear();
@@ -102,6 +105,16 @@ impl<T: Scalar> Direct<T> {
             (first.unwrap_or(i), last.map_or(i + 1, |last| i + 2 + last))
         }));
         true
+    }
+
+    /// Whether the compliance of `row` of A, Σ lₖ² dₖ, comes from more than one pivot dₖ of M.
+    fn is_spread(&self, row: usize) -> bool {
+        let factors = self.factors[row * self.size..].iter();
+        let parts = factors.zip(&self.inverses).map(|(l, inverse)| {
+            let l = l.value();
+            l * l / inverse.value()
+        });
+        is_spread(core::iter::empty(), parts)
     }
 
     /// Takes column `step` of the symmetric block out of the rows below; of that block only the upper triangle is kept.

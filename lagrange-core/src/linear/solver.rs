@@ -6,16 +6,13 @@
 
 use super::direct::{Direct, dot};
 use super::lu::{Lu, negligible};
-use crate::arithmetic::{Scalar, epsilon};
+use crate::arithmetic::{LIGHT, Scalar, epsilon};
 
 /// A dependent row may miss its acceleration bias by this fraction of the largest term (1e-7 in double precision); rounding
 /// and tolerated drift from the constraints stay below.
 fn consistent<T: Scalar>() -> f64 {
     6.0 * epsilon::<T>().sqrt()
 }
-
-/// So many times the compliance of all others is more than a scaled row can have beside them: half of the digits.
-const LIGHT: f64 = 1e7;
 
 /// Among dependent rows one of which little is left is chosen last. It counts by this much at least, or it would seem to depend on the
 /// others where it does not.

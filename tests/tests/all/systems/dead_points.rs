@@ -61,6 +61,92 @@ fn passages_of_dead_points_keep_the_tolerance() {
     }
 }
 
+/// A crank drives a piston that rubs, by a rod without mass: in the dead centres angle b has no inertia, and only the constraint tells
+/// its acceleration.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(a, b),
+    define(x = r * cos(a) + l * cos(b)),
+    kinetic = crank/2 * der(a)^2 + piston/2 * der(x)^2,
+    constraint(wrist: r * sin(a) == l * sin(b)),
+    friction(ring: slip = der(x), limit = dry),
+    stop(turned: a >= end),
+)]
+struct Engine {
+    r: f64,
+    l: f64,
+    crank: f64,
+    piston: f64,
+    dry: f64,
+    end: f64,
+}
+
+impl Engine {
+    /// b, and the derivatives of b and x by a.
+    fn geometry(&self, a: f64) -> (f64, f64, f64) {
+        let b = (self.r * a.sin() / self.l).asin();
+        let turn = self.r * a.cos() / (self.l * b.cos());
+        (b, turn, -self.r * a.sin() - self.l * b.sin() * turn)
+    }
+
+    fn inertia(&self, a: f64) -> f64 {
+        self.crank + self.piston * self.geometry(a).2.powi(2)
+    }
+
+    fn place(&self, a: f64) -> f64 {
+        self.r * a.cos() + self.l * self.geometry(a).0.cos()
+    }
+}
+
+/// What friction takes is its limit times the way of the piston, which moves one way from a dead centre to the next.
+#[test]
+fn a_rod_without_mass_passes_its_dead_centres() {
+    for (k, a) in [-0.4, -1e-3, -1e-6, -1e-9, 0.0, 3e-10, 2e-7, PI - 1e-5]
+        .into_iter()
+        .enumerate()
+    {
+        let r = 0.2 + 0.04 * k as f64;
+        let engine = Engine {
+            r,
+            l: 0.75,
+            crank: 0.05,
+            piston: 1.2,
+            dry: 2.0,
+            end: 3.5,
+        };
+        let rate = 20.0;
+        let (b, turn, _) = engine.geometry(a);
+        let energy = |to: f64| {
+            let dead = [0.0, PI].into_iter().filter(|dead| a < *dead && *dead < to);
+            let turns: Vec<f64> = [a].into_iter().chain(dead).chain([to]).collect();
+            let ways = turns.windows(2);
+            let way: f64 = ways
+                .map(|w| (engine.place(w[1]) - engine.place(w[0])).abs())
+                .sum();
+            0.5 * engine.inertia(a) * rate * rate - engine.dry * way
+        };
+        let speed = |to: f64| (2.0 * energy(to) / engine.inertia(to)).sqrt();
+        // The root has a bend in each dead centre.
+        let bends = [a, 0.0_f64.max(a), PI, engine.end];
+        let times = bends
+            .windows(2)
+            .map(|w| integral(|way| 1.0 / speed(w[0] + way), w[0], w[1]));
+        let time: f64 = times.sum();
+        for method in ["taylor", "dop853", "verner98", "dopri5", "radau5"] {
+            for tolerance in [1e-6, 1e-9, 1e-12] {
+                let asked = format!("{method} at {tolerance:e} from {a:e}");
+                let start = state(&[a, b], &[rate, rate * turn]);
+                let run = run_by(&engine, (method, tolerance), start, 1.0);
+                let bound = 30.0 * tolerance;
+                agree(&asked, run.last_time() / time, 1.0, bound);
+                let end = run.final_state();
+                agree(&asked, end.v(Engine::A) / speed(3.5), 1.0, bound);
+                agree(&asked, end.q(Engine::B), engine.geometry(3.5).0, bound);
+            }
+        }
+    }
+}
+
 /// A crank turns a yoke that rubs on its guide.
 #[derive(Lagrangian, Clone, Debug)]
 #[lagrange(

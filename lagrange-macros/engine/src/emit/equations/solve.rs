@@ -84,12 +84,21 @@ impl<'a> Elimination<'a> {
         let mut least: Option<Ident> = None;
         // Diagonal elements that pivots are compared with: of rows that stay, once the accelerations are eliminated.
         let mut before: Vec<TokenStream> = (0..size).map(|i| read(&m[i][i])).collect();
+        // What coordinates add to the compliance of each row: those of constant inertia, and those that may lose nearly all of it.
+        let mut compliance: Vec<[Vec<TokenStream>; 2]> = vec![Default::default(); size];
         for (step, &p) in order.iter().enumerate() {
             let rest = &order[step + 1..];
             if step == system.accelerations {
                 rest.iter()
                     .chain([&p])
                     .for_each(|&i| before[i] = read(&m[i][i]));
+                for [constant, varying] in &compliance {
+                    if !varying.is_empty() && constant.len() + varying.len() > 1 {
+                        code.extend(
+                            quote!(#safe &= #number::is_spread(&[#(#constant),*], &[#(#varying),*]);),
+                        );
+                    }
+                }
             }
             let pivot = read(&m[p][p]);
             let leading = p < system.accelerations;
@@ -140,6 +149,10 @@ impl<'a> Elimination<'a> {
                 }
                 let (l, element) = (factor(i, p), read(&m[i][p]));
                 code.extend(quote!(let #l = #element * #name;));
+                if leading && system.symmetric && i >= system.accelerations {
+                    let varies = !matches!(m[p][p], Element::Whole(ValueRef::Constant(_)));
+                    compliance[i][usize::from(varies)].push(quote!(#l * #element));
+                }
                 factors.push((i, p));
                 for &j in rest {
                     if matches!(m[p][j], Element::Zero) {
