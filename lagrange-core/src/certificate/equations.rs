@@ -467,8 +467,9 @@ impl Equations {
     }
 
     /// Accelerations that forces of the sizes of the last balance would make. The inertia of a coordinate is its momentum where
-    /// all velocities are 1; terms of either sign count alike, so that it is not too small.
-    fn measure_swiftness(&mut self, at: Situation<'_>) {
+    /// all velocities are 1; terms of either sign count alike, so that it is not too small. What has none at all, as the scalar part of an
+    /// attitude that is 1, is moved by the rows that act on it.
+    fn measure_swiftness(&mut self, at: Situation<'_>, mode: &Mode) {
         self.balance(at);
         let ones = vec![1.0; at.v.len()];
         let still = Situation { v: &ones, ..at };
@@ -482,8 +483,42 @@ impl Equations {
                 sizes.for_each(|(inertia, sizes)| *inertia += sizes[1]);
             }
         }
+        let without: Vec<usize> = (0..at.v.len())
+            .filter(|&i| self.swiftness[i] == 0.0)
+            .collect();
         for (swift, size) in self.swiftness.iter_mut().zip(&self.size) {
             *swift = if *swift > 0.0 { size / *swift } else { 0.0 };
+        }
+        if !without.is_empty() {
+            self.measure_swiftness_by_rows(&without, at, mode);
+        }
+    }
+
+    /// Accelerations of coordinates without inertia that balance those of the others in the rows that act, Σ aₖ v̇ₖ ≈ 0: by least squares over
+    /// the rows, each in units of what it changes by when each coordinate x changes by 1 + |x|.
+    fn measure_swiftness_by_rows(&mut self, without: &[usize], at: Situation<'_>, mode: &Mode) {
+        let mut sums = vec![[0.0; 2]; without.len()];
+        for row in 0..self.d.rows.len() {
+            if !self.acts(row, mode) {
+                continue;
+            }
+            let (value, level) = self.row(row);
+            self.values.gradient_size(value, 0, &mut self.sizes_along);
+            let elements = || self.sizes_along.iter().map(|sizes| sizes[level as usize]);
+            let unit: f64 = elements().zip(at.q).map(|(a, q)| a * (1.0 + q.abs())).sum();
+            let moved: f64 = elements().zip(&self.swiftness).map(|(a, s)| a * s).sum();
+            for (&i, [products, squares]) in without.iter().zip(&mut sums) {
+                let a = self.sizes_along[i][level as usize] / unit;
+                if a > 0.0 {
+                    *products += a * moved / unit;
+                    *squares += a * a;
+                }
+            }
+        }
+        for (&i, [products, squares]) in without.iter().zip(sums) {
+            if squares > 0.0 {
+                self.swiftness[i] = products / squares;
+            }
         }
     }
 
@@ -511,13 +546,18 @@ impl Equations {
     /// The second rate of a value of position level or the first of one of velocity level, and the size of its terms; where that is
     /// not enough, with what the forces of the state could make of accelerations, and velocities rounded beside 1: those of a body that
     /// impacts have brought to rest are the rounding errors of what they were.
-    pub fn acceleration(&mut self, value: usize, level: Level, at: Situation<'_>) -> (f64, f64) {
+    pub fn acceleration(
+        &mut self,
+        (value, level): (usize, Level),
+        at: Situation<'_>,
+        mode: &Mode,
+    ) -> (f64, f64) {
         self.swiftness.fill(0.0);
         let (error, size) = self.acceleration_beside(0.0, value, level, at);
         if error.abs() <= self.exact * size {
             return (error, size);
         }
-        self.measure_swiftness(at);
+        self.measure_swiftness(at, mode);
         self.acceleration_beside(1.0, value, level, at)
     }
 

@@ -116,7 +116,7 @@ impl Equations {
             let row = self.d.constraints[i].row;
             let name = self.d.constraints[i].name;
             if self.constraint_acts(i, mode) {
-                let (error, size) = self.acceleration(value, self.level(i), at);
+                let (error, size) = self.acceleration((value, self.level(i)), at, mode);
                 findings.book(Subject::Rows, error.abs(), size, at.time, name);
             } else {
                 findings.book(Subject::Idle, at.forces[row].abs(), 1.0, at.time, name);
@@ -133,7 +133,7 @@ impl Equations {
             }
             let size = self.force_along(contact.gap, Level::Position);
             findings.book(Subject::NormalForces, -force, size, at.time, name);
-            let (error, size) = self.acceleration(contact.gap, Level::Position, at);
+            let (error, size) = self.acceleration((contact.gap, Level::Position), at, mode);
             findings.book(Subject::Rows, error.abs(), size, at.time, name);
         }
     }
@@ -170,7 +170,7 @@ impl Equations {
                     findings.book(Subject::Cones, excess, size, at.time, name);
                     findings.book(Subject::Slips, length(slip), reach, at.time, name);
                     for &value in friction.slip {
-                        let (error, size) = self.acceleration(value, Level::Velocity, at);
+                        let (error, size) = self.acceleration((value, Level::Velocity), at, mode);
                         findings.book(Subject::Rows, error.abs(), size, at.time, name);
                     }
                 }
