@@ -54,26 +54,27 @@ pub(crate) fn least_norm<T: Scalar>(
 ) -> Freedom {
     let (n, m) = (coordinates, forces.len());
     let element = |i: usize, j: usize| columns[j * n + i];
-    // Square with zeros, so that the same factorization serves; rows scaled to 1.
+    // Square with zeros, so that the same factorization serves; columns scaled to 1. Rows keep their sizes: of one that says nothing here,
+    // as those of an attitude at rest where its scalar part is 1, rounding is left, and must not stand for one that does.
     let wide = n.max(m);
-    let scales: Vec<T> = (0..n)
-        .map(|i| {
-            let largest = (0..m)
-                .map(|j| element(i, j).value().abs())
+    let scales: Vec<T> = (0..m)
+        .map(|j| {
+            let largest = (0..n)
+                .map(|i| element(i, j).value().abs())
                 .fold(0.0, f64::max);
             T::from_f64(if largest > 0.0 { 1.0 / largest } else { 0.0 })
         })
         .collect();
     let mut lu = Lu::default();
     let padded = (0..wide * wide).map(|at| match (at / wide, at % wide) {
-        (i, j) if i < n && j < m => scales[i] * element(i, j),
+        (i, j) if i < n && j < m => scales[j] * element(i, j),
         _ => T::zero(),
     });
     lu.factor(wide, padded);
     // Each row of the basis with its square.
     let mut basis: Vec<(Vec<T>, T)> = Vec::with_capacity(n);
     for i in lu.independent_rows().take(rank) {
-        let mut row: Vec<T> = (0..m).map(|j| scales[i] * element(i, j)).collect();
+        let mut row: Vec<T> = (0..m).map(|j| element(i, j)).collect();
         for (other, square) in basis.iter().chain(&basis) {
             let part = dot(other, &row) / *square;
             row.iter_mut().zip(other).for_each(|(x, &y)| *x -= part * y);
@@ -123,6 +124,18 @@ mod tests {
             assert!((found - expected).abs() < 1e-14);
         }
     }
+    #[test]
+    fn what_rounding_leaves_of_a_row_does_not_stand_for_another() {
+        // Two rods and a screw along x; along y rounding is all that there is of them.
+        let columns = [1.0, 1e-17, 1.0, -3e-17, 2.0, 2e-17];
+        let mut forces = [6.0_f64, 0.0, 0.0];
+        let freedom = least_norm(&columns, 2, 1, &mut forces);
+        assert_eq!(freedom.dimension(), 2);
+        for (found, expected) in forces.into_iter().zip([1.0, 1.0, 2.0]) {
+            assert!((found - expected).abs() < 1e-15, "{forces:?}");
+        }
+    }
+
     #[test]
     fn forces_of_links_nearly_in_line_are_determined() {
         // A pin and two that share a load pull at a flat joint: across it by 1e-5 of their size.
