@@ -190,6 +190,17 @@ pub enum Error {
         /// The limit.
         limit: usize,
     },
+    /// The end of the run is more steps away than can ever be made.
+    OutOfReach {
+        /// Time, s.
+        time: f64,
+        /// The end that was asked for, s.
+        end: f64,
+        /// Steps that are missing, if the run goes on as it did.
+        steps: f64,
+        /// Steps that a run may take.
+        limit: usize,
+    },
     /// The error that was asked for cannot be had.
     Inexact {
         /// What was asked for.
@@ -396,6 +407,15 @@ impl fmt::Display for Error {
                     "t = {time}: more than {limit} {what}; if this is intended, end the run earlier or raise the limit (`max_{what}`)"
                 )
             }
+            Error::OutOfReach {
+                time,
+                end,
+                steps,
+                limit,
+            } => write!(
+                f,
+                "t = {time}: the end, {end:e} s, is about {steps:.0e} steps away, and a run has at most {limit}; end it earlier"
+            ),
             Error::Inexact {
                 asked,
                 possible,

@@ -17,7 +17,10 @@ impl<T: Scalar> Run<T> {
     #[cold]
     pub(super) fn cause(&mut self, error: Error) -> Error {
         match error {
-            Error::Interrupted { .. } | Error::Limit { .. } | Error::StepTooLarge { .. } => error,
+            Error::Interrupted { .. }
+            | Error::Limit { .. }
+            | Error::OutOfReach { .. }
+            | Error::StepTooLarge { .. } => error,
             _ => self
                 .domain_left()
                 .or_else(|| self.steps_too_long())

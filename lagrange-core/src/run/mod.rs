@@ -11,6 +11,7 @@ mod hits;
 mod instant;
 pub(crate) mod lockstep;
 mod log;
+mod outlook;
 mod redundant;
 mod region;
 mod resolution;
@@ -77,7 +78,9 @@ pub(crate) struct Run<T: Scalar> {
     locator: Locator<T>,
     switcher: Switcher<T>,
     recorder: Recorder<T>,
-    /// Last instant of the span.
+    /// First instant of the span,
+    begin: f64,
+    /// and its last one.
     end: f64,
 }
 
@@ -147,6 +150,7 @@ impl<T: Scalar> Run<T> {
                 state,
                 mode,
             },
+            begin: 0.0,
             end: 0.0,
             settings: settings.clone(),
         };
@@ -239,7 +243,8 @@ impl<T: Scalar> Run<T> {
         core::mem::swap(&mut self.recorder.trajectory, into);
         let t = T::from_f64(span.start);
         self.now.mode.clear();
-        (self.now.t, self.end) = (t, span.end);
+        self.now.t = t;
+        (self.begin, self.end) = (span.start, span.end);
         self.now.state.clone_from(start);
         self.now.state.name(self.dynamics.description());
         let state = &self.now.state;
@@ -329,6 +334,7 @@ impl<T: Scalar> Run<T> {
         if self.recorder.trajectory.work.steps >= self.settings.max_steps {
             return Err(self.limit("steps", self.settings.max_steps));
         }
+        self.check_outlook()?;
         if let Some(monitor) = &self.settings.monitor {
             let time = self.now.t.value();
             monitor.tell(time);

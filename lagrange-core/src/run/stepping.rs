@@ -25,7 +25,7 @@ use crate::trajectory::State;
 const BEYOND: f64 = 10.0;
 /// Where rounding hides how a guard begins, the step is made shorter by this.
 const CLOSER_LOOK: f64 = 0.1;
-/// But not beyond this share of the time that is left (close to time 0 its resolution is no limit).
+/// But not beyond this share of the step that the motion allows (close to time 0 its resolution is no limit).
 const CLOSEST: f64 = 1e-20;
 
 /// So many times a step is made shorter because the interpolation of its guards does not hold.
@@ -146,7 +146,7 @@ impl<T: Scalar> Run<T> {
                 &self.stepper.powers[..=order],
             );
             let shorter = CLOSER_LOOK * h;
-            let resolved = self.advances(shorter) && shorter > CLOSEST * longest;
+            let resolved = self.advances(shorter) && shorter > CLOSEST * moves;
             let whole = self.nothing_happens();
             let hit = if whole {
                 self.locator.fallen.clear();
@@ -221,7 +221,7 @@ impl<T: Scalar> Run<T> {
                 Verdict::Redo { h: smaller } => {
                     self.recorder.trajectory.work.rejected += 1;
                     guarded |= motion <= 1.0;
-                    if motion <= 1.0 && smaller <= self.resolution() {
+                    if motion <= 1.0 && smaller <= self.resolution(moves) {
                         if self.locator.rests.is_empty() {
                             return self.pass_break();
                         }
@@ -263,9 +263,10 @@ impl<T: Scalar> Run<T> {
         (self.now.t + T::from_f64(h)).value() > self.now.t.value()
     }
 
-    /// Shorter steps do not advance time clearly.
-    fn resolution(&self) -> f64 {
-        2.0 * epsilon::<T>() * self.now.t.value().abs().max(self.end.abs())
+    /// Shorter steps do not advance time clearly within the next `h`.
+    fn resolution(&self, h: f64) -> f64 {
+        let now = self.now.t.value();
+        2.0 * epsilon::<T>() * now.abs().max((now + h).abs())
     }
 
     /// Passes an instant at which a guard breaks off (the cut of `atan2`, a kink) by the step at hand, the shortest that time
@@ -309,7 +310,7 @@ impl<T: Scalar> Run<T> {
                 let item = guard.name(d).unwrap_or(d.name);
                 self.not_finite(&format!("a Taylor coefficient of the guard of `{item}`"))
             }
-            None => self.step_too_small(self.resolution()),
+            None => self.step_too_small(self.resolution(0.0)),
         }
     }
 
@@ -462,9 +463,10 @@ impl<T: Scalar> Run<T> {
             return self.taylor_step();
         }
         let mut h = first.map_err(|e| self.no_step(e))?.min(longest);
+        let shortest = KINK * self.resolution(h);
         let (mut tries, mut shortened) = (0, 0);
         while tries < MOST_TRIES {
-            if h <= KINK * self.resolution() && self.locator.polynomials.get(0).is_some() {
+            if h <= shortest && self.locator.polynomials.get(0).is_some() {
                 break;
             }
             let next = self.integrate(h)?;

@@ -3,7 +3,7 @@
 use lagrange_core::error::Level;
 use lagrange_core::prelude::*;
 use lagrange_problems::scenes::hard::BouncingBall;
-use lagrange_problems::scenes::{MassOnShell, MassOnWheel, RollingSphere};
+use lagrange_problems::scenes::{Kepler, MassOnShell, MassOnWheel, RollingSphere};
 use lagrange_tests::agree;
 
 fn shell() -> MassOnShell {
@@ -159,6 +159,34 @@ fn arguments_are_checked() {
                 ..
             }
         ));
+    }
+}
+
+/// Two bodies take about a step per radian: 1e20 s are out of reach long before the last step that is allowed.
+#[test]
+fn a_run_whose_end_is_out_of_reach_is_told_so() {
+    let scene = Kepler::default();
+    let start = scene.at(<Kepler>::PERICENTRE);
+    for method in ["taylor", "dop853", "dopri5"] {
+        let failure = Simulation::new(&scene)
+            .method(method.parse().expect("a method"))
+            .record(false)
+            .max_steps(20_000)
+            .run(&start, 0.0..1e20)
+            .expect_err("no run takes as many steps");
+        let Error::OutOfReach {
+            time,
+            end: 1e20,
+            steps,
+            limit: 20_000,
+        } = failure.error
+        else {
+            panic!("{method}: {}", failure.error);
+        };
+        let made = failure.trajectory.work().steps as f64;
+        assert!(made < 100.0, "{method}: {made}");
+        let rate = steps * time / 1e20;
+        assert!((rate / made - 1.0).abs() < 1e-6, "{method}: {rate}");
     }
 }
 

@@ -120,6 +120,25 @@ fn the_end_is_the_same_whether_the_run_is_recorded_or_not() {
     check(&DoublePendulum::default(), 5.0);
 }
 
+/// A time that is never reached resolves nothing: methods keep their steps, and guards that bend are followed as closely.
+#[test]
+fn the_motion_does_not_depend_on_an_end_far_away() {
+    let scene = MassOnWheel::default();
+    for method in ["auto", "taylor", "dop853", "verner98", "dopri5", "radau5"] {
+        let simulation = Simulation::new(&scene)
+            .method(method.parse().expect("a method"))
+            .end_after(<MassOnWheel>::RIM);
+        let [near, far] = [20.0, 1e13].map(|end| {
+            let run = simulation.clone().run(start(&scene), 0.0..end);
+            run.unwrap_or_else(|failure| panic!("{method} until {end}: {failure}"))
+        });
+        assert_eq!(near.events().len(), far.events().len(), "{method}");
+        assert_eq!(near.work(), far.work(), "{method}");
+        let [a, b] = [near.last_time(), far.last_time()];
+        assert!((a / b - 1.0).abs() < 1e-14, "{method}: {a} or {b}");
+    }
+}
+
 #[test]
 fn an_error_leaves_the_motion_until_then() {
     let scene = MassOnShell::default();

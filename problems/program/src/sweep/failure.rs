@@ -32,7 +32,7 @@ pub(super) fn code(error: &Error) -> f64 {
         Error::StepTooSmall { .. } => "step too small",
         Error::StepTooLarge { .. } => "step too large",
         Error::NoProgress { .. } => "no progress",
-        Error::Limit { .. } => "limit",
+        Error::Limit { .. } | Error::OutOfReach { .. } => "limit",
         Error::Domain { .. } => "domain",
         _ => "other",
     };

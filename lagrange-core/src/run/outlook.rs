@@ -1,0 +1,45 @@
+//! Whether a run can come to its end: one that would take more steps than can ever be made is told so, not made until its last step.
+
+use super::Run;
+use crate::arithmetic::Scalar;
+use crate::error::Error;
+
+/// The first look is after this share of the steps that a run may take,
+const FIRST: f64 = 1e-3;
+
+/// and a run that goes on as it did is out of reach if it needs this many times more than it may take: motion that dies out is followed by
+/// longer and longer steps.
+const FAR: f64 = 1e3;
+
+impl<T: Scalar> Run<T> {
+    /// Looks, each time the number of steps has doubled, whether the end of the run is within reach at the rate at which it has gone so far.
+    ///
+    /// # Errors
+    /// [`Error::OutOfReach`] if it is not.
+    #[inline]
+    pub(super) fn check_outlook(&self) -> Result<(), Error> {
+        match self.recorder.trajectory.work.steps.is_power_of_two() {
+            true => self.look_ahead(),
+            false => Ok(()),
+        }
+    }
+
+    #[cold]
+    fn look_ahead(&self) -> Result<(), Error> {
+        let limit = self.settings.max_steps as f64;
+        let (made, time) = (
+            self.recorder.trajectory.work.steps as f64,
+            self.now.t.value(),
+        );
+        let missing = (self.end - time) * (made / (time - self.begin));
+        match made >= FIRST * limit && missing > FAR * limit {
+            true => Err(Error::OutOfReach {
+                time,
+                end: self.end,
+                steps: missing,
+                limit: self.settings.max_steps,
+            }),
+            false => Ok(()),
+        }
+    }
+}
