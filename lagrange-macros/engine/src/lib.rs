@@ -11,6 +11,7 @@ pub mod model;
 pub mod modes;
 pub mod parse;
 pub mod plan;
+pub mod sorted;
 pub mod symbolic;
 
 use ast::Declaration;

@@ -3,9 +3,9 @@
 //! First-order running error analysis (Higham, Accuracy and Stability of Numerical Algorithms, 2002, section 3.3).
 
 use super::arithmetic::Arithmetic;
+use crate::sorted::SortedMap;
 use crate::symbolic::field::Trouble;
 use crate::symbolic::{ExprId, Function, Node, Pool, Rational, Symbol};
-use std::collections::BTreeMap;
 
 /// A value and a bound of its error.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -99,7 +99,7 @@ impl Bounded {
 
 /// A state: symbols with their values, and the guards of the branches.
 pub(super) struct Floating<'a> {
-    pub symbols: BTreeMap<Symbol, Bounded>,
+    pub symbols: SortedMap<Symbol, Bounded>,
     /// ≥ 0 selects the first side.
     pub guards: &'a [ExprId],
 }
@@ -108,7 +108,7 @@ impl Arithmetic for Floating<'_> {
     type Number = Bounded;
 
     fn values(&mut self, pool: &Pool, e: &[ExprId]) -> Result<Vec<Bounded>, Trouble> {
-        let mut values = BTreeMap::new();
+        let mut values = SortedMap::new();
         e.iter()
             .map(|&e| self.value(pool, e, &mut values))
             .collect()
@@ -167,7 +167,7 @@ impl Floating<'_> {
         &self,
         pool: &Pool,
         e: ExprId,
-        known: &mut BTreeMap<ExprId, Bounded>,
+        known: &mut SortedMap<ExprId, Bounded>,
     ) -> Result<Bounded, Trouble> {
         let mut stack = vec![e];
         while let Some(&top) = stack.last() {
@@ -190,7 +190,7 @@ impl Floating<'_> {
         &self,
         pool: &Pool,
         e: ExprId,
-        known: &BTreeMap<ExprId, Bounded>,
+        known: &SortedMap<ExprId, Bounded>,
         stack: &mut Vec<ExprId>,
     ) -> Result<(), Trouble> {
         let mut need = |e: ExprId| {
@@ -215,7 +215,7 @@ impl Floating<'_> {
         &self,
         pool: &Pool,
         e: ExprId,
-        known: &BTreeMap<ExprId, Bounded>,
+        known: &SortedMap<ExprId, Bounded>,
     ) -> Result<ExprId, Trouble> {
         let Node::Select {
             branch,
@@ -237,7 +237,7 @@ impl Floating<'_> {
         &self,
         pool: &Pool,
         e: ExprId,
-        known: &BTreeMap<ExprId, Bounded>,
+        known: &SortedMap<ExprId, Bounded>,
     ) -> Result<Bounded, Trouble> {
         let at = |e: ExprId| known.get(&e).copied().ok_or(Trouble::Beyond);
         let number = |n: Rational| Bounded::rounded(n.to_f64(), 0.0);

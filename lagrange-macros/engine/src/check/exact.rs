@@ -9,9 +9,9 @@ use super::degree::degree;
 use super::mechanics::Mechanics;
 use super::motion::{Stuck, Tie, accelerations, rank, velocities};
 use crate::modes::Mode;
+use crate::sorted::SortedSet;
 use crate::symbolic::field::{Angles, PRIMES, Point, Trouble};
 use crate::symbolic::{ExprId, Node, Pool, Symbol};
-use std::collections::BTreeSet;
 
 /// What values at points say about a claim.
 #[derive(Clone, PartialEq, Debug)]
@@ -107,7 +107,7 @@ pub(super) fn exact(pool: &mut Pool, case: &Case) -> Finding {
 
 /// Number of roots of what is not a number.
 fn roots(pool: &Pool, all: &[ExprId]) -> usize {
-    let mut radicands = BTreeSet::new();
+    let mut radicands = SortedSet::new();
     for e in pool.iter_reachable(all) {
         if let Node::Product(factors) = pool.node(e) {
             let broken = factors.iter().filter(|(_, r)| !r.is_integer());
@@ -125,7 +125,7 @@ fn branches(pool: &Pool, all: &[ExprId]) -> Vec<usize> {
         Node::Select { branch, .. } => Some(*branch),
         _ => None,
     });
-    let found: BTreeSet<usize> = branches.collect();
+    let found: SortedSet<usize> = branches.collect();
     found.into_iter().collect()
 }
 

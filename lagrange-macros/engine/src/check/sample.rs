@@ -8,9 +8,9 @@ use super::motion::{Stuck, Tie, accelerations, velocities};
 use super::surface::Sheet;
 use crate::model::{Normal, Premise};
 use crate::modes::{FrictionState, Mode, Sign};
+use crate::sorted::SortedMap;
 use crate::symbolic::field::Trouble;
 use crate::symbolic::{ExprId, Pool, Symbol};
-use std::collections::BTreeMap;
 
 /// Where states are looked for.
 pub(super) struct Region<'a> {
@@ -53,7 +53,7 @@ pub(super) fn sample<'a>(pool: &Pool, region: &Region<'a>, seed: u64) -> Result<
     let mechanics = region.mechanics;
     let mut random = fastrand::Rng::with_seed(seed);
     let mut numbers = Floating {
-        symbols: BTreeMap::new(),
+        symbols: SortedMap::new(),
         guards: region.guards,
     };
     for &symbol in &mechanics.parameters {

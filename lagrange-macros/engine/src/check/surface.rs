@@ -8,8 +8,8 @@
 use super::mechanics::Mechanics;
 use super::motion::Tie;
 use crate::model::Premise;
+use crate::sorted::SortedSet;
 use crate::symbolic::{ExprId, Function, Node, Pool, Rational, Symbol};
-use std::collections::BTreeSet;
 
 /// What solving has come to.
 pub(super) enum Surface {
@@ -171,7 +171,7 @@ fn vanishes(pool: &mut Pool, e: ExprId) -> bool {
 }
 
 /// Symbols inside the arguments of circular functions and exponentials: best left free.
-fn angular(pool: &Pool, all: &[ExprId]) -> BTreeSet<Symbol> {
+fn angular(pool: &Pool, all: &[ExprId]) -> SortedSet<Symbol> {
     let mut arguments = Vec::new();
     for e in pool.iter_reachable(all) {
         if let Node::Call(f, list) = pool.node(e)
@@ -239,7 +239,7 @@ fn solution(
     pool: &mut Pool,
     mechanics: &Mechanics,
     e: ExprId,
-    angular: &BTreeSet<Symbol>,
+    angular: &SortedSet<Symbol>,
 ) -> Option<(Symbol, Vec<ExprId>)> {
     let places: Vec<Symbol> = mechanics.coordinates.iter().map(|q| q[0]).collect();
     let mut best: Option<(u8, Symbol, Vec<ExprId>)> = None;

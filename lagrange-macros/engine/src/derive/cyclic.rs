@@ -3,14 +3,14 @@
 
 use super::euler_lagrange::Inertia;
 use super::sheet::Sheet;
+use crate::sorted::{SortedMap, SortedSet};
 use crate::symbolic::{ExprId, Node, Pool, Rational, Symbol};
-use std::collections::{BTreeMap, BTreeSet};
 
 /// Per coordinate: whether neither energies nor `others` (rows, forces, coefficients) depend on its position.
 pub(super) fn cyclic(sheet: &mut Sheet, inertias: &[Inertia], others: &[ExprId]) -> Vec<bool> {
     let guards: Vec<ExprId> = sheet.system.branches.iter().map(|b| b.guard).collect();
     let pool = &mut sheet.system.pool;
-    let mut present: BTreeSet<Symbol> = BTreeSet::new();
+    let mut present: SortedSet<Symbol> = SortedSet::new();
     let mut energies = Vec::new();
     for part in inertias
         .iter()
@@ -38,9 +38,9 @@ pub(super) fn cyclic(sheet: &mut Sheet, inertias: &[Inertia], others: &[ExprId])
 }
 
 /// Symbols that decide the branches of an expression.
-fn behind_guards(pool: &Pool, guards: &[ExprId], e: ExprId) -> BTreeSet<Symbol> {
-    let mut symbols = BTreeSet::new();
-    let mut seen = BTreeSet::new();
+fn behind_guards(pool: &Pool, guards: &[ExprId], e: ExprId) -> SortedSet<Symbol> {
+    let mut symbols = SortedSet::new();
+    let mut seen = SortedSet::new();
     let mut open = pool.branches(e);
     while let Some(branch) = open.pop() {
         if seen.insert(branch) {
@@ -52,11 +52,11 @@ fn behind_guards(pool: &Pool, guards: &[ExprId], e: ExprId) -> BTreeSet<Symbol> 
 }
 
 /// The terms of a sum in which each symbol occurs: a large energy has many, each with few symbols.
-fn terms_with(pool: &Pool, e: ExprId) -> BTreeMap<Symbol, Vec<(ExprId, Rational)>> {
-    let mut terms_with: BTreeMap<_, Vec<_>> = BTreeMap::new();
+fn terms_with(pool: &Pool, e: ExprId) -> SortedMap<Symbol, Vec<(ExprId, Rational)>> {
+    let mut terms_with: SortedMap<_, Vec<_>> = SortedMap::new();
     let mut put = |term, number| {
         for symbol in pool.symbols(term) {
-            terms_with.entry(symbol).or_default().push((term, number));
+            terms_with.get_or_default(symbol).push((term, number));
         }
     };
     match pool.node(e) {

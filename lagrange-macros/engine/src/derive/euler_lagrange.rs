@@ -15,8 +15,8 @@ use super::needs::{ALWAYS, Needs};
 use super::quadratic::Quadratic;
 use super::squares::Squares;
 use crate::model::System;
+use crate::sorted::SortedMap;
 use crate::symbolic::{ExprId, Node, Pool, Rational};
-use std::collections::BTreeMap;
 
 /// With more coordinates than this, entries of f and p are not multiplied out: the terms grow like n³.
 pub(super) const LARGE: usize = 8;
@@ -46,7 +46,7 @@ pub(super) struct Inertia {
     /// (i, ∂T/∂vᵢ), zeros left out.
     pub momenta: Vec<(usize, ExprId)>,
     /// ((i, j ≤ i), Mᵢⱼ), zeros left out.
-    pub mass: BTreeMap<(usize, usize), ExprId>,
+    pub mass: SortedMap<(usize, usize), ExprId>,
     /// (i, fᵢ), zeros left out.
     pub forcing: Vec<(usize, ExprId)>,
     /// Whether M is free of velocities.
@@ -55,13 +55,13 @@ pub(super) struct Inertia {
 
 /// Sums up the energies that share a need.
 pub(super) fn groups(system: &mut System, needs: &Needs) -> Vec<Group> {
-    let mut terms: BTreeMap<NeedId, [Vec<ExprId>; 2]> = BTreeMap::new();
+    let mut terms: SortedMap<NeedId, [Vec<ExprId>; 2]> = SortedMap::new();
     terms.insert(ALWAYS, Default::default());
     for (term, &need) in system.kinetic.iter().zip(&needs.kinetic) {
-        terms.entry(need).or_default()[0].push(term.energy);
+        terms.get_or_default(need)[0].push(term.energy);
     }
     for (term, &need) in system.potential.iter().zip(&needs.potential) {
-        terms.entry(need).or_default()[1].push(term.energy);
+        terms.get_or_default(need)[1].push(term.energy);
     }
     let pool = &mut system.pool;
     terms
@@ -135,7 +135,7 @@ pub(super) fn derive(pool: &mut Pool, x: &Variables, group: &Group) -> Inertia {
 /// The equations of motion of one [`Group`] as a balance of forces.
 pub(super) struct Balance {
     /// ((i, j ≤ i), Mᵢⱼ), zeros left out, made of what the balance is made of.
-    pub mass: BTreeMap<(usize, usize), ExprId>,
+    pub mass: SortedMap<(usize, usize), ExprId>,
     /// Per coordinate: M v̇ − f.
     pub balance: Vec<ExprId>,
 }
@@ -148,7 +148,7 @@ pub(super) fn balance(pool: &mut Pool, x: &Variables, group: &Group) -> Option<B
         return None;
     }
     let (inertial, mass) = match pool.is_zero(group.kinetic) {
-        true => (vec![x.zero; x.len()], BTreeMap::new()),
+        true => (vec![x.zero; x.len()], SortedMap::new()),
         false => {
             let squares = Squares::of(pool, x, group.kinetic)?;
             (squares.balance(pool, x), squares.mass(pool, x))
@@ -165,8 +165,8 @@ fn mass(
     pool: &mut Pool,
     x: &Variables,
     momenta: &[(usize, ExprId)],
-) -> BTreeMap<(usize, usize), ExprId> {
-    let mut raw = BTreeMap::new();
+) -> SortedMap<(usize, usize), ExprId> {
+    let mut raw = SortedMap::new();
     for &(i, p) in momenta {
         if pool.is_full() {
             break;
@@ -175,7 +175,7 @@ fn mass(
             raw.insert((i, j), pool.differentiate(p, x.velocities[j]));
         }
     }
-    let mut mass = BTreeMap::new();
+    let mut mass = SortedMap::new();
     for (place, entry) in raw {
         let entry = pool.simplify(entry);
         if !pool.is_zero(entry) {

@@ -23,11 +23,11 @@ mod tests;
 
 use crate::diagnostics::Diagnostics;
 use crate::model::System;
+use crate::sorted::SortedMap;
 use crate::symbolic::{ExprId, MOST_OPERANDS, Pool};
 use euler_lagrange::{Group, Inertia};
 use loads::Loads;
 use sheet::Sheet;
-use std::collections::BTreeMap;
 
 /// A bit of the need mask. Need 0 is always held.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -74,7 +74,7 @@ pub struct Equations {
 #[derive(Clone)]
 pub struct WholeBalance {
     /// (row, column ≤ row) of M, made of what the balance is made of.
-    pub mass: BTreeMap<(usize, usize), Vec<(NeedId, ExprId)>>,
+    pub mass: SortedMap<(usize, usize), Vec<(NeedId, ExprId)>>,
     /// Per coordinate.
     pub balance: Vec<Vec<(NeedId, ExprId)>>,
 }
@@ -167,13 +167,10 @@ fn derived(system: System, sink: &mut Diagnostics) -> Option<Equations> {
 
 /// The lower triangle of M; what each energy contributes stands under its need.
 fn mass_matrix(sheet: &mut Sheet, inertias: &[Inertia]) -> Vec<(usize, usize, OutputId)> {
-    let mut entries: BTreeMap<(usize, usize), Vec<(NeedId, ExprId)>> = BTreeMap::new();
+    let mut entries: SortedMap<(usize, usize), Vec<(NeedId, ExprId)>> = SortedMap::new();
     for inertia in inertias {
         for (&place, &entry) in &inertia.mass {
-            entries
-                .entry(place)
-                .or_default()
-                .push((inertia.need, entry));
+            entries.get_or_default(place).push((inertia.need, entry));
         }
     }
     let mut mass = Vec::new();
@@ -214,13 +211,13 @@ fn balance(
     }
     let pool = &mut sheet.system.pool;
     let mut whole = WholeBalance {
-        mass: BTreeMap::new(),
+        mass: SortedMap::new(),
         balance: vec![Vec::new(); sheet.x.len()],
     };
     for group in groups {
         let balance = euler_lagrange::balance(pool, &sheet.x, group)?;
         for (place, e) in balance.mass {
-            let terms = whole.mass.entry(place).or_default();
+            let terms = whole.mass.get_or_default(place);
             terms.push((group.need, e));
         }
         for (terms, e) in whole.balance.iter_mut().zip(balance.balance) {

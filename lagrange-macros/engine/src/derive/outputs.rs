@@ -2,8 +2,8 @@
 
 use super::sheet::Sheet;
 use super::{Branch, NeedId, OutputId, Stage};
+use crate::sorted::SortedSet;
 use crate::symbolic::{ExprId, Symbol};
-use std::collections::BTreeSet;
 
 /// Per observe: (value, need).
 pub(super) fn observes(sheet: &mut Sheet) -> Vec<(OutputId, NeedId)> {
@@ -77,13 +77,13 @@ pub(super) fn branches(sheet: &mut Sheet) -> Vec<Branch<OutputId>> {
     let pool = &sheet.system.pool;
     let inside: Vec<Vec<usize>> = guards.iter().map(|&guard| pool.branches(guard)).collect();
 
-    let mut users: Vec<BTreeSet<NeedId>> = vec![BTreeSet::new(); count];
+    let mut users: Vec<SortedSet<NeedId>> = vec![SortedSet::new(); count];
     for (need, term) in sheet.outputs.iter().flat_map(|o| &o.terms) {
         for branch in pool.branches(*term) {
             users[branch].insert(*need);
         }
     }
-    let results: BTreeSet<Symbol> = sheet
+    let results: SortedSet<Symbol> = sheet
         .system
         .multipliers()
         .into_iter()
@@ -102,7 +102,7 @@ pub(super) fn branches(sheet: &mut Sheet) -> Vec<Branch<OutputId>> {
             let inherited = users[outer].clone();
             for &inner in &inside[outer] {
                 let before = users[inner].len();
-                users[inner].extend(&inherited);
+                users[inner].extend(inherited.iter().copied());
                 changed |= users[inner].len() > before;
             }
         }

@@ -10,8 +10,8 @@
 
 use super::euler_lagrange::LARGE;
 use super::forms::{Variables, cheapest};
+use crate::sorted::SortedMap;
 use crate::symbolic::{ExprId, Pool, Rational};
-use std::collections::BTreeMap;
 
 /// Most derivatives of M that the form by Christoffel symbols is tried with.
 const BUDGET: usize = 20_000;
@@ -19,15 +19,15 @@ const BUDGET: usize = 20_000;
 /// Coefficients of a quadratic kinetic energy, simplified, zeros left out.
 pub(super) struct Quadratic<'a> {
     /// ((i, j ≤ i), Mᵢⱼ)
-    mass: &'a BTreeMap<(usize, usize), ExprId>,
+    mass: &'a SortedMap<(usize, usize), ExprId>,
     /// (i, bᵢ)
-    linear: BTreeMap<usize, ExprId>,
+    linear: SortedMap<usize, ExprId>,
     /// T₀
     rest: ExprId,
 }
 
 /// Terms of one fᵢ, by the velocities that multiply them: none, vⱼ, or vⱼvₖ with k ≤ j.
-type ByVelocities = BTreeMap<Vec<usize>, Vec<ExprId>>;
+type ByVelocities = SortedMap<Vec<usize>, Vec<ExprId>>;
 
 impl<'a> Quadratic<'a> {
     /// Expands T, whose momenta ∂T/∂v and mass matrix are known, at v = 0.
@@ -36,9 +36,9 @@ impl<'a> Quadratic<'a> {
         x: &Variables,
         kinetic: ExprId,
         momenta: &[(usize, ExprId)],
-        mass: &'a BTreeMap<(usize, usize), ExprId>,
+        mass: &'a SortedMap<(usize, usize), ExprId>,
     ) -> Self {
-        let mut linear = BTreeMap::new();
+        let mut linear = SortedMap::new();
         for &(i, p) in momenta {
             let b = x.at_rest(pool, p);
             let b = pool.simplify(b);
@@ -92,12 +92,12 @@ impl<'a> Quadratic<'a> {
         if size > BUDGET {
             return None;
         }
-        let mut forcing: Vec<ByVelocities> = vec![BTreeMap::new(); x.len()];
+        let mut forcing: Vec<ByVelocities> = vec![SortedMap::new(); x.len()];
         self.christoffel(pool, x, &mut forcing);
         self.gyroscopic(pool, x, &mut forcing);
         for k in x.positions_in(pool, self.rest) {
             let slope = pool.differentiate(self.rest, x.positions[k]);
-            forcing[k].entry(vec![]).or_default().push(slope);
+            forcing[k].get_or_default(vec![]).push(slope);
         }
         Some(
             forcing
@@ -110,10 +110,7 @@ impl<'a> Quadratic<'a> {
     /// Each entry of M feeds the equations of its row, of its column, and of the positions that it depends on.
     fn christoffel(&self, pool: &mut Pool, x: &Variables, forcing: &mut [ByVelocities]) {
         let mut put = |i: usize, j: usize, k: usize, e: ExprId| {
-            forcing[i]
-                .entry(vec![j.max(k), j.min(k)])
-                .or_default()
-                .push(e);
+            forcing[i].get_or_default(vec![j.max(k), j.min(k)]).push(e);
         };
         for (&(i, j), &entry) in self.mass {
             if pool.is_full() {
@@ -135,8 +132,7 @@ impl<'a> Quadratic<'a> {
 
     /// What b and the explicit time in M add.
     fn gyroscopic(&self, pool: &mut Pool, x: &Variables, forcing: &mut [ByVelocities]) {
-        let mut put =
-            |i: usize, by: Vec<usize>, e: ExprId| forcing[i].entry(by).or_default().push(e);
+        let mut put = |i: usize, by: Vec<usize>, e: ExprId| forcing[i].get_or_default(by).push(e);
         for (&(i, j), &entry) in self.mass {
             let rate = pool.differentiate(entry, x.time);
             let minus = pool.neg(rate);
@@ -164,25 +160,23 @@ impl<'a> Quadratic<'a> {
         kinetic: ExprId,
         momenta: &[(usize, ExprId)],
     ) -> (ExprId, Vec<(usize, ExprId)>) {
-        let mut rebuilt_momenta: BTreeMap<usize, Vec<ExprId>> = BTreeMap::new();
+        let mut rebuilt_momenta: SortedMap<usize, Vec<ExprId>> = SortedMap::new();
         let mut rebuilt = vec![self.rest];
         for (&(i, j), &entry) in self.mass {
             let product = pool.product(&[entry, x.rates[i], x.rates[j]]);
             rebuilt.push(if i == j { half(pool, product) } else { product });
             rebuilt_momenta
-                .entry(i)
-                .or_default()
+                .get_or_default(i)
                 .push(pool.mul(entry, x.rates[j]));
             if i != j {
                 rebuilt_momenta
-                    .entry(j)
-                    .or_default()
+                    .get_or_default(j)
                     .push(pool.mul(entry, x.rates[i]));
             }
         }
         for (&i, &b) in &self.linear {
             rebuilt.push(pool.mul(b, x.rates[i]));
-            rebuilt_momenta.entry(i).or_default().push(b);
+            rebuilt_momenta.get_or_default(i).push(b);
         }
         let rebuilt = pool.sum(&rebuilt);
         let cheaper = if momenta.len() <= LARGE {

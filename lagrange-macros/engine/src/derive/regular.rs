@@ -4,8 +4,8 @@ use super::euler_lagrange::Inertia;
 use super::{Output, OutputId, Structure};
 use crate::diagnostics::{Code, Diagnostics};
 use crate::model::System;
+use crate::sorted::SortedSet;
 use crate::symbolic::Symbol;
-use std::collections::BTreeSet;
 
 /// Larger systems are not looked at for singular inertia: it takes n³ operations.
 const MOST_COORDINATES: usize = 60;
@@ -25,12 +25,12 @@ pub(super) fn check(
     sink: &mut Diagnostics,
 ) -> bool {
     let before = sink.count();
-    let inert: BTreeSet<usize> = structure
+    let inert: SortedSet<usize> = structure
         .mass
         .iter()
         .flat_map(|&(i, j, _)| [i, j])
         .collect();
-    let tied: BTreeSet<usize> = system
+    let tied: SortedSet<usize> = system
         .constraints
         .iter()
         .zip(&structure.rows)
@@ -185,7 +185,7 @@ fn quadratic(system: &System, inertias: &[Inertia], sink: &mut Diagnostics) {
         .iter()
         .filter(|inertia| !inertia.quadratic)
         .flat_map(|inertia| inertia.mass.values());
-    let symbols: BTreeSet<_> = entries.flat_map(|&entry| pool.symbols(entry)).collect();
+    let symbols: SortedSet<_> = entries.flat_map(|&entry| pool.symbols(entry)).collect();
     for coordinate in system
         .coordinates
         .iter()

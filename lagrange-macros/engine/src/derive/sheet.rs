@@ -4,8 +4,8 @@ use super::forms::Variables;
 use super::needs::{Needs, allocate};
 use super::{NeedId, Output, OutputId, Stage};
 use crate::model::System;
+use crate::sorted::SortedMap;
 use crate::symbolic::{ExprId, Symbol};
-use std::collections::BTreeMap;
 
 /// A system with its variables and needs, and the outputs found so far.
 pub(super) struct Sheet {
@@ -28,9 +28,9 @@ impl Sheet {
 
     /// Adds an output; terms of one need are added up, zeros left out.
     pub fn output(&mut self, stage: Stage, label: String, terms: &[(NeedId, ExprId)]) -> OutputId {
-        let mut by_need: BTreeMap<NeedId, Vec<ExprId>> = BTreeMap::new();
+        let mut by_need: SortedMap<NeedId, Vec<ExprId>> = SortedMap::new();
         for &(need, term) in terms {
-            by_need.entry(need).or_default().push(term);
+            by_need.get_or_default(need).push(term);
         }
         let pool = &mut self.system.pool;
         let mut terms: Vec<(NeedId, ExprId)> = by_need

@@ -6,10 +6,10 @@
 use super::exact::Exact;
 use super::names::{self, index};
 use crate::model::{Declared, Draw, Normal, Restitution, System, Turn, Watch, Worked};
+use crate::sorted::{SortedMap, SortedSet};
 use crate::symbolic::{ExprId, Function, Node, Rational, Symbol};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
-use std::collections::{BTreeMap, BTreeSet};
 
 // Numbers of the operations; all as in the core's `declaration`.
 const NUMBER: usize = 0;
@@ -228,8 +228,8 @@ fn drawn_roots(system: &System) -> Vec<ExprId> {
 struct Writer<'a> {
     declared: &'a Declared,
     /// What each symbol but those of rates is.
-    symbols: BTreeMap<Symbol, Input>,
-    values: BTreeMap<ExprId, usize>,
+    symbols: SortedMap<Symbol, Input>,
+    values: SortedMap<ExprId, usize>,
     count: usize,
     bytes: Vec<u8>,
     numbers: Exact,
@@ -245,7 +245,7 @@ enum Input {
 impl<'a> Writer<'a> {
     fn new(declared: &'a Declared) -> Writer<'a> {
         let system = &declared.system;
-        let mut symbols = BTreeMap::from([(system.time, Input::Read(TIME, 0))]);
+        let mut symbols = SortedMap::from([(system.time, Input::Read(TIME, 0))]);
         for (i, parameter) in system.parameters.iter().enumerate() {
             symbols.insert(parameter.symbol, Input::Read(PARAMETER, i));
         }
@@ -263,7 +263,7 @@ impl<'a> Writer<'a> {
         Writer {
             declared,
             symbols,
-            values: BTreeMap::new(),
+            values: SortedMap::new(),
             count: 0,
             bytes: Vec::new(),
             numbers: Exact::default(),
@@ -274,7 +274,7 @@ impl<'a> Writer<'a> {
     /// selection after its guard, since they were made in that order.
     fn write(&mut self, roots: &[ExprId]) {
         let pool = &self.declared.system.pool;
-        let mut all: BTreeSet<ExprId> = BTreeSet::new();
+        let mut all: SortedSet<ExprId> = SortedSet::new();
         let mut stack = roots.to_vec();
         while let Some(e) = stack.pop() {
             if self.values.contains_key(&e) || !all.insert(e) {

@@ -5,9 +5,9 @@ use super::derivation;
 use super::handles::{self, Indices};
 use super::names;
 use crate::ast::{Declaration, Head, ItemKind, Name, Observe};
+use crate::sorted::SortedSet;
 use proc_macro2::TokenStream;
 use quote::quote;
-use std::collections::BTreeSet;
 use syn::DeriveInput;
 
 /// An implementation without equations for whatever struct the tokens are; nothing if they are none. With a
@@ -29,7 +29,7 @@ fn placeholders(declaration: &Declaration, core: &TokenStream) -> TokenStream {
     // How many elements an indexed item has is not known here: enough for every index that is used.
     let many = [0; 1024];
     let mut constants = Vec::new();
-    let mut taken = BTreeSet::new();
+    let mut taken = SortedSet::new();
     let mut add = |kind: &str, name: &Name, indexed: bool| {
         let constant = handles::screaming(&name.ident);
         if taken.insert(constant.to_string()) {

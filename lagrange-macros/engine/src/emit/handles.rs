@@ -2,9 +2,9 @@
 
 use crate::model::{ItemName, Normal, System, shouting};
 use crate::plan::Program;
+use crate::sorted::SortedSet;
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
-use std::collections::BTreeSet;
 
 use super::names::{index, plain};
 
@@ -26,7 +26,7 @@ pub fn handles(program: &Program) -> TokenStream {
     let arguments = system.scalar.as_ref().map(|_| quote!(<f64>));
     let items = items(system);
     let mut constants = Vec::new();
-    let mut taken = BTreeSet::new();
+    let mut taken = SortedSet::new();
     let mut rest = &items[..];
     while let Some(first) = rest.first() {
         // The elements of an indexed item follow each other.

@@ -2,10 +2,11 @@
 
 use crate::model::{Parameter, System};
 use crate::plan::{Coefficient, Operation, OutputMask, Tape, Value, ValueRef};
+use crate::sorted::SortedMap;
 use crate::symbolic::Rational;
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 /// A local variable.
 pub fn local(name: &str) -> Ident {
@@ -21,7 +22,7 @@ pub fn plain(name: &str) -> Ident {
 pub struct Locals {
     inputs: Vec<String>,
     /// What some results are called before their number.
-    kinds: BTreeMap<Value, &'static str>,
+    kinds: SortedMap<Value, &'static str>,
 }
 
 impl Locals {
@@ -44,7 +45,7 @@ impl Locals {
             }
             inputs.push(name);
         }
-        let kinds = BTreeMap::new();
+        let kinds = SortedMap::new();
         Locals { inputs, kinds }
     }
 

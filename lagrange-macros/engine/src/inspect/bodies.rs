@@ -12,15 +12,15 @@ use super::letter::Letter;
 use super::print;
 use super::work::Work;
 use crate::ast::{Declaration, ItemKind};
+use crate::sorted::SortedSet;
 use crate::symbolic::{Rational, Symbol};
-use std::collections::BTreeSet;
 
 impl Work<'_> {
     /// The bodies whose rates are velocities, with those of their axes that an equation contains.
     pub fn bodies(&mut self, declaration: &Declaration) -> Vec<Body> {
         let equations = self.equations;
         let terms = equations.outputs.iter().flat_map(|output| &output.terms);
-        let present: BTreeSet<Symbol> = terms
+        let present: SortedSet<Symbol> = terms
             .flat_map(|&(_, e)| self.reader.peek().symbols(e))
             .collect();
         let mut bodies = Vec::new();

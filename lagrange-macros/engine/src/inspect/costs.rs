@@ -7,8 +7,8 @@ use crate::modes::{FrictionState, Mode};
 use crate::plan::Program;
 use crate::plan::mode::Phase;
 use crate::plan::mode::products::Plan;
+use crate::sorted::SortedMap;
 use crate::symbolic::{ExprId, Node, Pool};
-use std::collections::BTreeMap;
 
 /// Effects that are shown.
 const MOST_SHOWN: usize = 24;
@@ -204,7 +204,7 @@ impl Counts<'_> {
         };
         let after = after(with).saturating_sub(base);
         let mut before = 0_u64;
-        let mut sizes = BTreeMap::new();
+        let mut sizes = SortedMap::new();
         for output in &self.program.equations.outputs {
             if output.stage != Stage::Motion {
                 continue;
@@ -232,7 +232,7 @@ fn same_structure(a: &Mode, b: &Mode) -> bool {
 }
 
 /// Operations of an expression as a tree: every use of a part counts again.
-fn tree(pool: &Pool, e: ExprId, known: &mut BTreeMap<ExprId, u64>) -> u64 {
+fn tree(pool: &Pool, e: ExprId, known: &mut SortedMap<ExprId, u64>) -> u64 {
     if let Some(&size) = known.get(&e) {
         return size;
     }

@@ -3,8 +3,8 @@
 use super::letter::Letter;
 use crate::ast::Declaration;
 use crate::model::{Body, Coordinate, System};
+use crate::sorted::SortedMap;
 use crate::symbolic::{ExprId, Node, Rational, Symbol};
-use std::collections::BTreeMap;
 
 /// What a symbol of the pool is, in the order in which factors are written.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -36,10 +36,10 @@ pub struct Known {
 
 /// Letters of a system.
 pub struct Names {
-    symbols: BTreeMap<Symbol, Known>,
-    bodies: BTreeMap<String, String>,
-    roots: BTreeMap<ExprId, (Rational, Letter)>,
-    declared: BTreeMap<String, Letter>,
+    symbols: SortedMap<Symbol, Known>,
+    bodies: SortedMap<String, String>,
+    roots: SortedMap<ExprId, (Rational, Letter)>,
+    declared: SortedMap<String, Letter>,
 }
 
 /// Letters that physicists write before others in a product, class by class.
@@ -49,8 +49,8 @@ impl Names {
     /// Letters of everything that a system names.
     pub fn of(declaration: &Declaration, system: &System) -> Names {
         let mut names = Names {
-            symbols: BTreeMap::new(),
-            bodies: BTreeMap::new(),
+            symbols: SortedMap::new(),
+            bodies: SortedMap::new(),
             roots: roots(system),
             declared: fields(declaration, system),
         };
@@ -95,8 +95,8 @@ impl Names {
 
     /// The rates and axes of a body; they bear its name where there are several.
     fn enter_body(&mut self, system: &System, body: &Body) {
-        let mut known = self.declared.values();
-        let name = match system.bodies.len() == 1 && known.all(|letter| letter.base != "ω") {
+        let taken = self.declared.values().any(|letter| letter.base == "ω");
+        let name = match system.bodies.len() == 1 && !taken {
             true => String::new(),
             false => body.name.clone(),
         };
@@ -170,10 +170,10 @@ impl Names {
 }
 
 /// Letters of the fields. A letter stands for one thing only; the second keeps its name.
-fn fields(declaration: &Declaration, system: &System) -> BTreeMap<String, Letter> {
+fn fields(declaration: &Declaration, system: &System) -> SortedMap<String, Letter> {
     let coordinates = system.coordinates.iter();
     let mut taken: Vec<Letter> = coordinates.map(|c| Letter::new(&c.name.text)).collect();
-    let mut declared = BTreeMap::new();
+    let mut declared = SortedMap::new();
     for field in &declaration.fields {
         let name = &field.name.text;
         let mut letter = match field.letter.as_str() {
@@ -191,8 +191,8 @@ fn fields(declaration: &Declaration, system: &System) -> BTreeMap<String, Letter
 }
 
 /// Definitions that are roots, by what the root is of.
-fn roots(system: &System) -> BTreeMap<ExprId, (Rational, Letter)> {
-    let mut roots = BTreeMap::new();
+fn roots(system: &System) -> SortedMap<ExprId, (Rational, Letter)> {
+    let mut roots = SortedMap::new();
     for (name, e) in &system.defined {
         if let Node::Product(factors) = system.pool.node(*e)
             && let [(base, power)] = factors[..]

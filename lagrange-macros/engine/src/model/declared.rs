@@ -9,15 +9,15 @@ use super::elaborate::Elaboration;
 use super::reach::Depth;
 use crate::ast::Declaration;
 use crate::diagnostics::Diagnostics;
+use crate::sorted::SortedMap;
 use crate::symbolic::{ExprId, Symbol};
-use std::collections::BTreeMap;
 
 /// A system in which symbols stand for rates.
 pub struct Declared {
     /// The system. Stops and marks that contain generalized momenta, or the energy of a Lagrangian, are not in it.
     pub system: System,
     /// Symbols and the expressions whose rates they are.
-    pub rates: BTreeMap<Symbol, ExprId>,
+    pub rates: SortedMap<Symbol, ExprId>,
 }
 
 /// The system as declared, of a declaration without mistakes.
@@ -25,7 +25,7 @@ pub fn declared(declaration: &Declaration) -> Declared {
     // What has mistakes has been reported by who derived it.
     let mut sink = Diagnostics::new();
     let mut elaboration = Elaboration::new(declaration, &mut sink);
-    elaboration.rates = Some(BTreeMap::new());
+    elaboration.rates = Some(SortedMap::new());
     elaboration.read_all(declaration);
     match drawn(declaration).next() {
         Some(_) => elaboration.draws(declaration),

@@ -8,9 +8,9 @@ use super::value::Value;
 use super::{ItemName, System};
 use crate::ast::{Declaration, Expr, Head, Home, Item, ItemKind, Name};
 use crate::diagnostics::{Code, Diagnostics};
+use crate::sorted::SortedMap;
 use crate::symbolic::{ExprId, Pool, Symbol};
 use proc_macro2::Span;
-use std::collections::BTreeMap;
 
 /// A system on its way.
 pub(super) struct Elaboration<'a> {
@@ -18,25 +18,25 @@ pub(super) struct Elaboration<'a> {
     pub sink: &'a mut Diagnostics,
     pub names: Names,
     /// Names by the constant that they become.
-    pub handles: BTreeMap<String, String>,
+    pub handles: SortedMap<String, String>,
     /// Bound indices, innermost last.
     pub indices: Vec<(String, i64)>,
     /// What `slip` stands for: the slip of the friction whose coefficients are read.
     pub slip: Option<Value>,
     /// Branches by their guards.
-    pub branches: BTreeMap<ExprId, usize>,
+    pub branches: SortedMap<ExprId, usize>,
     /// Kind of each symbol, by its index.
     pub depths: Vec<Depth>,
     /// q → v, v → v̇, t → 1.
     pub directions: Vec<(Symbol, ExprId)>,
     /// Expressions under `der`, and the symbols that stand for their rates; `None` where rates are worked out.
-    pub rates: Option<BTreeMap<ExprId, Symbol>>,
+    pub rates: Option<SortedMap<ExprId, Symbol>>,
     /// What `define` and `observe` name.
     pub definitions: Vec<Pending>,
     /// First coordinate of each name, and the length of an array.
-    pub coordinate_names: BTreeMap<String, (usize, Option<usize>)>,
+    pub coordinate_names: SortedMap<String, (usize, Option<usize>)>,
     /// First coordinate of each body of `attitude`.
-    pub bodies: BTreeMap<String, usize>,
+    pub bodies: SortedMap<String, usize>,
     /// Whether the rates of those bodies are velocities, in place of those of their quaternions.
     pub in_body_rates: bool,
     /// Whether something could not be read; the sink says why.
@@ -63,8 +63,8 @@ pub struct Scope {
     depths: Vec<Depth>,
     directions: Vec<(Symbol, ExprId)>,
     definitions: Vec<Pending>,
-    coordinate_names: BTreeMap<String, (usize, Option<usize>)>,
-    bodies: BTreeMap<String, usize>,
+    coordinate_names: SortedMap<String, (usize, Option<usize>)>,
+    bodies: SortedMap<String, usize>,
     home: Home,
 }
 
@@ -153,16 +153,16 @@ impl<'a> Elaboration<'a> {
             system,
             sink,
             names: Names::new(),
-            handles: BTreeMap::new(),
+            handles: SortedMap::new(),
             indices: Vec::new(),
             slip: None,
-            branches: BTreeMap::new(),
+            branches: SortedMap::new(),
             depths: vec![Depth::Parameter; time.index() + 1],
             directions: vec![(time, one)],
             rates: None,
             definitions: Vec::new(),
-            coordinate_names: BTreeMap::new(),
-            bodies: BTreeMap::new(),
+            coordinate_names: SortedMap::new(),
+            bodies: SortedMap::new(),
             in_body_rates: false,
             dropped: false,
             overflowed: false,
@@ -209,7 +209,7 @@ impl<'a> Elaboration<'a> {
             system,
             sink,
             names: scope.names,
-            handles: BTreeMap::new(),
+            handles: SortedMap::new(),
             indices: Vec::new(),
             slip: None,
             depths: scope.depths,

@@ -37,9 +37,9 @@ mod value;
 
 use crate::ast::{Domain, Emit, Impacts};
 use crate::diagnostics::Extent;
+use crate::sorted::SortedMap;
 use crate::symbolic::{ExprId, Pool, Symbol};
 use proc_macro2::{Ident, Span, TokenStream};
-use std::collections::BTreeMap;
 
 pub use checks::{Check, Premise, checks};
 pub use declared::{Declared, declared};
@@ -257,12 +257,12 @@ impl Body {
 
     /// Rates of the axes: ėᵢ = ω × eᵢ.
     pub fn rates(&self, pool: &mut Pool, rates: [Symbol; 3]) -> Vec<(Symbol, ExprId)> {
-        let mut terms: BTreeMap<Symbol, Vec<ExprId>> = BTreeMap::new();
+        let mut terms: SortedMap<Symbol, Vec<ExprId>> = SortedMap::new();
         for (k, rate) in rates.into_iter().enumerate() {
             for (axis, slope) in self.turned(pool, k) {
                 let rate = pool.leaf(rate);
                 let term = pool.mul(slope, rate);
-                terms.entry(axis).or_default().push(term);
+                terms.get_or_default(axis).push(term);
             }
         }
         let sums = terms.into_iter();

@@ -6,7 +6,7 @@ use super::value::Value;
 use crate::ast::{Name, Reference};
 use crate::diagnostics::{Code, nearest};
 use crate::parse::FUNCTIONS;
-use std::collections::BTreeMap;
+use crate::sorted::SortedMap;
 
 /// Words with a meaning of their own in expressions, beside the functions.
 const RESERVED: &[&str] = &[
@@ -123,7 +123,7 @@ pub(super) struct Entry {
 }
 
 /// The namespace.
-pub(super) type Names = BTreeMap<String, Entry>;
+pub(super) type Names = SortedMap<String, Entry>;
 
 impl Elaboration<'_> {
     /// Enters a name; a reserved word or second use of a name is reported. Where the word is then used as a name, nothing more is said.

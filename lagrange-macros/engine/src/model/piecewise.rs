@@ -45,7 +45,7 @@ impl Elaboration<'_> {
     fn branch(&mut self, guard: ExprId, Sides([then, otherwise]): Sides, at: Extent) -> usize {
         let branches = &mut self.system.branches;
         let next = branches.len();
-        let branch = *self.branches.entry(guard).or_insert(next);
+        let branch = *self.branches.get_or_insert(guard, next);
         if branch < next {
             return branch;
         }

@@ -3,8 +3,8 @@
 use super::needs::OutputMask;
 use super::tape::Coefficient;
 use crate::derive::NeedId;
+use crate::sorted::SortedMap;
 use crate::symbolic::{ExprId, Node, Pool, Symbol};
-use std::collections::BTreeMap;
 
 /// What a constant is.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -18,19 +18,19 @@ pub(super) enum Source {
 /// The constants that have been asked for.
 pub(super) struct Constants {
     /// Index of each field's symbol.
-    parameters: BTreeMap<Symbol, usize>,
+    parameters: SortedMap<Symbol, usize>,
     /// Whether constants may be asked for at all (the constants program itself has only numbers and multiples of π).
     open: bool,
-    index: BTreeMap<Source, usize>,
-    symbols: BTreeMap<Symbol, usize>,
+    index: SortedMap<Source, usize>,
+    symbols: SortedMap<Symbol, usize>,
     /// In order of index.
     pub sources: Vec<(Source, OutputMask)>,
 }
 
 impl Constants {
     /// None yet.
-    pub fn new(parameters: BTreeMap<Symbol, usize>) -> Constants {
-        let (index, symbols) = (BTreeMap::new(), BTreeMap::new());
+    pub fn new(parameters: SortedMap<Symbol, usize>) -> Constants {
+        let (index, symbols) = (SortedMap::new(), SortedMap::new());
         Constants {
             parameters,
             open: true,
@@ -44,14 +44,14 @@ impl Constants {
     pub fn closed() -> Constants {
         Constants {
             open: false,
-            ..Constants::new(BTreeMap::new())
+            ..Constants::new(SortedMap::new())
         }
     }
 
     /// The constant of this source.
     pub fn constant(&mut self, source: Source) -> usize {
         let next = self.sources.len();
-        let index = *self.index.entry(source.clone()).or_insert(next);
+        let index = *self.index.get_or_insert(source.clone(), next);
         if index == next {
             self.sources.push((source, OutputMask::default()));
         }

@@ -6,8 +6,8 @@
 
 use super::constants::Constants;
 use super::graph::{Graph, NodeId, Shape, Term};
+use crate::sorted::SortedMap;
 use crate::symbolic::{ExprId, Pool};
-use std::collections::BTreeMap;
 
 /// Rewrites the sums below the roots.
 pub(super) fn distribute(
@@ -29,7 +29,7 @@ pub(super) fn distribute(
         let opaque = offset.is_some_and(|offset| constants.is_masked(pool, offset));
         let mut flat = Flat {
             offset: offset.into_iter().collect(),
-            scales: BTreeMap::new(),
+            scales: SortedMap::new(),
         };
         let mut changed = false;
         for term in terms {
@@ -55,11 +55,11 @@ pub(super) fn distribute(
                             scale
                         };
                         let scale = pool.mul(inner, term.magnitude);
-                        flat.scales.entry(term.node).or_default().push(scale);
+                        flat.scales.get_or_default(term.node).push(scale);
                     }
                     changed = true;
                 }
-                _ => flat.scales.entry(term.node).or_default().push(scale),
+                _ => flat.scales.get_or_default(term.node).push(scale),
             }
         }
         if changed {
@@ -71,7 +71,7 @@ pub(super) fn distribute(
 /// A sum under construction: offsets, and the scales of each node.
 struct Flat {
     offset: Vec<ExprId>,
-    scales: BTreeMap<NodeId, Vec<ExprId>>,
+    scales: SortedMap<NodeId, Vec<ExprId>>,
 }
 
 impl Flat {

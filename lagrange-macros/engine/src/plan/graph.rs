@@ -3,8 +3,9 @@
 //! Every expression that varies during a run is a [`Form`], scale · node, where the scale is fixed during a run.
 //! Equal nodes have equal ids.
 
+use crate::sorted::SortedMap;
 use crate::symbolic::{ExprId, Rational};
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 
 /// A node of the graph.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -151,7 +152,7 @@ impl Graph {
     pub fn split_quotients(&mut self, roots: &[NodeId]) {
         let uses = self.uses(roots);
         let mut quotients = Vec::new();
-        let mut sharers: BTreeMap<NodeId, usize> = BTreeMap::new();
+        let mut sharers: SortedMap<NodeId, usize> = SortedMap::new();
         for (index, uses) in uses.iter().enumerate() {
             let Shape::Product(factors) = &self.shapes[index] else {
                 continue;
@@ -161,7 +162,7 @@ impl Graph {
             if *uses > 0 && !below.is_empty() {
                 let denominator =
                     self.product(below.into_iter().map(|(node, k)| (node, -k)).collect());
-                *sharers.entry(denominator).or_default() += 1;
+                *sharers.get_or_default(denominator) += 1;
                 quotients.push((NodeId(index), above, denominator));
             }
         }

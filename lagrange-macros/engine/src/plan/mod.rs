@@ -24,13 +24,13 @@ pub use tape::{Block, Coefficient, Mode, Operation, Step, Tape, Value, Write};
 
 use crate::derive::{Equations, OutputId, Stage};
 use crate::model::System;
+use crate::sorted::SortedMap;
 use crate::symbolic::{ExprId, Pool, Symbol};
 use constants::Constants;
 use form::{Fixed, Former};
 use lower::Lowerer;
 use outputs::Target;
 use schedule::Demand;
-use std::collections::BTreeMap;
 
 /// Where a number is found after a tape has run; as the core's `ValueRef`.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -100,7 +100,7 @@ impl Program {
 
 /// Plans the computation of all outputs.
 pub fn plan(mut equations: Equations) -> Program {
-    let parameters: BTreeMap<Symbol, usize> =
+    let parameters: SortedMap<Symbol, usize> =
         numbered(equations.system.parameters.iter().map(|p| p.symbol));
     let mut constants = Constants::new(parameters.clone());
     let mut places = vec![ValueRef::Zero; equations.outputs.len()];
@@ -154,7 +154,7 @@ fn inputs(system: &System, stage: Stage) -> Vec<Symbol> {
     inputs
 }
 
-fn numbered(symbols: impl Iterator<Item = Symbol>) -> BTreeMap<Symbol, usize> {
+fn numbered(symbols: impl Iterator<Item = Symbol>) -> SortedMap<Symbol, usize> {
     symbols
         .enumerate()
         .map(|(index, symbol)| (symbol, index))
@@ -179,7 +179,7 @@ fn stage_tape(
     tape(pool, constants, &inputs, Fixed::Parameters, None, &targets)
 }
 
-fn starts(system: &mut System, parameters: &BTreeMap<Symbol, usize>) -> Vec<Start> {
+fn starts(system: &mut System, parameters: &SortedMap<Symbol, usize>) -> Vec<Start> {
     let mut inputs = parameters.clone();
     inputs.insert(system.time, parameters.len());
     let guards: Vec<ExprId> = system.branches.iter().map(|branch| branch.guard).collect();
@@ -213,7 +213,7 @@ fn starts(system: &mut System, parameters: &BTreeMap<Symbol, usize>) -> Vec<Star
 fn tape(
     pool: &mut Pool,
     constants: &mut Constants,
-    inputs: &BTreeMap<Symbol, usize>,
+    inputs: &SortedMap<Symbol, usize>,
     fixed: Fixed,
     guards: Option<&[ExprId]>,
     targets: &[Target],

@@ -7,8 +7,8 @@ use super::graph::NodeId;
 use super::needs::OutputMask;
 use super::tape::Mode;
 use crate::derive::{NeedId, Output, OutputId, Stage};
+use crate::sorted::{SortedMap, SortedSet};
 use crate::symbolic::{ExprId, Pool, Symbol};
-use std::collections::{BTreeMap, BTreeSet};
 
 /// An output of a tape: the sum of those terms that are asked for.
 pub(super) struct Target {
@@ -110,9 +110,9 @@ struct Terms {
 
 impl Terms {
     fn new(pool: &mut Pool, output: &Output, always_read: bool) -> Terms {
-        let mut needs: BTreeMap<NeedId, Vec<ExprId>> = BTreeMap::new();
+        let mut needs: SortedMap<NeedId, Vec<ExprId>> = SortedMap::new();
         for (need, e) in &output.terms {
-            needs.entry(*need).or_default().push(*e);
+            needs.get_or_default(*need).push(*e);
         }
         let total = always_read || needs.len() > 1;
         let mut terms: Vec<_> = needs
@@ -128,19 +128,19 @@ impl Terms {
 pub(super) fn targets(
     pool: &mut Pool,
     outputs: &[Output],
-    (stage, always_read): (Stage, &BTreeSet<OutputId>),
-    inputs: &BTreeMap<Symbol, usize>,
+    (stage, always_read): (Stage, &SortedSet<OutputId>),
+    inputs: &SortedMap<Symbol, usize>,
     constants: &mut Constants,
     places: &mut [ValueRef],
 ) -> Vec<Target> {
     let mut targets = Vec::new();
-    let mut known: BTreeMap<Terms, ValueRef> = BTreeMap::new();
+    let mut known: SortedMap<Terms, ValueRef> = SortedMap::new();
     for (index, (output, place)) in outputs.iter().zip(places).enumerate() {
         if output.stage != stage {
             continue;
         }
         let terms = Terms::new(pool, output, always_read.contains(&OutputId(index)));
-        *place = *known.entry(terms.clone()).or_insert_with(|| {
+        *place = *known.get_or_insert_with(terms.clone(), || {
             let (varying, fixed): (Vec<_>, Vec<_>) = terms
                 .terms
                 .into_iter()
@@ -193,7 +193,7 @@ fn target(
 }
 
 /// Whether an expression changes during a run.
-fn varies(pool: &Pool, inputs: &BTreeMap<Symbol, usize>, e: ExprId) -> bool {
+fn varies(pool: &Pool, inputs: &SortedMap<Symbol, usize>, e: ExprId) -> bool {
     !pool.branches(e).is_empty()
         || pool
             .symbols(e)

@@ -3,7 +3,7 @@
 use super::lower::Lowered;
 use super::needs::OutputMask;
 use super::tape::{Block, Step, Tape, Value, Write};
-use std::collections::BTreeMap;
+use crate::sorted::SortedMap;
 
 /// What enters an output, when asked for.
 pub(super) struct Demand {
@@ -37,14 +37,14 @@ pub(super) fn schedule(
         needs_of[index] = needs;
     }
 
-    let mut blocks: BTreeMap<Rank, Block> = BTreeMap::new();
+    let mut blocks: SortedMap<Rank, Block> = SortedMap::new();
     let mut block = |needs: &OutputMask, fill: &mut dyn FnMut(&mut Block)| {
         let empty = || Block {
             needs: needs.clone(),
             steps: Vec::new(),
             writes: Vec::new(),
         };
-        fill(blocks.entry(rank(needs)).or_insert_with(empty));
+        fill(blocks.get_or_insert_with(rank(needs), empty));
     };
     for (index, (value, operation)) in lowered.operations.iter().enumerate() {
         if !needs_of[index].is_empty() {
@@ -59,7 +59,7 @@ pub(super) fn schedule(
         block(&demand.needs, &mut |block| block.writes.push(demand.write));
     }
     numbered(
-        blocks.into_values().collect(),
+        blocks.into_iter().map(|(_, block)| block).collect(),
         inputs,
         outputs,
         lowered.values,

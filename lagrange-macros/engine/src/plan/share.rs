@@ -4,6 +4,7 @@
 //! each extraction of a pair found in n sums saves n − 1 operations and never costs one.
 
 use super::graph::{Graph, NodeId, Shape, Term};
+use crate::sorted::{SortedMap, SortedSet};
 use crate::symbolic::{ExprId, Pool};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
@@ -12,7 +13,7 @@ use std::collections::{BTreeMap, BTreeSet};
 const LONGEST: usize = 96;
 
 /// A multiset of operands: for a sum ±1 per term, for a product the exponent.
-type Bag<A> = BTreeMap<A, i32>;
+type Bag<A> = SortedMap<A, i32>;
 
 /// Two operands and the sign of the second relative to the first (+1 in products; there both may be one operand).
 type Pair<A> = (A, A, i32);
@@ -23,7 +24,7 @@ pub(super) fn share(graph: &mut Graph, pool: &mut Pool, roots: &[NodeId]) {
     flip_private_negations(graph, pool, roots);
     multiply_scales_in(graph, one, roots);
     let uses = graph.uses(roots);
-    let (mut sums, mut products) = (BTreeMap::new(), BTreeMap::new());
+    let (mut sums, mut products) = (SortedMap::new(), SortedMap::new());
     for (index, uses) in uses.iter().enumerate() {
         match graph.shape(NodeId(index)) {
             _ if *uses == 0 => {}
@@ -192,7 +193,7 @@ struct Census<A> {
 /// The bags that contain a pair.
 #[derive(Default)]
 struct Holders {
-    bags: BTreeSet<NodeId>,
+    bags: SortedSet<NodeId>,
     /// Their number when the pair was last ranked.
     ranked: usize,
     /// Whether it waits to be ranked again.
@@ -215,7 +216,7 @@ impl<A: Ord + Copy> Census<A> {
     /// The pair that most bags contain, if there is one in several, with its bags.
     ///
     /// What taking out a pair changes is the same few pairs in all its bags: they are ranked once, here.
-    fn most_held(&mut self) -> Option<(Pair<A>, BTreeSet<NodeId>)> {
+    fn most_held(&mut self) -> Option<(Pair<A>, SortedSet<NodeId>)> {
         for pair in self.changed.drain(..) {
             let Some(holders) = self.holders.get_mut(&pair) else {
                 continue;
@@ -286,14 +287,14 @@ fn replace<A: Ord + Copy>(
     times: i32,
     operand: A,
 ) {
-    *bag.entry(first).or_default() -= times;
-    *bag.entry(second).or_default() -= times * sign;
-    *bag.entry(operand).or_default() += times;
+    *bag.get_or_default(first) -= times;
+    *bag.get_or_default(second) -= times * sign;
+    *bag.get_or_default(operand) += times;
     bag.retain(|_, count| *count != 0);
 }
 
 fn extract<A: Ord + Copy>(
-    bags: &mut BTreeMap<NodeId, Bag<A>>,
+    bags: &mut SortedMap<NodeId, Bag<A>>,
     graph: &mut Graph,
     whole: &dyn Fn(&Graph, NodeId) -> bool,
     operand: &dyn Fn(NodeId) -> A,
@@ -341,6 +342,6 @@ fn extract<A: Ord + Copy>(
 }
 
 fn replace_into<A: Ord + Copy>(bag: &mut Bag<A>, (first, second, sign): Pair<A>) {
-    *bag.entry(first).or_default() += 1;
-    *bag.entry(second).or_default() += sign;
+    *bag.get_or_default(first) += 1;
+    *bag.get_or_default(second) += sign;
 }

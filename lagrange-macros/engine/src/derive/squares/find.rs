@@ -3,8 +3,8 @@
 use super::ByCoordinate;
 use super::nested::{Terms, terms};
 use crate::derive::forms::Variables;
+use crate::sorted::SortedMap;
 use crate::symbolic::{ExprId, Node, Pool, Rational, Symbol};
-use std::collections::BTreeMap;
 
 /// (c, w) of all squares c w² that an energy is the sum of.
 pub(super) fn squares_in(
@@ -47,10 +47,10 @@ pub(super) fn squares_in(
 pub(super) fn slopes(
     pool: &mut Pool,
     x: &Variables,
-    velocities: &BTreeMap<Symbol, usize>,
+    velocities: &SortedMap<Symbol, usize>,
     w: ExprId,
 ) -> Option<ByCoordinate> {
-    let mut parts: BTreeMap<usize, Terms> = BTreeMap::new();
+    let mut parts: SortedMap<usize, Terms> = SortedMap::new();
     for (term, number) in terms(pool, w) {
         let factors = match pool.node(term) {
             Node::Product(factors) => factors.clone(),
@@ -72,7 +72,7 @@ pub(super) fn slopes(
             }
         }
         let rest = pool.monomial(Rational::ONE, &rest);
-        parts.entry(moving?).or_default().push((rest, number));
+        parts.get_or_default(moving?).push((rest, number));
     }
     let slopes = parts
         .into_iter()

@@ -4,8 +4,8 @@ use super::Squares;
 use super::nested::{Terms, nested, terms};
 use super::set::{Set, common, members};
 use crate::derive::forms::Variables;
+use crate::sorted::SortedMap;
 use crate::symbolic::{ExprId, Node, Pool, Rational};
-use std::collections::BTreeMap;
 
 /// A pair of directions that is used at least so often gets its fixed factor beforehand.
 const WORTHWHILE: usize = 4;
@@ -22,13 +22,13 @@ struct Product {
 }
 
 /// How often a fixed factor meets a direction.
-type Uses = BTreeMap<(ExprId, ExprId), usize>;
+type Uses = SortedMap<(ExprId, ExprId), usize>;
 
 impl Squares {
     /// ((i, j ≤ i), Mᵢⱼ), zeros left out.
-    pub fn mass(&self, pool: &mut Pool, x: &Variables) -> BTreeMap<(usize, usize), ExprId> {
+    pub fn mass(&self, pool: &mut Pool, x: &Variables) -> SortedMap<(usize, usize), ExprId> {
         let (products, uses) = self.products(pool, x);
-        let mut mass = BTreeMap::new();
+        let mut mass = SortedMap::new();
         for ((i, j), list) in products {
             let mut terms = Vec::with_capacity(list.len());
             for product in list {
@@ -52,10 +52,10 @@ impl Squares {
         &self,
         pool: &mut Pool,
         x: &Variables,
-    ) -> (BTreeMap<(usize, usize), Vec<Product>>, Uses) {
+    ) -> (SortedMap<(usize, usize), Vec<Product>>, Uses) {
         let inertias = self.inertias(pool);
-        let mut products: BTreeMap<(usize, usize), Vec<Product>> = BTreeMap::new();
-        let mut parts: BTreeMap<ExprId, (ExprId, ExprId)> = BTreeMap::new();
+        let mut products: SortedMap<(usize, usize), Vec<Product>> = SortedMap::new();
+        let mut parts: SortedMap<ExprId, (ExprId, ExprId)> = SortedMap::new();
         let mut uses = Uses::new();
         for i in 0..self.size {
             if pool.is_full() {
@@ -67,13 +67,13 @@ impl Squares {
                         continue;
                     };
                     let (fixed, varying) =
-                        *parts.entry(other).or_insert_with(|| split(pool, x, other));
+                        *parts.get_or_insert_with(other, || split(pool, x, other));
                     let scaled = pool.mul(inertia, fixed);
                     if i != j {
-                        *uses.entry((scaled, own)).or_default() += 1;
-                        *uses.entry((inertia, own)).or_default() += 1;
+                        *uses.get_or_default((scaled, own)) += 1;
+                        *uses.get_or_default((inertia, own)) += 1;
                     }
-                    products.entry((i, j)).or_default().push(Product {
+                    products.get_or_default((i, j)).push(Product {
                         inertia,
                         scaled,
                         own,
@@ -87,8 +87,8 @@ impl Squares {
     }
 
     /// Σ 2cₛ of all sets of squares in which two directions meet.
-    fn inertias(&self, pool: &mut Pool) -> BTreeMap<Set, ExprId> {
-        let mut lists: BTreeMap<Set, Terms> = BTreeMap::new();
+    fn inertias(&self, pool: &mut Pool) -> SortedMap<Set, ExprId> {
+        let mut lists: SortedMap<Set, Terms> = SortedMap::new();
         for i in 0..self.size {
             for j in 0..=i {
                 for (_, _, set) in self.pairs(i, j) {

@@ -16,11 +16,11 @@ mod nested;
 mod set;
 
 use super::forms::Variables;
+use crate::sorted::SortedMap;
 use crate::symbolic::{ExprId, Pool, Rational, Symbol};
 use find::{slopes, slopes_of_whole, squares_in};
 use nested::{nested, terms};
 use set::{Set, members};
-use std::collections::BTreeMap;
 
 /// (i, expression)
 type ByCoordinate = Vec<(usize, ExprId)>;
@@ -49,7 +49,7 @@ pub(super) struct Squares {
 impl Squares {
     /// None if the energy does not have this form.
     pub fn of(pool: &mut Pool, x: &Variables, kinetic: ExprId) -> Option<Squares> {
-        let velocities: BTreeMap<Symbol, usize> = x
+        let velocities: SortedMap<Symbol, usize> = x
             .velocities
             .iter()
             .enumerate()
@@ -143,23 +143,22 @@ impl Squares {
     ) -> Vec<ExprId> {
         let mut lists = Vec::with_capacity(self.squares.len());
         let mut twists: Vec<Vec<ExprId>> = vec![Vec::new(); self.size];
-        let mut known: BTreeMap<(usize, ExprId), (ExprId, ByCoordinate)> = BTreeMap::new();
+        let mut known: SortedMap<(usize, ExprId), (ExprId, ByCoordinate)> = SortedMap::new();
         for (square, &w) in self.squares.iter().zip(&self.speeds) {
-            let mut twist: BTreeMap<usize, Vec<ExprId>> = BTreeMap::new();
+            let mut twist: SortedMap<usize, Vec<ExprId>> = SortedMap::new();
             let rate = if let Some(whole) = square.whole {
                 for (i, part) in twist_of_whole(pool, x, whole, &square.slopes) {
-                    twist.entry(i).or_default().push(part);
+                    twist.get_or_default(i).push(part);
                 }
                 x.rate(pool, whole)
             } else {
                 let mut rates = Vec::with_capacity(square.slopes.len());
                 for &(j, slope) in &square.slopes {
-                    let (rate, turning) = known
-                        .entry((j, slope))
-                        .or_insert_with(|| rate_and_twist(pool, x, j, slope));
+                    let (rate, turning) =
+                        known.get_or_insert_with((j, slope), || rate_and_twist(pool, x, j, slope));
                     rates.push((*rate, Rational::ONE));
                     for &(i, part) in turning.iter() {
-                        twist.entry(i).or_default().push(part);
+                        twist.get_or_default(i).push(part);
                     }
                 }
                 pool.linear(Rational::ZERO, rates)
@@ -235,7 +234,7 @@ fn rate_and_twist(
     slope: ExprId,
 ) -> (ExprId, ByCoordinate) {
     let rate = x.rate(pool, slope);
-    let mut twist = BTreeMap::from([(j, rate)]);
+    let mut twist = SortedMap::from([(j, rate)]);
     for i in x.positions_in(pool, slope) {
         let turned = pool.differentiate(slope, x.positions[i]);
         let turned = pool.mul(turned, x.rates[j]);

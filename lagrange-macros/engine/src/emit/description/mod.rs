@@ -8,10 +8,10 @@ use crate::ast::{Domain, Impacts};
 use crate::derive::{Equations, NeedId, OutputId};
 use crate::model::{EnergyTerm, System, Watch};
 use crate::plan::Program;
+use crate::sorted::SortedSet;
 use crate::symbolic::Symbol;
 use proc_macro2::TokenStream;
 use quote::quote;
-use std::collections::BTreeSet;
 
 /// `Description { … }`
 pub fn description(program: &Program) -> TokenStream {
@@ -200,7 +200,7 @@ impl Writer<'_> {
             ..
         } = &self.program.equations;
         let terms = outputs.into_iter().flat_map(|output| &all[output.0].terms);
-        let symbols: BTreeSet<Symbol> = terms.flat_map(|(_, e)| system.pool.symbols(*e)).collect();
+        let symbols: SortedSet<Symbol> = terms.flat_map(|(_, e)| system.pool.symbols(*e)).collect();
         let parameters = system.parameters.iter().enumerate();
         let contained = parameters
             .filter(|(_, parameter)| symbols.contains(&parameter.symbol))

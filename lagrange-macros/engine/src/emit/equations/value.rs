@@ -6,12 +6,12 @@ use super::writer::Writer;
 use crate::plan::mode::products::{Plan, force_row, zero_row};
 use crate::plan::mode::{ModeProgram, Phase};
 use crate::plan::{Block, Mode, Program, Value, ValueRef};
+use crate::sorted::{SortedMap, SortedSet};
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
-use std::collections::{BTreeMap, BTreeSet};
 
 /// Outputs that several writes enter.
-pub fn sums(mode: &ModeProgram) -> BTreeSet<usize> {
+pub fn sums(mode: &ModeProgram) -> SortedSet<usize> {
     let writes = mode.tape.blocks.iter().flat_map(|block| &block.writes);
     writes
         .filter(|write| write.mode != Mode::Set)
@@ -124,7 +124,7 @@ pub fn function(
 }
 
 /// What guards read beside the state and the forces, and in which row of a series it stands.
-fn kept(mode: &ModeProgram, plan: &Plan) -> BTreeMap<ValueRef, usize> {
+fn kept(mode: &ModeProgram, plan: &Plan) -> SortedMap<ValueRef, usize> {
     let extras = mode.extras.iter();
     extras
         .filter_map(|extra| Some((extra.place, plan.extra_row(mode, extra)?)))

@@ -4,9 +4,10 @@ use super::super::names::{self, Locals, index, local, plain};
 use crate::model::System;
 use crate::plan::mode::ModeProgram;
 use crate::plan::{Block, Coefficient, Mode, Operation, Step, Value, ValueRef};
+use crate::sorted::{SortedMap, SortedSet};
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 /// Writes values.
 pub struct Writer<'a> {
@@ -17,7 +18,7 @@ pub struct Writer<'a> {
     /// Declared before all blocks, since code outside their own block reads them.
     pub declared: BTreeSet<Value>,
     /// Outputs that several writes enter.
-    pub sums: BTreeSet<usize>,
+    pub sums: SortedSet<usize>,
 }
 
 /// The type parameter of emitted functions: not that of the struct.
@@ -34,7 +35,8 @@ fn locals(system: &System, mode: &ModeProgram) -> Locals {
         coordinates.map(move |coordinate| format!("{kind}_{}", coordinate.name.text))
     };
     let writes = mode.tape.blocks.iter().flat_map(|block| &block.writes);
-    let written: BTreeMap<usize, Value> = writes.map(|write| (write.output, write.value)).collect();
+    let written: SortedMap<usize, Value> =
+        writes.map(|write| (write.output, write.value)).collect();
     let unknowns = (0..mode.inputs.unknowns).map(|i| {
         let is_found = |place: &ValueRef| match place {
             ValueRef::Node(output) => written.get(output) == Some(&mode.inputs.unknown(i)),

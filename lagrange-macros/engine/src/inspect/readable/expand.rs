@@ -2,8 +2,8 @@
 
 use super::{Factors, Reader};
 use crate::inspect::names::Kind;
+use crate::sorted::SortedMap;
 use crate::symbolic::{ExprId, Node, Rational};
-use std::collections::BTreeMap;
 
 /// Sums that would have more terms are not multiplied out.
 const MOST_EXPANDED: usize = 48;
@@ -118,14 +118,14 @@ impl Reader<'_> {
         let Node::Sum { constant, terms } = self.pool.node(flat).clone() else {
             return flat;
         };
-        let mut groups: BTreeMap<Factors, Vec<(ExprId, Rational)>> = BTreeMap::new();
+        let mut groups: SortedMap<Factors, Vec<(ExprId, Rational)>> = SortedMap::new();
         for (term, c) in terms {
             let (moving, still): (Factors, Factors) = self
                 .factors(term)
                 .into_iter()
                 .partition(|&(base, _)| !self.is_below(base, kind));
             let still = self.pool.monomial(Rational::ONE, &still);
-            groups.entry(moving).or_default().push((still, c));
+            groups.get_or_default(moving).push((still, c));
         }
         let mut terms = Vec::new();
         for (moving, group) in groups {

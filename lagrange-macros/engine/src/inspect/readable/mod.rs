@@ -11,10 +11,10 @@ mod order;
 
 use super::formula::{Formula, Relation, Statement};
 use super::names::{Kind, Names};
+use crate::sorted::SortedMap;
 use crate::symbolic::{ExprId, Function, Node, Pool, Rational};
 use order::Contents;
 use std::cell::RefCell;
-use std::collections::BTreeMap;
 
 /// A formula with no more to read than this is written whole.
 const WHOLE: usize = 900;
@@ -30,8 +30,8 @@ pub struct Reader<'a> {
     names: &'a Names,
     /// Guards of the branches.
     guards: Vec<ExprId>,
-    known: BTreeMap<ExprId, Formula>,
-    seen: RefCell<BTreeMap<ExprId, Contents>>,
+    known: SortedMap<ExprId, Formula>,
+    seen: RefCell<SortedMap<ExprId, Contents>>,
 }
 
 impl<'a> Reader<'a> {
@@ -41,7 +41,7 @@ impl<'a> Reader<'a> {
             pool,
             names,
             guards,
-            known: BTreeMap::new(),
+            known: SortedMap::new(),
             seen: RefCell::default(),
         }
     }

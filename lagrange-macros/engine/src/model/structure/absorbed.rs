@@ -5,8 +5,8 @@
 
 use crate::model::elaborate::Elaboration;
 use crate::model::{Coordinate, Hint, Level};
+use crate::sorted::{SortedMap, SortedSet};
 use crate::symbolic::{ExprId, Symbol};
-use std::collections::{BTreeMap, BTreeSet};
 
 impl Elaboration<'_> {
     /// Remarks on coordinates that only constraints and gaps contain.
@@ -39,10 +39,10 @@ impl Elaboration<'_> {
             .chain(slips)
             .chain(velocity.map(|constraint| constraint.residual))
             .collect();
-        let mut used: BTreeSet<Symbol> = acting.iter().flat_map(|&e| pool.symbols(e)).collect();
+        let mut used: SortedSet<Symbol> = acting.iter().flat_map(|&e| pool.symbols(e)).collect();
         let driven = system.forces.iter().flat_map(|force| &force.generalized);
         used.extend(driven.map(|(coordinate, _)| system.coordinates[*coordinate].position));
-        let coordinates: BTreeMap<Symbol, &Coordinate> = system
+        let coordinates: SortedMap<Symbol, &Coordinate> = system
             .coordinates
             .iter()
             .map(|coordinate| (coordinate.position, coordinate))

@@ -9,8 +9,8 @@ use super::{Pfaffian, STATES, ZERO, gradient, is_plain, slopes};
 use crate::diagnostics::Code;
 use crate::model::elaborate::Elaboration;
 use crate::model::{Hint, Level};
+use crate::sorted::SortedMap;
 use crate::symbolic::ExprId;
-use std::collections::BTreeMap;
 
 /// Elimination of larger systems of constraints would take longer than the derivation.
 const MOST_OPERATIONS: usize = 3_000_000;
@@ -136,10 +136,10 @@ impl Elaboration<'_> {
 
     /// Reports gaps that are declared twice, and slips whose two components are one.
     pub(super) fn same_twice(&mut self) {
-        let mut gaps: BTreeMap<ExprId, usize> = BTreeMap::new();
+        let mut gaps: SortedMap<ExprId, usize> = SortedMap::new();
         let everywhere = self.system.contacts.iter().enumerate();
         for (i, contact) in everywhere.filter(|(_, contact)| contact.region.is_none()) {
-            let first = *gaps.entry(contact.gap).or_insert(i);
+            let first = *gaps.get_or_insert(contact.gap, i);
             if first != i {
                 let first = format!("`{}`", self.system.contacts[first].name.text);
                 let (text, at) = (&contact.name.text, contact.name.span);

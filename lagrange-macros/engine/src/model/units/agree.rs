@@ -8,8 +8,8 @@ use super::remedy::is_number;
 use super::shape::{Role, Shape};
 use crate::ast::{Comparison, Expr};
 use crate::diagnostics::Code;
+use crate::sorted::SortedMap;
 use crate::symbolic::Rational;
-use std::collections::BTreeMap;
 
 impl Checker<'_, '_> {
     /// Whether the unit found for an expression is the wanted one; if not, says so.
@@ -94,9 +94,9 @@ impl Checker<'_, '_> {
         if let Some(expected) = expected.filter(|_| known.contains(&expected)) {
             return expected.into();
         }
-        let mut votes: BTreeMap<Dimension, usize> = BTreeMap::new();
+        let mut votes: SortedMap<Dimension, usize> = SortedMap::new();
         for dimension in known.iter().flatten() {
-            *votes.entry(*dimension).or_default() += 1;
+            *votes.get_or_default(*dimension) += 1;
         }
         let most = votes.values().max();
         let winner = (known.iter().flatten()).find(|dimension| votes.get(dimension) == most);

@@ -18,23 +18,23 @@ use crate::diagnostics::Diagnostics;
 use crate::model::Level;
 use crate::model::elaborate::Elaboration;
 use crate::model::names::{Kind, Meaning};
+use crate::sorted::SortedMap;
 use crate::symbolic::Rational;
-use std::collections::BTreeMap;
 
 /// Units of the forces of items, by their place in the system's lists.
 #[derive(Default)]
 pub(super) struct Forces {
     /// Of a multiplier.
-    pub constraints: BTreeMap<usize, Quantity>,
+    pub constraints: SortedMap<usize, Quantity>,
     /// Of a multiplier.
-    pub contacts: BTreeMap<usize, Quantity>,
+    pub contacts: SortedMap<usize, Quantity>,
     /// Of the normal force, if it is not the multiplier.
-    pub normals: BTreeMap<usize, Quantity>,
+    pub normals: SortedMap<usize, Quantity>,
     /// Per component.
-    pub frictions: BTreeMap<usize, Vec<Quantity>>,
-    pub forces: BTreeMap<usize, Quantity>,
+    pub frictions: SortedMap<usize, Vec<Quantity>>,
+    pub forces: SortedMap<usize, Quantity>,
     /// R
-    pub dissipations: BTreeMap<usize, Quantity>,
+    pub dissipations: SortedMap<usize, Quantity>,
 }
 
 impl Forces {
@@ -65,16 +65,16 @@ pub(super) struct Checker<'a, 'b> {
     pub sink: Diagnostics,
     pub unknowns: Unknowns,
     /// Of fields, coordinates and definitions; `None` after a mistake.
-    pub names: BTreeMap<String, Option<Shape>>,
+    pub names: SortedMap<String, Option<Shape>>,
     /// Of fields and coordinates without a unit.
-    pub inferred: BTreeMap<String, Quantity>,
+    pub inferred: SortedMap<String, Quantity>,
     /// E
     pub energy: Quantity,
     pub forces: Forces,
     /// Of gaps, by contact.
-    pub gaps: BTreeMap<usize, Quantity>,
+    pub gaps: SortedMap<usize, Quantity>,
     /// Of slips, by friction.
-    pub slips: BTreeMap<usize, Shape>,
+    pub slips: SortedMap<usize, Shape>,
 }
 
 impl Checker<'_, '_> {

@@ -29,13 +29,13 @@ use super::elaborate::Elaboration;
 use super::{Hint, Units};
 use crate::ast::{self, Declaration, ItemKind, Name};
 use crate::diagnostics::{Code, Diagnostics};
+use crate::sorted::SortedMap;
 use crate::symbolic::{ExprId, Node};
 use check::{Checker, Forces};
 use dimension::Dimension;
 use grammar::{Refusal, Unit};
 use quantity::{Quantity, Unknowns};
 use shape::Shape;
-use std::collections::BTreeMap;
 
 /// A name with its number of elements and its unit.
 struct Given<'a> {
@@ -48,7 +48,7 @@ struct Given<'a> {
 fn texts<'a>(
     given: &[Given<'a>],
     text: impl Fn(&Given) -> Option<String>,
-) -> BTreeMap<&'a str, String> {
+) -> SortedMap<&'a str, String> {
     let named = |one: &Given<'a>| Some((one.name.text.as_str(), text(one)?));
     given.iter().filter_map(named).collect()
 }
@@ -142,7 +142,7 @@ impl Elaboration<'_> {
     }
 
     /// The units of fields and coordinates become these texts, by name.
-    fn write(&mut self, texts: &BTreeMap<&str, String>) {
+    fn write(&mut self, texts: &SortedMap<&str, String>) {
         let system = &mut self.system;
         for parameter in &mut system.parameters {
             if let Some(text) = texts.get(super::names::plain(&parameter.field).as_str()) {
@@ -167,7 +167,7 @@ impl Elaboration<'_> {
         per_mass: bool,
     ) -> Diagnostics {
         let mut unknowns = Unknowns::default();
-        let (mut names, mut inferred) = (BTreeMap::new(), BTreeMap::new());
+        let (mut names, mut inferred) = (SortedMap::new(), SortedMap::new());
         for one in given {
             let quantity: Quantity = match &one.unit {
                 Some(unit) => unit.dimension.into(),
@@ -196,8 +196,8 @@ impl Elaboration<'_> {
             inferred,
             energy,
             forces: Forces::default(),
-            gaps: BTreeMap::new(),
-            slips: BTreeMap::new(),
+            gaps: SortedMap::new(),
+            slips: SortedMap::new(),
         };
         checker.items(declaration);
         let Checker {
@@ -226,7 +226,7 @@ impl Elaboration<'_> {
     fn outputs(
         &mut self,
         unknowns: &Unknowns,
-        names: &BTreeMap<String, Option<Shape>>,
+        names: &SortedMap<String, Option<Shape>>,
         energy: &Quantity,
         forces: &Forces,
     ) -> Units {
@@ -236,7 +236,7 @@ impl Elaboration<'_> {
             dimension.map(Dimension::as_force).unwrap_or_default()
         };
         let system = &self.system;
-        let all = |found: &BTreeMap<usize, Quantity>, count: usize| -> Vec<String> {
+        let all = |found: &SortedMap<usize, Quantity>, count: usize| -> Vec<String> {
             (0..count).map(|k| force(found.get(&k))).collect()
         };
         let frictions = (0..system.frictions.len()).map(|k| {

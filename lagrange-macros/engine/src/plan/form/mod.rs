@@ -7,8 +7,9 @@
 mod sums;
 
 use super::graph::{Form, Graph, NodeId, Shape, Term, Unary};
+use crate::sorted::SortedMap;
 use crate::symbolic::{ExprId, Function, Node, Pool, Rational, Symbol};
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 
 /// What counts as fixed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -22,7 +23,7 @@ pub(super) enum Fixed {
 /// Turns expressions into forms.
 pub(super) struct Former<'a> {
     pool: &'a mut Pool,
-    inputs: &'a BTreeMap<Symbol, usize>,
+    inputs: &'a SortedMap<Symbol, usize>,
     fixed: Fixed,
     /// Guards of the branches, where no branch is held (in starts).
     guards: Option<&'a [ExprId]>,
@@ -35,7 +36,7 @@ impl<'a> Former<'a> {
     /// With the inputs by symbol.
     pub fn new(
         pool: &'a mut Pool,
-        inputs: &'a BTreeMap<Symbol, usize>,
+        inputs: &'a SortedMap<Symbol, usize>,
         fixed: Fixed,
         guards: Option<&'a [ExprId]>,
     ) -> Former<'a> {
@@ -213,7 +214,7 @@ impl<'a> Former<'a> {
 
     fn product(&mut self, factors: &[(ExprId, Rational)]) -> Form {
         let mut scales = Vec::new();
-        let mut powers: BTreeMap<NodeId, i32> = BTreeMap::new();
+        let mut powers: SortedMap<NodeId, i32> = SortedMap::new();
         for &(base, exponent) in factors {
             if !self.varies(base) && (self.fixed == Fixed::Parameters || exponent.is_integer()) {
                 scales.push(self.power(base, exponent));
@@ -224,7 +225,7 @@ impl<'a> Former<'a> {
             if !half && !exponent.is_integer() {
                 let base = self.node(form);
                 let power = self.graph.node(Shape::Powf(base, exponent));
-                *powers.entry(power).or_default() += 1;
+                *powers.get_or_default(power) += 1;
                 continue;
             }
             // x^(k/2) is x^trunc(k/2) · √x^±1; the integer part alone may take the scale apart.
@@ -232,7 +233,7 @@ impl<'a> Former<'a> {
             let form = if half {
                 let base = self.node(form);
                 let root = self.graph.node(Shape::Unary(Unary::Sqrt, base));
-                *powers.entry(root).or_default() += exponent.numerator().signum() as i32;
+                *powers.get_or_default(root) += exponent.numerator().signum() as i32;
                 Form {
                     scale: self.pool.integer(1),
                     node: Some(base),
@@ -254,7 +255,7 @@ impl<'a> Former<'a> {
     /// Multiplies nodeᵏ into the powers; a product enters factor by factor.
     fn multiply(
         &mut self,
-        powers: &mut BTreeMap<NodeId, i32>,
+        powers: &mut SortedMap<NodeId, i32>,
         node: Option<NodeId>,
         exponent: i32,
     ) {
@@ -262,10 +263,10 @@ impl<'a> Former<'a> {
         match self.graph.shape(node) {
             Shape::Product(factors) => {
                 for (factor, k) in factors {
-                    *powers.entry(*factor).or_default() += k * exponent;
+                    *powers.get_or_default(*factor) += k * exponent;
                 }
             }
-            _ => *powers.entry(node).or_default() += exponent,
+            _ => *powers.get_or_default(node) += exponent,
         }
     }
 

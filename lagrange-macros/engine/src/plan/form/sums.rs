@@ -2,18 +2,18 @@
 
 use super::Former;
 use crate::plan::graph::{Form, NodeId, Shape, Term};
+use crate::sorted::SortedMap;
 use crate::symbolic::{ExprId, Node, Rational};
-use std::collections::BTreeMap;
 
 impl Former<'_> {
     pub(super) fn sum(&mut self, constant: Rational, terms: &[(ExprId, Rational)]) -> Form {
         let mut offsets = vec![self.pool.number(constant)];
-        let mut scales: BTreeMap<NodeId, Vec<ExprId>> = BTreeMap::new();
+        let mut scales: SortedMap<NodeId, Vec<ExprId>> = SortedMap::new();
         for &(term, coefficient) in terms {
             let form = self.form(term);
             let scale = self.pool.scale(form.scale, coefficient);
             match form.node {
-                Some(node) => scales.entry(node).or_default().push(scale),
+                Some(node) => scales.get_or_default(node).push(scale),
                 None => offsets.push(scale),
             }
         }
@@ -73,9 +73,9 @@ impl Former<'_> {
     /// Terms with the same magnitude become one sum, scaled once.
     fn grouped(&mut self, offset: Option<ExprId>, terms: Vec<Term>) -> NodeId {
         let one = self.pool.integer(1);
-        let mut groups: BTreeMap<ExprId, Vec<Term>> = BTreeMap::new();
+        let mut groups: SortedMap<ExprId, Vec<Term>> = SortedMap::new();
         for term in terms {
-            groups.entry(term.magnitude).or_default().push(term);
+            groups.get_or_default(term.magnitude).push(term);
         }
         let mut terms = Vec::new();
         for (magnitude, group) in groups {
@@ -106,7 +106,7 @@ impl Former<'_> {
     /// A signed factor of all terms and the offset, such that at least one term is ±1 after division by it, so that
     /// taking it out costs nothing; 1 or −1 if there is none.
     fn common_factor(&mut self, terms: &[(NodeId, ExprId)], offset: ExprId) -> ExprId {
-        let mut parts: Vec<(Rational, BTreeMap<ExprId, Rational>)> = terms
+        let mut parts: Vec<(Rational, SortedMap<ExprId, Rational>)> = terms
             .iter()
             .map(|(_, scale)| self.factors(*scale))
             .collect();
@@ -132,9 +132,9 @@ impl Former<'_> {
             .zip(&parts)
             .filter(|(_, (_, factors))| *factors == common)
             .map(|(n, _)| *n);
-        let mut votes: BTreeMap<Rational, usize> = BTreeMap::new();
+        let mut votes: SortedMap<Rational, usize> = SortedMap::new();
         for number in bare {
-            *votes.entry(number).or_default() += 1;
+            *votes.get_or_default(number) += 1;
         }
         let mut best: Option<(Rational, usize)> = None;
         for (number, count) in votes {
@@ -167,16 +167,16 @@ impl Former<'_> {
     }
 
     /// A fixed expression as number · Π baseᵉ.
-    fn factors(&mut self, e: ExprId) -> (Rational, BTreeMap<ExprId, Rational>) {
+    fn factors(&mut self, e: ExprId) -> (Rational, SortedMap<ExprId, Rational>) {
         let one = Rational::ONE;
         match self.pool.node(e).clone() {
-            Node::Number(number) => (number, BTreeMap::new()),
+            Node::Number(number) => (number, SortedMap::new()),
             Node::Sum { constant, terms } if constant.is_zero() && terms.len() == 1 => {
                 let (_, factors) = self.factors(terms[0].0);
                 (terms[0].1, factors)
             }
             Node::Product(factors) => (one, factors.into_iter().collect()),
-            _ => (one, BTreeMap::from([(e, one)])),
+            _ => (one, SortedMap::from([(e, one)])),
         }
     }
 

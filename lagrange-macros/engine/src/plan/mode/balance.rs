@@ -11,14 +11,14 @@ use super::reduce::Reduced;
 use crate::derive::{Equations, OutputId};
 use crate::model::Normal;
 use crate::modes::{Direction, FrictionState, Mode};
+use crate::sorted::SortedMap;
 use crate::symbolic::{ExprId, Pool, Symbol};
-use std::collections::BTreeMap;
 
 /// The balance of one coordinate.
 #[derive(Clone, Default, Debug)]
 pub(super) struct Balance {
-    pub mass: BTreeMap<usize, Masked>,
-    pub forces: BTreeMap<usize, Masked>,
+    pub mass: SortedMap<usize, Masked>,
+    pub forces: SortedMap<usize, Masked>,
     pub load: Masked,
 }
 
@@ -46,7 +46,7 @@ impl Balance {
             (&mut self.forces, &other.forces),
         ] {
             for (&index, sum) in others {
-                let entry = sums.entry(index).or_default();
+                let entry = sums.get_or_default(index);
                 entry.add_scaled(pool, minus, sum);
                 if entry.is_zero() {
                     sums.remove(&index);
@@ -105,7 +105,7 @@ pub(super) fn balances(
             let pool = &mut equations.system.pool;
             let force = pool.mul(slide.factor, a);
             let sum = match slide.source {
-                Some(source) => list[j].forces.entry(source).or_default(),
+                Some(source) => list[j].forces.get_or_default(source),
                 None => &mut list[j].load,
             };
             sum.add(pool, ALWAYS, force);
@@ -117,15 +117,11 @@ pub(super) fn balances(
         let factor = whole(equations, coupling.factor, known);
         let pool = &mut equations.system.pool;
         if acting.contains(&row) {
-            list[j]
-                .forces
-                .entry(row)
-                .or_default()
-                .add(pool, need, factor);
+            list[j].forces.get_or_default(row).add(pool, need, factor);
         } else if let Some(slide) = slides.iter().find(|slide| slide.row == row) {
             let force = pool.mul(factor, slide.factor);
             let sum = match slide.source {
-                Some(source) => list[j].forces.entry(source).or_default(),
+                Some(source) => list[j].forces.get_or_default(source),
                 None => &mut list[j].load,
             };
             sum.add(pool, need, force);

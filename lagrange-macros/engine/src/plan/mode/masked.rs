@@ -1,15 +1,15 @@
 //! Sums whose terms stand under needs: what a scene leaves out drops its terms at run time.
 
 use crate::derive::{NeedId, Output};
+use crate::sorted::SortedMap;
 use crate::symbolic::{ExprId, Pool, Symbol};
-use std::collections::BTreeMap;
 
 /// The need that is always held.
 pub(super) const ALWAYS: NeedId = NeedId(0);
 
 /// Σ of one expression for each need; none of them is zero.
 #[derive(Clone, Default, PartialEq, Eq, Debug)]
-pub(super) struct Masked(BTreeMap<NeedId, ExprId>);
+pub(super) struct Masked(SortedMap<NeedId, ExprId>);
 
 impl Masked {
     /// One expression that is always there.
@@ -69,7 +69,7 @@ impl Masked {
 
     /// The expression, if nothing of it can be left out.
     pub fn whole(&self, pool: &mut Pool) -> Option<ExprId> {
-        match self.0.first_key_value() {
+        match self.0.iter().next() {
             None => Some(pool.integer(0)),
             Some((&ALWAYS, &e)) if self.0.len() == 1 => Some(e),
             Some(_) => None,

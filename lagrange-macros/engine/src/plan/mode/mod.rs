@@ -26,9 +26,9 @@ use crate::ast::Emit;
 use crate::derive::{Equations, Output, OutputId, Stage};
 use crate::model::System;
 use crate::modes::{self, Mode};
+use crate::sorted::{SortedMap, SortedSet};
 use crate::symbolic::{ExprId, Symbol};
 use masked::Masked;
-use std::collections::{BTreeMap, BTreeSet};
 
 pub use stages::Phase;
 
@@ -196,7 +196,7 @@ fn specialise(
     equations: &mut Equations,
     mode: &Mode,
     signs: &[[Symbol; 2]],
-    fixed: &BTreeMap<Symbol, usize>,
+    fixed: &SortedMap<Symbol, usize>,
     unknowns: &[Symbol],
     form: Form,
 ) -> Option<ModeProgram> {
@@ -367,7 +367,7 @@ fn specialise(
         .map(|force| Some(sheet.add("force", force.as_ref()?)))
         .collect();
     let forced = sheet.list.len();
-    let total: BTreeSet<OutputId> = (0..forced).map(OutputId).collect();
+    let total: SortedSet<OutputId> = (0..forced).map(OutputId).collect();
 
     // Pins, divisors, and what guards, stops and marks read.
     let mut divisors = Vec::new();
@@ -410,7 +410,7 @@ fn specialise(
     };
     let numbered = numbered(&equations.system, &state, &unknowns[..size]);
     let pool = &mut equations.system.pool;
-    let mut constants = Constants::new(BTreeMap::new());
+    let mut constants = Constants::new(SortedMap::new());
     let mut places = vec![ValueRef::Zero; sheet.list.len()];
     let targets = outputs::targets(
         pool,
@@ -452,7 +452,7 @@ fn specialise(
         ValueRef::Node(node) => Some(node),
         ValueRef::Zero | ValueRef::Constant(_) => None,
     };
-    let group = |range: std::ops::Range<usize>| -> BTreeSet<usize> {
+    let group = |range: std::ops::Range<usize>| -> SortedSet<usize> {
         range.filter_map(|i| node(&OutputId(i))).collect()
     };
     let goals = [
@@ -517,7 +517,7 @@ impl Sheet {
 }
 
 /// Numbers of the inputs: t, q, v, w, v̇, λ.
-fn numbered(system: &System, state: &[Symbol], unknowns: &[Symbol]) -> BTreeMap<Symbol, usize> {
+fn numbered(system: &System, state: &[Symbol], unknowns: &[Symbol]) -> SortedMap<Symbol, usize> {
     let accelerations = system.coordinates.iter().map(|c| c.acceleration);
     let constraints = system.constraints.iter().map(|c| c.force);
     let contacts = system.contacts.iter().map(|c| c.force);

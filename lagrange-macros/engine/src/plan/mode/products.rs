@@ -5,7 +5,7 @@
 
 use super::{Extra, ModeProgram, Phase};
 use crate::plan::{Block, Mode, Operation, Step, Value, ValueRef};
-use std::collections::BTreeMap;
+use crate::sorted::SortedMap;
 
 /// A series that the core reads.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -41,17 +41,17 @@ pub struct Plan {
     /// Whether each value of the tape changes with time, and series need it.
     pub varying: Vec<bool>,
     /// Outputs that several writes enter, and whether they change with time.
-    pub sums: BTreeMap<usize, bool>,
+    pub sums: SortedMap<usize, bool>,
     /// The value of each output that one write sets.
-    pub set: BTreeMap<usize, Value>,
-    rows_of: BTreeMap<Row, usize>,
+    pub set: SortedMap<usize, Value>,
+    rows_of: SortedMap<Row, usize>,
     /// Number of rows.
     pub rows: usize,
     products: usize,
     /// Number of groups of four products.
     pub groups: usize,
     /// The first group of a block under needs, by its first value.
-    first_groups: BTreeMap<Value, usize>,
+    first_groups: SortedMap<Value, usize>,
 }
 
 /// Products that are summed side by side.
@@ -74,13 +74,13 @@ impl Plan {
         let varying = mode.varying().into_iter().zip(serves);
         let mut plan = Plan {
             varying: varying.map(|(varies, serves)| varies && serves).collect(),
-            sums: BTreeMap::new(),
-            set: BTreeMap::new(),
-            rows_of: BTreeMap::new(),
+            sums: SortedMap::new(),
+            set: SortedMap::new(),
+            rows_of: SortedMap::new(),
             rows: 0,
             products: 0,
             groups: 0,
-            first_groups: BTreeMap::new(),
+            first_groups: SortedMap::new(),
         };
         for write in mode.tape.blocks.iter().flat_map(|block| &block.writes) {
             let varies = plan.varying[write.value.0];
@@ -91,7 +91,7 @@ impl Plan {
                     .set
                     .get(&write.output)
                     .is_some_and(|v| plan.varying[v.0]);
-                *plan.sums.entry(write.output).or_insert(set) |= varies;
+                *plan.sums.get_or_insert(write.output, set) |= varies;
             }
         }
         let n = mode.inputs.coordinates;
@@ -135,7 +135,7 @@ impl Plan {
 
     fn keep(&mut self, row: Row) {
         let next = self.rows;
-        if *self.rows_of.entry(row).or_insert(next) == next {
+        if *self.rows_of.get_or_insert(row, next) == next {
             self.rows += 1;
         }
     }

@@ -12,8 +12,8 @@
 use super::balance::{Balance, Balances, jacobian, whole};
 use super::masked::Masked;
 use crate::derive::Equations;
+use crate::sorted::SortedMap;
 use crate::symbolic::{ExprId, Pool, Symbol};
-use std::collections::BTreeMap;
 
 /// A number that is divided by, and what it must not be small against.
 #[derive(Clone, Debug)]
@@ -33,13 +33,13 @@ pub(super) struct Solved {
 /// What is left of the equations of a mode.
 pub(super) struct Reduced {
     /// v̇ⱼ = Σ factor · u[coordinate]; nothing for a coordinate that cannot accelerate.
-    pub accelerations: Vec<BTreeMap<usize, ExprId>>,
+    pub accelerations: Vec<SortedMap<usize, ExprId>>,
     /// Coordinates whose accelerations are left, ascending.
     pub free: Vec<usize>,
     /// Balances that are left, as many.
     pub balances: Vec<Balance>,
     /// Rows that stay in the system: (row, coefficients of u, bias).
-    pub kept: Vec<(usize, BTreeMap<usize, ExprId>, ExprId)>,
+    pub kept: Vec<(usize, SortedMap<usize, ExprId>, ExprId)>,
     /// In order of elimination: the balance of one may hold forces of later ones.
     pub solved: Vec<Solved>,
     /// Whether Wᵀ M Z is symmetric.
@@ -65,16 +65,16 @@ fn is_fixed(pool: &Pool, varying: &[Symbol], e: ExprId) -> bool {
 fn along(
     pool: &mut Pool,
     row: &[(usize, ExprId)],
-    accelerations: &[BTreeMap<usize, ExprId>],
-) -> BTreeMap<usize, ExprId> {
-    let mut sums: BTreeMap<usize, Vec<ExprId>> = BTreeMap::new();
+    accelerations: &[SortedMap<usize, ExprId>],
+) -> SortedMap<usize, ExprId> {
+    let mut sums: SortedMap<usize, Vec<ExprId>> = SortedMap::new();
     for &(j, a) in row {
         for (&k, &z) in &accelerations[j] {
             let term = pool.mul(a, z);
-            sums.entry(k).or_default().push(term);
+            sums.get_or_default(k).push(term);
         }
     }
-    let mut combined = BTreeMap::new();
+    let mut combined = SortedMap::new();
     for (k, terms) in sums {
         let sum = pool.sum(&terms);
         let sum = pool.simplify(sum);
@@ -97,8 +97,8 @@ pub(super) fn reduce(
     let n = equations.system.coordinates.len();
     let mut list: Vec<Option<Balance>> = balances.list.iter().cloned().map(Some).collect();
     let one = equations.system.pool.integer(1);
-    let mut accelerations: Vec<BTreeMap<usize, ExprId>> =
-        (0..n).map(|j| BTreeMap::from([(j, one)])).collect();
+    let mut accelerations: Vec<SortedMap<usize, ExprId>> =
+        (0..n).map(|j| SortedMap::from([(j, one)])).collect();
     let mut reduced = Reduced {
         accelerations: Vec::new(),
         free: Vec::new(),
@@ -140,7 +140,7 @@ pub(super) fn reduce(
             .iter()
             .min_by_key(|&(&j, &a)| (rank(pool, a), !cyclic[j], j))?;
         reduced.divide(pool, divisor, along.values().copied());
-        let mut follows = BTreeMap::new();
+        let mut follows = SortedMap::new();
         for (&k, &a) in along.iter().filter(|&(&k, _)| k != pivot) {
             let ratio = pool.div(a, divisor)?;
             let ratio = pool.neg(ratio);
@@ -165,7 +165,7 @@ pub(super) fn reduce(
             }
         }
         // The balance that gives its force.
-        let mut column: BTreeMap<usize, ExprId> = column
+        let mut column: SortedMap<usize, ExprId> = column
             .into_iter()
             .filter_map(|(i, c)| Some((i, pool.simplify(c?))))
             .collect();
@@ -232,12 +232,12 @@ impl Reduced {
     pub fn inertia(
         &self,
         pool: &mut Pool,
-        mass: &BTreeMap<usize, Masked>,
-    ) -> BTreeMap<usize, Masked> {
-        let mut row: BTreeMap<usize, Masked> = BTreeMap::new();
+        mass: &SortedMap<usize, Masked>,
+    ) -> SortedMap<usize, Masked> {
+        let mut row: SortedMap<usize, Masked> = SortedMap::new();
         for (&j, entry) in mass {
             for (&k, &z) in &self.accelerations[j] {
-                row.entry(k).or_default().add_scaled(pool, z, entry);
+                row.get_or_default(k).add_scaled(pool, z, entry);
             }
         }
         row.values_mut().for_each(|sum| *sum = sum.simplified(pool));

@@ -1,7 +1,7 @@
 //! Blocks by phase: each operation runs as late as the first phase that needs it allows.
 
 use crate::plan::tape::{Block, Tape};
-use std::collections::BTreeSet;
+use crate::sorted::SortedSet;
 
 /// When a block runs.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -30,7 +30,7 @@ const PHASES: [Phase; 5] = [
 const LAST: usize = PHASES.len() - 1;
 
 /// Puts the blocks of a tape into phases, of which all but the last have the outputs `goals`; returns the phase of each.
-pub(super) fn arrange(tape: &mut Tape, goals: &[BTreeSet<usize>; LAST]) -> Vec<Phase> {
+pub(super) fn arrange(tape: &mut Tape, goals: &[SortedSet<usize>; LAST]) -> Vec<Phase> {
     let phase_of_output = |output: usize| {
         goals
             .iter()

@@ -9,7 +9,7 @@ use super::*;
 use crate::derive::NeedId;
 use crate::interpret::{Machine, Selection};
 use random::{Dice, NEEDS, random_equations};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Compares all outputs that are asked for; returns how many.
 fn compare(program: &Program, values: &BTreeMap<Symbol, f64>, held: Selection) -> usize {

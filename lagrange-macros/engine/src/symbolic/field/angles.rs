@@ -1,7 +1,7 @@
 //! Arguments of circular functions and exponentials as sums of basis terms: Σ cᵢ tᵢ.
 
 use super::super::{ExprId, Function, Node, Pool, Rational, Symbol};
-use std::collections::{BTreeMap, BTreeSet};
+use crate::sorted::{SortedMap, SortedSet};
 
 /// How the arguments of circular functions and exponentials are made of basis terms.
 #[derive(Clone, Default, Debug)]
@@ -9,11 +9,11 @@ pub struct Angles {
     /// D: every coefficient times D is an integer; None if D does not fit.
     pub(super) denominator: Option<i128>,
     /// Argument → multiplied out.
-    pub(super) arguments: BTreeMap<ExprId, ExprId>,
+    pub(super) arguments: SortedMap<ExprId, ExprId>,
     /// Whether all basis terms are products of free symbols.
     pub(super) independent: bool,
     /// Those that are.
-    pub(super) plain: BTreeSet<ExprId>,
+    pub(super) plain: SortedSet<ExprId>,
 }
 
 impl Angles {
@@ -32,9 +32,9 @@ impl Pool {
     pub fn angles(&mut self, roots: &[ExprId], dependent: &[Symbol]) -> Angles {
         let mut angles = Angles {
             denominator: Some(1),
-            arguments: BTreeMap::new(),
+            arguments: SortedMap::new(),
             independent: true,
-            plain: BTreeSet::new(),
+            plain: SortedSet::new(),
         };
         for e in self.iter_reachable(roots) {
             if let Node::Call(f, arguments) = self.node(e)

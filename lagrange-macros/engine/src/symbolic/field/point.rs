@@ -2,7 +2,7 @@
 
 use super::super::Symbol;
 use super::{Angles, Prime};
-use std::collections::BTreeMap;
+use crate::sorted::SortedMap;
 
 /// Why an expression has no value at a point.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -24,7 +24,7 @@ pub struct Point<'a> {
     pub(super) field: Prime,
     seed: u64,
     pub(super) angles: &'a Angles,
-    bound: BTreeMap<Symbol, u64>,
+    bound: SortedMap<Symbol, u64>,
     /// Branches on their `then` side; the others are on the other.
     pub(super) branches: Vec<usize>,
     pub(super) exact: bool,
@@ -38,7 +38,7 @@ impl<'a> Point<'a> {
             field,
             seed,
             angles,
-            bound: BTreeMap::new(),
+            bound: SortedMap::new(),
             branches: Vec::new(),
             exact: true,
             roots: false,
