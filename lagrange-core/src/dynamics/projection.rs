@@ -361,10 +361,14 @@ impl<T: Scalar> Dynamics<T> {
         let compiled = &self.modes[self.current];
         let constants = &compiled.constants;
         let has_place = |row: &usize| Self::residual_place(&d.rows[*row], level).is_some();
-        // Rows that are held aside follow from the others. But a gap may follow from a friction that sticks, whose row has no position.
+        // As many rows as are held aside follow from the others. But a gap may follow from a friction that sticks, whose row has no position.
         let follow = compiled.acting.iter().all(has_place);
+        let following = compiled
+            .acting
+            .iter()
+            .filter(|&&row| follow && compiled.holds_aside(row));
+        let following = following.count();
         let rows = compiled.acting.iter().copied();
-        let rows = rows.filter(|&row| !(follow && compiled.holds_aside(row)));
         let rows = rows.filter_map(|row| Some((row, Self::residual_place(&d.rows[row], level)?)));
         let size = n + rows.clone().count();
         for without_inertia in [false, true] {
@@ -403,11 +407,13 @@ impl<T: Scalar> Dynamics<T> {
                 self.projection.right[index] = -place.read(constants, &self.nodes);
             }
             self.work.factorizations += 1;
-            if self
-                .projector
-                .factor(Inertia::Symmetric, Columns::Transposed)
-                .is_ok()
-            {
+            let factored = match following {
+                0 => self
+                    .projector
+                    .factor(Inertia::Symmetric, Columns::Transposed),
+                _ => self.projector.factor_dependent(size - n - following),
+            };
+            if factored.is_ok() {
                 self.projection.change.clear();
                 self.projection
                     .change

@@ -72,11 +72,16 @@ impl<T: Scalar> Lu<T> {
 
     /// Factors the row-major `matrix`; stops at the rank. Pivots are found in the whole remaining block.
     pub(crate) fn factor(&mut self, size: usize, matrix: impl Iterator<Item = T>) {
-        self.factor_to(negligible::<T>(), size, matrix);
+        self.factor_to((negligible::<T>(), size), size, matrix);
     }
 
-    /// [`Self::factor`] where pivots up to `least` are dependence.
-    pub(super) fn factor_to(&mut self, least: f64, size: usize, matrix: impl Iterator<Item = T>) {
+    /// [`Self::factor`] where pivots up to `least` are dependence, and those after the first `most` too.
+    pub(super) fn factor_to(
+        &mut self,
+        (least, most): (f64, usize),
+        size: usize,
+        matrix: impl Iterator<Item = T>,
+    ) {
         self.size = size;
         self.factors.clear();
         self.factors.extend(matrix);
@@ -98,7 +103,7 @@ impl<T: Scalar> Lu<T> {
                 }
             }
             // A NaN never wins the comparison; it shows in the solution.
-            if largest <= least {
+            if largest <= least || step == most {
                 self.rank = step;
                 return;
             }

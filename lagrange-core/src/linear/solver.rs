@@ -18,6 +18,10 @@ fn consistent<T: Scalar>() -> f64 {
 /// others where it does not.
 const LITTLE: f64 = 1e-4;
 
+/// A row of which there is less than this beside one that is held aside loses digits that the other one keeps; it is not exchanged for less,
+/// because off the constraints, where a state is to the tolerance, accelerations by one row are not quite those by the other.
+const WEAK: f64 = 0.03;
+
 /// Rows that have been set aside count by this when the others are factored (2⁻⁴⁰), so that none of them is among these,
 const LAST: f64 = NEXT_TO_LAST / 1024.0;
 
@@ -165,6 +169,9 @@ impl<T: Scalar> Solver<T> {
         self.columns = columns;
         if self.holds && self.aside.len() == self.size - self.coordinates {
             self.equilibrate();
+            if self.keeps_weak_rows() {
+                self.choose_rows(0.0, self.aside.len() - self.rows_aside());
+            }
             self.factor_kept();
             if self.lu.rank() == self.size {
                 self.factors = Factors::Held;
@@ -193,7 +200,22 @@ impl<T: Scalar> Solver<T> {
         if self.lu.rank() == self.size {
             return Ok(());
         }
-        self.set_dependent_rows_aside();
+        self.factor_independent(self.aside.len())
+    }
+
+    /// The same where no more than so many rows are independent, although more may seem to be.
+    pub(crate) fn factor_dependent(&mut self, most: usize) -> Result<(), SolveError> {
+        (self.columns, self.holds) = (Columns::Transposed, false);
+        self.factors = Factors::Complete;
+        self.aside.clear();
+        self.aside.resize(self.size - self.coordinates, false);
+        self.equilibrate();
+        self.factor_independent(most)
+    }
+
+    /// Factors the equilibrated matrix with the rows of an independent subset.
+    fn factor_independent(&mut self, most: usize) -> Result<(), SolveError> {
+        self.choose_rows(negligible::<T>().sqrt(), most);
         self.factor_kept();
         match self.lu.undetermined() {
             Some(unknown) => Err(SolveError::Undetermined { unknown }),
@@ -275,7 +297,7 @@ impl<T: Scalar> Solver<T> {
             .iter()
             .map(|&aside| if aside { LAST } else { 1.0 });
         let weights: Vec<f64> = weights.collect();
-        self.factor_rows(NEXT_TO_LAST, &weights);
+        self.factor_rows((NEXT_TO_LAST, rows), &weights);
         let Self {
             lu, shares, scale, ..
         } = self;
@@ -293,21 +315,20 @@ impl<T: Scalar> Solver<T> {
         });
     }
 
-    /// Chooses an independent subset of the rows of A: elimination with complete pivoting. A row that differs from a combination of
-    /// others by δ adds a pivot of δ² to the whole matrix.
+    /// Chooses an independent subset of the rows of A, no more than `most`: elimination with complete pivoting. A row that differs from a
+    /// combination of others by δ adds a pivot of δ² to the whole matrix.
     ///
     /// Of rows from which others were eliminated rounding or a tolerated error may be all that is left: the slip of a second point of a
     /// rod that lies flat turns it by nothing, and must not stand for the contact that does. So with a row of which there is next to nothing
     /// here: a side rod in its dead centre must not stand for the other one.
-    fn set_dependent_rows_aside(&mut self) {
-        let (n, rows) = (self.coordinates, self.size - self.coordinates);
-        let scale = &self.scale[n..];
-        let largest = scale.iter().fold(0.0, |size, x| f64::max(size, 1.0 / x));
-        let sizes = scale.iter().zip(&self.taken);
-        let weights =
-            sizes.map(|(scale, taken)| (1.0 / (scale * taken.max(largest))).clamp(LITTLE, 1.0));
-        let weights: Vec<f64> = weights.collect();
-        self.factor_rows(negligible::<T>().sqrt(), &weights);
+    fn choose_rows(&mut self, least: f64, most: usize) {
+        let rows = self.size - self.coordinates;
+        let weights: Vec<f64> = self
+            .strengths()
+            .map(|strength| strength.clamp(LITTLE, 1.0))
+            .collect();
+        self.factor_rows((least, most), &weights);
+        self.aside.fill(false);
         for i in self.lu.dependent_rows() {
             if i < rows {
                 self.aside[i] = true;
@@ -315,8 +336,29 @@ impl<T: Scalar> Solver<T> {
         }
     }
 
-    /// LU of the scaled rows of A with these weights, up to pivots of this size.
-    fn factor_rows(&mut self, least: f64, weights: &[f64]) {
+    /// What there is of each row, beside the largest one and what other rows have taken from it.
+    fn strengths(&self) -> impl Iterator<Item = f64> {
+        let scale = &self.scale[self.coordinates..];
+        let largest = scale.iter().fold(0.0, |size, x| f64::max(size, 1.0 / x));
+        let sizes = scale.iter().zip(&self.taken);
+        sizes.map(move |(scale, taken)| 1.0 / (scale * taken.max(largest)))
+    }
+
+    /// Whether there is next to nothing of a row that is kept beside one that is held aside: a long step may bring a side rod into its dead
+    /// centre that was not there where the step began.
+    fn keeps_weak_rows(&self) -> bool {
+        let (mut kept, mut aside) = (f64::INFINITY, 0.0_f64);
+        for (strength, out) in self.strengths().zip(&self.aside) {
+            match out {
+                true => aside = aside.max(strength),
+                false => kept = kept.min(strength),
+            }
+        }
+        kept < WEAK * aside
+    }
+
+    /// LU of the scaled rows of A with these weights, up to pivots of this size and so many.
+    fn factor_rows(&mut self, limits: (f64, usize), weights: &[f64]) {
         let (n, size) = (self.coordinates, self.size);
         let rows = size - n;
         // Square with zeros, so that the same factorization serves.
@@ -331,7 +373,7 @@ impl<T: Scalar> Solver<T> {
             }
         };
         self.lu.factor_to(
-            least,
+            limits,
             wide,
             (0..wide)
                 .flat_map(|i| (0..wide).map(move |j| (i, j)))
