@@ -109,7 +109,7 @@ pub fn across<S: ModeSeries<N>, N: Number>(
     products: &mut [Products<N>],
 ) -> Result<(), Refused> {
     let arguments = (c, held, order, state, rows, products);
-    number::across::<Expansion<S>, _>(arguments).unwrap_or_else(|_| Err(Refused::NoRegisters))
+    number::across::<Expansion<S>, _>(arguments).unwrap_or(Err(Refused::NoRegisters))
 }
 
 /// The arguments of a [`SeriesFn`] as one.

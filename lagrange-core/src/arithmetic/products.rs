@@ -105,22 +105,24 @@ macro_rules! one_by_one {
             four
         }
         #[inline(always)]
-        fn product(_: Registers, mut x: Self::Four, y: Self::Four) -> Self::Four {
+        fn product(_: Registers, x: Self::Four, y: Self::Four) -> Self::Four {
+            let mut products = x;
             let mut number = 0;
             while number < GROUP {
-                x[number] = x[number] * y[number];
+                products[number] = x[number] * y[number];
                 number += 1;
             }
-            x
+            products
         }
         #[inline(always)]
-        fn sum(_: Registers, mut x: Self::Four, y: Self::Four) -> Self::Four {
+        fn sum(_: Registers, x: Self::Four, y: Self::Four) -> Self::Four {
+            let mut sums = x;
             let mut number = 0;
             while number < GROUP {
-                x[number] = x[number] + y[number];
+                sums[number] = x[number] + y[number];
                 number += 1;
             }
-            x
+            sums
         }
         #[inline(always)]
         fn add_products(
