@@ -141,3 +141,25 @@ fn no_local_hides_a_declared_name() {
         }
     }
 }
+
+/// Whether a constraint hangs on a vanishing inertia is tested where one may vanish, and nowhere else: with constant inertias a row that
+/// knows one coordinate only, as that of a bob straight below its pivot does, loses nothing.
+#[test]
+fn only_inertias_that_vary_are_tested_for_vanishing() {
+    let tests = |kinetic: TokenStream| {
+        let declaration = quote! {
+            #[lagrange(
+                coordinates(x, y),
+                kinetic = #kinetic,
+                potential = mass * y,
+                constraint(rod: x^2 + y^2 == 1),
+            )]
+            struct Bob { mass: f64 }
+        };
+        let emitted = crate::expand(declaration).to_string();
+        assert!(emitted.contains("is_safe_pivot"));
+        emitted.contains("is_spread")
+    };
+    assert!(!tests(quote!(mass / 2 * (der(x) ^ 2 + der(y) ^ 2))));
+    assert!(tests(quote!(mass / 2 * (der(x) ^ 2 + x ^ 2 * der(y) ^ 2))));
+}
