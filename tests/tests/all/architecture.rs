@@ -6,7 +6,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// From the tokens of a declaration to Rust; the lowest first.
-const ENGINE: [&str; 12] = [
+const ENGINE: [&str; 13] = [
+    "sorted",
     "symbolic",
     "diagnostics",
     "ast",
