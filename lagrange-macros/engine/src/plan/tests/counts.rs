@@ -54,7 +54,7 @@ fn convolutions(n: usize) -> usize {
 #[test]
 fn series_of_chains_have_products_in_proportion_to_their_links() {
     // Of each link: sine and cosine, the square of the rate, sine and cosine times that and times the acceleration, and the two forces
-    // times theirs. Of two links there are no more by the elements of M and f.
+    // times theirs: nine. Two and three links have no more by the elements of M and f.
     assert_eq!([2, 3, 4, 5].map(convolutions), [12, 27, 36, 45]);
 }
 
