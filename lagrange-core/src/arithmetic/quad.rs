@@ -18,15 +18,18 @@ pub(crate) trait Quad: Copy {
     fn product<T: Scalar>(self, x: Self::Four<T>, y: Self::Four<T>) -> Self::Four<T>;
     /// x + y of each.
     fn sum<T: Scalar>(self, x: Self::Four<T>, y: Self::Four<T>) -> Self::Four<T>;
-    /// |x| of each.
-    fn magnitudes(self, x: Self::Four<f64>) -> Self::Four<f64>;
     /// |x| of the first `count`, 0 in the place of the others.
     fn first_magnitudes(self, x: Self::Four<f64>, count: usize) -> Self::Four<f64>;
     /// The larger of x and y of each, y where one of them is not a number.
     fn larger(self, x: Self::Four<f64>, y: Self::Four<f64>) -> Self::Four<f64>;
-
     /// The smaller of x and y of each, y where one of them is not a number.
     fn lesser(self, x: Self::Four<f64>, y: Self::Four<f64>) -> Self::Four<f64>;
+
+    /// |x| of each.
+    #[inline(always)]
+    fn magnitudes(self, x: Self::Four<f64>) -> Self::Four<f64> {
+        self.first_magnitudes(x, 4)
+    }
 
     /// The same number four times.
     #[inline(always)]
@@ -76,10 +79,6 @@ macro_rules! each {
 /// What is done in memory.
 macro_rules! in_memory {
     () => {
-        #[inline(always)]
-        fn magnitudes(self, x: [f64; 4]) -> [f64; 4] {
-            each!(i => x[i].abs())
-        }
         #[inline(always)]
         fn first_magnitudes(self, x: [f64; 4], count: usize) -> [f64; 4] {
             each!(i => if i < count { x[i].abs() } else { 0.0 })
@@ -150,11 +149,6 @@ impl Quad for Registers {
     #[inline(always)]
     fn sum<T: Scalar>(self, x: T::Four, y: T::Four) -> T::Four {
         T::sum(self, x, y)
-    }
-    #[cfg(target_arch = "x86_64")]
-    #[inline(always)]
-    fn magnitudes(self, x: FourDoubles) -> FourDoubles {
-        self.avx._mm256_andnot_pd(self.avx._mm256_set1_pd(-0.0), x)
     }
     #[cfg(target_arch = "x86_64")]
     #[inline(always)]

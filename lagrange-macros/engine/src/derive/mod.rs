@@ -71,7 +71,6 @@ pub struct Equations {
 }
 
 /// The equations of motion as a balance of forces, M v̇ − f = 0; each term with its need.
-#[derive(Clone)]
 pub struct WholeBalance {
     /// (row, column ≤ row) of M, made of what the balance is made of.
     pub mass: SortedMap<(usize, usize), Vec<(NeedId, ExprId)>>,

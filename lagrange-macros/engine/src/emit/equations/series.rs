@@ -330,12 +330,7 @@ impl Expansion<'_> {
                 quote!(#before #value #after #(#kept)*)
             });
             let writes = self.writer.writes(block);
-            let body = quote!(#(#steps)* #writes);
-            if block.needs.is_always() || body.is_empty() {
-                return body;
-            }
-            let condition = names::condition(&block.needs);
-            quote!(if #condition { #body })
+            value::in_block(block, quote!(#(#steps)* #writes))
         });
         quote!(#(#blocks)*)
     }
@@ -592,13 +587,16 @@ impl Expansion<'_> {
                 let mut values = step.value.0..step.value.0 + step.operation.values();
                 values.any(|value| follows[value] && multiplied[value])
             });
-        let lines = steps.map(|step| {
-            let line = self.coefficient(step, true);
-            let kept = (0..step.operation.values())
-                .map(|offset| self.keep_next(Value(step.value.0 + offset)));
-            quote!(#line #(#kept)*)
-        });
+        let lines = steps.map(|step| self.kept_coefficient(step, true));
         quote!(#(#lines)*)
+    }
+
+    /// Coefficient k of a step, and into its rows. That of the unknowns is not there yet where it is not `known`.
+    fn kept_coefficient(&self, step: &Step, known: bool) -> TokenStream {
+        let line = self.coefficient(step, known);
+        let kept =
+            (0..step.operation.values()).map(|offset| self.keep_next(Value(step.value.0 + offset)));
+        quote!(#line #(#kept)*)
     }
 
     /// Unknowns that stand in other operations of the balance than products of series.
@@ -712,19 +710,12 @@ impl Expansion<'_> {
             let sums = conditional.then(|| self.sums(first, &products));
             let factors = conditional.then(|| self.keep_factors(first, &products));
             let known = phase != Phase::Balance;
-            let steps = block.steps.iter().map(|step| {
-                let line = self.coefficient(step, known);
-                let kept = (0..step.operation.values())
-                    .map(|offset| self.keep_next(Value(step.value.0 + offset)));
-                quote!(#line #(#kept)*)
-            });
+            let steps = block
+                .steps
+                .iter()
+                .map(|step| self.kept_coefficient(step, known));
             let writes = self.next_writes(block);
-            let body = quote!(#sums #(#steps)* #factors #writes);
-            if !conditional || body.is_empty() {
-                return body;
-            }
-            let condition = names::condition(&block.needs);
-            quote!(if #condition { #body })
+            value::in_block(block, quote!(#sums #(#steps)* #factors #writes))
         });
         quote!(#(#blocks)*)
     }

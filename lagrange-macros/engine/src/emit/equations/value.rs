@@ -144,7 +144,7 @@ fn blocks(writer: &Writer, phase: Phase, then: impl Fn(&Block) -> TokenStream) -
 }
 
 /// What is done under the needs of a block.
-fn in_block(block: &Block, body: TokenStream) -> TokenStream {
+pub fn in_block(block: &Block, body: TokenStream) -> TokenStream {
     if block.needs.is_always() || body.is_empty() {
         return body;
     }

@@ -612,39 +612,43 @@ impl ModeProgram {
     fn needed(&self, output: impl Fn(usize) -> bool) -> Vec<bool> {
         let mut needed = vec![false; self.tape.values];
         needed[..self.tape.inputs].fill(true);
-        let blocks = &self.tape.blocks;
-        for write in blocks.iter().flat_map(|block| &block.writes) {
+        for write in self.tape.blocks.iter().flat_map(|block| &block.writes) {
             needed[write.value.0] |= output(write.output);
         }
-        for step in blocks
-            .iter()
-            .rev()
-            .flat_map(|block| block.steps.iter().rev())
-        {
-            let values = step.value.0..step.value.0 + step.operation.values();
-            if values.clone().any(|value| needed[value]) {
-                values.for_each(|value| needed[value] = true);
+        self.with_operands(needed)
+    }
+
+    /// These values of the tape and all that they are made of. A value of several is among them if one of them is.
+    pub fn with_operands(&self, mut values: Vec<bool>) -> Vec<bool> {
+        let blocks = self.tape.blocks.iter().rev();
+        for step in blocks.flat_map(|block| block.steps.iter().rev()) {
+            let own = step.value.0..step.value.0 + step.operation.values();
+            if values[own.clone()].contains(&true) {
+                values[own].fill(true);
                 for operand in step.operation.operands() {
-                    needed[operand.0] = true;
+                    values[operand.0] = true;
                 }
             }
         }
-        needed
+        values
+    }
+
+    /// These inputs of the tape and all that is made of one of them.
+    fn with_results(&self, mut values: Vec<bool>) -> Vec<bool> {
+        for step in self.tape.blocks.iter().flat_map(|block| &block.steps) {
+            let any = step.operation.operands().iter().any(|x| values[x.0]);
+            values[step.value.0..step.value.0 + step.operation.values()].fill(any);
+        }
+        values
     }
 
     /// Whether each value of the tape depends on the unknowns of the linear system.
     pub fn follows_unknowns(&self) -> Vec<bool> {
-        let mut follows = vec![false; self.tape.values];
+        let mut unknowns = vec![false; self.tape.values];
         for i in 0..self.inputs.unknowns {
-            follows[self.inputs.unknown(i).0] = true;
+            unknowns[self.inputs.unknown(i).0] = true;
         }
-        for step in self.tape.blocks.iter().flat_map(|block| &block.steps) {
-            let any = step.operation.operands().iter().any(|x| follows[x.0]);
-            for offset in 0..step.operation.values() {
-                follows[step.value.0 + offset] = any;
-            }
-        }
-        follows
+        self.with_results(unknowns)
     }
 
     /// Whether each value of the tape changes with time.
@@ -661,12 +665,6 @@ impl ModeProgram {
         for (r, place) in self.forces.iter().enumerate() {
             varies[self.inputs.force(r).0] = matches!(place, Some(ValueRef::Node(_)));
         }
-        for step in self.tape.blocks.iter().flat_map(|block| &block.steps) {
-            let any = step.operation.operands().iter().any(|x| varies[x.0]);
-            for offset in 0..step.operation.values() {
-                varies[step.value.0 + offset] = any;
-            }
-        }
-        varies
+        self.with_results(varies)
     }
 }

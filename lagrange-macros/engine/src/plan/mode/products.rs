@@ -189,29 +189,18 @@ impl Plan {
                 multiplied[value.0] = true;
             }
         }
-        let later = mode.phases.iter().map(|phase| *phase > Phase::Balance);
-        for (block, later) in mode.tape.blocks.iter().zip(later).rev() {
-            if later {
-                let written = block.writes.iter().map(|write| write.value);
-                let read = block
-                    .steps
-                    .iter()
-                    .flat_map(|step| step.operation.operands());
-                written
-                    .chain(read)
-                    .for_each(|value| multiplied[value.0] = true);
-                continue;
-            }
-            for step in block.steps.iter().rev() {
-                let mut values = step.value.0..step.value.0 + step.operation.values();
-                if values.any(|value| multiplied[value]) {
-                    for operand in step.operation.operands() {
-                        multiplied[operand.0] = true;
-                    }
-                }
-            }
+        let blocks = mode.tape.blocks.iter().zip(&mode.phases);
+        for (block, _) in blocks.filter(|(_, phase)| **phase > Phase::Balance) {
+            let written = block.writes.iter().map(|write| write.value);
+            let read = block
+                .steps
+                .iter()
+                .flat_map(|step| step.operation.operands());
+            written
+                .chain(read)
+                .for_each(|value| multiplied[value.0] = true);
         }
-        multiplied
+        mode.with_operands(multiplied)
     }
 
     /// The numbers that do not change and are kept.
