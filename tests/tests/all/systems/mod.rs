@@ -47,6 +47,7 @@ mod pendulum;
 mod permuted;
 mod piecewise;
 mod plate;
+mod powers;
 mod pressed;
 mod pulses;
 mod quaternion;

@@ -122,6 +122,16 @@ impl Expansion<'_> {
         local(&format!("{what}{}", self.writer.locals.stem(value)))
     }
 
+    /// Coefficient k − 1 of a velocity, at hand: what is read back from memory is waited for.
+    fn before(&self, velocity: Value) -> Ident {
+        self.of("before_", velocity)
+    }
+
+    /// Coefficient k of it.
+    fn now(&self, velocity: Value) -> Ident {
+        self.of("now_", velocity)
+    }
+
     /// Coefficient k of a value.
     fn coefficient_of(&self, value: Value) -> Ident {
         self.of("d", value)
@@ -274,7 +284,12 @@ impl Expansion<'_> {
         for (j, place) in mode.accelerations.iter().enumerate() {
             if *place != ValueRef::Zero {
                 let value = writer.place(*place);
-                code.extend(self.store(Row::Value(mode.inputs.velocity(j)), quote!(1), value));
+                let velocity = mode.inputs.velocity(j);
+                code.extend(self.store(Row::Value(velocity), quote!(1), value.clone()));
+                if self.d_of_place(*place).is_some() {
+                    let (before, now, at) = (self.before(velocity), self.now(velocity), index(j));
+                    code.extend(quote!(let (mut #before, mut #now) = (#v[#at], #value);));
+                }
             }
         }
         code.extend(self.first_of(Phase::Forces));
@@ -312,8 +327,9 @@ impl Expansion<'_> {
                 let (u, i) = (self.auxiliary(step.value), self.inverse(step.value));
                 let second =
                     needs_auxiliary(step.operation).then(|| quote!(let mut #u = #number::of(0.0);));
-                let inverse =
-                    needs_inverse(step.operation).then(|| quote!(let mut #i = #number::of(0.0);));
+                let inverse = (needs_inverse(step.operation)
+                    || self.plan.power(step.value).is_some())
+                .then(|| quote!(let mut #i = #number::of(0.0);));
                 quote!(#second #inverse)
             });
         quote!(#(#lines)*)
@@ -364,6 +380,14 @@ impl Expansion<'_> {
             }
         };
         let none = TokenStream::new();
+        if let Some(power) = self.plan.power(z) {
+            let x = n(power.base);
+            let check = match power.positive {
+                true => refuse(quote!(!#x.all_positive())),
+                false => refuse(quote!(#x.any_zero())),
+            };
+            return (check, set(self.inverse(z), quote!(#number::of(1.0) / #x)));
+        }
         match step.operation {
             Operation::Div(_, y) | Operation::Ratio(_, y) => {
                 let name = n(y);
@@ -381,7 +405,7 @@ impl Expansion<'_> {
                     set(self.inverse(z), quote!(#number::of(0.5) / #root)),
                 )
             }
-            Operation::Powf(x, _) | Operation::Ln(x) => {
+            Operation::Ln(x) => {
                 let x = n(x);
                 let check = refuse(quote!(!#x.all_positive()));
                 (check, set(self.inverse(z), quote!(#number::of(1.0) / #x)))
@@ -483,11 +507,20 @@ impl Expansion<'_> {
                 continue;
             }
             let (dq, dv) = (self.coefficient_of(q), self.coefficient_of(v));
-            let velocity = self.row(Row::Value(v));
-            body.extend(quote!(let #dq = #velocity[(#k - 1) & 31] * #share;));
+            let (before, now) = match self.d_of_place(mode.accelerations[j]) {
+                Some(_) => {
+                    let (before, now) = (self.before(v), self.now(v));
+                    (quote!(#before), quote!(#now))
+                }
+                None => {
+                    let velocity = self.row(Row::Value(v));
+                    (quote!(#velocity[(#k - 1) & 31]), quote!(#velocity[#p]))
+                }
+            };
+            body.extend(quote!(let #dq = #before * #share;));
             body.extend(self.store(Row::Value(q), quote!(#p), quote!(#dq)));
             if read.contains(&v) {
-                body.extend(quote!(let #dv = #velocity[#p];));
+                body.extend(quote!(let #dv = #now;));
             }
         }
         body.extend(self.next_of(Phase::Assembly));
@@ -538,10 +571,11 @@ impl Expansion<'_> {
         body.extend(self.next_of(Phase::Accelerations));
         for (j, place) in mode.accelerations.iter().enumerate() {
             if let Some(d) = self.d_of_place(*place) {
-                let velocity = self.row(Row::Value(mode.inputs.velocity(j)));
-                body.extend(quote! {
-                    #velocity[(#k + 1) & 31] = #d * #number::of(INVERSES[(#k + 1) & 31]);
-                });
+                let velocity = mode.inputs.velocity(j);
+                let (before, now) = (self.before(velocity), self.now(velocity));
+                let next = quote!(#d * #number::of(INVERSES[(#k + 1) & 31]));
+                body.extend(quote!((#before, #now) = (#now, #next);));
+                body.extend(self.store(Row::Value(velocity), quote!((#k + 1) & 31), quote!(#now)));
             }
         }
         body.extend(self.next_of(Phase::Forces));
@@ -767,6 +801,16 @@ impl Expansion<'_> {
             }
         };
         let twice = |x: TokenStream| quote!((#x + #x));
+        // What depends on coefficient k of an operand enters last, in one operation: each order waits for it.
+        if let Some(power) = self.plan.power(z) {
+            let (z0, dx, one, two) = (n(z), d(power.base), s(0), s(1));
+            let e = names::float(power.exponent);
+            let slope = quote!((#number::of(#e) * #z0 * #i));
+            return bind(
+                z,
+                quote!(#slope.fused(#dx, (#number::of(#e) * #two - #one) * (#share * #i))),
+            );
+        }
         let result = match step.operation {
             Operation::Add(x, y) => match (d(x), d(y)) {
                 (Some(x), Some(y)) => quote!(#x + #y),
@@ -818,26 +862,24 @@ impl Expansion<'_> {
             Operation::Div(x, y) => {
                 let z0 = n(z);
                 match (d(x), d(y)) {
-                    (dx, Some(dy)) => {
+                    (Some(dx), Some(dy)) => {
                         let s = s(0);
-                        let dx = dx.unwrap_or_else(zero);
-                        quote!((#dx - #z0.fused(#dy, #s)) * #i)
+                        quote!(#i.fused(#dx, (-(#z0 * #i)).fused(#dy, -(#s * #i))))
+                    }
+                    (None, Some(dy)) => {
+                        let s = s(0);
+                        quote!((-(#z0 * #i)).fused(#dy, -(#s * #i)))
                     }
                     (dx, None) => quote!(#dx * #i),
                 }
             }
             Operation::Ratio(_, y) => {
                 let (z0, dy, s) = (n(z), d(y), s(0));
-                quote!(-#z0.fused(#dy, #s) * #i)
+                quote!((-(#z0 * #i)).fused(#dy, -(#s * #i)))
             }
             Operation::Sqrt(x) => {
                 let (dx, s) = (d(x), s(0));
-                quote!((#dx - #s) * #i)
-            }
-            Operation::Powf(x, c) => {
-                let (z0, dx, one, two) = (n(z), d(x), s(0), s(1));
-                let c = names::float(c);
-                quote!((#number::of(#c) * #dx * #z0 + (#number::of(#c) * #two - #one) * #share) * #i)
+                quote!(#i.fused(#dx, -(#s * #i)))
             }
             Operation::Exp(x) => {
                 let (z0, dx, s) = (n(z), d(x), s(0));
@@ -845,7 +887,7 @@ impl Expansion<'_> {
             }
             Operation::Ln(x) => {
                 let (dx, s) = (d(x), s(0));
-                quote!((#dx - #s * #share) * #i)
+                quote!(#i.fused(#dx, -(#s * (#share * #i))))
             }
             Operation::SinCos(x) | Operation::SinhCosh(x) => {
                 let second = Value(z.0 + 1);
@@ -906,7 +948,7 @@ impl Expansion<'_> {
                 let (x, y) = (d(x).unwrap_or_else(zero), d(y).unwrap_or_else(zero));
                 quote!(if #held.branch(#branch) { #x } else { #y })
             }
-            Operation::Constant(_) | Operation::Choose(..) => zero(),
+            Operation::Constant(_) | Operation::Powf(..) | Operation::Choose(..) => zero(),
         };
         bind(z, result)
     }
@@ -929,6 +971,6 @@ fn needs_inverse(operation: Operation) -> bool {
     use Operation::*;
     matches!(
         operation,
-        Div(..) | Ratio(..) | Sqrt(_) | Powf(..) | Ln(_) | Asin(_) | Acos(_) | Atan(_) | Atan2(..)
+        Div(..) | Ratio(..) | Sqrt(_) | Ln(_) | Asin(_) | Acos(_) | Atan(_) | Atan2(..)
     )
 }

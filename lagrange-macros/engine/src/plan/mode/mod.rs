@@ -13,6 +13,7 @@
 
 mod balance;
 mod masked;
+pub mod powers;
 pub mod products;
 mod reduce;
 mod stages;
@@ -20,7 +21,7 @@ mod stages;
 use super::constants::Constants;
 use super::form::Fixed;
 use super::outputs::Target;
-use super::tape::{Block, Tape, Value};
+use super::tape::{Block, Step, Tape, Value};
 use super::{ValueRef, outputs, tape as plan_tape};
 use crate::ast::Emit;
 use crate::derive::{Equations, Output, OutputId, Stage};
@@ -581,14 +582,16 @@ impl ModeProgram {
     pub fn serves_values(&self) -> Vec<bool> {
         let balance = self.system.balance.iter().flatten();
         let balance: Vec<ValueRef> = balance.copied().collect();
-        self.needed(|output| !balance.contains(&ValueRef::Node(output)))
+        let serves = |output| !balance.contains(&ValueRef::Node(output));
+        self.needed(serves, |step| step.operation.operands())
     }
 
-    /// Whether each value of the tape is needed by series: for other outputs than the elements that the balance replaces.
-    pub fn serves_series(&self) -> Vec<bool> {
+    /// Whether each value of the tape is needed by series: for other outputs than the elements that the balance replaces. `operands` says
+    /// what the series of a step is made of.
+    fn serves_series(&self, operands: impl Fn(&Step) -> Vec<Value>) -> Vec<bool> {
         let system = &self.system;
         if system.balance.is_none() {
-            return vec![true; self.tape.values];
+            return self.needed(|_| true, operands);
         }
         let free = system.accelerations;
         let elements = system.matrix[..free].iter().flat_map(|row| &row[..free]);
@@ -602,30 +605,40 @@ impl ModeProgram {
             .chain(system.right[free..].iter().copied())
             .chain(self.extras.iter().map(|extra| extra.place))
             .collect();
-        self.needed(|output| {
+        let serves = |output| {
             let place = ValueRef::Node(output);
             !replaced.contains(&place) || kept.contains(&place)
-        })
+        };
+        self.needed(serves, operands)
     }
 
-    /// Whether each value of the tape is needed for these outputs. A value of several is needed if one of them is.
-    fn needed(&self, output: impl Fn(usize) -> bool) -> Vec<bool> {
+    /// Whether each value of the tape is needed for these outputs, given what each step is made of. A value of several is needed if
+    /// one of them is.
+    fn needed(
+        &self,
+        output: impl Fn(usize) -> bool,
+        operands: impl Fn(&Step) -> Vec<Value>,
+    ) -> Vec<bool> {
         let mut needed = vec![false; self.tape.values];
         needed[..self.tape.inputs].fill(true);
         for write in self.tape.blocks.iter().flat_map(|block| &block.writes) {
             needed[write.value.0] |= output(write.output);
         }
-        self.with_operands(needed)
+        self.with_operands(needed, operands)
     }
 
-    /// These values of the tape and all that they are made of. A value of several is among them if one of them is.
-    pub fn with_operands(&self, mut values: Vec<bool>) -> Vec<bool> {
+    /// These values of the tape and all that they are made of, as `operands` says. A value of several is among them if one of them is.
+    fn with_operands(
+        &self,
+        mut values: Vec<bool>,
+        operands: impl Fn(&Step) -> Vec<Value>,
+    ) -> Vec<bool> {
         let blocks = self.tape.blocks.iter().rev();
         for step in blocks.flat_map(|block| block.steps.iter().rev()) {
             let own = step.value.0..step.value.0 + step.operation.values();
             if values[own.clone()].contains(&true) {
                 values[own].fill(true);
-                for operand in step.operation.operands() {
+                for operand in operands(step) {
                     values[operand.0] = true;
                 }
             }

@@ -3,6 +3,7 @@
 //! Coefficient k of a product is a sum over the earlier coefficients of its factors; everything else is linear and needs
 //! only coefficient k itself.
 
+use super::powers::{Power, powers};
 use super::{Extra, ModeProgram, Phase};
 use crate::plan::{Block, Mode, Operation, Step, Value, ValueRef};
 use crate::sorted::SortedMap;
@@ -40,6 +41,8 @@ pub type Product = (Factor, Factor);
 pub struct Plan {
     /// Whether each value of the tape changes with time, and series need it.
     pub varying: Vec<bool>,
+    /// Values whose series are those of powers, whatever operations make them.
+    powers: SortedMap<Value, Power>,
     /// Outputs that several writes enter, and whether they change with time.
     pub sums: SortedMap<usize, bool>,
     /// The value of each output that one write sets.
@@ -70,9 +73,11 @@ pub fn zero_row(mode: &ModeProgram) -> usize {
 impl Plan {
     /// What the series of a mode keep.
     pub fn new(mode: &ModeProgram) -> Plan {
-        let serves = mode.serves_series();
+        let powers = powers(mode);
+        let serves = mode.serves_series(|step| operands(&powers, step));
         let varying = mode.varying().into_iter().zip(serves);
         let mut plan = Plan {
+            powers,
             varying: varying.map(|(varies, serves)| varies && serves).collect(),
             sums: SortedMap::new(),
             set: SortedMap::new(),
@@ -200,7 +205,12 @@ impl Plan {
                 .chain(read)
                 .for_each(|value| multiplied[value.0] = true);
         }
-        mode.with_operands(multiplied)
+        mode.with_operands(multiplied, |step| operands(&self.powers, step))
+    }
+
+    /// The power whose series a value has.
+    pub fn power(&self, value: Value) -> Option<Power> {
+        self.powers.get(&value).copied()
     }
 
     /// The numbers that do not change and are kept.
@@ -245,6 +255,9 @@ impl Plan {
         }
         let z = step.value;
         let u = Value(z.0 + 1);
+        if let Some(Power { base: x, .. }) = self.power(z) {
+            return vec![(Weighted(z), Plain(x)), (Weighted(x), Plain(z))];
+        }
         match step.operation {
             Operation::Mul(x, y) if self.varying[x.0] && self.varying[y.0] => {
                 vec![(Plain(x), Plain(y))]
@@ -253,7 +266,6 @@ impl Plan {
             Operation::Div(_, y) if self.varying[y.0] => vec![(Plain(z), Plain(y))],
             Operation::Ratio(_, y) => vec![(Plain(z), Plain(y))],
             Operation::Sqrt(_) => vec![(Plain(z), Plain(z))],
-            Operation::Powf(x, _) => vec![(Weighted(z), Plain(x)), (Weighted(x), Plain(z))],
             Operation::Exp(x) => vec![(Weighted(x), Plain(z))],
             Operation::Ln(x) => vec![(Weighted(z), Plain(x))],
             Operation::SinCos(x) | Operation::SinhCosh(x) => {
@@ -299,5 +311,13 @@ impl Plan {
             }
         }
         products
+    }
+}
+
+/// What the series of a step is made of.
+fn operands(powers: &SortedMap<Value, Power>, step: &Step) -> Vec<Value> {
+    match powers.get(&step.value) {
+        Some(power) => vec![power.base],
+        None => step.operation.operands(),
     }
 }

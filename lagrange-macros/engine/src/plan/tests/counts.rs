@@ -44,10 +44,9 @@ fn operation_counts_do_not_grow() {
     assert_eq!(operations(two_bodies), (17, 31));
 }
 
-/// A chain of n point masses on rods.
-/// Sums over earlier coefficients that the series of a chain have.
-fn convolutions(n: usize) -> usize {
-    let program = crate::program(chain(n)).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+/// Sums over earlier coefficients that the series of a system without contacts have.
+fn convolutions(declaration: TokenStream) -> usize {
+    let program = crate::program(declaration).unwrap_or_else(|mistakes| panic!("{mistakes}"));
     Plan::new(&program.modes[0]).convolutions()
 }
 
@@ -55,9 +54,34 @@ fn convolutions(n: usize) -> usize {
 fn series_of_chains_have_products_in_proportion_to_their_links() {
     // Of each link: sine and cosine, the square of the rate, sine and cosine times that and times the acceleration, and the two forces
     // times theirs: nine. Two and three links have no more by the elements of M and f.
-    assert_eq!([2, 3, 4, 5].map(convolutions), [12, 27, 36, 45]);
+    assert_eq!(
+        [2, 3, 4, 5].map(|n| convolutions(chain(n))),
+        [12, 27, 36, 45]
+    );
 }
 
+#[test]
+fn powers_have_two_products_however_many_operations_make_them() {
+    let planet = |potential: TokenStream| {
+        convolutions(quote! {
+            #[lagrange(
+                coordinates(x, y),
+                kinetic = (der(x)^2 + der(y)^2)/2,
+                potential = #potential,
+            )]
+            struct Planet { k: f64, l: f64 }
+        })
+    };
+    // x², y², the power, and the two forces: what r and r³ would take is gone.
+    assert_eq!(planet(quote!(-k / sqrt(x ^ 2 + y ^ 2))), 6);
+    assert_eq!(planet(quote!(k / (x ^ 2 + y ^ 2))), 6);
+    assert_eq!(planet(quote!(k * (x ^ 2 + y ^ 2) ^ 0.7)), 6);
+    // One operation makes 1/x. A fourth power has a series where x vanishes too, which that of powers has not.
+    assert_eq!(planet(quote!(k * ln(x) + k * y ^ 2 / 2)), 1);
+    assert_eq!(planet(quote!(k * x ^ 5)), 2);
+}
+
+/// A chain of n point masses on rods.
 fn chain(n: usize) -> TokenStream {
     let text = format!(
         "#[lagrange(
