@@ -54,10 +54,12 @@ pub struct ModeStructure {
     pub rows: usize,
     /// Number of groups of products whose factors a series keeps.
     pub products: usize,
-    /// Outputs of the motion tape whose series are given: (node, row).
+    /// Outputs of the motion tape that are given, with their series but for those of inertia and Jacobians: (node, row).
     pub motion: &'static [(usize, usize)],
     /// Outputs of the report tape whose series are given: (node, row).
     pub report: &'static [(usize, usize)],
+    /// Whether values also give inertia and the Jacobians of the rows that act, among the outputs of the motion tape.
+    pub gives_rows: bool,
 }
 
 /// Time, positions and velocities.

@@ -111,6 +111,12 @@ impl<T: Scalar> Emitted<T> {
         self.admitted
     }
 
+    /// Whether values give what a projection takes.
+    #[inline]
+    pub(super) fn gives_rows(&self) -> bool {
+        self.structure.gives_rows
+    }
+
     /// Whether the functions hold at a state: what the mode pins is where it is pinned, and at rest.
     pub(super) fn holds_at(&self, q: &[T], v: &[T]) -> bool {
         let mut pins = self.structure.pins.iter();

@@ -101,8 +101,10 @@ pub struct Dynamics<T: Scalar> {
     /// What is held of the report: the effects' own needs and what was asked for.
     report_held: OutputMask,
     reports: bool,
-    /// What is held of the functions of a mode for a series.
+    /// What is held of the functions of a mode for a series,
     series_held: OutputMask,
+    /// and for values: what a projection takes as well, where they give that.
+    value_held: OutputMask,
     /// Of the named energies.
     energies: OutputMask,
     /// Which interpreted equations are in use; none if they are those for other needs, or of another mode.
@@ -157,6 +159,7 @@ impl<T: Scalar> Dynamics<T> {
             report_held: OutputMask::new(d),
             reports: false,
             series_held: OutputMask::new(d),
+            value_held: OutputMask::new(d),
             energies: output_mask::of_energies(d),
             selected: None,
             by_functions: false,
@@ -259,6 +262,12 @@ impl<T: Scalar> Dynamics<T> {
     fn functions(&self) -> Option<&Emitted<T>> {
         let functions = self.compiled().functions();
         functions.filter(|_| self.equations == Equations::Emitted)
+    }
+
+    /// Whether values for guards, by the functions of the mode, give the inertia and the Jacobians of the rows that act as well.
+    #[inline]
+    pub(crate) fn gives_rows(&self) -> bool {
+        self.functions().is_some_and(Emitted::gives_rows)
     }
 
     /// Decides by what the coming evaluation is.
@@ -401,6 +410,11 @@ impl<T: Scalar> Dynamics<T> {
                 .zip(self.report_needs.iter())
                 .map(|(a, b)| a | b),
         );
+        self.value_held.assign(self.series_held.iter().copied());
+        if self.gives_rows() {
+            let compiled = &self.modes[self.current];
+            self.value_held.extend(&compiled.row_needs);
+        }
         // The named energies stand under their own needs also in the report, for the energy balance alone.
         let balance =
             self.report_needs.contains(d.energy.need) || self.report_needs.contains(d.momenta.need);

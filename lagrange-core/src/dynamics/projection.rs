@@ -100,16 +100,17 @@ impl<T: Scalar> Dynamics<T> {
         v: &mut [T],
         tolerance: f64,
     ) -> Result<bool, EvaluationError> {
-        self.run_rows(t, q, v);
+        self.see_rows(t, q, v);
         let threshold = tolerance.max(tolerated::<T>());
         let moved = self.residual(Level::Position, q).relative > threshold;
         let least = tolerated::<T>();
         if moved {
             self.move_positions(t, q, v, &[], least)?;
         }
-        let moved = moved || self.residual(Level::Velocity, v).relative > threshold;
+        let residual = self.residual(Level::Velocity, v);
+        let moved = moved || residual.relative > threshold;
         if moved {
-            self.move_velocities(v, &[], least)?;
+            self.move_velocities(v, &[], residual, least)?;
         }
         self.settle_pinned(q, v, threshold);
         let carries = T::DERIVATIVES > 0 && !self.acting_rows().is_empty();
@@ -262,18 +263,19 @@ impl<T: Scalar> Dynamics<T> {
         held: &[bool],
     ) -> Result<(), EvaluationError> {
         self.run_rows(t, q, v);
-        self.move_velocities(v, held, rounding::<T>())
+        let residual = self.residual(Level::Velocity, v);
+        self.move_velocities(v, held, residual, rounding::<T>())
     }
 
-    /// [`Self::project_velocities`] where a relative residual is above `least`. The motion program was run at (q, v), and its
-    /// outputs are those at the new velocities afterwards, as far as projections read them.
+    /// [`Self::project_velocities`] from velocities of this `residual`, where it is above `least`. The motion program was run at (q, v),
+    /// and its outputs are those at the new velocities afterwards, as far as projections read them.
     fn move_velocities(
         &mut self,
         v: &mut [T],
         held: &[bool],
+        mut residual: Residual,
         mut least: f64,
     ) -> Result<(), EvaluationError> {
-        let mut residual = self.residual(Level::Velocity, v);
         // The equations are linear: the second pass only takes away rounding.
         for _ in 0..2 {
             if residual.relative <= least || !self.correction(Level::Velocity, held) {

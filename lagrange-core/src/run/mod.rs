@@ -559,7 +559,8 @@ impl<T: Scalar> Run<T> {
     /// Asks for the numbers that the guards of the mode read.
     fn ask_for_guards(&mut self) {
         let watched = self.switcher.table.of(&self.dynamics);
-        if self.rank.watches() {
+        // The rank is read from the rows.
+        if self.rank.watches() && !self.dynamics.gives_rows() {
             self.dynamics.set_extra_needs(&watched.needs);
         } else {
             self.dynamics.set_guard_needs(&watched.needs);

@@ -151,9 +151,11 @@ impl Rank {
             }
         }
         for i in 0..m {
-            for j in 0..m {
-                let pair = (0..n).map(|k| self.scaled[i * n + k] * self.scaled[j * n + k]);
-                self.gram[i * m + j] = pair.sum();
+            let row = &self.scaled[i * n..(i + 1) * n];
+            for j in 0..=i {
+                let other = &self.scaled[j * n..(j + 1) * n];
+                let sum = row.iter().zip(other).map(|(x, y)| x * y).sum();
+                (self.gram[i * m + j], self.gram[j * m + i]) = (sum, sum);
             }
         }
     }
@@ -165,12 +167,13 @@ impl Rank {
         for step in 0..m {
             let best =
                 (step..m).max_by(|&a, &b| self.gram[a * m + a].total_cmp(&self.gram[b * m + b]));
-            let best = best.unwrap_or(step);
-            for k in 0..m {
-                self.gram.swap(step * m + k, best * m + k);
-            }
-            for k in 0..m {
-                self.gram.swap(k * m + step, k * m + best);
+            if let Some(best) = best.filter(|best| *best != step) {
+                for k in 0..m {
+                    self.gram.swap(step * m + k, best * m + k);
+                }
+                for k in 0..m {
+                    self.gram.swap(k * m + step, k * m + best);
+                }
             }
             let pivot = self.gram[step * m + step];
             if !(pivot > 0.0) {

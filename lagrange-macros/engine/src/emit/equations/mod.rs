@@ -123,6 +123,7 @@ fn structure(program: &Program, mode: &ModeProgram, plan: &products::Plan) -> To
     }
     let count = index(mode.constants.outputs);
     let (rows, products) = (index(plan.rows), index(plan.groups));
+    let gives_rows = mode.gives_rows;
     quote! {
         #core::__private::equations::ModeStructure {
             contacts: &[#(#contacts),*],
@@ -134,6 +135,7 @@ fn structure(program: &Program, mode: &ModeProgram, plan: &products::Plan) -> To
             products: #products,
             motion: &[#(#motion),*],
             report: &[#(#report),*],
+            gives_rows: #gives_rows,
         }
     }
 }

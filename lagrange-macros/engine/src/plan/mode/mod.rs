@@ -77,6 +77,8 @@ pub struct Extra {
     pub output: OutputId,
     /// Where it is.
     pub place: ValueRef,
+    /// Whether its series is read as well.
+    pub has_series: bool,
 }
 
 /// The equations of one mode.
@@ -97,8 +99,10 @@ pub struct ModeProgram {
     pub accelerations: Vec<ValueRef>,
     /// λ, one per row; none where a row has no force.
     pub forces: Vec<Option<ValueRef>>,
-    /// Gaps, slips, coefficients, guards, terms of stops and marks.
+    /// Gaps, slips, coefficients, guards, terms of stops and marks; then what a projection onto the rows that act takes.
     pub extras: Vec<Extra>,
+    /// Whether a projection finds here what it takes.
+    pub gives_rows: bool,
     /// Coordinates that stand still, and where.
     pub pins: Vec<(usize, ValueRef)>,
     /// Constants that are divided by, and those that they must not be small against.
@@ -387,8 +391,13 @@ fn specialise(
             )
         })
         .collect();
+    let drifting = drifting(equations, &acting, &known, &state);
+    let read = extras_of(equations)
+        .into_iter()
+        .map(|output| (output, true));
+    let projected = drifting.iter().map(|&output| (output, false));
     let mut extras = Vec::new();
-    for output in extras_of(equations) {
+    for (output, has_series) in read.chain(projected) {
         let pool = &mut equations.system.pool;
         let mut terms = Vec::new();
         for &(need, e) in &equations.outputs[output.0].terms {
@@ -401,7 +410,7 @@ fn specialise(
             label: equations.outputs[output.0].label.clone(),
             terms,
         });
-        extras.push((output, OutputId(sheet.list.len() - 1)));
+        extras.push((output, OutputId(sheet.list.len() - 1), has_series));
     }
 
     // One tape for all of them.
@@ -485,11 +494,13 @@ fn specialise(
         forces: forces.iter().map(|f| f.as_ref().map(place)).collect(),
         extras: extras
             .iter()
-            .map(|(output, id)| Extra {
+            .map(|(output, id, has_series)| Extra {
                 output: *output,
                 place: place(id),
+                has_series: *has_series,
             })
             .collect(),
+        gives_rows: !drifting.is_empty(),
         pins: pinned.iter().map(|(j, id)| (*j, place(id))).collect(),
         divisors: divisors
             .iter()
@@ -559,6 +570,34 @@ fn extras_of(equations: &Equations) -> Vec<OutputId> {
     list
 }
 
+/// Inertia and the Jacobians of the rows that act, if a step can leave one of them by more than rounding: then each step ends with a
+/// projection.
+fn drifting(
+    equations: &mut Equations,
+    acting: &[usize],
+    known: &[(Symbol, ExprId)],
+    state: &[Symbol],
+) -> Vec<OutputId> {
+    let structure = &equations.structure;
+    let rows = acting.iter().map(|&row| &structure.rows[row]);
+    let jacobians = rows.flat_map(|row| row.jacobian.iter().map(|(_, output)| *output));
+    let jacobians: Vec<OutputId> = jacobians.collect();
+    let pool = &mut equations.system.pool;
+    let outputs = &equations.outputs;
+    let varies = |output: &OutputId| {
+        outputs[output.0].terms.iter().any(|&(_, e)| {
+            let e = pool.substitute(e, known);
+            let e = pool.simplify(e);
+            pool.depends_on_any(e, state)
+        })
+    };
+    if !jacobians.iter().any(varies) {
+        return Vec::new();
+    }
+    let inertia = structure.mass.iter().map(|(_, _, output)| *output);
+    inertia.chain(jacobians).collect()
+}
+
 impl ModeProgram {
     /// The operations of a phase, block by block.
     pub fn blocks(&self, phase: Phase) -> impl Iterator<Item = &Block> {
@@ -590,20 +629,29 @@ impl ModeProgram {
     /// what the series of a step is made of.
     fn serves_series(&self, operands: impl Fn(&Step) -> Vec<Value>) -> Vec<bool> {
         let system = &self.system;
-        if system.balance.is_none() {
-            return self.needed(|_| true, operands);
-        }
-        let free = system.accelerations;
+        // The elements among the accelerations, which the balance replaces.
+        let free = match system.balance {
+            Some(_) => system.accelerations,
+            None => 0,
+        };
         let elements = system.matrix[..free].iter().flat_map(|row| &row[..free]);
-        let replaced: Vec<ValueRef> = elements.chain(&system.right[..free]).copied().collect();
+        let values = self.extras.iter().filter(|extra| !extra.has_series);
+        let replaced: Vec<ValueRef> = elements
+            .chain(&system.right[..free])
+            .copied()
+            .chain(values.map(|extra| extra.place))
+            .collect();
         let kept = system.matrix.iter().enumerate().flat_map(|(i, row)| {
             let elements = row.iter().enumerate();
             elements.filter(move |(j, _)| i >= free || *j >= free)
         });
+        let extras = self.extras.iter().filter(|extra| extra.has_series);
+        let results = self.accelerations.iter().copied();
         let kept: Vec<ValueRef> = kept
             .map(|(_, place)| *place)
             .chain(system.right[free..].iter().copied())
-            .chain(self.extras.iter().map(|extra| extra.place))
+            .chain(extras.map(|extra| extra.place))
+            .chain(results.chain(self.forces.iter().flatten().copied()))
             .collect();
         let serves = |output| {
             let place = ValueRef::Node(output);
