@@ -2,14 +2,14 @@
 
 use super::work::Work;
 use crate::model::System;
-use crate::modes::{self, Mode};
+use crate::modes::{self, Mode, Modes};
 use std::fmt;
 
 /// Of more modes only some with no contact closed, one, or all are shown.
 const MOST_SHOWN: u128 = 24;
 
-/// So many modes are shown with one contact closed: one friction sticks, and slips to either side.
-const WITH_ONE_CLOSED: usize = 3;
+/// Of more modes a refusal names the first.
+const MOST_NAMED: usize = 8;
 
 /// No mode is called so.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -18,13 +18,19 @@ pub struct UnknownMode {
     pub name: String,
     /// Modes that exist; not all if there are many.
     pub known: Vec<String>,
+    /// How many there are.
+    pub count: u128,
 }
 
 impl fmt::Display for UnknownMode {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "no mode is called `{}`; there are: ", self.name)?;
-        let known: Vec<String> = self.known.iter().map(|k| format!("`{k}`")).collect();
-        f.write_str(&known.join(", "))
+        write!(f, "no mode is called `{}`; there are", self.name)?;
+        let named = &self.known[..self.known.len().min(MOST_NAMED)];
+        if (named.len() as u128) < self.count {
+            write!(f, " {}, among them", self.count)?;
+        }
+        let named: Vec<String> = named.iter().map(|k| format!("`{k}`")).collect();
+        write!(f, ": {}", named.join(", "))
     }
 }
 
@@ -47,6 +53,7 @@ pub(super) fn shown(
                 .iter()
                 .map(|mode| mode.name(system))
                 .collect(),
+            count,
         }),
     }
 }
@@ -58,13 +65,30 @@ fn chosen(system: &System) -> Vec<Mode> {
         return all.iter().collect();
     }
     let contacts = system.contacts.len();
-    let mut chosen: Vec<Mode> = all.iter().take(1).collect();
+    let mut chosen = at_most_one_slips(&all, vec![false; contacts]);
     for one in Work::shown(contacts) {
         let closed = (0..contacts).map(|i| i == one).collect();
-        chosen.extend(all.beside(closed).take(WITH_ONE_CLOSED));
+        chosen.extend(at_most_one_slips(&all, closed));
     }
     if contacts > 1 {
         chosen.extend(all.beside(vec![true; contacts]).take(1));
     }
     chosen
+}
+
+/// The mode with these contacts closed in which every friction sticks, and those in which one of them slips.
+fn at_most_one_slips(all: &Modes, contacts: Vec<bool>) -> Vec<Mode> {
+    let mut modes: Vec<Mode> = all.beside(contacts.clone()).take(1).collect();
+    let Some(stick) = modes.first().cloned() else {
+        return modes;
+    };
+    for friction in Work::shown(stick.frictions.len()) {
+        let slips = all.states(friction, &contacts).iter().skip(1);
+        modes.extend(slips.map(|&state| {
+            let mut mode = stick.clone();
+            mode.frictions[friction] = state;
+            mode
+        }));
+    }
+    modes
 }

@@ -118,9 +118,13 @@ pub(super) fn derivation(
     let mut notes = Vec::new();
     if mode.is_none() && (modes.len() as u128) < mode_count {
         notes.push(format!(
-            "{} of {} modes are shown: all contacts open, one of them closed, and all of them closed and sticking.",
+            "{} of {mode_count} modes are shown: {}. Any other is shown when it is asked for by its name.",
             modes.len(),
-            mode_count
+            match system.contacts.is_empty() {
+                true => "those in which at most one friction slips",
+                false =>
+                    "all contacts open or one closed, where at most one friction slips, and all closed and sticking",
+            }
         ));
     }
     notes.extend(work.notes(motion.len()));

@@ -43,6 +43,41 @@ fn modes_are_found_by_name() {
     assert_eq!(bounce, "y\u{307}⁺ = −½ y\u{307}⁻");
 }
 
+/// 3³ modes without a contact: one without slip, and two for each friction that slips alone.
+#[test]
+fn many_frictions_are_shown_in_part() {
+    let tokens = quote! {
+        #[lagrange(
+            coordinates(x[3]),
+            kinetic = sum(k in 0..3: m/2 * der(x[k])^2),
+            friction(rub[k in 0..3]: slip = der(x[k]), limit = f),
+        )]
+        struct Row { m: f64, f: f64 }
+    };
+    let all = crate::inspect(tokens.clone(), None).expect("a derivation");
+    assert_eq!((all.modes.len(), all.mode_count), (7, 27));
+    assert!(
+        all.notes[0]
+            .starts_with("7 of 27 modes are shown: those in which at most one friction slips."),
+        "{:?}",
+        all.notes
+    );
+    let slips = |name: &str| name.matches("slips").count();
+    assert_eq!(
+        all.modes
+            .iter()
+            .map(|mode| slips(&mode.name))
+            .sum::<usize>(),
+        6
+    );
+    let refusal = crate::inspect(tokens, Some("all")).expect_err("no such mode");
+    let said = refusal.to_string();
+    assert!(
+        said.starts_with("no mode is called `all`; there are 27, among them: `rub[0] sticks, "),
+        "{said}"
+    );
+}
+
 #[test]
 fn many_contacts_are_shown_in_part() {
     let d = derivation(quote! {
