@@ -68,6 +68,22 @@ fn wrong_units_are_told_at_the_term() {
             "3:21 E705 adds kg m to J; a factor in m/s² is missing",
         ),
         (
+            "constraint(c: 1 - l*theta == 0)",
+            "3:15 E705 adds a plain number to m; a number has no unit: make it a field with `#[lagrange(unit = \"m\")]`",
+        ),
+        (
+            "constraint(c: -1 + l*theta + 2 == y)",
+            "3:15 E705 adds a plain number to m; a number has no unit: make it a field with `#[lagrange(unit = \"m\")]`",
+        ),
+        (
+            "kinetic(more: m*(x^2 + der(y)^2))",
+            "3:18 E705 adds m² to m²/s²; is a `der(…)` missing?",
+        ),
+        (
+            "define(s = der(y)^2 + 2*x^2), observe(s)",
+            "3:23 E705 adds m² to m²/s²; is a `der(…)` missing?",
+        ),
+        (
             "potential = m*l*(g*y + y)",
             "3:24 E705 adds m to m²/s²; a factor in m/s² is missing",
         ),
@@ -178,7 +194,7 @@ fn the_term_that_differs_is_told() {
     let two = "kinetic = m/2*(der(x)^2 + y^2) + inertia/2*der(theta) + m/2*der(q[0])^2, potential = a*q[1]^2";
     assert_eq!(
         said(two),
-        "2:27 E705 adds m² to m²/s²; a factor in 1/s² is missing\n2:34 E705 adds kg m²/s to J; is a `der(…)` missing?"
+        "2:27 E705 adds m² to m²/s²; is a `der(…)` missing?\n2:34 E705 adds kg m²/s to J; is a `der(…)` missing?"
     );
 }
 

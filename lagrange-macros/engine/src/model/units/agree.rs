@@ -65,7 +65,7 @@ impl Checker<'_, '_> {
                 .iter()
                 .filter_map(|row| row.get(component))
                 .collect();
-            let reference = self.reference(&column, hint);
+            let reference = self.reference(terms, &column, hint);
             for (term, quantity) in terms.iter().zip(&column) {
                 if let Some((reference, found)) = self.unknowns.conflict(&reference, quantity) {
                     let remedy = self.remedy(&reference, &found, term);
@@ -84,8 +84,14 @@ impl Checker<'_, '_> {
         fine.then_some(first)
     }
 
-    /// What the others are measured by: what is expected if some term has it, else the unit that most terms have.
-    fn reference(&self, column: &[&Quantity], hint: Option<&Quantity>) -> Quantity {
+    /// What the others are measured by: what is expected if some term has it, else the unit that most terms have. A bare number has no
+    /// say beside what has a unit: in `1 - R*phi` it is the 1 that lacks one.
+    fn reference(
+        &self,
+        terms: &[&Expr],
+        column: &[&Quantity],
+        hint: Option<&Quantity>,
+    ) -> Quantity {
         let known: Vec<Option<Dimension>> = column
             .iter()
             .map(|quantity| self.unknowns.dimension(quantity))
@@ -95,11 +101,20 @@ impl Checker<'_, '_> {
             return expected.into();
         }
         let mut votes: SortedMap<Dimension, usize> = SortedMap::new();
-        for dimension in known.iter().flatten() {
-            *votes.get_or_default(*dimension) += 1;
+        let bare = |term: &&Expr| is_number(term);
+        let all_bare = terms.iter().all(bare);
+        for (_, dimension) in terms
+            .iter()
+            .zip(&known)
+            .filter(|(t, _)| all_bare || !bare(t))
+        {
+            if let Some(dimension) = dimension {
+                *votes.get_or_default(*dimension) += 1;
+            }
         }
         let most = votes.values().max();
-        let winner = (known.iter().flatten()).find(|dimension| votes.get(dimension) == most);
+        let winner = (known.iter().flatten())
+            .find(|dimension| most.is_some() && votes.get(dimension) == most);
         match (winner, column.first()) {
             (Some(dimension), _) => (*dimension).into(),
             (None, Some(first)) => (*first).clone(),

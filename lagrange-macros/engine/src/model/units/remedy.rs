@@ -64,9 +64,13 @@ impl Checker<'_, '_> {
             return format!("`{number}` is a plain number: make it {field}");
         }
         let is_plain = wanted.known().is_some_and(Dimension::is_one);
+        // In a square a rate has the time twice.
+        let is_rate = |power: Rational| power.is_one() || is_square(expr) && power == TWO;
         match factor.as_time().filter(|_| !is_plain) {
-            Some(power) if power == Rational::MINUS_ONE => "is a `der(…)` missing?".to_string(),
-            Some(power) if power.is_one() => "is there a `der(…)` too many?".to_string(),
+            Some(power) if power.checked_neg().is_some_and(is_rate) => {
+                "is a `der(…)` missing?".to_string()
+            }
+            Some(power) if is_rate(power) => "is there a `der(…)` too many?".to_string(),
             _ => format!("a factor in {} is missing", factor.text()),
         }
     }
@@ -92,6 +96,20 @@ pub(super) fn is_number(expr: &Expr) -> bool {
         ExprKind::Product(factors) => factors.iter().all(|(_, factor)| is_number(factor)),
         ExprKind::Power(base, exponent) => is_number(base) && is_number(exponent),
         ExprKind::Call(_, arguments) => arguments.iter().all(is_number),
+        _ => false,
+    }
+}
+
+const TWO: Rational = Rational::integer(2);
+
+/// Whether something is squared in a product.
+fn is_square(expr: &Expr) -> bool {
+    match &expr.kind {
+        ExprKind::Power(_, exponent) => {
+            matches!(&exponent.kind, ExprKind::Number(n) if (n.digits, n.exponent) == (2, 0))
+        }
+        ExprKind::Negative(inner) => is_square(inner),
+        ExprKind::Product(factors) => factors.iter().any(|(_, factor)| is_square(factor)),
         _ => false,
     }
 }
