@@ -41,9 +41,27 @@ pub fn method(name: &str) -> Result<Method, String> {
         .map_err(|error| method_meant(name, &error, &known))
 }
 
+/// What other programs call a method, and what it is called here.
+const ELSEWHERE: [(&str, &str); 11] = [
+    ("rk45", "dopri5"),
+    ("ode45", "dopri5"),
+    ("dp5", "dopri5"),
+    ("rkf45", "dopri5"),
+    ("dop54", "dopri5"),
+    ("dopri8", "dop853"),
+    ("ode89", "verner98"),
+    ("vern9", "verner98"),
+    ("radau", "radau5"),
+    ("bdf", "radau5"),
+    ("ode15s", "radau5"),
+];
+
 /// What is wrong with the name of a method, with the nearest of those that could be meant.
 pub(crate) fn method_meant(name: &str, error: &ParseMethodError, known: &[&str]) -> String {
-    match (error, nearest(name, known)) {
+    let elsewhere = ELSEWHERE.iter();
+    let mut elsewhere = elsewhere.filter(|(other, _)| name.eq_ignore_ascii_case(other));
+    let meant = elsewhere.next().map(|(_, method)| *method);
+    match (error, meant.or_else(|| nearest(name, known))) {
         (ParseMethodError::Unknown { name }, Some(near)) => {
             format!("no method is called `{name}`; did you mean `{near}`?")
         }
@@ -53,7 +71,24 @@ pub(crate) fn method_meant(name: &str, error: &ParseMethodError, known: &[&str])
 
 #[cfg(test)]
 mod tests {
-    use super::nearest;
+    use super::{method, nearest};
+
+    #[test]
+    fn a_method_is_recognised_by_its_name_in_other_programs() {
+        for (name, meant) in [
+            ("rk45", "dopri5"),
+            ("RK45", "dopri5"),
+            ("ode45", "dopri5"),
+            ("Radau", "radau5"),
+            ("dopri", "dopri5"),
+        ] {
+            let said = method(name).expect_err(name);
+            assert_eq!(
+                said,
+                format!("no method is called `{name}`; did you mean `{meant}`?")
+            );
+        }
+    }
 
     #[test]
     fn a_slip_is_recognised_and_nonsense_is_not() {

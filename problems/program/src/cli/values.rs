@@ -7,12 +7,17 @@ use std::path::PathBuf;
 
 /// `name=value` with a finite value.
 pub(super) fn named(text: &str) -> Result<(String, f64), String> {
-    let (name, value) = text
-        .split_once('=')
-        .ok_or("expected name=value, for example mass=2")?;
+    let Some((name, value)) = text.split_once('=') else {
+        let text = text.trim();
+        let example = match text.starts_with(|c: char| c.is_alphabetic()) {
+            true => format!(", for example {text}=2"),
+            false => String::new(),
+        };
+        return Err(format!("expected name=value{example}"));
+    };
     let name = name.trim();
     if name.is_empty() {
-        return Err("expected a name before `=`, for example mass=2".to_owned());
+        return Err(format!("expected a name before `={value}`"));
     }
     Ok((name.to_owned(), finite(value)?))
 }
@@ -120,6 +125,8 @@ mod tests {
             Ok(("der(theta)".to_owned(), -2e-3))
         );
         assert_eq!(named(" mass = 2 "), Ok(("mass".to_owned(), 2.0)));
+        let forgotten = "expected name=value, for example der(x)=2";
+        assert_eq!(named("der(x)"), Err(forgotten.to_owned()));
         for wrong in [
             "mass",
             "=2",

@@ -1,6 +1,7 @@
 //! Which event is meant: `rim lost`, or `floor impact 2` for the second one.
 
 use super::Refusal;
+use crate::names::nearest;
 use lagrange_core::prelude::*;
 use lagrange_core::system::Description;
 
@@ -32,6 +33,22 @@ const KINDS: [EventKind; 10] = [
     EventKind::Branches,
     EventKind::Stop,
     EventKind::Mark,
+];
+
+/// Words for a kind of event that nobody has to know is called otherwise.
+const OTHERWISE: [(&str, &[&str]); 6] = [
+    (
+        "impact",
+        &["hit", "hits", "strikes", "bounce", "bounces", "collision"],
+    ),
+    (
+        "lost",
+        &["open", "opens", "leaves", "left", "lift", "lifts", "parts"],
+    ),
+    ("closed", &["close", "closes", "touch", "touches", "lands"]),
+    ("slips", &["slide", "slides", "sliding", "moves"]),
+    ("sticks", &["stop", "stops", "rests", "holds", "grips"]),
+    ("reverses", &["turns", "reversal", "backward"]),
 ];
 
 /// What `item kind` names, an event at its first occurrence.
@@ -92,12 +109,47 @@ pub(crate) fn numbered(
         _ => kinds().find(|known| known.word() == kind),
     };
     let kind = *found.ok_or_else(|| {
-        let known: Vec<String> = kinds()
-            .map(|kind| format!("{item} {}", kind.word()))
-            .collect();
-        Refusal::unknown("event", text, known.iter().map(String::as_str))
+        let words: Vec<&str> = kinds().map(|kind| kind.word()).collect();
+        let meant = OTHERWISE.iter().find(|(_, others)| others.contains(&kind));
+        let meant = meant.map(|(word, _)| *word);
+        // The words are compared by themselves: beside a long name every kind would be near.
+        let meant = meant.filter(|word| words.contains(word));
+        let meant = meant.or_else(|| nearest(kind, &words));
+        Refusal::Unknown {
+            what: "event",
+            name: text.to_owned(),
+            nearest: meant.map(|word| format!("{item} {word}")),
+            known: words.iter().map(|word| format!("{item} {word}")).collect(),
+        }
     })?;
     let number = number
         .ok_or_else(|| Refusal::unknown("number of an event", text, ["1", "2"].into_iter()))?;
     Ok((Sought { subject, kind }, number))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::event;
+
+    #[test]
+    fn an_event_in_other_words_is_recognised() {
+        let declared =
+            "coordinates(x), kinetic = der(x)^2, contact(right: x <= 1), stop(end: x <= -1),
+            friction(rub on right: slip = der(x), static = 1), start(a: x = 0),";
+        let scene = crate::file::scene("walls.lagrange", declared).expect("a declaration");
+        for (said, answer) in [
+            ("right hit", "did you mean `right impact`?"),
+            ("right lots", "did you mean `right lost`?"),
+            ("right opens", "did you mean `right lost`?"),
+            ("rub stops", "did you mean `rub sticks`?"),
+            ("end hit", "there are: end stop"),
+            (
+                "right xyz",
+                "there are: right lost, right closed, right impact",
+            ),
+        ] {
+            let refusal = event(said, scene.description()).expect_err(said);
+            assert!(refusal.to_string().contains(answer), "{refusal}");
+        }
+    }
 }
