@@ -21,6 +21,19 @@ pub struct Energies {
     pub jacobi: f64,
 }
 
+impl Energies {
+    /// T + V, J.
+    pub fn total(&self) -> f64 {
+        self.kinetic + self.potential
+    }
+
+    /// Whether the Jacobi integral is another quantity than T + V, beyond rounding: then it is what works balance.
+    pub fn has_own_jacobi(&self) -> bool {
+        let size = self.kinetic.abs() + self.potential.abs() + self.jacobi.abs();
+        (self.jacobi - self.total()).abs() > 1e-10 * size
+    }
+}
+
 /// Work of one item, J; positive if it put energy in.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
@@ -45,6 +58,13 @@ pub struct Ledger {
     pub scale: f64,
     /// h(end) − h(start) − Σ work, J.
     pub closure: f64,
+}
+
+impl Ledger {
+    /// Whether the works balance another quantity than T + V ([`Energies::has_own_jacobi`]).
+    pub fn has_own_jacobi(&self) -> bool {
+        self.start.has_own_jacobi() || self.end.has_own_jacobi()
+    }
 }
 
 /// Positive nodes and weights of Gauss–Legendre quadrature with 16 points on [−1, 1] (Abramowitz & Stegun, 25.4.30).

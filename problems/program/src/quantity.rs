@@ -2,9 +2,10 @@
 //! hold `limit(grip)`, an output, `kinetic`, `potential`, `energy`.
 
 use crate::notation::{is_angle, rate_unit, symbol, velocity_name};
-use crate::outcome::{Force, Sample, Source, forces};
+use crate::outcome::{Force, Outcome, Sample, Source, forces};
 use crate::request::Refusal;
-use lagrange_core::system::Description;
+use lagrange_core::__private::places::Normal;
+use lagrange_core::system::{Description, Friction};
 
 /// A number that a run has at every instant, or while something acts.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -77,7 +78,10 @@ impl Quantity {
             Quantity::Velocity(i) => format!("d{}/dt", symbol(d.coordinates[*i].name)),
             Quantity::Force(force) => force.name.clone(),
             Quantity::Size(i) => format!("|{}|", d.frictions[*i].name),
-            Quantity::Limit(i) => format!("μN of {}", d.frictions[*i].name),
+            Quantity::Limit(i) => {
+                let friction = &d.frictions[*i];
+                format!("{} of {}", limit_name(friction), friction.name)
+            }
             Quantity::Output(i) => d.observes[*i].name.to_owned(),
             Quantity::Kinetic => "kinetic".to_owned(),
             Quantity::Potential => "potential".to_owned(),
@@ -145,6 +149,18 @@ impl Quantity {
         Some(self.scaled_unit(d).1 * value)
     }
 
+    /// The absolute tolerance of a coordinate or rate, in its unit on paper.
+    pub(crate) fn tolerance(&self, outcome: &Outcome) -> Option<f64> {
+        let d = outcome.description;
+        let (Quantity::Position(i) | Quantity::Velocity(i)) = self else {
+            return None;
+        };
+        let name = d.coordinates[*i].name;
+        let own = outcome.absolute.iter().find(|(other, _)| other == name);
+        let tolerance = own.map_or(outcome.tolerance, |(_, tolerance)| *tolerance);
+        Some(self.scaled_unit(d).1 * tolerance)
+    }
+
     /// The forces of a scene, each friction followed by what it can hold.
     pub(crate) fn all_forces(d: &Description) -> Vec<Self> {
         let mut all = Vec::new();
@@ -159,6 +175,14 @@ impl Quantity {
             }
         }
         all
+    }
+}
+
+/// What a friction can hold, on paper: there is a μN where something presses; else its force is given.
+pub(crate) fn limit_name(friction: &Friction) -> &'static str {
+    match friction.normal {
+        Normal::Given(_) => "limit",
+        Normal::Contact(_) | Normal::Constraint(_) => "μN",
     }
 }
 

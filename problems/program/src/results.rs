@@ -201,6 +201,7 @@ impl Results for Failure {
 fn outcome(run: &(impl Results + ?Sized), samples: usize) -> Outcome {
     let request = Request {
         samples,
+        plotted: true,
         ..Request::default()
     };
     let motion = run.motion();

@@ -107,6 +107,7 @@ impl Run {
                 true => outputs.samples.unwrap_or(SAMPLES),
                 false => 0,
             },
+            plotted: outputs.plot.is_some(),
             ledger,
             progress: Some(progress.clone()),
             ..file.request

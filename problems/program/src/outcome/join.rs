@@ -33,10 +33,14 @@ impl Outcome {
         self.samples.truncate(kept);
         self.ledgers.truncate(kept);
         let samples = next.samples.into_iter().skip(skipped);
-        self.samples.extend(samples.map(|sample| Sample {
+        let placed = |sample: Sample| Sample {
             phase: sample.phase + before,
             ..sample
-        }));
+        };
+        self.samples.extend(samples.map(placed));
+        self.curve.retain(|sample| inner(sample));
+        let curve = next.curve.into_iter().filter(|sample| inner(sample));
+        self.curve.extend(curve.map(placed));
         if let Some(ledger) = &self.ledger {
             let after = |piece: &Ledger| add(ledger, piece);
             let ledgers = next.ledgers.iter().skip(skipped).map(after);

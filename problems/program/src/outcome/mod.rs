@@ -37,6 +37,8 @@ pub struct Outcome {
     /// The trajectory at some instants, and at the beginning and the end of every phase; in order of time.
     /// Empty if the run could not begin.
     pub samples: Vec<Sample>,
+    /// The same for curves: denser where the motion is too fast for the samples; empty if nothing is to be plotted.
+    pub curve: Vec<Sample>,
     /// What is known beside the log just before and just after each event, if the run was sampled between its ends; nothing
     /// between events at one instant.
     pub around: Vec<[Option<Sample>; 2]>,
@@ -78,6 +80,8 @@ pub struct Sample {
     pub kinetic: f64,
     /// Potential energy, J.
     pub potential: f64,
+    /// Jacobi integral, J.
+    pub jacobi: f64,
     /// Extra outputs.
     pub observes: Vec<f64>,
 }
@@ -197,6 +201,14 @@ impl Outcome {
     ) -> Self {
         let description = trajectory.description();
         let samples = sampling::samples(trajectory, times);
+        let curve = match request.plotted {
+            true => {
+                // A piece of a run has its share of the intervals.
+                let share = (times.len() + 1) as f64 / request.samples.max(1) as f64;
+                sampling::curve(trajectory, times, &samples, share.min(1.0))
+            }
+            false => Vec::new(),
+        };
         let moved = trajectory.work().steps > 0 || failure.is_none();
         let events = trajectory.events();
         let ledgers = |times: Vec<f64>| match request.ledger {
@@ -233,6 +245,7 @@ impl Outcome {
             ledgers: ledgers(samples.iter().map(|sample| sample.time).collect()),
             event_ledgers: ledgers(events.iter().map(|event| event.time).collect()),
             samples,
+            curve,
             work: trajectory.work(),
             stiff: trajectory.stiff().to_vec(),
             failure,

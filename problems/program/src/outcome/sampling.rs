@@ -63,6 +63,37 @@ pub(super) fn samples(trajectory: &Trajectory, times: &[f64]) -> Vec<Sample> {
     samples
 }
 
+/// Points of a curve over a step: a step follows an oscillation for a radian or some, and must not look like a slower one.
+const PER_STEP: usize = 16;
+
+/// Most points of a curve over a run: dozens in every column of a picture, which shows what they span.
+const MOST_POINTS: f64 = 40_000.0;
+
+/// The samples, or as many as the steps need where those are too few; a piece of a run has its `share` of them.
+pub(super) fn curve(
+    trajectory: &Trajectory,
+    times: &[f64],
+    samples: &[Sample],
+    share: f64,
+) -> Vec<Sample> {
+    let mut ends: Vec<f64> = trajectory.step_times().collect();
+    if PER_STEP * ends.len() <= times.len() {
+        return samples.to_vec();
+    }
+    ends.push(trajectory.last_time());
+    let most = (MOST_POINTS * share).ceil() as usize;
+    if PER_STEP * ends.len() > most {
+        return self::samples(trajectory, &equal(trajectory, most));
+    }
+    let part = |k: usize| k as f64 / PER_STEP as f64;
+    let points = ends.windows(2).flat_map(|step| {
+        let (from, length) = (step[0], step[1] - step[0]);
+        (0..PER_STEP).map(move |k| from + part(k) * length)
+    });
+    let points: Vec<f64> = points.collect();
+    self::samples(trajectory, &points)
+}
+
 /// The instants just before and just after every event. Of events at one instant only what is before the first and after
 /// the last can be read from the trajectory: nothing for those that follow another state or lead to one.
 pub(super) fn around(trajectory: &Trajectory) -> Vec<[Option<Sample>; 2]> {
@@ -126,6 +157,7 @@ impl<'a> Reader<'a> {
             undetermined: instant.undetermined,
             kinetic: instant.kinetic,
             potential: instant.potential,
+            jacobi: instant.jacobi,
             observes: instant.observes,
         }
     }

@@ -1,9 +1,10 @@
 //! Costs of effects → table, JSON, CSV.
 
-use super::table::page;
+use super::table::{WIDTH, page};
 use super::words::in_table;
 use crate::cost::{Cost, Costs, EffectCost, ModeCost};
 use comfy_table::{CellAlignment, ContentArrangement, Table};
+use core::ops::Range;
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
@@ -29,37 +30,18 @@ pub fn table(costs: &Costs, mut out: impl Write) -> io::Result<()> {
     }
     align(&mut modes, 2);
     writeln!(out, "A right-hand side:\n\n{}\n", modes.trim_fmt())?;
-    let mut effects = page();
-    effects.set_content_arrangement(ContentArrangement::Disabled);
-    let mut header = vec!["effect".to_owned()];
-    for number in 1..=costs.modes.len() {
-        header.extend([format!("{number}: operations"), "ns".to_owned()]);
+    writeln!(out, "What each effect adds, mode by mode:\n")?;
+    // As many modes side by side as a page is wide.
+    let mut first = 0;
+    while first < costs.modes.len() {
+        let tables = (first + 1..=costs.modes.len()).map(|end| (end, added(costs, first..end)));
+        let fitting = tables.take_while(|(end, table)| *end == first + 1 || fits(table));
+        let Some((end, table)) = fitting.last() else {
+            break;
+        };
+        writeln!(out, "{}\n", table.trim_fmt())?;
+        first = end;
     }
-    header.push("whole run without it".to_owned());
-    effects.set_header(header);
-    for effect in &costs.effects {
-        let mut line = vec![format!("{} ({})", effect.name, effect.kind)];
-        for share in shares(costs, effect) {
-            match share {
-                Some((0, _)) => line.extend(["0".to_owned(), String::new()]),
-                Some((operations, ns)) => {
-                    line.extend([format!("{operations:+}"), format!("{ns:+.0}")]);
-                }
-                None => line.extend(["needed".to_owned(), String::new()]),
-            }
-        }
-        line.push(match &effect.run {
-            Ok(time) => format!("{:.1} µs", time * 1e6),
-            Err(_) => "fails".to_owned(),
-        });
-        effects.add_row(line);
-    }
-    align(&mut effects, 1);
-    writeln!(
-        out,
-        "What each effect adds, mode by mode:\n\n{}\n",
-        effects.trim_fmt()
-    )?;
     writeln!(
         out,
         "A whole run with everything takes {:.1} µs. 0: the effect does not act in the mode, and costs nothing there.",
@@ -71,6 +53,44 @@ pub fn table(costs: &Costs, mut out: impl Write) -> io::Result<()> {
         }
     }
     Ok(())
+}
+
+/// What each effect adds to some of the modes; beside the last one, what a whole run takes without it.
+fn added(costs: &Costs, modes: Range<usize>) -> Table {
+    let mut table = page();
+    table.set_content_arrangement(ContentArrangement::Disabled);
+    let mut header = vec!["effect".to_owned()];
+    for number in modes.clone() {
+        header.extend([format!("{}: operations", number + 1), "ns".to_owned()]);
+    }
+    let last = modes.end == costs.modes.len();
+    header.extend(last.then(|| "whole run without it".to_owned()));
+    table.set_header(header);
+    for effect in &costs.effects {
+        let mut line = vec![format!("{} ({})", effect.name, effect.kind)];
+        for share in shares(costs, effect).skip(modes.start).take(modes.len()) {
+            match share {
+                Some((0, _)) => line.extend(["0".to_owned(), String::new()]),
+                Some((operations, ns)) => {
+                    line.extend([format!("{operations:+}"), format!("{ns:+.0}")]);
+                }
+                None => line.extend(["needed".to_owned(), String::new()]),
+            }
+        }
+        line.extend(last.then(|| match &effect.run {
+            Ok(time) => format!("{:.1} µs", time * 1e6),
+            Err(_) => "fails".to_owned(),
+        }));
+        table.add_row(line);
+    }
+    align(&mut table, 1);
+    table
+}
+
+/// Whether no line is wider than a page.
+fn fits(table: &Table) -> bool {
+    let mut lines = table.lines();
+    lines.all(|line| line.trim_end().chars().count() <= usize::from(WIDTH))
 }
 
 fn align(table: &mut Table, first: usize) {

@@ -134,6 +134,7 @@ struct Balance {
     time: f64,
     kinetic: f64,
     potential: f64,
+    jacobi: f64,
     work: Numbers,
     closure: f64,
 }
@@ -151,6 +152,8 @@ struct Parts {
     kinetic: f64,
     potential: f64,
     total: f64,
+    /// What the works balance.
+    jacobi: f64,
 }
 
 /// How far off the run is, judged by another one.
@@ -380,7 +383,8 @@ fn energy(ledger: &Ledger) -> Energy {
     let parts = |energies: &Energies| Parts {
         kinetic: energies.kinetic,
         potential: energies.potential,
-        total: energies.kinetic + energies.potential,
+        total: energies.total(),
+        jacobi: energies.jacobi,
     };
     Energy {
         start: parts(&ledger.start),
@@ -421,6 +425,7 @@ fn balance(time: f64, ledger: &Ledger) -> Balance {
         time,
         kinetic: ledger.end.kinetic,
         potential: ledger.end.potential,
+        jacobi: ledger.end.jacobi,
         work: Numbers(work.map(|e| (work_name(e), e.work)).collect()),
         closure: ledger.closure,
     }

@@ -6,7 +6,7 @@ use super::with_unit;
 use crate::feasible::Feasible;
 use crate::notation::{rate_unit, velocity_name};
 use crate::outcome::forces;
-use comfy_table::CellAlignment;
+use comfy_table::{CellAlignment, ColumnConstraint};
 use lagrange_core::prelude::Instant;
 use serde::Serialize;
 use std::io::{self, Write};
@@ -78,6 +78,8 @@ pub fn table(found: &Feasible, mut out: impl Write) -> io::Result<()> {
         column.set_padding((if index == 0 { 0 } else { 1 }, 1));
         if index >= 2 {
             column.set_cell_alignment(CellAlignment::Right);
+            // Neither a number nor the name of an acceleration is broken.
+            column.set_constraint(ColumnConstraint::ContentWidth);
         }
     }
     writeln!(out, "{}\n", table.trim_fmt())?;

@@ -4,13 +4,12 @@
 //! impulses instead. Numbers of a column have the same number of decimals, so that they can be compared by eye.
 
 use super::telling;
-use super::words::{in_table, switch_in_table};
+use super::words::{FEW, MANY, in_table, switch_in_table};
 use crate::notation::{is_angle, symbol};
 use crate::outcome::{Force, Outcome, Sample, forces};
 use comfy_table::{
     CellAlignment, ColumnConstraint, ContentArrangement, LineStyle, Table, TableStyle, Width,
 };
-use core::iter::repeat;
 use lagrange_core::mode::Mode;
 use lagrange_core::prelude::*;
 use lagrange_core::system::Description;
@@ -18,7 +17,7 @@ use lagrange_core::trajectory::Entry;
 use std::io::{self, Write};
 
 /// Columns of the page.
-const WIDTH: u16 = 100;
+pub(super) const WIDTH: u16 = 100;
 
 /// So many numbers, forces among them, stand in a line of the story beside its mode.
 const NUMBERS: usize = 6;
@@ -51,7 +50,11 @@ pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
         writeln!(out, "\n{}", energy(ledger, unit).trim_fmt())?;
         writeln!(
             out,
-            "The ledger closes to {:.1e} of its scale, {}{}{unit}.",
+            "The ledger{} closes to {:.1e} of its scale, {}{}{unit}.",
+            match ledger.has_own_jacobi() {
+                true => " of the Jacobi integral",
+                false => "",
+            },
             ledger.closure.abs() / ledger.scale.max(f64::MIN_POSITIVE),
             Decimals::of([ledger.scale]).show(ledger.scale),
             if unit.is_empty() { "" } else { " " }
@@ -103,15 +106,17 @@ fn entries(outcome: &Outcome, items: &[Force]) -> Vec<Line> {
         impulse: false,
         mode: in_table(&sample.mode, description),
     };
-    let before = |index: usize| outcome.around.get(index)?[0].as_ref();
-    let happening = |(index, event): (usize, &Event<f64>)| {
+    let groups = instants(&outcome.events);
+    let happening = |(index, group): &(usize, &[Event<f64>])| {
+        let [event, ..] = group else { return None };
         let (mode, changes) = switch_in_table(&event.before, &event.after, description);
         let impulse = event.kind == EventKind::Impact;
-        Line {
+        let before = outcome.around.get(*index).and_then(|a| a[0].as_ref());
+        Some(Line {
             time: event.time,
             error: None,
-            event: format!("{} {}", event.subject.name(description), event.kind),
-            state: known(&event.state.q, before(index)),
+            event: named(group, description),
+            state: known(&event.state.q, before),
             upper: match impulse {
                 true => items
                     .iter()
@@ -125,35 +130,45 @@ fn entries(outcome: &Outcome, items: &[Force]) -> Vec<Line> {
             },
             impulse,
             mode,
-        }
+        })
     };
-    // What happens at the start has a line of its own: the run begins with what was before it.
-    let start = |first: &Sample| match outcome.events.first() {
-        Some(event) if event.time == first.time => Line {
-            state: known(&event.state.q, before(0)),
-            upper: acting(&event.forces, &event.before),
-            mode: in_table(&event.before, description),
-            ..instant(first, "start")
+    // What is decided at the start is no motion yet: the mode that was tried first never acted. An impact there is told by itself, after
+    // what was before it.
+    let first = groups.first().map(|(_, group)| *group);
+    let first = outcome.first().zip(first).filter(|(start, group)| {
+        let decided = |event: &Event<f64>| event.before != event.after;
+        group[0].time == start.time && decided(&group[0])
+    });
+    let decided = first.is_some_and(|(_, group)| group[0].kind != EventKind::Impact);
+    let start = |sample: &Sample| match first {
+        Some((_, group)) if decided => Line {
+            event: format!("start\n{}", named(group, description)),
+            upper: acting(&group[0].forces_after, &group[0].after),
+            mode: in_table(&group[0].after, description),
+            ..instant(sample, "start")
         },
-        _ => instant(first, "start"),
+        Some((_, group)) => Line {
+            state: known(
+                &group[0].state.q,
+                outcome.around.first().and_then(|a| a[0].as_ref()),
+            ),
+            upper: acting(&group[0].forces, &group[0].before),
+            mode: in_table(&group[0].before, description),
+            ..instant(sample, "start")
+        },
+        None => instant(sample, "start"),
     };
     let mut lines: Vec<Line> = outcome.first().map(start).into_iter().collect();
-    let errors = outcome
-        .estimate
-        .iter()
-        .flat_map(|estimate| &estimate.difference.events);
-    let errors = errors.map(|error| Some(*error)).chain(repeat(None));
-    lines.extend(
-        outcome
-            .events
-            .iter()
-            .enumerate()
-            .zip(errors)
-            .map(|(event, error)| Line {
-                error,
-                ..happening(event)
-            }),
-    );
+    let errors = outcome.estimate.as_ref();
+    let errors = errors.map_or(&[][..], |estimate| &estimate.difference.events);
+    let told = groups.iter().skip(usize::from(decided));
+    lines.extend(told.filter_map(|(index, group)| {
+        let errors = errors.iter().skip(*index).take(group.len());
+        Some(Line {
+            error: errors.copied().reduce(f64::max),
+            ..happening(&(*index, *group))?
+        })
+    }));
     let stopped = outcome
         .events
         .last()
@@ -167,6 +182,36 @@ fn entries(outcome: &Outcome, items: &[Force]) -> Vec<Line> {
         lines.push(instant(last, how));
     }
     lines
+}
+
+/// Events that are one switch, each with the index of its first: all that happens at one instant between the same modes and states.
+fn instants(events: &[Event<f64>]) -> Vec<(usize, &[Event<f64>])> {
+    let is_impact = |event: &Event<f64>| event.kind == EventKind::Impact;
+    let one = |a: &Event<f64>, b: &Event<f64>| {
+        (a.time, is_impact(a)) == (b.time, is_impact(b))
+            && (&a.before, &a.after) == (&b.before, &b.after)
+            && (&a.state, &a.state_after) == (&b.state, &b.state_after)
+    };
+    let mut index = 0;
+    let groups = events.chunk_by(one).map(|group| {
+        index += group.len();
+        (index - group.len(), group)
+    });
+    groups.collect()
+}
+
+/// What happens in one switch, a line each; of many events the first ones.
+fn named(group: &[Event<f64>], description: &'static Description) -> String {
+    let told = match group.len() > FEW {
+        true => MANY,
+        false => group.len(),
+    };
+    let name = |event: &Event<f64>| format!("{} {}", event.subject.name(description), event.kind);
+    let mut lines: Vec<String> = group[..told].iter().map(name).collect();
+    if group.len() > told {
+        lines.push(format!("and {} more", group.len() - told));
+    }
+    lines.join("\n")
 }
 
 /// A coordinate or an output in the story.
@@ -340,15 +385,14 @@ fn impulse_unit(force: &str) -> String {
 
 fn energy(ledger: &Ledger, unit: &str) -> Table {
     let (start, end) = (&ledger.start, &ledger.end);
-    let lines = [
+    let mut lines = vec![
         ("kinetic", start.kinetic, end.kinetic),
         ("potential", start.potential, end.potential),
-        (
-            "total",
-            start.kinetic + start.potential,
-            end.kinetic + end.potential,
-        ),
+        ("total", start.total(), end.total()),
     ];
+    if ledger.has_own_jacobi() {
+        lines.push(("Jacobi integral", start.jacobi, end.jacobi));
+    }
     let works = ledger.work.iter().map(|entry| entry.work);
     let decimals = Decimals::of(lines.iter().flat_map(|(_, a, b)| [*a, *b]).chain(works));
     // Whoever did nothing that the digits show is left out; friction is worth a line even then.
@@ -470,6 +514,83 @@ fn time(t: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::Decimals;
+    use crate::file::scene;
+    use crate::request::Request;
+
+    /// The story of a run, with single blanks.
+    fn story(declared: &str) -> Vec<String> {
+        let scene = scene("told.lagrange", declared).expect("a declaration");
+        let outcome = scene.run(&Request::default()).expect("a run");
+        let mut text = Vec::new();
+        super::write(&outcome, &mut text).expect("memory");
+        let text = String::from_utf8(text).expect("text");
+        let words = |line: &str| line.split_whitespace().collect::<Vec<_>>().join(" ");
+        text.lines().map(words).collect()
+    }
+
+    /// A bead on a hoop that is turned: T has no form quadratic in the velocity, and v ∂T/∂v − T + V stays.
+    #[test]
+    fn a_story_shows_the_jacobi_integral_where_it_is_not_the_energy() {
+        let declared = "
+            parameters(m = 0.5, g = 10, r = 2, rate = 3), coordinates(theta),
+            kinetic = m/2 * r^2 * (der(theta)^2 + rate^2 * sin(theta)^2),
+            potential = -m * g * r * cos(theta), start(a: theta = 0.5), until = 1,";
+        let lines = story(declared);
+        let (sin, cos) = 0.5_f64.sin_cos();
+        let h = -0.5 * 0.5 * 4.0 * 9.0 * sin * sin - 0.5 * 10.0 * 2.0 * cos;
+        let own = format!("Jacobi integral {h:.3} {h:.3} 0.000");
+        assert!(lines.contains(&own), "{own}\n{lines:#?}");
+        let closes = "The ledger of the Jacobi integral closes to";
+        assert!(lines.iter().any(|line| line.starts_with(closes)));
+        let still = story(&declared.replace("rate = 3", "rate = 0"));
+        assert!(still.iter().all(|line| !line.contains("Jacobi")));
+    }
+
+    /// Two blocks that are pulled too hard, and one that is not: nobody sees the two stick, and 10 N on 2 N of friction are 4 m in a second.
+    #[test]
+    fn the_start_is_one_row_with_what_was_decided_there() {
+        let lines = story(
+            "parameters(f = 10, g = 2), coordinates(a, b, c), kinetic = (der(a)^2 + der(b)^2 + der(c)^2) / 2,
+             force(pull: f along der(a) + der(b)), force(push: c = 1), friction(fa: slip = der(a), limit = g),
+             friction(fb: slip = der(b), limit = g), friction(fc: slip = der(c), limit = g), start(rest: a = 0), until = 1,",
+        );
+        let starting = |with: &str| lines.iter().filter(|line| line.starts_with(with)).count();
+        assert_eq!(starting("0.000000"), 1, "{lines:#?}");
+        let start = "0.000000 start 0.0000 0.0000 0.0000 -2.0000 -2.0000 -1.0000 fa slips";
+        assert_eq!(starting(start), 1, "{lines:#?}");
+        assert!(
+            starting("fa slips") > 0 && starting("fb slips") > 0,
+            "{lines:#?}"
+        );
+        assert_eq!(
+            starting("1.000000 end 4.0000 4.0000 0.0000"),
+            1,
+            "{lines:#?}"
+        );
+        assert!(
+            lines.iter().all(|line| !line.contains("-10.000")),
+            "{lines:#?}"
+        );
+    }
+
+    /// Two blocks on one ramp of force let go at the same instant: one row, forces before and after.
+    #[test]
+    fn what_switches_at_one_instant_is_one_row() {
+        let lines = story(
+            "parameters(f = 4, hold = 2, rub = 1), coordinates(a, b),
+             kinetic = (der(a)^2 + der(b)^2) / 2, force(pull: f * t along der(a) + der(b)),
+             friction(fa: slip = der(a), static = hold, kinetic = rub, normal = 1),
+             friction(fb: slip = der(b), static = hold, kinetic = rub, normal = 1),
+             start(rest: a = 0), until = 1,",
+        );
+        let rows = lines.iter().filter(|line| line.starts_with("0.500000"));
+        assert_eq!(rows.count(), 1, "{lines:#?}");
+        let second = lines.iter().find(|line| line.starts_with("fb slips"));
+        assert!(
+            second.is_some_and(|line| line.contains("-1.0000 -1.0000")),
+            "{lines:#?}"
+        );
+    }
 
     #[test]
     fn five_digits_of_the_largest_number_and_no_negative_zero() {

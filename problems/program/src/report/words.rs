@@ -5,10 +5,10 @@ use lagrange_core::system::Description;
 use std::collections::BTreeSet;
 
 /// So many of a kind that do the same are told together.
-const MANY: usize = 3;
+pub(super) const MANY: usize = 3;
 
 /// In a table, so many contacts, frictions and sides of branches are told one by one.
-const FEW: usize = 4;
+pub(super) const FEW: usize = 4;
 
 /// A name with what it does: singular and plural.
 type Doing = (&'static str, [&'static str; 2]);

@@ -10,7 +10,7 @@ use core::ops::RangeInclusive;
 use event::event;
 use lagrange_core::effects::Item;
 use lagrange_core::prelude::*;
-use lagrange_core::system::{AnySystem, Description};
+use lagrange_core::system::{AnySystem, Description, Parameter};
 use std::collections::BTreeSet;
 
 /// Most intervals that a run is sampled at: their numbers are kept in memory.
@@ -57,6 +57,8 @@ pub struct Request {
     pub equations: Equations,
     /// Number of intervals to sample the trajectory at; 0 samples its ends only.
     pub samples: usize,
+    /// Whether the motion is drawn as curves, for which fast motions are sampled more densely.
+    pub plotted: bool,
     /// Whether the energy ledger is drawn up at every sample.
     pub ledger: bool,
     /// Seed of the instants at which the run is checked against its declaration.
@@ -86,6 +88,7 @@ impl Default for Request {
             impacts: None,
             equations: Equations::Emitted,
             samples: 0,
+            plotted: false,
             ledger: false,
             seed: 0,
             certified: 0.125,
@@ -215,7 +218,9 @@ impl Request {
             {
                 return Err(Refusal::Repeated { name: name.clone() });
             }
-            system.set_parameter(find_parameter(system.description(), name)?, *value);
+            for parameter in find_parameters(system.description(), name)? {
+                system.set_parameter(parameter, *value);
+            }
         }
         Ok(())
     }
@@ -377,6 +382,27 @@ pub(crate) fn find_parameter(
     known()
         .position(|p| p == name)
         .ok_or_else(|| Refusal::unknown("parameter", name, known()))
+}
+
+/// Indices of what `name` means: a parameter, or all elements of an array.
+pub(crate) fn find_parameters(
+    description: &'static Description,
+    name: &str,
+) -> Result<Vec<usize>, Refusal> {
+    let element = |p: &Parameter| {
+        p.name
+            .split_once('[')
+            .is_some_and(|(array, _)| array == name)
+    };
+    let parameters = description.parameters.iter().enumerate();
+    let elements: Vec<usize> = parameters
+        .filter(|(_, p)| element(p))
+        .map(|(i, _)| i)
+        .collect();
+    match elements.is_empty() {
+        true => Ok(vec![find_parameter(description, name)?]),
+        false => Ok(elements),
+    }
 }
 
 /// The item called `name` that can be switched off.

@@ -5,6 +5,8 @@ use super::difference::difference;
 use crate::film::Film;
 use crate::notation::{is_angle, rate_unit, symbol};
 use crate::outcome::{Force, Outcome, Sample, Source, forces};
+use crate::quantity::limit_name;
+use lagrange_core::prelude::Ledger;
 use lagrange_core::system::Friction;
 use serde::Serialize;
 
@@ -99,7 +101,9 @@ fn frictions(outcome: &Outcome) -> Vec<Plot> {
             time: Vec::new(),
             curves: vec![
                 curve(outcome, format!("|{name}|"), false, held),
-                curve(outcome, "μN".to_owned(), true, |sample| sample.limits[i]),
+                curve(outcome, limit_name(friction).to_owned(), true, |sample| {
+                    sample.limits[i]
+                }),
             ],
         }
     };
@@ -156,18 +160,22 @@ fn force_axis(unit: &str) -> String {
 
 fn energies(outcome: &Outcome) -> Plot {
     type Energy = (&'static str, fn(&Sample) -> f64);
-    let energies: [Energy; 3] = [
+    let mut energies: Vec<Energy> = vec![
         ("kinetic", |s| s.kinetic),
         ("potential", |s| s.potential),
         ("sum", |s| s.kinetic + s.potential),
     ];
-    let energies =
+    if outcome.ledger.as_ref().is_some_and(Ledger::has_own_jacobi) {
+        energies.push(("Jacobi integral", |s| s.jacobi));
+    }
+    let energies = energies.into_iter();
+    let curves =
         energies.map(|(name, of)| curve(outcome, name.to_owned(), false, move |s| Some(of(s))));
     Plot {
         title: "Energy".to_owned(),
         axis: with_unit("energy", outcome.description.units.energy),
         time: Vec::new(),
-        curves: energies.into(),
+        curves: curves.collect(),
     }
 }
 

@@ -130,20 +130,24 @@ fn energy(run: &Shown) -> String {
         unit => format!(" [{}]", escaped(unit)),
     };
     let line = |name: &str, value: f64| vec![escaped(name), short(value)];
-    let mut rows = vec![
-        line("kinetic, at the start", ledger.start.kinetic),
-        line("potential, at the start", ledger.start.potential),
-    ];
+    let both = |when: &str, energies: &Energies| {
+        let mut rows = vec![
+            line(&format!("kinetic, {when}"), energies.kinetic),
+            line(&format!("potential, {when}"), energies.potential),
+        ];
+        if ledger.has_own_jacobi() {
+            rows.push(line(&format!("Jacobi integral, {when}"), energies.jacobi));
+        }
+        rows
+    };
+    let mut rows = both("at the start", &ledger.start);
     let work = ledger
         .work
         .iter()
         .filter(|e| e.work.abs() > 1e-12 * ledger.scale);
     rows.extend(work.map(|e| line(&format!("work of {} ({})", e.name, e.kind), e.work)));
-    rows.extend([
-        line("kinetic, at the end", ledger.end.kinetic),
-        line("potential, at the end", ledger.end.potential),
-        line("closure: what is left unexplained", ledger.closure),
-    ]);
+    rows.extend(both("at the end", &ledger.end));
+    rows.push(line("closure: what is left unexplained", ledger.closure));
     table(
         run,
         "Energy",

@@ -1,5 +1,7 @@
 //! Which curves a picture has: what was asked for or, if nothing was, one panel of forces and one per unit of the coordinates.
 
+use super::COLOURS;
+use super::panel::{LATER, LIMIT, SOLID};
 use crate::outcome::{Outcome, Sample};
 use crate::quantity::{Quantity, Show};
 use crate::report::telling;
@@ -81,16 +83,21 @@ pub(super) fn usual(outcomes: &[&Outcome], d: &Description) -> Vec<Panel> {
     panels
 }
 
-/// Each its colour; a limit is dashed in the colour of the force before it.
+/// Each its look: where there are more than colours, they are dashed in the next round. A limit is dashed in the colour of the force before it.
 fn coloured(quantities: Vec<Quantity>) -> Vec<Curve> {
     let mut curves: Vec<Curve> = Vec::new();
     for quantity in quantities {
         let next = curves.last().map_or(0, |last| last.colour + 1);
         let bounds = |size: &Quantity| matches!((size, &quantity), (Quantity::Size(a), Quantity::Limit(b)) if a == b);
         let limit = curves.last().is_some_and(|last| bounds(&last.quantity));
+        let colour = if limit { next - 1 } else { next };
         curves.push(Curve {
-            colour: if limit { next - 1 } else { next },
-            dash: usize::from(limit),
+            colour,
+            dash: match (limit, colour / COLOURS.len()) {
+                (true, _) => LIMIT,
+                (false, 0) => SOLID,
+                (false, round) => LATER[(round - 1) % LATER.len()],
+            },
             quantity,
         });
     }
@@ -130,6 +137,33 @@ pub(super) fn with_comma(name: &str, unit: &str) -> String {
 /// Impacts closer together than this part of the run are one on paper.
 const APART: f64 = 1.0 / 2000.0;
 
+/// Columns of a picture, about: what lies within one is seen as what it spans.
+const COLUMNS: f64 = 700.0;
+
+/// Of many points in a column the first, the lowest, the highest and the last: a fast oscillation fills what it spans, and never looks
+/// like a slow one.
+fn thinned(points: &[(f64, f64)], column: f64) -> Vec<(f64, f64)> {
+    let number = |(x, _): &(f64, f64)| (x / column).floor();
+    let mut thinned = Vec::new();
+    for within in points.chunk_by(|a, b| number(a) == number(b)) {
+        let by_height = |a: &&(f64, f64), b: &&(f64, f64)| a.1.total_cmp(&b.1);
+        let ends = [within.first(), within.last()];
+        let [lowest, highest] = [
+            within.iter().min_by(by_height),
+            within.iter().max_by(by_height),
+        ];
+        match (ends, lowest, highest) {
+            ([Some(first), Some(last)], Some(lowest), Some(highest)) if within.len() > 4 => {
+                let mut inner = [*lowest, *highest];
+                inner.sort_by(|a, b| a.0.total_cmp(&b.0));
+                thinned.extend([*first, inner[0], inner[1], *last]);
+            }
+            _ => thinned.extend_from_slice(within),
+        }
+    }
+    thinned
+}
+
 /// What is drawn of the motion: the samples, and between them what is just before and just after each impact within a phase, so that
 /// velocities jump there.
 fn drawn(outcome: &Outcome) -> Vec<(usize, &Sample)> {
@@ -142,7 +176,11 @@ fn drawn(outcome: &Outcome) -> Vec<(usize, &Sample)> {
     let mut jump = jumps.next();
     let mut drawn: Vec<(usize, &Sample)> = Vec::new();
     let mut latest = f64::NEG_INFINITY;
-    for sample in &outcome.samples {
+    let samples = match outcome.curve.is_empty() {
+        true => &outcome.samples,
+        false => &outcome.curve,
+    };
+    for sample in samples {
         while let Some(sides) = jump.filter(|[before, _]| before.time <= sample.time) {
             let time = sides[0].time;
             let within = drawn
@@ -159,6 +197,9 @@ fn drawn(outcome: &Outcome) -> Vec<(usize, &Sample)> {
     drawn
 }
 
+/// Rounding of a coordinate, in units of its absolute tolerance.
+const ROUNDING: f64 = 1e-6;
+
 /// A quantity over another one, broken where one of them does not exist or the phase changes.
 pub(super) fn pieces(
     outcome: &Outcome,
@@ -168,7 +209,13 @@ pub(super) fn pieces(
     let d = outcome.description;
     let mut pieces: Vec<Vec<(f64, f64)>> = Vec::new();
     let mut phase = None;
-    let point = |sample: &Sample| Some((over.of(d, sample)?, quantity.of(d, sample)?));
+    // What is far below the tolerance is rounding, however large a panel would show it.
+    let sizes = outcome.samples.iter();
+    let sizes = sizes.filter_map(|sample| Some(quantity.of(d, sample)?.abs()));
+    let tolerance = quantity.tolerance(outcome);
+    let flat = tolerance.is_some_and(|it| sizes.fold(0.0, f64::max) < ROUNDING * it);
+    let value = |sample: &Sample| Some(quantity.of(d, sample)? * if flat { 0.0 } else { 1.0 });
+    let point = |sample: &Sample| Some((over.of(d, sample)?, value(sample)?));
     for (of, sample) in drawn(outcome) {
         let Some(point) = point(sample) else {
             phase = None;
@@ -180,6 +227,12 @@ pub(super) fn pieces(
         phase = Some(of);
         if let Some(piece) = pieces.last_mut() {
             piece.push(point);
+        }
+    }
+    if let (Quantity::Time, Some(first), Some(last)) = (over, outcome.first(), outcome.last()) {
+        let column = (last.time - first.time) / COLUMNS;
+        for piece in &mut pieces {
+            *piece = thinned(piece, column);
         }
     }
     pieces
@@ -214,6 +267,62 @@ mod tests {
             (time - 0.5).abs() < 1e-12 && (before + 4.0).abs() < 1e-9 && (after - 2.0).abs() < 1e-9
         );
         assert!(piece.is_sorted_by(|a, b| a.0 <= b.0));
+    }
+
+    fn plotted(declared: &str) -> Outcome {
+        let scene = file::scene("plotted.lagrange", declared).expect("a declaration");
+        let request = Request {
+            samples: 400,
+            plotted: true,
+            ..Request::default()
+        };
+        scene.run(&request).expect("a run")
+    }
+
+    /// 200.5 Hz for 2 s: at the 400 samples alone it looks like 0.5 Hz. Every hundredth of the picture has both peaks.
+    #[test]
+    fn a_fast_oscillation_fills_what_it_spans() {
+        let outcome = plotted(
+            "parameters(w = 1259.7787), coordinates(x, still), kinetic = (der(x)^2 + der(still)^2)/2,
+             potential = w^2 * x^2/2, start(out: x = 1, still = 1e-17), until = 2,",
+        );
+        assert_eq!(outcome.samples.len(), 401);
+        let pieces = pieces(&outcome, &Quantity::Time, &Quantity::Position(0));
+        let [piece] = &pieces[..] else {
+            panic!("one phase: {}", pieces.len());
+        };
+        assert!(piece.len() < 3000, "{}", piece.len());
+        assert!(piece.is_sorted_by(|a, b| a.0 <= b.0));
+        for part in 0..100 {
+            let begin = f64::from(part) * 0.02;
+            let inside = piece
+                .iter()
+                .filter(|(t, _)| (begin..begin + 0.02).contains(t));
+            let (low, high) = inside.fold((0.0_f64, 0.0_f64), |(low, high), (_, x)| {
+                (low.min(*x), high.max(*x))
+            });
+            assert!(low < -0.95 && high > 0.95, "{begin}: {low} {high}");
+        }
+        let still = super::pieces(&outcome, &Quantity::Time, &Quantity::Position(1));
+        assert!(still[0].iter().all(|(_, x)| *x == 0.0));
+    }
+
+    #[test]
+    fn no_two_curves_look_alike() {
+        let outcome = plotted(
+            "coordinates(x[12]), kinetic = sum(i in 0..12: der(x[i])^2), friction(rub: slip = der(x[0]), limit = 1), until = 1",
+        );
+        let panels = usual(&[&outcome], outcome.description);
+        let limit = &panels[0].curves[1];
+        assert_eq!(limit.quantity.name(outcome.description), "limit of rub");
+        for panel in &panels {
+            let looks = panel
+                .curves
+                .iter()
+                .map(|c| (c.colour % COLOURS.len(), c.dash));
+            let looks: std::collections::BTreeSet<_> = looks.collect();
+            assert_eq!(looks.len(), panel.curves.len());
+        }
     }
 
     #[test]

@@ -32,6 +32,10 @@ struct Line<'p> {
 
 /// Dashes and gaps, in pixels; curves without are drawn through.
 const DASHES: [Option<(i32, i32)>; 4] = [None, Some((5, 4)), Some((2, 3)), Some((11, 4))];
+/// Which of them a curve has, the limit of a friction, and curves after the colours have been used up.
+pub(super) const SOLID: usize = 0;
+pub(super) const LIMIT: usize = 1;
+pub(super) const LATER: [usize; 2] = [2, 3];
 
 /// Of several runs each has its colour and quantities have dashes, of one run quantities have colours.
 fn look(curve: &Curve, order: usize, several: bool) -> (usize, usize) {
