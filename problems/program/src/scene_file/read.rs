@@ -9,7 +9,7 @@ use crate::quantity::Show;
 use crate::request::event::event;
 use crate::request::{
     ERRORS, MOST_SAMPLES, Refusal, Request, TOLERANCES, find_coordinate, find_effect,
-    find_parameter, find_start, find_state,
+    find_parameters, find_start, find_state,
 };
 use clap::ValueEnum;
 use lagrange_core::prelude::{Impacts, Method};
@@ -92,7 +92,7 @@ fn contents(document: &DeTable, catalogue: &Catalogue) -> (Option<SceneFile>, Ve
             }
             "parameters" => {
                 request.parameters = reader.pairs(value, |key, value| {
-                    refused(key, find_parameter(d, key.get_ref()))?;
+                    refused(key, find_parameters(d, key.get_ref()))?;
                     Ok((key.get_ref().to_string(), number(value)?))
                 });
             }
