@@ -4,6 +4,7 @@
 use crate::progress::Progress;
 use clap::ColorChoice;
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
+use std::io::IsTerminal;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
@@ -12,6 +13,8 @@ use std::time::{Duration, Instant};
 const PATIENCE: Duration = Duration::from_secs(1);
 /// Time between two looks at how far it is.
 const TICK: Duration = Duration::from_millis(100);
+/// Time between two lines where nobody sees a bar: a file, a pipe, the log of a cluster.
+const BETWEEN_LINES: Duration = Duration::from_secs(10);
 /// Parts of a bar.
 const PARTS: u64 = 10_000;
 
@@ -45,13 +48,21 @@ pub(super) fn bar(length: u64, form: &str) -> ProgressBar {
     }
 }
 
-/// Does `work`; if it takes longer than a second, shows on stderr how far it is and how long it still takes.
+/// Does `work`; if it takes longer than a second, shows on stderr how far it is and how long it still takes. Where stderr is no
+/// terminal, it says so in a line now and then.
 pub(super) fn patiently<T>(what: &str, progress: &Progress, work: impl FnOnce() -> T) -> T {
     let (done, waiting) = channel::<()>();
     let begin = Instant::now();
     std::thread::scope(|scope| {
         scope.spawn(move || {
             let pause = |time| waiting.recv_timeout(time) == Err(RecvTimeoutError::Timeout);
+            if !std::io::stderr().is_terminal() {
+                while !QUIET.load(Relaxed) && pause(BETWEEN_LINES) {
+                    let part = progress.part().unwrap_or(0.0);
+                    super::say(&line(what, begin.elapsed(), part));
+                }
+                return;
+            }
             if !pause(PATIENCE) {
                 return;
             }
@@ -71,6 +82,11 @@ pub(super) fn patiently<T>(what: &str, progress: &Progress, work: impl FnOnce() 
         drop(done);
         result
     })
+}
+
+/// How far it is, without a bar.
+fn line(what: &str, gone: Duration, part: f64) -> String {
+    format!("{what}: {:.0} %, {}", 100.0 * part, times(gone, part))
 }
 
 /// How long a part took, and how long the rest takes at that speed.
@@ -121,5 +137,7 @@ mod tests {
         assert_eq!(told(1.0), "60s gone, 0s left");
         assert_eq!(told(0.0), "60s gone");
         assert_eq!(told(1e-9), "60s gone");
+        let line = line("measuring arm", Duration::from_secs(30), 0.25);
+        assert_eq!(line, "measuring arm: 25 %, 30s gone, 2m left");
     }
 }
