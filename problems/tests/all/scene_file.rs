@@ -5,10 +5,11 @@ use lagrange_problems::catalogue;
 use lagrange_program::format::RunFormat;
 use lagrange_program::request::Request;
 use lagrange_program::scene_file::{self, Mistake, Outputs, SceneFile, write};
+use std::path::Path;
 
 /// Reads a scene file about a scene of the catalogue.
 fn read(text: &str) -> Result<SceneFile, Mistake> {
-    scene_file::read(text, &catalogue::all())
+    scene_file::read(text, Path::new(""), &catalogue::all())
 }
 
 const FULL: &str = r#"
@@ -96,7 +97,8 @@ fn a_file_says_what_a_command_line_says() {
 #[test]
 fn what_is_written_is_read_again() {
     let file = read(FULL).expect("a scene file");
-    let text = write(file.scene, &file.request, &file.outputs).expect("it can be written");
+    let text =
+        write(file.scene, &file.request, &file.outputs, Path::new("")).expect("it can be written");
     let again = read(&text).expect("a scene file");
     assert_eq!(
         format!("{:?}", again.request),
@@ -236,7 +238,7 @@ fn mistakes_are_told_at_their_place() {
 fn an_error_is_asked_for_and_kept() {
     let file = read("scene = \"kepler\"\nerror = 1e-7\n").expect("a scene file");
     assert_eq!(file.request.error, Some(1e-7));
-    let text = write(file.scene, &file.request, &file.outputs).expect("TOML");
+    let text = write(file.scene, &file.request, &file.outputs, Path::new("")).expect("TOML");
     let again = read(&text).expect("a scene file").request;
     assert_eq!((again.error, again.estimate), (Some(1e-7), false));
     let file = read("scene = \"kepler\"\nestimate = true\n").expect("a scene file");
@@ -245,4 +247,61 @@ fn an_error_is_asked_for_and_kept() {
         .map(drop)
         .expect_err("too large");
     assert!(mistakes.to_string().contains("between 1e-15 and 0.1"));
+}
+
+/// What a scene file names lies beside it, wherever the program is started, and what is saved names it so.
+#[test]
+fn paths_begin_in_the_folder_of_the_file() {
+    use crate::program::{folder, lagrange_in, text};
+    let root = folder("scene-file-paths");
+    let runs = root.join("runs");
+    std::fs::create_dir(&runs).expect("a folder");
+    std::fs::write(runs.join("own.lagrange"), lagrange_program::file::TEMPLATE).expect("a file");
+    let says = "scene = \"own.lagrange\"\nuntil = 0.1\n[outputs]\noutput = \"own.csv\"\nplot = \"own.svg\"\n";
+    std::fs::write(runs.join("own.toml"), says).expect("a file");
+    let runs_from = |place: &Path, arguments: &[&str]| {
+        let output = lagrange_in(place, arguments);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    };
+    runs_from(
+        &root,
+        &["run", "runs/own.toml", "--save", "runs/saved.toml"],
+    );
+    assert!(runs.join("own.csv").is_file() && runs.join("own.svg").is_file());
+    let saved = std::fs::read_to_string(runs.join("saved.toml")).expect("a scene file");
+    assert!(
+        saved.contains("scene = \"own.lagrange\"") && saved.contains("plot = \"own.svg\""),
+        "{saved}"
+    );
+    runs_from(&runs, &["run", "saved.toml"]);
+}
+
+/// An array of parameters takes one number for all elements, as a declaration in a file gives it.
+#[test]
+fn a_number_fills_an_array() {
+    use crate::program::{folder, lagrange_in, text};
+    let place = folder("array-parameter");
+    let declared = "parameters(k[2] = [1, 2]), coordinates(x[2]), kinetic = (der(x[0])^2 + der(x[1])^2)/2,
+        potential = k[0]/2 * x[0]^2 + k[1]/2 * x[1]^2, observe(first = k[0], second = k[1]), until = 0.1,";
+    std::fs::write(place.join("two.lagrange"), declared).expect("a file");
+    std::fs::write(
+        place.join("two.toml"),
+        "scene = \"two.lagrange\"\n[parameters]\nk = 5\n",
+    )
+    .expect("a file");
+    let parameters = |arguments: &[&str]| {
+        let output = lagrange_in(&place, &[arguments, &["--format", "json"]].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        let told: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        [0, 1].map(|i| told["parameters"][format!("k[{i}]")].as_f64())
+    };
+    assert_eq!(
+        parameters(&["run", "two.lagrange", "--set", "k=5"]),
+        [Some(5.0); 2]
+    );
+    assert_eq!(parameters(&["run", "two.toml"]), [Some(5.0); 2]);
+    assert_eq!(
+        parameters(&["run", "two.toml", "--set", "k[1]=3"]),
+        [Some(5.0), Some(3.0)]
+    );
 }

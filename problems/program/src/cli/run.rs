@@ -124,7 +124,9 @@ impl Run {
         })
         .map_err(Trouble::refused)?;
         if let Some(path) = &self.results.save {
-            let text = scene_file::write(scene, &request, &outputs).map_err(Trouble::failed)?;
+            let folder = path.parent().unwrap_or(Path::new(""));
+            let text =
+                scene_file::write(scene, &request, &outputs, folder).map_err(Trouble::failed)?;
             to_file(path, |out| out.write_all(text.as_bytes()))?;
         }
         // A story without a motion would only hide the error.

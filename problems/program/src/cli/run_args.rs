@@ -156,7 +156,8 @@ pub(super) fn scene(name: &str, catalogue: &Catalogue) -> Result<SceneFile, Trou
     }
     let text = std::fs::read_to_string(name)
         .map_err(|error| Trouble::usage(format_args!("cannot read {name}: {error}")))?;
-    scene_file::read(&text, catalogue)
+    let folder = Path::new(name).parent().unwrap_or(Path::new(""));
+    scene_file::read(&text, folder, catalogue)
         .map_err(|mistake| Trouble::usage(format_args!("{name}:{mistake}")))
 }
 

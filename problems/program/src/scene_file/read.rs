@@ -3,6 +3,7 @@
 use super::value::{Value, Wrong, flag, number, positive, table, text, texts};
 use super::{KEYS, Mistake, OUTPUTS, Outputs, SceneFile};
 use crate::catalogue::Catalogue;
+use crate::file::ENDING;
 use crate::format::{RunFormat, Still};
 use crate::names::{self, nearest};
 use crate::quantity::Show;
@@ -14,15 +15,15 @@ use crate::request::{
 use clap::ValueEnum;
 use lagrange_core::prelude::{Impacts, Method};
 use lagrange_core::system::Description;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use toml::Spanned;
 use toml::de::{DeString, DeTable};
 
-/// Reads a scene file about a scene of a catalogue.
+/// Reads a scene file about a scene of a catalogue. Its paths begin in `folder`, where it lies.
 ///
 /// # Errors
 /// The first mistake, at its place.
-pub fn read(text: &str, catalogue: &Catalogue) -> Result<SceneFile, Mistake> {
+pub fn read(text: &str, folder: &Path, catalogue: &Catalogue) -> Result<SceneFile, Mistake> {
     let document = match DeTable::parse(text) {
         Ok(document) => document,
         Err(error) => {
@@ -30,7 +31,7 @@ pub fn read(text: &str, catalogue: &Catalogue) -> Result<SceneFile, Mistake> {
             return Err(Mistake::at(text, byte, syntax(text, byte, error.message())));
         }
     };
-    let (file, mut mistakes) = contents(document.get_ref(), catalogue);
+    let (file, mut mistakes) = contents(document.get_ref(), folder, catalogue);
     mistakes.sort_by_key(|(byte, _)| *byte);
     match (file, mistakes.into_iter().next()) {
         (Some(file), None) => Ok(file),
@@ -57,12 +58,23 @@ fn syntax(text: &str, byte: usize, message: &str) -> String {
 }
 
 /// What the document says as far as it makes sense (nothing if the scene is not known), and what does not.
-fn contents(document: &DeTable, catalogue: &Catalogue) -> (Option<SceneFile>, Vec<Wrong>) {
-    let mut reader = Reader::default();
+fn contents(
+    document: &DeTable,
+    folder: &Path,
+    catalogue: &Catalogue,
+) -> (Option<SceneFile>, Vec<Wrong>) {
+    let mut reader = Reader {
+        folder,
+        mistakes: Vec::new(),
+    };
     reader.known_keys(document, &KEYS, "key");
-    let scene = document
-        .get("scene")
-        .and_then(|name| reader.take(name, |name| refused(name, catalogue.find(text(name)?))));
+    let scene = document.get("scene").and_then(|value| {
+        let find = |name: &str| match name.ends_with(ENDING) {
+            true => catalogue.find(&folder.join(name).to_string_lossy()),
+            false => catalogue.find(name),
+        };
+        reader.take(value, |value| refused(value, find(text(value)?)))
+    });
     let Some(scene) = scene else {
         return (None, reader.mistakes);
     };
@@ -125,12 +137,20 @@ fn contents(document: &DeTable, catalogue: &Catalogue) -> (Option<SceneFile>, Ve
 }
 
 /// What has been wrong so far.
-#[derive(Default)]
-struct Reader {
+struct Reader<'f> {
+    folder: &'f Path,
     mistakes: Vec<Wrong>,
 }
 
-impl Reader {
+impl Reader<'_> {
+    /// A file that is named in this one; `-` is stdout.
+    fn path(&self, path: PathBuf) -> PathBuf {
+        match path == Path::new("-") {
+            true => path,
+            false => self.folder.join(path),
+        }
+    }
+
     /// The value, or a mistake.
     fn take<'v, 't, T>(
         &mut self,
@@ -182,9 +202,10 @@ impl Reader {
                 "format" => outputs.format = self.take(value, format),
                 "output" => {
                     let paths = self.take(value, texts).unwrap_or_default();
-                    outputs.output = paths.into_iter().map(|(_, path)| path.into()).collect();
+                    let paths = paths.into_iter().map(|(_, path)| self.path(path.into()));
+                    outputs.output = paths.collect();
                 }
-                "plot" => outputs.plot = self.take(value, picture),
+                "plot" => outputs.plot = self.take(value, picture).map(|path| self.path(path)),
                 "show" => {
                     outputs.show = self
                         .take(value, |value| shows(value, d))

@@ -1,16 +1,18 @@
 //! A run → the scene file that gives it again.
 
 use super::Outputs;
+use crate::file::ENDING;
 use crate::request::Request;
 use crate::scene::Scene;
 use serde::Serialize;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// The file as it is written.
 #[derive(Serialize)]
 struct Record<'a> {
-    scene: &'a str,
+    scene: Cow<'a, str>,
     until: f64,
     #[serde(skip_serializing_if = "is_empty")]
     end_after: &'a [String],
@@ -43,10 +45,10 @@ struct Record<'a> {
 struct Results<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     format: Option<String>,
-    #[serde(skip_serializing_if = "is_empty")]
-    output: &'a [PathBuf],
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    output: Vec<PathBuf>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    plot: Option<&'a PathBuf>,
+    plot: Option<PathBuf>,
     #[serde(skip_serializing_if = "is_empty")]
     show: &'a [String],
     #[serde(skip_serializing_if = "is_false")]
@@ -63,7 +65,17 @@ fn is_empty<T>(list: &&[T]) -> bool {
     list.is_empty()
 }
 
-/// The scene file of a run; [`read`](super::read) gives the same run again.
+/// A path as it is written in a file of `folder`.
+fn beside(path: &Path, folder: &Path) -> PathBuf {
+    let here = folder.as_os_str().is_empty() || path == Path::new("-");
+    match path.strip_prefix(folder) {
+        _ if here => path.to_owned(),
+        Ok(inner) => inner.to_owned(),
+        Err(_) => std::path::absolute(path).unwrap_or_else(|_| path.to_owned()),
+    }
+}
+
+/// The scene file of a run, for a file in `folder`; [`read`](super::read) gives the same run again.
 ///
 /// # Errors
 /// What cannot be written in TOML, as a path that is not Unicode.
@@ -71,6 +83,7 @@ pub fn write<'a>(
     scene: &'a dyn Scene,
     request: &'a Request,
     outputs: &'a Outputs,
+    folder: &Path,
 ) -> Result<String, toml::ser::Error> {
     let numbers = request.start.iter();
     let numbers = numbers.map(|(name, value)| (name.as_str(), toml::Value::Float(*value)));
@@ -82,15 +95,23 @@ pub fn write<'a>(
     };
     let results = Results {
         format: outputs.format.map(|format| format.to_string()),
-        output: &outputs.output,
-        plot: outputs.plot.as_ref(),
+        output: (outputs.output.iter())
+            .map(|path| beside(path, folder))
+            .collect(),
+        plot: (outputs.plot.as_ref()).map(|path| beside(path, folder)),
         show: &outputs.show,
         ledger: request.ledger,
         samples: outputs.samples,
     };
     let said = request.ledger || *outputs != Outputs::default();
     toml::to_string(&Record {
-        scene: scene.name(),
+        scene: match scene.name().ends_with(ENDING) {
+            true => {
+                let path = beside(Path::new(scene.name()), folder);
+                path.to_string_lossy().into_owned().into()
+            }
+            false => scene.name().into(),
+        },
         until: request.until.unwrap_or(scene.until()),
         end_after: &request.end_after,
         max_events: request.max_events,

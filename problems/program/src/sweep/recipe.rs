@@ -6,6 +6,7 @@ use crate::file::ENDING;
 use crate::scene::Scene;
 use crate::scene_file::{self, Outputs};
 use serde::{Deserialize, Serialize};
+use std::path::Path;
 
 /// What is written down. Two sweeps that say the same have the same results.
 #[derive(Deserialize, Serialize)]
@@ -33,7 +34,12 @@ impl Sweep {
     /// # Errors
     /// What cannot be written in TOML.
     pub(crate) fn recipe(&self) -> Result<String, String> {
-        let run = scene_file::write(self.scene, &self.request, &Outputs::default());
+        let run = scene_file::write(
+            self.scene,
+            &self.request,
+            &Outputs::default(),
+            Path::new(""),
+        );
         let sampling = self.points.sampling;
         let recipe = Recipe {
             version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -54,8 +60,8 @@ impl Sweep {
     /// Why they stand for none.
     pub(super) fn from_recipe(text: &str, catalogue: &Catalogue) -> Result<Self, String> {
         let recipe: Recipe = toml::from_str(text).map_err(|error| error.message().to_owned())?;
-        let file =
-            scene_file::read(&recipe.run, catalogue).map_err(|mistake| mistake.to_string())?;
+        let file = scene_file::read(&recipe.run, Path::new(""), catalogue)
+            .map_err(|mistake| mistake.to_string())?;
         let axes: Result<_, String> = recipe.vary.iter().map(|axis| axis.parse()).collect();
         let sampling = match &recipe.sample {
             None => Sampling::Grid,
