@@ -94,6 +94,8 @@ pub struct FromFile {
     pub defaults: Vec<f64>,
     /// Time at which a run ends if the file says so, s.
     pub until: Option<f64>,
+    /// Parameters, coordinates and items by name, each with its line and column, from 1.
+    pub places: Vec<(String, usize, usize)>,
     /// The struct with its `#[lagrange(…)]` that declares the same; [`inspect()`] and [`readable`] read it.
     pub declaration: String,
     /// A Rust file with that struct, its derive and its default values.
@@ -122,6 +124,7 @@ fn from_file(text: &str, name: &str, sink: &mut Diagnostics) -> Option<FromFile>
         tables: emit::tables(&program, &model::declared(&file.declaration)),
         declaration: emit::declared_struct(&file, text),
         rust: emit::export(&file, text, &defaults),
+        places: file.declaration.places(),
         starts: program.starts,
         defaults,
         until,

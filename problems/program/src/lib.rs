@@ -4,6 +4,7 @@
 //! scene.
 
 pub mod accuracy;
+mod blame;
 pub mod catalogue;
 mod cli;
 pub mod closed_form;

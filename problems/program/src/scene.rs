@@ -33,6 +33,9 @@ pub trait Scene: Sync {
 
     /// Named results: what they are called, and the observation that they stand for.
     fn results(&self) -> &'static [(&'static str, &'static str)];
+
+    /// Where a parameter, coordinate or item of this name stands, `ball.lagrange:6:9`; nothing where that is not a file.
+    fn place(&self, name: &str) -> Option<&str>;
 }
 
 /// A scene of type `S`.
@@ -42,6 +45,8 @@ pub struct Entry<S: 'static> {
     until: f64,
     closed_form: Option<Solution<S>>,
     results: &'static [(&'static str, &'static str)],
+    /// Names with their places.
+    places: &'static [(String, String)],
 }
 
 /// The system with its default parameters.
@@ -76,12 +81,18 @@ impl<S> Entry<S> {
             until,
             closed_form: None,
             results: &[],
+            places: &[],
         }
     }
 
     /// The same with names for what a sweep may read from a run: name and observation.
     pub const fn results(self, results: &'static [(&'static str, &'static str)]) -> Self {
         Self { results, ..self }
+    }
+
+    /// The same with the places at which names stand in a file.
+    pub(crate) const fn places(self, places: &'static [(String, String)]) -> Self {
+        Self { places, ..self }
     }
 
     /// The same with a closed form, for `lagrange accuracy` to measure errors against.
@@ -131,6 +142,13 @@ impl<S: System<Scalar = f64>> Scene for Entry<S> {
 
     fn results(&self) -> &'static [(&'static str, &'static str)] {
         self.results
+    }
+
+    fn place(&self, name: &str) -> Option<&str> {
+        // All elements of an array stand at one place.
+        let name = name.split('[').next().unwrap_or(name);
+        let found = self.places.iter().find(|(known, _)| known == name);
+        found.map(|(_, place)| place.as_str())
     }
 }
 

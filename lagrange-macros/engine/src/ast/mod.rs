@@ -6,6 +6,7 @@
 mod draw;
 mod expression;
 mod item;
+mod places;
 mod print;
 mod without;
 

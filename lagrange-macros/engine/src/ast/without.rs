@@ -29,7 +29,7 @@ impl Declaration {
 }
 
 /// The name of an item that can be left out, and what it acts together with.
-fn identity(item: &Item) -> (Option<&Name>, Option<&Reference>) {
+pub(super) fn identity(item: &Item) -> (Option<&Name>, Option<&Reference>) {
     match &item.kind {
         ItemKind::Kinetic(energy) | ItemKind::Potential(energy) => {
             (energy.head.as_ref().map(|head| &head.name), None)

@@ -26,9 +26,11 @@ mod values;
 mod verify;
 mod watch;
 
+use crate::blame::explained;
 use crate::catalogue::Catalogue;
 use crate::outcome::Outcome;
-use crate::request::Refusal;
+use crate::request::{Refusal, Request};
+use crate::scene::Scene;
 use crate::sweep::launch;
 use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 use lagrange_core::Error;
@@ -104,6 +106,14 @@ impl Trouble {
 
     fn failed(reason: impl Display) -> Self {
         Trouble::Failed(reason.to_string())
+    }
+
+    /// The same, with the places and the cause where the motion cannot begin.
+    fn explained(self, scene: &dyn Scene, request: &Request) -> Self {
+        match self {
+            Trouble::Failed(told) => Trouble::Failed(explained(scene, request, &told)),
+            other => other,
+        }
     }
 
     /// A run ended early; what there is of it has been written.

@@ -122,7 +122,7 @@ impl Run {
                 compared.collect::<Result<Vec<_>, _>>()?,
             ))
         })
-        .map_err(Trouble::refused)?;
+        .map_err(|refusal| Trouble::refused(refusal).explained(scene, &request))?;
         if let Some(path) = &self.results.save {
             let folder = path.parent().unwrap_or(Path::new(""));
             let text =
@@ -152,7 +152,8 @@ impl Run {
         });
         // Why a run has failed is also why there is nothing to plot of it.
         let mut runs = iter::once(outcome).chain(compared);
-        runs.try_for_each(went_well)?;
+        runs.try_for_each(went_well)
+            .map_err(|trouble| trouble.explained(scene, &request))?;
         plotted
     }
 }

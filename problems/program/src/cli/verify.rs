@@ -53,10 +53,11 @@ impl Verify {
         keep_what_is_done(&progress);
         let words = format!("verifying {}", file.scene.name());
         let outcome = patiently(&words, &progress, || file.scene.run(&request));
-        let outcome = outcome.map_err(Trouble::refused)?;
+        let explained = |trouble: Trouble| trouble.explained(file.scene, &request);
+        let outcome = outcome.map_err(|refusal| explained(Trouble::refused(refusal)))?;
         let format = self.output.format();
         self.output.write(|out| write(&outcome, format, out))?;
-        went_well(outcome)
+        went_well(outcome).map_err(explained)
     }
 }
 

@@ -96,7 +96,10 @@ pub fn scene(path: &str, text: &str) -> Result<&'static dyn Scene, Refused> {
         parameters: found.defaults,
     }));
     let name = path.to_owned().leak();
-    let entry = Entry::kept(name, found.until.unwrap_or(UNTIL), system);
+    let places = found.places.into_iter();
+    let places = places.map(|(name, line, column)| (name, format!("{path}:{line}:{column}")));
+    let entry = Entry::kept(name, found.until.unwrap_or(UNTIL), system)
+        .places(Box::leak(places.collect::<Box<[_]>>()));
     Ok(Box::leak(Box::new(entry)))
 }
 
