@@ -59,12 +59,15 @@ pub fn table(costs: &Costs, mut out: impl Write) -> io::Result<()> {
 fn added(costs: &Costs, modes: Range<usize>) -> Table {
     let mut table = page();
     table.set_content_arrangement(ContentArrangement::Disabled);
-    let mut header = vec!["effect".to_owned()];
+    let mut header = vec!["\neffect".to_owned()];
     for number in modes.clone() {
-        header.extend([format!("{}: operations", number + 1), "ns".to_owned()]);
+        header.extend([
+            format!("mode {}\noperations", number + 1),
+            "\nns".to_owned(),
+        ]);
     }
     let last = modes.end == costs.modes.len();
-    header.extend(last.then(|| "whole run without it".to_owned()));
+    header.extend(last.then(|| "whole run\nwithout it".to_owned()));
     table.set_header(header);
     for effect in &costs.effects {
         let mut line = vec![format!("{} ({})", effect.name, effect.kind)];

@@ -160,3 +160,22 @@ pub fn csv(found: &Feasible, out: impl Write) -> io::Result<()> {
     }
     writer.flush()
 }
+
+#[cfg(test)]
+mod tests {
+    /// Ten sliders on ten frictions: a table wider than a page keeps its names and numbers whole.
+    #[test]
+    fn no_name_of_an_acceleration_is_broken() {
+        let declared = "coordinates(position[10]), kinetic = sum(k in 0..10: der(position[k])^2/2),
+            friction(rub[k in 0..2]: slip = der(position[k]), limit = 1), force(pull: position[9] = 1),";
+        let scene = crate::file::scene("sliders.lagrange", declared).expect("a declaration");
+        let found = scene.modes(&Default::default(), None).expect("modes");
+        let mut text = Vec::new();
+        super::table(&found, &mut text).expect("memory");
+        let text = String::from_utf8(text).expect("text");
+        let head = text.lines().next().expect("a header");
+        for k in 0..10 {
+            assert!(head.contains(&format!("der(der(position[{k}]))")), "{text}");
+        }
+    }
+}

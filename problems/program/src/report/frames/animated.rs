@@ -3,7 +3,7 @@
 //! Who prefers reduced motion is shown some instants upon each other instead; so is who prints.
 
 use super::element::{self, Element};
-use super::layout::{CURSOR, LETTER, Layout, Place, Seen};
+use super::layout::{CURSOR, LETTER, Layout, Place, Seen, letters};
 use super::still::{arrows, decimals, marks};
 use super::{Clock, Panel};
 use crate::report::picture::{self, Form, Mark, WIDTH, nice};
@@ -238,7 +238,8 @@ impl Reel {
             let seen: Vec<bool> = said.iter().map(|other| other == words).collect();
             let _ = writeln!(
                 out,
-                "<text class=\"words\" x=\"{x:.1}\" y=\"{y:.1}\"{}>{}{}</text>",
+                "<text class=\"words\" x=\"{x:.1}\" y=\"{y:.1}\"{}{}>{}{}</text>",
+                letters(words, x),
                 if seen[0] {
                     ""
                 } else {

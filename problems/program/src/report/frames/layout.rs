@@ -171,6 +171,15 @@ impl<'a> Layout<'a> {
     }
 }
 
+/// Words that would leave the picture on the right have smaller letters: an attribute, empty for all others.
+pub(super) fn letters(words: &str, x: f64) -> String {
+    let (long, room) = (0.6 * LETTER * words.chars().count() as f64, WIDTH - x);
+    match long <= room {
+        true => String::new(),
+        false => format!(" font-size=\"{:.1}\"", LETTER * room / long),
+    }
+}
+
 impl Place<'_> {
     /// Opens the group of the panel, with its title.
     pub fn open(&self, out: &mut String, titled: bool) {
@@ -300,3 +309,21 @@ impl Place<'_> {
 
 /// Height of the mark of the present instant.
 pub(super) const CURSOR: f64 = BAR + 8.0;
+
+#[cfg(test)]
+mod tests {
+    use super::{LETTER, WIDTH, letters};
+
+    #[test]
+    fn long_words_stay_in_the_picture() {
+        assert_eq!(letters("rim closed, grip slips forward", 9.0 * LETTER), "");
+        let words = "wheel[0] closed, ".repeat(8);
+        let attribute = letters(&words, 200.0);
+        let size: f64 = attribute
+            .trim_matches(|c: char| !c.is_ascii_digit())
+            .parse()
+            .expect("a number");
+        let end = 200.0 + 0.6 * size * words.len() as f64;
+        assert!((0.98 * WIDTH..1.01 * WIDTH).contains(&end), "{end}");
+    }
+}

@@ -1,7 +1,7 @@
 //! One instant.
 
 use super::element::{self, Element};
-use super::layout::{CURSOR, LETTER, Layout, Place};
+use super::layout::{CURSOR, LETTER, Layout, Place, letters};
 use super::{Clock, Panel};
 use crate::report::picture::{self, WIDTH};
 use lagrange_engine::inspect::print::mathml::escaped;
@@ -23,12 +23,12 @@ pub fn stills<'a>(panels: &'a [Panel], clock: &'a Clock) -> impl Iterator<Item =
             panel.bar(&layout, &mut out);
             let x = WIDTH * layout.part(time);
             let (top, y) = (panel.bar_top() - 4.0, panel.words_at());
-            let mode = layout.mode(panel, time);
+            let (mode, words) = (layout.mode(panel, time), 9.0 * LETTER);
             let _ = writeln!(
                 out,
                 "<path class=\"cursor\" d=\"M{x:.1} {top:.1}v{CURSOR}\"/><text class=\"words\" y=\"{y:.1}\">\
-                 t = {time:.decimals$} s</text><text class=\"words\" x=\"{:.1}\" y=\"{y:.1}\">{}</text>\n</g>",
-                9.0 * LETTER,
+                 t = {time:.decimals$} s</text><text class=\"words\" x=\"{words:.1}\" y=\"{y:.1}\"{}>{}</text>\n</g>",
+                letters(&mode, words),
                 escaped(&mode)
             );
         }
