@@ -48,6 +48,11 @@ impl<T: Scalar> Integrator<T> {
         matches!(self, Self::RungeKutta(method) if method.is_adaptive())
     }
 
+    /// Whether the end of a step is of a higher order than what lies before it.
+    pub fn is_best_at_end(&self) -> bool {
+        matches!(self, Self::Radau(_))
+    }
+
     /// Forgets earlier steps: the system or its state is another one from here on.
     pub fn restart(&mut self) {
         match self {

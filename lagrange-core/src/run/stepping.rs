@@ -36,6 +36,8 @@ const SLOW_ORDER: usize = 4;
 const MOST_SHORTENED: usize = 16;
 /// So many breaks of guards in a row are no instants that can be passed: a slip that fades has more than a thousand before it rests.
 const MOST_BREAKS: usize = 100_000;
+/// A step that is made again to end at a hit ends so much later, as a share of it, to see it once more.
+const PAST: f64 = 1e-3;
 /// Steps of so many times the resolution of time are left to Taylor series.
 const KINK: f64 = 1e4;
 
@@ -547,7 +549,7 @@ impl<T: Scalar> Run<T> {
 
     /// What happens first in a step whose guards were sampled.
     fn hit_among_samples(&mut self) -> Result<Hit, Error> {
-        let mut corrections = 0;
+        let (mut corrections, mut again) = (0, false);
         loop {
             self.sharpen_roots();
             let hit = self.first_hit();
@@ -558,8 +560,15 @@ impl<T: Scalar> Run<T> {
             self.evaluate_end(hit.end()).map_err(|e| self.error(e))?;
             self.now.distance = self.rank.distance(&self.dynamics);
             if !self.corrects_composites(&hit, hit.end(), &mut corrections) {
-                self.stepper.breaks = 0;
-                return Ok(hit);
+                let closer = hit.end() * (1.0 + PAST);
+                let method = self.stepper.other.as_deref();
+                if again || closer >= 1.0 || !method.is_some_and(Integrator::is_best_at_end) {
+                    self.stepper.breaks = 0;
+                    return Ok(hit);
+                }
+                // An impact is as exact as the ends of steps are.
+                again = true;
+                self.integrate(closer * self.stepper.step.h.value())?;
             }
             self.sample()?;
         }
