@@ -199,6 +199,12 @@ impl Equations {
                         .map(|(f, e)| (f + mu * normal * e).abs());
                     let size = size + mu * normal_size;
                     let error = error.fold(0.0, f64::max);
+                    // A small slip has its direction to as much as rounding leaves of it.
+                    let blur = match sliding.direction {
+                        Direction::Fixed(_) => 0.0,
+                        _ => mu * normal.abs() * self.exact * reach / speed,
+                    };
+                    let error = error - blur.min(error);
                     findings.book(Subject::Sliding, error, size, at.time, name);
                 }
             }

@@ -21,9 +21,10 @@ use crate::dynamics::Dynamics;
 use crate::dynamics::OutputMask;
 use crate::error::Error;
 use crate::integrate::{Acceleration, Method, Radau, least_size};
-use crate::mode::Mode;
+use crate::mode::{FrictionMode, Mode};
 use crate::modes::guard::all_row_needs;
 use crate::modes::redundant::RedundantForces;
+use crate::system::Friction;
 use crate::trajectory::{EventKind, Segment, State, Trajectory};
 use nalgebra::{DMatrix, DVector};
 
@@ -233,6 +234,7 @@ impl<T: Scalar> Examination<'_, T> {
             self.place(k, 0.0);
             copy(&self.scratch, &mut self.begin);
             let begin = core::mem::take(&mut self.begin);
+            self.bridge(k);
             self.events_until(t, &begin, k == 0, t + h * end > t);
             self.join(t, &begin);
             self.begin = begin;
@@ -261,6 +263,33 @@ impl<T: Scalar> Examination<'_, T> {
         let last = numbers(&record.last);
         self.events_until(f64::INFINITY, &last, false, true);
         self.join(record.last_time(), &last);
+    }
+
+    /// A slip of two components comes to rest a moment after the step before: until then the motion goes on as that step ends.
+    fn bridge(&mut self, k: usize) {
+        let record = self.record;
+        let Some(before) = k.checked_sub(1).map(|k| &record.segments[k]) else {
+            return;
+        };
+        let left = record.segments[k].t.value() - self.time;
+        let d = record.description();
+        let slips = |(state, friction): (&FrictionMode, &Friction)| {
+            matches!(state, FrictionMode::Slip(_)) && friction.components > 1
+        };
+        let mut frictions = self.modes[before.mode].frictions.iter().zip(d.frictions);
+        if !(left > 0.0 && frictions.any(slips)) {
+            return;
+        }
+        self.enter(before);
+        if self.accelerate(before, before.end).is_err() {
+            return;
+        }
+        let State { q, v, .. } = &mut self.expected;
+        for ((q, v), a) in q.iter_mut().zip(v).zip(&self.acceleration) {
+            let change = left * a.value();
+            *q += left * (*v + 0.5 * change);
+            *v += change;
+        }
     }
 
     /// One step, with what is reported at an instant in it.
