@@ -54,7 +54,7 @@ const CORE: [&str; 27] = [
 ];
 
 /// From the name of a scene to what is written of it; the lowest first.
-const PROGRAM: [&str; 26] = [
+const PROGRAM: [&str; 27] = [
     "closed_form",
     "count",
     "drawing",
@@ -66,6 +66,7 @@ const PROGRAM: [&str; 26] = [
     "space",
     "request",
     "scene",
+    "blame",
     "outcome",
     "cost",
     "feasible",
