@@ -76,15 +76,12 @@ impl<T: Scalar> QuadBody<([&[Row<T>]; 2], usize, Tolerance<'_>)> for StepSize {
         for rows in series {
             for (i, row) in rows.iter().enumerate() {
                 let limit = quad.splat(1.0 / tolerance.scale(i, row[0].value().abs()));
-                let row: &[[T; 4]] = row[first..first + 4 * fours].as_chunks().0;
-                let sizes = &mut sizes[..row.len()];
-                let mut at = 0;
-                while at < row.len() {
-                    let four = quad.four(values(row[at]));
-                    let ratios = quad.product(quad.first_magnitudes(four, count - 4 * at), limit);
+                let row = row[first..first + 4 * fours].as_chunks().0;
+                for (at, (&four, size)) in row.iter().zip(&mut sizes).enumerate() {
+                    let four = quad.first_magnitudes(quad.four(values(four)), count - 4 * at);
+                    let ratios = quad.product(four, limit);
                     sum = quad.sum(sum, ratios);
-                    sizes[at] = quad.numbers(quad.larger(ratios, quad.four(sizes[at])));
-                    at += 1;
+                    *size = quad.numbers(quad.larger(ratios, quad.four(*size)));
                 }
             }
         }

@@ -167,13 +167,12 @@ impl Rank {
         for step in 0..m {
             let best =
                 (step..m).max_by(|&a, &b| self.gram[a * m + a].total_cmp(&self.gram[b * m + b]));
-            if let Some(best) = best.filter(|best| *best != step) {
-                for k in 0..m {
-                    self.gram.swap(step * m + k, best * m + k);
-                }
-                for k in 0..m {
-                    self.gram.swap(k * m + step, k * m + best);
-                }
+            let best = best.unwrap_or(step);
+            for k in 0..m {
+                self.gram.swap(step * m + k, best * m + k);
+            }
+            for k in 0..m {
+                self.gram.swap(k * m + step, k * m + best);
             }
             let pivot = self.gram[step * m + step];
             if !(pivot > 0.0) {

@@ -74,7 +74,7 @@ pub trait Results {
     fn story(&self) -> String {
         let mut text = Vec::new();
         // Nothing fails that is written to memory.
-        let _ = RunFormat::Table.write_whole(&outcome(self, 0), &mut text);
+        let _ = RunFormat::Table.write_whole(&outcome(self, &Request::default()), &mut text);
         String::from_utf8_lossy(&text).into_owned()
     }
 
@@ -97,7 +97,12 @@ pub trait Results {
             .iter()
             .map(|text| Show::new(text, self.motion().description()));
         let shows: Vec<Show> = shows.collect::<Result<_, _>>().map_err(refused)?;
-        let outcome = outcome(self, SAMPLES);
+        let request = Request {
+            samples: SAMPLES,
+            plotted: true,
+            ..Request::default()
+        };
+        let outcome = outcome(self, &request);
         let run = plot::Run {
             title: outcome.scene,
             outcome: &outcome,
@@ -172,8 +177,13 @@ pub trait Results {
                 "let the name end in .csv, .parquet, .json, .jsonl or .txt",
             ));
         };
-        let samples = if format.is_sampled() { SAMPLES } else { 0 };
-        to_file(path, |out| format.write_whole(&outcome(self, samples), out))
+        let request = Request {
+            samples: if format.is_sampled() { SAMPLES } else { 0 },
+            ..Request::default()
+        };
+        to_file(path, |out| {
+            format.write_whole(&outcome(self, &request), out)
+        })
     }
 }
 
@@ -198,18 +208,13 @@ impl Results for Failure {
 }
 
 /// What is known of a run.
-fn outcome(run: &(impl Results + ?Sized), samples: usize) -> Outcome {
-    let request = Request {
-        samples,
-        plotted: true,
-        ..Request::default()
-    };
+fn outcome(run: &(impl Results + ?Sized), request: &Request) -> Outcome {
     let motion = run.motion();
     Outcome::new(
         motion.description().name,
         motion,
         run.error().cloned(),
-        &request,
+        request,
     )
 }
 

@@ -123,7 +123,7 @@ fn structure(program: &Program, mode: &ModeProgram, plan: &products::Plan) -> To
     }
     let count = index(mode.constants.outputs);
     let (rows, products) = (index(plan.rows), index(plan.groups));
-    let gives_rows = mode.gives_rows;
+    let gives_rows = mode.gives_rows();
     quote! {
         #core::__private::equations::ModeStructure {
             contacts: &[#(#contacts),*],

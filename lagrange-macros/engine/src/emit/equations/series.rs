@@ -327,9 +327,9 @@ impl Expansion<'_> {
                 let (u, i) = (self.auxiliary(step.value), self.inverse(step.value));
                 let second =
                     needs_auxiliary(step.operation).then(|| quote!(let mut #u = #number::of(0.0);));
-                let inverse = (needs_inverse(step.operation)
-                    || self.plan.power(step.value).is_some())
-                .then(|| quote!(let mut #i = #number::of(0.0);));
+                let inverse = self
+                    .needs_inverse(step)
+                    .then(|| quote!(let mut #i = #number::of(0.0);));
                 quote!(#second #inverse)
             });
         quote!(#(#lines)*)
@@ -801,6 +801,11 @@ impl Expansion<'_> {
             }
         };
         let twice = |x: TokenStream| quote!((#x + #x));
+        // −(Σ zⱼ yₖ₋ⱼ)/y₀, j < k
+        let divided = |dy: TokenStream| {
+            let (z0, s) = (n(z), s(0));
+            quote!((-(#z0 * #i)).fused(#dy, -(#s * #i)))
+        };
         // What depends on coefficient k of an operand enters last, in one operation: each order waits for it.
         if let Some(power) = self.plan.power(z) {
             let (z0, dx, one, two) = (n(z), d(power.base), s(0), s(1));
@@ -859,24 +864,12 @@ impl Expansion<'_> {
                 let (x0, dx, s) = (n(x), d(x), s(0));
                 quote!((#x0 + #x0).fused(#dx, #s))
             }
-            Operation::Div(x, y) => {
-                let z0 = n(z);
-                match (d(x), d(y)) {
-                    (Some(dx), Some(dy)) => {
-                        let s = s(0);
-                        quote!(#i.fused(#dx, (-(#z0 * #i)).fused(#dy, -(#s * #i))))
-                    }
-                    (None, Some(dy)) => {
-                        let s = s(0);
-                        quote!((-(#z0 * #i)).fused(#dy, -(#s * #i)))
-                    }
-                    (dx, None) => quote!(#dx * #i),
-                }
-            }
-            Operation::Ratio(_, y) => {
-                let (z0, dy, s) = (n(z), d(y), s(0));
-                quote!((-(#z0 * #i)).fused(#dy, -(#s * #i)))
-            }
+            Operation::Div(x, y) => match (d(x), d(y).map(divided)) {
+                (Some(dx), Some(rest)) => quote!(#i.fused(#dx, #rest)),
+                (None, Some(rest)) => rest,
+                (dx, None) => quote!(#dx * #i),
+            },
+            Operation::Ratio(_, y) => d(y).map_or_else(zero, divided),
             Operation::Sqrt(x) => {
                 let (dx, s) = (d(x), s(0));
                 quote!(#i.fused(#dx, -(#s * #i)))
@@ -948,9 +941,20 @@ impl Expansion<'_> {
                 let (x, y) = (d(x).unwrap_or_else(zero), d(y).unwrap_or_else(zero));
                 quote!(if #held.branch(#branch) { #x } else { #y })
             }
-            Operation::Constant(_) | Operation::Powf(..) | Operation::Choose(..) => zero(),
+            Operation::Powf(..) => unreachable!("a power has the rule of powers"),
+            Operation::Constant(_) | Operation::Choose(..) => zero(),
         };
         bind(z, result)
+    }
+
+    /// Whether the rule of a step divides by something.
+    fn needs_inverse(&self, step: &Step) -> bool {
+        use Operation::*;
+        let divides = matches!(
+            step.operation,
+            Div(..) | Ratio(..) | Sqrt(_) | Ln(_) | Asin(_) | Acos(_) | Atan(_) | Atan2(..)
+        );
+        divides || self.plan.power(step.value).is_some()
     }
 
     fn auxiliary_next(&self, value: Value, result: TokenStream) -> TokenStream {
@@ -964,13 +968,5 @@ fn needs_auxiliary(operation: Operation) -> bool {
     matches!(
         operation,
         Tan(_) | Tanh(_) | Asin(_) | Acos(_) | Atan(_) | Atan2(..)
-    )
-}
-
-fn needs_inverse(operation: Operation) -> bool {
-    use Operation::*;
-    matches!(
-        operation,
-        Div(..) | Ratio(..) | Sqrt(_) | Ln(_) | Asin(_) | Acos(_) | Atan(_) | Atan2(..)
     )
 }

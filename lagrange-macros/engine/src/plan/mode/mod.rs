@@ -101,8 +101,6 @@ pub struct ModeProgram {
     pub forces: Vec<Option<ValueRef>>,
     /// Gaps, slips, coefficients, guards, terms of stops and marks; then what a projection onto the rows that act takes.
     pub extras: Vec<Extra>,
-    /// Whether a projection finds here what it takes.
-    pub gives_rows: bool,
     /// Coordinates that stand still, and where.
     pub pins: Vec<(usize, ValueRef)>,
     /// Constants that are divided by, and those that they must not be small against.
@@ -391,11 +389,10 @@ fn specialise(
             )
         })
         .collect();
-    let drifting = drifting(equations, &acting, &known, &state);
-    let read = extras_of(equations)
-        .into_iter()
-        .map(|output| (output, true));
-    let projected = drifting.iter().map(|&output| (output, false));
+    let read = extras_of(equations).into_iter();
+    let read = read.map(|output| (output, true));
+    let projected = projected(equations, &acting, &known, &state).into_iter();
+    let projected = projected.map(|output| (output, false));
     let mut extras = Vec::new();
     for (output, has_series) in read.chain(projected) {
         let pool = &mut equations.system.pool;
@@ -500,7 +497,6 @@ fn specialise(
                 has_series: *has_series,
             })
             .collect(),
-        gives_rows: !drifting.is_empty(),
         pins: pinned.iter().map(|(j, id)| (*j, place(id))).collect(),
         divisors: divisors
             .iter()
@@ -572,7 +568,7 @@ fn extras_of(equations: &Equations) -> Vec<OutputId> {
 
 /// Inertia and the Jacobians of the rows that act, if a step can leave one of them by more than rounding: then each step ends with a
 /// projection.
-fn drifting(
+fn projected(
     equations: &mut Equations,
     acting: &[usize],
     known: &[(Symbol, ExprId)],
@@ -599,6 +595,11 @@ fn drifting(
 }
 
 impl ModeProgram {
+    /// Whether a projection onto the rows that act finds among the extras what it takes.
+    pub fn gives_rows(&self) -> bool {
+        self.extras.iter().any(|extra| !extra.has_series)
+    }
+
     /// The operations of a phase, block by block.
     pub fn blocks(&self, phase: Phase) -> impl Iterator<Item = &Block> {
         let blocks = self.tape.blocks.iter().zip(&self.phases);
@@ -625,8 +626,8 @@ impl ModeProgram {
         self.needed(serves, |step| step.operation.operands())
     }
 
-    /// Whether each value of the tape is needed by series: for other outputs than the elements that the balance replaces. `operands` says
-    /// what the series of a step is made of.
+    /// Whether each value of the tape is needed by series: for other outputs than the elements that the balance replaces and the extras
+    /// that are read as values alone. `operands` says what the series of a step is made of.
     fn serves_series(&self, operands: impl Fn(&Step) -> Vec<Value>) -> Vec<bool> {
         let system = &self.system;
         // The elements among the accelerations, which the balance replaces.

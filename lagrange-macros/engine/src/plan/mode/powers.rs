@@ -8,7 +8,7 @@
 //! The Art of Computer Programming 2, section 4.7 (Euler's rule for powers of series).
 
 use super::ModeProgram;
-use crate::plan::{Block, Operation, Step, Value};
+use crate::plan::{Operation, Step, Value};
 use crate::sorted::{SortedMap, SortedSet};
 use crate::symbolic::Rational;
 
@@ -29,12 +29,13 @@ const WORTHWHILE: usize = 2;
 /// The values of a mode whose series are those of a power.
 pub(super) fn powers(mode: &ModeProgram) -> SortedMap<Value, Power> {
     let varying = mode.varying();
-    let readers = readers(mode);
     let mut all: SortedMap<Value, Power> = SortedMap::new();
     let mut steps: SortedMap<Value, (usize, &Step)> = SortedMap::new();
     for (at, block) in mode.tape.blocks.iter().enumerate() {
         for step in &block.steps {
-            steps.insert(step.value, (at, step));
+            for offset in 0..step.operation.values() {
+                steps.insert(Value(step.value.0 + offset), (at, step));
+            }
             if let Some(power) = power(step, &all)
                 && varying[power.base.0]
             {
@@ -42,12 +43,16 @@ pub(super) fn powers(mode: &ModeProgram) -> SortedMap<Value, Power> {
             }
         }
     }
+    // The series of x⁴ exists also where x vanishes.
+    all.retain(|_, power| power.positive || power.exponent.is_negative());
     let mut chosen = SortedMap::new();
+    if all.is_empty() {
+        return chosen;
+    }
+    let readers = readers(mode);
     let mut replaced: SortedSet<Value> = SortedSet::new();
     for (&value, &power) in all.iter().rev() {
-        // The series of x⁴ exists also where x vanishes.
-        let is_defined = power.positive || power.exponent.is_negative();
-        if replaced.contains(&value) || !is_defined {
+        if replaced.contains(&value) {
             continue;
         }
         let (at, step) = steps[&value];
@@ -59,7 +64,7 @@ pub(super) fn powers(mode: &ModeProgram) -> SortedMap<Value, Power> {
             .count();
         let is_visible = match steps.get(&power.base) {
             None => true,
-            Some(&(of, _)) => of == at || is_always(&mode.tape.blocks[of]),
+            Some(&(of, _)) => of == at || mode.tape.blocks[of].needs.is_always(),
         };
         if is_single || is_visible && products >= WORTHWHILE {
             chosen.insert(value, power);
@@ -67,10 +72,6 @@ pub(super) fn powers(mode: &ModeProgram) -> SortedMap<Value, Power> {
         }
     }
     chosen
-}
-
-fn is_always(block: &Block) -> bool {
-    block.needs.is_always()
 }
 
 /// A value that only those steps read that are named; outputs have no name.
@@ -93,14 +94,12 @@ fn readers(mode: &ModeProgram) -> Readers {
 
 /// The power that a step makes, given those of the steps before.
 fn power(step: &Step, earlier: &SortedMap<Value, Power>) -> Option<Power> {
-    let of = |value: Value| {
-        let own = Power {
-            base: value,
-            exponent: Rational::ONE,
-            positive: false,
-        };
-        earlier.get(&value).copied().unwrap_or(own)
+    let own = |base: Value| Power {
+        base,
+        exponent: Rational::ONE,
+        positive: false,
     };
+    let of = |value: Value| earlier.get(&value).copied().unwrap_or(own(value));
     let raised = |x: Value, exponent: Rational| {
         let power = of(x);
         let exponent = power.exponent.checked_mul(exponent)?;
@@ -108,16 +107,13 @@ fn power(step: &Step, earlier: &SortedMap<Value, Power>) -> Option<Power> {
     };
     // √(x²) is not x where that is negative.
     let root = |x: Value| {
-        let power = of(x);
-        let base = if power.positive { power.base } else { x };
-        let exponent = match power.positive {
-            true => power.exponent.checked_mul(Rational::HALF)?,
-            false => Rational::HALF,
-        };
+        let power = Some(of(x)).filter(|power| power.positive);
+        let power = power.unwrap_or(own(x));
+        let exponent = power.exponent.checked_mul(Rational::HALF)?;
         Some(Power {
-            base,
             exponent,
             positive: true,
+            ..power
         })
     };
     let joined = |x: Value, y: Value, sign: Rational| {
