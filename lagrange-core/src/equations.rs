@@ -60,6 +60,9 @@ pub struct ModeStructure {
     pub report: &'static [(usize, usize)],
     /// Whether values also give inertia and the Jacobians of the rows that act, among the outputs of the motion tape.
     pub gives_rows: bool,
+    /// How many numbers values give: the first coefficients of the rows, then, if there are more, per coordinate the change of its velocity
+    /// that takes the velocities onto the rows that act, the least one in the mass metric.
+    pub values: usize,
 }
 
 /// Time, positions and velocities.

@@ -27,7 +27,7 @@ pub(super) struct Emitted<T: Scalar> {
     /// Factors of products of series.
     products: Vec<Products<T>>,
     order: usize,
-    /// Coefficient 0 of the rows that are read, at the last value that was asked for them.
+    /// What the last value that was asked for more than accelerations has given: see [`ModeStructure::values`].
     values: Vec<T>,
     /// By node: its row.
     motion_rows: Vec<u32>,
@@ -94,7 +94,7 @@ impl<T: Scalar> Emitted<T> {
             rows: vec![[zero; ROW]; structure.rows],
             products: vec![Products::default(); structure.products],
             order: 0,
-            values: vec![zero; structure.rows],
+            values: vec![zero; structure.values],
             motion_rows: rows_by_node(d.motion.outputs, structure.motion),
             report_rows: rows_by_node(d.report.outputs, structure.report),
         })
@@ -161,6 +161,12 @@ impl<T: Scalar> Emitted<T> {
     #[inline]
     pub(super) fn forces(&self, d: &Description) -> &[T] {
         &self.values[2 * d.coordinates.len()..][..d.rows.len()]
+    }
+
+    /// The change of the velocities that takes them onto the rows that act, at the last [value](Self::value); empty if it is not given.
+    #[inline]
+    pub(super) fn velocity_changes(&self) -> &[T] {
+        &self.values[self.structure.rows..]
     }
 
     /// What guards read of the motion program and of the report at the last [value](Self::value).

@@ -8,6 +8,8 @@
 //! The rows are those that act in the mode; dependent ones follow from the others. Reference: Eich 1993, Convergence results
 //! for a coordinate projection method applied to mechanical systems with algebraic constraints, SIAM J. Numer. Anal. 30.
 
+use super::emitted::Emitted;
+use super::values::is_finite;
 use super::{Dynamics, EvaluationError};
 use crate::arithmetic::{Scalar, epsilon};
 use crate::linear::{Columns, Inertia};
@@ -100,16 +102,20 @@ impl<T: Scalar> Dynamics<T> {
         v: &mut [T],
         tolerance: f64,
     ) -> Result<bool, EvaluationError> {
-        self.see_rows(t, q, v);
+        let given = self.see_rows(t, q, v);
         let threshold = tolerance.max(tolerated::<T>());
-        let moved = self.residual(Level::Position, q).relative > threshold;
-        let least = tolerated::<T>();
-        if moved {
+        let displaced = self.residual(Level::Position, q).relative > threshold;
+        let mut least = tolerated::<T>();
+        if displaced {
             self.move_positions(t, q, v, &[], least)?;
         }
-        let residual = self.residual(Level::Velocity, v);
-        let moved = moved || residual.relative > threshold;
+        let mut residual = self.residual(Level::Velocity, v);
+        let moved = displaced || residual.relative > threshold;
         if moved {
+            if given && !displaced && residual.relative > least && self.take_velocity_changes() {
+                residual = self.change_velocities(v);
+                least = rounding::<T>();
+            }
             self.move_velocities(v, &[], residual, least)?;
         }
         self.settle_pinned(q, v, threshold);
@@ -281,14 +287,28 @@ impl<T: Scalar> Dynamics<T> {
             if residual.relative <= least || !self.correction(Level::Velocity, held) {
                 break;
             }
-            for (v, &change) in v.iter_mut().zip(&self.projection.change) {
-                *v += change;
-            }
-            self.change_rates();
-            residual = self.residual(Level::Velocity, v);
+            residual = self.change_velocities(v);
             least = rounding::<T>();
         }
         accept::<T>(residual)
+    }
+
+    /// Takes the correction that the functions of the mode have given with the last value; false if they give none.
+    fn take_velocity_changes(&mut self) -> bool {
+        let emitted = self.modes[self.current].emitted.as_ref();
+        let changes = emitted.map_or(&[][..], Emitted::velocity_changes);
+        self.projection.change.clear();
+        self.projection.change.extend_from_slice(changes);
+        !changes.is_empty() && is_finite(changes)
+    }
+
+    /// Adds `projection.change` to the velocities; what is left of the rates.
+    fn change_velocities(&mut self, v: &mut [T]) -> Residual {
+        for (v, &change) in v.iter_mut().zip(&self.projection.change) {
+            *v += change;
+        }
+        self.change_rates();
+        self.residual(Level::Velocity, v)
     }
 
     /// The rates of the rows that act, after the velocities have changed as in `projection.change`: they are linear in these.

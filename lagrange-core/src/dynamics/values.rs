@@ -297,16 +297,18 @@ impl<T: Scalar> Dynamics<T> {
     }
 
     /// Inertia, Jacobians and residuals of the rows that act, at (t, q, v): they are there if that is the last value and the functions
-    /// of the mode have given them.
+    /// of the mode have given them. Whether they have.
     #[inline]
-    pub(super) fn see_rows(&mut self, t: T, q: &[T], v: &[T]) {
+    pub(super) fn see_rows(&mut self, t: T, q: &[T], v: &[T]) -> bool {
         let n = q.len();
         let same = |at: usize, numbers: &[T]| self.inputs[at..at + n] == *numbers;
         // Equal numbers may have other derivatives.
         let is_given = T::DERIVATIVES == 0 && self.given && self.gives_rows();
-        if !(is_given && self.inputs[0] == t && same(1, q) && same(1 + n, v)) {
+        let is_seen = is_given && self.inputs[0] == t && same(1, q) && same(1 + n, v);
+        if !is_seen {
             self.run_rows(t, q, v);
         }
+        is_seen
     }
 
     /// Runs the motion program at (t, q, v) for inertia, Jacobians and residuals of the rows that act.

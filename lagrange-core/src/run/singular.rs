@@ -55,6 +55,8 @@ pub(super) struct Rank {
     largest: Vec<f64>,
     /// Largest diagonal elements of the mass matrix so far,
     masses: Vec<f64>,
+    /// their inverse roots,
+    inverse_roots: Vec<f64>,
     /// and what they were when `largest` was begun.
     lighter: Vec<f64>,
     scaled: Vec<f64>,
@@ -85,6 +87,7 @@ impl Rank {
             pivots: vec![0.0; m],
             largest: vec![0.0; m],
             masses: vec![0.0; n],
+            inverse_roots: vec![1.0; n],
             lighter: vec![0.0; n],
             scaled: vec![0.0; m * n],
             rows,
@@ -100,6 +103,7 @@ impl Rank {
     pub(super) fn restart(&mut self) {
         self.largest.fill(0.0);
         self.masses.fill(0.0);
+        self.inverse_roots.fill(1.0);
         self.lighter.fill(0.0);
     }
 
@@ -129,8 +133,9 @@ impl Rank {
         let number = |place: ValueRef| dynamics.motion(place).value();
         for &(i, j, place) in d.mass {
             let mass = number(place);
-            if i == j {
-                self.masses[i] = self.masses[i].max(mass);
+            if i == j && mass > self.masses[i] {
+                self.masses[i] = mass;
+                self.inverse_roots[i] = 1.0 / mass.sqrt();
             }
         }
         // Pivots that were large because there was hardly any inertia say nothing: a quaternion that was nearly 1.
@@ -139,15 +144,13 @@ impl Rank {
             self.largest.fill(0.0);
             self.lighter.copy_from_slice(&self.masses);
         }
-        let masses = &self.masses;
-        let mass = |j: usize| if masses[j] > 0.0 { masses[j] } else { 1.0 };
         self.scaled.fill(0.0);
         let m = self.rows.len();
         // Rows that are held aside follow from the others.
         let rows = self.rows.iter().enumerate();
         for (k, &row) in rows.filter(|(_, row)| !dynamics.holds_aside(**row)) {
             for &(j, place) in d.rows[row].jacobian {
-                self.scaled[k * n + j] = number(place) / mass(j).sqrt();
+                self.scaled[k * n + j] = number(place) * self.inverse_roots[j];
             }
         }
         for i in 0..m {
@@ -168,11 +171,13 @@ impl Rank {
             let best =
                 (step..m).max_by(|&a, &b| self.gram[a * m + a].total_cmp(&self.gram[b * m + b]));
             let best = best.unwrap_or(step);
-            for k in 0..m {
-                self.gram.swap(step * m + k, best * m + k);
-            }
-            for k in 0..m {
-                self.gram.swap(k * m + step, k * m + best);
+            if best != step {
+                for k in 0..m {
+                    self.gram.swap(step * m + k, best * m + k);
+                }
+                for k in 0..m {
+                    self.gram.swap(k * m + step, k * m + best);
+                }
             }
             let pivot = self.gram[step * m + step];
             if !(pivot > 0.0) {

@@ -1,8 +1,12 @@
 //! Projections onto constraints: least in the mass metric, and made wherever rows join.
 
 use super::state;
+use lagrange_core::__private::program::Selection;
 use lagrange_core::prelude::*;
-use lagrange_tests::{agree, all_agree};
+use lagrange_core::system::System;
+use lagrange_tests::equations::Equations;
+use lagrange_tests::{Random, agree, all_agree};
+use nalgebra::{DMatrix, DVector};
 
 /// Three unequal masses, tied by one linear constraint.
 #[derive(Lagrangian, Clone, Debug)]
@@ -71,5 +75,85 @@ fn after_a_landing_the_constraint_holds_to_rounding_at_any_tolerance() {
             agree("length", q[0].hypot(q[1]), scene.length, 4e-16);
             agree("rate", q[0] * v[0] + q[1] * v[1], 0.0, 4e-15);
         }
+    }
+}
+
+/// A plank that hangs on a crank and on a string; its centre of mass lies beside its reference point.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, theta, phi),
+    kinetic = mass/2*(der(x)^2 + der(y)^2) + inertia/2*der(theta)^2 + crank/2*der(phi)^2
+        + mass*offset*der(theta)*(der(y)*cos(theta) - der(x)*sin(theta)),
+    potential = mass*gravity*(y + offset*sin(theta)),
+    constraint(end_x: x - cos(theta) == radius*cos(phi)),
+    constraint(end_y: y - sin(theta) == radius*sin(phi)),
+    constraint(string: x^2 + y^2 == length^2),
+)]
+struct Plank {
+    mass: f64,
+    inertia: f64,
+    crank: f64,
+    offset: f64,
+    radius: f64,
+    length: f64,
+    gravity: f64,
+}
+
+/// Δv = −M⁻¹ Aᵀ (A M⁻¹ Aᵀ)⁻¹ ġ, by nalgebra from the matrices that the interpreter gives.
+#[test]
+fn the_change_of_the_velocities_that_functions_give_is_the_least_in_the_mass_metric() {
+    let plank = Plank {
+        mass: 0.8,
+        inertia: 0.9,
+        crank: 3.0,
+        offset: 0.4,
+        radius: 0.5,
+        length: 1.7,
+        gravity: 9.81,
+    };
+    let structures = Plank::MODES.iter().enumerate();
+    let all_act = structures.clone().find(|(_, s)| s.left_out.is_none());
+    let (at, structure) = all_act.expect("functions of the mode");
+    assert_eq!(structure.values, structure.rows + 4);
+    let needs = [u64::MAX; 2];
+    let held = Selection {
+        needs: &needs,
+        branches: &[],
+    };
+    let mut constants = vec![0.0; structure.constants];
+    assert!(plank.mode_constants(at, &held, &[], &mut constants));
+    let mode = Mode::open(plank.description());
+    let mut random = Random::new(3);
+    for _ in 0..20 {
+        let mut four = || -> Vec<f64> { (0..4).map(|_| random.between(-1.0, 1.0)).collect() };
+        let (q, v) = (four(), four());
+        let mut values = vec![0.0; structure.values];
+        values[..4].copy_from_slice(&q);
+        values[4..8].copy_from_slice(&v);
+        let mut rates = [0.0; 4];
+        let value = Plank::mode_values::<f64>()[at];
+        assert!(value(
+            &constants,
+            &held,
+            (0.0, &q, &v),
+            &mut rates,
+            Some(&mut values)
+        ));
+        let equations = Equations::of(&plank, &mode, &q, &v);
+        let mass = DMatrix::from_fn(4, 4, |i, j| equations.mass[i][j]);
+        let rows = DMatrix::from_fn(3, 4, |i, j| equations.jacobian[i][j]);
+        let rate = DVector::from_column_slice(&equations.velocity);
+        let spread = mass.cholesky().expect("inertia").solve(&rows.transpose());
+        let force = (rows * &spread)
+            .lu()
+            .solve(&rate)
+            .expect("independent rows");
+        let change = -spread * force;
+        all_agree(
+            "changes",
+            &values[structure.rows..],
+            change.as_slice(),
+            1e-11,
+        );
     }
 }

@@ -123,7 +123,7 @@ fn structure(program: &Program, mode: &ModeProgram, plan: &products::Plan) -> To
     }
     let count = index(mode.constants.outputs);
     let (rows, products) = (index(plan.rows), index(plan.groups));
-    let gives_rows = mode.gives_rows();
+    let (gives_rows, numbers) = (mode.gives_rows(), index(value::numbers(mode, plan)));
     quote! {
         #core::__private::equations::ModeStructure {
             contacts: &[#(#contacts),*],
@@ -136,6 +136,7 @@ fn structure(program: &Program, mode: &ModeProgram, plan: &products::Plan) -> To
             motion: &[#(#motion),*],
             report: &[#(#report),*],
             gives_rows: #gives_rows,
+            values: #numbers,
         }
     }
 }

@@ -5,7 +5,7 @@ use super::solve::Elimination;
 use super::writer::Writer;
 use crate::plan::mode::products::{Plan, force_row, zero_row};
 use crate::plan::mode::{ModeProgram, Phase};
-use crate::plan::{Block, Mode, Program, Value, ValueRef};
+use crate::plan::{Block, Mode, OutputMask, Program, Value, ValueRef};
 use crate::sorted::{SortedMap, SortedSet};
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
@@ -82,13 +82,14 @@ pub fn function(
         ValueRef::Zero => false,
     });
     let whole = whole.map(|(place, row)| store(*row, *place));
+    let projection = projection(&writer, &elimination, program, plan);
     let (c, held) = (local("c"), local("held"));
     let (t, q, v) = (local("t"), local("q"), local("v"));
     let number = &writer.number;
     let prologue = writer.prologue();
     let declarations = writer.declarations();
     let needs = names::needs(program.equations.needs.len());
-    let (count, rows) = (index(mode.inputs.coordinates), index(plan.rows));
+    let (count, numbers) = (index(mode.inputs.coordinates), index(numbers(mode, plan)));
     let safe = local("safe");
     quote! {
         #[doc = #heading]
@@ -111,16 +112,63 @@ pub fn function(
             #accelerations
             #(#rates_of)*
             if let ::core::option::Option::Some(#values) = #values {
-                let #values = first_mut::<#rows, _>(#values);
+                let #values = first_mut::<#numbers, _>(#values);
                 #forces
                 #(#of_rows)*
                 #(#results)*
                 #outputs
                 #(#whole)*
+                #projection
             }
             #safe
         }
     }
+}
+
+/// How many numbers `value` writes: the first coefficients of the rows, then the changes of the velocities by a projection.
+pub fn numbers(mode: &ModeProgram, plan: &Plan) -> usize {
+    let changes = match mode.projects_velocities() {
+        true => mode.inputs.coordinates,
+        false => 0,
+    };
+    plan.rows + changes
+}
+
+/// The least change of the velocities, in the mass metric, that takes them onto the rows that act: by the same factors, from the rates
+/// that have been written.
+fn projection(
+    writer: &Writer,
+    elimination: &Elimination,
+    program: &Program,
+    plan: &Plan,
+) -> TokenStream {
+    let mode = writer.mode;
+    if !mode.projects_velocities() {
+        return TokenStream::new();
+    }
+    let values = local("values");
+    let structure = &program.equations.structure;
+    let mut right = vec![None; mode.inputs.coordinates];
+    let mut needs = OutputMask::default();
+    for &row in &mode.kept {
+        let rate = structure.rows[row].velocity;
+        let extra = mode.extras.iter().find(|extra| extra.output == rate);
+        let at = extra.and_then(|extra| plan.extra_row(mode, extra));
+        right.push(at.map(|at| {
+            let at = index(at);
+            quote!((-#values[#at]))
+        }));
+        let [.., need] = structure.rows[row].needs;
+        needs.join(&OutputMask::single(need));
+    }
+    let (solve, changes) = elimination.solve(writer, right, "d_");
+    let store = changes.iter().enumerate().take(mode.inputs.coordinates);
+    let store = store.map(|(j, change)| {
+        let at = index(plan.rows + j);
+        quote!(#values[#at] = #change;)
+    });
+    let condition = names::condition(&needs);
+    quote!(if #condition { #solve #(#store)* })
 }
 
 /// What guards read beside the state and the forces, and in which row of a series it stands.

@@ -95,6 +95,8 @@ pub struct ModeProgram {
     pub inputs: Inputs,
     /// The system in the middle.
     pub system: LinearSystem,
+    /// The rows whose −λ are unknowns, in their order.
+    pub kept: Vec<usize>,
     /// v̇, one per coordinate.
     pub accelerations: Vec<ValueRef>,
     /// λ, one per row; none where a row has no force.
@@ -487,6 +489,7 @@ fn specialise(
             units,
             balance: whole.map(|whole| whole.iter().map(place).collect()),
         },
+        kept: reduced.kept.iter().map(|(row, ..)| *row).collect(),
         accelerations: accelerations.iter().map(place).collect(),
         forces: forces.iter().map(|f| f.as_ref().map(place)).collect(),
         extras: extras
@@ -598,6 +601,21 @@ impl ModeProgram {
     /// Whether a projection onto the rows that act finds among the extras what it takes.
     pub fn gives_rows(&self) -> bool {
         self.extras.iter().any(|extra| !extra.has_series)
+    }
+
+    /// Whether the linear system is also that of a projection of velocities, [M Aᵀ; A 0], of all coordinates and all rows that act.
+    pub fn projects_velocities(&self) -> bool {
+        let matrix = &self.system.matrix;
+        let free = self.system.accelerations;
+        let is_mirrored = |(i, row): (usize, &Vec<ValueRef>)| {
+            let mut mirrored = row.iter().zip(matrix).map(|(x, column)| *x == column[i]);
+            mirrored.all(|equal| equal)
+        };
+        let mut rows = matrix[free..].iter();
+        self.gives_rows()
+            && free == self.inputs.coordinates
+            && matrix.iter().enumerate().all(is_mirrored)
+            && rows.all(|row| row[free..].iter().all(|x| *x == ValueRef::Zero))
     }
 
     /// The operations of a phase, block by block.
