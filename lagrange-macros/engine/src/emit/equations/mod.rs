@@ -50,9 +50,14 @@ pub fn equations(program: &Program) -> TokenStream {
         series_entries.push(quote!(across::<#one_series, #number> as SeriesFn<#number>));
     }
     let (mode, held, signs, c) = (local("mode"), local("held"), local("signs"), local("c"));
+    // Clippy looks for every lint at every expression, although what a derive has written is allowed everything: minutes for code that nobody
+    // wrote. It sees the defaults of the trait.
+    let unless_linted = quote!(#[cfg(not(clippy))]);
     quote! {
+        #unless_linted
         const MODES: &'static [#core::__private::equations::ModeStructure] = &[#(#structures),*];
 
+        #unless_linted
         fn mode_constants(
             &self,
             #mode: usize,
@@ -68,6 +73,7 @@ pub fn equations(program: &Program) -> TokenStream {
             }
         }
 
+        #unless_linted
         fn mode_values<#number: #core::__private::Number>(
         ) -> &'static [#core::__private::equations::ValueFn<#number>] {
             use #core::__private::equations::{Arguments, ValueFn, first, first_mut};
@@ -76,6 +82,7 @@ pub fn equations(program: &Program) -> TokenStream {
             const { &[#(#value_entries),*] }
         }
 
+        #unless_linted
         fn mode_series<#number: #core::__private::Number>(
         ) -> &'static [#core::__private::equations::SeriesFn<#number>] {
             use #core::__private::equations::{
