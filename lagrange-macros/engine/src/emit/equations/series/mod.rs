@@ -1,0 +1,218 @@
+//! `series`: Taylor coefficients of the motion and of everything that guards read, order by order.
+//!
+//! ```text
+//! (x y)ₖ = x₀ yₖ + xₖ y₀ + Σ xⱼ yₖ₋ⱼ        K₀ wₖ = bₖ − Kₖ w₀ − Σ Kⱼ wₖ₋ⱼ        vₖ₊₁ = v̇ₖ/(k+1), qₖ = vₖ₋₁/k
+//! ```
+//!
+//! Where the balance of forces is kept whole, K₀ wₖ = −(K w − b)ₖ with wₖ = 0 on the right: no element of K has a series of its own.
+//! That is inverse dynamics, order by order (Luh, Walker & Paul 1980, J. Dyn. Syst. Meas. Control 102, for values).
+//!
+//! The sums over earlier coefficients come first, several in one loop; one factorization serves every order. Rules: Jorba & Zou
+//! 2005, Experimental Mathematics 14, section 2; Griewank & Walther 2008, section 13.2.
+
+mod first;
+mod next;
+mod rules;
+
+use super::super::names::{self, index, local};
+use super::solve::Elimination;
+use super::writer::Writer;
+use crate::ast::Emit;
+use crate::plan::mode::ModeProgram;
+use crate::plan::mode::products::{Plan, Row};
+use crate::plan::{Program, Value, ValueRef};
+use proc_macro2::{Ident, TokenStream};
+use quote::quote;
+use std::collections::BTreeSet;
+
+/// Writes the coefficients of one mode.
+struct Expansion<'a> {
+    writer: Writer<'a>,
+    plan: &'a Plan,
+    mode: &'a ModeProgram,
+    /// Values whose coefficient leaves its block.
+    crossing: BTreeSet<Value>,
+}
+
+/// Coefficients up to this order have code of their own in unrolled series; it is that of a tolerance of about 1e-13.
+const UNROLLED: usize = 21;
+
+fn sum_coefficient(output: usize) -> Ident {
+    local(&format!("dsum{output}"))
+}
+
+/// `impl ModeSeries for …`
+pub fn implementation(
+    name: &Ident,
+    heading: &str,
+    program: &Program,
+    mode: &ModeProgram,
+    plan: &Plan,
+) -> TokenStream {
+    let system = &program.equations.system;
+    let blocks = mode
+        .tape
+        .blocks
+        .iter()
+        .filter(|block| !block.needs.is_always());
+    let steps = blocks.flat_map(|block| &block.steps);
+    let declared = steps
+        .flat_map(|step| (0..step.operation.values()).map(|offset| Value(step.value.0 + offset)));
+    let expansion = Expansion {
+        writer: Writer::new(system, mode, declared.collect()),
+        plan,
+        mode,
+        crossing: names::crossing(&mode.tape),
+    };
+    let number = expansion.writer.number.clone();
+    let elimination = Elimination::new(&expansion.writer, &mode.system);
+    let first = expansion.first(&elimination);
+    let mut next = TokenStream::new();
+    let mut looped = 1;
+    if system.emit == Emit::Unrolled {
+        for k in 1..=UNROLLED {
+            next.extend(expansion.order(k, &elimination));
+        }
+        looped += UNROLLED;
+    }
+    next.extend(expansion.orders_from(looped, &elimination));
+    let (c, held, order, rows) = (local("c"), local("held"), local("order"), local("rows"));
+    let (t, q, v, registers) = (local("t"), local("q"), local("v"), local("registers"));
+    let (products, newest) = (local("products"), local("newest"));
+    let groups = index(plan.groups);
+    let prologue = expansion.writer.prologue();
+    let needs = names::needs(program.equations.needs.len());
+    let (row_names, count) = (expansion.row_names(), index(plan.rows));
+    let result = quote!(::core::result::Result<(), Refused>);
+    quote! {
+        #[doc = #heading]
+        struct #name;
+        impl<#number: Number> ModeSeries<#number> for #name {
+            #[inline(always)]
+            fn expand(
+                #registers: Registers,
+                #c: &[#number],
+                #held: &Selection,
+                #order: usize,
+                (#t, #q, #v): Arguments<'_, #number>,
+                #rows: &mut [Row<#number>],
+                #products: &mut [Products<#number>],
+            ) -> #result {
+                #prologue
+                #row_names
+                let #rows = first_mut::<#count, _>(#rows);
+                let #products = first_mut::<#groups, _>(#products);
+                #needs
+                #first
+                let mut #newest = [Factors::<#number>::none(); #groups];
+                #next
+                ::core::result::Result::Ok(())
+            }
+        }
+    }
+}
+
+impl Expansion<'_> {
+    /// A local that belongs to a value. What it is stands before the name: behind it, it could be a part of a declared one.
+    fn of(&self, what: &str, value: Value) -> Ident {
+        local(&format!("{what}{}", self.writer.locals.stem(value)))
+    }
+
+    /// Coefficient k − 1 of a velocity, at hand: what is read back from memory is waited for.
+    fn before(&self, velocity: Value) -> Ident {
+        self.of("before_", velocity)
+    }
+
+    /// Coefficient k of it.
+    fn now(&self, velocity: Value) -> Ident {
+        self.of("now_", velocity)
+    }
+
+    /// Coefficient k of a value.
+    fn coefficient_of(&self, value: Value) -> Ident {
+        self.of("d", value)
+    }
+
+    /// What the rule of a function needs beside its value.
+    fn auxiliary(&self, value: Value) -> Ident {
+        self.of("u_", value)
+    }
+
+    /// Coefficient k of that.
+    fn auxiliary_coefficient(&self, value: Value) -> Ident {
+        self.of("du_", value)
+    }
+
+    /// What the rule of an operation divides by, inverted.
+    fn inverse(&self, value: Value) -> Ident {
+        self.of("inverse_", value)
+    }
+
+    /// Σ xⱼ yₖ₋ⱼ of a product, of several that with this number.
+    fn product(&self, value: Value, at: usize) -> Ident {
+        match at {
+            0 => self.of("earlier_", value),
+            _ => self.of(&format!("earlier{at}_"), value),
+        }
+    }
+
+    /// The number of the row of a series that is kept, as a constant.
+    fn row_name(&self, row: Row) -> Ident {
+        let stem = |value: Value| self.writer.locals.stem(value);
+        let name = match row {
+            Row::Value(value) => stem(value),
+            Row::Sum(output) => format!("sum{output}"),
+            Row::Fixed(constant) => format!("c{constant}"),
+        };
+        local(&name.to_uppercase())
+    }
+
+    /// All coefficients of a series that is kept.
+    fn row(&self, row: Row) -> TokenStream {
+        let (rows, name) = (local("rows"), self.row_name(row));
+        quote!(#rows[#name])
+    }
+
+    /// Names the rows, in their order.
+    fn row_names(&self) -> TokenStream {
+        let mut kept: Vec<(usize, Row)> = self.plan.kept().map(|(&row, &at)| (at, row)).collect();
+        kept.sort_unstable();
+        let lines = kept.into_iter().map(|(at, row)| {
+            let (name, at) = (self.row_name(row), index(at));
+            quote!(const #name: usize = #at;)
+        });
+        quote!(#(#lines)*)
+    }
+
+    /// `rows[row][at] = value;`, if the row is kept.
+    fn store(&self, row: Row, at: TokenStream, value: TokenStream) -> TokenStream {
+        if self.plan.row(row).is_none() {
+            return TokenStream::new();
+        }
+        let row = self.row(row);
+        quote!(#row[#at] = #value;)
+    }
+
+    /// The coefficient of a value, if it has any.
+    fn d(&self, value: Value) -> Option<TokenStream> {
+        self.plan.varying[value.0].then(|| {
+            let name = self.coefficient_of(value);
+            quote!(#name)
+        })
+    }
+
+    fn d_of_output(&self, output: usize) -> Option<TokenStream> {
+        if self.plan.sums.contains_key(&output) {
+            let name = sum_coefficient(output);
+            return self.plan.sums[&output].then(|| quote!(#name));
+        }
+        self.d(self.plan.set[&output])
+    }
+
+    fn d_of_place(&self, place: ValueRef) -> Option<TokenStream> {
+        match place {
+            ValueRef::Node(output) => self.d_of_output(output),
+            ValueRef::Zero | ValueRef::Constant(_) => None,
+        }
+    }
+}
