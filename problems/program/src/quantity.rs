@@ -142,9 +142,9 @@ impl Quantity {
             }
             Quantity::Limit(i) => sample.limits[*i]?,
             Quantity::Output(i) => sample.observes[*i],
-            Quantity::Kinetic => sample.kinetic,
-            Quantity::Potential => sample.potential,
-            Quantity::Energy => sample.kinetic + sample.potential,
+            Quantity::Kinetic => sample.energies.kinetic,
+            Quantity::Potential => sample.energies.potential,
+            Quantity::Energy => sample.energies.total(),
         };
         Some(self.scaled_unit(d).1 * value)
     }

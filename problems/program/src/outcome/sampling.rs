@@ -151,13 +151,11 @@ impl<'a> Reader<'a> {
             time,
             phase,
             limits: self.limits.at(time, &instant),
+            energies: instant.energies(),
             mode: instant.mode,
             state: instant.state,
             forces: instant.forces,
             undetermined: instant.undetermined,
-            kinetic: instant.kinetic,
-            potential: instant.potential,
-            jacobi: instant.jacobi,
             observes: instant.observes,
         }
     }

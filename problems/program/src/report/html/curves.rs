@@ -161,12 +161,12 @@ fn force_axis(unit: &str) -> String {
 fn energies(outcome: &Outcome) -> Plot {
     type Energy = (&'static str, fn(&Sample) -> f64);
     let mut energies: Vec<Energy> = vec![
-        ("kinetic", |s| s.kinetic),
-        ("potential", |s| s.potential),
-        ("sum", |s| s.kinetic + s.potential),
+        ("kinetic", |s| s.energies.kinetic),
+        ("potential", |s| s.energies.potential),
+        ("sum", |s| s.energies.total()),
     ];
     if outcome.ledger.as_ref().is_some_and(Ledger::has_own_jacobi) {
-        energies.push(("Jacobi integral", |s| s.jacobi));
+        energies.push(("Jacobi integral", |s| s.energies.jacobi));
     }
     let energies = energies.into_iter();
     let curves =
