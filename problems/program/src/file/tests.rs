@@ -112,6 +112,22 @@ fn what_only_a_file_has_is_checked() {
         ),
         (format!("{rest}, until = x"), "1:45: `x` is not known"),
         (
+            format!("parameters(mu: nonnegative = 1), {rest}"),
+            "1:16: expected a unit; without one write `mu nonnegative`, found `nonnegative`",
+        ),
+        (
+            format!("# A spring.\n{rest}"),
+            "1:1: `#` is not an operator here; a remark begins with `//`",
+        ),
+        (
+            format!("{rest}, start(x = 1)"),
+            "1:43: this start has no name; write `start(name: …)`",
+        ),
+        (
+            format!("{rest}, contact(table: x >= 0, where x >= 1 and x <= 2)"),
+            "1:75: `and` is not an operator here; a region is one comparison",
+        ),
+        (
             "//! A spring.\n".to_owned(),
             "1:1: expected items, as `coordinates(x)` and `kinetic = …`, found none",
         ),

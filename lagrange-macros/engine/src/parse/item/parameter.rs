@@ -62,7 +62,11 @@ fn parameter(part: &mut Cursor, sink: &mut Diagnostics) -> Option<(Field, Expr)>
     let mut field = structure::described(name, length, &attributes, sink);
     if let Some(colon) = part.take(":") {
         let extent = part.here();
-        let text = text(part, "a unit, as in `mass: \"kg\" = 1`", sink)?;
+        let what = match part.word().filter(|word| structure::is_domain(&word.text)) {
+            Some(word) => format!("a unit; without one write `{} {}`", field.name.text, word.text),
+            None => "a unit, as in `mass: \"kg\" = 1`".to_owned(),
+        };
+        let text = text(part, &what, sink)?;
         if field.unit.is_some() {
             sink.report(Code::RepeatedPart, colon, &[&"unit"]);
         }
