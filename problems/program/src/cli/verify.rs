@@ -53,11 +53,11 @@ impl Verify {
         keep_what_is_done(&progress);
         let words = format!("verifying {}", file.scene.name());
         let outcome = patiently(&words, &progress, || file.scene.run(&request));
-        let explained = |trouble: Trouble| trouble.explained(file.scene, &request);
-        let outcome = outcome.map_err(|refusal| explained(Trouble::refused(refusal)))?;
+        let outcome =
+            outcome.map_err(|refusal| Trouble::refused_run(refusal, file.scene, &request))?;
         let format = self.output.format();
         self.output.write(|out| write(&outcome, format, out))?;
-        went_well(outcome).map_err(explained)
+        went_well(outcome, file.scene, &request)
     }
 }
 

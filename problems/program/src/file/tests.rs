@@ -125,7 +125,7 @@ fn what_only_a_file_has_is_checked() {
         ),
         (
             format!("{rest}, contact(table: x >= 0, where x >= 1 and x <= 2)"),
-            "1:75: `and` is not an operator here; a region is one comparison",
+            "1:73: `and` is not an operator here; a region is one comparison",
         ),
         (
             "//! A spring.\n".to_owned(),
