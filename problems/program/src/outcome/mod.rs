@@ -238,7 +238,7 @@ impl Outcome {
             ledger: request.stage(trajectory.last_time(), || {
                 moved.then(|| trajectory.ledger().ok()).flatten()
             }),
-            ledgers: ledgers(samples.iter().map(|sample| sample.time).collect()),
+            ledgers: ledgers(sampling::book_times(&samples)),
             event_ledgers: ledgers(events.iter().map(|event| event.time).collect()),
             samples,
             curve,

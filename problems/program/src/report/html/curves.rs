@@ -5,7 +5,7 @@ use super::difference::difference;
 use crate::film::Film;
 use crate::notation::{is_angle, rate_unit, symbol};
 use crate::outcome::{Force, Outcome, Sample, Source, forces};
-use crate::quantity::limit_name;
+use crate::quantity::{force_word, limit_name};
 use lagrange_core::prelude::Ledger;
 use lagrange_core::system::Friction;
 use serde::Serialize;
@@ -118,7 +118,7 @@ fn frictions(outcome: &Outcome) -> Vec<Plot> {
     present.map(plot).collect()
 }
 
-/// Forces of one kind, a plot for each unit.
+/// Forces of one kind, a plot for each unit; none of forces that never act, as those of a ball that only bounces.
 fn pushes(outcome: &Outcome, title: &str, of_kind: fn(Source) -> bool) -> Vec<Plot> {
     let description = outcome.description;
     let all = forces(description);
@@ -146,16 +146,15 @@ fn pushes(outcome: &Outcome, title: &str, of_kind: fn(Source) -> bool) -> Vec<Pl
             curves: curves.collect(),
         }
     };
-    units.into_iter().map(plot).collect()
+    let acts = |plot: &Plot| {
+        let mut values = plot.curves.iter().flat_map(|curve| &curve.values);
+        values.any(Option::is_some)
+    };
+    units.into_iter().map(plot).filter(acts).collect()
 }
 
 fn force_axis(unit: &str) -> String {
-    let name = match unit {
-        "" | "N" => "force",
-        "N m" => "torque",
-        _ => "multiplier",
-    };
-    with_unit(name, unit)
+    with_unit(force_word(unit), unit)
 }
 
 fn energies(outcome: &Outcome) -> Plot {

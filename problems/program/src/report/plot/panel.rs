@@ -226,6 +226,9 @@ pub(super) fn draw_key<'a>(
     Ok(())
 }
 
+/// What values differ by less than this part of their size is rounding, and they are constant on paper.
+const CONSTANT: f64 = 1e-11;
+
 /// Around all values, with `above` times as much room above as below: a constant curve gets room, too.
 fn range(values: impl Iterator<Item = f64>, above: f64) -> (f64, f64) {
     let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
@@ -234,10 +237,11 @@ fn range(values: impl Iterator<Item = f64>, above: f64) -> (f64, f64) {
     if low > high {
         return (0.0, 1.0);
     }
-    let room = if high > low {
-        0.08 * (high - low)
-    } else {
-        0.1 * high.abs().max(1.0)
+    let size = high.abs().max(low.abs());
+    let room = match high - low > CONSTANT * size {
+        true => 0.08 * (high - low),
+        false if size == 0.0 => 0.1,
+        false => 0.1 * size,
     };
     (low - room, high + above * room)
 }
