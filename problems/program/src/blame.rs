@@ -132,10 +132,16 @@ mod tests {
             assert!(told.starts_with(place) && told.ends_with(cause), "{told}");
         }
         for (told, place) in [
-            (said(&[], &[("y", -1.0)]), "fall.lagrange:5:9: the start is below"),
+            (
+                said(&[], &[("y", -1.0)]),
+                "fall.lagrange:5:9: the start is below",
+            ),
             (said(&[("mass", -1.0)], &[]), "fall.lagrange:1:12: t = 0"),
         ] {
-            assert!(told.starts_with(place) && !told.contains("the cause"), "{told}");
+            assert!(
+                told.starts_with(place) && !told.contains("the cause"),
+                "{told}"
+            );
         }
     }
 }

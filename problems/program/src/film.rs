@@ -139,9 +139,7 @@ const BOOKS: usize = 120;
 /// The energy books of a run at some of its samples, the first and the last among them, and on both sides of what makes one jump.
 fn books(outcome: &mut Outcome) -> Vec<(f64, Ledger)> {
     let times = outcome.samples.iter().map(|sample| sample.time);
-    let books: Vec<(f64, Ledger)> = times
-        .zip(core::mem::take(&mut outcome.ledgers))
-        .collect();
+    let books: Vec<(f64, Ledger)> = times.zip(core::mem::take(&mut outcome.ledgers)).collect();
     let count = books.len();
     let apart = count.div_ceil(BOOKS).max(1);
     let jumps = |i: usize| {
@@ -158,7 +156,10 @@ fn books(outcome: &mut Outcome) -> Vec<(f64, Ledger)> {
         })
         .collect();
     let books = books.into_iter().zip(kept);
-    books.filter(|(_, kept)| *kept).map(|(book, _)| book).collect()
+    books
+        .filter(|(_, kept)| *kept)
+        .map(|(book, _)| book)
+        .collect()
 }
 
 /// Largest relative residual of the rows that act, on position and velocity level, among instants of a run; `None` if none

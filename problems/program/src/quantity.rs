@@ -64,7 +64,7 @@ impl Quantity {
         found.map(|(_, quantity)| quantity.clone()).ok_or_else(|| {
             Refusal::unknown(
                 "quantity",
-                &plain,
+                name.trim(),
                 all.iter().map(|(known, _)| known.as_str()),
             )
         })

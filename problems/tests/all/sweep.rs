@@ -141,7 +141,13 @@ fn failures_are_told_by_reason_and_place() {
     let told = "9000 runs of rolling-slipping-sphere, of which 1200 failed.\n  domain: 1200, the first at mu_static = 0.2, theta = 0.01\n";
     // The message is that of the run itself.
     let run = [
-        "run", "rolling-slipping-sphere", "--quiet", "--set", "mu_static=0.2", "--start", "theta=0.01",
+        "run",
+        "rolling-slipping-sphere",
+        "--quiet",
+        "--set",
+        "mu_static=0.2",
+        "--start",
+        "theta=0.01",
     ];
     let run = crate::program::lagrange(&run);
     let message = crate::program::text(&run.stderr);

@@ -3,6 +3,7 @@
 use super::output::{Output, ready};
 use super::run_args::RunArgs;
 use super::terminal::{keep_what_is_done, patiently};
+use super::values::whole;
 use super::{Trouble, went_well};
 use crate::catalogue::Catalogue;
 use crate::format::Format;
@@ -31,7 +32,7 @@ pub(super) struct Verify {
     #[command(flatten)]
     run: RunArgs,
     /// Seed of the instants that are looked at.
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole::<u64>, allow_hyphen_values = true)]
     seed: u64,
     #[command(flatten)]
     output: Output,

@@ -40,7 +40,10 @@ pub(super) fn samples(trajectory: &Trajectory, times: &[f64]) -> Vec<Sample> {
     let phases = Some(trajectory.phases())
         .filter(|phases| !phases.is_empty())
         .unwrap_or_else(at_once);
-    let jumps = trajectory.events().iter().filter(|e| e.state_after != e.state);
+    let jumps = trajectory
+        .events()
+        .iter()
+        .filter(|e| e.state_after != e.state);
     let mut jumps: Vec<f64> = jumps.map(|event| event.time).collect();
     jumps.dedup();
     for (phase, span) in phases.iter().enumerate() {

@@ -141,7 +141,18 @@ mod tests {
 
     #[test]
     fn data_is_read_back_as_it_was() {
-        let numbers = [0.0, 1.0, -0.1, 1e-5, 1.5e-55, -9.9e-6, 1.0 / 3.0, 1e15, 1e16, 5e-324];
+        let numbers = [
+            0.0,
+            1.0,
+            -0.1,
+            1e-5,
+            1.5e-55,
+            -9.9e-6,
+            1.0 / 3.0,
+            1e15,
+            1e16,
+            5e-324,
+        ];
         for x in numbers.into_iter().chain([f64::MAX, f64::INFINITY]) {
             assert_eq!(exact(x).parse(), Ok(x));
             assert!(exact(x).len() < 25, "{}", exact(x));

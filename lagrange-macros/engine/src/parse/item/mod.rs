@@ -73,11 +73,7 @@ pub(super) fn items(part: &mut Cursor, read: &mut Items, sink: &mut Diagnostics)
 
 fn item(part: &mut Cursor, read: &mut Items, sink: &mut Diagnostics) -> Option<()> {
     if let Some(hash) = part.take("#") {
-        sink.report(
-            Code::Operator,
-            hash,
-            &[&"#", &"a remark begins with `//`"],
-        );
+        sink.report(Code::Operator, hash, &[&"#", &"a remark begins with `//`"]);
         part.skip_all();
         return None;
     }

@@ -63,7 +63,10 @@ fn parameter(part: &mut Cursor, sink: &mut Diagnostics) -> Option<(Field, Expr)>
     if let Some(colon) = part.take(":") {
         let extent = part.here();
         let what = match part.word().filter(|word| structure::is_domain(&word.text)) {
-            Some(word) => format!("a unit; without one write `{} {}`", field.name.text, word.text),
+            Some(word) => format!(
+                "a unit; without one write `{} {}`",
+                field.name.text, word.text
+            ),
             None => "a unit, as in `mass: \"kg\" = 1`".to_owned(),
         };
         let text = text(part, &what, sink)?;
