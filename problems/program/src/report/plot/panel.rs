@@ -264,12 +264,23 @@ fn label(value: f64, length: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{LETTER, fitted, label};
+    use super::{LETTER, fitted, label, range};
 
     #[test]
     fn long_names_lose_their_middle() {
         assert_eq!(fitted("|grip|", 8 * LETTER), "|grip|");
         assert_eq!(fitted("friction of the left θ", 9 * LETTER), "fric…ft θ");
+    }
+
+    /// A force of a given size is that size to rounding: noise would fill the panel.
+    #[test]
+    fn what_rounding_alone_changes_is_constant() {
+        let force = 0.016_677;
+        let (low, high) = range([force, force * (1.0 + 1e-15)].into_iter(), 2.0);
+        assert!(low < 0.95 * force && high > 1.05 * force, "{low} {high}");
+        let (low, high) = range([1.0, 1.0 + 1e-9].into_iter(), 2.0);
+        assert!(high - low < 5e-9, "{low} {high}");
+        assert_eq!(range([0.0].into_iter(), 1.0), (-0.1, 0.1));
     }
 
     #[test]
