@@ -152,7 +152,7 @@ fn books(outcome: &mut Outcome) -> Vec<(f64, Ledger)> {
     let kept: Vec<bool> = (0..count)
         .map(|i| {
             let beside = i > 0 && jumps(i - 1) || i + 1 < count && jumps(i);
-            i == 0 || (count - 1 - i) % apart == 0 || beside
+            i == 0 || (count - 1 - i).is_multiple_of(apart) || beside
         })
         .collect();
     let books = books.into_iter().zip(kept);

@@ -2,7 +2,7 @@
 
 use super::json::Numbers;
 use super::table::{Decimals, page};
-use super::with_unit;
+use super::{exact, with_unit};
 use crate::feasible::Feasible;
 use crate::notation::{rate_unit, velocity_name};
 use crate::outcome::forces;
