@@ -307,14 +307,15 @@ impl<T: Scalar> Run<T> {
         list.sort_by(|a, b| a.1.total_cmp(&b.1));
     }
 
-    /// Whether a term of a mark crosses zero once more only because rounding has put it back to the side from which it has come, or
-    /// the projection onto the constraints after the step in which it passed.
+    /// Whether a term of a mark crosses zero once more only because rounding has put it back to the side from which it has come, or,
+    /// by no more than the tolerance, the projection onto the constraints after the step in which it passed.
     fn comes_back(&self, mark: usize, term: usize, curve: &[f64], resolution: f64) -> bool {
-        let below = self.locator.mark_below[mark][term];
-        match self.locator.mark_passed[mark] == Some(term) {
-            true => crosses_back(curve, below),
-            false => comes_back_at_once(curve, below, resolution),
-        }
+        let step = &self.stepper.step;
+        let within = match self.locator.mark_passed[mark] == Some(term) {
+            true => self.settings.tolerance * (step.t.value() / step.h.value()).abs().max(1.0),
+            false => resolution,
+        };
+        comes_back_at_once(curve, self.locator.mark_below[mark][term], within)
     }
 
     /// The part of the step to which rounding resolves the time of an event.
@@ -451,18 +452,14 @@ fn is_zero(curve: &[f64], s: f64, now: f64, resolution: f64) -> bool {
 
 /// Whether rounding has put the begin of a curve to the side from which it has come, and it crosses zero to the other one again.
 fn comes_back_at_once(curve: &[f64], was_below: bool, resolution: f64) -> bool {
-    crosses_back(curve, was_below) && is_zero(curve, 0.0, curve[0], resolution)
-}
-
-/// Whether a curve begins on the other side than that where it was, and turns to that side.
-fn crosses_back(curve: &[f64], was_below: bool) -> bool {
     let [start, rate, ..] = *curve else {
         return false;
     };
-    match was_below {
+    let crosses = match was_below {
         true => start > 0.0 && rate < 0.0,
         false => start < 0.0 && rate > 0.0,
-    }
+    };
+    crosses && is_zero(curve, 0.0, start, resolution)
 }
 
 /// Whether the conditions of a watch hold in a mode.
