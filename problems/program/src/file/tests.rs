@@ -308,6 +308,8 @@ fn a_mark_where_a_friction_reverses_is_one_event() {
         .map(|event| event.kind.word())
         .collect();
     assert_eq!(told, ["mark", "reverses"]);
+    let certificate = outcome.certificate.as_ref().expect("a certificate");
+    assert!(certificate.holds(), "{certificate}");
     let angle = outcome.events[0].state.q[0];
     assert!((angle.cos() + 1.0 / 3.0).abs() < 1e-8, "{angle}");
 }
