@@ -113,7 +113,13 @@ pub(in crate::parse) fn attributes(
     sink: &mut Diagnostics,
 ) -> Option<Vec<Attribute>> {
     let mut tokens = TokenStream::new();
-    while part.operator() == Some("#") {
+    // A remark of another language begins so, too.
+    let begins = |part: &Cursor| {
+        let behind = part.second();
+        let inner = matches!(&behind, Some(TokenTree::Punct(punct)) if punct.as_char() == '!');
+        part.operator() == Some("#") && (inner || matches!(behind, Some(TokenTree::Group(_))))
+    };
+    while begins(part) {
         tokens.extend(part.next());
         part.take("!");
         tokens.extend(part.take_group(Delimiter::Bracket).map(TokenTree::from));
