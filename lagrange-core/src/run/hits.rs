@@ -66,6 +66,8 @@ pub(super) struct Locator<T> {
     pub(super) stop_below: Vec<Vec<bool>>,
     /// and per mark.
     pub(super) mark_below: Vec<Vec<bool>>,
+    /// Per mark, its term that passed zero at the end of the last step.
+    mark_passed: Vec<Option<usize>>,
     pub(super) marks: Vec<(usize, f64)>,
 }
 
@@ -86,6 +88,7 @@ impl<T: Scalar> Locator<T> {
             earlier: vec![T::default(); d.coordinates.len()],
             stop_below: nowhere(d.stops),
             mark_below: nowhere(d.marks),
+            mark_passed: vec![None; d.marks.len()],
             marks: Vec::new(),
         }
     }
@@ -94,6 +97,7 @@ impl<T: Scalar> Locator<T> {
     pub(super) fn restart(&mut self) {
         let watches = self.stop_below.iter_mut().chain(&mut self.mark_below);
         watches.for_each(|terms| terms.fill(false));
+        self.mark_passed.fill(None);
         self.polynomials.composites.clear();
         self.polynomials.held.clear();
     }
@@ -247,9 +251,10 @@ impl<T: Scalar> Run<T> {
             let first = becomes_true(
                 watch,
                 mode,
-                [end, resolution],
+                end,
                 |k| curves.stop_term(i, k),
                 |k| below[i][k],
+                |k| comes_back_at_once(curves.stop_term(i, k), below[i][k], resolution),
                 |k, root| self.place(Guard::Stop(i, k), root).0,
             );
             if let Some(s) = first
@@ -274,7 +279,7 @@ impl<T: Scalar> Run<T> {
                 let curve = curves.mark_term(i, 0);
                 roots(curve, &mut all);
                 let below = self.locator.mark_below[i][0];
-                let comes_back = comes_back_at_once(curve, below, resolution);
+                let comes_back = self.comes_back(i, 0, curve, resolution);
                 if !comes_back && ((below && curve[0] > 0.0) || (!below && curve[0] < 0.0)) {
                     list.push((i, 0.0));
                 }
@@ -290,15 +295,27 @@ impl<T: Scalar> Run<T> {
                 let first = becomes_true(
                     watch,
                     &self.now.mode,
-                    [end, resolution],
+                    end,
                     |k| curves.mark_term(i, k),
                     |k| below[i][k],
+                    |k| self.comes_back(i, k, curves.mark_term(i, k), resolution),
                     |k, root| self.place(Guard::Mark(i, k), root).0,
                 );
                 list.extend(first.map(|s| (i, s)));
             }
         }
         list.sort_by(|a, b| a.1.total_cmp(&b.1));
+    }
+
+    /// Whether a term of a mark crosses zero once more only because rounding has put it back to the side from which it has come, or,
+    /// by no more than the tolerance, the projection onto the constraints after the step in which it passed.
+    fn comes_back(&self, mark: usize, term: usize, curve: &[f64], resolution: f64) -> bool {
+        let step = &self.stepper.step;
+        let within = match self.locator.mark_passed[mark] == Some(term) {
+            true => self.settings.tolerance * (step.t.value() / step.h.value()).abs().max(1.0),
+            false => resolution,
+        };
+        comes_back_at_once(curve, self.locator.mark_below[mark][term], within)
     }
 
     /// The part of the step to which rounding resolves the time of an event.
@@ -331,6 +348,7 @@ impl<T: Scalar> Run<T> {
                     _ => is_below(curves.mark_term(i, k), end, resolution, *below),
                 };
             }
+            self.locator.mark_passed[i] = passed.map(|(term, _)| term);
         }
     }
 }
@@ -376,14 +394,15 @@ fn leading(curve: &[f64], resolution: f64) -> Option<usize> {
     curve.iter().position(|c| c.abs() > noise)
 }
 
-/// First instant up to `end` at which a watch becomes true: a term rises through zero while the others are ≥ 0; `place` tells
-/// where the root of a term's polynomial is, and `resolution` to which part of the step rounding resolves the time.
+/// First instant up to `end` at which a watch becomes true: a term rises through zero while the others are ≥ 0. `comes_back`
+/// tells whether the first rise of a term has been seen before, and `place` where the root of its polynomial is.
 fn becomes_true<'c>(
     watch: &Watch,
     mode: &Mode,
-    [end, resolution]: [f64; 2],
+    end: f64,
     term: impl Fn(usize) -> &'c [f64],
     was_below: impl Fn(usize) -> bool,
+    comes_back: impl Fn(usize) -> bool,
     place: impl Fn(usize, &Root) -> f64,
 ) -> Option<f64> {
     if !holds(watch, mode) {
@@ -402,7 +421,7 @@ fn becomes_true<'c>(
             consider(0.0);
         }
         let mut from = 0.0;
-        let mut comes_back = comes_back_at_once(curve, was_below(k), resolution);
+        let mut comes_back = comes_back(k);
         while let Some(root) = first_root(curve, from) {
             let s = place(k, &root);
             if s > end {

@@ -101,7 +101,7 @@ impl<T: Scalar> Instant<T> {
 
     /// T + V as declared, J.
     pub fn energy(&self) -> T {
-        self.kinetic + self.potential
+        self.energies().total()
     }
 }
 

@@ -12,21 +12,32 @@ use crate::system::Description;
 
 /// Energies at one instant, J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Energies {
+pub struct Energies<T = f64> {
     /// T as declared.
-    pub kinetic: f64,
+    pub kinetic: T,
     /// V as declared.
-    pub potential: f64,
+    pub potential: T,
     /// v·∂L/∂v − L.
-    pub jacobi: f64,
+    pub jacobi: T,
 }
 
-impl Energies {
+impl<T: Scalar> Energies<T> {
     /// T + V, J.
-    pub fn total(&self) -> f64 {
+    pub fn total(&self) -> T {
         self.kinetic + self.potential
     }
 
+    /// Without derivatives.
+    fn values(&self) -> Energies {
+        Energies {
+            kinetic: self.kinetic.value(),
+            potential: self.potential.value(),
+            jacobi: self.jacobi.value(),
+        }
+    }
+}
+
+impl Energies {
     /// Whether the Jacobi integral is another quantity than T + V, beyond rounding: then it is what works balance.
     pub fn has_own_jacobi(&self) -> bool {
         let size = self.kinetic.abs() + self.potential.abs() + self.jacobi.abs();
@@ -104,7 +115,7 @@ impl<T: Scalar> Trajectory<T> {
             let now = books.sampler.evaluate_at(times[i])?;
             let after = self.segments.partition_point(|s| s.t.value() <= times[i]);
             books.turn_to(after.saturating_sub(1), Some(times[i]))?;
-            ledgers[i] = Some(books.balance(energies(&now)));
+            ledgers[i] = Some(books.balance(now.energies().values()));
         }
         Ok(ledgers.into_iter().flatten().collect())
     }
@@ -116,11 +127,8 @@ impl<T: Scalar> Trajectory<T> {
         time: T,
         state: &State<T>,
     ) -> Result<Energies, Error> {
-        Ok(energies(&sampler.evaluate(
-            time,
-            self.final_mode(),
-            state,
-        )?))
+        let instant = sampler.evaluate(time, self.final_mode(), state)?;
+        Ok(instant.energies().values())
     }
 }
 
@@ -155,7 +163,7 @@ impl<'a, T: Scalar> Books<'a, T> {
         let start = sampler.evaluate(trajectory.first_time, mode, &trajectory.start)?;
         Ok(Books {
             trajectory,
-            start: energies(&start),
+            start: start.energies().values(),
             part: vec![0.0; booked.len()],
             booked,
             segments: 0,
@@ -334,10 +342,13 @@ fn jumps<T: Scalar>(
     Ok(jumps)
 }
 
-fn energies<T: Scalar>(instant: &Instant<T>) -> Energies {
-    Energies {
-        kinetic: instant.kinetic.value(),
-        potential: instant.potential.value(),
-        jacobi: instant.jacobi.value(),
+impl<T: Scalar> Instant<T> {
+    /// Kinetic and potential energy and the Jacobi integral, J.
+    pub fn energies(&self) -> Energies<T> {
+        Energies {
+            kinetic: self.kinetic,
+            potential: self.potential,
+            jacobi: self.jacobi,
+        }
     }
 }

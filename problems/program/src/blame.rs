@@ -2,16 +2,36 @@
 //!
 //! A value is the cause if the motion can begin with another one in its place: the default of what was set, or 1 where it is 0.
 
+use crate::outcome::Outcome;
 use crate::request::{Refusal, Request, find_parameters};
 use crate::scene::Scene;
 use lagrange_core::prelude::Error;
 
-/// What was `told` of a run, with places and the cause if it cannot begin.
-pub(crate) fn explained(scene: &dyn Scene, request: &Request, told: &str) -> String {
-    let Some(error) = error(scene, request) else {
-        return told.to_owned();
+/// What a refusal tells; with places and the cause if the motion cannot begin.
+pub(crate) fn refusal(scene: &dyn Scene, request: &Request, refusal: &Refusal) -> String {
+    let told = refusal.to_string();
+    match refusal {
+        Refusal::Start(error) | Refusal::Begin(error) => explained(scene, request, error, told),
+        _ => told,
+    }
+}
+
+/// The same of the error that has ended a run, if one has.
+pub(crate) fn failure(scene: &dyn Scene, request: &Request, outcome: &Outcome) -> Option<String> {
+    let error = outcome.failure.as_ref()?;
+    let told = error.to_string();
+    Some(match outcome.has_begun() {
+        true => told,
+        false => explained(scene, request, error, told),
+    })
+}
+
+/// What was `told` of an error because of which a motion does not begin.
+fn explained(scene: &dyn Scene, request: &Request, error: &Error, told: String) -> String {
+    let Some(items) = items(error) else {
+        return told;
     };
-    let place = items(&error).iter().find_map(|item| scene.place(item));
+    let place = items.iter().find_map(|item| scene.place(item));
     let place = place.map_or(String::new(), |place| format!("{place}: "));
     // Where a message names the number itself there is nothing to look for.
     let cause = match error {
@@ -22,29 +42,23 @@ pub(crate) fn explained(scene: &dyn Scene, request: &Request, told: &str) -> Str
     format!("{place}{told}{cause}")
 }
 
-/// Why the motion cannot begin, if it cannot.
-fn error(scene: &dyn Scene, request: &Request) -> Option<Error> {
-    match scene.modes(request, None) {
-        Err(Refusal::Start(error) | Refusal::Run(error)) => Some(error),
-        _ => None,
-    }
-}
-
-/// Items that a message is about; of a value the parameter first.
-fn items(error: &Error) -> Vec<&'static str> {
-    match error {
+/// Items that a message about a start names, of a value the parameter first; nothing of an error that is none of the start.
+fn items(error: &Error) -> Option<Vec<&'static str>> {
+    Some(match error {
         Error::Domain { item, fields, .. } => {
             let fields = fields.iter().map(|(name, _)| *name);
             fields.chain([*item]).collect()
         }
         Error::Start { item, .. }
         | Error::Penetrates { item, .. }
-        | Error::Projection { item, .. } => {
+        | Error::Projection { item, .. }
+        | Error::NoMode { item, .. } => {
             vec![*item]
         }
         Error::Singular { items, .. } => items.clone(),
-        _ => Vec::new(),
-    }
+        Error::NotFinite { .. } => Vec::new(),
+        _ => return None,
+    })
 }
 
 /// The parameter whose value alone is the cause.
@@ -67,7 +81,7 @@ fn cause(scene: &dyn Scene, request: &Request) -> Option<String> {
         request.parameters = (d.parameters.iter().zip(&values).enumerate())
             .map(|(k, (p, value))| (p.name.to_owned(), if k == *i { *other } else { *value }))
             .collect();
-        error(scene, &request).is_none()
+        scene.modes(&request, None).is_ok()
     });
     let (i, other) = others.next()?;
     let name = d.parameters[i].name;
@@ -94,21 +108,40 @@ mod tests {
             start: own(start),
             ..Request::default()
         };
-        explained(scene, &request, "told")
+        match scene.run(&request) {
+            Ok(outcome) => failure(scene, &request, &outcome).unwrap_or_default(),
+            Err(refused) => refusal(scene, &request, &refused),
+        }
     }
 
     #[test]
     fn the_parameter_and_the_place_are_named() {
-        assert_eq!(said(&[], &[]), "told");
-        assert_eq!(
-            said(&[("gravity", 3.0), ("mass", 0.0)], &[]),
-            "fall.lagrange:3:13: told; the cause is `mass` = 0 (fall.lagrange:1:12): with 1 the motion can begin"
-        );
-        assert_eq!(
-            said(&[("h", 2.0)], &[]),
-            "fall.lagrange:5:9: told; the cause is `h` = 2 (fall.lagrange:2:2): with 0 the motion can begin"
-        );
-        assert_eq!(said(&[], &[("y", -1.0)]), "fall.lagrange:5:9: told");
-        assert_eq!(said(&[("mass", -1.0)], &[]), "fall.lagrange:1:12: told");
+        assert_eq!(said(&[], &[]), "");
+        for (told, place, cause) in [
+            (
+                said(&[("gravity", 3.0), ("mass", 0.0)], &[]),
+                "fall.lagrange:3:13: t = 0",
+                "; the cause is `mass` = 0 (fall.lagrange:1:12): with 1 the motion can begin",
+            ),
+            (
+                said(&[("h", 2.0)], &[]),
+                "fall.lagrange:5:9: the start is below",
+                "; the cause is `h` = 2 (fall.lagrange:2:2): with 0 the motion can begin",
+            ),
+        ] {
+            assert!(told.starts_with(place) && told.ends_with(cause), "{told}");
+        }
+        for (told, place) in [
+            (
+                said(&[], &[("y", -1.0)]),
+                "fall.lagrange:5:9: the start is below",
+            ),
+            (said(&[("mass", -1.0)], &[]), "fall.lagrange:1:12: t = 0"),
+        ] {
+            assert!(
+                told.starts_with(place) && !told.contains("the cause"),
+                "{told}"
+            );
+        }
     }
 }

@@ -29,7 +29,10 @@ impl dyn Scene + '_ {
             None => (0.0, start),
             Some(time) => {
                 let run = simulation.run(start, 0.0..time);
-                let run = run.map_err(|failure| Refusal::Run(failure.error))?;
+                let run = run.map_err(|failure| match failure.trajectory.work().steps {
+                    0 => Refusal::Begin(failure.error),
+                    _ => Refusal::Run(failure.error),
+                })?;
                 let (first, last) = (run.first_time(), run.last_time());
                 if last < time {
                     return Err(Refusal::Run(Error::OutsideTrajectory { time, first, last }));
@@ -42,7 +45,10 @@ impl dyn Scene + '_ {
             scene: self.name(),
             description: system.description(),
             time,
-            modes: modes.map_err(Refusal::Run)?,
+            modes: modes.map_err(match time > 0.0 {
+                true => Refusal::Run,
+                false => Refusal::Begin,
+            })?,
         })
     }
 }

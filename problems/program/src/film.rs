@@ -136,16 +136,30 @@ fn without_rounding(outcome: &mut Outcome) {
 /// At how many samples the energy books are kept at most, beside the first.
 const BOOKS: usize = 120;
 
-/// The energy books of a run at some of its samples, the first and the last among them.
+/// The energy books of a run at some of its samples, the first and the last among them, and on both sides of what makes one jump.
 fn books(outcome: &mut Outcome) -> Vec<(f64, Ledger)> {
     let times = outcome.samples.iter().map(|sample| sample.time);
-    let books = times.zip(core::mem::take(&mut outcome.ledgers));
+    let books: Vec<(f64, Ledger)> = times.zip(core::mem::take(&mut outcome.ledgers)).collect();
     let count = books.len();
     let apart = count.div_ceil(BOOKS).max(1);
-    let kept = books
-        .enumerate()
-        .filter(|(i, _)| *i == 0 || (count - 1 - i) % apart == 0);
-    kept.map(|(_, book)| book).collect()
+    let jumps = |i: usize| {
+        let [(at, before), (time, after)] = &books[i..i + 2] else {
+            return false;
+        };
+        let mut works = before.work.iter().zip(&after.work);
+        at == time && works.any(|(a, b)| (a.work - b.work).abs() > 1e-9 * after.scale)
+    };
+    let kept: Vec<bool> = (0..count)
+        .map(|i| {
+            let beside = i > 0 && jumps(i - 1) || i + 1 < count && jumps(i);
+            i == 0 || (count - 1 - i).is_multiple_of(apart) || beside
+        })
+        .collect();
+    let books = books.into_iter().zip(kept);
+    books
+        .filter(|(_, kept)| *kept)
+        .map(|(book, _)| book)
+        .collect()
 }
 
 /// Largest relative residual of the rows that act, on position and velocity level, among instants of a run; `None` if none

@@ -64,7 +64,7 @@ impl Quantity {
         found.map(|(_, quantity)| quantity.clone()).ok_or_else(|| {
             Refusal::unknown(
                 "quantity",
-                &plain,
+                name.trim(),
                 all.iter().map(|(known, _)| known.as_str()),
             )
         })
@@ -96,7 +96,8 @@ impl Quantity {
             Quantity::Position(i) if is_angle(&d.coordinates[*i]) => "angle",
             Quantity::Position(_) => "position",
             Quantity::Velocity(_) => "rate",
-            Quantity::Force(_) | Quantity::Size(_) | Quantity::Limit(_) => "force",
+            Quantity::Force(force) => force_word(d.units.row(force.row)),
+            Quantity::Size(i) | Quantity::Limit(i) => force_word(d.units.row(d.frictions[*i].row)),
             Quantity::Output(_) => "output",
             Quantity::Kinetic | Quantity::Potential | Quantity::Energy => "energy",
         }
@@ -142,9 +143,9 @@ impl Quantity {
             }
             Quantity::Limit(i) => sample.limits[*i]?,
             Quantity::Output(i) => sample.observes[*i],
-            Quantity::Kinetic => sample.kinetic,
-            Quantity::Potential => sample.potential,
-            Quantity::Energy => sample.kinetic + sample.potential,
+            Quantity::Kinetic => sample.energies.kinetic,
+            Quantity::Potential => sample.energies.potential,
+            Quantity::Energy => sample.energies.total(),
         };
         Some(self.scaled_unit(d).1 * value)
     }
@@ -175,6 +176,15 @@ impl Quantity {
             }
         }
         all
+    }
+}
+
+/// What a multiplier of this unit is called on an axis.
+pub(crate) fn force_word(unit: &str) -> &'static str {
+    match unit {
+        "" | "N" => "force",
+        "N m" => "torque",
+        _ => "multiplier",
     }
 }
 

@@ -49,7 +49,16 @@ fn list_has_every_scene_with_a_summary() {
     let words = |line: &str| line.split_whitespace().count();
     assert!(list.lines().all(|line| words(line) > 4), "{list}");
     let details = says(&["list", "mass-on-wheel"]);
-    for word in ["mu_static", "0.6", "theta", "rest", "rim", "grip", "floor"] {
+    for word in [
+        "mu_static",
+        "0.6",
+        "theta",
+        "rest",
+        "rim",
+        "grip",
+        "floor",
+        "px",
+    ] {
         assert!(details.contains(word), "{word} is missing in\n{details}");
     }
 }

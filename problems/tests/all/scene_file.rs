@@ -184,7 +184,7 @@ fn mistakes_are_told_at_their_place() {
         ),
         (
             in_wheel("end_after = \"rim lost 2\""),
-            "2:13: no first event is called `rim lost 2`; did you mean `rim lost`?",
+            "2:13: no event that ends a run is called `rim lost 2`; did you mean `rim lost`?",
         ),
         (
             in_wheel("[start]\nfrom = \"rset\""),

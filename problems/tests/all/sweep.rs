@@ -139,10 +139,25 @@ fn failures_are_told_by_reason_and_place() {
     let said = says(&sweep(&[]));
     // A coefficient at rest below that of sliding is not a law of friction.
     let told = "9000 runs of rolling-slipping-sphere, of which 1200 failed.\n  domain: 1200, the first at mu_static = 0.2, theta = 0.01\n";
-    assert!(said.ends_with(told), "{said}");
+    // The message is that of the run itself.
+    let run = [
+        "run",
+        "rolling-slipping-sphere",
+        "--quiet",
+        "--set",
+        "mu_static=0.2",
+        "--start",
+        "theta=0.01",
+    ];
+    let run = crate::program::lagrange(&run);
+    let message = crate::program::text(&run.stderr);
+    let message = message.trim_start_matches("lagrange: ").trim_end();
+    assert!(message.contains("kinetic friction = 0.3"), "{message}");
+    assert!(said.ends_with(&format!("{told}    {message}\n")), "{said}");
     let said = says(&sweep(&["--format", "json"]));
     let value: serde_json::Value = serde_json::from_str(&said).expect("JSON");
     assert_eq!(value["failures"][0]["reason"], "domain");
+    assert_eq!(value["failures"][0]["message"], message);
     assert_eq!(value["failures"][0]["first_at"]["mu_static"], 0.2);
     assert_eq!(value["observed"][0]["runs"], 7800);
     let said = says(&sweep(&["--format", "csv"]));

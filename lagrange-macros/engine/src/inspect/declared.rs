@@ -46,13 +46,13 @@ fn written(kind: &ItemKind, names: &Names, items: &mut Vec<Item>) {
             let sides = (names.written(&item.left), names.written(&item.right));
             let parts = vec![Part::Statement(Statement::equal(sides.0, sides.1))];
             let contact = item.while_contact.as_ref();
-            let condition = contact.map(|(_, contact)| format!(" while {}", contact.name.text));
+            let condition = contact.map(|(_, contact)| format!(" while {}", referred(contact)));
             let title = head_name(&item.head) + &condition.unwrap_or_default();
             add("constraint", title, parts);
         }
         ItemKind::Contact(item) => add("contact", head_name(&item.head), contact(item, names)),
         ItemKind::Friction(item) => {
-            let on = item.on.as_ref().map(|on| format!(" on {}", on.name.text));
+            let on = item.on.as_ref().map(|on| format!(" on {}", referred(on)));
             let title = head_name(&item.head) + &on.unwrap_or_default();
             add("friction", title, friction(item, names));
         }
@@ -202,7 +202,15 @@ fn mode_word(word: ModeWord, item: &Reference) -> Part {
         ModeWord::Sticks => "sticks",
         ModeWord::Slips => "slips",
     };
-    Part::Word(format!("{} {verb}", item.name.text))
+    Part::Word(format!("{} {verb}", referred(item)))
+}
+
+/// `rim`, `wall[k]`
+fn referred(item: &Reference) -> String {
+    match &item.element {
+        Some(element) => format!("{}[{element}]", item.name.text),
+        None => item.name.text.clone(),
+    }
 }
 
 fn start(start: &Start, names: &Names) -> Vec<Part> {
@@ -237,7 +245,11 @@ fn trigger(watch: &Watch, names: &Names) -> Vec<Part> {
                 Clause::Comparison(comparison) => Part::Statement(names.comparison(comparison)),
                 Clause::Mode(word, item) => mode_word(*word, item),
             };
-            clauses.iter().map(clause).collect()
+            let joined = clauses.iter().enumerate().flat_map(|(i, joined)| {
+                let and = (i > 0).then(|| word("and"));
+                and.into_iter().chain([clause(joined)])
+            });
+            joined.collect()
         }
     }
 }

@@ -165,6 +165,11 @@ fn field_attribute(part: &mut Cursor, field: &mut Field, sink: &mut Diagnostics)
     super::relation::leftover(part, sink)
 }
 
+/// Whether the word is one that [`domain`] reads.
+pub(super) fn is_domain(text: &str) -> bool {
+    Domain::ALL.iter().any(|(word, _)| *word == text)
+}
+
 /// `positive` or `nonnegative`.
 pub(super) fn domain(text: &str, extent: Extent, sink: &mut Diagnostics) -> Option<Domain> {
     let known = Domain::ALL.iter().find(|(word, _)| *word == text);

@@ -79,7 +79,19 @@ fn one(scene: &dyn Scene, out: &mut dyn Write) -> io::Result<()> {
     )?;
     line(out, "contacts", names(description.contacts, |c| c.name))?;
     line(out, "frictions", names(description.frictions, |f| f.name))?;
+    line(out, "forces", names(description.forces, |f| f.name))?;
+    line(
+        out,
+        "dissipations",
+        names(description.dissipations, |d| d.name),
+    )?;
     line(out, "stops", names(description.stops, |s| s.name))?;
+    line(out, "marks", names(description.marks, |m| m.name))?;
+    line(
+        out,
+        "outputs (run --show NAME, sweep --observe NAME)",
+        names(description.observes, |o| o.name),
+    )?;
     let results = scene.results().iter().map(|(name, _)| *name);
     line(out, "results (sweep --observe NAME)", results.collect())?;
     writeln!(

@@ -26,7 +26,7 @@ mod values;
 mod verify;
 mod watch;
 
-use crate::blame::explained;
+use crate::blame;
 use crate::catalogue::Catalogue;
 use crate::outcome::Outcome;
 use crate::request::{Refusal, Request};
@@ -108,21 +108,12 @@ impl Trouble {
         Trouble::Failed(reason.to_string())
     }
 
-    /// The same, with the places and the cause where the motion cannot begin.
-    fn explained(self, scene: &dyn Scene, request: &Request) -> Self {
-        match self {
-            Trouble::Failed(told) => Trouble::Failed(explained(scene, request, &told)),
+    /// The same of a run of this scene: with places and the cause where the motion cannot begin.
+    fn refused_run(refusal: Refusal, scene: &dyn Scene, request: &Request) -> Self {
+        let told = blame::refusal(scene, request, &refusal);
+        match Trouble::refused(refusal) {
+            Trouble::Failed(_) => Trouble::Failed(told),
             other => other,
-        }
-    }
-
-    /// A run ended early; what there is of it has been written.
-    fn ended(error: Error) -> Self {
-        match error {
-            Error::Interrupted { time } => Trouble::Interrupted(format!(
-                "interrupted at t = {time} s; what was run until then is kept"
-            )),
-            error => Trouble::failed(error),
         }
     }
 
@@ -130,7 +121,7 @@ impl Trouble {
     fn refused(refusal: Refusal) -> Self {
         match refusal {
             Refusal::Run(Error::Interrupted { .. }) => Trouble::Interrupted(refusal.to_string()),
-            Refusal::Start(_) | Refusal::Run(_) | Refusal::Reference { .. } => {
+            Refusal::Start(_) | Refusal::Begin(_) | Refusal::Run(_) | Refusal::Reference { .. } => {
                 Trouble::failed(refusal)
             }
             _ => Trouble::usage(refusal),
@@ -139,9 +130,14 @@ impl Trouble {
 }
 
 /// A run went well if it came to its end and its certificate holds.
-fn went_well(outcome: Outcome) -> Result<(), Trouble> {
-    if let Some(error) = outcome.failure {
-        return Err(Trouble::ended(error));
+fn went_well(outcome: Outcome, scene: &dyn Scene, request: &Request) -> Result<(), Trouble> {
+    if let Some(Error::Interrupted { time }) = outcome.failure {
+        return Err(Trouble::Interrupted(format!(
+            "interrupted at t = {time} s; what was run until then is kept"
+        )));
+    }
+    if let Some(told) = blame::failure(scene, request, &outcome) {
+        return Err(Trouble::Failed(told));
     }
     match outcome.certificate {
         None => Err(Trouble::failed(

@@ -38,8 +38,8 @@ impl Modes {
         let file = self.run.of(&self.scene, catalogue)?;
         ready(self.output.path(), std::slice::from_ref(&self.scene))?;
         let found = file.scene.modes(&file.request, self.at);
-        let found = found
-            .map_err(|refusal| Trouble::refused(refusal).explained(file.scene, &file.request))?;
+        let found =
+            found.map_err(|refusal| Trouble::refused_run(refusal, file.scene, &file.request))?;
         let format = self.output.format();
         self.output.write(|out| write(&found, format, out))
     }

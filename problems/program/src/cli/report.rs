@@ -107,6 +107,12 @@ impl Form {
     }
 }
 
+/// The run that was asked for.
+struct Asked {
+    scene: &'static dyn Scene,
+    request: Request,
+}
+
 impl Report {
     pub(super) fn execute(self, catalogue: &Catalogue) -> Result<(), Trouble> {
         watched(self.watch, &self.scenes, || self.once(catalogue))
@@ -120,7 +126,7 @@ impl Report {
         let progress = Progress::default();
         progress.expect(self.runs() * FILM_STAGES);
         keep_what_is_done(&progress);
-        let runs: Vec<Shown> = patiently("running", &progress, || {
+        let runs: Vec<(Shown, Asked)> = patiently("running", &progress, || {
             let names = self.scenes.iter().flat_map(|name| {
                 let comparisons = self.compare.iter().map(Some);
                 let all = core::iter::once(None).chain(comparisons);
@@ -130,9 +136,10 @@ impl Report {
                 names.map(|(name, comparison)| self.shown(name, catalogue, comparison, &progress));
             shown.collect::<Result<_, _>>()
         })?;
+        let (runs, asked): (Vec<Shown>, Vec<Asked>) = runs.into_iter().unzip();
         self.write(&runs)?;
-        let mut outcomes = runs.into_iter().map(|run| run.film.outcome);
-        outcomes.try_for_each(went_well)
+        let mut ended = runs.into_iter().zip(asked);
+        ended.try_for_each(|(run, asked)| went_well(run.film.outcome, asked.scene, &asked.request))
     }
 
     /// How many there are.
@@ -242,7 +249,7 @@ impl Report {
         catalogue: &Catalogue,
         comparison: Option<&Comparison>,
         progress: &Progress,
-    ) -> Result<Shown, Trouble> {
+    ) -> Result<(Shown, Asked), Trouble> {
         let file = self.run.of(name, catalogue)?;
         let request = match comparison {
             Some(comparison) => comparison.of(file.request),
@@ -254,12 +261,15 @@ impl Report {
             progress: Some(progress.clone()),
             ..request
         };
-        let film = file.scene.film(&request).map_err(Trouble::refused)?;
-        Ok(Shown {
-            title: title(name, file.scene, comparison),
+        let scene = file.scene;
+        let film = scene.film(&request);
+        let film = film.map_err(|refusal| Trouble::refused_run(refusal, scene, &request))?;
+        let shown = Shown {
+            title: title(name, scene, comparison),
             film,
-            derivation: file.scene.derivation(),
-        })
+            derivation: scene.derivation(),
+        };
+        Ok((shown, Asked { scene, request }))
     }
 }
 

@@ -13,7 +13,7 @@ use crate::outcome::Outcome;
 use crate::progress::Progress;
 use crate::quantity::Show;
 use crate::report::plot;
-use crate::request::{Refusal, Request};
+use crate::request::Request;
 use crate::results::SAMPLES;
 use crate::scene::{RUN_STAGES, Scene};
 use crate::scene_file::{self, Outputs};
@@ -114,15 +114,17 @@ impl Run {
         };
         keep_what_is_done(&progress);
         let words = format!("running {}", scene.name());
-        let (outcome, compared) = patiently(&words, &progress, || -> Result<_, Refusal> {
-            let compared = self.results.compare.iter();
-            let compared = compared.map(|change| scene.run(&change.of(request.clone())));
-            Ok((
-                scene.run(&request)?,
-                compared.collect::<Result<Vec<_>, _>>()?,
-            ))
-        })
-        .map_err(|refusal| Trouble::refused(refusal).explained(scene, &request))?;
+        let changes = self.results.compare.iter();
+        let changed: Vec<Request> = changes.map(|change| change.of(request.clone())).collect();
+        let run = |request: &Request| {
+            let outcome = scene.run(request);
+            outcome.map_err(|refusal| Trouble::refused_run(refusal, scene, request))
+        };
+        let (outcome, compared) = patiently(&words, &progress, || -> Result<_, Trouble> {
+            let outcome = run(&request)?;
+            let compared = changed.iter().map(run);
+            Ok((outcome, compared.collect::<Result<Vec<_>, _>>()?))
+        })?;
         if let Some(path) = &self.results.save {
             let folder = path.parent().unwrap_or(Path::new(""));
             let text =
@@ -151,9 +153,9 @@ impl Run {
             draw(path, &plot::svg(&runs, &shows).map_err(Trouble::failed)?)
         });
         // Why a run has failed is also why there is nothing to plot of it.
-        let mut runs = iter::once(outcome).chain(compared);
-        runs.try_for_each(went_well)
-            .map_err(|trouble| trouble.explained(scene, &request))?;
+        let runs = iter::once(outcome).chain(compared);
+        let mut runs = runs.zip(iter::once(&request).chain(&changed));
+        runs.try_for_each(|(outcome, request)| went_well(outcome, scene, request))?;
         plotted
     }
 }

@@ -3,6 +3,7 @@
 use super::output::ready;
 use super::results::{Results, beside, verdict};
 use super::run_args::RunArgs;
+use super::values::whole;
 use super::{Trouble, terminal};
 use crate::catalogue::Catalogue;
 use crate::sweep::launch::{self, Place};
@@ -39,7 +40,7 @@ pub(super) struct Sweeps {
     #[arg(long, value_name = "KIND:N")]
     sample: Option<Sampling>,
     /// Which of many such samples.
-    #[arg(long, default_value_t = 1, requires = "sample")]
+    #[arg(long, default_value_t = 1, requires = "sample", value_parser = whole::<u32>, allow_hyphen_values = true)]
     seed: u32,
     /// What to read from each run: a coordinate, velocity, force, output or energy at an event ("theta at shell lost", "t at grip
     /// slips", "energy at floor impact 2") or at the end ("x"); "count floor impact"; or a named result of the scene ("leave angle").

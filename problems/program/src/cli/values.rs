@@ -3,6 +3,7 @@
 use crate::count::count;
 use crate::format::Still;
 use crate::request::{ERRORS, MOST_SAMPLES, TOLERANCES};
+use core::str::FromStr;
 use std::path::PathBuf;
 
 /// `name=value` with a finite value.
@@ -37,6 +38,13 @@ pub(super) fn finite(text: &str) -> Result<f64, String> {
         Ok(_) => Err("the value must be finite".to_owned()),
         Err(_) => Err(format!("`{}` is not a number", text.trim())),
     }
+}
+
+/// A whole number that is not negative, as seeds are.
+pub(super) fn whole<N: FromStr>(text: &str) -> Result<N, String> {
+    let text = text.trim();
+    text.parse()
+        .map_err(|_| format!("`{text}` is not a whole number"))
 }
 
 /// A finite number above zero.

@@ -3,6 +3,7 @@
 use super::output::{Output, ready};
 use super::run_args::RunArgs;
 use super::terminal::{keep_what_is_done, patiently};
+use super::values::whole;
 use super::{Trouble, went_well};
 use crate::catalogue::Catalogue;
 use crate::format::Format;
@@ -31,7 +32,7 @@ pub(super) struct Verify {
     #[command(flatten)]
     run: RunArgs,
     /// Seed of the instants that are looked at.
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole::<u64>, allow_hyphen_values = true)]
     seed: u64,
     #[command(flatten)]
     output: Output,
@@ -53,11 +54,11 @@ impl Verify {
         keep_what_is_done(&progress);
         let words = format!("verifying {}", file.scene.name());
         let outcome = patiently(&words, &progress, || file.scene.run(&request));
-        let explained = |trouble: Trouble| trouble.explained(file.scene, &request);
-        let outcome = outcome.map_err(|refusal| explained(Trouble::refused(refusal)))?;
+        let outcome =
+            outcome.map_err(|refusal| Trouble::refused_run(refusal, file.scene, &request))?;
         let format = self.output.format();
         self.output.write(|out| write(&outcome, format, out))?;
-        went_well(outcome).map_err(explained)
+        went_well(outcome, file.scene, &request)
     }
 }
 

@@ -112,6 +112,22 @@ fn what_only_a_file_has_is_checked() {
         ),
         (format!("{rest}, until = x"), "1:45: `x` is not known"),
         (
+            format!("parameters(mu: nonnegative = 1), {rest}"),
+            "1:16: expected a unit; without one write `mu nonnegative`, found `nonnegative`",
+        ),
+        (
+            format!("# A spring.\n{rest}"),
+            "1:1: `#` is not an operator here; a remark begins with `//`",
+        ),
+        (
+            format!("{rest}, start(x = 1)"),
+            "1:43: this start has no name; write `start(name: …)`",
+        ),
+        (
+            format!("{rest}, contact(table: x >= 0, where x >= 1 and x <= 2)"),
+            "1:73: `and` is not an operator here; a region is one comparison",
+        ),
+        (
             "//! A spring.\n".to_owned(),
             "1:1: expected items, as `coordinates(x)` and `kinetic = …`, found none",
         ),
@@ -267,5 +283,49 @@ fn what_a_parameter_may_be_is_kept_by_the_file_and_the_struct() {
     let wrong = scene("falling.lagrange", &text.replace("nonnegative", "small"));
     assert!(
         wrong.is_err_and(|refused| refused.to_string().contains("`positive` or `nonnegative`"))
+    );
+}
+
+/// A crank of 0.1 m turns a slotted arm whose foot is 0.3 m below: it turns back where the crank is at right angles to it, at
+/// cos α = −1/3. There the friction of the ram reverses, constraints have been projected, and the mark is one event all the same.
+#[test]
+fn a_mark_where_a_friction_reverses_is_one_event() {
+    let text = "parameters(crank = 0.1, depth = 0.3, rate = 5), coordinates(alpha, beta, s, x),
+        define(pin = [crank * sin(alpha), crank * cos(alpha)], slot = [s * sin(beta), s * cos(beta) - depth]),
+        kinetic = der(alpha)^2/4 + der(beta)^2/10 + der(x)^2,
+        constraint(pinned[k in 0..2]: pin[k] == slot[k]), constraint(drive: x == tan(beta)/2),
+        force(motor: alpha = 1), friction(cutting: slip = der(x), limit = 30),
+        start(running: s = crank + depth, der(alpha) = rate, der(beta) = rate * crank/(crank + depth),
+            der(x) = rate * crank/(crank + depth)/2),
+        mark(turn: der(x)), until = 0.8,";
+    let outcome = scene("quick-return.lagrange", text)
+        .expect("a declaration")
+        .run(&Request::default())
+        .expect("a run");
+    let told: Vec<&str> = outcome
+        .events
+        .iter()
+        .map(|event| event.kind.word())
+        .collect();
+    assert_eq!(told, ["mark", "reverses"]);
+    let certificate = outcome.certificate.as_ref().expect("a certificate");
+    assert!(certificate.holds(), "{certificate}");
+    let angle = outcome.events[0].state.q[0];
+    assert!((angle.cos() + 1.0 / 3.0).abs() < 1e-8, "{angle}");
+}
+
+/// Conditions name the elements that they speak of, and are joined by the word of the language.
+#[test]
+fn conditions_are_shown_as_they_are_written() {
+    let text = "coordinates(q[2]), kinetic = (der(q[0])^2 + der(q[1])^2)/2,
+        friction(joint[k in 0..2]: slip = der(q[k]), limit = 1), start(a: q[0] = 1),
+        stop(settled: sticks(joint[0]) and sticks(joint[1])),";
+    let scene = scene("arm.lagrange", text).expect("a declaration");
+    let tokens = scene.derivation().declaration.parse().expect("tokens");
+    let derivation = lagrange_engine::inspect(tokens, None).expect("a derivation");
+    let shown = lagrange_engine::inspect::print::plain(&derivation);
+    assert!(
+        shown.contains("joint[0] sticks and joint[1] sticks"),
+        "{shown}"
     );
 }

@@ -76,12 +76,8 @@ pub struct Sample {
     pub undetermined: Vec<bool>,
     /// What each friction can hold: μₛN while it sticks, μₖN while it slips, `None` while it is inactive.
     pub limits: Vec<Option<f64>>,
-    /// Kinetic energy, J.
-    pub kinetic: f64,
-    /// Potential energy, J.
-    pub potential: f64,
-    /// Jacobi integral, J.
-    pub jacobi: f64,
+    /// Kinetic and potential energy and the Jacobi integral, J.
+    pub energies: Energies,
     /// Extra outputs.
     pub observes: Vec<f64>,
 }
@@ -242,7 +238,7 @@ impl Outcome {
             ledger: request.stage(trajectory.last_time(), || {
                 moved.then(|| trajectory.ledger().ok()).flatten()
             }),
-            ledgers: ledgers(samples.iter().map(|sample| sample.time).collect()),
+            ledgers: ledgers(sampling::book_times(&samples)),
             event_ledgers: ledgers(events.iter().map(|event| event.time).collect()),
             samples,
             curve,

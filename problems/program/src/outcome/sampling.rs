@@ -25,7 +25,7 @@ pub(crate) fn within(piece: &Trajectory, until: f64, intervals: usize) -> Vec<f6
         .collect()
 }
 
-/// Both ends of every phase, and between them these times, which are in order.
+/// Both ends of every phase, both sides of what makes velocities jump within one, and between them these times, which are in order.
 pub(super) fn samples(trajectory: &Trajectory, times: &[f64]) -> Vec<Sample> {
     let (first, last) = (trajectory.first_time(), trajectory.last_time());
     let mut reader = Reader::new(trajectory);
@@ -40,21 +40,32 @@ pub(super) fn samples(trajectory: &Trajectory, times: &[f64]) -> Vec<Sample> {
     let phases = Some(trajectory.phases())
         .filter(|phases| !phases.is_empty())
         .unwrap_or_else(at_once);
+    let jumps = trajectory
+        .events()
+        .iter()
+        .filter(|e| e.state_after != e.state);
+    let mut jumps: Vec<f64> = jumps.map(|event| event.time).collect();
+    jumps.dedup();
     for (phase, span) in phases.iter().enumerate() {
-        let after = times.partition_point(|t| *t <= span.from);
-        let before = times.partition_point(|t| *t < span.to).max(after);
-        let inner = times[after..before].iter().copied();
-        for time in iter::once(span.from)
-            .chain(inner)
+        let within = jumps.iter().filter(|t| span.from < **t && **t < span.to);
+        let ends: Vec<f64> = iter::once(span.from)
+            .chain(within.copied())
             .chain(iter::once(span.to))
-        {
-            // At a switch a sampler gives what is just after it: the end of a phase is read a trifle before.
-            let read = if time == span.to && time < last {
-                just_before(time)
-            } else {
-                time
-            };
-            samples.extend(reader.sample(time, read, phase, &span.mode));
+            .collect();
+        for ends in ends.windows(2) {
+            let (from, to) = (ends[0], ends[1]);
+            let after = times.partition_point(|t| *t <= from);
+            let before = times.partition_point(|t| *t < to).max(after);
+            let inner = times[after..before].iter().copied();
+            for time in iter::once(from).chain(inner).chain(iter::once(to)) {
+                // At a switch a sampler gives what is just after it: what ends there is read a trifle before.
+                let read = if time == to && time < last {
+                    just_before(time)
+                } else {
+                    time
+                };
+                samples.extend(reader.sample(time, read, phase, &span.mode));
+            }
         }
     }
     if let Some(end) = samples.last_mut().filter(|end| end.time == last) {
@@ -151,16 +162,26 @@ impl<'a> Reader<'a> {
             time,
             phase,
             limits: self.limits.at(time, &instant),
+            energies: instant.energies(),
             mode: instant.mode,
             state: instant.state,
             forces: instant.forces,
             undetermined: instant.undetermined,
-            kinetic: instant.kinetic,
-            potential: instant.potential,
-            jacobi: instant.jacobi,
             observes: instant.observes,
         }
     }
+}
+
+/// When the books of these samples are read: of two at one instant the first is just before it.
+pub(super) fn book_times(samples: &[Sample]) -> Vec<f64> {
+    let next = samples.iter().skip(1).map(|sample| Some(sample.time));
+    let next = next.chain([None]);
+    let times = samples.iter().zip(next);
+    let read = times.map(|(sample, next)| match next == Some(sample.time) {
+        true => just_before(sample.time),
+        false => sample.time,
+    });
+    read.collect()
 }
 
 fn just_before(time: f64) -> f64 {

@@ -5,7 +5,7 @@
 //! known, `x [m]`. Samples at the instant of an event are its two lines.
 
 use super::rows::{Cell, Table};
-use super::with_unit;
+use super::{exact, with_unit};
 use crate::outcome::Outcome;
 use std::io::{self, Write};
 
@@ -18,7 +18,7 @@ pub fn write(outcome: &Outcome, out: impl Write) -> io::Result<()> {
     for row in table.rows() {
         let cells = table.cells(&row).into_iter();
         csv.write_record(cells.map(|cell| match cell {
-            Cell::Number(number) => number.to_string(),
+            Cell::Number(number) => exact(number),
             Cell::Text(text) => text,
             Cell::Nothing => String::new(),
         }))?;

@@ -153,8 +153,8 @@ impl<'a> Table<'a> {
     /// Energies, work and what is observed, as far as they are known.
     fn energies(&self, cells: &mut Vec<Cell>, sample: Option<&Sample>, ledger: Option<&Ledger>) {
         let number = |number: Option<f64>| number.map_or(Cell::Nothing, Cell::Number);
-        cells.push(number(sample.map(|sample| sample.kinetic)));
-        cells.push(number(sample.map(|sample| sample.potential)));
+        cells.push(number(sample.map(|sample| sample.energies.kinetic)));
+        cells.push(number(sample.map(|sample| sample.energies.potential)));
         let works = 0..self.works.len();
         cells.extend(works.map(|i| number(ledger.map(|ledger| ledger.work[i].work))));
         let observes = 0..self.outcome.description.observes.len();

@@ -374,7 +374,7 @@ fn story(outcome: &Outcome) -> Table {
 }
 
 /// Of a force's impulse, `Ns`.
-fn impulse_unit(force: &str) -> String {
+pub(super) fn impulse_unit(force: &str) -> String {
     match force {
         "" => String::new(),
         "N" => "Ns".to_owned(),

@@ -129,6 +129,8 @@ pub enum Refusal {
     },
     /// No consistent state with the values that are to be held.
     Start(Error),
+    /// The motion does not begin.
+    Begin(Error),
     /// The run fails.
     Run(Error),
     /// More points than a sweep may have.
@@ -197,7 +199,7 @@ impl fmt::Display for Refusal {
                 f,
                 "{points:e} points are too many: their results would take {bytes:.1e} bytes; a sweep has at most {most} points"
             ),
-            Refusal::Run(error) => write!(f, "{error}"),
+            Refusal::Begin(error) | Refusal::Run(error) => write!(f, "{error}"),
             Refusal::Start(error) => write!(f, "no such start: {error}"),
             Refusal::Reference { by, reason } => {
                 write!(f, "no reference to measure errors against: {by}: {reason}")

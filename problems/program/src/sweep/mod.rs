@@ -31,6 +31,7 @@ pub use shard::Shard;
 pub use summary::{Column, Failed, QUANTILES, Sequence, Summary};
 pub use work::work;
 
+use crate::blame;
 use crate::notation::rate_unit;
 use crate::request::{Quantity, Refusal, Request, find_state};
 use crate::scene::Scene;
@@ -39,6 +40,9 @@ use lagrange_core::system::Description;
 
 /// Points of a chunk: a second's work or less.
 pub const CHUNK: usize = 1024;
+
+/// Most events of a run.
+const MOST_EVENTS: usize = 10_000;
 
 /// Most points of a sweep: as many as a Sobol sequence of 32 bits has.
 const MOST_POINTS: usize = 1 << 32;
@@ -106,6 +110,28 @@ impl Sweep {
     /// Numbers that are kept of a run: what is observed, then 0, or the number of the [`reason`] why it failed.
     pub fn width(&self) -> usize {
         self.observed.len() + 1
+    }
+
+    /// Why the run of a point fails, if it does: it is made once more, since of a run that fails a number is kept and no words.
+    pub(crate) fn message(&self, point: usize) -> Option<String> {
+        let mut values = vec![0.0; self.points.axes.len()];
+        self.points.write(point, &mut values);
+        let mut request = Request {
+            max_events: Some(self.request.max_events.unwrap_or(MOST_EVENTS)),
+            ..self.request.clone()
+        };
+        let parameters = self.scene.description().parameters;
+        for (axis, value) in self.points.axes.iter().zip(values) {
+            let list = match parameters.iter().any(|p| p.name == axis.name) {
+                true => &mut request.parameters,
+                false => &mut request.start,
+            };
+            list.push((axis.name.clone(), value));
+        }
+        match self.scene.run(&request) {
+            Err(refused) => Some(blame::refusal(self.scene, &request, &refused)),
+            Ok(outcome) => blame::failure(self.scene, &request, &outcome),
+        }
     }
 
     /// Unit of what an axis varies; empty for a plain number.

@@ -149,7 +149,7 @@ impl Observation {
             What::Output(i) => instant.observes[*i],
             What::Kinetic => instant.kinetic,
             What::Potential => instant.potential,
-            What::Energy => instant.kinetic + instant.potential,
+            What::Energy => instant.energy(),
             _ => 0.0,
         }
     }

@@ -78,6 +78,8 @@ pub struct Sequence {
 pub struct Failed {
     /// The reason, in a word.
     pub reason: &'static str,
+    /// The message of the first such run.
+    pub message: String,
     /// How many.
     pub count: usize,
     /// Number of the first such point.
@@ -109,6 +111,7 @@ impl Summary {
             if let Some(reason) = reason(code) {
                 let failed = failed.entry(reason).or_insert(Failed {
                     reason,
+                    message: String::new(),
                     count: 0,
                     first: point,
                 });
@@ -153,6 +156,9 @@ impl Summary {
         }
         let mut failed: Vec<Failed> = failed.into_values().collect();
         failed.sort_by_key(|failed| std::cmp::Reverse(failed.count));
+        for failed in &mut failed {
+            failed.message = sweep.message(failed.first).unwrap_or_default();
+        }
         Ok(Self {
             runs: sweep.points.len(),
             failed,

@@ -1,14 +1,11 @@
 //! A worker: an ensemble of runs, over a range of points.
 
 use super::failure::code;
-use super::{Sweep, Worker};
+use super::{MOST_EVENTS, Sweep, Worker};
 use crate::request::{Quantity, Refusal, Start, find_parameter, find_state};
 use crate::scene::Scene;
 use lagrange_core::prelude::*;
 use lagrange_core::system::Description;
-
-/// Most events of a run.
-const MOST_EVENTS: usize = 10_000;
 
 /// What an axis varies.
 #[derive(Clone, Copy, Debug)]

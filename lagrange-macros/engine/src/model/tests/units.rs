@@ -280,12 +280,14 @@ fn sums_and_differences_of_angles_are_angles() {
         "#[lagrange(
             coordinates(a: \"rad\", b: \"rad\", x: \"m\"),
             kinetic = inertia/2 * (der(a)^2 + der(b)^2) + mass/2 * der(x)^2,
-            observe(twist = a - b - pi/2, turning = der(a) - der(b), swing = der(der(b)), arc = 57.3 * a, wave = sin(a), mixed = a + x/l),
+            observe(twist = a - b - pi/2, turning = der(a) - der(b), swing = der(der(b)), arc = 57.3 * a, wave = sin(a), mixed = a + x/l,
+                bearing = atan2(x, l), lead = atan(x/l) - b),
         )]
         struct S { #[lagrange(unit = \"kg m^2\")] inertia: f64, mass: f64, l: f64 }",
     );
     let units = system.unwrap_or_else(|error| panic!("{error}")).units;
-    assert_eq!(units.observes, ["rad", "rad/s", "rad/s²", "", "", ""]);
+    let expected = ["rad", "rad/s", "rad/s²", "", "", "", "rad", "rad"];
+    assert_eq!(units.observes, expected);
 }
 
 #[test]

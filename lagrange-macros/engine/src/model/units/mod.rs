@@ -30,6 +30,7 @@ use super::{Hint, Units};
 use crate::ast::{self, Declaration, ItemKind, Name};
 use crate::diagnostics::{Code, Diagnostics};
 use crate::sorted::SortedMap;
+use crate::symbolic::Function::{Acos, Asin, Atan, Atan2};
 use crate::symbolic::{ExprId, Node};
 use check::{Checker, Forces};
 use dimension::Dimension;
@@ -283,13 +284,16 @@ impl Elaboration<'_> {
         }
     }
 
-    /// The unit of an angle, of its velocity or of its acceleration, and of sums and differences of several: `rad`, `rad/s`, `rad/s²`.
+    /// The unit of an angle, which is a coordinate or what `atan2` and its like give, of its velocity or of its acceleration, and of sums and
+    /// differences of several: `rad`, `rad/s`, `rad/s²`.
     /// What is multiplied by a number may be no angle any more, but an arc or degrees.
     fn angle(&self, value: ExprId) -> Option<&'static str> {
         let pool = &self.system.pool;
         let unit = |term: ExprId| {
-            let Node::Symbol(symbol) = pool.node(term) else {
-                return None;
+            let symbol = match pool.node(term) {
+                Node::Symbol(symbol) => symbol,
+                Node::Call(Asin | Acos | Atan | Atan2, _) => return Some("rad"),
+                _ => return None,
             };
             let mut angles = self.system.coordinates.iter().filter(|c| c.unit == "rad");
             angles.find_map(|c| {

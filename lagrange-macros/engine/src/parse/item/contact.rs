@@ -80,6 +80,12 @@ fn contact_part(
     if let Some(word) = part.take_word("where") {
         let found = comparison(part, "`where c >= d`", sink)?;
         once(region, found, &word, sink);
+        if let Some(and) = part.take_word("and") {
+            let hint = "a region is one comparison; for two write `where min(a, b) >= 0`";
+            sink.report(Code::Operator, &and, &[&and.text, &hint]);
+            part.skip_all();
+            return None;
+        }
     } else {
         let key = key(part, "contact", &["restitution", "where"], sink)?;
         let found = match part.take_word("poisson") {

@@ -72,6 +72,11 @@ pub(super) fn items(part: &mut Cursor, read: &mut Items, sink: &mut Diagnostics)
 }
 
 fn item(part: &mut Cursor, read: &mut Items, sink: &mut Diagnostics) -> Option<()> {
+    if let Some(hash) = part.take("#") {
+        sink.report(Code::Operator, hash, &[&"#", &"a remark begins with `//`"]);
+        part.skip_all();
+        return None;
+    }
     let Some(keyword) = part.name("an item", sink) else {
         part.skip_all();
         return None;
@@ -286,9 +291,14 @@ fn named(part: &Cursor, item: &str, sink: &mut Diagnostics) -> Option<()> {
     if part.word().is_none() || part.has_operator(&[":"]) {
         return Some(());
     }
-    let hint = format!("write `{item}(name: …)`");
-    sink.report(Code::NoName, part.here(), &[&item, &hint]);
+    unnamed(part.here(), item, sink);
     None
+}
+
+/// Reports an item that begins with something else than its name.
+fn unnamed(at: impl Into<Extent>, item: &str, sink: &mut Diagnostics) {
+    let hint = format!("write `{item}(name: …)`");
+    sink.report(Code::NoName, at, &[&item, &hint]);
 }
 
 /// `name` or `name[e]`

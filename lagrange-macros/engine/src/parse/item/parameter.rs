@@ -62,7 +62,14 @@ fn parameter(part: &mut Cursor, sink: &mut Diagnostics) -> Option<(Field, Expr)>
     let mut field = structure::described(name, length, &attributes, sink);
     if let Some(colon) = part.take(":") {
         let extent = part.here();
-        let text = text(part, "a unit, as in `mass: \"kg\" = 1`", sink)?;
+        let what = match part.word().filter(|word| structure::is_domain(&word.text)) {
+            Some(word) => format!(
+                "a unit; without one write `{} {}`",
+                field.name.text, word.text
+            ),
+            None => "a unit, as in `mass: \"kg\" = 1`".to_owned(),
+        };
+        let text = text(part, &what, sink)?;
         if field.unit.is_some() {
             sink.report(Code::RepeatedPart, colon, &[&"unit"]);
         }
@@ -106,7 +113,13 @@ pub(in crate::parse) fn attributes(
     sink: &mut Diagnostics,
 ) -> Option<Vec<Attribute>> {
     let mut tokens = TokenStream::new();
-    while part.operator() == Some("#") {
+    // A remark of another language begins so, too.
+    let begins = |part: &Cursor| {
+        let behind = part.second();
+        let inner = matches!(&behind, Some(TokenTree::Punct(punct)) if punct.as_char() == '!');
+        part.operator() == Some("#") && (inner || matches!(behind, Some(TokenTree::Group(_))))
+    };
+    while begins(part) {
         tokens.extend(part.next());
         part.take("!");
         tokens.extend(part.take_group(Delimiter::Bracket).map(TokenTree::from));

@@ -18,6 +18,10 @@ pub(super) fn start(mut parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<It
             values: Vec::new(),
         }));
     }
+    if first.operator() == Some("=") || first.group(Delimiter::Parenthesis).is_some() {
+        super::unnamed(&head.name, "start", sink);
+        return None;
+    }
     if first.operator() != Some(":") {
         super::named(first, "start", sink)?;
     }

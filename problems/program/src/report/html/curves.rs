@@ -5,7 +5,7 @@ use super::difference::difference;
 use crate::film::Film;
 use crate::notation::{is_angle, rate_unit, symbol};
 use crate::outcome::{Force, Outcome, Sample, Source, forces};
-use crate::quantity::limit_name;
+use crate::quantity::{force_word, limit_name};
 use lagrange_core::prelude::Ledger;
 use lagrange_core::system::Friction;
 use serde::Serialize;
@@ -118,7 +118,7 @@ fn frictions(outcome: &Outcome) -> Vec<Plot> {
     present.map(plot).collect()
 }
 
-/// Forces of one kind, a plot for each unit.
+/// Forces of one kind, a plot for each unit; none of forces that never act, as those of a ball that only bounces.
 fn pushes(outcome: &Outcome, title: &str, of_kind: fn(Source) -> bool) -> Vec<Plot> {
     let description = outcome.description;
     let all = forces(description);
@@ -146,27 +146,26 @@ fn pushes(outcome: &Outcome, title: &str, of_kind: fn(Source) -> bool) -> Vec<Pl
             curves: curves.collect(),
         }
     };
-    units.into_iter().map(plot).collect()
+    let acts = |plot: &Plot| {
+        let mut values = plot.curves.iter().flat_map(|curve| &curve.values);
+        values.any(Option::is_some)
+    };
+    units.into_iter().map(plot).filter(acts).collect()
 }
 
 fn force_axis(unit: &str) -> String {
-    let name = match unit {
-        "" | "N" => "force",
-        "N m" => "torque",
-        _ => "multiplier",
-    };
-    with_unit(name, unit)
+    with_unit(force_word(unit), unit)
 }
 
 fn energies(outcome: &Outcome) -> Plot {
     type Energy = (&'static str, fn(&Sample) -> f64);
     let mut energies: Vec<Energy> = vec![
-        ("kinetic", |s| s.kinetic),
-        ("potential", |s| s.potential),
-        ("sum", |s| s.kinetic + s.potential),
+        ("kinetic", |s| s.energies.kinetic),
+        ("potential", |s| s.energies.potential),
+        ("sum", |s| s.energies.total()),
     ];
     if outcome.ledger.as_ref().is_some_and(Ledger::has_own_jacobi) {
-        energies.push(("Jacobi integral", |s| s.jacobi));
+        energies.push(("Jacobi integral", |s| s.energies.jacobi));
     }
     let energies = energies.into_iter();
     let curves =

@@ -165,3 +165,68 @@ fn short(x: f64) -> String {
     };
     text.replace('-', "−")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Shown, data, tables};
+    use crate::file;
+    use crate::request::Request;
+    use serde_json::Value;
+
+    fn shown(declared: &str) -> Shown {
+        let scene = file::scene("shown.lagrange", declared).expect("a declaration");
+        let request = Request {
+            samples: 30,
+            ..Request::default()
+        };
+        Shown {
+            title: "shown".to_owned(),
+            film: scene.film(&request).expect("a run"),
+            derivation: scene.derivation(),
+        }
+    }
+
+    /// y = 5 − 5 t² strikes at 1 s with 10 m/s and leaves with 5 m/s: 75 of 100 J are lost, and the impulse is 2 kg · 15 m/s.
+    #[test]
+    fn what_an_impact_changes_jumps() {
+        let run = shown(
+            "parameters(mass: \"kg\" = 2, gravity: \"m/s^2\" = 10), coordinates(y: \"m\"),
+             kinetic = mass/2 * der(y)^2, potential = mass * gravity * y,
+             contact(floor: y >= 0, restitution = 1/2), start(up: y = 5), until = 1.5,",
+        );
+        let page = serde_json::to_value(data(std::slice::from_ref(&run), None)).expect("numbers");
+        let told = &page["runs"][0];
+        let numbers = |value: &Value| -> Vec<f64> {
+            let list = value.as_array().expect("a list").iter();
+            list.map(|x| x.as_f64().expect("a number")).collect()
+        };
+        let jump = |times: &[f64]| {
+            let at = times.windows(2).position(|pair| pair[0] == pair[1]);
+            at.expect("both sides of the impact")
+        };
+        let times = numbers(&told["time"]);
+        let (i, v) = (jump(&times), numbers(&told["phase"][0]["v"]));
+        assert_eq!([times[i], v[i], v[i + 1]], [1.0, -10.0, 5.0]);
+        let plots = told["plots"].as_array().expect("plots");
+        let titles: Vec<&str> = plots.iter().filter_map(|p| p["title"].as_str()).collect();
+        assert_eq!(titles, ["Energy", "Work since the start"]);
+        let times = numbers(&plots[1]["time"]);
+        let (i, work) = (jump(&times), numbers(&plots[1]["curves"][0]["values"]));
+        assert_eq!([times[i], work[i], work[i + 1]], [1.0, 0.0, -75.0]);
+        let tables = tables::tables(&run);
+        assert!(tables.contains("<td>30.0000 Ns</td>"), "{tables}");
+        assert!(!tables.contains("meaning"), "{tables}");
+    }
+
+    /// A block that is pulled harder than its friction holds never sticks.
+    #[test]
+    fn forces_at_the_start_are_those_with_which_the_motion_begins() {
+        let run = shown(
+            "coordinates(a), kinetic = der(a)^2/2, force(pull: a = 5),
+             friction(rub: slip = der(a), limit = 2), start(rest: a = 0), until = 1,",
+        );
+        let tables = tables::tables(&run);
+        assert!(tables.contains("<td>−2.00000</td>"), "{tables}");
+        assert!(!tables.contains("−5.00000"), "{tables}");
+    }
+}

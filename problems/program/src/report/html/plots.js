@@ -40,7 +40,9 @@ function axes(box, [x0, x1], [y0, y1], xName, yName) {
   const across = ticks(x0, x1, (right - left) / 45), letters = Math.max(...across.map(([, text]) => text.length));
   for (const [x, text] of letters > 7 ? ticks(x0, x1, (right - left) / (10 * letters)) : across) {
     svg("line", { class: "grid", x1: X(x), x2: X(x), y1: top, y2: bottom }, root);
-    svg("text", { class: "words", x: X(x), y: bottom + 18, "text-anchor": "middle" }, root).textContent = text;
+    // The last one may end where the picture does.
+    const middle = Math.min(X(x), box.width - 4 * text.length);
+    svg("text", { class: "words", x: middle, y: bottom + 18, "text-anchor": "middle" }, root).textContent = text;
   }
   for (const [y, text] of steps) {
     svg("line", { class: "grid", x1: left, x2: right, y1: Y(y), y2: Y(y) }, root);

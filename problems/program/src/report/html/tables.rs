@@ -2,7 +2,9 @@
 
 use super::{Shown, short};
 use crate::notation::{is_angle, symbol};
-use crate::outcome::{Force, forces};
+use crate::outcome::forces;
+use crate::report::exact;
+use crate::report::table::impulse_unit;
 use crate::report::words::brief;
 use lagrange_core::prelude::*;
 use lagrange_engine::inspect::print::mathml::escaped;
@@ -62,6 +64,11 @@ fn events(run: &Shown) -> String {
         all.iter()
             .map(|force| named(&force.name, description.units.row(force.row))),
     );
+    // The mode that was tried first at the start never acted.
+    let started = |event: &Event<f64>| {
+        let first = outcome.first().map(|sample| sample.time);
+        Some(event.time) == first && event.before != event.after
+    };
     let row = |event: &Event<f64>| {
         let time = event.time;
         let mut row = vec![
@@ -82,20 +89,30 @@ fn events(run: &Shown) -> String {
                 false => *q,
             })
         }));
-        let acts = |force: &Force| force.acts(description, &event.before);
-        row.extend(all.iter().map(|force| match acts(force) {
-            true => short(event.forces[force.row]),
-            false => "–".to_owned(),
+        let (rows, mode) = match started(event) {
+            true => (&event.forces_after, &event.after),
+            false => (&event.forces, &event.before),
+        };
+        row.extend(all.iter().map(|force| {
+            let impulse = event.impulses.get(force.row).copied().unwrap_or(0.0);
+            match event.kind {
+                EventKind::Impact if impulse != 0.0 => {
+                    let unit = impulse_unit(description.units.row(force.row));
+                    format!("{} {unit}", short(impulse)).trim_end().to_owned()
+                }
+                EventKind::Impact => "–".to_owned(),
+                _ if force.acts(description, mode) => short(rows[force.row]),
+                _ => "–".to_owned(),
+            }
         }));
         row
     };
     let rows: Vec<Vec<String>> = outcome.events.iter().take(EVENTS).map(row).collect();
     let left = outcome.events.len().saturating_sub(EVENTS);
+    let told = "State and forces just before each event, at the start just after it; of impacts their impulses";
     let note = match left {
-        0 => "State and forces just before each event.".to_owned(),
-        left => {
-            format!("State and forces just before each event; {left} more events are left out.")
-        }
+        0 => format!("{told}."),
+        left => format!("{told}. {left} more events are left out."),
     };
     table(run, "Events", &head, &rows) + &format!("<p class=\"note\">{note}</p>\n")
 }
@@ -107,13 +124,19 @@ fn parameters(run: &Shown) -> String {
         let text = parameter.documentation.trim().lines().next();
         vec![
             escaped(parameter.name),
-            value.to_string(),
+            exact(*value),
             escaped(parameter.unit),
             escaped(text.unwrap_or_default().trim()),
         ]
     };
-    let rows: Vec<Vec<String>> = list.zip(&outcome.parameters).map(row).collect();
-    let head = ["name", "value", "unit", "meaning"].map(str::to_owned);
+    let mut rows: Vec<Vec<String>> = list.zip(&outcome.parameters).map(row).collect();
+    let mut head = vec!["name", "value", "unit", "meaning"];
+    // Often nobody has said what the parameters are.
+    if rows.iter().all(|row| row[3].is_empty()) {
+        head.truncate(3);
+        rows.iter_mut().for_each(|row| row.truncate(3));
+    }
+    let head: Vec<String> = head.into_iter().map(str::to_owned).collect();
     match rows.is_empty() {
         true => String::new(),
         false => table(run, "Parameters", &head, &rows),

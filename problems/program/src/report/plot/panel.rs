@@ -226,6 +226,9 @@ pub(super) fn draw_key<'a>(
     Ok(())
 }
 
+/// What values differ by less than this part of their size is rounding, and they are constant on paper.
+const CONSTANT: f64 = 1e-11;
+
 /// Around all values, with `above` times as much room above as below: a constant curve gets room, too.
 fn range(values: impl Iterator<Item = f64>, above: f64) -> (f64, f64) {
     let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
@@ -234,10 +237,11 @@ fn range(values: impl Iterator<Item = f64>, above: f64) -> (f64, f64) {
     if low > high {
         return (0.0, 1.0);
     }
-    let room = if high > low {
-        0.08 * (high - low)
-    } else {
-        0.1 * high.abs().max(1.0)
+    let size = high.abs().max(low.abs());
+    let room = match high - low > CONSTANT * size {
+        true => 0.08 * (high - low),
+        false if size == 0.0 => 0.1,
+        false => 0.1 * size,
     };
     (low - room, high + above * room)
 }
@@ -260,12 +264,23 @@ fn label(value: f64, length: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{LETTER, fitted, label};
+    use super::{LETTER, fitted, label, range};
 
     #[test]
     fn long_names_lose_their_middle() {
         assert_eq!(fitted("|grip|", 8 * LETTER), "|grip|");
         assert_eq!(fitted("friction of the left θ", 9 * LETTER), "fric…ft θ");
+    }
+
+    /// A force of a given size is that size to rounding: noise would fill the panel.
+    #[test]
+    fn what_rounding_alone_changes_is_constant() {
+        let force = 0.016_677;
+        let (low, high) = range([force, force * (1.0 + 1e-15)].into_iter(), 2.0);
+        assert!(low < 0.95 * force && high > 1.05 * force, "{low} {high}");
+        let (low, high) = range([1.0, 1.0 + 1e-9].into_iter(), 2.0);
+        assert!(high - low < 5e-9, "{low} {high}");
+        assert_eq!(range([0.0].into_iter(), 1.0), (-0.1, 0.1));
     }
 
     #[test]

@@ -80,6 +80,9 @@ pub fn table(sweep: &Sweep, summary: &Summary, mut out: impl Write) -> io::Resul
         let (reason, count) = (failed.reason, failed.count);
         let first = place(sweep, failed.first);
         writeln!(out, "  {reason}: {count}, the first at {first}")?;
+        if !failed.message.is_empty() {
+            writeln!(out, "    {}", failed.message)?;
+        }
     }
     Ok(())
 }
@@ -121,6 +124,7 @@ pub fn json(sweep: &Sweep, summary: &Summary, mut out: impl Write) -> io::Result
     let failed = summary.failed.iter().map(|failed| {
         json!({
             "reason": failed.reason,
+            "message": failed.message,
             "runs": failed.count,
             "first_at": point(sweep, failed.first),
         })
