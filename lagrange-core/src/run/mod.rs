@@ -401,8 +401,10 @@ impl<T: Scalar> Run<T> {
             Hit::Guards(_) => {
                 if !self.only_creeps(end)? {
                     self.count_switch()?;
-                    self.leave_stiffness();
-                    self.switch()?;
+                    if !self.only_shares_otherwise()? {
+                        self.leave_stiffness();
+                        self.switch()?;
+                    }
                 }
             }
         }
