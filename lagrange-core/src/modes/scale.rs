@@ -47,6 +47,13 @@ impl Sizes {
         self.drive += driven.sum::<f64>();
     }
 
+    /// Momentum of all coordinates with these speeds.
+    pub fn momentum(&self, speeds: impl Iterator<Item = f64>) -> f64 {
+        let parts = self.mobility.iter().zip(speeds);
+        let parts = parts.filter(|(mobility, _)| **mobility > 0.0);
+        parts.map(|(mobility, speed)| speed / mobility).sum()
+    }
+
     /// Size of the terms that make a guard: an acceleration for gaps and slips, a force for the others.
     pub fn of<T: Scalar>(&self, guard: Guard, dynamics: &Dynamics<T>) -> f64 {
         let d = dynamics.description();
