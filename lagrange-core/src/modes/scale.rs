@@ -16,7 +16,7 @@ use crate::system::{Normal, ValueRef};
 pub struct Sizes {
     /// 1/mⱼ, 0 where a coordinate has no inertia of its own.
     mobility: Vec<f64>,
-    /// Of the forcing and of the rows that act, m²/s⁴ times a mass.
+    /// √D of the forcing and of the rows that act, m/s² times √kg: squares of forces of 1e160 N are no numbers.
     drive: f64,
 }
 
@@ -34,17 +34,17 @@ impl Sizes {
             }
         }
         let forcing = self.mobility.iter().zip(d.forcing);
-        self.drive = forcing.map(|(m, &f)| m * number(f).powi(2)).sum();
+        let forced = forcing.map(|(m, &f)| m.sqrt() * number(f));
         let rows = dynamics.acting_rows().iter();
         let driven = rows.map(|&row| {
             let compliance = self.compliance(row, dynamics);
             if compliance > 0.0 {
-                number(d.rows[row].bias).powi(2) / compliance
+                number(d.rows[row].bias) / compliance.sqrt()
             } else {
                 0.0
             }
         });
-        self.drive += driven.sum::<f64>();
+        self.drive = forced.chain(driven).fold(0.0, f64::hypot);
     }
 
     /// Momentum of all coordinates with these speeds.
@@ -71,7 +71,7 @@ impl Sizes {
                 sizes.fold(0.0, f64::max)
             }
             Guard::StickUpper(f) | Guard::StickLower(f) => self.limit(f, dynamics),
-            Guard::StickCone(f) => self.limit(f, dynamics).powi(2),
+            Guard::StickCone(f) => self.limit(f, dynamics).powi(2).min(f64::MAX),
             Guard::NormalForceSign(f) => self.normal(f, dynamics),
             Guard::Region(_) | Guard::Branch(_) | Guard::Stop(..) | Guard::Mark(..) => 0.0,
             // It is relative already.
@@ -87,7 +87,7 @@ impl Sizes {
     fn row<T: Scalar>(&self, row: usize, dynamics: &Dynamics<T>) -> Row {
         let compliance = self.compliance(row, dynamics);
         let bias = dynamics.motion(dynamics.description().rows[row].bias);
-        let acceleration = (compliance * self.drive).sqrt().max(bias.value().abs());
+        let acceleration = (compliance.sqrt() * self.drive).max(bias.value().abs());
         let needed = if compliance > 0.0 {
             acceleration / compliance
         } else {
