@@ -8,7 +8,8 @@
 
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
-use crate::modes::guard::Guard;
+use crate::modes::exact;
+use crate::modes::guard::{self, Guard};
 use crate::system::{Normal, ValueRef};
 
 /// What all guards of a state share.
@@ -71,7 +72,14 @@ impl Sizes {
                 sizes.fold(0.0, f64::max)
             }
             Guard::StickUpper(f) | Guard::StickLower(f) => self.limit(f, dynamics),
-            Guard::StickCone(f) => self.limit(f, dynamics).powi(2).min(f64::MAX),
+            Guard::StickCone(f) => {
+                let friction = &d.frictions[f];
+                let rows = friction.row..friction.row + friction.components;
+                let values = rows.map(|row| dynamics.force(row).value());
+                let limit = exact::limit(f, dynamics.mode(), dynamics).value();
+                let part = 1.0 / guard::cone_unit(values.chain([limit]));
+                (part * self.limit(f, dynamics)).powi(2)
+            }
             Guard::NormalForceSign(f) => self.normal(f, dynamics),
             Guard::Region(_) | Guard::Branch(_) | Guard::Stop(..) | Guard::Mark(..) => 0.0,
             // It is relative already.

@@ -465,7 +465,7 @@ impl<T: Scalar> Decider<T> {
             (1e-13, 1e-14)
         };
         let cancelling = match guard {
-            Guard::Branch(b) if here.facts.lying[b] => self.size_as_of_gaps(size, ahead, h),
+            Guard::Branch(b) if here.facts.held[b] => self.size_as_of_rows(size, ahead, h),
             _ => self.size(guard, dynamics) * unit_of_order(guard, h),
         };
         let noise = (relative * size).max(absolute * cancelling);
@@ -476,9 +476,9 @@ impl<T: Scalar> Decider<T> {
         }
     }
 
-    /// Size of what makes the guard of a branch that contacts have held at its border until now, and which changes by `size` over a time `h`:
-    /// that of the gap of those contacts, by which it changes.
-    fn size_as_of_gaps(&self, size: f64, ahead: Ahead<'_, T>, h: f64) -> f64 {
+    /// Size of what makes the guard of a branch that contacts or frictions have held at its border until now, and which changes by `size` over a
+    /// time `h`: that of the gaps or slips of those, by which it changes.
+    fn size_as_of_rows(&self, size: f64, ahead: Ahead<'_, T>, h: f64) -> f64 {
         let Ahead {
             dynamics,
             here,
@@ -487,20 +487,24 @@ impl<T: Scalar> Decider<T> {
         } = ahead;
         let mut series = [0.0; guard::LENGTH];
         let series = &mut series[..=order];
+        let slips = |f: usize| matches!(self.posed.frictions[f], FrictionMode::Slip(_));
         let left = here.facts.located.iter().filter_map(|guard| match *guard {
-            Guard::Normal(c) if !self.posed.contacts[c] => Some(Guard::Gap(c)),
+            Guard::Normal(c) if !self.posed.contacts[c] => Some((Guard::Gap(c), 2)),
+            Guard::StickUpper(f) | Guard::StickLower(f) | Guard::StickCone(f) if slips(f) => {
+                Some((Guard::Slip(f), 1))
+            }
             _ => None,
         });
-        let sizes = left.map(|gap| {
+        let sizes = left.map(|(row, known)| {
             let reading = Reading::Series(dynamics);
-            guard::series(gap, &self.posed, &reading, &redundant::ONES, series);
+            guard::series(row, &self.posed, &reading, &redundant::ONES, series);
             let powers = core::iter::successors(Some(1.0), |power| Some(power * h));
-            let terms = series.iter().zip(powers).skip(2);
-            let opens = terms.fold(0.0_f64, |largest, (c, power)| {
+            let terms = series.iter().zip(powers).skip(known);
+            let grows = terms.fold(0.0_f64, |largest, (c, power)| {
                 largest.max((c * power).abs())
             });
-            if opens > 0.0 {
-                self.sizes.of(gap, dynamics) * unit_of_order(gap, h) * size / opens
+            if grows > 0.0 {
+                self.sizes.of(row, dynamics) * unit_of_order(row, h) * size / grows
             } else {
                 0.0
             }

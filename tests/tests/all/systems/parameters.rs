@@ -236,3 +236,41 @@ fn motions_do_not_know_their_mass() {
         all_agree(method, &end, &[7.0, -18.0], 1e-8);
     }
 }
+
+/// A crate on a rough floor that is pulled ever harder, in a direction of the plane.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, z),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2 + der(z)^2),
+    potential = mass * gravity * z,
+    contact(floor: z >= 0),
+    friction(grip on floor: slip = (der(x), der(y)), static = mu),
+    force(pull: (3/5 * mass * rate * t, 4/5 * mass * rate * t, 0) at (x, y, z)),
+)]
+struct Pulled {
+    mass: f64,
+    gravity: f64,
+    mu: f64,
+    rate: f64,
+}
+
+/// It slips from t₀ = μ g/rate on, v = rate (t² − t₀²)/2 − μ g (t − t₀).
+#[test]
+fn cones_of_friction_hold_as_much_of_any_mass() {
+    for mass in [1e-250, 1e-200, 1e-150, 1.0, 1e150, 1e200, 1e250] {
+        let scene = Pulled {
+            mass,
+            gravity: 10.0,
+            mu: 0.3,
+            rate: 2.0,
+        };
+        let simulation = Simulation::new(&scene).tolerance(1e-12);
+        let run = simulation.run(state(&[0.0; 3], &[0.0; 3]), 0.0..4.0);
+        let run = run.expect("a run");
+        let slips = run.events().first().expect("it slips");
+        agree("time", slips.time, 1.5, 1e-12);
+        let speed = (16.0 - 2.25) - 3.0 * 2.5;
+        let expected = [0.6 * speed, 0.8 * speed, 0.0];
+        all_agree(&format!("{mass:e}"), &run.final_state().v, &expected, 1e-11);
+    }
+}
