@@ -74,6 +74,13 @@ impl<T: Scalar> Examination<'_, T> {
             }
             let size = along(equations, row);
             findings.book(Subject::Impacts, -impulse, size, time, name);
+            // A start is as near to a surface as somebody has written it.
+            if impulse != 0.0 && time > self.record.first_time() {
+                let gap = equations.declaration.contacts[c].gap;
+                let reach = equations.reach(gap, 0, situation(time, &before));
+                let error = equations.values.coefficient(gap, 0).abs();
+                findings.book(Subject::Closed, error, reach, time, name);
+            }
             let (rate, reach) = (rates_after.rate[row], rates_after.reach[row]);
             findings.book(Subject::Impacts, -rate, reach, time, name);
             if exact {

@@ -59,6 +59,33 @@ impl Equations {
         self.examine_constraints(at, mode, findings);
         self.examine_contacts(at, mode, findings);
         self.examine_frictions(at, mode, findings);
+        self.examine_bounds(at, mode, findings);
+    }
+
+    /// Checks whether forces are such as a mode allows, in the state that was taken: normal forces not negative, and frictions that stick within their cones.
+    pub fn examine_bounds(&mut self, at: Situation<'_>, mode: &Mode, findings: &mut Findings) {
+        for (c, contact) in self.declaration.contacts.iter().enumerate() {
+            if self.includes(Item::Contact(c)) && mode.contacts[c] {
+                let (force, name) = (at.forces[self.d.contacts[c].row], self.d.contacts[c].name);
+                let size = self.force_along(contact.gap, Level::Position);
+                findings.book(Subject::NormalForces, -force, size, at.time, name);
+            }
+        }
+        for (f, friction) in self.declaration.frictions.iter().enumerate() {
+            if mode.frictions[f] != FrictionMode::Stick || !self.friction_acts(f, mode) {
+                continue;
+            }
+            let (first, name) = (self.d.frictions[f].row, self.d.frictions[f].name);
+            let force = length(&at.forces[first..first + friction.slip.len()]);
+            let (normal, normal_size) = self.normal(f, at.forces);
+            let mu = self.values.value(friction.static_coefficient);
+            let mut size = 0.0_f64;
+            for &value in friction.slip {
+                size = size.max(self.force_along(value, Level::Velocity));
+            }
+            let size = size + mu * normal_size;
+            findings.book(Subject::Cones, force - mu * normal, size, at.time, name);
+        }
     }
 
     fn examine_energies(&mut self, at: Situation<'_>, reported: Energies, findings: &mut Findings) {
@@ -131,8 +158,6 @@ impl Equations {
                 findings.book(Subject::Idle, force.abs(), 1.0, at.time, name);
                 continue;
             }
-            let size = self.force_along(contact.gap, Level::Position);
-            findings.book(Subject::NormalForces, -force, size, at.time, name);
             let (error, size) = self.acceleration((contact.gap, Level::Position), at, mode);
             findings.book(Subject::Rows, error.abs(), size, at.time, name);
         }
@@ -164,10 +189,6 @@ impl Equations {
             match mode.frictions[f] {
                 FrictionMode::Inactive => {}
                 FrictionMode::Stick => {
-                    let mu = self.values.value(friction.static_coefficient);
-                    let excess = length(force) - mu * normal;
-                    let size = size + mu * normal_size;
-                    findings.book(Subject::Cones, excess, size, at.time, name);
                     findings.book(Subject::Slips, length(slip), reach, at.time, name);
                     for &value in friction.slip {
                         let (error, size) = self.acceleration((value, Level::Velocity), at, mode);

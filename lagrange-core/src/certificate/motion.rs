@@ -301,6 +301,12 @@ impl<T: Scalar> Examination<'_, T> {
             self.equations.take(at);
             let mode = &self.modes[segment.mode];
             self.equations.examine(at, mode, &mut self.findings);
+            // What a force has done wrong since some instant of a long step shows at its end.
+            let last = self.report(k, segment.end.value())?;
+            let at = last.situation(self.begin.q.len());
+            let mode = &self.modes[segment.mode];
+            self.equations.take(at);
+            self.equations.examine_bounds(at, mode, &mut self.findings);
         }
         self.enter(segment);
         if !self.has_small_defects(segment)? {

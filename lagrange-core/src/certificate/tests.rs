@@ -248,3 +248,37 @@ fn a_guard_that_is_true_for_a_thousandth_of_a_step_is_found() {
     trajectory.effects = Effects::all();
     finds(&certificate(&trajectory), &[Subject::Marks]);
 }
+
+/// A block that friction holds against a growing pull.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2 / 2,
+    force(pull: x = t),
+    friction(grip: slip = der(x), normal = 1, static = mu),
+)]
+struct Held {
+    mu: f64,
+}
+
+/// The same on a smoother floor.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x),
+    kinetic = der(x)^2 / 2,
+    force(pull: x = t),
+    friction(grip: slip = der(x), normal = 1, static = 0.95 * mu),
+)]
+struct Smoother {
+    mu: f64,
+}
+
+#[test]
+fn a_slip_that_is_missed_late_in_a_long_step_is_found() {
+    let run = Simulation::new(&Held { mu: 1.0 }).run(State::new(vec![0.0], vec![0.0]), 0.0..1.0);
+    let run = run.expect("a run");
+    for seed in 0..20 {
+        let smoother = against(&run, <Smoother as Derived>::DECLARATION, seed, 1.0);
+        finds(&smoother, &[Subject::Cones]);
+    }
+}

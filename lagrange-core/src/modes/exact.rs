@@ -1,6 +1,6 @@
 //! A guard as a number of the run's own scalar: what located the root is a double, its derivatives come from here.
 
-use super::guard::Guard;
+use super::guard::{Guard, cone_unit};
 use super::redundant::CompositeGuard;
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
@@ -27,7 +27,10 @@ pub fn exact<T: Scalar>(
         Guard::StickCone(f) => {
             let limit = limit(f, mode, dynamics);
             let forces = (0..d.frictions[f].components).map(|k| force(f, k));
-            forces.fold(limit * limit, |rest, force| rest - force * force)
+            let values = forces.clone().chain([limit]).map(|x| x.value());
+            let part = T::from_f64(1.0 / cone_unit(values));
+            let square = |force: T| (force * part) * (force * part);
+            forces.fold(square(limit), |rest, force| rest - square(force))
         }
         Guard::Slip(f) => {
             let along = match mode.frictions[f] {
@@ -79,7 +82,7 @@ pub fn slip<T: Scalar>(f: usize, along: [T; 2], dynamics: &Dynamics<T>) -> T {
 }
 
 /// μs N.
-fn limit<T: Scalar>(f: usize, mode: &Mode, dynamics: &Dynamics<T>) -> T {
+pub fn limit<T: Scalar>(f: usize, mode: &Mode, dynamics: &Dynamics<T>) -> T {
     let coefficient = dynamics.description().frictions[f].static_coefficient;
     dynamics.motion(coefficient) * normal(f, mode, dynamics)
 }

@@ -36,7 +36,7 @@ pub enum Guard {
     StickUpper(usize),
     /// μs N + F of a sticking friction.
     StickLower(usize),
-    /// (μs N)² − |F|² of a sticking friction whose N has no known sign, or that has two components.
+    /// (μs N)² − |F|² of a sticking friction whose N has no known sign, or that has two components, in units of [`cone_unit`].
     StickCone(usize),
     /// Slip of a sliding friction, along its direction (of two components, that at the start of the step).
     Slip(usize),
@@ -445,14 +445,31 @@ fn limit<T: Scalar>(f: usize, mode: &Mode, reading: &Reading<'_, T>, out: &mut [
     }
 }
 
-/// (μs N)² − Σ F².
+/// What the forces of a cone are divided by before they are squared, of their values at an instant: 1, or where squares are soon no numbers, beyond 1e38 N
+/// and below 1e-38 N, a power of two.
+pub fn cone_unit(forces: impl Iterator<Item = f64>) -> f64 {
+    const STEP: f64 = 256.0;
+    let largest = forces.fold(0.0, |largest: f64, force| largest.max(force.abs()));
+    if largest > 0.0 {
+        (STEP * (largest.log2() / STEP).round().clamp(-3.0, 3.0)).exp2()
+    } else {
+        1.0
+    }
+}
+
+/// (μs N)² − Σ F², in [units of their own](cone_unit).
 fn stick_cone<T: Scalar>(f: usize, mode: &Mode, reading: &Reading<'_, T>, out: &mut [f64]) {
     let friction = &reading.description().frictions[f];
+    let rows = friction.row..friction.row + friction.components;
     let mut greatest = [0.0; LENGTH];
     limit(f, mode, reading, &mut greatest[..out.len()]);
+    let values = rows.clone().map(|row| reading.force(row).first().value());
+    let part = 1.0 / cone_unit(values.chain([greatest[0]]));
+    greatest.iter_mut().for_each(|c| *c *= part);
     add_product(out, 1.0, &greatest, &greatest);
-    for k in 0..friction.components {
-        let force = numbers(reading.force(friction.row + k));
+    for row in rows {
+        let mut force = [0.0; LENGTH];
+        add(&mut force, (part, reading.force(row)));
         add_product(out, -1.0, &force, &force);
     }
 }

@@ -8,7 +8,8 @@
 
 use crate::arithmetic::Scalar;
 use crate::dynamics::Dynamics;
-use crate::modes::guard::Guard;
+use crate::modes::exact;
+use crate::modes::guard::{self, Guard};
 use crate::system::{Normal, ValueRef};
 
 /// What all guards of a state share.
@@ -16,7 +17,7 @@ use crate::system::{Normal, ValueRef};
 pub struct Sizes {
     /// 1/mⱼ, 0 where a coordinate has no inertia of its own.
     mobility: Vec<f64>,
-    /// Of the forcing and of the rows that act, m²/s⁴ times a mass.
+    /// √D of the forcing and of the rows that act, m/s² times √kg: squares of forces of 1e160 N are no numbers.
     drive: f64,
 }
 
@@ -34,17 +35,24 @@ impl Sizes {
             }
         }
         let forcing = self.mobility.iter().zip(d.forcing);
-        self.drive = forcing.map(|(m, &f)| m * number(f).powi(2)).sum();
+        let forced = forcing.map(|(m, &f)| m.sqrt() * number(f));
         let rows = dynamics.acting_rows().iter();
         let driven = rows.map(|&row| {
             let compliance = self.compliance(row, dynamics);
             if compliance > 0.0 {
-                number(d.rows[row].bias).powi(2) / compliance
+                number(d.rows[row].bias) / compliance.sqrt()
             } else {
                 0.0
             }
         });
-        self.drive += driven.sum::<f64>();
+        self.drive = forced.chain(driven).fold(0.0, f64::hypot);
+    }
+
+    /// Momentum of all coordinates with these speeds.
+    pub fn momentum(&self, speeds: impl Iterator<Item = f64>) -> f64 {
+        let parts = self.mobility.iter().zip(speeds);
+        let parts = parts.filter(|(mobility, _)| **mobility > 0.0);
+        parts.map(|(mobility, speed)| speed / mobility).sum()
     }
 
     /// Size of the terms that make a guard: an acceleration for gaps and slips, a force for the others.
@@ -64,7 +72,14 @@ impl Sizes {
                 sizes.fold(0.0, f64::max)
             }
             Guard::StickUpper(f) | Guard::StickLower(f) => self.limit(f, dynamics),
-            Guard::StickCone(f) => self.limit(f, dynamics).powi(2),
+            Guard::StickCone(f) => {
+                let friction = &d.frictions[f];
+                let rows = friction.row..friction.row + friction.components;
+                let values = rows.map(|row| dynamics.force(row).value());
+                let limit = exact::limit(f, dynamics.mode(), dynamics).value();
+                let part = 1.0 / guard::cone_unit(values.chain([limit]));
+                (part * self.limit(f, dynamics)).powi(2)
+            }
             Guard::NormalForceSign(f) => self.normal(f, dynamics),
             Guard::Region(_) | Guard::Branch(_) | Guard::Stop(..) | Guard::Mark(..) => 0.0,
             // It is relative already.
@@ -80,7 +95,7 @@ impl Sizes {
     fn row<T: Scalar>(&self, row: usize, dynamics: &Dynamics<T>) -> Row {
         let compliance = self.compliance(row, dynamics);
         let bias = dynamics.motion(dynamics.description().rows[row].bias);
-        let acceleration = (compliance * self.drive).sqrt().max(bias.value().abs());
+        let acceleration = (compliance.sqrt() * self.drive).max(bias.value().abs());
         let needed = if compliance > 0.0 {
             acceleration / compliance
         } else {

@@ -179,6 +179,14 @@ impl GuardPolynomials {
         self.curve(self.first_stop[i] + k)
     }
 
+    /// The numbers of the terms of stop `i`.
+    pub(super) fn stop_terms(&self, i: usize) -> impl Iterator<Item = usize> {
+        let first = self.first_stop[i];
+        let of_stop =
+            move |index: &usize| matches!(self.watches[*index], Guard::Stop(j, _) if j == i);
+        (first..self.watches.len()).take_while(of_stop)
+    }
+
     /// Term `k` of mark `i`.
     pub(super) fn mark_term(&self, i: usize, k: usize) -> &[f64] {
         self.curve(self.first_mark[i] + k)
@@ -492,6 +500,23 @@ impl GuardPolynomials {
             worst = worse(worst, (at(c, s) - value).abs() / allowed);
         }
         worst
+    }
+
+    /// Whether guard number `index` is zero at the last value of `dynamics`, to what its interpolation may be off. Those of undetermined forces are
+    /// corrected by themselves.
+    pub(super) fn vanishes<T: Scalar>(
+        &self,
+        index: usize,
+        mode: &Mode,
+        dynamics: &Dynamics<T>,
+        tolerance: f64,
+    ) -> bool {
+        let guard = self.list[index].guard;
+        let (share, floor) = allowance(guard, true);
+        let allowed = (share * tolerance).max(floor).max(INTERPOLATION);
+        let (c, value) = (self.curve(index), self.value(index, mode, dynamics));
+        let size = value.abs() + (c[0].abs() + c[1].abs());
+        matches!(guard, Guard::Composite(_)) || value.abs() <= allowed * size + ROUNDING
     }
 
     /// Two parts of a step between the samples of its guards; nothing where none is sampled.

@@ -401,8 +401,10 @@ impl<T: Scalar> Run<T> {
             Hit::Guards(_) => {
                 if !self.only_creeps(end)? {
                     self.count_switch()?;
-                    self.leave_stiffness();
-                    self.switch()?;
+                    if !self.only_shares_otherwise()? {
+                        self.leave_stiffness();
+                        self.switch()?;
+                    }
                 }
             }
         }
@@ -411,22 +413,17 @@ impl<T: Scalar> Run<T> {
     }
 
     /// What began at zero with the last step is an ordinary guard in the next, but for a force that is still at its limit to
-    /// rounding: a block that is just held.
+    /// rounding: a block that is just held, a contact that carries nothing. Its size is the largest so far, for there may be nothing at an instant.
     fn forget_zeros(&mut self) {
-        let is_single = |guard: &Guard| guard.is_force() && !matches!(guard, Guard::Composite(_));
-        let zeros = self.locator.zeros.drain(..);
-        let stay = zeros.filter(|(guard, order)| *order >= guard::LENGTH && is_single(guard));
-        let mut held = core::mem::take(&mut self.locator.at_limit);
-        held.extend(stay.map(|(guard, _)| (guard, 0.0)));
+        self.locator.zeros.clear();
+        let Switcher { decider, .. } = &mut self.switcher;
+        let held = &mut self.locator.at_limit;
+        held.append(&mut decider.decision.at_limit);
         held.retain_mut(|(guard, size)| {
-            let value;
-            (value, *size) =
-                self.switcher
-                    .decider
-                    .force(&mut self.dynamics, &self.now.mode, *guard);
+            let (value, now) = decider.force(&mut self.dynamics, &self.now.mode, *guard);
+            *size = size.max(now);
             self.now.valued && value.abs() <= AT_LIMIT * *size
         });
-        self.locator.at_limit = held;
     }
 
     /// Whether everything has happened that the run is to end after.

@@ -7,6 +7,7 @@
 use super::Run;
 use super::hits::Hit;
 use crate::arithmetic::Scalar;
+use crate::error::Error;
 use crate::modes::guard::Guard;
 use crate::modes::reading::Reading;
 use crate::modes::redundant::{self, CompositeGuard};
@@ -105,6 +106,28 @@ impl<T: Scalar> Run<T> {
             self.list_guards();
         }
         again
+    }
+
+    /// Whether nothing has fallen but what allowed forces of constraints with one sign, where the motion is now, and others with another sign are
+    /// allowed: nothing changes but how the load is shared, and the mode goes on.
+    ///
+    /// # Errors
+    /// The end of the step cannot be evaluated.
+    pub(super) fn only_shares_otherwise(&mut self) -> Result<bool, Error> {
+        let joint = |guard: &Guard| matches!(guard, Guard::Composite(_));
+        if !self.locator.fallen.iter().all(joint) {
+            return Ok(false);
+        }
+        if !self.now.valued {
+            self.evaluate()?;
+        }
+        // What is nearer to its border than roots are may be what has just ended.
+        let turns = self.switcher.redundant.turn(&self.dynamics, ROOT);
+        if turns {
+            self.locator.polynomials.composites.clear();
+            self.list_guards();
+        }
+        Ok(turns)
     }
 
     /// Looks for composite guards at some instants before part `end` of the step, where `dynamics` and `scratch` end again: whether

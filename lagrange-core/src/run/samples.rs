@@ -6,6 +6,7 @@
 //! Roots of the interpolation are then moved to where the guard vanishes on the dense output.
 
 use super::Run;
+use super::hits::Hit;
 use crate::arithmetic::Scalar;
 use crate::dynamics::EvaluationError;
 use crate::events::{Direction, Root, RootList, roots};
@@ -165,6 +166,23 @@ impl<T: Scalar> Run<T> {
         } else {
             after.0
         })
+    }
+
+    /// Whether what ends the step, whose values `dynamics` holds there, is no zero of the guard but of its interpolation only.
+    pub(super) fn misses_its_root(&mut self, hit: &Hit) -> bool {
+        self.dynamics.report_value();
+        let (curves, mode) = (&self.locator.polynomials, &self.now.mode);
+        let tolerance = self.settings.tolerance;
+        let vanishes = |index| curves.vanishes(index, mode, &self.dynamics, tolerance);
+        match *hit {
+            Hit::Nothing | Hit::Turned(_) => false,
+            Hit::Guards(_) => {
+                let fallen = self.locator.fallen.iter();
+                let mut indices = fallen.filter_map(|&guard| curves.index_of(guard));
+                !indices.all(vanishes)
+            }
+            Hit::Stop(i, _) => !curves.stop_terms(i).any(vanishes),
+        }
     }
 
     /// Where a root of a guard's polynomial is, and half its width: of what was sampled, on the dense output.

@@ -38,6 +38,8 @@ const MOST_SHORTENED: usize = 16;
 const MOST_BREAKS: usize = 100_000;
 /// A step that is made again to end at a hit ends so much later, as a share of it, to see it once more.
 const PAST: f64 = 1e-3;
+/// A step in which an interpolation vanishes and its guard does not is made shorter by this factor.
+const NO_ROOT: f64 = 0.5;
 /// Steps of so many times the resolution of time are left to Taylor series.
 const KINK: f64 = 1e4;
 
@@ -489,7 +491,10 @@ impl<T: Scalar> Run<T> {
             h = self.stretch(defect) * self.stepper.step.h.value();
             self.stepper.wanted = Some(next.min(h));
             if defect <= 1.0 {
-                return self.hit_among_samples();
+                if let Some(hit) = self.hit_among_samples()? {
+                    return Ok(hit);
+                }
+                h = NO_ROOT * self.stepper.step.h.value();
             }
             self.recorder.trajectory.work.rejected += 1;
             tries += 1;
@@ -547,24 +552,28 @@ impl<T: Scalar> Run<T> {
         sampled.map_err(|e| self.error(e))
     }
 
-    /// What happens first in a step whose guards were sampled.
-    fn hit_among_samples(&mut self) -> Result<Hit, Error> {
+    /// What happens first in a step whose guards were sampled; nothing where it is a guard that does not vanish there: its interpolation
+    /// does, between samples that are all much farther from zero.
+    fn hit_among_samples(&mut self) -> Result<Option<Hit>, Error> {
         let (mut corrections, mut again) = (0, false);
         loop {
             self.sharpen_roots();
             let hit = self.first_hit();
             // What happens close to the start is for a method that can make any step.
             if hit.end() == 0.0 || self.hides_a_start() {
-                return self.taylor_step();
+                return self.taylor_step().map(Some);
             }
             self.evaluate_end(hit.end()).map_err(|e| self.error(e))?;
+            if self.misses_its_root(&hit) {
+                return Ok(None);
+            }
             self.now.distance = self.rank.distance(&self.dynamics);
             if !self.corrects_composites(&hit, hit.end(), &mut corrections) {
                 let closer = hit.end() * (1.0 + PAST);
                 let method = self.stepper.other.as_deref();
                 if again || closer >= 1.0 || !method.is_some_and(Integrator::is_best_at_end) {
                     self.stepper.breaks = 0;
-                    return Ok(hit);
+                    return Ok(Some(hit));
                 }
                 // An impact is as exact as the ends of steps are.
                 again = true;

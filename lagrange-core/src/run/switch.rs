@@ -213,7 +213,8 @@ impl<T: Scalar> Run<T> {
         self.remember_before();
         let arrives = facts.arriving.contains(&true);
         let hit = arrives && self.hit(facts)?;
-        if arrives {
+        let leaves_an_edge = |guard: &Guard| matches!(guard, Guard::Region(_));
+        if arrives || facts.located.iter().any(leaves_an_edge) {
             self.take_what_touches(facts);
         }
         if !hit {
@@ -251,6 +252,7 @@ impl<T: Scalar> Run<T> {
         for (balanced, held) in facts.balanced.iter_mut().zip(held.held()) {
             *balanced |= held;
         }
+        facts.held.copy_from_slice(held.held());
         facts.lying.copy_from_slice(held.of_positions());
         self.dynamics.set_mode(&self.now.mode);
         self.now.valued = false;
@@ -308,14 +310,15 @@ impl<T: Scalar> Run<T> {
         Ok(true)
     }
 
-    /// Contacts that have closed may bring others with them: a beam on two of its four supports lies on all. Their gaps and rates vanish, and
-    /// nothing but rounding would tell later which of them closes when. What an impact has thrown off is among them where the impacts
+    /// Contacts that have closed may bring others with them: a beam on two of its four supports lies on all. What comes to the edge of a surface may touch
+    /// another there: a wheel rolls about the edge of a table. Their gaps and rates vanish, and nothing but rounding would tell later which of them closes when. What an impact has thrown off is among them where the impacts
     /// of the others end with it.
     fn take_what_touches(&mut self, facts: &mut SwitchFacts) {
         let d = self.description();
         let may = |run: &Self, facts: &SwitchFacts, c: usize| {
             let takes_part = run.dynamics.effects().includes(d, Item::Contact(c));
-            takes_part && !(facts.touching[c] || run.now.below[c])
+            let is_at_edge = facts.located.contains(&Guard::Region(c));
+            takes_part && !(facts.touching[c] || run.now.below[c] || is_at_edge)
         };
         let contacts = 0..d.contacts.len();
         if !contacts.clone().any(|c| may(self, facts, c)) {

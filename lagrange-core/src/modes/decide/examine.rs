@@ -35,6 +35,12 @@ const APART: f64 = 1e-6;
 /// Velocities below it are compared with it.
 const AT_REST: f64 = 1e-2;
 
+/// A force that takes away no more than this of the momentum in a second may be what rounding of the state leaves of zero,
+const NOTHING: f64 = 1e-12;
+
+/// as shows in how it changes with the state, when that changes by so much, relative.
+const SHAKE: f64 = 1e-8;
+
 /// What a guard does just after the instant, with the number of leading coefficients that vanish.
 enum Leading {
     Rises(usize),
@@ -131,13 +137,17 @@ impl<T: Scalar> Decider<T> {
         if self.questions.is_empty() {
             return Ok(true);
         }
+        self.shake(dynamics, moment)?;
         let settled = self.zeros.len();
         for order in [LOW_ORDER.min(moment.order), moment.order] {
             dynamics.series(t, q, v, order)?;
             self.decision.expanded = serves && order == moment.order;
             match self.judge(dynamics, here, order) {
                 Some(feasible) => return Ok(feasible),
-                None => self.zeros.truncate(settled),
+                None => {
+                    self.zeros.truncate(settled);
+                    self.at_limit.clear();
+                }
             }
         }
         Ok(true)
@@ -225,16 +235,22 @@ impl<T: Scalar> Decider<T> {
         let exactly = here.moment.tolerance == 0.0;
         // A force that was located as zero has nothing that it could be compared with.
         let all_vanish = RESIDUES * facts.residue >= 1.0;
+        let speeds = here.moment.v.iter().map(|v| v.value().abs() + AT_REST);
+        let nothing = NOTHING * self.sizes.momentum(speeds);
         let Self {
             sizes,
             questions,
             zeros,
+            at_limit,
+            doubtful,
             violated,
             composites,
             posed: mode,
             ..
         } = self;
         zeros.clear();
+        at_limit.clear();
+        doubtful.clear();
         violated.clear();
         questions.retain(|&(guard, order_known)| {
             if matches!((guard, order_known), (Guard::Gap(_), 1)) {
@@ -247,6 +263,9 @@ impl<T: Scalar> Decider<T> {
             };
             let noise = if concerns(guard, composites, facts) {
                 1e3 * here.blur()
+            } else if is_single_force(guard) && value.abs() <= nothing {
+                doubtful.push((guard, value, 0.0));
+                return true;
             } else {
                 1e-6
             };
@@ -269,6 +288,46 @@ impl<T: Scalar> Decider<T> {
             }
             !settled
         });
+    }
+
+    /// Where nothing makes forces but what is known to rounding only, as at the lowest point of a pendulum: how large forces in doubt would be if the
+    /// state changed by its own size.
+    ///
+    /// # Errors
+    /// The state itself, which is what `dynamics` holds afterwards, cannot be evaluated.
+    fn shake(
+        &mut self,
+        dynamics: &mut Dynamics<T>,
+        moment: EvaluationPoint<'_, T>,
+    ) -> Result<(), EvaluationError> {
+        if self.doubtful.is_empty() {
+            return Ok(());
+        }
+        // Of coordinates moved by cosines and sines no combination vanishes by symmetry.
+        for phase in [0.0, core::f64::consts::FRAC_PI_2] {
+            let moved = |(j, x): (usize, &T)| {
+                let part = SHAKE * (j as f64 - phase).cos();
+                *x + T::from_f64(part * x.value().abs().max(1.0))
+            };
+            let [q, v] = [moment.q, moment.v].map(|x| x.iter().enumerate().map(moved));
+            let [q, v]: [Vec<T>; 2] = [q.collect(), v.collect()];
+            if dynamics.value(moment.t, &q, &v).is_err() {
+                continue;
+            }
+            let reading = Reading::Values(dynamics);
+            for (guard, value, size) in &mut self.doubtful {
+                let change = guard::value(*guard, &self.posed, &reading) - *value;
+                *size = size.max((change / SHAKE).abs());
+            }
+        }
+        dynamics.value(moment.t, moment.q, moment.v)
+    }
+
+    /// Size of the terms that make a guard.
+    fn size(&self, guard: Guard, dynamics: &Dynamics<T>) -> f64 {
+        let mut doubtful = self.doubtful.iter();
+        let shaken = doubtful.find_map(|(other, _, size)| (*other == guard).then_some(*size));
+        self.sizes.of(guard, dynamics).max(shaken.unwrap_or(0.0))
     }
 
     /// Looks at the guards in question just after the moment. `None`: one of them vanishes to this order, and more is to
@@ -313,10 +372,11 @@ impl<T: Scalar> Decider<T> {
                 {
                     self.violated.push(guard);
                 }
+                // Whatever sign rounding has given it.
                 Leading::Stays => {
-                    let blurred = concerns(guard, &self.composites, facts);
-                    if order_known > 0 || series.iter().all(|c| *c <= 0.0) || blurred {
-                        self.zeros.push((guard, guard::LENGTH));
+                    self.zeros.push((guard, guard::LENGTH));
+                    if is_single_force(guard) {
+                        self.at_limit.push((guard, self.size(guard, dynamics)));
                     }
                 }
             }
@@ -405,8 +465,8 @@ impl<T: Scalar> Decider<T> {
             (1e-13, 1e-14)
         };
         let cancelling = match guard {
-            Guard::Branch(b) if here.facts.lying[b] => self.size_as_of_gaps(size, ahead, h),
-            _ => self.sizes.of(guard, dynamics) * unit_of_order(guard, h),
+            Guard::Branch(b) if here.facts.held[b] => self.size_as_of_rows(size, ahead, h),
+            _ => self.size(guard, dynamics) * unit_of_order(guard, h),
         };
         let noise = (relative * size).max(absolute * cancelling);
         match series.iter().position(|c| c.abs() > noise) {
@@ -416,9 +476,9 @@ impl<T: Scalar> Decider<T> {
         }
     }
 
-    /// Size of what makes the guard of a branch that contacts have held at its border until now, and which changes by `size` over a time `h`:
-    /// that of the gap of those contacts, by which it changes.
-    fn size_as_of_gaps(&self, size: f64, ahead: Ahead<'_, T>, h: f64) -> f64 {
+    /// Size of what makes the guard of a branch that contacts or frictions have held at its border until now, and which changes by `size` over a
+    /// time `h`: that of the gaps or slips of those, by which it changes.
+    fn size_as_of_rows(&self, size: f64, ahead: Ahead<'_, T>, h: f64) -> f64 {
         let Ahead {
             dynamics,
             here,
@@ -427,20 +487,24 @@ impl<T: Scalar> Decider<T> {
         } = ahead;
         let mut series = [0.0; guard::LENGTH];
         let series = &mut series[..=order];
+        let slips = |f: usize| matches!(self.posed.frictions[f], FrictionMode::Slip(_));
         let left = here.facts.located.iter().filter_map(|guard| match *guard {
-            Guard::Normal(c) if !self.posed.contacts[c] => Some(Guard::Gap(c)),
+            Guard::Normal(c) if !self.posed.contacts[c] => Some((Guard::Gap(c), 2)),
+            Guard::StickUpper(f) | Guard::StickLower(f) | Guard::StickCone(f) if slips(f) => {
+                Some((Guard::Slip(f), 1))
+            }
             _ => None,
         });
-        let sizes = left.map(|gap| {
+        let sizes = left.map(|(row, known)| {
             let reading = Reading::Series(dynamics);
-            guard::series(gap, &self.posed, &reading, &redundant::ONES, series);
+            guard::series(row, &self.posed, &reading, &redundant::ONES, series);
             let powers = core::iter::successors(Some(1.0), |power| Some(power * h));
-            let terms = series.iter().zip(powers).skip(2);
-            let opens = terms.fold(0.0_f64, |largest, (c, power)| {
+            let terms = series.iter().zip(powers).skip(known);
+            let grows = terms.fold(0.0_f64, |largest, (c, power)| {
                 largest.max((c * power).abs())
             });
-            if opens > 0.0 {
-                self.sizes.of(gap, dynamics) * unit_of_order(gap, h) * size / opens
+            if grows > 0.0 {
+                self.sizes.of(row, dynamics) * unit_of_order(row, h) * size / grows
             } else {
                 0.0
             }
@@ -461,6 +525,10 @@ fn is_held<T: Scalar>(guard: Guard, facts: &SwitchFacts, dynamics: &Dynamics<T>)
         _ => return false,
     };
     rows.all(|row| dynamics.follows(row))
+}
+
+fn is_single_force(guard: Guard) -> bool {
+    guard.is_force() && !matches!(guard, Guard::Composite(_))
 }
 
 /// Books what forbids a mode: of a composite guard, its parts.

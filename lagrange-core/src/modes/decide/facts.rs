@@ -19,6 +19,8 @@ pub struct SwitchFacts {
     pub balanced: Vec<bool>,
     /// Per branch: its guard and the rate of that vanish because what touches holds it there.
     pub lying: Vec<bool>,
+    /// Per branch: its guard vanishes because what touches and rests holds it there.
+    pub held: Vec<bool>,
     /// Velocities have just jumped.
     pub jumped: bool,
     /// Guards of the present mode that have just been located as roots: the present mode goes on only where nothing else does.
@@ -38,10 +40,10 @@ impl SwitchFacts {
         }
         self.resting.clear();
         self.resting.resize(d.frictions.len(), false);
-        self.balanced.clear();
-        self.balanced.resize(d.branches.len(), false);
-        self.lying.clear();
-        self.lying.resize(d.branches.len(), false);
+        for flags in [&mut self.balanced, &mut self.lying, &mut self.held] {
+            flags.clear();
+            flags.resize(d.branches.len(), false);
+        }
         self.jumped = false;
         self.located.clear();
         self.again = false;

@@ -38,6 +38,8 @@ pub struct Decision {
     pub mode: Mode,
     /// Guards with leading coefficients that vanish, and how many.
     pub zeros: Vec<(Guard, usize)>,
+    /// Forces that stay zero as far as their series go, with the size of what makes them.
+    pub at_limit: Vec<(Guard, f64)>,
     /// Whether another mode with another motion was feasible too.
     pub ambiguous: bool,
     /// Per branch: whether the mode holds it at its border.
@@ -55,6 +57,9 @@ pub struct Decider<T> {
     listings: Listings,
     questions: Vec<(Guard, usize)>,
     zeros: Vec<(Guard, usize)>,
+    at_limit: Vec<(Guard, f64)>,
+    /// Forces that may be rounding, with their sizes if the state changed by its own.
+    doubtful: Vec<(Guard, f64, f64)>,
     /// What forbids the candidate examined last.
     violated: Vec<Guard>,
     redundant: RedundantForces<T>,
@@ -96,6 +101,7 @@ impl<T: Scalar> Decider<T> {
             decision: Decision {
                 mode: Mode::open(description),
                 zeros: Vec::new(),
+                at_limit: Vec::new(),
                 ambiguous: false,
                 held: Vec::new(),
                 composites: Vec::new(),
@@ -104,6 +110,8 @@ impl<T: Scalar> Decider<T> {
             listings: Listings::default(),
             questions: Vec::new(),
             zeros: Vec::new(),
+            at_limit: Vec::new(),
+            doubtful: Vec::new(),
             violated: Vec::new(),
             redundant: RedundantForces::default(),
             composites: Vec::new(),
@@ -388,6 +396,7 @@ impl<T: Scalar> Decider<T> {
     fn keep(&mut self, dynamics: &Dynamics<T>) {
         core::mem::swap(&mut self.best, &mut self.posed);
         core::mem::swap(&mut self.decision.zeros, &mut self.zeros);
+        core::mem::swap(&mut self.decision.at_limit, &mut self.at_limit);
         self.decision.composites.clone_from(&self.composites);
         self.decision.held.clear();
         self.decision.held.extend_from_slice(self.held.held());

@@ -111,6 +111,10 @@ pub(super) fn concerns(guard: Guard, composites: &[CompositeGuard], facts: &Swit
                 (Guard::Normal(c), Guard::Gap(g)) | (Guard::Gap(c), Guard::Normal(g)) => c == g,
                 (Guard::Normal(_), Guard::Branch(b)) => facts.lying[b],
                 (
+                    Guard::StickUpper(_) | Guard::StickLower(_) | Guard::StickCone(_),
+                    Guard::Branch(b),
+                ) => facts.held[b],
+                (
                     Guard::StickUpper(f)
                     | Guard::StickLower(f)
                     | Guard::StickCone(f)

@@ -96,28 +96,13 @@ impl<T: Scalar> RedundantForces<T> {
         if !self.has_open() || self.bounds.least(&self.bounds.values) >= 0.0 {
             return;
         }
-        let is_open = |i: &usize| {
-            let sticks = |(f, friction): (usize, &Friction)| {
-                matches!(friction.normal, Normal::Constraint(on) if on == *i)
-                    && dynamics.mode().frictions[f] == FrictionMode::Stick
-            };
-            index(*i).is_some_and(|k| !self.freedom.is_determined(k))
-                && d.frictions.iter().enumerate().any(sticks)
-        };
-        let open = (0..d.constraints.len()).filter(is_open);
-        let open: Vec<usize> = open.take(MOST_SIGNS).collect();
-        if open.is_empty() {
+        let choices = self.choices_of_signs(dynamics);
+        if choices.len() == 1 {
             return;
         }
-        let first = self.signs.clone();
-        let mut best = (f64::INFINITY, f64::INFINITY, first.clone());
-        for choice in 0..1_usize << open.len() {
-            self.signs.clone_from(&first);
-            for (k, &i) in open.iter().enumerate() {
-                if choice >> k & 1 == 1 {
-                    self.signs[i] = -first[i];
-                }
-            }
+        let mut best = (f64::INFINITY, f64::INFINITY, self.signs.clone());
+        for signs in choices {
+            self.signs = signs;
             self.list_bounds(dynamics);
             let missing = -self.bounds.widest_margin();
             let missing = if missing > ROUNDING { missing } else { 0.0 };
@@ -128,6 +113,62 @@ impl<T: Scalar> RedundantForces<T> {
         }
         self.signs = best.2;
         self.list_bounds(dynamics);
+    }
+
+    /// Where the signs chosen last end: chooses others that allow forces by more than the `border`, of these those of the least forces. False: there
+    /// are none.
+    pub fn turn(&mut self, dynamics: &Dynamics<T>, border: f64) -> bool {
+        if !self.take_least(dynamics) {
+            return false;
+        }
+        let present = self.signs.clone();
+        let mut best: Option<(f64, Vec<f64>)> = None;
+        for signs in self.choices_of_signs(dynamics) {
+            if signs == present {
+                continue;
+            }
+            self.signs = signs;
+            self.list_bounds(dynamics);
+            if self.bounds.widest_margin() > border {
+                let change = self.shares().norm();
+                if best.as_ref().is_none_or(|(least, _)| change < *least) {
+                    best = Some((change, self.signs.clone()));
+                }
+            }
+        }
+        let turns = best.is_some();
+        self.signs = best.map_or(present, |(_, signs)| signs);
+        self.list_bounds(dynamics);
+        turns
+    }
+
+    /// The present signs, and all others of constraints whose forces are open and carry frictions that stick.
+    fn choices_of_signs(&self, dynamics: &Dynamics<T>) -> Vec<Vec<f64>> {
+        let d = dynamics.description();
+        let acting = dynamics.acting_rows();
+        let is_open = |i: &usize| {
+            let sticks = |(f, friction): (usize, &Friction)| {
+                matches!(friction.normal, Normal::Constraint(on) if on == *i)
+                    && dynamics.mode().frictions[f] == FrictionMode::Stick
+            };
+            let force = acting.binary_search(&d.constraints[*i].row);
+            force.is_ok_and(|k| !self.freedom.is_determined(k))
+                && d.frictions.iter().enumerate().any(sticks)
+        };
+        let open: Vec<usize> = (0..self.signs.len())
+            .filter(is_open)
+            .take(MOST_SIGNS)
+            .collect();
+        let choose = |choice: usize| {
+            let mut signs = self.signs.clone();
+            for (k, &i) in open.iter().enumerate() {
+                if choice >> k & 1 == 1 {
+                    signs[i] = -signs[i];
+                }
+            }
+            signs
+        };
+        (0..1_usize << open.len()).map(choose).collect()
     }
 
     /// Whether a guard concerns forces that are not determined, so that by itself it decides nothing.

@@ -123,3 +123,35 @@ fn all_methods_pass_kinks_and_cuts() {
         }
     }
 }
+
+/// A bead flies straight past a round post, by a thousandth of what its samples are away from it.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    contact(post: sqrt(x^2 + y^2) >= radius, restitution = 1),
+    stop(seen: sqrt(x^2 + (y - 3)^2) <= 3 - sight),
+)]
+struct Passing {
+    radius: f64,
+    sight: f64,
+}
+
+#[test]
+fn what_passes_close_by_does_not_strike() {
+    let scene = |sight| Passing { radius: 1.0, sight };
+    for (method, tolerance) in METHODS.into_iter().flat_map(|m| [(m, 1e-9), (m, 1e-12)]) {
+        let asked = format!("{method} {tolerance:e}");
+        for distance in [1e-5, 1e-7, 1e-8] {
+            let start = state(&[-1.0, 1.0 + distance], &[1.0, 0.0]);
+            // The stop is as far away as the post.
+            let passes = run_by(
+                &scene(1.0 + 2.0 * distance),
+                (method, tolerance),
+                start,
+                2.0,
+            );
+            assert!(passes.events().is_empty(), "{asked}: {:?}", words(&passes));
+        }
+    }
+}

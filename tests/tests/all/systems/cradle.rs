@@ -2,6 +2,7 @@
 
 use super::state;
 use lagrange_core::prelude::*;
+use lagrange_tests::fuzz::METHODS;
 use lagrange_tests::{Random, agree, closure, run};
 
 /// Two balls on a line, and a wall.
@@ -106,4 +107,50 @@ fn collisions_one_after_the_other_agree_with_those_by_hand() {
         assert!(closure(&trajectory) < 1e-10);
     }
     assert!(most > 3);
+}
+
+/// Carts side by side, each on a spring of its own, and one that strikes the others.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x[4]),
+    kinetic = sum(k in 0..4: mass/2 * der(x[k])^2),
+    potential = sum(k in 0..4: stiffness/2 * x[k]^2),
+    contact(pair[k in 0..3]: x[k+1] >= x[k], restitution = bounce),
+    start(struck: x[0] = -0.4),
+    start(together: der(x) = [0.3, 0.3, 0.3, 0.3]),
+)]
+struct Carts {
+    mass: f64,
+    stiffness: f64,
+    bounce: f64,
+}
+
+#[test]
+fn what_touches_and_carries_nothing_stays_closed() {
+    let carts = Carts {
+        mass: 1.3,
+        stiffness: 7.0,
+        bounce: 0.5,
+    };
+    let half = core::f64::consts::PI / (7.0_f64 / 1.3).sqrt();
+    for method in METHODS {
+        for tolerance in [1e-6, 1e-9, 1e-12] {
+            let run = |start| {
+                let simulation = Simulation::new(&carts).method(method).tolerance(tolerance);
+                simulation.run(start, 0.0..10.0).unwrap()
+            };
+            // All swing as one: nothing happens.
+            let together = run(carts.at(Carts::TOGETHER));
+            assert!(together.events().is_empty(), "{method} {tolerance}");
+            // All swing through the middle at the same times, whatever an impact makes of their speeds: they meet there, and never else.
+            let struck = run(carts.at(Carts::STRUCK));
+            let events = struck.events();
+            assert_eq!(events.len(), 7, "{method} {tolerance}");
+            for (k, event) in events.iter().enumerate() {
+                assert_eq!(event.kind, EventKind::Impact);
+                assert_eq!(event.subject, Carts::PAIR[0].into());
+                agree("t", event.time, (k as f64 + 0.5) * half, 20.0 * tolerance);
+            }
+        }
+    }
 }

@@ -173,3 +173,104 @@ fn friction_holds_although_there_was_none_in_the_run_before() {
         }
     }
 }
+
+/// A bead slides down outside a smooth parabola.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2),
+    potential = mass * gravity * y,
+    contact(parabola: y >= -x^2 / 2),
+    friction(grip on parabola: slip = der(x) - x * der(y), static = mu),
+    start(pushed: der(x) = speed),
+)]
+struct Heavy {
+    mass: f64,
+    gravity: f64,
+    mu: f64,
+    speed: f64,
+}
+
+/// What a mass cannot change: squares of its weight are no numbers from 1e154 kg on. Faster than v² = g R it leaves the top at once, with a speed below
+/// that never, and with friction it comes to rest where the one of 1 kg does.
+#[test]
+fn motions_do_not_know_their_mass() {
+    let run = |mass: f64, mu: f64, speed: f64, method: &str| {
+        let scene = Heavy {
+            mass,
+            gravity: 9.0,
+            mu,
+            speed,
+        };
+        let start = scene.at(Heavy::PUSHED);
+        let simulation = Simulation::new(&scene).method(method.parse().unwrap());
+        let run = simulation.run(start, 0.0..2.0).unwrap();
+        let events = run.events().iter();
+        let events: Vec<_> = events
+            .map(|event| (event.kind, event.time, event.state.q[0]))
+            .collect();
+        (events, run.final_state().q.clone())
+    };
+    for method in ["taylor", "dop853", "radau5"] {
+        for mass in [1e150, 1e160, 1e300] {
+            for (mu, speed) in [(0.0, 3.5), (0.0, 1.0), (0.6, 0.5), (0.3, 2.0)] {
+                let what = format!("{mass:e} {mu} {speed} {method}");
+                let (events, end) = run(mass, mu, speed, method);
+                let (expected, expected_end) = run(1.0, mu, speed, method);
+                assert_eq!(
+                    events.len(),
+                    expected.len(),
+                    "{what}: {events:?} {expected:?}"
+                );
+                for (event, expected) in events.iter().zip(&expected) {
+                    assert_eq!(event.0, expected.0, "{what}");
+                    agree(&what, event.1, expected.1, 1e-8);
+                    agree(&what, event.2, expected.2, 1e-8);
+                }
+                all_agree(&what, &end, &expected_end, 1e-7);
+            }
+        }
+        // It falls freely from the top.
+        let (events, end) = run(1e300, 0.0, 3.5, method);
+        assert_eq!(events[0].0, EventKind::Lost);
+        all_agree(method, &end, &[7.0, -18.0], 1e-8);
+    }
+}
+
+/// A crate on a rough floor that is pulled ever harder, in a direction of the plane.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y, z),
+    kinetic = mass/2 * (der(x)^2 + der(y)^2 + der(z)^2),
+    potential = mass * gravity * z,
+    contact(floor: z >= 0),
+    friction(grip on floor: slip = (der(x), der(y)), static = mu),
+    force(pull: (3/5 * mass * rate * t, 4/5 * mass * rate * t, 0) at (x, y, z)),
+)]
+struct Pulled {
+    mass: f64,
+    gravity: f64,
+    mu: f64,
+    rate: f64,
+}
+
+/// It slips from t₀ = μ g/rate on, v = rate (t² − t₀²)/2 − μ g (t − t₀).
+#[test]
+fn cones_of_friction_hold_as_much_of_any_mass() {
+    for mass in [1e-250, 1e-200, 1e-150, 1.0, 1e150, 1e200, 1e250] {
+        let scene = Pulled {
+            mass,
+            gravity: 10.0,
+            mu: 0.3,
+            rate: 2.0,
+        };
+        let simulation = Simulation::new(&scene).tolerance(1e-12);
+        let run = simulation.run(state(&[0.0; 3], &[0.0; 3]), 0.0..4.0);
+        let run = run.expect("a run");
+        let slips = run.events().first().expect("it slips");
+        agree("time", slips.time, 1.5, 1e-12);
+        let speed = (16.0 - 2.25) - 3.0 * 2.5;
+        let expected = [0.6 * speed, 0.8 * speed, 0.0];
+        all_agree(&format!("{mass:e}"), &run.final_state().v, &expected, 1e-11);
+    }
+}

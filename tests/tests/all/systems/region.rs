@@ -356,3 +356,42 @@ fn a_mark_where_regions_meet_is_written_once() {
         }
     }
 }
+
+/// A sledge on a level track that ends where a round hill begins to fall off.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    potential = gravity * y,
+    contact(track: y >= 0, where x <= 0),
+    contact(hill: sqrt(x^2 + (y + radius)^2) >= radius),
+)]
+struct Brow {
+    gravity: f64,
+    radius: f64,
+}
+
+/// The hill touches the track at its edge, without a root of its gap. The sledge leaves it where g cos θ = v²/R, cos θ = (2 + v₀²/(g R))/3, or at once.
+#[test]
+fn a_surface_that_touches_the_edge_of_another_takes_over() {
+    let scene = Brow {
+        gravity: 10.0,
+        radius: 0.4,
+    };
+    for method in ["taylor", "dopri5", "dop853", "verner98", "radau5"] {
+        for tolerance in [1e-6, 1e-9, 1e-12] {
+            for speed in [0.3, 0.7, 1.3, 1.9, 2.5] {
+                let asked = format!("{method} {tolerance:e} {speed}");
+                let start = State::new(vec![-0.31, 0.0], vec![speed, 0.0]);
+                let motion = run_by(&scene, (method, tolerance), start, 0.31 / speed + 1.0);
+                let stays = speed * speed < 4.0;
+                let after = motion.sampler().at(0.31 / speed + 1e-3).expect("beyond");
+                assert_eq!(after.mode.closed(Brow::HILL), stays, "{asked}");
+                assert!(!after.mode.closed(Brow::TRACK), "{asked}");
+                let lost = motion.events().last().expect("an event");
+                let cos = (2.0 + speed * speed / 4.0).min(3.0) / 3.0;
+                agree(&asked, lost.q(Brow::Y), 0.4 * (cos - 1.0), 10.0 * tolerance);
+            }
+        }
+    }
+}

@@ -227,3 +227,47 @@ fn contact_is_lost_while_it_slips() {
     let trajectory = run(&scene, state(&[0.0; 3], &[0.0; 3]), 2.0);
     assert_eq!(words(&trajectory), ["table lost"]);
 }
+
+/// A block on a ramp that is tilted ever more, to either side; its friction falls with the speed.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(s, n),
+    kinetic = (der(s)^2 + der(n)^2) / 2,
+    force(weight: (side * gravity * sin(rate * t), -gravity * cos(rate * t)) at (s, n)),
+    contact(ramp: n >= 0),
+    friction(grip on ramp: slip = der(s), static = mu_kinetic + (mu_static - mu_kinetic) * exp(-abs(slip) / scale)),
+)]
+struct Tilting {
+    side: f64,
+    gravity: f64,
+    rate: f64,
+    mu_static: f64,
+    mu_kinetic: f64,
+    scale: f64,
+}
+
+/// The friction lets go where tan(rate t) is its coefficient. The branch of |slip| changes with it: that the slip begins with the square of the
+/// time, its own acceleration being a rounding, both have to know.
+#[test]
+fn a_slip_that_begins_smoothly_takes_the_branches_of_its_size_with_it() {
+    let methods = ["taylor", "dop853", "dopri5", "verner98", "radau5"].into_iter();
+    for method in methods.flat_map(|m| [(m, 1e-6), (m, 1e-9), (m, 1e-12)]) {
+        for k in 0..12 {
+            let scene = Tilting {
+                side: if k % 2 == 0 { 1.0 } else { -1.0 },
+                gravity: 9.81,
+                rate: 0.3 + 0.0837 * f64::from(k),
+                mu_static: 0.4,
+                mu_kinetic: 0.2,
+                scale: 0.1,
+            };
+            let slips = 0.4_f64.atan() / scene.rate;
+            let start = state(&[0.0; 2], &[0.0; 2]);
+            let motion = run_by(&scene, method, start, 1.3 * slips);
+            let asked = format!("{method:?} {scene:?}");
+            let error = method.1.max(1e-11);
+            agree(&asked, event(&motion, "grip", "slips").time, slips, error);
+            assert_eq!(motion.final_state().v[0].signum(), scene.side, "{asked}");
+        }
+    }
+}

@@ -2,6 +2,7 @@
 
 use super::{PI, state};
 use lagrange_core::prelude::*;
+use lagrange_tests::fuzz::METHODS;
 use lagrange_tests::{agree, all_agree, closure, event, root, run, run_by, words};
 
 /// A bead on a circle in a plane that is inclined by `slope`, x downhill.
@@ -432,6 +433,67 @@ fn what_a_wire_shares_with_a_wall_stays_within_its_friction() {
                     all_agree(&format!("{asked} at {t}"), &forces, &least, 1e-9);
                 }
             }
+        }
+    }
+}
+
+/// A bead on a straight rough wire that lies on a floor: a load presses it down or lifts it, and a pull along the wire is held by its friction.
+#[derive(Lagrangian, Clone, Debug)]
+#[lagrange(
+    coordinates(x, y),
+    kinetic = (der(x)^2 + der(y)^2) / 2,
+    constraint(wire: y == 0),
+    contact(floor: y >= 0),
+    friction(rub on wire: slip = der(x), static = mu),
+    force(load: (pull, -weight - swing * cos(2 * t)) at (x, y)),
+)]
+struct Lying {
+    pull: f64,
+    weight: f64,
+    swing: f64,
+    mu: f64,
+}
+
+/// The floor may push as much as it likes against the wire, λ + N = W: whatever the load, they hold the bead, and nothing is told where the least of
+/// such forces has the wire pull where it has pushed. These are λ = N = W/2 while that holds the bead, or the nearest to it: μ |λ| = P.
+#[test]
+fn a_wire_that_pulls_where_it_has_pushed_tells_nothing() {
+    let scene = Lying {
+        pull: 0.3,
+        weight: 2.0,
+        swing: 5.0,
+        mu: 0.5,
+    };
+    for method in METHODS {
+        for tolerance in [1e-6, 1e-9, 1e-12] {
+            let simulation = Simulation::new(&scene).method(method).tolerance(tolerance);
+            let motion = simulation
+                .run(state(&[0.0; 2], &[0.0; 2]), 0.0..6.0)
+                .unwrap();
+            assert!(
+                motion.events().is_empty(),
+                "{method} {tolerance:e}: {:?}",
+                words(&motion)
+            );
+            assert_eq!(motion.final_state().q, [0.0; 2]);
+            let mut sampler = motion.sampler();
+            for k in 0..=60 {
+                let t = 0.1 * f64::from(k);
+                let load = 2.0 + 5.0 * (2.0 * t).cos();
+                let least: f64 = 0.3 / 0.5;
+                let pushes = least.max(0.5 * load);
+                let wire = if pushes <= load {
+                    pushes
+                } else {
+                    (-least).min(load)
+                };
+                let instant = sampler.at(t).unwrap();
+                agree("wire", instant.force(Lying::WIRE), wire, 1e-7);
+                agree("floor", instant.force(Lying::FLOOR), load - wire, 1e-7);
+                agree("rub", instant.force(Lying::RUB), -0.3, 1e-7);
+            }
+            let certificate = motion.verify(0).unwrap();
+            assert!(certificate.holds(), "{method} {tolerance:e}");
         }
     }
 }
