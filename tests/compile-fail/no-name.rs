@@ -15,5 +15,5 @@ struct S { mass: f64, gravity: f64, length: f64 }
 //~ 7:16 E025 this constraint has no name; write `constraint(name: …)`
 //~ 8:11 E025 this force has no name; write `force(name: …)`
 //~ 9:17 E025 this dissipation has no name; write `dissipation(name: …)`
-//~ 10:13 E001 expected `:`, found `=`
+//~ 10:11 E025 this start has no name; write `start(name: …)`
 //~ 11:13 E025 this output has no name; write `observe(name = …)`
