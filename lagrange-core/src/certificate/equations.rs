@@ -531,6 +531,14 @@ impl Equations {
         if square > 0.0 { along / square } else { 0.0 }
     }
 
+    /// The largest of these along the slips of a friction.
+    pub fn force_along_slips(&mut self, slips: &[usize]) -> f64 {
+        let sizes = slips
+            .iter()
+            .map(|&slip| self.force_along(slip, Level::Velocity));
+        sizes.fold(0.0, f64::max)
+    }
+
     /// The gradient of a value times sizes, and its square.
     fn along(&mut self, value: usize, level: Level, sizes: &[f64]) -> (f64, f64) {
         self.values.gradient_size(value, 0, &mut self.sizes_along);

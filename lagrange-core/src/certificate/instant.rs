@@ -79,11 +79,7 @@ impl Equations {
             let force = length(&at.forces[first..first + friction.slip.len()]);
             let (normal, normal_size) = self.normal(f, at.forces);
             let mu = self.values.value(friction.static_coefficient);
-            let mut size = 0.0_f64;
-            for &value in friction.slip {
-                size = size.max(self.force_along(value, Level::Velocity));
-            }
-            let size = size + mu * normal_size;
+            let size = self.force_along_slips(friction.slip) + mu * normal_size;
             findings.book(Subject::Cones, force - mu * normal, size, at.time, name);
         }
     }
@@ -177,11 +173,10 @@ impl Equations {
                 }
                 continue;
             }
-            let mut size = 0.0_f64;
+            let size = self.force_along_slips(friction.slip);
             let mut reach = 0.0_f64;
             let mut slip = [0.0; 2];
             for (k, &value) in friction.slip.iter().enumerate() {
-                size = size.max(self.force_along(value, Level::Velocity));
                 reach = reach.max(self.reach(value, 0, at));
                 slip[k] = self.values.value(value);
             }

@@ -442,7 +442,7 @@ impl<T: Scalar> Dynamics<T> {
                     .extend_from_slice(&self.projection.right);
                 self.projector.solve(&mut self.projection.change);
                 self.projection.change.truncate(n);
-                return self.projection.change.iter().all(|x| x.value().is_finite());
+                return is_finite(&self.projection.change);
             }
         }
         false

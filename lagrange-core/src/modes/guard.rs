@@ -66,6 +66,11 @@ impl Guard {
         )
     }
 
+    /// Whether it is made of the forces of one item, which the mode determines.
+    pub fn is_single_force(self) -> bool {
+        self.is_force() && !matches!(self, Guard::Composite(_))
+    }
+
     /// The name of the item whose guard it is; a composite guard has several.
     pub fn name(self, d: &'static Description) -> Option<&'static str> {
         match self {

@@ -263,7 +263,7 @@ impl<T: Scalar> Decider<T> {
             };
             let noise = if concerns(guard, composites, facts) {
                 1e3 * here.blur()
-            } else if is_single_force(guard) && value.abs() <= nothing {
+            } else if guard.is_single_force() && value.abs() <= nothing {
                 doubtful.push((guard, value, 0.0));
                 return true;
             } else {
@@ -375,7 +375,7 @@ impl<T: Scalar> Decider<T> {
                 // Whatever sign rounding has given it.
                 Leading::Stays => {
                     self.zeros.push((guard, guard::LENGTH));
-                    if is_single_force(guard) {
+                    if guard.is_single_force() {
                         self.at_limit.push((guard, self.size(guard, dynamics)));
                     }
                 }
@@ -525,10 +525,6 @@ fn is_held<T: Scalar>(guard: Guard, facts: &SwitchFacts, dynamics: &Dynamics<T>)
         _ => return false,
     };
     rows.all(|row| dynamics.follows(row))
-}
-
-fn is_single_force(guard: Guard) -> bool {
-    guard.is_force() && !matches!(guard, Guard::Composite(_))
 }
 
 /// Books what forbids a mode: of a composite guard, its parts.

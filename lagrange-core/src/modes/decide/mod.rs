@@ -259,8 +259,8 @@ impl<T: Scalar> Decider<T> {
 
     /// See [`SwitchFacts::residue`]; `dynamics` holds the values of the moment in the mode that ends.
     pub fn residue(&mut self, dynamics: &mut Dynamics<T>, mode: &Mode, located: &[Guard]) -> f64 {
-        let is_force = |guard: &&Guard| guard.is_force() && !matches!(guard, Guard::Composite(_));
-        let mut forces = located.iter().filter(is_force).peekable();
+        let forces = located.iter().filter(|guard| guard.is_single_force());
+        let mut forces = forces.peekable();
         if forces.peek().is_some() {
             dynamics.complete_outputs();
             self.sizes.take(dynamics);

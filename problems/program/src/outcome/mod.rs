@@ -316,6 +316,12 @@ impl Outcome {
         self.samples.first()
     }
 
+    /// Whether an event is what was decided at the start, which is no motion yet: the mode that was tried first never acted.
+    pub fn is_decided_at_start(&self, event: &Event<f64>) -> bool {
+        let start = self.first().map(|sample| sample.time);
+        Some(event.time) == start && event.before != event.after
+    }
+
     /// The last instant, if the run began.
     pub fn last(&self) -> Option<&Sample> {
         self.samples.last()

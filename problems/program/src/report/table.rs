@@ -132,22 +132,18 @@ fn entries(outcome: &Outcome, items: &[Force]) -> Vec<Line> {
             mode,
         })
     };
-    // What is decided at the start is no motion yet: the mode that was tried first never acted. An impact there is told by itself, after
-    // what was before it.
+    // An impact at the start is told by itself, after what was before it.
     let first = groups.first().map(|(_, group)| *group);
-    let first = outcome.first().zip(first).filter(|(start, group)| {
-        let decided = |event: &Event<f64>| event.before != event.after;
-        group[0].time == start.time && decided(&group[0])
-    });
-    let decided = first.is_some_and(|(_, group)| group[0].kind != EventKind::Impact);
+    let first = first.filter(|group| outcome.is_decided_at_start(&group[0]));
+    let decided = first.is_some_and(|group| group[0].kind != EventKind::Impact);
     let start = |sample: &Sample| match first {
-        Some((_, group)) if decided => Line {
+        Some(group) if decided => Line {
             event: format!("start\n{}", named(group, description)),
             upper: acting(&group[0].forces_after, &group[0].after),
             mode: in_table(&group[0].after, description),
             ..instant(sample, "start")
         },
-        Some((_, group)) => Line {
+        Some(group) => Line {
             state: known(
                 &group[0].state.q,
                 outcome.around.first().and_then(|a| a[0].as_ref()),

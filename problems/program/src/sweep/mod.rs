@@ -41,7 +41,7 @@ use lagrange_core::system::Description;
 /// Points of a chunk: a second's work or less.
 pub const CHUNK: usize = 1024;
 
-/// Most events of a run.
+/// Most events of a run, unless the request says otherwise.
 const MOST_EVENTS: usize = 10_000;
 
 /// Most points of a sweep: as many as a Sobol sequence of 32 bits has.
@@ -112,12 +112,17 @@ impl Sweep {
         self.observed.len() + 1
     }
 
+    /// Most events of each run.
+    fn most_events(&self) -> usize {
+        self.request.max_events.unwrap_or(MOST_EVENTS)
+    }
+
     /// Why the run of a point fails, if it does: it is made once more, since of a run that fails a number is kept and no words.
     pub(crate) fn message(&self, point: usize) -> Option<String> {
         let mut values = vec![0.0; self.points.axes.len()];
         self.points.write(point, &mut values);
         let mut request = Request {
-            max_events: Some(self.request.max_events.unwrap_or(MOST_EVENTS)),
+            max_events: Some(self.most_events()),
             ..self.request.clone()
         };
         let parameters = self.scene.description().parameters;

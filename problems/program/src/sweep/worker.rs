@@ -1,7 +1,7 @@
 //! A worker: an ensemble of runs, over a range of points.
 
 use super::failure::code;
-use super::{MOST_EVENTS, Sweep, Worker};
+use super::{Sweep, Worker};
 use crate::request::{Quantity, Refusal, Start, find_parameter, find_state};
 use crate::scene::Scene;
 use lagrange_core::prelude::*;
@@ -31,7 +31,7 @@ impl dyn Scene + '_ {
         let mut simulation = request
             .simulation(&system)?
             .record(false)
-            .max_events(request.max_events.unwrap_or(MOST_EVENTS));
+            .max_events(sweep.most_events());
         let ends: Option<Vec<_>> = sweep.observed.iter().map(|o| o.ends_with()).collect();
         for (subject, kind) in ends.unwrap_or_default() {
             simulation = simulation.end_after((subject, kind));

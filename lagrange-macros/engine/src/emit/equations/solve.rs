@@ -190,6 +190,15 @@ impl<'a> Elimination<'a> {
         }
     }
 
+    /// Solves the system itself.
+    pub fn solve_system(&self, writer: &Writer) -> (TokenStream, Vec<Ident>) {
+        let right = self.system.right.iter().map(|place| match place {
+            ValueRef::Zero => None,
+            place => Some(writer.place(*place)),
+        });
+        self.solve(writer, right.collect(), "")
+    }
+
     /// Solves for right-hand sides, none of which stands for zero; the results have names that begin with `prefix`.
     pub fn solve(
         &self,

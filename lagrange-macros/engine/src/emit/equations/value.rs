@@ -30,11 +30,7 @@ pub fn function(
     let system = &program.equations.system;
     let writer = Writer::new(system, mode, names::crossing(&mode.tape));
     let elimination = Elimination::new(&writer, &mode.system);
-    let right = mode.system.right.iter().map(|place| match place {
-        ValueRef::Zero => None,
-        place => Some(writer.place(*place)),
-    });
-    let (solve, solution) = elimination.solve(&writer, right.collect(), "");
+    let (solve, solution) = elimination.solve_system(&writer);
     let factors = &elimination.code;
     let unknowns = solution.iter().enumerate().map(|(i, x)| {
         let name = writer.value(mode.inputs.unknown(i));

@@ -608,8 +608,8 @@ impl ModeProgram {
         let matrix = &self.system.matrix;
         let free = self.system.accelerations;
         let is_mirrored = |(i, row): (usize, &Vec<ValueRef>)| {
-            let mut mirrored = row.iter().zip(matrix).map(|(x, column)| *x == column[i]);
-            mirrored.all(|equal| equal)
+            let mut pairs = row.iter().zip(matrix);
+            pairs.all(|(x, other)| *x == other[i])
         };
         let mut rows = matrix[free..].iter();
         self.gives_rows()

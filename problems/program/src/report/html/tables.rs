@@ -64,11 +64,6 @@ fn events(run: &Shown) -> String {
         all.iter()
             .map(|force| named(&force.name, description.units.row(force.row))),
     );
-    // The mode that was tried first at the start never acted.
-    let started = |event: &Event<f64>| {
-        let first = outcome.first().map(|sample| sample.time);
-        Some(event.time) == first && event.before != event.after
-    };
     let row = |event: &Event<f64>| {
         let time = event.time;
         let mut row = vec![
@@ -89,7 +84,7 @@ fn events(run: &Shown) -> String {
                 false => *q,
             })
         }));
-        let (rows, mode) = match started(event) {
+        let (rows, mode) = match outcome.is_decided_at_start(event) {
             true => (&event.forces_after, &event.after),
             false => (&event.forces, &event.before),
         };

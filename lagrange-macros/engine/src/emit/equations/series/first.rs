@@ -49,11 +49,7 @@ impl Expansion<'_> {
                 return ::core::result::Result::Err(Refused::Pivot);
             }
         });
-        let right = mode.system.right.iter().map(|place| match place {
-            ValueRef::Zero => None,
-            place => Some(writer.place(*place)),
-        });
-        let (solve, mut solution) = elimination.solve(writer, right.collect(), "");
+        let (solve, mut solution) = elimination.solve_system(writer);
         code.extend(solve);
         if mode.system.matrix.len() > mode.system.accelerations {
             // Forces feel the rounding of the elimination, the same in every step.
