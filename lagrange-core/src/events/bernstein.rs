@@ -37,8 +37,9 @@ pub(super) fn from_powers(c: &[f64]) -> Coefficients {
         *b = c * inverse;
     }
     for r in 1..=d {
-        for i in (r..=d).rev() {
-            b[i] += b[i - 1];
+        let mut before = b[r - 1];
+        for b in &mut b[r..=d] {
+            before = core::mem::replace(b, *b + before);
         }
     }
     b
