@@ -9,9 +9,10 @@
 //! The linear system of the mode is solved on the way, by pivots chosen at build time. A pivot that is not safe for the numbers at
 //! hand is refused; the core then looks for better ones.
 
-pub use crate::arithmetic::number::Registers;
-use crate::arithmetic::number::{self, Body, Number};
+use crate::arithmetic::Number;
 pub use crate::arithmetic::products::{Factors, Products, ROW, Row, STRIDE};
+pub use crate::arithmetic::registers::Registers;
+use crate::arithmetic::registers::{self, Body};
 use crate::program::{Selection, ValueRef};
 use core::marker::PhantomData;
 
@@ -114,7 +115,7 @@ pub fn across<S: ModeSeries<N>, N: Number>(
     products: &mut [Products<N>],
 ) -> Result<(), Refused> {
     let arguments = (c, held, order, state, rows, products);
-    number::across::<Expansion<S>, _>(arguments).unwrap_or(Err(Refused::NoRegisters))
+    registers::across::<Expansion<S>, _>(arguments).unwrap_or(Err(Refused::NoRegisters))
 }
 
 /// The arguments of a [`SeriesFn`] as one.

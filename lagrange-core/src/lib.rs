@@ -85,7 +85,8 @@ pub use simulation::{Awaited, Ensemble, Equations, Failure, FixedComponents, Run
 /// `lagrange`, which comes with this crate, may use it.
 #[doc(hidden)]
 pub mod __private {
-    pub use crate::arithmetic::number::{Body, Number};
+    pub use crate::arithmetic::number::Number;
+    pub use crate::arithmetic::registers::Body;
 
     pub mod declaration {
         pub use crate::declaration::*;

@@ -1,20 +1,22 @@
 //! The numbers that runs are made of: machine numbers, dual numbers, and several side by side.
 
 mod dual;
+pub(crate) mod fours;
 #[cfg(feature = "num-dual")]
 mod num_dual;
 pub(crate) mod number;
 mod pack;
 pub(crate) mod products;
 pub(crate) mod quad;
+pub(crate) mod registers;
 mod scalar;
 #[cfg(test)]
 mod tests;
 
 pub use dual::Dual;
-pub(crate) use number::Registers;
 pub(crate) use number::{LIGHT, Number, epsilon, is_spread, positive_definite};
 pub(crate) use pack::Pack;
+pub(crate) use registers::Registers;
 
 use core::fmt::Debug;
 
@@ -25,7 +27,7 @@ use core::fmt::Debug;
     note = "numbers are `f64`, `f32` and `Dual`"
 )]
 pub trait Scalar:
-    products::Fours
+    fours::Fours
     + nalgebra::Scalar
     + Copy
     + Debug

@@ -1,10 +1,8 @@
 //! What the equations of a mode work with: a number, or the numbers of several motions side by side.
 
+use super::fours::Fours;
 use super::pack::each_lane;
-use super::products::Fours;
 use super::{Pack, Scalar};
-#[cfg(target_arch = "x86_64")]
-use core::marker::PhantomData;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A number of a motion, or one of each of several motions: every operation gives each what it would give it alone.
@@ -21,7 +19,7 @@ pub trait Number:
     fn of(x: f64) -> Self;
     /// x y + z, rounded as [`Scalar::mul_add`] rounds.
     fn mul_add(self, y: Self, z: Self) -> Self;
-    /// x y + z, rounded once, for code that is compiled for [`Registers`].
+    /// x y + z, rounded once, for code that is compiled for [`Registers`](super::Registers).
     fn fused(self, y: Self, z: Self) -> Self;
     /// √x
     fn sqrt(self) -> Self;
@@ -61,52 +59,6 @@ pub trait Number:
     fn is_spread(constant: &[Self], varying: &[Self]) -> bool;
     /// Whether a pivot is not small beside what it was before, nor beside the elements below.
     fn is_safe_pivot(pivot: Self, before: Self, below: &[Self]) -> bool;
-}
-
-/// What shows that the processor has registers of four numbers, and uses them.
-#[cfg(target_arch = "x86_64")]
-pub type Registers = pulp::x86::V3;
-/// The registers of a processor for which code is compiled in one way only.
-#[cfg(not(target_arch = "x86_64"))]
-#[derive(Clone, Copy, Debug)]
-pub struct Registers;
-
-/// A function of arguments `A` that is compiled for registers of four numbers: its implementation is `#[inline(always)]`.
-pub trait Body<A> {
-    /// What it returns.
-    type Output;
-    /// The function.
-    fn run(registers: Registers, arguments: A) -> Self::Output;
-}
-
-/// Calls a function that is compiled for registers of four numbers; its arguments again if the processor does not have them.
-// Each kind of processor would cost the compiler its time once more.
-#[cfg(target_arch = "x86_64")]
-#[inline(always)]
-pub(crate) fn across<B: Body<A>, A>(arguments: A) -> Result<B::Output, A> {
-    struct Across<B, A>(Registers, A, PhantomData<B>);
-
-    impl<A, B: Body<A>> pulp::NullaryFnOnce for Across<B, A> {
-        type Output = B::Output;
-
-        #[inline(always)]
-        fn call(self) -> B::Output {
-            B::run(self.0, self.1)
-        }
-    }
-    match Registers::try_new() {
-        Some(processor) => {
-            Ok(processor.vectorize(Across::<B, A>(processor, arguments, PhantomData)))
-        }
-        None => Err(arguments),
-    }
-}
-
-/// Calls a function.
-#[cfg(not(target_arch = "x86_64"))]
-#[inline(always)]
-pub(crate) fn across<B: Body<A>, A>(arguments: A) -> Result<B::Output, A> {
-    Ok(B::run(Registers, arguments))
 }
 
 /// The distance from 1 to the next number of a type.

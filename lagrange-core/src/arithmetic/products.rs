@@ -8,8 +8,8 @@
 //! coefficients, j = 1 and j = k − 1, enter last: a processor can begin with the others before those are known. They are not read
 //! from memory: what has just been written there in parts would have to be waited for.
 
+use super::fours::{Fours, GROUP};
 use super::{Dual, Number, Pack, Registers, Scalar};
-use core::fmt::Debug;
 
 /// Coefficients that are kept of a series at most, a power of two: the highest order is 28, and velocities are known to one order more.
 pub const STRIDE: usize = 32;
@@ -19,34 +19,6 @@ pub type Row<N> = [N; ROW];
 
 /// Places of a [`Row`]. Rows that lie a power of two apart share few lines of the cache: a chain of five links took a third longer.
 pub const ROW: usize = STRIDE + 1;
-
-/// Products that are summed side by side.
-pub(crate) const GROUP: usize = 4;
-
-/// Numbers of which four lie side by side, in one register where there are such.
-pub trait Fours: Copy {
-    /// Four numbers.
-    type Four: Copy + Debug + Send + Sync + 'static;
-    /// Whether a register takes them.
-    const IN_REGISTERS: bool = false;
-    /// Four zeros.
-    fn zeros() -> Self::Four;
-    /// Four numbers. What is read at once is written at once, or the processor waits.
-    fn four(registers: Registers, numbers: [Self; GROUP]) -> Self::Four;
-    /// The numbers again.
-    fn numbers(four: Self::Four) -> [Self; GROUP];
-    /// x y of each.
-    fn product(registers: Registers, x: Self::Four, y: Self::Four) -> Self::Four;
-    /// x + y of each.
-    fn sum(registers: Registers, x: Self::Four, y: Self::Four) -> Self::Four;
-    /// x y + z of each, as [`Number::fused`].
-    fn add_products(
-        registers: Registers,
-        x: Self::Four,
-        y: Self::Four,
-        z: Self::Four,
-    ) -> Self::Four;
-}
 
 /// Four machine numbers in a register.
 #[cfg(target_arch = "x86_64")]

@@ -4,7 +4,7 @@
 //! [`side_by_side`]. Closures and `array::from_fn` are not inlined into code for other registers, loops are.
 
 use super::Scalar;
-use super::number::{Body, Registers, across};
+use super::registers::{Body, Registers, across};
 
 /// How four numbers are kept side by side.
 pub(crate) trait Quad: Copy {
@@ -117,7 +117,7 @@ impl Quad for Memory {
 
 /// Four machine numbers in a register.
 #[cfg(target_arch = "x86_64")]
-type FourDoubles = <f64 as super::products::Fours>::Four;
+type FourDoubles = <f64 as super::fours::Fours>::Four;
 
 /// The bits of the magnitudes of the first numbers of four, for 0 to 4 of them.
 #[cfg(target_arch = "x86_64")]

@@ -72,7 +72,19 @@ pub(super) fn change(derivatives: &[[f64; 3]], sizes: &[f64], [q, v]: [&[f64]; 2
     terms.sum()
 }
 
-impl Situation<'_> {
+impl<'a> Situation<'a> {
+    /// A state without accelerations and forces.
+    pub fn of_state(time: f64, state: &'a State<f64>) -> Self {
+        Self {
+            time,
+            q: &state.q,
+            v: &state.v,
+            acceleration: &[],
+            forces: &[],
+            loads: &[],
+        }
+    }
+
     /// The same for an evaluator, with zeros for what is not known.
     pub fn inputs<'b>(&'b self, zeros: &'b [f64]) -> Inputs<'b> {
         let or = |given: &'b [f64]| if given.is_empty() { zeros } else { given };
@@ -376,7 +388,7 @@ impl Equations {
 
     /// Finds ∂L/∂v and Σ λ∇g at a state: `velocity` and `variation` of [`Self::gradients`].
     pub fn momenta(&mut self, time: f64, state: &State<f64>, impulses: &[f64]) {
-        let at = super::motion::situation(time, state);
+        let at = Situation::of_state(time, state);
         self.balancing.evaluate(at.inputs(&self.zeros));
         self.seed(0.0, impulses);
         self.balancing.sweep(&self.seeds, &mut self.gradients);

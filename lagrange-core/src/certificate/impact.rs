@@ -1,9 +1,9 @@
 //! Impacts: the balance of momenta, restitution, friction, constraints, and what becomes of the energy.
 
 use super::Subject;
-use super::equations::{Equations, Level};
+use super::equations::{Equations, Level, Situation};
 use super::instant::length;
-use super::motion::{Examination, numbers, situation};
+use super::motion::{Examination, numbers};
 use crate::arithmetic::Scalar;
 use crate::effects::Item;
 use crate::system::{Impacts, Normal, Restitution};
@@ -38,9 +38,9 @@ impl<T: Scalar> Examination<'_, T> {
             equations.residual[i] -= gradient.velocity.sum + gradient.variation.sum;
             equations.size[i] += gradient.velocity.size + gradient.variation.size;
         }
-        equations.take(situation(time, &after));
+        equations.take(Situation::of_state(time, &after));
         let rates_after = equations.rates(time, &after);
-        equations.take(situation(time, &before));
+        equations.take(Situation::of_state(time, &before));
         let rates = equations.rates(time, &before);
         for (i, coordinate) in d.coordinates.iter().enumerate() {
             let (error, size) = (equations.residual[i].abs(), equations.size[i]);
@@ -77,7 +77,7 @@ impl<T: Scalar> Examination<'_, T> {
             // A start is as near to a surface as somebody has written it.
             if impulse != 0.0 && time > self.record.first_time() {
                 let gap = equations.declaration.contacts[c].gap;
-                let reach = equations.reach(gap, 0, situation(time, &before));
+                let reach = equations.reach(gap, 0, Situation::of_state(time, &before));
                 let error = equations.values.coefficient(gap, 0).abs();
                 findings.book(Subject::Closed, error, reach, time, name);
             }
@@ -174,7 +174,7 @@ impl Equations {
             rates.rate.push(self.values.coefficient(value, power));
             rates
                 .reach
-                .push(self.reach(value, power, situation(time, state)));
+                .push(self.reach(value, power, Situation::of_state(time, state)));
         }
         rates
     }

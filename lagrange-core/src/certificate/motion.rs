@@ -246,7 +246,7 @@ impl<T: Scalar> Examination<'_, T> {
                     let known = reported[k].is_some() || !look.balances;
                     let looked = self.step(k, reported[k].as_ref());
                     self.unevaluated += usize::from(!known || looked.is_err());
-                    let at = situation(t + h * end, &self.last);
+                    let at = Situation::of_state(t + h * end, &self.last);
                     self.equations.take(at);
                     let mode = &self.modes[segment.mode];
                     self.equations
@@ -669,16 +669,4 @@ fn gauss(points: usize) -> Vec<(f64, f64)> {
         (x, 2.0 / ((1.0 - x * x) * slope * slope))
     };
     (0..points).map(node).collect()
-}
-
-/// A state without accelerations and forces.
-pub(super) fn situation(time: f64, state: &State<f64>) -> Situation<'_> {
-    Situation {
-        time,
-        q: &state.q,
-        v: &state.v,
-        acceleration: &[],
-        forces: &[],
-        loads: &[],
-    }
 }

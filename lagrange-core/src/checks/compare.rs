@@ -76,49 +76,54 @@ impl fmt::Display for Comparison {
 /// For each state wanted, so many are tried.
 const TRIES: usize = 20;
 
-/// Compares at the states of `checks`.
-pub(super) fn compare<S: System<Scalar = f64>>(
-    checks: &Checks<S>,
-    both: impl Fn(&S, &Instant<f64>) -> (f64, f64),
-) -> Result<Comparison, Error> {
-    let mut worst: Option<(Worst, S, Instant<f64>)> = None;
-    let mut states = 0;
-    for number in 0..TRIES * checks.states.max(1) {
-        if states == checks.states.max(1) {
-            break;
-        }
-        let (scene, now) = match checks.draw(number) {
-            Ok(drawn) => drawn,
-            // Some states have no neighbour on the constraints.
-            Err(error) if number + 1 == TRIES * checks.states.max(1) && states == 0 => {
-                return Err(error);
+impl<S: System<Scalar = f64>> Checks<'_, S> {
+    /// Compares a derived number with a formula: (derived, by hand) from the scene with its parameters and the instant.
+    ///
+    /// # Errors
+    /// [`Error::Projection`] and the like if the mode has no states near.
+    pub fn compare(
+        &self,
+        both: impl Fn(&S, &Instant<f64>) -> (f64, f64),
+    ) -> Result<Comparison, Error> {
+        let mut worst: Option<(Worst, S, Instant<f64>)> = None;
+        let mut states = 0;
+        for number in 0..TRIES * self.states.max(1) {
+            if states == self.states.max(1) {
+                break;
             }
-            Err(_) => continue,
-        };
-        states += 1;
-        let (derived, by_hand) = both(&scene, &now);
-        let here = Worst::of(derived, by_hand);
-        if worst
-            .as_ref()
-            .is_none_or(|(worst, ..)| here.difference > worst.difference)
-        {
-            worst = Some((here, scene, now));
+            let (scene, now) = match self.draw(number) {
+                Ok(drawn) => drawn,
+                // Some states have no neighbour on the constraints.
+                Err(error) if number + 1 == TRIES * self.states.max(1) && states == 0 => {
+                    return Err(error);
+                }
+                Err(_) => continue,
+            };
+            states += 1;
+            let (derived, by_hand) = both(&scene, &now);
+            let here = Worst::of(derived, by_hand);
+            if worst
+                .as_ref()
+                .is_none_or(|(worst, ..)| here.difference > worst.difference)
+            {
+                worst = Some((here, scene, now));
+            }
         }
+        let Some((worst, scene, now)) = worst else {
+            return Err(Error::Projection {
+                time: 0.0,
+                residual: f64::INFINITY,
+                item: self.scene.description().name,
+            });
+        };
+        Ok(Comparison {
+            states,
+            tolerance: self.tolerance,
+            worst,
+            state: numbers(&scene, &now),
+            mode: now.mode.display(scene.description()).to_string(),
+        })
     }
-    let Some((worst, scene, now)) = worst else {
-        return Err(Error::Projection {
-            time: 0.0,
-            residual: f64::INFINITY,
-            item: checks.scene.description().name,
-        });
-    };
-    Ok(Comparison {
-        states,
-        tolerance: checks.tolerance,
-        worst,
-        state: numbers(&scene, &now),
-        mode: now.mode.display(scene.description()).to_string(),
-    })
 }
 
 /// (name, value) of parameters, coordinates and velocities.

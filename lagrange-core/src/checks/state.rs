@@ -1,6 +1,5 @@
 //! Random states on the constraint surface of a mode, with accelerations and forces.
 
-use super::compare::{Comparison, compare};
 use crate::dynamics::{Dynamics, EvaluationError};
 use crate::effects::Effects;
 use crate::error::Error;
@@ -120,17 +119,6 @@ impl<'a, S: System<Scalar = f64>> Checks<'a, S> {
     pub fn tolerance(mut self, tolerance: f64) -> Self {
         self.tolerance = tolerance;
         self
-    }
-
-    /// Compares a derived number with a formula: (derived, by hand) from the scene with its parameters and the instant.
-    ///
-    /// # Errors
-    /// [`Error::Projection`] and the like if the mode has no states near.
-    pub fn compare(
-        &self,
-        both: impl Fn(&S, &Instant<f64>) -> (f64, f64),
-    ) -> Result<Comparison, Error> {
-        compare(self, both)
     }
 
     /// The state of a number, if there is one.

@@ -3,7 +3,7 @@
 
 use super::constants::Constants;
 use super::emitted::Emitted;
-use super::interpreted::Interpreted;
+use super::interpreted::{Asked, Interpreted, Part, Planned};
 use super::output_mask::{self, OutputMask};
 use crate::arithmetic::Scalar;
 use crate::effects::Effects;
@@ -31,7 +31,7 @@ pub(super) struct Compiled<T: Scalar> {
     /// How the linear system is solved where no functions do it.
     pub pattern: KktPattern<T>,
     /// Whether the plan is that of the present parameters.
-    planned: bool,
+    is_planned: bool,
     /// The plan for the parameters before.
     spare: KktPattern<T>,
     pub solver: Solver<T>,
@@ -49,28 +49,6 @@ pub(super) struct Compiled<T: Scalar> {
     outputs: Loaded<T>,
     /// For projections: one, once it has been asked for.
     rows: Vec<Interpreted<T>>,
-}
-
-/// What equations are loaded for.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Asked<'a> {
-    /// Everything that is held of the motion.
-    pub held: &'a OutputMask,
-    /// Of this, what is asked for beside the motion.
-    pub extra: &'a OutputMask,
-    /// What is held of the report; none if nothing is asked of it.
-    pub report: Option<&'a OutputMask>,
-    /// How much of the equations it is.
-    pub part: Part,
-}
-
-/// Which part of the equations is loaded.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Part {
-    /// All: the equations of motion are solved.
-    Solution,
-    /// Outputs.
-    Outputs,
 }
 
 impl<T: Scalar> Compiled<T> {
@@ -92,7 +70,7 @@ impl<T: Scalar> Compiled<T> {
             acting: acting(d, effects, mode).collect(),
             constants: Vec::new(),
             pattern: KktPattern::default(),
-            planned: false,
+            is_planned: false,
             spare: KktPattern::default(),
             solver: Solver::default(),
             factored: false,
@@ -119,7 +97,7 @@ impl<T: Scalar> Compiled<T> {
         if let Some(emitted) = &mut self.emitted {
             emitted.renew(system, &constants.held(branches));
         }
-        self.planned = false;
+        self.is_planned = false;
         if self.functions().is_none() {
             self.make_plan(system.description(), effects);
         }
@@ -127,10 +105,10 @@ impl<T: Scalar> Compiled<T> {
 
     /// Makes the plan for the present parameters, unless it is there.
     pub(super) fn make_plan(&mut self, d: &Description, effects: &Effects) {
-        if self.planned {
+        if self.is_planned {
             return;
         }
-        self.planned = true;
+        self.is_planned = true;
         self.factored = false;
         core::mem::swap(&mut self.pattern, &mut self.spare);
         self.pattern
@@ -257,11 +235,12 @@ impl<T: Scalar> Compiled<T> {
         &mut self.outputs.list[self.outputs.in_use]
     }
 
-    /// The constants that equations loaded for outputs or for a solution read.
-    pub(super) fn constants(&self, d: &Description, part: Part) -> &[T] {
-        match part {
-            Part::Solution => &self.constants,
-            Part::Outputs => &self.constants[..d.constants.outputs],
+    /// What interpreted equations are loaded from.
+    fn planned(&self) -> Planned<'_, T> {
+        Planned {
+            mode: &self.mode,
+            constants: &self.constants,
+            pattern: &self.pattern,
         }
     }
 
@@ -274,7 +253,7 @@ impl<T: Scalar> Compiled<T> {
         let ready = self.rows.first().is_some_and(Interpreted::is_current);
         if !ready {
             let mut rows = core::mem::take(&mut self.rows);
-            rows.retain_mut(|rows| rows.renew(system, self, numbers));
+            rows.retain_mut(|rows| rows.renew(system, self.planned(), numbers));
             if rows.is_empty() {
                 let no_series = OutputMask::new(system.description());
                 let asked = Asked {
@@ -283,7 +262,7 @@ impl<T: Scalar> Compiled<T> {
                     report: None,
                     part: Part::Outputs,
                 };
-                rows.push(Interpreted::load(system, self, &asked, numbers));
+                rows.push(Interpreted::load(system, self.planned(), &asked, numbers));
             }
             self.rows = rows;
         }
@@ -306,9 +285,9 @@ impl<T: Scalar> Compiled<T> {
         let found = loaded
             .list
             .iter_mut()
-            .position(|one| one.is_for(asked) && one.renew(system, self, numbers));
+            .position(|one| one.is_for(asked) && one.renew(system, self.planned(), numbers));
         loaded.in_use = found.unwrap_or_else(|| {
-            let one = Interpreted::load(system, self, asked, numbers);
+            let one = Interpreted::load(system, self.planned(), asked, numbers);
             loaded.keep(one)
         });
         *self.loaded(asked.part) = loaded;

@@ -10,11 +10,11 @@
 //! ```
 
 use super::Operations;
-use super::compiled::{Asked, Compiled, Part};
 use super::output_mask::OutputMask;
 use crate::arithmetic::products::Row;
 use crate::arithmetic::{Number, Scalar};
 use crate::linear::KktPattern;
+use crate::mode::Mode;
 use crate::program::{Builder, Numbers, Op, Program, Register, Series, room};
 use crate::system::{Description, ErasedSystem, Selection, ValueRef};
 use core::ops::Range;
@@ -35,6 +35,48 @@ pub(super) enum Extent {
     Series,
     /// What the accelerations need.
     Accelerations,
+}
+
+/// What equations are loaded for.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Asked<'a> {
+    /// Everything that is held of the motion.
+    pub held: &'a OutputMask,
+    /// Of this, what is asked for beside the motion.
+    pub extra: &'a OutputMask,
+    /// What is held of the report; none if nothing is asked of it.
+    pub report: Option<&'a OutputMask>,
+    /// How much of the equations it is.
+    pub part: Part,
+}
+
+/// Which part of the equations is loaded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Part {
+    /// All: the equations of motion are solved.
+    Solution,
+    /// Outputs.
+    Outputs,
+}
+
+/// What the equations of a mode are loaded from.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Planned<'a, T> {
+    pub mode: &'a Mode,
+    /// The system's own, then the plan's.
+    pub constants: &'a [T],
+    /// How the linear system is solved.
+    pub pattern: &'a KktPattern<T>,
+}
+
+impl<'a, T> Planned<'a, T> {
+    /// The constants that equations loaded for outputs or for a solution read.
+    fn constants(self, d: &Description, part: Part) -> &'a [T] {
+        match part {
+            Part::Solution => self.constants,
+            Part::Outputs => &self.constants[..d.constants.outputs],
+        }
+    }
 }
 
 /// The program of a mode without its numbers.
@@ -222,11 +264,11 @@ impl<T: Scalar> Interpreted<T> {
     pub(super) fn renew(
         &mut self,
         system: &dyn ErasedSystem<T>,
-        compiled: &Compiled<T>,
+        planned: Planned<'_, T>,
         numbers: &mut Vec<T>,
     ) -> bool {
         if self.outdated {
-            collect(system, compiled, self.part, numbers);
+            collect(system, planned, self.part, numbers);
             let registers = &mut self.registers[self.shape.numbers.clone()];
             let mut pairs = registers.iter().zip(&*numbers);
             if registers.len() != numbers.len() || pairs.any(|(x, y)| x.is_zero() != y.is_zero()) {
@@ -241,12 +283,12 @@ impl<T: Scalar> Interpreted<T> {
     /// Loads the equations of a mode; `numbers` is memory.
     pub(super) fn load(
         system: &dyn ErasedSystem<T>,
-        compiled: &Compiled<T>,
+        planned: Planned<'_, T>,
         asked: &Asked,
         numbers: &mut Vec<T>,
     ) -> Self {
-        collect(system, compiled, asked.part, numbers);
-        let shape = shape(system.description(), compiled, asked, numbers);
+        collect(system, planned, asked.part, numbers);
+        let shape = shape(system.description(), planned, asked, numbers);
         let mut registers = vec![T::zero(); shape.registers];
         registers[shape.numbers.clone()].copy_from_slice(numbers);
         Self {
@@ -302,25 +344,30 @@ impl<T: Scalar> Interpreted<T> {
 /// The numbers of a mode: constants, parameters, exact numbers of both programs, those of the plan for a solution.
 fn collect<T: Scalar>(
     system: &dyn ErasedSystem<T>,
-    compiled: &Compiled<T>,
+    planned: Planned<'_, T>,
     part: Part,
     numbers: &mut Vec<T>,
 ) {
     let d = system.description();
     numbers.clear();
-    numbers.extend_from_slice(compiled.constants(d, part));
+    numbers.extend_from_slice(planned.constants(d, part));
     numbers.extend((0..d.parameters.len()).map(|index| system.parameter(index)));
     let exact = d.motion.numbers.iter().chain(d.report.numbers);
     numbers.extend(exact.map(|&number| T::from_f64(number)));
     if part == Part::Solution {
-        compiled.pattern.collect(numbers);
+        planned.pattern.collect(numbers);
     }
 }
 
 /// Loads the programs and writes the solution between them if it is asked for, for these numbers.
-fn shape<T: Scalar>(d: &Description, compiled: &Compiled<T>, asked: &Asked, values: &[T]) -> Shape {
-    let Compiled { mode, pattern, .. } = compiled;
-    let constants = compiled.constants(d, asked.part);
+fn shape<T: Scalar>(
+    d: &Description,
+    planned: Planned<'_, T>,
+    asked: &Asked,
+    values: &[T],
+) -> Shape {
+    let Planned { mode, pattern, .. } = planned;
+    let constants = planned.constants(d, asked.part);
     let n = d.coordinates.len();
     let inputs: Vec<Register> = (1..2 + 3 * n + d.rows.len()).map(Register::new).collect();
     let first = 1 + inputs.len();

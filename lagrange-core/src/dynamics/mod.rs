@@ -35,9 +35,10 @@ use crate::linear::{SolveError, Solver};
 use crate::mode::Mode;
 use crate::system::Erased;
 use crate::system::{Description, ValueRef};
-use compiled::{Asked, Compiled, Part};
+use compiled::Compiled;
 use constants::Constants;
 use emitted::Emitted;
+use interpreted::{Asked, Part};
 
 /// What evaluates the equations of motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! Accelerations and forces at one state.
 
-use super::compiled::{Compiled, Part};
-use super::interpreted::{Extent, FORCES, Interpreted, MOTION, REPORT, SYSTEM};
+use super::compiled::Compiled;
+use super::interpreted::{Extent, FORCES, Interpreted, MOTION, Part, REPORT, SYSTEM};
 use super::{Dynamics, EvaluationError};
 use crate::arithmetic::{Scalar, epsilon};
 use crate::linear::{Columns, Inertia, SolveError};

@@ -1,6 +1,5 @@
 //! The system of a mode before anything is eliminated: which rows act, their columns, the loads.
 
-use super::pattern::{Slide, SlipDirection};
 use super::program::Program;
 use crate::arithmetic::Scalar;
 use crate::effects::{Effects, Item};
@@ -26,6 +25,22 @@ pub(crate) struct ColumnElement {
     pub coordinate: usize,
     pub place: ValueRef,
     pub source: Source,
+}
+
+/// A sliding friction's row: λ[row] = factor · λ[source], or factor where there is no source.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Slide {
+    pub row: usize,
+    pub factor: ValueRef,
+    pub source: Option<usize>,
+}
+
+/// A friction whose slip begins: the direction is given from outside.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct SlipDirection {
+    pub friction: usize,
+    /// Where the components of the direction are.
+    pub nodes: [usize; 2],
 }
 
 /// The pieces of the system of one mode.

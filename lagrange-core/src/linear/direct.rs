@@ -5,7 +5,7 @@
 //! sliding friction it is not symmetric. Where M is not symmetric the whole is factored in that way.
 //! Reference: Golub & Van Loan 2013, Matrix Computations, sections 4.1.2 and 3.4.
 
-use super::lu::negligible;
+use super::lu::{dot, negligible};
 use crate::arithmetic::{Scalar, is_spread, positive_definite};
 
 /// Factors of a system; the memory is reused.
@@ -231,9 +231,4 @@ impl<T: Scalar> Direct<T> {
             }
         }
     }
-}
-
-#[inline]
-pub(super) fn dot<T: Scalar>(x: &[T], y: &[T]) -> T {
-    x.iter().zip(y).fold(T::zero(), |sum, (&x, &y)| sum + x * y)
 }

@@ -11,8 +11,8 @@
 //! to leave their forces open.
 //! Reference: Golub & Van Loan 2013, Matrix Computations, sections 5.2.9 and 5.6.
 
-use super::direct::dot;
 use super::lu::Lu;
+use super::lu::dot;
 use crate::arithmetic::Scalar;
 
 /// Forces that have no effect, as the row-major projector P onto them: λ is as good as λ + P y.

@@ -3,7 +3,6 @@
 //! Reference: Golub & Van Loan 2013, Matrix Computations, section 3.4.9. The caller equilibrates; pivots are then
 //! comparable with 1 and a pivot below [`NEGLIGIBLE`] means dependence.
 
-use super::direct::dot;
 use crate::arithmetic::{Scalar, epsilon};
 
 /// Pivots of an equilibrated matrix below this (1e-12 in double precision) are dependence and not magnitude: rounding leaves
@@ -11,6 +10,12 @@ use crate::arithmetic::{Scalar, epsilon};
 #[inline(always)]
 pub(crate) fn negligible<T: Scalar>() -> f64 {
     4096.0 * epsilon::<T>()
+}
+
+/// Σ xᵢ yᵢ
+#[inline]
+pub(super) fn dot<T: Scalar>(x: &[T], y: &[T]) -> T {
+    x.iter().zip(y).fold(T::zero(), |sum, (&x, &y)| sum + x * y)
 }
 
 /// Factors of a square matrix; the memory is reused.

@@ -3,7 +3,7 @@
 //! Structural zeros never appear, what depends on parameters only is summed once, constant rows are eliminated. What is
 //! left are K w = b for w = (u̇, −λ of the rows kept) and, for the rows eliminated, λ = (further rows of K) w − (of b).
 
-use super::collect::{KktTerms, Source};
+use super::collect::{KktTerms, Slide, SlipDirection, Source};
 use super::eliminate::Elimination;
 use super::program::Program;
 use crate::arithmetic::Scalar;
@@ -25,22 +25,6 @@ pub(crate) struct Load<T> {
     pub row: usize,
     pub factor: T,
     pub node: usize,
-}
-
-/// A sliding friction's row: λ[row] = factor · λ[source], or factor where there is no source.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Slide {
-    pub row: usize,
-    pub factor: ValueRef,
-    pub source: Option<usize>,
-}
-
-/// A friction whose slip begins: the direction is given from outside.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct SlipDirection {
-    pub friction: usize,
-    /// Where the components of the direction are.
-    pub nodes: [usize; 2],
 }
 
 /// One contribution to an element before like ones are summed.

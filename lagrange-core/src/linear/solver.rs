@@ -4,8 +4,8 @@
 //! Scaling is symmetric, K → D K D, by powers of two (exact): 1/√Mⱼⱼ for coordinates, so that inertia is about 1, then
 //! each row of A to about 1. Pivots are then comparable with 1 whatever the units.
 
-use super::direct::{Direct, dot};
-use super::lu::{Lu, negligible};
+use super::direct::Direct;
+use super::lu::{Lu, dot, negligible};
 use crate::arithmetic::{LIGHT, Scalar, epsilon};
 
 /// A dependent row may miss its acceleration bias by this fraction of the largest term (1e-7 in double precision); rounding

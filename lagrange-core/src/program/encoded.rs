@@ -11,8 +11,7 @@
 //! they are computed, the inputs first. A coefficient is a number by place · 4 + kind: a constant (0), a parameter (1), an exact
 //! number of the table (2).
 
-use super::{Builder, Numbers, Op, Register, Selection, room};
-use crate::arithmetic::Scalar;
+use super::{Op, Selection};
 
 /// A program as data.
 #[derive(Clone, Copy, Debug)]
@@ -71,36 +70,6 @@ impl Encoded {
         values: 0,
         outputs: 0,
     };
-
-    /// Its outputs for what is held, from constants, parameters and inputs; none where nothing that is held asks for it.
-    pub fn evaluate<T: Scalar>(
-        &self,
-        held: &Selection,
-        constants: &[T],
-        parameters: &[T],
-        inputs: &[T],
-    ) -> Vec<Option<T>> {
-        let first = 1 + inputs.len();
-        let numbers = Numbers {
-            constants: first,
-            parameters: first + constants.len(),
-            exact: first + constants.len() + parameters.len(),
-        };
-        let exact = self.numbers.iter().map(|&number| T::from_f64(number));
-        let mut registers = vec![T::zero()];
-        registers.extend(inputs.iter().chain(constants).chain(parameters));
-        registers.extend(exact);
-        let places: Vec<Register> = (1..first).map(Register::new).collect();
-        let mut builder = Builder::new(registers.len());
-        let outputs = builder.load(self, held, numbers, &places);
-        let (program, used) = builder.finish();
-        registers.resize(room(used), T::zero());
-        program.evaluate(0, &mut registers);
-        let outputs = outputs.into_iter();
-        outputs
-            .map(|output| output.map(|register| registers[register.index()]))
-            .collect()
-    }
 
     /// Products and functions of what varies along a motion, in all blocks: each is a sum over earlier coefficients for every new
     /// one of a Taylor series.

@@ -7,6 +7,7 @@
 
 mod builder;
 mod encoded;
+mod evaluate;
 mod instruction;
 mod selection;
 mod series;

@@ -4,24 +4,7 @@ use super::{Event, Instant};
 use crate::arithmetic::Scalar;
 use crate::handle::{ContactId, CoordinateId, ForceId, FrictionId, ObserveId, Reaction};
 use crate::system::Description;
-use core::fmt;
 use nalgebra::DVectorView;
-
-/// The system that numbers belong to: what the indices of items mean.
-#[derive(Clone, Copy)]
-pub(crate) struct Owner(pub &'static Description);
-
-impl fmt::Debug for Owner {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.0.name)
-    }
-}
-
-impl PartialEq for Owner {
-    fn eq(&self, other: &Owner) -> bool {
-        self.0.name == other.0.name
-    }
-}
 
 impl<T: Scalar> Instant<T> {
     /// Position of a coordinate.

@@ -1,6 +1,6 @@
 //! What happened: the event log, one entry per item that changed.
 
-use super::by_handle::Owner;
+use super::owner::Owner;
 use crate::handle::Subject;
 use crate::mode::Mode;
 use crate::modes::impact::OtherImpact;

@@ -6,6 +6,7 @@ mod display;
 mod estimate;
 mod event;
 mod ledger;
+mod owner;
 mod sampler;
 
 pub use crate::handle::Subject;

@@ -1,6 +1,6 @@
 //! The trajectory at any time: state, accelerations, forces, energies, outputs.
 
-use super::by_handle::Owner;
+use super::owner::Owner;
 use super::{Event, Segment, State, Trajectory};
 use crate::arithmetic::Scalar;
 use crate::dynamics::{
