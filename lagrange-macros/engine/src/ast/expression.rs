@@ -13,6 +13,20 @@ pub struct Expr {
 }
 
 impl Expr {
+    /// Whether it is made of numbers only.
+    pub fn is_number(&self) -> bool {
+        match &self.kind {
+            ExprKind::Number(_) => true,
+            ExprKind::Name(name) => name.text == "pi",
+            ExprKind::Negative(inner) => inner.is_number(),
+            ExprKind::Sum(terms) => terms.iter().all(|(_, term)| term.is_number()),
+            ExprKind::Product(factors) => factors.iter().all(|(_, factor)| factor.is_number()),
+            ExprKind::Power(base, exponent) => base.is_number() && exponent.is_number(),
+            ExprKind::Call(_, arguments) => arguments.iter().all(Expr::is_number),
+            _ => false,
+        }
+    }
+
     /// The use of a name that this is, if it is nothing more: `x`, or `x[2]`.
     pub fn as_reference(&self) -> Option<Reference> {
         let (name, element) = match &self.kind {

@@ -3,7 +3,7 @@
 //! Velocities and accelerations solve linear equations: by Cramer's rule they are quotients of determinants, whose
 //! degree is at most the sum of the degrees of their rows, brought to common denominators.
 
-use super::exact::Case;
+use super::case::Case;
 use crate::model::Normal;
 use crate::symbolic::field::{Angles, Degree};
 use crate::symbolic::{ExprId, Pool, Symbol};

@@ -5,10 +5,10 @@
 //! ≤ (d/2^61)^k; k is as large as it takes to bring that below 2^-120.
 
 use super::arithmetic::{Arithmetic, Exact};
+use super::case::Case;
 use super::degree::degree;
-use super::mechanics::Mechanics;
-use super::motion::{Stuck, Tie, accelerations, rank, velocities};
-use crate::modes::Mode;
+use super::motion::{accelerations, rank, velocities};
+use super::stuck::Stuck;
 use crate::sorted::SortedSet;
 use crate::symbolic::field::{Angles, PRIMES, Point, Trouble};
 use crate::symbolic::{ExprId, Node, Pool, Symbol};
@@ -24,19 +24,6 @@ pub(super) enum Finding {
     Open(String),
     /// The mode has no states.
     Impossible,
-}
-
-/// Everything in the free symbols of a sheet.
-pub(super) struct Case<'a> {
-    pub mechanics: &'a Mechanics<'a>,
-    pub mode: &'a Mode,
-    pub ties: &'a [Tie],
-    /// Independent rows on position level.
-    pub positions: &'a [usize],
-    /// left − right
-    pub claim: ExprId,
-    /// Branches that the mode and the conditions decide.
-    pub decided: &'a [(usize, bool)],
 }
 
 /// A wrong claim passes with at most this probability, as a power of 2.

@@ -2,7 +2,7 @@
 
 use super::arithmetic::Arithmetic;
 use super::mechanics::{Friction, Mechanics};
-use super::motion::Stuck;
+use super::stuck::Stuck;
 use crate::model::Normal;
 use crate::modes::{FrictionState, Mode, Sign};
 use crate::symbolic::{ExprId, Pool};

@@ -13,6 +13,7 @@
 
 mod arithmetic;
 mod bounded;
+mod case;
 mod decided;
 mod degree;
 mod exact;
@@ -23,6 +24,7 @@ mod motion;
 mod refute;
 mod ruling;
 mod sample;
+mod stuck;
 mod surface;
 #[cfg(test)]
 mod tests;

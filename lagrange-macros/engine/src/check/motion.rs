@@ -9,24 +9,10 @@ use super::arithmetic::Arithmetic;
 use super::forces::{Affine, forces};
 use super::linear::solve;
 use super::mechanics::Mechanics;
+use super::stuck::Stuck;
 use crate::modes::Mode;
 use crate::symbolic::field::Trouble;
 use crate::symbolic::{ExprId, Pool, Symbol};
-
-/// Why there is no motion.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Stuck {
-    /// A number has no value here.
-    Trouble(Trouble),
-    /// The equations of the mode contradict each other.
-    Impossible,
-}
-
-impl From<Trouble> for Stuck {
-    fn from(trouble: Trouble) -> Stuck {
-        Stuck::Trouble(trouble)
-    }
-}
 
 /// A further condition on velocities: Σ cᵢ vᵢ + rest = 0, as (i, cᵢ) and the whole.
 pub(super) struct Tie {

@@ -1,7 +1,8 @@
 //! What one mode says about a claim: exactly, on its solved surface; else at real states.
 
 use super::Prover;
-use super::exact::{Case, Finding, exact};
+use super::case::Case;
+use super::exact::{Finding, exact};
 use super::mechanics::Mechanics;
 use super::motion;
 use super::refute;

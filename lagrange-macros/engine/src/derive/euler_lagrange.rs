@@ -12,14 +12,11 @@
 use super::NeedId;
 use super::forms::{Variables, cheapest};
 use super::needs::{ALWAYS, Needs};
-use super::quadratic::Quadratic;
+use super::quadratic::{LARGE, Quadratic};
 use super::squares::Squares;
 use crate::model::System;
 use crate::sorted::SortedMap;
 use crate::symbolic::{ExprId, Node, Pool, Rational};
-
-/// With more coordinates than this, entries of f and p are not multiplied out: the terms grow like n³.
-pub(super) const LARGE: usize = 8;
 
 /// All energy under one need.
 pub(super) struct Group {

@@ -8,10 +8,12 @@
 //! 1970, section I.5; Goldstein, Poole & Safko 2002, section 8.1). What cancels between ∂T/∂q and d/dt ∂T/∂v
 //! never appears in this form.
 
-use super::euler_lagrange::LARGE;
 use super::forms::{Variables, cheapest};
 use crate::sorted::SortedMap;
 use crate::symbolic::{ExprId, Pool, Rational};
+
+/// With more coordinates than this, entries of f and p are not multiplied out: the terms grow like n³.
+pub(super) const LARGE: usize = 8;
 
 /// Most derivatives of M that the form by Christoffel symbols is tried with.
 const BUDGET: usize = 20_000;

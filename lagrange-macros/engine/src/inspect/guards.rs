@@ -1,6 +1,7 @@
 //! What must hold in a mode, and what happens where it ceases to.
 
 use super::Guard;
+use super::excerpt::excerpt;
 use super::formula::{Formula, Relation, Statement};
 use super::friction::norm;
 use super::motion::Known;
@@ -11,7 +12,7 @@ impl Work<'_> {
     /// Guards of contacts, then of frictions.
     pub(super) fn guards(&mut self, mode: &Mode, known: &Known) -> Vec<Guard> {
         let mut guards = Vec::new();
-        for contact in Work::shown(mode.contacts.len()) {
+        for contact in excerpt(mode.contacts.len()) {
             guards.push(self.contact_guard(contact, mode.contacts[contact], known));
         }
         for (friction, state) in mode.frictions.iter().enumerate() {

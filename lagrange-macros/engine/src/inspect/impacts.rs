@@ -1,6 +1,7 @@
 //! What happens at an impact: the balance of momenta, and the laws of impact.
 
 use super::Impact;
+use super::excerpt::excerpt;
 use super::formula::{Formula, Relation, Statement};
 use super::letter::{Letter, Mark};
 use super::work::Work;
@@ -10,7 +11,7 @@ use crate::symbolic::ExprId;
 impl Work<'_> {
     /// What happens at an impact of each contact alone.
     pub fn impacts(&mut self) -> Vec<Impact> {
-        let shown = Work::shown(self.system().contacts.len());
+        let shown = excerpt(self.system().contacts.len());
         shown
             .into_iter()
             .map(|contact| self.impact(contact))
@@ -42,7 +43,7 @@ impl Work<'_> {
             }
         }
         let mut equations = Vec::new();
-        for i in Work::shown(system.coordinates.len()) {
+        for i in excerpt(system.coordinates.len()) {
             let left = self.inertia(i, &[]).with_jumps();
             equations.push(Statement::equal(left, self.impulses(i, &rows)));
         }

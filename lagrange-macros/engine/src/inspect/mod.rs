@@ -8,6 +8,7 @@ mod conserved;
 mod costs;
 mod declared;
 mod document;
+mod excerpt;
 mod formula;
 mod friction;
 mod guards;

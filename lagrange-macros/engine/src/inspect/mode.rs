@@ -1,6 +1,7 @@
 //! A mode in full: its unknowns, equations, solution and guards.
 
 use super::Mode;
+use super::excerpt::excerpt;
 use super::formula::{Formula, Statement};
 use super::work::Work;
 use crate::modes::{self, Pin};
@@ -96,11 +97,11 @@ impl Work<'_> {
     /// What determines the unknowns.
     fn equations(&mut self, parts: &Parts) -> Vec<Statement> {
         let mut equations = Vec::new();
-        for i in Work::shown(self.system().coordinates.len()) {
+        for i in excerpt(self.system().coordinates.len()) {
             equations.push(self.balance(i, parts));
         }
         let rows = parts.rows();
-        for at in Work::shown(rows.len()) {
+        for at in excerpt(rows.len()) {
             equations.push(self.acceleration(rows[at], &parts.known));
         }
         for (i, state) in parts.mode.frictions.iter().enumerate() {

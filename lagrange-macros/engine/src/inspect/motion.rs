@@ -1,13 +1,10 @@
 //! The equations of motion with all multipliers, and rows on the level of accelerations.
 
+use super::excerpt::excerpt;
 use super::formula::{Formula, Relation, Statement};
 use super::work::Work;
 use super::{Equation, Row};
 use crate::symbolic::{ExprId, Symbol};
-
-/// Of more items of one kind only the first few and the last one are shown.
-const MOST_SHOWN: usize = 12;
-const FIRST_SHOWN: usize = 4;
 
 /// Sides of equations with more to read are shortened.
 const MOST_READ: usize = 240;
@@ -16,19 +13,11 @@ const MOST_READ: usize = 240;
 pub(super) type Known = [(Symbol, ExprId)];
 
 impl Work<'_> {
-    /// Which of so many items are shown.
-    pub fn shown(count: usize) -> Vec<usize> {
-        match count {
-            0..=MOST_SHOWN => (0..count).collect(),
-            _ => (0..FIRST_SHOWN).chain([count - 1]).collect(),
-        }
-    }
-
     /// M v̇ = f + Σ aᵀλ, one per coordinate.
     pub fn motion(&mut self) -> Vec<Equation> {
         let rows: Vec<usize> = (0..self.equations.structure.rows.len()).collect();
         let count = self.system().coordinates.len();
-        Work::shown(count)
+        excerpt(count)
             .into_iter()
             .map(|i| {
                 let left = self.inertia(i, &[]);
@@ -183,7 +172,7 @@ impl Work<'_> {
                 rows.push((row, name, "friction", slip, Relation::Equal, when));
             }
         }
-        let shown = Work::shown(rows.len());
+        let shown = excerpt(rows.len());
         shown
             .into_iter()
             .map(|at| {

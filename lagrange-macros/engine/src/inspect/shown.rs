@@ -1,6 +1,6 @@
 //! Which modes are shown: all, or a choice where there are many, or the one that is asked for.
 
-use super::work::Work;
+use super::excerpt::excerpt;
 use crate::model::System;
 use crate::modes::{self, Mode, Modes};
 use std::fmt;
@@ -66,7 +66,7 @@ fn chosen(system: &System) -> Vec<Mode> {
     }
     let contacts = system.contacts.len();
     let mut chosen = at_most_one_slips(&all, vec![false; contacts]);
-    for one in Work::shown(contacts) {
+    for one in excerpt(contacts) {
         let closed = (0..contacts).map(|i| i == one).collect();
         chosen.extend(at_most_one_slips(&all, closed));
     }
@@ -82,7 +82,7 @@ fn at_most_one_slips(all: &Modes, contacts: Vec<bool>) -> Vec<Mode> {
     let Some(stick) = modes.first().cloned() else {
         return modes;
     };
-    for friction in Work::shown(stick.frictions.len()) {
+    for friction in excerpt(stick.frictions.len()) {
         let slips = all.states(friction, &contacts).iter().skip(1);
         modes.extend(slips.map(|&state| {
             let mut mode = stick.clone();

@@ -5,19 +5,10 @@ use super::solve::Elimination;
 use super::writer::Writer;
 use crate::plan::mode::products::{Plan, force_row, zero_row};
 use crate::plan::mode::{ModeProgram, Phase};
-use crate::plan::{Block, Mode, OutputMask, Program, Value, ValueRef};
-use crate::sorted::{SortedMap, SortedSet};
+use crate::plan::{Block, OutputMask, Program, Value, ValueRef};
+use crate::sorted::SortedMap;
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
-
-/// Outputs that several writes enter.
-pub fn sums(mode: &ModeProgram) -> SortedSet<usize> {
-    let writes = mode.tape.blocks.iter().flat_map(|block| &block.writes);
-    writes
-        .filter(|write| write.mode != Mode::Set)
-        .map(|write| write.output)
-        .collect()
-}
 
 /// `fn value_…`
 pub fn function(

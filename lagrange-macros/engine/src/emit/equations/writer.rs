@@ -79,7 +79,7 @@ impl<'a> Writer<'a> {
             locals: locals(system, mode),
             number: number(system),
             declared,
-            sums: super::value::sums(mode),
+            sums: sums(mode),
         }
     }
 
@@ -267,4 +267,13 @@ impl<'a> Writer<'a> {
             Operation::Choose(..) => unreachable!("only starts choose by value"),
         }
     }
+}
+
+/// Outputs that several writes enter.
+fn sums(mode: &ModeProgram) -> SortedSet<usize> {
+    let writes = mode.tape.blocks.iter().flat_map(|block| &block.writes);
+    writes
+        .filter(|write| write.mode != Mode::Set)
+        .map(|write| write.output)
+        .collect()
 }

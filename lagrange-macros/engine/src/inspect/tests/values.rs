@@ -1,5 +1,6 @@
 //! Formulas say what expressions are worth, in every scene.
 
+use super::super::excerpt::excerpt;
 use super::{planned, scenes};
 use crate::inspect::costs::Counts;
 use crate::inspect::formula::{Formula, Statement};
@@ -176,7 +177,7 @@ fn equations_of_motion_balance() {
         };
         let structure = &scene.program.equations.structure;
         // Of many equations a few are shown.
-        let shown = Work::shown(scene.program.equations.system.coordinates.len());
+        let shown = excerpt(scene.program.equations.system.coordinates.len());
         for (i, equation) in shown.into_iter().zip(&motion) {
             let mut balance = -value(structure.forcing[i]);
             for &(row, column, entry) in &structure.mass {

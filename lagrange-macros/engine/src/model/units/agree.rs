@@ -4,7 +4,6 @@ use super::check::Checker;
 use super::dimension::Dimension;
 use super::infer::ANY;
 use super::quantity::Quantity;
-use super::remedy::is_number;
 use super::shape::{Role, Shape};
 use crate::ast::{Comparison, Expr};
 use crate::diagnostics::Code;
@@ -101,7 +100,7 @@ impl Checker<'_, '_> {
             return expected.into();
         }
         let mut votes: SortedMap<Dimension, usize> = SortedMap::new();
-        let bare = |term: &&Expr| is_number(term);
+        let bare = |term: &&Expr| term.is_number();
         let all_bare = terms.iter().all(bare);
         for (_, dimension) in terms
             .iter()
@@ -141,7 +140,7 @@ impl Checker<'_, '_> {
             return Some(a);
         };
         // A bare number is what is wrong, on whichever side it stands.
-        let (blamed, found, other) = match is_number(left) {
+        let (blamed, found, other) = match left.is_number() {
             true => (left, first, second),
             false => (right, second, first),
         };
@@ -158,7 +157,7 @@ impl Checker<'_, '_> {
     /// The unit of both sides where runs are described (starts, stops, marks): there a side that is nothing but a
     /// number is in the unit of the other.
     pub fn loosely(&mut self, comparison: &Comparison) -> Option<Quantity> {
-        match [&comparison.left, &comparison.right].map(is_number) {
+        match [&comparison.left, &comparison.right].map(Expr::is_number) {
             [true, false] => self.one(&comparison.right, None),
             [false, true] => self.one(&comparison.left, None),
             _ => self.comparison(comparison),

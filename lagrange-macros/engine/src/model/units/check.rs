@@ -9,7 +9,6 @@
 //! ```
 
 use super::quantity::{Quantity, Unknowns};
-use super::remedy::is_number;
 use super::shape::{Role, Shape};
 use crate::ast::{
     self, Action, Clause, Declaration, Expr, Head, ItemKind, Observe, Order, Reference, Trigger,
@@ -305,9 +304,9 @@ impl Checker<'_, '_> {
         let expect = |this: &mut Self| match &value.value.kind {
             ast::ExprKind::List(values) => values
                 .iter()
-                .filter(|value| !is_number(value))
+                .filter(|value| !value.is_number())
                 .try_for_each(|value| this.expect(value, &unit, what.as_str())),
-            _ if is_number(&value.value) => Some(()),
+            _ if value.value.is_number() => Some(()),
             _ => {
                 let found = this.shape(&value.value, Some(&unit))?.quantities();
                 found

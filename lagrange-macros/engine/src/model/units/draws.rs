@@ -3,7 +3,6 @@
 use super::check::Checker;
 use super::dimension::Dimension;
 use super::quantity::Quantity;
-use super::remedy::is_number;
 use super::shape::Role;
 use crate::ast::{self, Detail, Expr, Form};
 use crate::symbolic::Rational;
@@ -46,7 +45,7 @@ impl Checker<'_, '_> {
                 .iter()
                 .try_for_each(|element| self.all(element, wanted, role));
         }
-        if is_number(value) {
+        if value.is_number() {
             return Some(());
         }
         let found = self.shape(value, Some(wanted))?.quantities();

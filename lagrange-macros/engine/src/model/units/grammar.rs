@@ -11,6 +11,7 @@
 //! `h`) are known in order to say so.
 
 use super::dimension::{Dimension, superscript};
+use super::refusal::{Refusal, form};
 use super::table::{Scaled, known};
 use crate::symbolic::Rational;
 
@@ -20,17 +21,6 @@ pub(in crate::model) struct Unit {
     pub dimension: Dimension,
     /// As written, with small digits for powers; empty for `1`.
     pub text: String,
-}
-
-/// Why a text is not a unit that can be used.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub(in crate::model) enum Refusal {
-    /// This symbol is not known; what may be meant.
-    Unknown(String, String),
-    /// It is a multiple of this coherent unit.
-    Multiple(String),
-    /// What is wrong with its form, and what to do.
-    Form(String, String),
 }
 
 /// Reads a unit.
@@ -63,10 +53,6 @@ pub(in crate::model) fn unit(text: &str) -> Result<Unit, Refusal> {
         dimension: found.dimension,
         text,
     })
-}
-
-pub(super) fn form(what: &str, hint: &str) -> Refusal {
-    Refusal::Form(what.to_string(), hint.to_string())
 }
 
 /// A walk over the symbols of a text, which writes it down again tidily.

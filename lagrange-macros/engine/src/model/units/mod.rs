@@ -19,6 +19,7 @@ mod grammar;
 mod infer;
 mod names;
 mod quantity;
+mod refusal;
 mod remedy;
 mod shape;
 mod table;
@@ -34,8 +35,9 @@ use crate::symbolic::Function::{Acos, Asin, Atan, Atan2};
 use crate::symbolic::{ExprId, Node};
 use check::{Checker, Forces};
 use dimension::Dimension;
-use grammar::{Refusal, Unit};
+use grammar::Unit;
 use quantity::{Quantity, Unknowns};
+use refusal::Refusal;
 use shape::Shape;
 
 /// A name with its number of elements and its unit.

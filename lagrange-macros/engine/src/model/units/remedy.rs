@@ -47,7 +47,7 @@ impl Checker<'_, '_> {
     /// The factor that is missing.
     fn missing(&mut self, wanted: &Quantity, found: &Quantity, expr: &Expr) -> String {
         let factor = self.unknowns.times(wanted, found, Rational::MINUS_ONE);
-        if is_number(expr) {
+        if expr.is_number() {
             let unit = self.unknowns.text(&factor);
             let field = self.elaboration.home.with_unit(&unit);
             return format!("a number has no unit: make it {field}");
@@ -83,20 +83,6 @@ impl Checker<'_, '_> {
         arguments: &[&dyn std::fmt::Display],
     ) {
         self.sink.report(code, at, arguments);
-    }
-}
-
-/// Whether an expression is made of numbers only.
-pub(super) fn is_number(expr: &Expr) -> bool {
-    match &expr.kind {
-        ExprKind::Number(_) => true,
-        ExprKind::Name(name) => name.text == "pi",
-        ExprKind::Negative(inner) => is_number(inner),
-        ExprKind::Sum(terms) => terms.iter().all(|(_, term)| is_number(term)),
-        ExprKind::Product(factors) => factors.iter().all(|(_, factor)| is_number(factor)),
-        ExprKind::Power(base, exponent) => is_number(base) && is_number(exponent),
-        ExprKind::Call(_, arguments) => arguments.iter().all(is_number),
-        _ => false,
     }
 }
 

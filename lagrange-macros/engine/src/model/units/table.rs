@@ -1,7 +1,7 @@
 //! Symbols of units: `kN` → its dimension, and how far it is from the coherent unit.
 
 use super::dimension::Dimension;
-use super::grammar::{Refusal, form};
+use super::refusal::{Refusal, form};
 use crate::diagnostics::nearest;
 use crate::symbolic::Rational;
 

@@ -1,7 +1,8 @@
 //! Texts of units, and what is wrong with them.
 
 use super::dimension::Dimension;
-use super::grammar::{Refusal, unit};
+use super::grammar::unit;
+use super::refusal::Refusal;
 
 #[test]
 fn ways_of_writing_one_unit() {

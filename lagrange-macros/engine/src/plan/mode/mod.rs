@@ -17,6 +17,7 @@ pub mod powers;
 pub mod products;
 mod reduce;
 mod stages;
+mod whole;
 
 use super::constants::Constants;
 use super::form::Fixed;
@@ -226,7 +227,7 @@ fn specialise(
     }
     let mut whole = match form {
         Form::Elements => None,
-        Form::Balance => Some(balance::whole_balance(
+        Form::Balance => Some(whole::whole_balance(
             equations, &balances, &reduced, unknowns,
         )?),
     };

@@ -2,7 +2,7 @@
 //! do not flicker; only the soft edges of shapes take the nearest.
 
 use super::Pace;
-use super::moving::Patch;
+use super::patch::Patch;
 use super::raster::Raster;
 use gif::{Encoder, Frame, Repeat};
 use std::borrow::Cow;

@@ -11,6 +11,8 @@ mod letters;
 #[cfg(feature = "export")]
 mod moving;
 #[cfg(feature = "export")]
+mod patch;
+#[cfg(feature = "export")]
 mod raster;
 
 #[cfg(feature = "export")]

@@ -1,13 +1,20 @@
 //! Which curves a picture has: what was asked for or, if nothing was, one panel of forces and one per unit of the coordinates.
 
 use super::COLOURS;
-use super::panel::{LATER, LIMIT, SOLID};
 use crate::outcome::{Outcome, Sample};
 use crate::quantity::{Quantity, Show};
 use crate::report::telling;
 use crate::report::words::brief;
 use lagrange_core::prelude::EventKind;
 use lagrange_core::system::Description;
+
+/// Dashes and gaps, in pixels; curves without are drawn through.
+pub(super) const DASHES: [Option<(i32, i32)>; 4] =
+    [None, Some((5, 4)), Some((2, 3)), Some((11, 4))];
+/// Which of them a curve has, the limit of a friction, and curves after the colours have been used up.
+const SOLID: usize = 0;
+const LIMIT: usize = 1;
+const LATER: [usize; 2] = [2, 3];
 
 /// Curves that share both axes.
 pub(super) struct Panel {

@@ -1,6 +1,6 @@
 //! One panel of curves over shaded bands, and the key of the modes.
 
-use super::curves::{Bands, Curve, Panel, pieces, with_comma};
+use super::curves::{Bands, Curve, DASHES, Panel, pieces, with_comma};
 use super::{
     Area, COLOURS, Drawn, FINE, KEY_LINE, LETTER, MARGIN, MOST_NAMES, NAME_LINE, NAMES, TINTS,
     WIDTH, px, words,
@@ -29,13 +29,6 @@ struct Line<'p> {
     run: usize,
     pieces: Vec<Vec<(f64, f64)>>,
 }
-
-/// Dashes and gaps, in pixels; curves without are drawn through.
-const DASHES: [Option<(i32, i32)>; 4] = [None, Some((5, 4)), Some((2, 3)), Some((11, 4))];
-/// Which of them a curve has, the limit of a friction, and curves after the colours have been used up.
-pub(super) const SOLID: usize = 0;
-pub(super) const LIMIT: usize = 1;
-pub(super) const LATER: [usize; 2] = [2, 3];
 
 /// Of several runs each has its colour and quantities have dashes, of one run quantities have colours.
 fn look(curve: &Curve, order: usize, several: bool) -> (usize, usize) {

@@ -1,7 +1,6 @@
 //! Numbers as colours. Those of one sign from dark to light: Viridis (Smith and van der Walt 2015); those of both signs from blue
 //! through white to red: RdBu (Harrower and Brewer 2003), as far on either side of zero. Colour-blind readers can tell both apart.
 
-use super::marks::{LEVELS, Look};
 use super::scale::Scale;
 use plotters::prelude::ViridisRGB;
 use plotters::style::RGBColor;
@@ -9,6 +8,37 @@ use plotters::style::colors::colormaps::ColorMap;
 
 /// A part of the range on the other side of zero that is no rounding.
 const BOTH: f64 = 0.01;
+
+/// Steps of the colours, an even number of them, so that zero has one of a scale around it.
+const LEVELS: f64 = 64.0;
+
+/// How a cell or a dot looks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Look {
+    /// A value: one of the colours from low to high.
+    Level(u8),
+    /// The same, from below zero to above it.
+    Signed(u8),
+    /// A curve.
+    Plain(u8, u8, u8),
+    /// No run has it.
+    None,
+    /// A run failed.
+    Failed,
+}
+
+impl Look {
+    pub(super) fn colour(self) -> String {
+        let hex = |RGBColor(r, g, b): RGBColor| format!("#{r:02x}{g:02x}{b:02x}");
+        match self {
+            Look::Level(level) => hex(shade(f64::from(level) / LEVELS)),
+            Look::Signed(level) => hex(signed(f64::from(level) / LEVELS)),
+            Look::Plain(r, g, b) => hex(RGBColor(r, g, b)),
+            Look::None => "#d4d4d4".to_owned(),
+            Look::Failed => "url(#failed)".to_owned(),
+        }
+    }
+}
 
 /// The scale of colours of a picture.
 pub(super) struct Colours {
@@ -52,12 +82,12 @@ impl Colours {
 }
 
 /// From dark blue to yellow, each step lighter than the last.
-pub(super) fn shade(part: f64) -> RGBColor {
+fn shade(part: f64) -> RGBColor {
     ViridisRGB.get_color(part.clamp(0.0, 1.0))
 }
 
 /// From blue to red, white in the middle.
-pub(super) fn signed(part: f64) -> RGBColor {
+fn signed(part: f64) -> RGBColor {
     const STOPS: [[u8; 3]; 9] = [
         [33, 102, 172],
         [67, 147, 195],

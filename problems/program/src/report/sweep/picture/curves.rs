@@ -1,7 +1,8 @@
 //! Curves over the one axis of a grid.
 
+use super::colours::Look;
 use super::frame::Frame;
-use super::marks::{Look, Marks};
+use super::marks::Marks;
 use super::scale::Scale;
 use super::{HEIGHT, Picture, columns, observed, varied};
 use crate::report::plot::{COLOURS, px};

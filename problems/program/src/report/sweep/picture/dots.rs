@@ -1,9 +1,9 @@
 //! The points of a sample: values over one axis, colours over two.
 
-use super::colours::Colours;
+use super::colours::{Colours, Look};
 use super::curves::{frame, look, names};
 use super::frame::Frame;
-use super::marks::{Look, Marks};
+use super::marks::Marks;
 use super::regions::Regions;
 use super::scale::Scale;
 use super::{HEIGHT, Picture, columns, heading, observed, varied};

@@ -1,8 +1,8 @@
 //! A map over the first two axes of a grid.
 
-use super::colours::Colours;
+use super::colours::{Colours, Look};
 use super::frame::Frame;
-use super::marks::{Look, Marks};
+use super::marks::Marks;
 use super::regions::{Regions, borders};
 use super::scale::Scale;
 use super::{HEIGHT, Picture, columns as columns_of, heading, observed, varied};

@@ -1,43 +1,11 @@
 //! What fills a picture: many cells and dots of few looks, gathered so that each look is one element of the file.
 
 use super::HEIGHT;
-use super::colours::{shade, signed};
+use super::colours::Look;
 use super::frame::beside;
 use crate::report::plot::px;
-use plotters::style::RGBColor;
 use std::collections::BTreeMap;
 use std::fmt::Write;
-
-/// Steps of the colours, an even number of them, so that zero has one of a scale around it.
-pub(super) const LEVELS: f64 = 64.0;
-
-/// How a cell or a dot looks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Look {
-    /// A value: one of the colours from low to high.
-    Level(u8),
-    /// The same, from below zero to above it.
-    Signed(u8),
-    /// A curve.
-    Plain(u8, u8, u8),
-    /// No run has it.
-    None,
-    /// A run failed.
-    Failed,
-}
-
-impl Look {
-    fn colour(self) -> String {
-        let hex = |RGBColor(r, g, b): RGBColor| format!("#{r:02x}{g:02x}{b:02x}");
-        match self {
-            Look::Level(level) => hex(shade(f64::from(level) / LEVELS)),
-            Look::Signed(level) => hex(signed(f64::from(level) / LEVELS)),
-            Look::Plain(r, g, b) => hex(RGBColor(r, g, b)),
-            Look::None => "#d4d4d4".to_owned(),
-            Look::Failed => "url(#failed)".to_owned(),
-        }
-    }
-}
 
 /// Paths by look.
 #[derive(Default)]

@@ -1,6 +1,7 @@
 //! Which mode sequences a picture tells apart: the most frequent, each with a colour and a line of a key below the picture.
 
-use super::marks::{Look, Marks};
+use super::colours::Look;
+use super::marks::Marks;
 use super::{HEIGHT, Picture};
 use crate::report::plot::px;
 use crate::report::sweep::summary::told;
