@@ -2,8 +2,8 @@
 
 use super::facts::Facts;
 use super::hash::{Memo, hash_of};
+use super::square::Square;
 use super::table::Table;
-use super::trigonometry::Square;
 use super::{ExprId, Node, Rational, Symbol};
 
 /// With more expressions and operands than these a pool is full: a derivation that needs them would take a build,

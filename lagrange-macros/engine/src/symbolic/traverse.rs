@@ -1,6 +1,6 @@
 //! What an expression is made of: sub-expressions, symbols, branches; replacement of symbols.
 
-use super::facts::symbol_bit;
+use super::properties::symbol_bit;
 use super::table::{Flags, Table};
 use super::{ExprId, Node, Pool, Rational, Symbol};
 

@@ -4,20 +4,8 @@
 //! gone. A form is taken if it has fewer terms, or as many and fewer squares; so the rules end, and a scaled sum is
 //! treated alike. Of equally short forms the one without cancellation is taken.
 
+use super::square::Square;
 use super::{ExprId, Function, Node, Pool, Rational};
-
-/// One way to see a product as X · f(u)².
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Square {
-    /// X
-    rest: ExprId,
-    /// u
-    argument: ExprId,
-    /// sinh and cosh instead of sin and cos.
-    hyperbolic: bool,
-    /// cos or cosh.
-    cosine: bool,
-}
 
 /// Coefficients of X·sin²u, X·cos²u and X.
 type Group = [Rational; 3];
