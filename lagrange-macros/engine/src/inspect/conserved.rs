@@ -6,6 +6,9 @@ use super::letter::Letter;
 use super::work::Work;
 use crate::symbolic::{ExprId, Symbol};
 
+/// The name of what stands for the energy where the two differ.
+pub(super) const JACOBI_INTEGRAL: &str = "Jacobi integral";
+
 /// Takers of energy that are named.
 const MOST_TAKERS: usize = 8;
 
@@ -152,7 +155,7 @@ impl Work<'_> {
             (None, false) => format!("except where {list}"),
         };
         Conserved {
-            name: "energy".to_owned(),
+            name: if same { "energy" } else { JACOBI_INTEGRAL }.to_owned(),
             quantity: Statement::equal(Formula::Letter(name), quantity),
             rate,
             when,

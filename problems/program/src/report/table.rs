@@ -22,6 +22,9 @@ pub(super) const WIDTH: u16 = 100;
 /// So many numbers, forces among them, stand in a line of the story beside its mode.
 const NUMBERS: usize = 6;
 
+/// What the Jacobi integral is, said where it is not the energy.
+const JACOBI: &str = "The Jacobi integral is what stays here, not T + V: something moves as it is told to, and its work is in no line above.";
+
 /// Writes the story of `outcome`.
 pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
     let left_out = outcome.left_out();
@@ -59,6 +62,9 @@ pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
             Decimals::of([ledger.scale]).show(ledger.scale),
             if unit.is_empty() { "" } else { " " }
         )?;
+        if ledger.has_own_jacobi() {
+            writeln!(out, "{JACOBI}")?;
+        }
     }
     if let Some(estimate) = &outcome.estimate {
         writeln!(out, "{estimate}")?;
@@ -369,11 +375,10 @@ fn story(outcome: &Outcome) -> Table {
     table
 }
 
-/// Of a force's impulse, `Ns`.
+/// Of a force's impulse, `N s`.
 pub(super) fn impulse_unit(force: &str) -> String {
     match force {
         "" => String::new(),
-        "N" => "Ns".to_owned(),
         unit if unit.contains('/') => format!("({unit}) s"),
         unit => format!("{unit} s"),
     }
@@ -437,10 +442,17 @@ fn work(outcome: &Outcome) -> String {
         factorizations,
         projections,
     } = outcome.work;
+    let of = |count: usize, noun: &str| match count {
+        1 => format!("1 {noun}"),
+        _ => format!("{count} {noun}s"),
+    };
     format!(
-        "Work: {steps} steps, {rejected} rejected, {evaluations} evaluations, {series} series, \
-         {factorizations} factorizations, {projections} projections, {} events.",
-        outcome.events.len()
+        "Work: {}, {rejected} rejected, {}, {series} series, {}, {}, {}.",
+        of(steps, "step"),
+        of(evaluations, "evaluation"),
+        of(factorizations, "factorization"),
+        of(projections, "projection"),
+        of(outcome.events.len(), "event"),
     )
 }
 
@@ -538,6 +550,7 @@ mod tests {
         assert!(lines.contains(&own), "{own}\n{lines:#?}");
         let closes = "The ledger of the Jacobi integral closes to";
         assert!(lines.iter().any(|line| line.starts_with(closes)));
+        assert!(lines.iter().any(|line| line == super::JACOBI));
         let still = story(&declared.replace("rate = 3", "rate = 0"));
         assert!(still.iter().all(|line| !line.contains("Jacobi")));
     }

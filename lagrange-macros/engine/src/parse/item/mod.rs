@@ -88,12 +88,11 @@ fn item(part: &mut Cursor, read: &mut Items, sink: &mut Diagnostics) -> Option<(
         return parameters.read(&keyword, part, sink);
     }
     if !KEYWORDS.contains(&word) {
-        let own = read.parameters.iter().flat_map(|_| parameter::KEYWORDS);
-        let known: Vec<&str> = own.chain(KEYWORDS.iter().copied()).collect();
-        let hint = match nearest(word, known.iter().copied()) {
-            Some(known) => format!("did you mean `{known}`?"),
-            None => format!("items are {}", known.join(", ")),
-        };
+        let hint = instead(
+            word,
+            part.operator() == Some("="),
+            read.parameters.is_some(),
+        );
         sink.report(Code::UnknownItem, &keyword, &[&word, &hint]);
         part.skip_all();
         return None;
@@ -146,6 +145,33 @@ fn item(part: &mut Cursor, read: &mut Items, sink: &mut Diagnostics) -> Option<(
         kind,
     });
     Some(())
+}
+
+/// What to write where a word begins an item that is none; `equals`: an equals sign follows it.
+fn instead(word: &str, equals: bool, in_file: bool) -> String {
+    let own: &[&str] = if in_file { &parameter::KEYWORDS } else { &[] };
+    let known: Vec<&str> = own.iter().chain(KEYWORDS).copied().collect();
+    let others = |words: &[&str]| words.contains(&word);
+    match nearest(word, known.iter().copied()) {
+        Some(known) => format!("did you mean `{known}`?"),
+        None if equals && in_file => format!(
+            "a number that can be set stands in `parameters({word} = …)`, a name for an expression in `define({word} = …)`"
+        ),
+        None if equals => format!("a name for an expression stands in `define({word} = …)`"),
+        None if others(&["spring", "gravity", "weight"]) => {
+            format!("it is a potential energy: `potential({word}: …)`")
+        }
+        None if others(&["damper", "damping", "drag"]) => {
+            format!("it is a dissipation: `dissipation({word}: c/2 * der(x)^2)`")
+        }
+        None if others(&["conserved"]) => {
+            "it stands in a check: `check(conserved energy)`".to_owned()
+        }
+        None => {
+            let items: Vec<&str> = known.into_iter().filter(|item| *item != "crate").collect();
+            format!("items are {}", items.join(", "))
+        }
+    }
 }
 
 /// What stands in the parentheses of an item.
