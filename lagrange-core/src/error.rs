@@ -378,7 +378,7 @@ impl fmt::Display for Error {
                 )?;
                 // Conditions are told as they are written; names have no blanks.
                 if *branches && item.contains(' ') {
-                    f.write_str("what is declared on either side of it drives the motion back to the other: let the force change over a short range, or give a switch two thresholds far enough apart in the state; ")?;
+                    f.write_str("on either side of it the motion is driven back to the other, as by a controller that switches: let the force change over a short range; ")?;
                 } else if *friction {
                     f.write_str("rigid friction may have no solution (Painlevé 1895): lower its coefficient or make the contact compliant; ")?;
                 } else {

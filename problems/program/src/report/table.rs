@@ -23,7 +23,7 @@ pub(super) const WIDTH: u16 = 100;
 const NUMBERS: usize = 6;
 
 /// What the Jacobi integral is, said where it is not the energy.
-const JACOBI: &str = "The Jacobi integral is what stays here, not T + V: something moves as it is told to, and its work is in no line above.";
+const JACOBI: &str = "The works above change the Jacobi integral, not T + V: something moves as it is told to, and what it does to T + V has no line.";
 
 /// Writes the story of `outcome`.
 pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {

@@ -116,4 +116,13 @@ fn the_jacobi_integral_is_called_so() {
     assert!(turned.contains("h is the sum of v ∂L/∂v"), "{turned}");
     let still = says(quote!(rate * der(theta) ^ 2));
     assert!(!still.contains("Jacobi"), "{still}");
+    // A piston on a crank: the root has no value where the rod is shorter than the crank.
+    let crank = says(quote!(
+        (rate * der(cos(theta) + sqrt(g ^ 2 - sin(theta) ^ 2))) ^ 2
+    ));
+    assert!(!crank.contains("Jacobi"), "{crank}");
+    assert!(
+        !crank.contains("g g") && !crank.contains("rate rate"),
+        "{crank}"
+    );
 }
