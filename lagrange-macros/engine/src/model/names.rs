@@ -203,9 +203,8 @@ impl Elaboration<'_> {
             let coordinates = names.filter(|(_, entry)| entry.kind == Kind::Coordinate);
             coordinates.map(|(name, _)| name.as_str())
         };
-        let base = match (text, coordinates().next(), coordinates().count()) {
-            ("v", Some(only), 1) => only,
-            ("v" | "velocity" | "speed", ..) => "x",
+        let base = match text {
+            "v" | "velocity" | "speed" => coordinates().next()?,
             _ => bases
                 .into_iter()
                 .flatten()
