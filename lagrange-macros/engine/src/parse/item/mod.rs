@@ -337,6 +337,15 @@ fn reference(part: &mut Cursor, what: &str, sink: &mut Diagnostics) -> Option<Re
     Some(Reference { name, element })
 }
 
+/// Letters and words for a part that textbooks call otherwise.
+const OTHERWISE: [(&str, &[&str]); 5] = [
+    ("static", &["mu", "mu_s", "mu_static", "coefficient"]),
+    ("kinetic", &["mu_k", "mu_kinetic", "dynamic"]),
+    ("restitution", &["e", "bounce"]),
+    ("radius", &["r"]),
+    ("angle", &["phi", "theta", "rotation"]),
+];
+
 /// `key =`, one of `keys` of the item or field `of`.
 pub(super) fn key(
     part: &mut Cursor,
@@ -346,7 +355,11 @@ pub(super) fn key(
 ) -> Option<Name> {
     let key = part.name("a part `name = …`", sink)?;
     if !keys.contains(&key.text.as_str()) {
-        let hint = match nearest(&key.text, keys.iter().copied()) {
+        let meant = OTHERWISE
+            .iter()
+            .find(|(known, others)| keys.contains(known) && others.contains(&key.text.as_str()));
+        let meant = meant.map(|(known, _)| *known);
+        let hint = match meant.or_else(|| nearest(&key.text, keys.iter().copied())) {
             _ if key.text == "poisson" => "write `restitution = poisson(e)`".to_string(),
             Some(known) => format!("did you mean `{known}`?"),
             None => format!("its parts are {}", keys.join(", ")),
