@@ -237,6 +237,17 @@ pub enum Level {
     Velocity,
 }
 
+/// A number with four digits, with an exponent where it is very small or very large.
+fn short(value: f64) -> String {
+    let size = value.abs();
+    if size != 0.0 && !(1e-3..1e5).contains(&size) {
+        return format!("{value:.3e}");
+    }
+    let places = 3 - size.max(1e-3).log10().floor() as i32;
+    let text = format!("{value:.*}", places.max(1) as usize);
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -280,8 +291,9 @@ impl fmt::Display for Error {
                 };
                 write!(
                     f,
-                    "the start violates `{item}`: {level} residual {residual:.3e} (accepted: {tolerance:.1e}); \
-                     give {what} that satisfy it, or have the nearest ones taken (`project_start(true)`, `--project`)"
+                    "the start violates `{item}`: {level} residual {} (accepted: {tolerance:.1e}); \
+                     give {what} that satisfy it, or have the nearest ones taken (`project_start(true)`, `--project`)",
+                    short(*residual)
                 )
             }
             Error::Penetrates {
@@ -290,8 +302,9 @@ impl fmt::Display for Error {
                 tolerance,
             } => write!(
                 f,
-                "the start is below the surface of `{item}`: gap {gap:.3e} (accepted: {:.1e}); begin above it, or, for a body that \
+                "the start is below the surface of `{item}`: gap {} (accepted: {:.1e}); begin above it, or, for a body that \
                  hangs under a surface, let the contact's region (`where …`) leave that place out",
+                short(*gap),
                 -tolerance
             ),
             Error::Projection {
@@ -300,8 +313,9 @@ impl fmt::Display for Error {
                 item,
             } => write!(
                 f,
-                "t = {time}: no nearby state satisfies all constraints; `{item}` is left with residual {residual:.3e}; \
-                 start nearer to the constraints or hold fewer values (what is at rest in the named start stays at rest)"
+                "t = {time}: no nearby state satisfies all constraints; `{item}` is left with residual {}; \
+                 start nearer to the constraints or hold fewer values (what is at rest in the named start stays at rest)",
+                short(*residual)
             ),
             Error::Singular {
                 time,
@@ -362,7 +376,10 @@ impl fmt::Display for Error {
                     f,
                     "t = {time} ({mode}): none of {tried} modes continues the motion at `{item}`; "
                 )?;
-                if *friction {
+                // Conditions are told as they are written; names have no blanks.
+                if *branches && item.contains(' ') {
+                    f.write_str("on either side of it the motion is driven back to the other, as by a controller that switches: let the force change over a short range; ")?;
+                } else if *friction {
                     f.write_str("rigid friction may have no solution (Painlevé 1895): lower its coefficient or make the contact compliant; ")?;
                 } else {
                     f.write_str("contacts that move may leave no room between them; ")?;
@@ -386,7 +403,8 @@ impl fmt::Display for Error {
             ),
             Error::EnergyGain { time, item, gain } => write!(
                 f,
-                "t = {time}: the impact at `{item}` would add {gain:.3e} J; lower its restitution or its friction"
+                "t = {time}: the impact at `{item}` would add {} J; lower its restitution or its friction",
+                short(*gain)
             ),
             Error::StepTooSmall { time, step, mode } => write!(
                 f,

@@ -65,7 +65,7 @@ pub struct Ledger {
     pub end: Energies,
     /// Work of every item that did some or could have.
     pub work: Vec<Entry>,
-    /// Largest of the energies and works: what the closure is to be compared with, J.
+    /// Largest of the works and of the kinetic energies on the way: what the closure is to be compared with, J.
     pub scale: f64,
     /// h(end) − h(start) − Σ work, J.
     pub closure: f64,
@@ -141,6 +141,8 @@ struct Books<'a, T: Scalar> {
     booked: Vec<Entry>,
     /// Segments that are booked.
     segments: usize,
+    /// Largest kinetic energy until now, J.
+    kinetic: f64,
     /// Work in a part of the next segment.
     part: Vec<f64>,
     /// Energy jumps: (time, entry, J), in order of time, and how many are booked.
@@ -164,6 +166,7 @@ impl<'a, T: Scalar> Books<'a, T> {
         Ok(Books {
             trajectory,
             start: start.energies().values(),
+            kinetic: 0.0,
             part: vec![0.0; booked.len()],
             booked,
             segments: 0,
@@ -210,7 +213,8 @@ impl<'a, T: Scalar> Books<'a, T> {
         let half = 0.5 * end;
         for (node, weight) in GAUSS.into_iter().flat_map(|(x, w)| [(-x, w), (x, w)]) {
             let s = T::from_f64(half * (1.0 + node));
-            self.sampler.powers(segment, s, &mut self.power)?;
+            let kinetic = self.sampler.powers(segment, s, &mut self.power)?;
+            self.kinetic = self.kinetic.max(kinetic.value());
             for (&entry, power) in self.entries.iter().zip(&self.power) {
                 self.part[entry] += weight * half * h * power.value();
             }
@@ -228,6 +232,7 @@ impl<'a, T: Scalar> Books<'a, T> {
         let start = self.start;
         let sizes = [
             start.kinetic,
+            self.kinetic,
             end.kinetic,
             end.potential - start.potential,
             end.jacobi - start.jacobi,

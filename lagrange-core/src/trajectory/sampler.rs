@@ -272,7 +272,7 @@ impl<'a, T: Scalar> Sampler<'a, T> {
 
     /// Power of every force, dissipation and row, and of explicit time, at part `s` of a segment; in the order of
     /// [`super::ledger`].
-    pub(super) fn powers(&mut self, segment: usize, s: T, out: &mut [T]) -> Result<(), Error> {
+    pub(super) fn powers(&mut self, segment: usize, s: T, out: &mut [T]) -> Result<T, Error> {
         let d = self.trajectory.description();
         let instant = self.inside(segment, s)?;
         let dynamics = &self.dynamics;
@@ -292,7 +292,7 @@ impl<'a, T: Scalar> Sampler<'a, T> {
         for (out, power) in out.iter_mut().zip(loads.chain(rows).chain(time)) {
             *out = power;
         }
-        Ok(())
+        Ok(instant.kinetic)
     }
 }
 

@@ -119,7 +119,15 @@ fn from_file(text: &str, name: &str, sink: &mut Diagnostics) -> Option<FromFile>
     let (program, _) = planned(&file.declaration, sink)?;
     let defaults = model::defaults(&file.declaration, &file.defaults, sink)?;
     let until = file.until.as_ref();
-    let until = until.and_then(|until| model::number(&file.declaration, until, sink));
+    let until = until.and_then(|until| {
+        let seconds = model::number(&file.declaration, until, sink)?;
+        if seconds < 0.0 {
+            let found = format!("`{until}`");
+            let wanted = "a time after the start, which is at 0, as in `until = 5`";
+            sink.report(Code::Expected, until.extent, &[&wanted, &found]);
+        }
+        Some(seconds)
+    });
     Some(FromFile {
         tables: emit::tables(&program, &model::declared(&file.declaration)),
         declaration: emit::declared_struct(&file, text),

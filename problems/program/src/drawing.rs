@@ -57,7 +57,7 @@ pub struct Arrow<const D: usize> {
 }
 
 impl<const D: usize> Arrow<D> {
-    /// The force where these act along the rows, N; of impulses, Ns, in which applied forces have no part.
+    /// The force where these act along the rows, N; of impulses, N s, in which applied forces have no part.
     pub fn sum(&self, acting: &[f64], impulse: bool) -> [f64; D] {
         let mut sum = if impulse { [0.0; D] } else { self.applied };
         for (row, along) in &self.parts {

@@ -184,7 +184,7 @@ fn mistakes_are_told_at_their_place() {
         ),
         (
             in_wheel("end_after = \"rim lost 2\""),
-            "2:13: no event that ends a run is called `rim lost 2`; did you mean `rim lost`?",
+            "2:13: a run cannot end after `rim lost 2`: it ends after the first `rim lost`, or at a time, `--until` or `until = …`",
         ),
         (
             in_wheel("[start]\nfrom = \"rset\""),

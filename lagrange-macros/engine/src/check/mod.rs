@@ -134,6 +134,7 @@ impl Prover<'_> {
                     tested = Some((sum + states, because));
                 }
                 Ruling::Refuted(state) => {
+                    let state = state + &self.energy_changes(check);
                     let when = match mode.frictions.is_empty() && mode.contacts.is_empty() {
                         true => String::new(),
                         false => format!(" while {}", mode.name(self.system)),
@@ -167,5 +168,21 @@ impl Prover<'_> {
             },
             outcome,
         })
+    }
+
+    /// What gives energy or takes it, where a check says that it is conserved.
+    fn energy_changes(&self, check: &Check) -> String {
+        if check.text != "conserved energy" {
+            return String::new();
+        }
+        let forces = self.system.forces.iter().map(|force| &force.name);
+        let dissipations = self.system.dissipations.iter().map(|d| &d.name);
+        let names = forces.chain(dissipations);
+        let names: Vec<String> = names.map(|name| format!("`{}`", name.text)).collect();
+        match names.as_slice() {
+            [] => String::new(),
+            [one] => format!("; {one} gives energy or takes it"),
+            many => format!("; {} give energy or take it", many.join(", ")),
+        }
     }
 }

@@ -62,8 +62,9 @@ table! {
     MissingOperator "E026" "an operator is missing before {0}" "{1}";
     FunctionPower "E027" "`{0}^…` is not a power of a value" "write `{0}(…)^2`";
     FunctionDefined "E028" "`{0}(…)` cannot be defined: there are no functions of one's own" "`define` names an expression; indexed it is `{0}[k in 0..n] = …`";
-    Unreadable "E029" "what begins here cannot be read" "a bracket, a quotation mark or a comment may not be closed, or a character is none of the language";
+    Unreadable "E029" "what begins here cannot be read" "{0}";
     FileSize "E030" "the file has more than {0} bytes" "indices and sums say many things at once: `x[k in 0..8]`";
+    Misplaced "E031" "`{0}` stands in the wrong place" "{1}";
 
     NotAStruct "E101" "Lagrangian is derived for a struct with named fields" "write `struct {0} { mass: f64, … }`: every field is a parameter";
     Generics "E102" "{0}" "the struct is plain (`f64` fields) or has exactly one type parameter: `struct {1}<T = f64>`";

@@ -6,8 +6,14 @@ use super::letter::Letter;
 use super::work::Work;
 use crate::symbolic::{ExprId, Symbol};
 
+/// The name of what stands for the energy where the two differ.
+pub(super) const JACOBI_INTEGRAL: &str = "Jacobi integral";
+
 /// Takers of energy that are named.
 const MOST_TAKERS: usize = 8;
+
+/// Choices of numbers at which two forms of the energy are compared.
+const SAMPLES: usize = 16;
 
 /// Momenta that are shown.
 const MOST_CYCLIC: usize = 12;
@@ -118,12 +124,19 @@ impl Work<'_> {
         let pool = self.pool();
         let total = pool.add(t, v);
         let beyond = pool.sub(h, total);
-        // Two forms of one thing: their difference is zero in numbers, whatever its form.
-        let sample = |k: f64| move |s: Symbol| 0.4 + (k * (s.index() + 1) as f64).fract();
-        let same = [0.618, 0.414].into_iter().all(|k| {
-            let values = pool.evaluate(&[beyond, h], &sample(k), &|_| true);
-            values[0].abs() <= 1e-9 * (1.0 + values[1].abs())
-        });
+        // Two forms of one thing: their difference is zero in numbers, whatever its form. Roots have no value at some numbers.
+        let sample = |k: usize| {
+            let step = 0.618 + 0.414 * k as f64;
+            move |s: Symbol| 0.4 + (step * (s.index() + 1) as f64).fract()
+        };
+        let values = (0..SAMPLES).map(|k| pool.evaluate(&[beyond, h], &sample(k), &|_| true));
+        let finite: Vec<Vec<f64>> = values
+            .filter(|values| values.iter().all(|value| value.is_finite()))
+            .collect();
+        let same = !finite.is_empty()
+            && finite
+                .iter()
+                .all(|values| values[0].abs() <= 1e-9 * (1.0 + values[1].abs()));
         let quantity = match same {
             true => Formula::Sum(vec![
                 (false, Formula::Letter(Letter::new("T"))),
@@ -152,7 +165,7 @@ impl Work<'_> {
             (None, false) => format!("except where {list}"),
         };
         Conserved {
-            name: "energy".to_owned(),
+            name: if same { "energy" } else { JACOBI_INTEGRAL }.to_owned(),
             quantity: Statement::equal(Formula::Letter(name), quantity),
             rate,
             when,

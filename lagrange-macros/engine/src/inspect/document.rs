@@ -1,5 +1,6 @@
 //! A derivation as a sequence of blocks, which the printers of whole documents share.
 
+use super::conserved::JACOBI_INTEGRAL;
 use super::formula::{Formula, Statement};
 use super::letter::Letter;
 use super::{Checked, Derivation, Item, Mode, Part};
@@ -199,6 +200,13 @@ impl Derivation {
             ]
         });
         blocks.push(Block::Table(rows.collect()));
+        let jacobi = self.conserved.iter().any(|c| c.name == JACOBI_INTEGRAL);
+        if jacobi {
+            blocks.push(Block::Paragraph(vec![words(
+                "h is the sum of v ∂L/∂v over all coordinates, less L. It stands for the energy here, where T is not made of squares and \
+                 products of velocities alone: something moves as it is told to, as a frame that turns, and its work changes T + V.",
+            )]));
+        }
     }
 
     fn check_blocks(&self, blocks: &mut Vec<Block>) {

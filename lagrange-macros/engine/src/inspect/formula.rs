@@ -3,6 +3,7 @@
 //! A formula is built in the order in which it is read; printers decide on parentheses and layout, nothing else.
 
 use super::letter::{Letter, Mark};
+use crate::ast::Decimal;
 use crate::symbolic::Rational;
 
 /// What is left of a part at least.
@@ -13,6 +14,8 @@ const FEW: usize = 6;
 pub enum Formula {
     /// A number ≥ 0 (signs are in sums and [`Formula::Negative`]).
     Number(Rational),
+    /// A number ≥ 0 that is no whole one, as the user wrote it: `0.98`.
+    Decimal(Decimal),
     /// π
     Pi,
     /// A symbol.
@@ -149,7 +152,7 @@ impl Formula {
         match self {
             Formula::Number(n) if n.is_integer() => 1,
             Formula::Number(_) | Formula::More(_) => 2,
-            Formula::Pi | Formula::Letter(_) => 1,
+            Formula::Decimal(_) | Formula::Pi | Formula::Letter(_) => 1,
             Formula::Sum(terms) => terms.iter().map(|(_, term)| 1 + term.size()).sum(),
             Formula::Product(factors) => {
                 let sums = factors.iter().filter(|f| matches!(f, Formula::Sum(_)));
@@ -244,7 +247,9 @@ impl Formula {
         let one = |a: &Formula| Box::new(a.with_letters(new));
         let all = |list: &[Formula]| list.iter().map(|a| a.with_letters(new)).collect();
         match self {
-            Formula::Number(_) | Formula::Pi | Formula::More(_) => self.clone(),
+            Formula::Number(_) | Formula::Decimal(_) | Formula::Pi | Formula::More(_) => {
+                self.clone()
+            }
             Formula::Letter(letter) => Formula::Letter(new(letter)),
             Formula::Sum(terms) => Formula::Sum(
                 terms

@@ -186,6 +186,9 @@ fn quotient(above: Formula, below: Formula) -> Formula {
 }
 
 fn decimal(number: Decimal) -> Formula {
+    if number.exponent < 0 {
+        return Formula::Decimal(number);
+    }
     let exact = Rational::parse(&number.to_string());
     exact.map_or_else(
         || Formula::Letter(Letter::of(&number.to_string(), "")),

@@ -125,8 +125,13 @@ impl Elaboration<'_> {
                     ..
                 }) => {}
                 Some(_) => {
+                    let velocity = matches!(member.text.as_str(), "dot" | "d" | "v" | "velocity");
+                    let hint = match velocity {
+                        true => format!("its velocity is written `der({base})`"),
+                        false => BODIES.to_owned(),
+                    };
                     self.sink
-                        .report(Code::NoSuchMember, member, &[base, &member.text, &BODIES])
+                        .report(Code::NoSuchMember, member, &[base, &member.text, &hint])
                 }
             }
             return None;

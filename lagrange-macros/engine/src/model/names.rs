@@ -178,9 +178,39 @@ impl Elaboration<'_> {
             .filter(|(_, entry)| kinds.contains(&entry.kind));
         let hint = match nearest(text, of_kind.map(|(known, _)| known.as_str())) {
             Some(known) => format!("did you mean `{known}`?"),
-            None => self.known(kinds),
+            None => match self.velocity(text) {
+                Some(velocity) if kinds.contains(&Kind::Coordinate) => velocity,
+                _ => self.known(kinds),
+            },
         };
         self.sink.report(Code::UnknownName, name, &[&text, &hint]);
+    }
+
+    /// What is said of a name that looks like the velocity of a coordinate.
+    fn velocity(&self, text: &str) -> Option<String> {
+        let dotted = DOTTED.iter().find(|(letter, _)| *letter == text);
+        let bases = [
+            text.strip_suffix("_dot"),
+            text.strip_suffix("dot"),
+            text.strip_prefix('d'),
+            text.strip_prefix("v_"),
+            text.strip_prefix('v'),
+            text.strip_suffix('\u{307}'),
+            dotted.map(|(_, base)| *base),
+        ];
+        let coordinates = || {
+            let names = self.names.iter();
+            let coordinates = names.filter(|(_, entry)| entry.kind == Kind::Coordinate);
+            coordinates.map(|(name, _)| name.as_str())
+        };
+        let base = match text {
+            "v" | "velocity" | "speed" => coordinates().next()?,
+            _ => bases
+                .into_iter()
+                .flatten()
+                .find(|base| coordinates().any(|name| name == *base))?,
+        };
+        Some(format!("the velocity of `{base}` is written `der({base})`"))
     }
 
     fn suggestion(&self, text: &str) -> String {
@@ -193,23 +223,11 @@ impl Elaboration<'_> {
         {
             return format!("write `{word}`");
         }
-        let bases = [
-            text.strip_suffix("_dot"),
-            text.strip_suffix("dot"),
-            text.strip_prefix('d'),
-            text.strip_suffix('\u{307}'),
-            text.strip_prefix('\u{1e8b}').map(|_| "x"),
-            text.strip_prefix('\u{1e8f}').map(|_| "y"),
-            text.strip_prefix('\u{17c}').map(|_| "z"),
-            text.strip_prefix('\u{1e59}').map(|_| "r"),
-        ];
-        let is_coordinate = |base: &&str| {
-            self.names
-                .get(*base)
-                .is_some_and(|entry| entry.kind == Kind::Coordinate)
-        };
-        if let Some(base) = bases.into_iter().flatten().find(is_coordinate) {
-            return format!("the velocity of `{base}` is written `der({base})`");
+        if let Some(velocity) = self.velocity(text) {
+            return velocity;
+        }
+        if text.contains('·') {
+            return format!("a product is written `{}`", text.replace('·', "*"));
         }
         let indices = self.indices.iter().map(|(name, _)| name.as_str());
         let names = self
@@ -299,6 +317,22 @@ impl Elaboration<'_> {
 pub(super) fn plain(ident: &proc_macro2::Ident) -> String {
     Name::new(ident).text
 }
+
+/// Letters with a dot above, as keyboards and files compose them.
+const DOTTED: [(&str, &str); 12] = [
+    ("ẋ", "x"),
+    ("ẏ", "y"),
+    ("ż", "z"),
+    ("ṙ", "r"),
+    ("ṡ", "s"),
+    ("ṗ", "p"),
+    ("ẇ", "w"),
+    ("ȧ", "a"),
+    ("ḃ", "b"),
+    ("ċ", "c"),
+    ("ḋ", "d"),
+    ("ḣ", "h"),
+];
 
 /// The name of a Greek letter, whether small or capital.
 fn spelt(letter: char) -> Option<&'static str> {

@@ -41,7 +41,9 @@ pub fn file(text: &str, name: &str, sink: &mut Diagnostics) -> Option<File> {
     let tokens: TokenStream = match text.parse() {
         Ok(tokens) => tokens,
         Err(error) => {
-            sink.report(Code::Unreadable, error.span(), &[]);
+            let begin = error.span().byte_range().start;
+            let hint = unreadable(text.get(begin..).unwrap_or_default());
+            sink.report(Code::Unreadable, error.span(), &[&hint]);
             return None;
         }
     };
@@ -95,6 +97,34 @@ pub fn file(text: &str, name: &str, sink: &mut Diagnostics) -> Option<File> {
         items,
     };
     (sink.count() == before).then_some(file)
+}
+
+/// What to do about a text that begins with what cannot be read.
+fn unreadable(rest: &str) -> String {
+    let Some(first) = rest.chars().next() else {
+        return "a bracket, a quotation mark or a comment is not closed".to_owned();
+    };
+    let advice = match first {
+        '(' | '[' | '{' => return format!("`{first}` is not closed"),
+        ')' | ']' | '}' => return format!("no bracket is open that `{first}` could close"),
+        '"' => return "the quotation mark is not closed".to_owned(),
+        '/' => return "the remark is not closed: `/*` ends with `*/`".to_owned(),
+        '\'' => "the velocity of `x` is written `der(x)`",
+        '²' | '³' | '⁴' => "a power is written `x^2`",
+        '×' | '∙' | '⋅' => "a product is written `a*b`",
+        '÷' => "a quotient is written `a/b`",
+        '−' | '–' | '—' => "a minus is the sign of the keyboard: `-`",
+        '√' => "a root is written `sqrt(x)`",
+        '½' | '¼' | '¾' | '⅓' | '⅔' => "a fraction is written `1/2`",
+        '≥' => "write `>=`",
+        '≤' => "write `<=`",
+        '°' => "angles are in radians: 30° is `pi/6`",
+        '“' | '”' | '„' | '‘' | '’' => {
+            "units stand in straight quotation marks: `\"kg\"`"
+        }
+        _ => return format!("`{first}` is no character of the language"),
+    };
+    format!("`{first}` is no character of the language; {advice}")
 }
 
 /// Where in the text the line ends whose last token this is; the end of the token if others follow it there.

@@ -132,12 +132,21 @@ fn what_only_a_file_has_is_checked() {
             "1:1: expected items, as `coordinates(x)` and `kinetic = …`, found none",
         ),
         (
-            "kinetic = \"a".to_owned(),
-            "1:11: what begins here cannot be read",
+            format!("{rest}, until = -5"),
+            "1:45: expected a time after the start, which is at 0, as in `until = 5`, found `-5` [E001]",
         ),
         (
-            "kinetic = (1".to_owned(),
-            "1:11: what begins here cannot be read",
+            format!("{rest}, mass = 2"),
+            "1:37: `mass` is not an item; a number that can be set stands in `parameters(mass = …)`, a name for an expression in \
+             `define(mass = …)` [E010]",
+        ),
+        (
+            format!("{rest}, damper(x)"),
+            "1:37: `damper` is not an item; it is a dissipation: `dissipation(damper: c/2 * der(x)^2)` [E010]",
+        ),
+        (
+            format!("{rest}, draw(circle: (x, 0))"),
+            "1:42: `circle` is not the name of a form; did you mean `disc`? [E901]",
         ),
     ] {
         let found = mistakes(&text);
@@ -145,6 +154,75 @@ fn what_only_a_file_has_is_checked() {
             found.starts_with(&format!("spring.lagrange:{expected}")),
             "{text}\n{found}"
         );
+    }
+}
+
+#[test]
+fn a_mistake_in_the_notation_of_an_item_is_told_once() {
+    let found = mistakes("coordinates(x), kinetic = der(x)^2, until: 5");
+    assert_eq!(found.matches("[E").count(), 1, "{found}");
+}
+
+#[test]
+fn what_cannot_be_read_is_named() {
+    for (text, expected) in [
+        (
+            "kinetic = \"a",
+            "1:11: what begins here cannot be read; the quotation mark is not closed",
+        ),
+        (
+            "kinetic = (1",
+            "1:11: what begins here cannot be read; `(` is not closed",
+        ),
+        (
+            "kinetic = 1)",
+            "1:12: what begins here cannot be read; no bracket is open that `)` could close",
+        ),
+        (
+            "kinetic = x²",
+            "1:12: what begins here cannot be read; `²` is no character of the language; a power is written `x^2`",
+        ),
+        (
+            "kinetic = a×x",
+            "1:12: what begins here cannot be read; `×` is no character of the language; a product is written `a*b`",
+        ),
+        (
+            "kinetic = −x",
+            "1:11: what begins here cannot be read; `−` is no character of the language; a minus is the sign of the keyboard: `-`",
+        ),
+        (
+            "kinetic = x'",
+            "1:12: what begins here cannot be read; `'` is no character of the language; the velocity of `x` is written `der(x)`",
+        ),
+        (
+            "contact(c: x ≥ 0)",
+            "1:14: what begins here cannot be read; `≥` is no character of the language; write `>=`",
+        ),
+        (
+            "kinetic = 30°",
+            "1:13: what begins here cannot be read; `°` is no character of the language; angles are in radians: 30° is `pi/6`",
+        ),
+    ] {
+        let found = mistakes(text);
+        assert!(
+            found.starts_with(&format!("spring.lagrange:{expected}")),
+            "{text}\n{found}"
+        );
+    }
+}
+
+#[test]
+fn names_that_look_like_something_else_are_told_as_that() {
+    for (power, expected) in [
+        ("k·x", "a product is written `k*x`"),
+        ("ẋ", "the velocity of `x` is written `der(x)`"),
+        ("xdot", "the velocity of `x` is written `der(x)`"),
+        ("v_x", "the velocity of `x` is written `der(x)`"),
+    ] {
+        let text =
+            format!("parameters(k = 1), coordinates(x), kinetic = der(x)^2, force(f: x = {power})");
+        let found = mistakes(&text);
+        assert!(found.contains(expected), "{power}\n{found}");
     }
 }
 

@@ -22,6 +22,9 @@ pub(super) const WIDTH: u16 = 100;
 /// So many numbers, forces among them, stand in a line of the story beside its mode.
 const NUMBERS: usize = 6;
 
+/// What the Jacobi integral is, said where it is not the energy.
+const JACOBI: &str = "The works above change the Jacobi integral, not T + V: something moves as it is told to, and what it does to T + V has no line.";
+
 /// Writes the story of `outcome`.
 pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
     let left_out = outcome.left_out();
@@ -59,6 +62,9 @@ pub fn write(outcome: &Outcome, mut out: impl Write) -> io::Result<()> {
             Decimals::of([ledger.scale]).show(ledger.scale),
             if unit.is_empty() { "" } else { " " }
         )?;
+        if ledger.has_own_jacobi() {
+            writeln!(out, "{JACOBI}")?;
+        }
     }
     if let Some(estimate) = &outcome.estimate {
         writeln!(out, "{estimate}")?;
@@ -222,6 +228,29 @@ impl Column {
     fn of(&self, line: &Line) -> Option<f64> {
         Some(line.state[self.place]? * self.scale)
     }
+
+    /// As many as the lines need. A coordinate that is nothing but rounding in all of them is shown beside how far its velocities carry it.
+    fn decimals(&self, lines: &[Line], outcome: &Outcome) -> Decimals {
+        /// Relative size of what is rounding.
+        const ROUNDING: f64 = 1e-12;
+        let told: Vec<f64> = lines.iter().filter_map(|line| self.of(line)).collect();
+        let largest = |values: &[f64]| values.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
+        let samples = outcome.samples.iter().map(|sample| &sample.state);
+        let events = outcome.events.iter();
+        let states = samples.chain(events.flat_map(|event| [&event.state, &event.state_after]));
+        let speeds: Vec<f64> = states
+            .filter_map(|state| state.v.get(self.place).copied())
+            .collect();
+        let lasts = match (outcome.first(), outcome.last()) {
+            (Some(first), Some(last)) => last.time - first.time,
+            _ => 0.0,
+        };
+        let way = largest(&speeds) * lasts * self.scale;
+        match largest(&told) < ROUNDING * way {
+            true => Decimals::of([way]),
+            false => Decimals::of(told),
+        }
+    }
 }
 
 /// Angles, or all coordinates if none is an angle; then outputs, and then the other coordinates, where there is room beside the forces.
@@ -291,7 +320,7 @@ fn story(outcome: &Outcome) -> Table {
 
     let of_coordinates: Vec<Decimals> = shown
         .iter()
-        .map(|column| Decimals::of(lines.iter().filter_map(|line| column.of(line))))
+        .map(|column| column.decimals(&lines, outcome))
         .collect();
     let of_forces: Vec<Decimals> = (0..items.len())
         .map(|k| {
@@ -369,11 +398,10 @@ fn story(outcome: &Outcome) -> Table {
     table
 }
 
-/// Of a force's impulse, `Ns`.
+/// Of a force's impulse, `N s`.
 pub(super) fn impulse_unit(force: &str) -> String {
     match force {
         "" => String::new(),
-        "N" => "Ns".to_owned(),
         unit if unit.contains('/') => format!("({unit}) s"),
         unit => format!("{unit} s"),
     }
@@ -437,10 +465,17 @@ fn work(outcome: &Outcome) -> String {
         factorizations,
         projections,
     } = outcome.work;
+    let of = |count: usize, noun: &str| match count {
+        1 => format!("1 {noun}"),
+        _ => format!("{count} {noun}s"),
+    };
     format!(
-        "Work: {steps} steps, {rejected} rejected, {evaluations} evaluations, {series} series, \
-         {factorizations} factorizations, {projections} projections, {} events.",
-        outcome.events.len()
+        "Work: {}, {rejected} rejected, {}, {series} series, {}, {}, {}.",
+        of(steps, "step"),
+        of(evaluations, "evaluation"),
+        of(factorizations, "factorization"),
+        of(projections, "projection"),
+        of(outcome.events.len(), "event"),
     )
 }
 
@@ -538,8 +573,24 @@ mod tests {
         assert!(lines.contains(&own), "{own}\n{lines:#?}");
         let closes = "The ledger of the Jacobi integral closes to";
         assert!(lines.iter().any(|line| line.starts_with(closes)));
+        assert!(lines.iter().any(|line| line == super::JACOBI));
         let still = story(&declared.replace("rate = 3", "rate = 0"));
         assert!(still.iter().all(|line| !line.contains("Jacobi")));
+    }
+
+    /// Two equal springs: one is in the middle when the other is.
+    #[test]
+    fn what_is_rounding_at_every_event_is_shown_as_zero() {
+        let lines = story(
+            "coordinates(a, b), kinetic = (der(a)^2 + der(b)^2) / 2, potential = (a^2 + b^2) / 2,
+             mark(middle: a), stop(end: t >= 6 and a >= 0), start(both: der(a) = 1, der(b) = 1e-3), until = 6.5,",
+        );
+        let middle = "middle mark 0.0000 0.0000000";
+        assert_eq!(
+            lines.iter().filter(|line| line.contains(middle)).count(),
+            2,
+            "{lines:#?}"
+        );
     }
 
     /// Two blocks that are pulled too hard, and one that is not: nobody sees the two stick, and 10 N on 2 N of friction are 4 m in a second.

@@ -94,9 +94,12 @@ fn some(sides: Vec<&str>) -> Vec<String> {
     some
 }
 
+/// The name of a mode in which nothing is closed, open, sticks or slips.
+pub(super) const SMOOTH: &str = "smooth";
+
 fn joined(told: &[String]) -> String {
     match told.is_empty() {
-        true => "smooth".to_owned(),
+        true => SMOOTH.to_owned(),
         false => told.join(", "),
     }
 }

@@ -61,11 +61,10 @@ pub(crate) fn event(
         (event, 1) => Ok((event.subject, event.kind)),
         _ => {
             let first = words.trim_end_matches(|c: char| c.is_ascii_digit() || c == ' ');
-            Err(Refusal::unknown(
-                "event that ends a run",
-                text,
-                [first].into_iter(),
-            ))
+            Err(Refusal::LaterEvent {
+                event: words.clone(),
+                first: first.to_owned(),
+            })
         }
     }
 }

@@ -122,6 +122,13 @@ pub enum Refusal {
         /// The name.
         name: String,
     },
+    /// The second or a later event of a kind, where a run ends after the first.
+    LaterEvent {
+        /// `rim lost 2`
+        event: String,
+        /// `rim lost`
+        first: String,
+    },
     /// An axis of a grid without the number of its values.
     Uncounted {
         /// The axis.
@@ -198,6 +205,10 @@ impl fmt::Display for Refusal {
             } => write!(
                 f,
                 "{points:e} points are too many: their results would take {bytes:.1e} bytes; a sweep has at most {most} points"
+            ),
+            Refusal::LaterEvent { event, first } => write!(
+                f,
+                "a run cannot end after `{event}`: it ends after the first `{first}`, or at a time, `--until` or `until = …`"
             ),
             Refusal::Begin(error) | Refusal::Run(error) => write!(f, "{error}"),
             Refusal::Start(error) => write!(f, "no such start: {error}"),

@@ -4,7 +4,7 @@
 //! theta at shell lost        a coordinate, velocity, force, output or energy just before an event, `t` for its time
 //! theta at floor impact 2    … at its second occurrence
 //! count floor impact         how often
-//! theta, theta at the end    at the end of the run
+//! theta, theta at the end    at the end of the run; `theta at end` where nothing is called `end`
 //! modes                      the sequence of its switches
 //! ```
 
@@ -61,6 +61,9 @@ impl Observation {
             _ if name == "modes" => (What::Modes(Switches::of(description)), At::End),
             (Some(event), _) => (What::Count, at(event, description)?),
             (None, Some((quantity, "the end"))) => (quantity_of(quantity, description)?, At::End),
+            (None, Some((quantity, "end"))) if numbered("end", description).is_err() => {
+                (quantity_of(quantity, description)?, At::End)
+            }
             (None, Some((quantity, event))) => {
                 (quantity_of(quantity, description)?, at(event, description)?)
             }
@@ -202,4 +205,24 @@ fn unknown(name: &str, description: &'static Description) -> Refusal {
         name,
         known.iter().map(String::as_str),
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{At, Observation};
+    use crate::file::scene;
+
+    #[test]
+    fn the_end_of_a_run_may_be_called_end_unless_something_is_called_so() {
+        let declared = "coordinates(x), kinetic = der(x)^2, start(a: der(x) = 1)";
+        let plain = scene("plain.lagrange", declared).expect("a declaration");
+        for asked in ["x", "x at the end", "x at end"] {
+            let observed = Observation::new(asked, plain).expect(asked);
+            assert!(matches!(observed.at, At::End), "{asked}");
+        }
+        let named = format!("{declared}, stop(end: x >= 1)");
+        let named = scene("named.lagrange", &named).expect("a declaration");
+        let observed = Observation::new("x at end", named).expect("a stop");
+        assert!(!matches!(observed.at, At::End));
+    }
 }

@@ -69,6 +69,24 @@ fn a_message_tells_the_state_and_both_sides() {
 }
 
 #[test]
+fn a_message_names_what_takes_energy() {
+    let items = "coordinates(x), kinetic = m/2 * der(x)^2, potential = m*g*x, dissipation(air: c/2 * der(x)^2)";
+    let one = refuted(items, "m g c", "conserved energy");
+    assert!(one.ends_with("; `air` gives energy or takes it"), "{one}");
+    let both = refuted(
+        &format!("{items}, force(push: x = m*g)"),
+        "m g c",
+        "conserved energy",
+    );
+    assert!(
+        both.ends_with("; `push`, `air` give energy or take it"),
+        "{both}"
+    );
+    let momentum = refuted(items, "m g c", "conserved momentum(x)");
+    assert!(!momentum.contains("energy"), "{momentum}");
+}
+
+#[test]
 fn small_mistakes_count() {
     for small in ["0.0000001", "1e-15", "1e-30"] {
         refuted(

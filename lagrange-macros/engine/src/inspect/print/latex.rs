@@ -190,10 +190,12 @@ impl Notation for Latex {
         }
     }
 
-    fn cases(&self, condition: &str, then: &str, otherwise: &str) -> String {
-        format!(
-            "\\begin{{cases}} {then} & \\text{{if }} {condition} \\\\ {otherwise} & \\text{{else}} \\end{{cases}}"
-        )
+    fn cases(&self, rows: &[(String, String)], otherwise: &str) -> String {
+        let row = |(condition, then): &(String, String)| {
+            format!("{then} & \\text{{if }} {condition} \\\\ ")
+        };
+        let rows: String = rows.iter().map(row).collect();
+        format!("\\begin{{cases}} {rows}{otherwise} & \\text{{else}} \\end{{cases}}")
     }
 
     fn sum_over(&self, index: &str, from: &str, to: &str, body: &str) -> String {

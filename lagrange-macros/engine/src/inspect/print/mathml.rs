@@ -85,6 +85,10 @@ impl Notation for MathMl {
         }
     }
 
+    fn decimal(&self, digits: &str) -> String {
+        format!("<mn>{digits}</mn>")
+    }
+
     fn sign(&self, minus: bool, leading: bool) -> &'static str {
         match (minus, leading) {
             (true, _) => "<mo>−</mo>",
@@ -155,10 +159,13 @@ impl Notation for MathMl {
         format!("<mrow>{operator}{}</mrow>", self.group(inner))
     }
 
-    fn cases(&self, condition: &str, then: &str, otherwise: &str) -> String {
+    fn cases(&self, rows: &[(String, String)], otherwise: &str) -> String {
+        let row = |(condition, then): &(String, String)| {
+            format!("<mtr><mtd>{then}</mtd><mtd><mtext>if </mtext>{condition}</mtd></mtr>")
+        };
+        let rows: String = rows.iter().map(row).collect();
         format!(
-            "<mrow><mo>{{</mo><mtable><mtr><mtd>{then}</mtd><mtd><mtext>if </mtext>{condition}</mtd></mtr>\
-             <mtr><mtd>{otherwise}</mtd><mtd><mtext>else</mtext></mtd></mtr></mtable></mrow>"
+            "<mrow><mo>{{</mo><mtable>{rows}<mtr><mtd>{otherwise}</mtd><mtd><mtext>else</mtext></mtd></mtr></mtable></mrow>"
         )
     }
 

@@ -22,6 +22,10 @@ pub trait Notation {
     fn letter(&self, letter: &Letter) -> String;
     /// A whole number, or a fraction.
     fn number(&self, n: Rational) -> String;
+    /// A number with a decimal point.
+    fn decimal(&self, digits: &str) -> String {
+        digits.to_owned()
+    }
     /// A sign between terms (`leading`: before the first).
     fn sign(&self, minus: bool, leading: bool) -> &'static str;
     /// = ≥ ≤ > <
@@ -49,7 +53,7 @@ pub trait Notation {
     /// d/dt of a group.
     fn rate(&self, inner: &str, order: u8) -> String;
     /// One value if the condition holds, else the other.
-    fn cases(&self, condition: &str, then: &str, otherwise: &str) -> String;
+    fn cases(&self, rows: &[(String, String)], otherwise: &str) -> String;
     /// Σ
     fn sum_over(&self, index: &str, from: &str, to: &str, body: &str) -> String;
     /// A comma-separated list.
@@ -67,7 +71,11 @@ pub trait Notation {
 /// A formula in a notation.
 pub fn formula(n: &dyn Notation, f: &Formula) -> String {
     match f {
-        Formula::Number(number) => n.number(*number),
+        Formula::Number(number) => match short_decimal(*number) {
+            Some(digits) => n.decimal(&digits),
+            None => n.number(*number),
+        },
+        Formula::Decimal(number) => n.decimal(&number.to_string()),
         Formula::Pi => n.letter(&Letter::of("π", "")),
         Formula::Letter(letter) => n.letter(letter),
         Formula::Sum(_) => n.row(&terms(n, f)),
@@ -96,11 +104,16 @@ pub fn formula(n: &dyn Notation, f: &Formula) -> String {
         Formula::Absolute(inner) => n.absolute(&formula(n, inner)),
         Formula::Call(name, arguments) => call(n, name, None, arguments, true),
         Formula::Rate(inner, order) => n.rate(&formula(n, inner), *order),
-        Formula::Cases(condition, then, otherwise) => n.cases(
-            &statement(n, condition),
-            &formula(n, then),
-            &formula(n, otherwise),
-        ),
+        Formula::Cases(condition, then, otherwise) => {
+            let row = |condition, then| (statement(n, condition), formula(n, then));
+            let mut rows = vec![row(condition, then)];
+            let mut otherwise = otherwise;
+            while let Formula::Cases(condition, then, rest) = &**otherwise {
+                rows.push(row(condition, then));
+                otherwise = rest;
+            }
+            n.cases(&rows, &formula(n, otherwise))
+        }
         Formula::SumOver(index, parts) => {
             let [from, to, body] = &**parts;
             let last = bound_by_one(to);
@@ -228,7 +241,10 @@ fn call(
 ) -> String {
     match arguments {
         [one] => {
-            let short = matches!(one, Formula::Letter(_) | Formula::Pi | Formula::Number(_));
+            let short = matches!(
+                one,
+                Formula::Letter(_) | Formula::Pi | Formula::Number(_) | Formula::Decimal(_)
+            );
             // `slip(grip)` is no function of numbers.
             let known = Function::from_name(name.trim_start_matches("arc")).is_some();
             n.call(name, exponent, &formula(n, one), bare && short && known)
@@ -319,6 +335,7 @@ fn bound(n: &dyn Notation, f: &Formula, least: Strength) -> String {
 fn strength(f: &Formula) -> Strength {
     match f {
         Formula::Sum(_) | Formula::Negative(_) | Formula::SumOver(..) => Strength::Sum,
+        Formula::Number(number) if short_decimal(*number).is_some() => Strength::Atom,
         Formula::Number(number) if !number.is_integer() => Strength::Product,
         Formula::Product(_) | Formula::Fraction(..) | Formula::Call(..) => Strength::Product,
         Formula::Power(..) => Strength::Power,
@@ -332,6 +349,24 @@ fn is_function(f: &Formula) -> bool {
         Formula::Power(base, _) => is_function(base),
         _ => false,
     }
+}
+
+/// A number as a decimal where that is exact and short, and the fraction is none that one knows: 49/50 is 0.98, and 7/10 stays.
+fn short_decimal(number: Rational) -> Option<String> {
+    /// Denominators of fractions that textbooks write.
+    const KNOWN: i128 = 16;
+    /// Digits behind the point.
+    const PLACES: u32 = 4;
+    if number.denominator() <= KNOWN {
+        return None;
+    }
+    let places = (1..=PLACES).find(|&places| 10_i128.pow(places) % number.denominator() == 0)?;
+    let scale = 10_i128.pow(places);
+    let digits = number
+        .numerator()
+        .checked_mul(scale / number.denominator())?;
+    let (whole, part) = (digits / scale, (digits % scale).abs());
+    Some(format!("{whole}.{part:0width$}", width = places as usize))
 }
 
 /// The last value of an index that stays below a bound.

@@ -143,8 +143,10 @@ impl Notation for Text {
         }
     }
 
-    fn cases(&self, condition: &str, then: &str, otherwise: &str) -> String {
-        format!("{{{then} if {condition}, else {otherwise}}}")
+    fn cases(&self, rows: &[(String, String)], otherwise: &str) -> String {
+        let row = |(condition, then): &(String, String)| format!("{then} if {condition}, ");
+        let rows: String = rows.iter().map(row).collect();
+        format!("{{{rows}else {otherwise}}}")
     }
 
     fn sum_over(&self, index: &str, from: &str, to: &str, body: &str) -> String {

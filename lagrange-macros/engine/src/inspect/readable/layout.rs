@@ -188,9 +188,35 @@ fn raised(base: Formula, exponent: Rational) -> Formula {
     }
 }
 
-fn product(mut factors: Vec<Formula>) -> Formula {
+fn product(factors: Vec<Formula>) -> Formula {
+    let mut factors = joined(factors);
     match factors.len() {
         1 => factors.remove(0),
         _ => Formula::Product(factors),
     }
+}
+
+/// Factors with neighbours that are powers of one letter joined: r r is r².
+fn joined(factors: Vec<Formula>) -> Vec<Formula> {
+    let power = |f: &Formula| match f {
+        Formula::Letter(letter) => Some((letter.clone(), Rational::ONE)),
+        Formula::Power(base, exponent) => match (&**base, &**exponent) {
+            (Formula::Letter(letter), Formula::Number(n)) => Some((letter.clone(), *n)),
+            _ => None,
+        },
+        _ => None,
+    };
+    let mut joined: Vec<Formula> = Vec::new();
+    for factor in factors {
+        if let Some(last) = joined.last_mut()
+            && let (Some((letter, a)), Some((other, b))) = (power(last), power(&factor))
+            && letter == other
+            && let Some(sum) = a.checked_add(b)
+        {
+            *last = raised(Formula::Letter(letter), sum);
+        } else {
+            joined.push(factor);
+        }
+    }
+    joined
 }

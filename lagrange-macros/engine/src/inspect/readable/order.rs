@@ -125,7 +125,7 @@ impl Reader<'_> {
     /// The rank of a factor that is a formula already.
     pub(super) fn place_of(&self, f: &Formula) -> Rank {
         match f {
-            Formula::Number(_) => (NUMBER, 0, 0),
+            Formula::Number(_) | Formula::Decimal(_) => (NUMBER, 0, 0),
             Formula::Letter(letter) => self
                 .names
                 .of_letter(letter)

@@ -199,15 +199,24 @@ impl Eye<'_> {
             return self.atom().sqrt();
         }
         if self.take('{') {
-            let then = self.sum();
-            self.expect(" if ");
-            let left = self.sum();
-            self.expect(" ≥ ");
-            let holds = left >= self.sum();
-            self.expect(", else ");
+            let mut then = self.sum();
+            let mut chosen = None;
+            loop {
+                self.expect(" if ");
+                let left = self.sum();
+                self.expect(" ≥ ");
+                let holds = left >= self.sum();
+                chosen = chosen.or(holds.then_some(then));
+                self.expect(", ");
+                if self.sees("else ") {
+                    break;
+                }
+                then = self.sum();
+            }
+            self.expect("else ");
             let otherwise = self.sum();
             self.expect("}");
-            return if holds { then } else { otherwise };
+            return chosen.unwrap_or(otherwise);
         }
         if let Some(&(c, value)) = self
             .rest
@@ -218,7 +227,8 @@ impl Eye<'_> {
             return value;
         }
         let mut word = String::new();
-        let written = |c: char| c == '\u{307}' || c.is_alphanumeric() && !RAISED.contains(c);
+        let written =
+            |c: char| c == '\u{307}' || c == '.' || c.is_alphanumeric() && !RAISED.contains(c);
         while let Some(c) = self.rest.next_if(|&c| written(c)) {
             word.push(c);
         }

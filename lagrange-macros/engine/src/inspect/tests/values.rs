@@ -84,6 +84,7 @@ fn worth(f: &Formula, at: &BTreeMap<String, f64>) -> Option<f64> {
     let of = |a: &Formula| worth(a, at);
     Some(match f {
         Formula::Number(n) => n.to_f64(),
+        Formula::Decimal(n) => n.nearest(),
         Formula::Pi => std::f64::consts::PI,
         Formula::Letter(_) => at[&print::text::formula(f)],
         Formula::Sum(terms) => {

@@ -66,6 +66,14 @@ fn expressions_as_a_person_writes_them() {
     check(quote!(abs(x - y)), "|x − y|");
     check(quote!(max(x, y)), "max(x, y)");
     check(quote!(if(x >= 0, a*x, b*y)), "{a x if x ≥ 0, else b y}");
+    check(
+        quote!(if(x >= 1, a, if(y >= 2, b, if(x >= 0, g, x)))),
+        "{a if x − 1 ≥ 0, b if y − 2 ≥ 0, g if x ≥ 0, else x}",
+    );
+    check(quote!(0.98 * a * x), "0.98 a x");
+    check(quote!(9.81 * x ^ 1.35), "9.81 x^(1.35)");
+    check(quote!(0.7 * a * x), "(7/10) a x");
+    check(quote!(a * x / 29), "(1/29) a x");
     check(quote!(exp(-a * x)), "exp(−a x)");
     check(quote!(pi * x), "π x");
     check(quote!(x ^ a), "x^a");
@@ -79,4 +87,42 @@ fn long_formulas_are_shortened() {
     let short = long.shortened(20);
     assert!(short.size() < 30);
     assert!(print::text::formula(&short).ends_with("… (290 more terms)"));
+}
+
+#[test]
+fn what_is_declared_keeps_its_decimals() {
+    let d = derivation(quote! {
+        #[lagrange(coordinates(x), kinetic = m/2 * der(x)^2, potential = 0.5 * k * x^2 + 1/3 * k * x^2, start(a: x = 0.3))]
+        struct Spring { m: f64, k: f64 }
+    });
+    let text = print::plain(&d);
+    for line in ["0.5 k x² + ⅓ k x²", "x = 0.3"] {
+        assert!(text.contains(line), "{line}\n{text}");
+    }
+}
+
+/// A bead on a hoop that is turned: T + V is not conserved, and what is has a name.
+#[test]
+fn the_jacobi_integral_is_called_so() {
+    let says = |kinetic: TokenStream| {
+        let d = derivation(quote! {
+            #[lagrange(coordinates(theta), kinetic = #kinetic, potential = -g * cos(theta), start(a: theta = 1))]
+            struct Hoop { g: f64, rate: f64 }
+        });
+        print::plain(&d)
+    };
+    let turned = says(quote!((der(theta) ^ 2 + (rate * sin(theta)) ^ 2) / 2));
+    assert!(turned.contains("\n  Jacobi integral  h = "), "{turned}");
+    assert!(turned.contains("h is the sum of v ∂L/∂v"), "{turned}");
+    let still = says(quote!(rate * der(theta) ^ 2));
+    assert!(!still.contains("Jacobi"), "{still}");
+    // A piston on a crank: the root has no value where the rod is shorter than the crank.
+    let crank = says(quote!(
+        (rate * der(cos(theta) + sqrt(g ^ 2 - sin(theta) ^ 2))) ^ 2
+    ));
+    assert!(!crank.contains("Jacobi"), "{crank}");
+    assert!(
+        !crank.contains("g g") && !crank.contains("rate rate"),
+        "{crank}"
+    );
 }

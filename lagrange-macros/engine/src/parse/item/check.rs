@@ -6,7 +6,7 @@ use super::super::relation::{CHECK, equation, equation_or_comparison, leftover};
 use super::output::mode_clause;
 use super::{head, no_more};
 use crate::ast::{Check, Claim, ItemKind, Premise};
-use crate::diagnostics::{Diagnostics, Extent};
+use crate::diagnostics::{Code, Diagnostics, Extent};
 use proc_macro2::{Delimiter, TokenTree};
 
 /// `name: a == b when …`, name and condition as the user likes.
@@ -65,7 +65,26 @@ fn claim(part: &mut Cursor, sink: &mut Diagnostics) -> Option<Claim> {
         part.next();
         return expression(part, sink).map(Claim::Conserved);
     }
+    if let Some(word) = conserved_behind(part) {
+        let hint = "the word stands before the quantity: `conserved energy`";
+        sink.report(Code::Misplaced, word, &[&"conserved", &hint]);
+        part.skip_all();
+        return None;
+    }
     equation(part, CHECK, sink).map(|(left, right)| Claim::Equal(left, right))
+}
+
+/// The word `conserved` behind a quantity, where English has it.
+fn conserved_behind(part: &Cursor) -> Option<Extent> {
+    let mut ahead = part.clone();
+    ahead.next();
+    while !ahead.is_at_end() && ahead.operator().is_none() {
+        if ahead.word().is_some_and(|word| word.text == "conserved") {
+            return Some(ahead.here());
+        }
+        ahead.next();
+    }
+    None
 }
 
 fn premise(part: &mut Cursor, sink: &mut Diagnostics) -> Option<Premise> {

@@ -7,6 +7,19 @@ use super::{head_and_colon, key, no_more};
 use crate::ast::{Detail, Draw, Form, ItemKind};
 use crate::diagnostics::{Code, Diagnostics, nearest};
 
+/// Words for a form that nobody has to know is called otherwise.
+const OTHERWISE: [(&str, &[&str]); 9] = [
+    ("disc", &["circle", "wheel", "disk", "roller", "pulley"]),
+    ("sphere", &["ball"]),
+    ("mass", &["point", "dot", "bob", "particle"]),
+    ("rod", &["line", "bar", "beam", "link", "stick"]),
+    ("rope", &["string", "cable", "chain"]),
+    ("box", &["block", "rectangle", "square", "cuboid"]),
+    ("pivot", &["hinge", "joint", "pin"]),
+    ("path", &["trace", "trail", "curve"]),
+    ("arrow", &["vector", "force"]),
+];
+
 /// `form: p to q at r, detail = …`
 pub(super) fn draw(mut parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<ItemKind> {
     let (first, others) = parts.split_first_mut()?;
@@ -14,7 +27,13 @@ pub(super) fn draw(mut parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<Ite
     let word = head.name;
     let Some(&(text, form)) = Form::ALL.iter().find(|(text, _)| *text == word.text) else {
         let words = Form::ALL.iter().map(|(text, _)| *text);
-        let hint = match nearest(&word.text, words.clone()) {
+        let other = OTHERWISE
+            .iter()
+            .find(|(_, others)| others.contains(&word.text.as_str()));
+        let meant = other
+            .map(|(form, _)| *form)
+            .or_else(|| nearest(&word.text, words.clone()));
+        let hint = match meant {
             Some(known) => format!("did you mean `{known}`?"),
             None => format!("forms are {}", words.collect::<Vec<_>>().join(", ")),
         };

@@ -88,12 +88,11 @@ fn item(part: &mut Cursor, read: &mut Items, sink: &mut Diagnostics) -> Option<(
         return parameters.read(&keyword, part, sink);
     }
     if !KEYWORDS.contains(&word) {
-        let own = read.parameters.iter().flat_map(|_| parameter::KEYWORDS);
-        let known: Vec<&str> = own.chain(KEYWORDS.iter().copied()).collect();
-        let hint = match nearest(word, known.iter().copied()) {
-            Some(known) => format!("did you mean `{known}`?"),
-            None => format!("items are {}", known.join(", ")),
-        };
+        let hint = instead(
+            word,
+            part.operator() == Some("="),
+            read.parameters.is_some(),
+        );
         sink.report(Code::UnknownItem, &keyword, &[&word, &hint]);
         part.skip_all();
         return None;
@@ -146,6 +145,33 @@ fn item(part: &mut Cursor, read: &mut Items, sink: &mut Diagnostics) -> Option<(
         kind,
     });
     Some(())
+}
+
+/// What to write where a word begins an item that is none; `equals`: an equals sign follows it.
+fn instead(word: &str, equals: bool, in_file: bool) -> String {
+    let own: &[&str] = if in_file { &parameter::KEYWORDS } else { &[] };
+    let known: Vec<&str> = own.iter().chain(KEYWORDS).copied().collect();
+    let others = |words: &[&str]| words.contains(&word);
+    match nearest(word, known.iter().copied()) {
+        Some(known) => format!("did you mean `{known}`?"),
+        None if equals && in_file => format!(
+            "a number that can be set stands in `parameters({word} = …)`, a name for an expression in `define({word} = …)`"
+        ),
+        None if equals => format!("a name for an expression stands in `define({word} = …)`"),
+        None if others(&["spring", "gravity", "weight"]) => {
+            format!("it is a potential energy: `potential({word}: …)`")
+        }
+        None if others(&["damper", "damping", "drag"]) => {
+            format!("it is a dissipation: `dissipation({word}: c/2 * der(x)^2)`")
+        }
+        None if others(&["conserved"]) => {
+            "it stands in a check: `check(conserved energy)`".to_owned()
+        }
+        None => {
+            let items: Vec<&str> = known.into_iter().filter(|item| *item != "crate").collect();
+            format!("items are {}", items.join(", "))
+        }
+    }
 }
 
 /// What stands in the parentheses of an item.
@@ -311,6 +337,15 @@ fn reference(part: &mut Cursor, what: &str, sink: &mut Diagnostics) -> Option<Re
     Some(Reference { name, element })
 }
 
+/// Letters and words for a part that textbooks call otherwise.
+const OTHERWISE: [(&str, &[&str]); 5] = [
+    ("static", &["mu", "mu_s", "mu_static", "coefficient"]),
+    ("kinetic", &["mu_k", "mu_kinetic", "dynamic"]),
+    ("restitution", &["e", "bounce"]),
+    ("radius", &["r"]),
+    ("angle", &["phi", "theta", "rotation"]),
+];
+
 /// `key =`, one of `keys` of the item or field `of`.
 pub(super) fn key(
     part: &mut Cursor,
@@ -320,7 +355,11 @@ pub(super) fn key(
 ) -> Option<Name> {
     let key = part.name("a part `name = …`", sink)?;
     if !keys.contains(&key.text.as_str()) {
-        let hint = match nearest(&key.text, keys.iter().copied()) {
+        let meant = OTHERWISE
+            .iter()
+            .find(|(known, others)| keys.contains(known) && others.contains(&key.text.as_str()));
+        let meant = meant.map(|(known, _)| *known);
+        let hint = match meant.or_else(|| nearest(&key.text, keys.iter().copied())) {
             _ if key.text == "poisson" => "write `restitution = poisson(e)`".to_string(),
             Some(known) => format!("did you mean `{known}`?"),
             None => format!("its parts are {}", keys.join(", ")),

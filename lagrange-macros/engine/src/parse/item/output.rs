@@ -15,7 +15,7 @@ pub(super) fn observe(parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<Item
         if part.is_at_end() && head.index.is_none() {
             return Some(Observe::Known(head.name));
         }
-        if part.operator() != Some("=") {
+        if !matches!(part.operator(), Some("=" | ":")) {
             let hint = "write `observe(name = …)`";
             sink.report(Code::NoName, &head.name, &[&"output", &hint]);
             return None;
@@ -38,9 +38,13 @@ pub(super) fn watch(
     let trigger = if keyword == "mark" && mode(first).is_none() && !holds_relation(first) {
         Trigger::Zero(whole(first, sink)?)
     } else {
-        let mut clauses = vec![clause(first, sink)?];
+        let example = match keyword {
+            "mark" => "`a >= b`, or an expression alone, whose zeros are marked",
+            _ => "`a >= b`",
+        };
+        let mut clauses = vec![clause(first, example, sink)?];
         while first.take_word("and").is_some() {
-            clauses.push(clause(first, sink)?);
+            clauses.push(clause(first, example, sink)?);
         }
         leftover(first, sink)?;
         Trigger::All(clauses)
@@ -66,10 +70,10 @@ fn mode(part: &Cursor) -> Option<ModeWord> {
     called.then_some(found.1)
 }
 
-fn clause(part: &mut Cursor, sink: &mut Diagnostics) -> Option<Clause> {
+fn clause(part: &mut Cursor, example: &str, sink: &mut Diagnostics) -> Option<Clause> {
     match mode_clause(part, sink) {
         Some(clause) => clause.map(|(word, item)| Clause::Mode(word, item)),
-        None => comparison(part, "`a >= b`", sink).map(Clause::Comparison),
+        None => comparison(part, example, sink).map(Clause::Comparison),
     }
 }
 

@@ -34,7 +34,10 @@ impl Parameters {
         sink: &mut Diagnostics,
     ) -> Option<()> {
         if keyword.text == "until" {
-            part.require("=", sink)?;
+            if part.require("=", sink).is_none() {
+                part.skip_all();
+                return None;
+            }
             once(&mut self.until, whole(part, sink)?, keyword, sink);
             return Some(());
         }

@@ -32,7 +32,10 @@ pub(super) fn start(mut parts: Vec<Cursor>, sink: &mut Diagnostics) -> Option<It
 
 /// `x = e` or `der(x) = e`
 fn value(part: &mut Cursor, sink: &mut Diagnostics) -> Option<StartValue> {
-    let word = part.name("a coordinate: `x = …` or `der(x) = …`", sink)?;
+    let word = part.name(
+        "where the run begins: a position `x = …` or a velocity `der(x) = …`",
+        sink,
+    )?;
     let (order, name, element) = match part.group(Delimiter::Parenthesis) {
         Some(group) if word.text == "der" => {
             part.next();

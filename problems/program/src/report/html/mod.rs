@@ -214,7 +214,7 @@ mod tests {
         let (i, work) = (jump(&times), numbers(&plots[1]["curves"][0]["values"]));
         assert_eq!([times[i], work[i], work[i + 1]], [1.0, 0.0, -75.0]);
         let tables = tables::tables(&run);
-        assert!(tables.contains("<td>30.0000 Ns</td>"), "{tables}");
+        assert!(tables.contains("<td>30.0000 N s</td>"), "{tables}");
         assert!(!tables.contains("meaning"), "{tables}");
     }
 

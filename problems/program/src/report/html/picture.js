@@ -71,7 +71,7 @@ function picture(stage, run) {
     const value = entry(legend, arrow.impulse ? arrow.name : `force ${arrow.name}`, colour(i));
     return (where, taken) => {
       const [x1, y1, dx, dy] = arrow.numbers.map((column) => at(column, where)), [x2, y2] = [x1 + dx * shrunk(), y1 + dy * shrunk()];
-      value.textContent = `${digits(at(arrow.size, where))} ${arrow.impulse ? "Ns" : "N"}`;
+      value.textContent = `${digits(at(arrow.size, where))} ${arrow.impulse ? "N s" : "N"}`;
       const length = Math.hypot(x2 - x1, y2 - y1);
       shape.style.display = length < 2 * shrunk() ? "none" : "";
       name.style.display = "none";

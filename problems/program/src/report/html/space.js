@@ -132,7 +132,7 @@ function space(stage, run) {
     const taken = [];
     for (const arrow of pointed) {
       const { size: strength, label, value, name, impulse } = arrow, { acts, along, long } = ends(arrow, last), fine = thin * seen.near();
-      value.textContent = `${digits(at(strength, last))} ${impulse ? "Ns" : "N"}`;
+      value.textContent = `${digits(at(strength, last))} ${impulse ? "N s" : "N"}`;
       const [across, up] = now.project(plus(acts, along, (impulse ? -1 : 1) * (1 + (2.5 * fine) / (long || 1))));
       const x = (0.5 + 0.5 * across) * width, y = (0.5 - 0.5 * up) * height, half = 4 * name.length;
       // A name that would cover another one is left to the legend.

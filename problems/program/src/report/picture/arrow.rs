@@ -16,7 +16,7 @@ pub(crate) struct Arrow {
     /// Whether it is an impulse, seen for a while after its impact.
     #[serde(skip_serializing_if = "is_false")]
     pub impulse: bool,
-    /// How large it is, N or Ns.
+    /// How large it is, N or N s.
     pub size: Column,
     /// Where it begins, and the arrow from there: x, y, x, y. Forces begin where they act, impulses end there.
     pub numbers: [Column; 4],
@@ -54,7 +54,7 @@ pub(super) fn arrows(film: &Film, frame: &Frame) -> Vec<Arrow> {
     forces.into_iter().chain(named).collect()
 }
 
-/// A number of an arrow, from where it acts, m, and its components, N or Ns.
+/// A number of an arrow, from where it acts, m, and its components, N or N s.
 type Number<'n> = &'n dyn Fn([f64; 2], [f64; 2]) -> f64;
 
 /// An arrow for each force of the drawing, or each impulse.

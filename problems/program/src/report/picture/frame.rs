@@ -163,7 +163,7 @@ impl Frame {
     }
 }
 
-/// Places of all arrows at all samples and what acts there: x and y, m, and the components, N or Ns.
+/// Places of all arrows at all samples and what acts there: x and y, m, and the components, N or N s.
 fn pushes(film: &Film, acting: &Rows, impulse: bool) -> Vec<[f64; 4]> {
     let samples = film.drawings.iter().zip(acting);
     let pushes = samples.flat_map(|(drawing, acting)| {

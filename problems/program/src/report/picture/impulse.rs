@@ -7,7 +7,7 @@ use lagrange_core::prelude::{Event, EventKind};
 /// Part of a film for which an impulse is seen.
 const SEEN: f64 = 0.05;
 
-/// What acts along every row at every sample: forces, N, or impulses, Ns.
+/// What acts along every row at every sample: forces, N, or impulses, N s.
 pub(super) type Rows = Vec<Vec<f64>>;
 
 /// The forces of every row at every sample.

@@ -64,7 +64,7 @@ pub(crate) fn pictures(films: &[&Film]) -> Vec<Option<Picture>> {
         }
         if frame.blows.strongest > 0.0 {
             let blow = frame.blows.reach * frame.scale;
-            rulers.push(Ruler::new(nice(0.6 * frame.blows.strongest), blow, "Ns"));
+            rulers.push(Ruler::new(nice(0.6 * frame.blows.strongest), blow, "N s"));
         }
         Some(Picture {
             height: hundredths(frame.height()),

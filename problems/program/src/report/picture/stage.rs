@@ -52,7 +52,7 @@ pub(crate) struct Thrust {
     /// Whether it is an impulse, seen for a while after its impact.
     #[serde(skip_serializing_if = "is_false")]
     pub impulse: bool,
-    /// How large it is, N or Ns.
+    /// How large it is, N or N s.
     pub size: Column,
     /// Where it begins, and the arrow from there, m: x, y, z, x, y, z. Forces begin where they act, impulses end there.
     pub numbers: Vec<Column>,

@@ -4,7 +4,7 @@ use super::COLOURS;
 use crate::outcome::{Outcome, Sample};
 use crate::quantity::{Quantity, Show};
 use crate::report::telling;
-use crate::report::words::brief;
+use crate::report::words::{SMOOTH, brief};
 use lagrange_core::prelude::EventKind;
 use lagrange_core::system::Description;
 
@@ -32,7 +32,8 @@ pub(super) struct Curve {
     pub dash: usize,
 }
 
-/// The phases as bands: (from, to, mode), and what each mode is called.
+/// The phases as bands: (from, to, mode), and what each mode is called. Where there is one mode only, without a name, there are none.
+#[derive(Default)]
 pub(super) struct Bands {
     pub spans: Vec<(f64, f64, usize)>,
     pub names: Vec<String>,
@@ -40,7 +41,7 @@ pub(super) struct Bands {
 
 pub(super) fn bands(outcome: &Outcome) -> Bands {
     let mut names: Vec<String> = Vec::new();
-    let spans = outcome
+    let spans: Vec<_> = outcome
         .phases
         .iter()
         .map(|phase| {
@@ -55,7 +56,10 @@ pub(super) fn bands(outcome: &Outcome) -> Bands {
             (phase.from, phase.to, mode)
         })
         .collect();
-    Bands { spans, names }
+    match names.as_slice() {
+        [only] if only == SMOOTH => Bands::default(),
+        _ => Bands { spans, names },
+    }
 }
 
 /// What was asked for, a panel for each unit.

@@ -100,10 +100,7 @@ pub fn svg(runs: &[Run], shows: &[Show]) -> Result<String, String> {
     // Runs upon each other are not in the same modes.
     let bands = match outcomes[..] {
         [one] => bands(one),
-        _ => Bands {
-            spans: Vec::new(),
-            names: Vec::new(),
-        },
+        _ => Bands::default(),
     };
     let keys: Vec<String> = match runs {
         [_] => bands.names.clone(),
