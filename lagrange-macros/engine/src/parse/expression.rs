@@ -10,17 +10,12 @@
 //! ```
 
 use super::cursor::Cursor;
+use super::leftover::leftover;
 use super::number::number;
-use super::relation::{comparison, leftover};
-use crate::ast::{Expr, ExprKind, Factor, Index, Name, Range, Sign};
+use super::words::{FUNCTIONS, RELATIONS};
+use crate::ast::{Comparison, Expr, ExprKind, Factor, Index, Name, Range, Relation, Sign};
 use crate::diagnostics::{Code, Diagnostics, Extent};
 use proc_macro2::{Delimiter, TokenTree};
-
-/// Functions of the language that take values.
-pub const FUNCTIONS: &[&str] = &[
-    "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "ln",
-    "sqrt", "abs", "sign", "min", "max", "dot", "cross", "norm", "der",
-];
 
 /// An expression that fills the rest of the cursor.
 pub(super) fn whole(cursor: &mut Cursor, sink: &mut Diagnostics) -> Option<Expr> {
@@ -374,4 +369,70 @@ fn no_value(cursor: &Cursor, sink: &mut Diagnostics) {
     };
     let operator = cursor.operator().unwrap_or_default();
     sink.report(Code::Operator, cursor.here(), &[&operator, &hint]);
+}
+
+/// `left >= right` or `left <= right`. `example` says what to write if there is none.
+pub(super) fn comparison(
+    cursor: &mut Cursor,
+    example: &str,
+    sink: &mut Diagnostics,
+) -> Option<Comparison> {
+    if let Some(mut inside) = invisible(cursor, sink) {
+        let found = comparison(&mut inside, example, sink)?;
+        leftover(&mut inside, sink)?;
+        return Some(found);
+    }
+    let left = expression(cursor, sink)?;
+    let (operator, at) = (cursor.operator(), cursor.here());
+    let relation = match operator {
+        Some(">=") => Relation::AtLeast,
+        Some("<=") => Relation::AtMost,
+        Some(strict @ (">" | "<")) => {
+            sink.report(Code::StrictComparison, at, &[&strict]);
+            return None;
+        }
+        Some(equal @ ("==" | "=" | "!=")) => {
+            let hint = format!("write {example}; equations stand in `constraint`");
+            sink.report(Code::WrongRelation, at, &[&equal, &"comparison", &hint]);
+            return None;
+        }
+        _ if cursor.is_at_end() => {
+            sink.report(Code::ComparisonExpected, left.extent, &[&example]);
+            return None;
+        }
+        _ => {
+            cursor.expected("`>=` or `<=`", sink);
+            return None;
+        }
+    };
+    cursor.take(operator.unwrap_or_default());
+    let right = expression(cursor, sink)?;
+    unchained(cursor, sink)?;
+    Some(Comparison {
+        left,
+        relation,
+        right,
+    })
+}
+
+/// Reports a second relation behind a comparison or equation.
+pub(super) fn unchained(cursor: &Cursor, sink: &mut Diagnostics) -> Option<()> {
+    if cursor
+        .operator()
+        .is_some_and(|operator| RELATIONS.contains(&operator))
+    {
+        sink.report(Code::ChainedComparison, cursor.here(), &[]);
+        return None;
+    }
+    Some(())
+}
+
+/// An invisible group here that holds a whole relation is entered.
+pub(super) fn invisible(cursor: &mut Cursor, sink: &mut Diagnostics) -> Option<Cursor> {
+    let inside = cursor.inside(&cursor.group(Delimiter::None)?, sink)?;
+    if !inside.has_operator(RELATIONS) {
+        return None;
+    }
+    cursor.next();
+    Some(inside)
 }

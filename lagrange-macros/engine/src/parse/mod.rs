@@ -7,19 +7,20 @@ mod cursor;
 mod expression;
 mod file;
 mod item;
+mod leftover;
 mod number;
 mod relation;
 mod structure;
 #[cfg(test)]
 mod tests;
+mod words;
 
 use crate::ast::Declaration;
 use crate::diagnostics::Diagnostics;
 use proc_macro2::TokenStream;
 
-pub use expression::FUNCTIONS;
 pub use file::{File, file};
-pub use item::KEYWORDS;
+pub use words::{FUNCTIONS, KEYWORDS};
 
 /// Reads a struct with its `#[lagrange(…)]` attributes; mistakes go to the sink.
 pub fn declaration(input: TokenStream, sink: &mut Diagnostics) -> Option<Declaration> {

@@ -162,7 +162,7 @@ fn field_attribute(part: &mut Cursor, field: &mut Field, sink: &mut Diagnostics)
         "domain" => field.domain = Some(domain(&text, extent, sink)?),
         _ => field.letter = text,
     }
-    super::relation::leftover(part, sink)
+    super::leftover::leftover(part, sink)
 }
 
 /// Whether the word is one that [`domain`] reads.

@@ -2,7 +2,8 @@
 
 use super::super::cursor::Cursor;
 use super::super::expression::expression;
-use super::super::relation::{CHECK, equation, equation_or_comparison, leftover};
+use super::super::leftover::leftover;
+use super::super::relation::{CHECK, equation, equation_or_comparison};
 use super::output::mode_clause;
 use super::{head, no_more};
 use crate::ast::{Check, Claim, ItemKind, Premise};

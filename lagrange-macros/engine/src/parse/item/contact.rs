@@ -1,8 +1,9 @@
 //! `constraint`, `contact`, `friction`.
 
 use super::super::cursor::Cursor;
-use super::super::expression::{expression, whole};
-use super::super::relation::{CONSTRAINT, comparison, equation, leftover};
+use super::super::expression::{comparison, expression, whole};
+use super::super::leftover::leftover;
+use super::super::relation::{CONSTRAINT, equation};
 use super::{head, head_and_colon, key, named, no_more, once, reference};
 use crate::ast::{
     Comparison, Constraint, Contact, Expr, Friction, FrictionLaw, Head, ItemKind, Name, Reference,

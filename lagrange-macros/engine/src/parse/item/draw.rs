@@ -2,7 +2,7 @@
 
 use super::super::cursor::Cursor;
 use super::super::expression::{expression, whole};
-use super::super::relation::leftover;
+use super::super::leftover::leftover;
 use super::{head_and_colon, key, no_more};
 use crate::ast::{Detail, Draw, Form, ItemKind};
 use crate::diagnostics::{Code, Diagnostics, nearest};

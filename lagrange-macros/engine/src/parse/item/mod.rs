@@ -13,39 +13,11 @@ pub(super) use parameter::{Parameters, attributes};
 
 use super::cursor::Cursor;
 use super::expression::{index, whole};
-use super::relation::leftover;
+use super::leftover::leftover;
+use super::words::{FILE_KEYWORDS, KEYWORDS, is_keyword};
 use crate::ast::{Attitude, Emit, Head, Impacts, Item, ItemKind, Name, Reference};
 use crate::diagnostics::{Code, Diagnostics, Extent, nearest};
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
-
-/// Words that begin an item.
-pub const KEYWORDS: &[&str] = &[
-    "coordinates",
-    "define",
-    "kinetic",
-    "potential",
-    "lagrangian",
-    "constraint",
-    "contact",
-    "friction",
-    "force",
-    "dissipation",
-    "start",
-    "observe",
-    "stop",
-    "mark",
-    "draw",
-    "attitude",
-    "impacts",
-    "emit",
-    "check",
-    "crate",
-];
-
-/// Whether the word begins an item, of a struct or of a file.
-pub(super) fn is_keyword(word: &str) -> bool {
-    KEYWORDS.contains(&word) || parameter::KEYWORDS.contains(&word)
-}
 
 /// What has been read so far.
 #[derive(Default)]
@@ -83,7 +55,7 @@ fn item(part: &mut Cursor, read: &mut Items, sink: &mut Diagnostics) -> Option<(
     };
     let word = keyword.text.as_str();
     if let Some(parameters) = &mut read.parameters
-        && parameter::KEYWORDS.contains(&word)
+        && FILE_KEYWORDS.contains(&word)
     {
         return parameters.read(&keyword, part, sink);
     }
@@ -149,7 +121,7 @@ fn item(part: &mut Cursor, read: &mut Items, sink: &mut Diagnostics) -> Option<(
 
 /// What to write where a word begins an item that is none; `equals`: an equals sign follows it.
 fn instead(word: &str, equals: bool, in_file: bool) -> String {
-    let own: &[&str] = if in_file { &parameter::KEYWORDS } else { &[] };
+    let own: &[&str] = if in_file { &FILE_KEYWORDS } else { &[] };
     let known: Vec<&str> = own.iter().chain(KEYWORDS).copied().collect();
     let others = |words: &[&str]| words.contains(&word);
     match nearest(word, known.iter().copied()) {

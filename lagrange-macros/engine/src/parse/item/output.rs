@@ -1,8 +1,9 @@
 //! `observe`, `stop`, `mark`.
 
 use super::super::cursor::Cursor;
-use super::super::expression::whole;
-use super::super::relation::{comparison, holds_relation, leftover};
+use super::super::expression::{comparison, whole};
+use super::super::leftover::leftover;
+use super::super::relation::holds_relation;
 use super::{head, head_and_colon, no_more, reference};
 use crate::ast::{Clause, ItemKind, ModeWord, Observe, Reference, Trigger, Watch};
 use crate::diagnostics::{Code, Diagnostics};

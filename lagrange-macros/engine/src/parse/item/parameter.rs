@@ -13,9 +13,6 @@ use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use syn::Attribute;
 use syn::parse::Parser;
 
-/// Words that begin such an item.
-pub(super) const KEYWORDS: [&str; 2] = ["parameters", "until"];
-
 /// What has been read of it.
 #[derive(Default)]
 pub(in crate::parse) struct Parameters {

@@ -2,7 +2,7 @@
 
 use super::super::cursor::Cursor;
 use super::super::expression::whole;
-use super::super::relation::leftover;
+use super::super::leftover::leftover;
 use super::{head, head_and_colon, no_more, text};
 use crate::ast::{Coordinate, Definition, Dissipation, Energy, Expr, ItemKind, Unit};
 use crate::diagnostics::{Code, Diagnostics};

@@ -2,7 +2,7 @@
 
 use super::super::cursor::Cursor;
 use super::super::expression::{index, whole};
-use super::super::relation::leftover;
+use super::super::leftover::leftover;
 use super::head;
 use crate::ast::{Element, ItemKind, Order, Start, StartValue};
 use crate::diagnostics::Diagnostics;

@@ -1,0 +1,91 @@
+//! What is left over where a part should have ended.
+
+use super::cursor::Cursor;
+use super::words::{FUNCTIONS, RELATIONS, is_keyword};
+use crate::diagnostics::{Code, Diagnostics};
+use proc_macro2::{Delimiter, TokenTree};
+
+/// Reports what stands where a part should have ended.
+pub(super) fn leftover(cursor: &mut Cursor, sink: &mut Diagnostics) -> Option<()> {
+    let Some(token) = cursor.peek() else {
+        return Some(());
+    };
+    match (token, cursor.operator()) {
+        (_, Some("=")) => cursor.expected("an operator or a comma", sink),
+        (_, Some(relation)) if RELATIONS.contains(&relation) => {
+            sink.report(Code::ComparisonAsValue, cursor.here(), &[]);
+        }
+        (_, Some(operator @ ("&&" | "&"))) => {
+            sink.report(
+                Code::Operator,
+                cursor.here(),
+                &[&operator, &"conditions are joined by `and`"],
+            );
+        }
+        (_, Some(operator @ ("||" | "|"))) => {
+            let hint =
+                "an absolute value is written `abs(x)`; alternatives are several `stop` items";
+            sink.report(Code::Operator, cursor.here(), &[&operator, &hint]);
+        }
+        (_, Some(operator @ "%")) => {
+            sink.report(
+                Code::Operator,
+                cursor.here(),
+                &[&operator, &"there is no remainder in the language"],
+            );
+        }
+        (_, Some(operator @ ";")) => {
+            sink.report(
+                Code::Operator,
+                cursor.here(),
+                &[&operator, &"parts are separated by commas"],
+            );
+        }
+        (TokenTree::Ident(word), _) if starts_part(cursor) => {
+            sink.report(Code::MissingComma, word.span(), &[word]);
+        }
+        (TokenTree::Ident(word), _) if word == "or" => {
+            let hint =
+                "conditions are joined by `and`; alternatives are several `stop` or `mark` items";
+            sink.report(Code::Operator, cursor.here(), &[word, &hint]);
+        }
+        (TokenTree::Ident(word), _) if word == "as" => {
+            let hint = "numbers have no types: leave it away";
+            sink.report(Code::RustNotation, cursor.here(), &[word, &hint]);
+        }
+        (TokenTree::Ident(_) | TokenTree::Literal(_), _) => missing_operator(cursor, sink),
+        (TokenTree::Group(group), _) if group.delimiter() == Delimiter::Parenthesis => {
+            missing_operator(cursor, sink);
+        }
+        _ => cursor.expected("an operator or a comma", sink),
+    }
+    cursor.skip_all();
+    None
+}
+
+/// Reports a value that follows another one.
+fn missing_operator(cursor: &Cursor, sink: &mut Diagnostics) {
+    let hint = match cursor.word_behind() {
+        Some(word) if FUNCTIONS.contains(&word.text.as_str()) => {
+            format!("arguments stand in parentheses: `{}(…)`", word.text)
+        }
+        _ => "a product is written with `*`".to_string(),
+    };
+    sink.report(
+        Code::MissingOperator,
+        cursor.here(),
+        &[&cursor.found(), &hint],
+    );
+}
+
+/// Whether what is here looks like the next part or item.
+fn starts_part(cursor: &Cursor) -> bool {
+    let Some(word) = cursor.word() else {
+        return false;
+    };
+    match cursor.second() {
+        Some(TokenTree::Punct(punct)) => punct.as_char() == '=',
+        Some(TokenTree::Group(_)) => is_keyword(&word.text),
+        _ => word.text == "where",
+    }
+}

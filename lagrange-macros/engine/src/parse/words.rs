@@ -1,0 +1,42 @@
+//! The words and signs of the language.
+
+/// Functions of the language that take values.
+pub const FUNCTIONS: &[&str] = &[
+    "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "ln",
+    "sqrt", "abs", "sign", "min", "max", "dot", "cross", "norm", "der",
+];
+
+/// Signs between two sides.
+pub(super) const RELATIONS: &[&str] = &["==", ">=", "<=", "=", ">", "<", "!="];
+
+/// Words that begin an item.
+pub const KEYWORDS: &[&str] = &[
+    "coordinates",
+    "define",
+    "kinetic",
+    "potential",
+    "lagrangian",
+    "constraint",
+    "contact",
+    "friction",
+    "force",
+    "dissipation",
+    "start",
+    "observe",
+    "stop",
+    "mark",
+    "draw",
+    "attitude",
+    "impacts",
+    "emit",
+    "check",
+    "crate",
+];
+
+/// Words that begin an item of a file alone.
+pub(super) const FILE_KEYWORDS: [&str; 2] = ["parameters", "until"];
+
+/// Whether the word begins an item, of a struct or of a file.
+pub(super) fn is_keyword(word: &str) -> bool {
+    KEYWORDS.contains(&word) || FILE_KEYWORDS.contains(&word)
+}
